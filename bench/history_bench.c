@@ -25,11 +25,11 @@ static Tally run(const CpsScene *scene) {
         fprintf(stderr, "history_bench: %s\n", err.message);
         exit(1);
     }
-    while (cps_evolution_remaining(evolution) > 0 &&
+    while (cps_evolution_remaining_count(evolution) > 0 &&
            cps_evolution_step(evolution, &err) == CPS_OK) {
         const CpsStepReport report = cps_evolution_report(evolution);
         tally.steps++;
-        tally.iterations += report.iterations;
+        tally.iterations += report.iteration_count;
         tally.seconds += report.wall;
         tally.dissipated += report.dissipated;
         tally.uncertified += !cps_outcome_is_certified(report.outcome);
@@ -63,7 +63,7 @@ int main(int argc, char **argv) {
     }
     printf("steps,elements,iterations,seconds,ms_per_step,worst_gap,worst_friction_residual,"
            "uncertified,last_lateral_N,dissipated_J\n");
-    printf("%d,%d,%d,%.4f,%.4f,%.1e,%.1e,%d,%.1f,%.1f\n", best.steps, scene->line[0].elements,
+    printf("%d,%d,%d,%.4f,%.4f,%.1e,%.1e,%d,%.1f,%.1f\n", best.steps, scene->line[0].element_count,
            best.iterations, best.seconds, 1e3 * best.seconds / best.steps, best.gap, best.friction,
            best.uncertified, best.force[1], best.dissipated);
     cps_scene_file_destroy(file);

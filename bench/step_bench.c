@@ -98,7 +98,7 @@ static void setup_souza(Setup *setup) {
     setup->bed.friction = 0.0255;
     setup->point[3] = line->length;
     line->start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = setup->point};
-    setup->change = (CpsChange){.end = CPS_END_B, .to = {CPS_END_FREE, {0.5, 0.5, 0.5}}};
+    setup->change = (CpsChange){.end = CPS_END_B, .to = {CPS_END_KIND_FREE, {0.5, 0.5, 0.5}}};
 }
 
 static void setup_oc3(Setup *setup) {
@@ -109,9 +109,9 @@ static void setup_oc3(Setup *setup) {
     setup->bed.friction = 0.5;
     setup->bed.point[2] = -320;
     line->start.kind = CPS_START_STATIC;
-    line->end[CPS_END_A] = (CpsEnd){CPS_END_HELD, {0, 0, -320}};
-    line->end[CPS_END_B] = (CpsEnd){CPS_END_HELD, {848.67, 0, -70}};
-    setup->change = (CpsChange){.end = CPS_END_B, .to = {CPS_END_HELD, {850.17, 0, -70}}};
+    line->end[CPS_END_A] = (CpsEnd){CPS_END_KIND_HELD, {0, 0, -320}};
+    line->end[CPS_END_B] = (CpsEnd){CPS_END_KIND_HELD, {848.67, 0, -70}};
+    setup->change = (CpsChange){.end = CPS_END_B, .to = {CPS_END_KIND_HELD, {850.17, 0, -70}}};
 }
 
 typedef struct Case {
@@ -127,12 +127,12 @@ static void setup_fill(Setup *setup, const Case *which, int elements) {
                      .line = cps_line_default(),
                      .bed = cps_obstacle_default()};
     setup->line.name = which->name;
-    setup->line.elements = elements;
+    setup->line.element_count = elements;
     setup->bed.name = "bed";
     which->fill(setup);
     setup->stage = (CpsStage){.cookie = cps_stage_default().cookie,
                               .name = "step",
-                              .steps = 1,
+                              .step_count = 1,
                               .change_count = 1,
                               .change = &setup->change};
     setup->scene.obstacle = &setup->bed;
@@ -155,9 +155,9 @@ static CpsEvolution *run(const Case *which, int elements, double tolerance, int 
     if (cps_evolution_create(&setup.scene, &evolution, &err) != CPS_OK)
         die(which->name, err.message);
     *good = true;
-    while (cps_evolution_remaining(evolution) > 0) {
+    while (cps_evolution_remaining_count(evolution) > 0) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) die(which->name, err.message);
-        *good = *good && (cps_evolution_remaining(evolution) == 0 ||
+        *good = *good && (cps_evolution_remaining_count(evolution) == 0 ||
                           cps_evolution_report(evolution).outcome == CPS_OUTCOME_SOLVED);
     }
     return evolution;
@@ -221,7 +221,7 @@ static Row measure(const Case *which, int elements, const Options *options) {
         const CpsStepReport report = cps_evolution_report(evolution);
         wall[row.repeats++] = report.wall;
         row.outcome = report.outcome;
-        row.iterations = report.iterations;
+        row.iterations = report.iteration_count;
         row.gap = report.certificate.gap / report.certificate.scale;
         row.residual = report.certificate.force_residual / report.certificate.largest_force;
         cps_evolution_destroy(evolution);
@@ -363,13 +363,13 @@ static void write_view(FILE *out, const CpsLineView *view, const Row *row) {
             view->compliance, row->iterations, row->seconds);
     for (int end = 0; end < 2; end++)
         fprintf(out, "# end %c %s %.17g %.17g %.17g\n", end == CPS_END_A ? 'A' : 'B',
-                view->end[end].kind == CPS_END_HELD ? "held" : "free", view->end[end].value[0],
+                view->end[end].kind == CPS_END_KIND_HELD ? "held" : "free", view->end[end].value[0],
                 view->end[end].value[1], view->end[end].value[2]);
     fprintf(out, "element_length,reference_x,reference_y,reference_z,load_x,load_y,load_z,normal_x,"
                  "normal_y,normal_z,gap,friction_bound,position_x,position_y,position_z,"
                  "friction_force_x,friction_force_y,friction_force_z,reaction,segment_force_x,"
                  "segment_force_y,segment_force_z\n");
-    for (int j = 0; j <= view->elements; j++) {
+    for (int j = 0; j <= view->element_count; j++) {
         fprintf(out, "%.17g", j > 0 ? view->element_length[j - 1] : 0);
         print_vector(out, &view->reference[3 * j]);
         print_vector(out, &view->load[3 * j]);
@@ -389,7 +389,7 @@ static void dump(const Case *which, int elements, const Options *options) {
     CpsEvolution *evolution = run(which, elements, options->stop, limit, &good);
     const CpsStepReport report = cps_evolution_report(evolution);
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
-    const Row row = {.iterations = report.iterations, .seconds = report.wall};
+    const Row row = {.iterations = report.iteration_count, .seconds = report.wall};
     FILE *out = fopen(options->dump, "w");
     if (!out) die("cannot write", options->dump);
     write_view(out, &view, &row);

@@ -27,14 +27,14 @@ static void print_friction(const CpsObstacle *o) {
         printf("\n");
         return;
     }
-    if (lateral == o->friction && o->friction_shape == CPS_FRICTION_ELLIPSE) {
+    if (lateral == o->friction && o->friction_shape == CPS_FRICTION_SHAPE_ELLIPSE) {
         printf(", friction %g\n", o->friction);
         return;
     }
     printf(", friction %g along ", o->friction);
     print_direction(o->grain);
     printf(" and %g across, %s\n", lateral,
-           o->friction_shape == CPS_FRICTION_BOX ? "box" : "ellipse");
+           o->friction_shape == CPS_FRICTION_SHAPE_BOX ? "box" : "ellipse");
 }
 
 static void print_obstacle(const CpsObstacle *o) {
@@ -53,7 +53,7 @@ static void print_obstacle(const CpsObstacle *o) {
 
 static void print_end(char letter, const CpsEnd *end) {
     const double *v = end->value;
-    if (end->kind == CPS_END_FREE)
+    if (end->kind == CPS_END_KIND_FREE)
         printf("  end %c: free, force (%g, %g, %g) N\n", letter, v[0], v[1], v[2]);
     else if (isnan(v[0]))
         printf("  end %c: held where the start puts it\n", letter);
@@ -65,8 +65,8 @@ static void print_line(const CpsLine *line) {
     static const char *const START[] = {"straight", "polyline", "arc", "static equilibrium",
                                         "from given nodes"};
     printf("line %s: %g m, %d %selement%s, weight %g N/m, ", line->name, line->length,
-           line->elements, line->element_length ? "graded " : "", line->elements == 1 ? "" : "s",
-           line->weight);
+           line->element_count, line->element_length ? "graded " : "",
+           line->element_count == 1 ? "" : "s", line->weight);
     if (isinf(line->stiffness))
         printf("inextensible");
     else
@@ -92,7 +92,7 @@ static void print_scene(const CpsScene *scene) {
     int steps = 0;
     for (int i = 0; i < scene->line_count; i++)
         if (scene->line[i].start.kind == CPS_START_STATIC) steps = 1;
-    for (int i = 0; i < scene->stage_count; i++) steps += scene->stage[i].steps;
+    for (int i = 0; i < scene->stage_count; i++) steps += scene->stage[i].step_count;
     printf("history: %d entr%s, %d load step%s in all\nThe scene is valid.\n", scene->stage_count,
            scene->stage_count == 1 ? "y" : "ies", steps, steps == 1 ? "" : "s");
 }

@@ -25,7 +25,7 @@ bool cli_is_shown(const CpsScene *scene, int steps, int index) {
     int64_t end = steps - 1;
     for (int i = scene->stage_count - 1; i >= 0 && end >= index; --i) {
         if (end == index) return true;
-        end -= scene->stage[i].steps;
+        end -= scene->stage[i].step_count;
     }
     return false;
 }

@@ -13,13 +13,13 @@ int main(void) {
     CpsLine rope = cps_line_default();
     rope.name = "rope";
     rope.length = 6.28;
-    rope.elements = 400;
+    rope.element_count = 400;
     rope.weight = 9.81;
     rope.stiffness = 10;
     rope.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = ends};
 
     /* one step: half a newton along x on end B, which is free */
-    const CpsChange pull = {.line = 0, .end = CPS_END_B, .to = {CPS_END_FREE, {0.5, 0, 0}}};
+    const CpsChange pull = {.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_FREE, {0.5, 0, 0}}};
     CpsStage stage = cps_stage_default();
     stage.name = "pull";
     stage.change_count = 1;

@@ -72,7 +72,7 @@ static bool query_facts(DriveRun *run, Facts *f) {
     double *const to[3] = {&f->fx, &f->fy, &f->torque};
     CpsSetAnswer answer;
     CpsPlanarBounds bounds;
-    for (int i = 0; i < b->patches; i++) f->load += b->patch[i].load;
+    for (int i = 0; i < b->patch_count; i++) f->load += b->patch[i].load;
     for (int k = 0; k < 3; k++) {
         const double twist[3] = {k == 0, k == 1, k == 2};
         if (cps_planar_dissipation(b->planar, twist, NULL, NULL, &answer, &run->err) != CPS_OK)
@@ -93,7 +93,7 @@ static bool print_body(DriveRun *run) {
     Facts f;
     if (!query_facts(run, &f)) return false;
     if (run->json) {
-        printf(", \"patches\": %d", b->patches);
+        printf(", \"patches\": %d", b->patch_count);
         drive_json("load_N", f.load);
         drive_json("force_x_N", f.fx);
         drive_json("force_y_N", f.fy);
@@ -104,11 +104,11 @@ static bool print_body(DriveRun *run) {
         drive_json("ellipsoid_at", f.ratio);
         return true;
     }
-    printf("%s on %d %s%s, %.6g N in all\n", b->vehicle ? "vehicle" : "body", b->patches,
+    printf("%s on %d %s%s, %.6g N in all\n", b->vehicle ? "vehicle" : "body", b->patch_count,
            b->vehicle ? "wheel" : "patch",
-           b->patches == 1 ? ""
-           : b->vehicle    ? "s"
-                           : "es",
+           b->patch_count == 1 ? ""
+           : b->vehicle        ? "s"
+                               : "es",
            f.load);
     printf("friction when it slides along x: %.10g N; along y: %.10g N; when it turns: %.10g N m\n",
            f.fx, f.fy, f.torque);
@@ -149,7 +149,7 @@ static void print_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const
         if (high[k] - low[k] > width)
             printf("  not unique: %s from %.6g to %.6g\n", NAME[k], low[k] + 0.0, high[k] + 0.0);
     fputs("  driving force: ", stdout);
-    law_print_vector(push->rows, m->drive);
+    law_print_vector(push->row_count, m->drive);
     fputs("; wrench of friction ", stdout);
     law_print_vector(3, m->wrench);
     puts("");
@@ -158,12 +158,12 @@ static void print_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const
 static void json_push(const CpsDrivePush *push, const CpsPlanarMotion *m, const double low[3],
                       const double high[3]) {
     printf("{\"outcome\": \"%s\"", cps_set_outcome_name(m->outcome));
-    drive_json_list("velocity", push->rows, push->velocity);
+    drive_json_list("velocity", push->row_count, push->velocity);
     drive_json("lower_W", m->lower);
     drive_json("upper_W", m->upper);
     drive_json_list("twist", 3, m->twist);
     drive_json_list("wrench", 3, m->wrench);
-    drive_json_list("drive", push->rows, m->drive);
+    drive_json_list("drive", push->row_count, m->drive);
     drive_json_list("centre", 2, m->centre);
     drive_json_list("low", 3, low);
     drive_json_list("high", 3, high);
@@ -175,9 +175,9 @@ static bool answer_push(DriveRun *run, int i) {
     const CpsDrivePush *push = &b->push[i];
     CpsPlanarMotion m;
     double low[3], high[3];
-    if (cps_planar_drive(b->planar, push->rows, push->map, push->velocity, &m, &run->err) !=
+    if (cps_planar_drive(b->planar, push->row_count, push->map, push->velocity, &m, &run->err) !=
             CPS_OK ||
-        cps_planar_motions(b->planar, push->rows, push->map, push->velocity, 0, low, high,
+        cps_planar_motions(b->planar, push->row_count, push->map, push->velocity, 0, low, high,
                            &run->err) != CPS_OK)
         return false;
     run->answered = run->answered && m.outcome == CPS_SET_OUTCOME_ANSWERED;
@@ -191,11 +191,11 @@ static bool answer_push(DriveRun *run, int i) {
         fputs(" at ", stdout);
         law_print_vector(2, push->point);
     }
-    fputs(push->rows == 1   ? " at normal speed "
-          : push->rows == 2 ? " with velocity "
-                            : " with twist ",
+    fputs(push->row_count == 1   ? " at normal speed "
+          : push->row_count == 2 ? " with velocity "
+                                 : " with twist ",
           stdout);
-    law_print_vector(push->rows, push->velocity);
+    law_print_vector(push->row_count, push->velocity);
     puts("");
     print_push(push, &m, low, high);
     return true;
@@ -212,15 +212,16 @@ static double turning_radius(const Trail *t) {
 static bool go(DriveRun *run, Trail *t) {
     const CpsDriveTow *tow = &run->file->body.tow;
     t->tow = tow->start;
-    t->count = tow->steps + 1;
+    t->count = tow->step_count + 1;
     t->pose = malloc((size_t)t->count * 3 * sizeof *t->pose);
     t->end = malloc((size_t)t->count * 2 * sizeof *t->end);
     if (!t->pose || !t->end) {
         run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
         return false;
     }
-    cps_drive_walk(2, tow->points, tow->path, t->count, t->end);
-    Progress progress = progress_begin(tow->steps, run->options->quiet || tow->steps < 2000);
+    cps_drive_walk(2, tow->point_count, tow->path, t->count, t->end);
+    Progress progress =
+        progress_begin(tow->step_count, run->options->quiet || tow->step_count < 2000);
     memcpy(t->pose, t->tow.pose, sizeof t->tow.pose);
     bool good = true;
     for (int i = 1; i < t->count && good; i++) {
@@ -289,9 +290,9 @@ int drive_answer_body(DriveRun *run) {
     Trail trail = {.count = 0};
     bool good = print_body(run);
     if (run->json) fputs(",\n  \"pushes\": [", stdout);
-    for (int i = 0; i < b->pushes && good; i++) good = answer_push(run, i);
+    for (int i = 0; i < b->push_count && good; i++) good = answer_push(run, i);
     if (run->json) putchar(']');
-    if (good && b->tow.points > 0 && (good = go(run, &trail))) print_tow(run, &trail);
+    if (good && b->tow.point_count > 0 && (good = go(run, &trail))) print_tow(run, &trail);
     int code = good ? EXIT_OK : cli_report(&run->err);
     Drawing drawing = {run->file, &trail};
     if (code == EXIT_OK && run->options->plot) code = cli_plot(draw, &drawing, run->options->plot);

@@ -25,7 +25,7 @@ static void print_reading(const DriveRun *run, const CpsPlanimeterReading *r) {
     const CpsDrivePlanimeter *p = &run->file->planimeter;
     const double error = r->area - r->exact;
     if (run->json) {
-        printf(", \"points\": %d, \"steps\": %d", p->points, p->steps);
+        printf(", \"points\": %d, \"steps\": %d", p->point_count, p->step_count);
         drive_json("area_m2", r->area);
         drive_json("exact_m2", r->exact);
         drive_json("error_m2", error);
@@ -36,8 +36,8 @@ static void print_reading(const DriveRun *run, const CpsPlanimeterReading *r) {
         drive_json("arm_turns", r->arm_turns);
         return;
     }
-    printf("traced %d sides in %d step%s each, the pole %s\n", p->points, p->steps,
-           p->steps == 1 ? "" : "s", r->pole_turns != 0 ? "inside" : "outside");
+    printf("traced %d sides in %d step%s each, the pole %s\n", p->point_count, p->step_count,
+           p->step_count == 1 ? "" : "s", r->pole_turns != 0 ? "inside" : "outside");
     printf("  wheel rolled %.10g m and slipped sideways %.6g m, which dissipated %.6g J\n", r->roll,
            r->side_slip, r->dissipated);
     printf("  area by the wheel  %.12g m2\n  area of the curve  %.12g m2\n  difference         "
@@ -50,8 +50,8 @@ static void print_reading(const DriveRun *run, const CpsPlanimeterReading *r) {
 int drive_answer_planimeter(DriveRun *run) {
     const CpsDrivePlanimeter *p = &run->file->planimeter;
     CpsPlanimeterReading reading;
-    if (cps_planimeter_trace(&p->planimeter, p->points, p->point, p->steps, &reading, &run->err) !=
-        CPS_OK)
+    if (cps_planimeter_trace(&p->planimeter, p->point_count, p->point, p->step_count, &reading,
+                             &run->err) != CPS_OK)
         return cli_report(&run->err);
     print_reading(run, &reading);
     TraceDrawing drawing = {run->file, &reading};
@@ -73,7 +73,7 @@ static bool go(DriveRun *run, Sweep *s) {
     const CpsDriveSweep *w = &run->file->sweep;
     const size_t n = (size_t)w->space;
     s->state = w->start;
-    s->count = w->steps + 1;
+    s->count = w->step_count + 1;
     s->end = calloc((size_t)s->count * n * 3, sizeof *s->end);
     if (!s->end) {
         run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
@@ -81,11 +81,11 @@ static bool go(DriveRun *run, Sweep *s) {
     }
     s->position = s->end + (size_t)s->count * n;
     s->force = s->position + (size_t)s->count * n;
-    cps_drive_walk(w->space, w->points, w->path, s->count, s->end);
+    cps_drive_walk(w->space, w->point_count, w->path, s->count, s->end);
     memcpy(s->position, s->state.position, n * sizeof *s->position);
     for (size_t k = 0; k < n; k++)
         s->force[k] = s->state.stiffness * (s->state.position[k] - s->state.end[k]);
-    Progress progress = progress_begin(w->steps, run->options->quiet || w->steps < 20000);
+    Progress progress = progress_begin(w->step_count, run->options->quiet || w->step_count < 20000);
     bool good = true;
     for (size_t i = 1; i < (size_t)s->count && good; i++) {
         CpsSweepStep step;

@@ -115,11 +115,11 @@ static void keep_shot(RopeRun *r, const double *position, size_t stride) {
 
 /* take the steps, storing configurations at even distances */
 static bool step_through(RopeRun *r, CpsEvolution *evolution) {
-    const int steps = r->rope->steps, wanted = r->rope->shots;
+    const int steps = r->rope->step_count, wanted = r->rope->shot_count;
     Progress progress =
         progress_begin(steps, r->run->options->quiet || steps * r->rope->rope.node_count < 20000);
     bool good = true;
-    for (int i = 1; i <= steps && good && cps_evolution_remaining(evolution) > 0; i++) {
+    for (int i = 1; i <= steps && good && cps_evolution_remaining_count(evolution) > 0; i++) {
         good = cps_evolution_step(evolution, &r->run->err) == CPS_OK;
         if (!good) break;
         const CpsStepReport report = cps_evolution_report(evolution);
@@ -141,13 +141,13 @@ static bool step_through(RopeRun *r, CpsEvolution *evolution) {
 /* the rope and its path as a scene, in the caller's arrays */
 static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *element,
                             CpsChange *change, CpsStage *stage, CpsEvolution **out, CpsError *err) {
-    const int nodes = rope->rope.node_count, steps = rope->steps;
+    const int nodes = rope->rope.node_count, steps = rope->step_count;
     CpsObstacle table = cps_obstacle_default();
     table.name = "table";
     table.friction = rope->friction;
     CpsLine line = cps_line_default();
     line.name = "rope";
-    line.elements = nodes - 1;
+    line.element_count = nodes - 1;
     line.element_length = element;
     line.weight = rope->weight;
     line.stiffness = INFINITY;
@@ -162,14 +162,15 @@ static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *elem
     }
     line.start = (CpsStart){.kind = CPS_START_POLYLINE, .point_count = nodes, .point = node};
     const double *last = node + 3 * (nodes - 1);
-    line.end[CPS_END_A] = (CpsEnd){.kind = rope->rope.driven[0] ? CPS_END_HELD : CPS_END_FREE};
+    line.end[CPS_END_A] =
+        (CpsEnd){.kind = rope->rope.driven[0] ? CPS_END_KIND_HELD : CPS_END_KIND_FREE};
     if (rope->rope.driven[0]) memcpy(line.end[CPS_END_A].value, node, sizeof line.end[0].value);
-    line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_HELD, .value = {last[0], last[1], 0}};
+    line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_KIND_HELD, .value = {last[0], last[1], 0}};
     double *path = node + 3 * (size_t)nodes;
-    cps_drive_walk(2, rope->points, rope->path, steps + 1, path);
+    cps_drive_walk(2, rope->point_count, rope->path, steps + 1, path);
     for (int i = 0; i < steps; i++) {
         change[i] =
-            (CpsChange){0, CPS_END_B, {CPS_END_HELD, {path[2 * i + 2], path[2 * i + 3], 0}}};
+            (CpsChange){0, CPS_END_B, {CPS_END_KIND_HELD, {path[2 * i + 2], path[2 * i + 3], 0}}};
         stage[i] = cps_stage_default();
         stage[i].name = "pull";
         stage[i].change_count = 1;
@@ -185,11 +186,11 @@ static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *elem
 }
 
 static bool follow_path(RopeRun *r) {
-    const size_t nodes = (size_t)r->rope->rope.node_count, steps = (size_t)r->rope->steps;
+    const size_t nodes = (size_t)r->rope->rope.node_count, steps = (size_t)r->rope->step_count;
     double *number = calloc(4 * nodes + 2 * (steps + 1), sizeof *number);
     CpsChange *change = calloc(steps, sizeof *change);
     CpsStage *stage = calloc(steps, sizeof *stage);
-    r->shot = calloc((size_t)r->rope->shots * nodes * 2, sizeof *r->shot);
+    r->shot = calloc((size_t)r->rope->shot_count * nodes * 2, sizeof *r->shot);
     CpsEvolution *evolution = NULL;
     bool good = number && change && stage && r->shot;
     if (!good) r->run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
@@ -214,7 +215,7 @@ static void print_path(const RopeRun *r) {
         r->run->answered = r->run->answered && r->uncertified == 0;
     if (r->run->json) {
         printf(", \"path\": {\"steps\": %d, \"outcome\": \"%s\", \"uncertified\": %d",
-               r->rope->steps, cps_outcome_name(r->outcome), r->uncertified);
+               r->rope->step_count, cps_outcome_name(r->outcome), r->uncertified);
         drive_json("dissipated_J", r->dissipated);
         drive_json("work_J", r->work);
         drive_json("gap_J", r->gap);
@@ -223,7 +224,8 @@ static void print_path(const RopeRun *r) {
         return;
     }
     const double *a = r->shot + (size_t)last * 2 * (size_t)nodes;
-    printf("end B along its path in %d steps: %s\n", r->rope->steps, cps_outcome_text(r->outcome));
+    printf("end B along its path in %d steps: %s\n", r->rope->step_count,
+           cps_outcome_text(r->outcome));
     if (r->uncertified)
         printf("  note: %d steps are not certified, so energies are not given\n", r->uncertified);
     else
@@ -247,7 +249,7 @@ int drive_answer_rope(DriveRun *run) {
     bool good = cps_rope_system(&r.rope->rope, &system, &run->err) == CPS_OK &&
                 cps_system_solve(system, r.rope->driving, &options, &r.motion, &run->err) == CPS_OK;
     if (good) print_velocity(&r);
-    if (good && !run->none && r.rope->points > 0 && (good = follow_path(&r))) print_path(&r);
+    if (good && !run->none && r.rope->point_count > 0 && (good = follow_path(&r))) print_path(&r);
     int code = good ? EXIT_OK : cli_report(&run->err);
     if (code == EXIT_OK && run->options->plot && !run->none)
         code = cli_plot(draw, &r, run->options->plot);

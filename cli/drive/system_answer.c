@@ -76,12 +76,12 @@ static bool query_all(DriveRun *run, const CpsMotion *motion, Asked what, All *a
     static Ask *const ASK[] = {cps_motion_velocities, cps_motion_forces, cps_motion_resistances};
     const CpsDriveSystem *s = &run->file->system;
     all->n = what == FORCES       ? force_components(s->system)
-             : what == VELOCITIES ? s->parameters
-                                  : s->driven;
+             : what == VELOCITIES ? s->parameter_count
+                                  : s->driven_count;
     all->set = (CpsSolutionSet){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     all->low = NULL;
     const CpsMotionOutcome outcome = cps_motion_report(motion).outcome;
-    if (s->parameters + force_components(s->system) > MOST_DENSE ||
+    if (s->parameter_count + force_components(s->system) > MOST_DENSE ||
         outcome == CPS_MOTION_OUTCOME_NO_BALANCE || outcome == CPS_MOTION_OUTCOME_BLOCKED ||
         outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED)
         return true;
@@ -131,11 +131,11 @@ static void print_component(const char *name, double x, double scale, const All 
 
 static void print_velocity(const CpsDriveSystem *s, const double *v, const All *all) {
     double scale = all->set.outcome == CPS_SET_OUTCOME_ANSWERED ? all->set.tolerance : 0;
-    for (int i = 0; i < s->parameters; i++) scale = fmax(scale, fabs(v[i]));
+    for (int i = 0; i < s->parameter_count; i++) scale = fmax(scale, fabs(v[i]));
     fputs("  V: ", stdout);
-    for (int i = 0; i < s->parameters && i < MOST_PRINTED; i++)
+    for (int i = 0; i < s->parameter_count && i < MOST_PRINTED; i++)
         print_component(s->parameter[i], v[i], scale, all, i);
-    puts(s->parameters > MOST_PRINTED ? ", .." : "");
+    puts(s->parameter_count > MOST_PRINTED ? ", .." : "");
 }
 
 static void print_laws(const CpsDriveSystem *s, const CpsMotion *motion, const All *all) {
@@ -197,7 +197,7 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
             print_velocity(s, cps_motion_velocity(motion), velocities);
         } else {
             fputs("  proof, forces that need no load and resist without bound: G = ", stdout);
-            law_print_vector(s->driven, cps_motion_resistance(motion));
+            law_print_vector(s->driven_count, cps_motion_resistance(motion));
             puts("");
         }
         return;
@@ -222,7 +222,7 @@ static void print_motion(DriveRun *run, const CpsMotion *motion, const Solutions
     print_velocity(s, cps_motion_velocity(motion), velocities);
     print_all(velocities, "velocities");
     fputs("  resistance G = ", stdout);
-    law_print_vector(s->driven, cps_motion_resistance(motion));
+    law_print_vector(s->driven_count, cps_motion_resistance(motion));
     puts("");
     print_resistances(&all->resistances);
     print_lambda(motion);
@@ -282,10 +282,10 @@ static void json_motion(DriveRun *run, const CpsMotion *motion, const Solutions 
     drive_json("upper_W", r.upper);
     drive_json("scale_W", r.scale);
     drive_json("dissipated_W", r.dissipated);
-    drive_json_list("V", s->parameters, cps_motion_velocity(motion));
+    drive_json_list("V", s->parameter_count, cps_motion_velocity(motion));
     if (r.outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED)
-        drive_json_list("direction", s->parameters, cps_motion_direction(motion));
-    drive_json_list("G", s->driven, cps_motion_resistance(motion));
+        drive_json_list("direction", s->parameter_count, cps_motion_direction(motion));
+    drive_json_list("G", s->driven_count, cps_motion_resistance(motion));
     json_laws(s, motion);
     if (cps_motion_constraint_count(motion) > 0)
         drive_json_list("lambda", cps_motion_constraint_count(motion),
@@ -318,20 +318,20 @@ static bool answer_motion(DriveRun *run, const double *velocity, int i) {
                 query_all(run, motion, VELOCITIES, &all.velocities) &&
                 query_all(run, motion, FORCES, &all.forces) &&
                 query_all(run, motion, RESISTANCES, &all.resistances);
-    all.asked = s->parameters + force_components(s->system) <= MOST_DENSE;
+    all.asked = s->parameter_count + force_components(s->system) <= MOST_DENSE;
     if (good && all.asked)
         good = cps_motion_continuous(motion, &all.known, &all.continuous, &run->err) == CPS_OK;
     if (good && run->json) {
         printf("%s{\"velocity\": ", i ? ",\n    " : "\n    ");
-        law_json_vector(s->driven, velocity, stdout);
+        law_json_vector(s->driven_count, velocity, stdout);
         json_motion(run, motion, &all);
         putchar('}');
     } else if (good) {
-        if (s->driven) {
+        if (s->driven_count) {
             fputs("velocity W = ", stdout);
-            law_print_vector(s->driven, velocity);
+            law_print_vector(s->driven_count, velocity);
         }
-        puts(s->driven ? "" : "nothing is driven");
+        puts(s->driven_count ? "" : "nothing is driven");
         print_motion(run, motion, &all);
     }
     const CpsMotionOutcome outcome =
@@ -350,7 +350,7 @@ static bool answer_motion(DriveRun *run, const double *velocity, int i) {
 
 static bool print_reduced(DriveRun *run, const CpsSet *set, const double *asked, bool velocity,
                           int i) {
-    const int n = run->file->system.driven;
+    const int n = run->file->system.driven_count;
     CpsSet *found = NULL;
     CpsSetAnswer answer;
     SetAnswer about = {.n = n};
@@ -396,8 +396,8 @@ static bool print_reduced(DriveRun *run, const CpsSet *set, const double *asked,
 static bool print_empty(DriveRun *run) {
     run->none = true;
     if (run->json)
-        printf(", \"components\": %d, \"forces\": {\"outcome\": \"%s\"}", run->file->system.driven,
-               cps_set_outcome_name(CPS_SET_OUTCOME_EMPTY));
+        printf(", \"components\": %d, \"forces\": {\"outcome\": \"%s\"}",
+               run->file->system.driven_count, cps_set_outcome_name(CPS_SET_OUTCOME_EMPTY));
     else
         printf("no reduced law: %s\n", cps_motion_outcome_text(CPS_MOTION_OUTCOME_NO_BALANCE));
     return true;
@@ -405,7 +405,7 @@ static bool print_empty(DriveRun *run) {
 
 static bool print_elimination(DriveRun *run, const CpsSet *set, CpsComposition composition) {
     CpsSetMeasure measure = {.outcome = CPS_SET_OUTCOME_NOT_PLANAR};
-    const int n = run->file->system.driven;
+    const int n = run->file->system.driven_count;
     if (n == 2 && cps_set_measure(set, &measure, &run->err) != CPS_OK) return false;
     const bool measured = measure.outcome == CPS_SET_OUTCOME_ANSWERED;
     if (run->json) {
@@ -433,7 +433,7 @@ static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *veloc
                              .velocity = velocity->row,
                              .force_count = force->count,
                              .force = force->row};
-    const int n = run->file->system.driven;
+    const int n = run->file->system.driven_count;
     if (law_plot_axes(options->axes, n, picture.axis))
         return law_plot(set, NULL, &picture, options->plot);
     fprintf(stderr,
@@ -450,7 +450,7 @@ static bool query_balance(DriveRun *run, bool *none) {
     CpsMotion *motion = NULL;
     *none = false;
     if (!s->loaded) return true;
-    double *rest = calloc((size_t)s->driven, sizeof *rest);
+    double *rest = calloc((size_t)s->driven_count, sizeof *rest);
     options.composition = false;
     if (!rest) run->err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
     const bool good =
@@ -465,7 +465,7 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
     CpsSet *set = NULL;
     CpsComposition composition = CPS_COMPOSITION_NOT_SATISFIED;
     CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_ANSWERED};
-    const size_t n = (size_t)run->file->system.driven;
+    const size_t n = (size_t)run->file->system.driven_count;
     bool empty = false, good = query_balance(run, &empty);
     if (good && !empty)
         good = cps_system_eliminate(run->file->system.system, NULL, &set, &composition,
@@ -494,21 +494,21 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
 static void print_system(const DriveRun *run) {
     const CpsDriveSystem *s = &run->file->system;
     if (!run->json) {
-        printf("system of %d parameter%s and %d law%s; driven:", s->parameters,
-               s->parameters == 1 ? "" : "s", cps_system_law_count(s->system),
+        printf("system of %d parameter%s and %d law%s; driven:", s->parameter_count,
+               s->parameter_count == 1 ? "" : "s", cps_system_law_count(s->system),
                cps_system_law_count(s->system) == 1 ? "" : "s");
-        for (int i = 0; i < s->driven && i < MOST_PRINTED; i++)
+        for (int i = 0; i < s->driven_count && i < MOST_PRINTED; i++)
             printf("%s %s", i ? "," : "", s->drive[i]);
-        puts(s->driven ? "" : " nothing");
+        puts(s->driven_count ? "" : " nothing");
         return;
     }
     fputs(", \"parameters\": [", stdout);
-    for (int i = 0; i < s->parameters; i++) {
+    for (int i = 0; i < s->parameter_count; i++) {
         if (i) fputs(", ", stdout);
         cps_json_text(stdout, s->parameter[i]);
     }
     fputs("], \"drive\": [", stdout);
-    for (int i = 0; i < s->driven; i++) {
+    for (int i = 0; i < s->driven_count; i++) {
         if (i) fputs(", ", stdout);
         cps_json_text(stdout, s->drive[i]);
     }
@@ -532,10 +532,12 @@ static CpsStatus draw_maps(void *user, FILE *out, CpsError *err) {
 
 static int answer_motions(DriveRun *run, const QueryList *velocity) {
     const CpsDriveSystem *s = &run->file->system;
-    const int count = s->driven ? velocity->count : 1;
+    const int count = s->driven_count ? velocity->count : 1;
     if (run->json) fputs(",\n  \"answers\": [", stdout);
     for (int i = 0; i < count; i++)
-        if (!answer_motion(run, s->driven ? velocity->row + (size_t)i * (size_t)s->driven : NULL,
+        if (!answer_motion(run,
+                           s->driven_count ? velocity->row + (size_t)i * (size_t)s->driven_count
+                                           : NULL,
                            i))
             return cli_report(&run->err);
     if (run->json) putchar(']');
@@ -546,25 +548,25 @@ static int answer_motions(DriveRun *run, const QueryList *velocity) {
 
 int drive_answer_system(DriveRun *run) {
     const CpsDriveSystem *s = &run->file->system;
-    QueryList velocity = {.command = "drive", .n = s->driven},
-              force = {.command = "drive", .n = s->driven};
+    QueryList velocity = {.command = "drive", .n = s->driven_count},
+              force = {.command = "drive", .n = s->driven_count};
     const bool asked = run->options->velocity.count + run->options->force.count > 0;
-    if (s->driven == 0 && (asked || run->options->eliminate)) {
+    if (s->driven_count == 0 && (asked || run->options->eliminate)) {
         fprintf(stderr,
                 "capstan drive: nothing is driven in this system: add 'drive' to the file\n");
         return EXIT_USAGE;
     }
-    if (run->options->plot && !run->options->eliminate && s->driven != 2) {
+    if (run->options->plot && !run->options->eliminate && s->driven_count != 2) {
         fprintf(stderr,
                 "capstan drive: --plot draws maps over two driven components; this system has %d: "
                 "ask with --velocity, or draw its law with --eliminate\n",
-                s->driven);
+                s->driven_count);
         return EXIT_USAGE;
     }
     int code = law_query_read(&run->options->velocity, "velocity", &velocity);
     if (code == EXIT_OK) code = law_query_read(&run->options->force, "force", &force);
     if (code == EXIT_OK && !asked && s->velocity_count > 0) {
-        const size_t size = (size_t)s->velocity_count * (size_t)s->driven * sizeof(double);
+        const size_t size = (size_t)s->velocity_count * (size_t)s->driven_count * sizeof(double);
         velocity.row = malloc(size);
         if (velocity.row) {
             memcpy(velocity.row, s->velocity, size);

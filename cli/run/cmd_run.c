@@ -75,7 +75,7 @@ static void print_range(FILE *table, char end, const CpsTensionRange *range, dou
  * (solutions.h, 1e-8) */
 static double outside_kin(const CpsLineView *view) {
     double length = 0;
-    for (int i = 0; i < view->elements; ++i) {
+    for (int i = 0; i < view->element_count; ++i) {
         const double *a = view->position + 3 * (size_t)i, l = view->element_length[i];
         const double chord = sqrt((a[3] - a[0]) * (a[3] - a[0]) + (a[4] - a[1]) * (a[4] - a[1]) +
                                   (a[5] - a[2]) * (a[5] - a[2]));
@@ -111,7 +111,7 @@ static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
         fputc(' ', table);
         cli_print_text(table, cps_evolution_line_view(evolution, i).name, LINE_WIDTH, true);
         fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g", cps_outcome_name(line.outcome),
-                line.parts, line.iterations,
+                line.part_count, line.iteration_count,
                 certificate->scale > 0 ? certificate->gap / certificate->scale : certificate->gap,
                 shown_tension(&line, CPS_END_A), shown_tension(&line, CPS_END_B));
         const bool solved = line.outcome == CPS_OUTCOME_SOLVED || line.outcome == CPS_OUTCOME_TAUT;
@@ -121,7 +121,7 @@ static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
         for (int e = 0; e < 2; ++e)
             print_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
-        if (solved && scene->friction_policy == CPS_FRICTION_FROZEN && view.one_plane)
+        if (solved && scene->friction_policy == CPS_FRICTION_POLICY_FROZEN && view.one_plane)
             print_verdict(verdicts, step.name, &line, &view);
     }
 }
@@ -239,7 +239,7 @@ static CpsStatus replay(Run *run, CpsError *err) {
 
 /* Solve all steps, or until a signal. */
 static CpsStatus take_steps(Run *run, CpsError *err) {
-    while (cps_evolution_remaining(run->evolution) > 0 && !cli_interrupted()) {
+    while (cps_evolution_remaining_count(run->evolution) > 0 && !cli_interrupted()) {
         CpsStatus status = cps_evolution_step(run->evolution, err);
         if (status == CPS_ERR_INTERRUPTED) break;
         run->refused = status != CPS_OK;
@@ -276,7 +276,7 @@ static CpsStatus execute(Run *run, const char *directory, const CliOptions *opti
     if (run->refused) /* the error reported is the one that ended the run */
         cps_results_finish(run->results, wall, &none);
     if (!status) status = cps_results_finish(run->results, wall, err);
-    if (!status && cps_evolution_remaining(run->evolution) == 0)
+    if (!status && cps_evolution_remaining_count(run->evolution) == 0)
         cps_journal_remove(run->journal);
     else if (run->journal && wanted.sync_at_end)
         status = status ? status : cps_journal_sync(run->journal, err);
@@ -287,7 +287,7 @@ static CpsStatus execute(Run *run, const char *directory, const CliOptions *opti
 
 static void print_where(const char *directory, const CpsEvolution *evolution, bool paraview) {
     const int steps = cps_evolution_step_count(evolution),
-              left = cps_evolution_remaining(evolution);
+              left = cps_evolution_remaining_count(evolution);
     if (cli_interrupted())
         fprintf(stderr,
                 "capstan: stopped by a signal after %d of %d steps; --resume goes on from there\n",

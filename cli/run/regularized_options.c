@@ -43,7 +43,7 @@ CpsRegularizedParameters regularized_options_apply(const RegularizedOptions *giv
     if (!isnan(given->stiffness)) p.stiffness = given->stiffness;
     if (!isnan(given->delta)) p.delta = given->delta;
     if (!isnan(given->h))
-        p.cells =
+        p.cell_count =
             (int)fmin(1e6, fmax(2, ceil(cps_regularized_step(classic).length / given->h - 1e-9)));
     return p;
 }

@@ -27,14 +27,14 @@ double regularized_friction(const CpsScene *scene, const char *command) {
 
 CpsScene regularized_scene(const CpsScene *scene) {
     CpsScene frozen = *scene;
-    frozen.friction_policy = CPS_FRICTION_FROZEN;
+    frozen.friction_policy = CPS_FRICTION_POLICY_FROZEN;
     frozen.solver.path_tolerance = 0;
-    frozen.solver.halvings = 0;
+    frozen.solver.max_halvings = 0;
     return frozen;
 }
 
 void regularized_print_friction(const CpsScene *scene) {
-    if (scene->friction_policy == CPS_FRICTION_CONSISTENT)
+    if (scene->friction_policy == CPS_FRICTION_POLICY_CONSISTENT)
         puts("friction: A = mu R_R of the reference, (78), in every step, as P2.1 has it; the "
              "scene's own, consistent, is A = mu R at x");
 }
@@ -56,7 +56,7 @@ CpsStatus regularized_step(Regularized *method, const CpsLineView *exact,
     method->last = next;
     if (status != CPS_OK) return status;
     *parameters = regularized_options_apply(&method->given, next);
-    parameters->cells = 0;
+    parameters->cell_count = 0;
     return cps_regularized_solve(next, parameters, NEWTON_LIMIT, report, err);
 }
 
@@ -102,7 +102,7 @@ static bool make_history(History *h, double friction, const RegularizedOptions *
         Track *t = &h->track[i];
         t->method.friction = friction;
         t->method.given = *given;
-        t->points = cps_evolution_line_view(h->exact, i).elements + 1;
+        t->points = cps_evolution_line_view(h->exact, i).element_count + 1;
         t->position = calloc(steps * (size_t)t->points, 3 * sizeof(double));
         t->tension = calloc(steps, 2 * sizeof(double));
         t->parameters = calloc(steps, sizeof *t->parameters);
@@ -190,9 +190,9 @@ static void tell(const History *h, const char *directory) {
             putchar(' ');
             cli_print_text(stdout, cps_evolution_line_view(h->exact, i).name, LINE_WIDTH, true);
             printf(" %-13s %5d %12.6g %12.6g %9.1e %9.1e %9.1e %9.1e %9.1e %9.1e\n",
-                   r->converged ? "converged" : "not converged", r->iterations, t->tension[2 * s],
-                   t->tension[2 * s + 1], r->compression, r->penetration, r->creep,
-                   r->friction_excess, r->tension_rms, r->position_max);
+                   r->converged ? "converged" : "not converged", r->iteration_count,
+                   t->tension[2 * s], t->tension[2 * s + 1], r->compression, r->penetration,
+                   r->creep, r->friction_excess, r->tension_rms, r->position_max);
         }
     printf("\nno certificate: a regularised solution is no equilibrium under dry friction. Its "
            "parameters leave at most\n  %.2g N of push in the line (1/n), %.2g m inside the "
@@ -224,15 +224,15 @@ static int write_results(const History *h, double wall, const char *directory,
         for (int i = 0; i < h->lines; ++i) {
             const Track *t = &h->track[i];
             line[i] = (CpsRegularizedLine){.name = cps_evolution_line_view(h->exact, i).name,
-                                           .points = t->points,
+                                           .point_count = t->points,
                                            .position = t->position,
                                            .parameters = t->parameters,
                                            .report = t->report,
                                            .tension = t->tension};
         }
         const CpsRegularizedRun run = {.title = h->scene->title ? h->scene->title : "capstan",
-                                       .steps = h->done,
-                                       .lines = h->lines,
+                                       .step_count = h->done,
+                                       .line_count = h->lines,
                                        .step_name = name,
                                        .line = line,
                                        .complete = h->done == h->steps,

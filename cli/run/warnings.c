@@ -64,10 +64,10 @@ static void note_pierced(Warnings *warnings, double value, double of, const char
 /* friction on nodes that have left the obstacle, and the sum of all bounds [N] */
 static double lifted_friction(const CpsLineView *view, double *bounds) {
     double lifted = 0;
-    const double length = view->arc_length[view->elements];
+    const double length = view->arc_length[view->element_count];
     *bounds = 0;
-    const size_t nodes = (size_t)view->elements + 1;
-    for (size_t c = 0; c < (size_t)view->contacts * nodes; ++c) {
+    const size_t nodes = (size_t)view->element_count + 1;
+    for (size_t c = 0; c < (size_t)view->contact_count * nodes; ++c) {
         const size_t k = 3 * (c % nodes);
         double distance = view->gap[c];
         for (size_t x = 0; x < 3; ++x)
@@ -93,7 +93,7 @@ static void note_energy(Warnings *warnings, const CpsStepReport *step, const Cps
     const double known = line->certificate.gap + 1e-8 * line->certificate.scale;
     if (line->unaccounted > 0)
         note(warnings, WARNING_MADE, line->unaccounted, beside, step->name, name);
-    else if (line->snaps == 0 && freed > WARN_FREED * beside && freed > known)
+    else if (line->snap_count == 0 && freed > WARN_FREED * beside && freed > known)
         note(warnings, WARNING_FREED, freed, beside, step->name, name);
 }
 
@@ -102,12 +102,12 @@ static void note_energy(Warnings *warnings, const CpsStepReport *step, const Cps
 static double rounded_tension(const CpsLineView *view) {
     double reach = 0;
     for (size_t k = 0; k < 3; ++k) {
-        const double *b = view->position + 3 * (size_t)view->elements;
+        const double *b = view->position + 3 * (size_t)view->element_count;
         reach = fmax(reach,
                      fmax(fabs(view->origin[k] + view->position[k]), fabs(view->origin[k] + b[k])));
     }
     return view->compliance > 0
-               ? DBL_EPSILON * reach / (view->compliance * view->arc_length[view->elements])
+               ? DBL_EPSILON * reach / (view->compliance * view->arc_length[view->element_count])
                : 0;
 }
 
@@ -117,21 +117,21 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
-        const double length = view.arc_length[view.elements],
+        const double length = view.arc_length[view.element_count],
                      pierced = line.certificate.element_penetration;
         if (line.pierced >= 0 && pierced > WARN_PIERCED * length)
             note_pierced(warnings, pierced, length, step, view.name,
                          scene->obstacle[line.pierced].name);
         if (line.outcome != CPS_OUTCOME_SOLVED) continue;
         note_energy(warnings, &report, &line, view.name);
-        if (line.snaps > 0) note(warnings, WARNING_JUMPED, line.jump, length, step, view.name);
+        if (line.snap_count > 0) note(warnings, WARNING_JUMPED, line.jump, length, step, view.name);
         const double residual = line.certificate.friction_residual;
         double bounds;
         const double lifted = lifted_friction(&view, &bounds);
-        if (scene->friction_policy == CPS_FRICTION_FROZEN && lifted > WARN_LIFTED * bounds)
+        if (scene->friction_policy == CPS_FRICTION_POLICY_FROZEN && lifted > WARN_LIFTED * bounds)
             note(warnings, WARNING_LIFTED, lifted, bounds, step, view.name);
-        if (scene->friction_policy == CPS_FRICTION_FROZEN && residual > WARN_BOUND * bounds &&
-            bounds > 0)
+        if (scene->friction_policy == CPS_FRICTION_POLICY_FROZEN &&
+            residual > WARN_BOUND * bounds && bounds > 0)
             note(warnings, WARNING_BOUND, residual, bounds, step, view.name);
         const CpsBend *bend = &line.bend;
         if (bend->turn > 0 && bend->ratio > (1 + WARN_BEND) * bend->coulomb) {
@@ -143,7 +143,7 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
             }
             note(warnings, WARNING_BEND, bend->ratio / bend->coulomb, 1, step, view.name);
         }
-        if (scene->contact_policy == CPS_CONTACT_REFERENCE &&
+        if (scene->contact_policy == CPS_CONTACT_POLICY_REFERENCE &&
             line.certificate.penetration > WARN_SUNK * length)
             note(warnings, WARNING_SUNK, line.certificate.penetration, length, step, view.name);
         if (line.slack > WARN_SLACK * length && line.slipping > 0)

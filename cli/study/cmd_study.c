@@ -42,11 +42,11 @@ static int step_of_stage(const CpsStage *stage, const char *asked) {
     const size_t length = strlen(stage->name);
     int k, n;
     char end;
-    if (strcmp(stage->name, asked) == 0) return stage->steps;
+    if (strcmp(stage->name, asked) == 0) return stage->step_count;
     if (strncmp(asked, stage->name, length) != 0 ||
         sscanf(asked + length, " %9d/%9d%c", &k, &n, &end) != 2)
         return 0;
-    return n == stage->steps && n > 1 && k >= 1 && k <= n ? k : 0;
+    return n == stage->step_count && n > 1 && k >= 1 && k <= n ? k : 0;
 }
 
 /* The number of the step asked for, from 1 as a run counts them: by its name, which must be unique,
@@ -57,7 +57,7 @@ static int find_step(const CpsScene *scene, const char *asked) {
     char end;
     if (!asked) return before + 1;
     if (before && strcmp(asked, "static") == 0) found = 1;
-    for (int s = 0; s < scene->stage_count; before += scene->stage[s++].steps) {
+    for (int s = 0; s < scene->stage_count; before += scene->stage[s++].step_count) {
         const int within = step_of_stage(&scene->stage[s], asked);
         if (within > 0 && found > 0) {
             cli_printf(stderr,
@@ -83,7 +83,7 @@ static int find_step(const CpsScene *scene, const char *asked) {
 /* Solve up to a step, counted from 1. Returns the exit code, EXIT_OK when that step is solved. */
 static int reach_step(CpsEvolution *evolution, int number) {
     CpsError err;
-    while (cps_evolution_remaining(evolution) > 0 && !cli_interrupted()) {
+    while (cps_evolution_remaining_count(evolution) > 0 && !cli_interrupted()) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) return cli_report(&err);
         const CpsStepReport step = cps_evolution_report(evolution);
         if (step.outcome != CPS_OUTCOME_SOLVED) {
@@ -129,9 +129,9 @@ static void print_rate(double rate) {
 static void print_row(const CpsStudyRow *row, const CpsRegularizedStep *step) {
     const CpsRegularizedReport *r = &row->report;
     const CpsRegularizedParameters *p = &row->parameters;
-    const int cells = p->cells > 0 ? p->cells : step->elements;
+    const int cells = p->cell_count > 0 ? p->cell_count : step->element_count;
     printf("%-6s %9.3g %9.2g %9.2g %9.2g %5d %11.3e", cps_study_stage_name(row->stage),
-           step->length / cells, p->penalty, p->stiffness, p->delta, r->iterations,
+           step->length / cells, p->penalty, p->stiffness, p->delta, r->iteration_count,
            r->energy_error);
     print_rate(row->rate_energy);
     printf(" %10.2e", r->tension_rms);
@@ -176,7 +176,7 @@ static void print_verdict(const CpsFirstOrderReport *r, const char *contact) {
         break;
     case CPS_FIRST_ORDER_VERDICT_SOLVED: break;
     case CPS_FIRST_ORDER_VERDICT_UNDECIDED:
-        printf("    forces still fail by %.4g N after %d rounds\n", r->residual, r->rounds);
+        printf("    forces still fail by %.4g N after %d rounds\n", r->residual, r->round_count);
         break;
     }
     if (r->verdict == CPS_FIRST_ORDER_VERDICT_SOLVED || r->verdict == CPS_FIRST_ORDER_VERDICT_MESH)
@@ -193,11 +193,11 @@ static void print_first_order(const CpsFirstOrder *const *solution) {
     const CpsFirstOrderView a = cps_first_order_view(solution[0]),
                             b = cps_first_order_view(solution[1]);
     double apart = 0;
-    for (int k = 0; k < 3 * (a.elements + 1); ++k)
+    for (int k = 0; k < 3 * (a.element_count + 1); ++k)
         apart = fmax(apart, fabs(a.displacement[k] - b.displacement[k]));
     printf("\nconsistent first-order problem P10.1\n");
     print_verdict(&paper, "C of (77), u.n >= 0 where x_R touches");
-    if (paper.verdict != reached.verdict || apart > 1e-6 * a.arc_length[a.elements])
+    if (paper.verdict != reached.verdict || apart > 1e-6 * a.arc_length[a.element_count])
         print_verdict(&reached,
                       "every node kept out, (16), as the step with 'contact_policy: reached' does");
     if (paper.outside > 0)
@@ -210,7 +210,7 @@ static void tell(const CpsStudy *study, const CpsFirstOrder *const *first_order,
                  const CpsLineView *view, const StudyPrinter *printer, double tolerance,
                  const char *directory) {
     printf("exact: J** + j = %.10g J on %d elements; everything below is against it\n\n",
-           printer->step.energy, printer->step.elements);
+           printer->step.energy, printer->step.element_count);
     print_head();
     for (int i = 0; i < cps_study_row_count(study); ++i) {
         const CpsStudyRow row = cps_study_row(study, i);
@@ -270,7 +270,7 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
 
 /* Print the friction bounds with which the solutions are judged. */
 static void print_bounds(const CpsScene *scene) {
-    puts(scene->friction_policy == CPS_FRICTION_CONSISTENT
+    puts(scene->friction_policy == CPS_FRICTION_POLICY_CONSISTENT
              ? "friction_policy: consistent, A = mu R at x; P4.2 and P3.1 are those with this A"
              : "friction_policy: frozen, A = mu R_R of the reference, (78)");
 }
@@ -292,7 +292,7 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
         const CpsStepReport step = cps_evolution_report(evolution);
         const CpsLineView view = cps_evolution_line_view(evolution, line);
         const double tolerance = study_find_tolerance(options->tolerance);
-        const int parts = cps_evolution_line_report(evolution, line).parts;
+        const int parts = cps_evolution_line_report(evolution, line).part_count;
         if (parts > 1)
             fprintf(stderr,
                     "capstan study: the step was taken in %d parts: this is about the last one\n",

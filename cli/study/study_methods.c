@@ -67,8 +67,9 @@ static int regularise(Histories *h, const CpsLineView *view, int step, Regulariz
 static int run_evolution(Histories *h, int method, int line) {
     CpsScene scene = regularized_scene(h->scene);
     if (method == CONSISTENT) {
-        scene.friction_policy = CPS_FRICTION_CONSISTENT;
-        scene.solver.halvings = h->scene->solver.halvings; /* whole steps need not converge */
+        scene.friction_policy = CPS_FRICTION_POLICY_CONSISTENT;
+        scene.solver.max_halvings =
+            h->scene->solver.max_halvings; /* whole steps need not converge */
     }
     CpsError err;
     CpsEvolution *evolution = NULL;
@@ -160,7 +161,7 @@ int study_methods(const CpsScene *scene, const CliOptions *options, const char *
     if (!regularized_options_read(options, "study", &h.given)) return EXIT_USAGE;
     const int index = find_line(&h);
     if (index < 0) return EXIT_USAGE;
-    h.points = scene->line[index].elements + 1;
+    h.points = scene->line[index].element_count + 1;
     bool whole = true;
     for (int m = 0; m < METHODS; ++m) {
         h.position[m] = calloc((size_t)h.steps * 3 * (size_t)h.points, sizeof(double));

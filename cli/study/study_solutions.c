@@ -79,10 +79,10 @@ void study_print_slack(const CpsLineView *view, double tolerance) {
     char what[96];
     print_parts(view);
     print_judgement("as found", view, view->position, tolerance);
-    double *position = malloc(3 * ((size_t)view->elements + 1) * sizeof *position);
+    double *position = malloc(3 * ((size_t)view->element_count + 1) * sizeof *position);
     if (position &&
         cps_solution_complete(view, CPS_COMPLETION_MEANDER, position, &slack, &err) == CPS_OK &&
-        slack.parts > 0) {
+        slack.part_count > 0) {
         snprintf(what, sizeof what, "laid out %s, %.6g m of it",
                  cps_completion_text(CPS_COMPLETION_MEANDER), slack.loose);
         print_judgement(what, view, position, tolerance);
@@ -131,9 +131,9 @@ static int read_nodes(const CpsLineView *view, const char *path, FILE *file, dou
         if (n < 0 && node == 0 && line <= 2) continue; /* names, units */
         if (n < 3 || (columns > 0 && n != columns))
             return bad_file(path, line, "another row", EXPECTED);
-        if (node > view->elements) break;
-        if (n == 4 &&
-            !(fabs(value[0] - view->arc_length[node]) <= 1e-6 * view->arc_length[view->elements])) {
+        if (node > view->element_count) break;
+        if (n == 4 && !(fabs(value[0] - view->arc_length[node]) <=
+                        1e-6 * view->arc_length[view->element_count])) {
             snprintf(found, sizeof found, "arc length %.9g m", value[0]);
             return bad_file(path, line, found, "that of the line's nodes, in order");
         }
@@ -146,9 +146,9 @@ static int read_nodes(const CpsLineView *view, const char *path, FILE *file, dou
         cli_printf(stderr, "capstan: %s: %s\n", path, strerror(errno));
         return EXIT_IO;
     }
-    if (node == view->elements + 1 && feof(file)) return EXIT_OK;
+    if (node == view->element_count + 1 && feof(file)) return EXIT_OK;
     cli_printf(stderr, "capstan: %s: found %s%d rows of nodes, expected %d\n", path,
-               feof(file) ? "" : "more than ", node, view->elements + 1);
+               feof(file) ? "" : "more than ", node, view->element_count + 1);
     return EXIT_INPUT;
 }
 
@@ -201,7 +201,7 @@ static void print_report(const CpsJudgementReport *r, double tolerance, double l
 int study_judge(const CpsLineView *view, const char *path, double tolerance, bool quiet) {
     CpsError err;
     CpsJudgementReport report;
-    double *position = malloc(3 * ((size_t)view->elements + 1) * sizeof *position);
+    double *position = malloc(3 * ((size_t)view->element_count + 1) * sizeof *position);
     if (!position) return out_of_memory();
     int code = read_configuration(view, path, position);
     if (code == EXIT_OK && cps_solution_judge(view, position, tolerance, &report, &err) != CPS_OK)
@@ -210,7 +210,7 @@ int study_judge(const CpsLineView *view, const char *path, double tolerance, boo
         if (!quiet) {
             cli_print_text(stdout, path, 200, false);
             printf(": ");
-            print_report(&report, tolerance, view->arc_length[view->elements]);
+            print_report(&report, tolerance, view->arc_length[view->element_count]);
         }
         code = report.judgement == CPS_JUDGEMENT_SOLUTION ? EXIT_OK : EXIT_NOT_CERTIFIED;
     }
@@ -224,7 +224,7 @@ static CpsStatus complete_all(const CpsLineView *view, double *all, CpsCompleted
                               CpsSlackReport *slack, CpsError *err) {
     CpsStatus status = CPS_OK;
     for (int k = 0; k < CPS_COMPLETION_COUNT && status == CPS_OK; ++k) {
-        double *position = all + 3 * (size_t)k * ((size_t)view->elements + 1);
+        double *position = all + 3 * (size_t)k * ((size_t)view->element_count + 1);
         status = cps_solution_complete(view, (CpsCompletion)k, position, &slack[k], err);
         line->position[k] = position;
     }
@@ -237,7 +237,8 @@ int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance,
     CpsSlackReport slack[CPS_COMPLETION_COUNT];
     CpsJudgementReport report = {0};
     CpsCompletedLine line = {.title = title, .view = view, .chosen = how};
-    double *all = malloc(3 * CPS_COMPLETION_COUNT * ((size_t)view->elements + 1) * sizeof *all);
+    double *all =
+        malloc(3 * CPS_COMPLETION_COUNT * ((size_t)view->element_count + 1) * sizeof *all);
     if (!all) return out_of_memory();
     CpsStatus status = complete_all(view, all, &line, slack, &err);
     if (status == CPS_OK)
@@ -247,7 +248,7 @@ int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance,
         print_parts(view);
         print_judgement("as found", view, view->position, tolerance);
         printf("  laid out %s, %.6g m of it in %d piece%s: %s\n", cps_completion_text(how),
-               slack[how].loose, slack[how].parts, slack[how].parts == 1 ? "" : "s",
+               slack[how].loose, slack[how].part_count, slack[how].part_count == 1 ? "" : "s",
                cps_judgement_text(report.judgement));
         if (slack[how].left > 0)
             printf("  %.6g m keep |x'| < 1, between nodes held closer than their length\n",

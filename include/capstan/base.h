@@ -15,6 +15,8 @@
  *     A call without a status gives nothing there, and for an index that there is not: 0, NULL,
  *         false, a struct of zeros, or
  *     NaN where 0 would be an answer. No handle is changed by a call that is refused.
+ *   - The name of a number of things, entries of an array or steps taken, ends in `_count`; that of
+ *       the largest number allowed begins with `max_`.
  *   - A returned `const double *` is a view owned by the handle, valid until the next non-const
  *       call on it.
  *   - The library never prints, exits or aborts, and has no mutable global state: different handles

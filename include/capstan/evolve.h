@@ -3,7 +3,7 @@
  *
  *   CpsEvolution *evolution;
  *   cps_evolution_create(&scene, &evolution, &err);
- *   while (cps_evolution_remaining(evolution) > 0) {
+ *   while (cps_evolution_remaining_count(evolution) > 0) {
  *       cps_evolution_step(evolution, &err);
  *       CpsStepReport report = cps_evolution_report(evolution);
  *       ...
@@ -43,7 +43,7 @@ CPS_API void cps_evolution_destroy(CpsEvolution *evolution);
 /* Number of load steps in all (a start computed by statics is the first), and still to do.
  * 0 remain after an infeasible or unbounded step: nothing can follow it. */
 CPS_API int cps_evolution_step_count(const CpsEvolution *evolution);
-CPS_API int cps_evolution_remaining(const CpsEvolution *evolution);
+CPS_API int cps_evolution_remaining_count(const CpsEvolution *evolution);
 
 /* Take the next load step. The outcome is in the report; the status is CPS_OK even when it is not
  * solved. After an infeasible or unbounded step the lines stay where they were. Returns
@@ -142,7 +142,7 @@ typedef struct CpsJudgementReport {
 /* Judge a configuration.
  *
  *   step       a solved step; elastic or inextensible
- *   position   (elements + 1, 3) [m], finite
+ *   position   (element_count + 1, 3) [m], finite
  *   tolerance  [-] 0 < tolerance < 1: gaps up to tolerance times the scale S of docs/theory.md,
  *              lengths up to tolerance times the line's length, and strains, which cost their
  *              square, up to sqrt(tolerance) are none
@@ -197,7 +197,7 @@ typedef struct CpsSlackReport {
     double straight; /* [m] of the slack with |x'| >= 1 already, as found */
     double left;     /* [m] with |x'| < 1 also after completion: between two nodes held closer than
                         their length */
-    int parts;       /* pieces of line completed */
+    int part_count;  /* pieces of line completed */
 } CpsSlackReport;
 
 /* Complete the slack so that |x'| = 1 there: nodes without friction between two that stay are laid
@@ -207,7 +207,7 @@ typedef struct CpsSlackReport {
  * stays as found, or up to a free end goes straight on.
  *
  *   step       a solved step
- *   position   (elements + 1, 3) [m] out: the step's configuration with the slack laid out
+ *   position   (element_count + 1, 3) [m] out: the step's configuration with the slack laid out
  *   report     may be NULL
  *
  * Returns CPS_OK or CPS_ERR_ARGUMENT. */

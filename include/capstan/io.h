@@ -129,19 +129,19 @@ typedef enum CpsDriveKind {
 
 typedef struct CpsDriveSystem {
     CpsSystem *system;
-    int parameters;
-    const char *const *parameter; /* (parameters) names */
-    int driven;
-    const char *const *drive; /* (driven) what is driven, "roll - 0.3 omega" */
+    int parameter_count;
+    const char *const *parameter; /* (parameter_count) names */
+    int driven_count;
+    const char *const *drive; /* (driven_count) what is driven, "roll - 0.3 omega" */
     bool loaded;
     int velocity_count;
-    const double *velocity; /* (velocity_count, driven) asked in the file */
+    const double *velocity; /* (velocity_count, driven_count) asked in the file */
     double map_radius;      /* pictures show |W_i| up to it */
 } CpsDriveSystem;
 
 /* A motion imposed on a body: map x twist = velocity. */
 typedef struct CpsDrivePush {
-    int rows;
+    int row_count;
     double map[9], velocity[3];
     bool at_point;
     double point[2], point_velocity[2]; /* where it is pushed, and how: for pictures */
@@ -150,44 +150,45 @@ typedef struct CpsDrivePush {
 /* A path of the hitch or of the rope's far end. */
 typedef struct CpsDriveTow {
     CpsTow start;
-    int points;         /* 0: no path */
-    const double *path; /* (points, 2) [m] the first is where the hitch or end is at the start */
-    int steps;          /* equal ones along the path */
+    int point_count; /* 0: no path */
+    const double
+        *path;      /* (point_count, 2) [m] the first is where the hitch or end is at the start */
+    int step_count; /* equal ones along the path */
 } CpsDriveTow;
 
 typedef struct CpsDriveBody {
     CpsPlanar *planar;
     bool vehicle;
-    int patches;
+    int patch_count;
     const CpsPatch *patch;
-    int pushes;
+    int push_count;
     const CpsDrivePush *push;
     CpsDriveTow tow;
 } CpsDriveBody;
 
 typedef struct CpsDrivePlanimeter {
     CpsPlanimeter planimeter;
-    int points;
-    const double *point; /* (points, 2) [m] closed curve */
-    int steps;           /* on every side */
+    int point_count;
+    const double *point; /* (point_count, 2) [m] closed curve */
+    int step_count;      /* on every side */
 } CpsDrivePlanimeter;
 
 typedef struct CpsDriveRope {
     CpsRope rope;
-    double friction, weight; /* their product is rope.resistance */
-    double driving[4];       /* [m/s] of the driven ends, first end first */
-    int points;              /* of the path of the last end, 0: none */
-    const double *path;      /* (points, 2) [m] */
-    int steps, shots;        /* load steps; pictures in the strip */
+    double friction, weight;    /* their product is rope.resistance */
+    double driving[4];          /* [m/s] of the driven ends, first end first */
+    int point_count;            /* of the path of the last end, 0: none */
+    const double *path;         /* (point_count, 2) [m] */
+    int step_count, shot_count; /* load steps; pictures in the strip */
 } CpsDriveRope;
 
 typedef struct CpsDriveSweep {
     const CpsLaw *law;
     int space; /* 1 or 2 */
     CpsSweep start;
-    int points;
-    const double *path; /* (points, space) [m] of the spring's far end */
-    int steps;
+    int point_count;
+    const double *path; /* (point_count, space) [m] of the spring's far end */
+    int step_count;
 } CpsDriveSweep;
 
 /* Read-only; all owned by the file. Only the part of its kind is filled. */

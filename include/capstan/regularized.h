@@ -30,9 +30,10 @@ extern "C" {
  * holds as printed. */
 typedef struct CpsRegularizedParameters {
     uint32_t cookie; /* of one of the three calls below; parameters made otherwise are refused */
-    int cells; /* N of (47)-(48), h = length/N; 0: the step's own elements, each with one slope x'
-                */
-    double penalty;   /* [N/m2] lambda > 0: energy (lambda/2) (penetration)^2 per length */
+    int cell_count; /* N of (47)-(48), h = length/N; 0: the step's own elements, each with one slope
+                     * x'
+                     */
+    double penalty; /* [N/m2] lambda > 0: energy (lambda/2) (penetration)^2 per length */
     double stiffness; /* [N m2] 1/n >= 0; 0: P5.1, with the relaxed tension and the penalty, and no
                          condition on x'(0) */
     double delta;     /* [m] > 0: friction energy A sqrt(delta^2 + |u_T|^2) per length */
@@ -43,10 +44,11 @@ CPS_API CpsRegularizedParameters cps_regularized_parameters_default(void);
 /* One solve: how it went, its energies, how far it is from the step's solution, and what its
  * parameters leave. */
 typedef struct CpsRegularizedReport {
-    bool converged;  /* the gradient is as small as asked, or as rounding allows */
-    int iterations;  /* Newton steps, those of the way there (see cps_regularized_solve) included */
-    int evaluations; /* gradients */
-    double gradient; /* [N] largest force left on a node */
+    bool converged;         /* the gradient is as small as asked, or as rounding allows */
+    int iteration_count;    /* Newton steps, those of the way there (see cps_regularized_solve)
+                               included */
+    int evaluation_count;   /* gradients */
+    double gradient;        /* [N] largest force left on a node */
     double gradient_limit;  /* [N] what it was compared with */
     double total;           /* [J] what is minimised: the five parts below */
     double elastic;         /* [J] relaxed: only |x'| > 1 costs */
@@ -69,13 +71,13 @@ typedef struct CpsRegularizedReport {
                             give it when the line carries the tensions (45) and nothing else */
 } CpsRegularizedReport;
 
-/* The configuration of the last solve; n = cells + 1 nodes, arrays (n, 3) node after node. */
+/* The configuration of the last solve; n = cell_count + 1 nodes, arrays (n, 3) node after node. */
 typedef struct CpsRegularizedView {
-    int cells;
+    int cell_count;
     const double *arc_length; /* (n) [m] */
     const double *position;   /* (n, 3) [m] */
-    const double *tension;    /* (cells) [N] (45) */
-    const double *exact;      /* (cells) [N] tension of the step's solution at the same places */
+    const double *tension;    /* (cell_count) [N] (45) */
+    const double *exact; /* (cell_count) [N] tension of the step's solution at the same places */
 } CpsRegularizedView;
 
 typedef struct CpsRegularized CpsRegularized;
@@ -90,14 +92,14 @@ CPS_API void cps_regularized_destroy(CpsRegularized *classic); /* NULL is accept
 
 /* The step's solution that all is compared with. Views into the handle. */
 typedef struct CpsRegularizedStep {
-    int elements;
+    int element_count;
     double length, stiffness; /* [m], [N] K */
     double energy;            /* [J] J** + j */
     double force; /* [N] the largest tension, or the sum of the loads if that is larger */
-    const double *arc_length; /* (elements + 1) [m] */
-    const double *reference;  /* (elements + 1, 3) [m] x_R */
-    const double *position;   /* (elements + 1, 3) [m] */
-    const double *tension;    /* (elements) [N] */
+    const double *arc_length; /* (element_count + 1) [m] */
+    const double *reference;  /* (element_count + 1, 3) [m] x_R */
+    const double *position;   /* (element_count + 1, 3) [m] */
+    const double *tension;    /* (element_count) [N] */
 } CpsRegularizedStep;
 CPS_API CpsRegularizedStep cps_regularized_step(const CpsRegularized *classic);
 
@@ -108,7 +110,7 @@ CPS_API CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *cl
 /* Minimise by damped Newton steps, from the last solution on the same cells if there is one, else
  * from the reference by way of larger delta and stiffness and a smaller penalty.
  *
- *   parameters      lambda and delta > 0, 1/n >= 0, cells 0 or 2..1000000
+ *   parameters      lambda and delta > 0, 1/n >= 0, cell_count 0 or 2..1000000
  *   max_iterations  Newton steps in all, >= 1
  *
  * Returns CPS_OK also when not converged (the report says so), CPS_ERR_ARGUMENT or
@@ -133,7 +135,7 @@ CPS_API CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *clas
  *
  *   step      of the exact history, on a plane obstacle or none
  *   friction  mu of the obstacle, >= 0
- *   previous  solved last with cells = 0
+ *   previous  solved last with cell_count = 0
  *
  * Returns as cps_regularized_create. */
 CPS_API CpsStatus cps_regularized_next(const CpsLineView *step, double friction,
@@ -166,11 +168,11 @@ typedef struct CpsStudyRow {
 
 typedef struct CpsStudyOptions {
     uint32_t cookie;               /* of the two calls below; options made otherwise are refused */
-    CpsRegularizedParameters from; /* cells: of the coarsest external approximation */
-    int values[CPS_STUDY_STAGE_COUNT];    /* solves per stage, 1..64 */
-    double factor[CPS_STUDY_STAGE_COUNT]; /* each value is the one before it divided by this, > 1;
-                                             h: 2 */
-    int max_iterations;                   /* per solve */
+    CpsRegularizedParameters from; /* cell_count: of the coarsest external approximation */
+    int value_count[CPS_STUDY_STAGE_COUNT]; /* solves per stage, 1..64 */
+    double factor[CPS_STUDY_STAGE_COUNT];   /* each value is the one before it divided by this, > 1;
+                                               h: 2 */
+    int max_iterations;                     /* per solve */
 } CpsStudyOptions;
 
 typedef struct CpsStudy CpsStudy;
@@ -180,8 +182,8 @@ CPS_API CpsStudyOptions cps_study_options_default(const CpsRegularized *classic)
 
 /* Down to parameters of one's own, by factors of 10 at most.
  *
- *   to   as for cps_regularized_solve. cells: with which stage h ends, or a few more; 0: four times
- * the step's elements. A stiffness of 0 is that of the whole study */
+ *   to   as for cps_regularized_solve. cell_count: with which stage h ends, or a few more; 0: four
+ * times the step's elements. A stiffness of 0 is that of the whole study */
 CPS_API CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
                                              const CpsRegularizedParameters *to);
 
@@ -203,7 +205,7 @@ CPS_API void cps_study_destroy(CpsStudy *study); /* NULL is accepted */
 CPS_API int cps_study_row_count(const CpsStudy *study);
 /* Row 0 .. by value; zeros where there is no such row. */
 CPS_API CpsStudyRow cps_study_row(const CpsStudy *study, int row);
-/* The tensions with which a stage ended; cells = 0 when it was not reached. */
+/* The tensions with which a stage ended; cell_count = 0 when it was not reached. */
 CPS_API CpsRegularizedView cps_study_stage_end(const CpsStudy *study, CpsStudyStage stage);
 
 /* ---- the consistent first-order problem P10.1 ---- */
@@ -244,10 +246,10 @@ CPS_API const char *cps_first_order_verdict_text(CpsFirstOrderVerdict verdict);
 typedef struct CpsFirstOrderReport {
     CpsFirstOrderVerdict verdict;
     CpsFirstOrderContact contact;
-    int rounds, iterations; /* of multipliers, of Newton steps in all */
-    double residual;        /* [N] largest force by which balance, friction or contact still fail */
-    double least_strain;    /* [-] least t_R.u' where the reference is slack, +infinity where it is
-                               nowhere */
+    int round_count, iteration_count; /* of multipliers, of Newton steps in all */
+    double residual;     /* [N] largest force by which balance, friction or contact still fail */
+    double least_strain; /* [-] least t_R.u' where the reference is slack, +infinity where it is
+                            nowhere */
     double least_strain_arc; /* [m] where */
     double shortened;        /* [m] natural length where (86) fails */
     double unbalanced[3];    /* [N] the largest force on a place that nothing balances, of the mesh
@@ -259,13 +261,13 @@ typedef struct CpsFirstOrderReport {
     double against_step; /* [m] largest distance of x_R + u from the step's solution of P2.1 */
 } CpsFirstOrderReport;
 
-/* Views into the handle; n = elements + 1 nodes. */
+/* Views into the handle; n = element_count + 1 nodes. */
 typedef struct CpsFirstOrderView {
-    int elements;
+    int element_count;
     const double *arc_length;     /* (n) [m] */
     const double *displacement;   /* (n, 3) [m] u */
-    const double *strain;         /* (elements) [-] t_R.u' */
-    const double *tension;        /* (elements, 3) [N] T_R + the tension of (84) */
+    const double *strain;         /* (element_count) [-] t_R.u' */
+    const double *tension;        /* (element_count, 3) [N] T_R + the tension of (84) */
     const double *friction_force; /* (n, 3) [N] */
     const double *reaction;       /* (n) [N] */
 } CpsFirstOrderView;

@@ -85,7 +85,7 @@ CPS_API void cps_results_destroy(CpsResults *results);
  *         cps_journal_next(journal, evolution, &found, &err);
  *         if (found) cps_results_append(results, evolution, &err);
  *     }
- *     while (cps_evolution_remaining(evolution) > 0) {    and those that are not
+ *     while (cps_evolution_remaining_count(evolution) > 0) {    and those that are not
  *         cps_evolution_step(evolution, &err);
  *         cps_journal_append(journal, evolution, &err);
  *         cps_results_append(results, evolution, &err);
@@ -169,7 +169,7 @@ CPS_API CpsStatus cps_methods_write(const char *directory, const char *title, in
 typedef struct CpsCompletedLine {
     const char *title;
     const CpsLineView *view;
-    const double *position[CPS_COMPLETION_COUNT]; /* (elements + 1, 3) [m] each */
+    const double *position[CPS_COMPLETION_COUNT]; /* (element_count + 1, 3) [m] each */
     CpsCompletion chosen;
 } CpsCompletedLine;
 
@@ -182,17 +182,17 @@ CPS_API CpsStatus cps_completed_write(const char *directory, const CpsCompletedL
 /* A history of the regularised method by itself. */
 typedef struct CpsRegularizedLine {
     const char *name;
-    int points;
-    const double *position;                     /* (steps, points, 3) [m]; step 0 is the start */
-    const CpsRegularizedParameters *parameters; /* (steps); of the start: not used, as below */
-    /* (steps) errors are against the exact step with frozen friction */
+    int point_count;
+    const double *position; /* (step_count, point_count, 3) [m]; step 0 is the start */
+    const CpsRegularizedParameters *parameters; /* (step_count); of the start: not used, as below */
+    /* (step_count) errors are against the exact step with frozen friction */
     const CpsRegularizedReport *report;
-    const double *tension; /* (steps, 2) [N] in the first and in the last element */
+    const double *tension; /* (step_count, 2) [N] in the first and in the last element */
 } CpsRegularizedLine;
 
 typedef struct CpsRegularizedRun {
     const char *title;
-    int steps, lines;
+    int step_count, line_count;
     const char *const *step_name;
     const CpsRegularizedLine *line;
     bool complete; /* no step of the history is missing */

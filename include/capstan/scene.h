@@ -21,9 +21,9 @@ typedef enum CpsObstacleKind {
 /* How two coefficients make a set of friction forces (M77 section 4: the force is normal to the
  * set's boundary against the sliding). */
 typedef enum CpsFrictionShape {
-    CPS_FRICTION_ELLIPSE, /* (F1/mu1)^2 + (F2/mu2)^2 <= R^2; the disc of Coulomb's law where mu1 =
-                             mu2 */
-    CPS_FRICTION_BOX      /* |F1| <= mu1 R and |F2| <= mu2 R: two independent laws */
+    CPS_FRICTION_SHAPE_ELLIPSE, /* (F1/mu1)^2 + (F2/mu2)^2 <= R^2; the disc of Coulomb's law where
+                             mu1 = mu2 */
+    CPS_FRICTION_SHAPE_BOX      /* |F1| <= mu1 R and |F2| <= mu2 R: two independent laws */
 } CpsFrictionShape;
 
 /* An obstacle. Lines stay on its free side and have friction on it. */
@@ -53,8 +53,8 @@ typedef struct CpsObstacle {
 } CpsObstacle;
 
 typedef enum CpsEndKind {
-    CPS_END_HELD, /* value is the imposed position [m]        (S90 (8), remark 2.3.4) */
-    CPS_END_FREE  /* value is the force applied to the end [N] (S90 (9)) */
+    CPS_END_KIND_HELD, /* value is the imposed position [m]        (S90 (8), remark 2.3.4) */
+    CPS_END_KIND_FREE  /* value is the force applied to the end [N] (S90 (9)) */
 } CpsEndKind;
 
 typedef struct CpsEnd {
@@ -82,16 +82,16 @@ typedef enum CpsStartKind {
  * arrays that are NULL the first step knows what the places tell. */
 typedef struct CpsStart {
     CpsStartKind kind;
-    int point_count;       /* straight, arc: 2; polyline: >= 2; static: 0; nodes: elements + 1 */
-    const double *point;   /* (point_count, 3) [m] */
-    double axis[3];        /* [-] arc: axis of the turn, right-hand rule, default 0 0 1 */
-    const double *tension; /* nodes: (elements) [N] T_R >= 0; NULL: K (|x'| - 1)^+, and 0 of an
+    int point_count;     /* straight, arc: 2; polyline: >= 2; static: 0; nodes: element_count + 1 */
+    const double *point; /* (point_count, 3) [m] */
+    double axis[3];      /* [-] arc: axis of the turn, right-hand rule, default 0 0 1 */
+    const double *tension; /* nodes: (element_count) [N] T_R >= 0; NULL: K (|x'| - 1)^+, and 0 of an
                               inextensible line */
-    /* nodes: (elements + 1) [N] R_R >= 0 of the obstacle that the node touches; NULL: S90 section 2
-     * d 2, -((T_R t)' + w).n where that is positive, with the force on a free end */
+    /* nodes: (element_count + 1) [N] R_R >= 0 of the obstacle that the node touches; NULL: S90
+     * section 2 d 2, -((T_R t)' + w).n where that is positive, with the force on a free end */
     const double *reaction;
-    /* nodes: (elements + 1) [N] A_R >= 0 in place of `reaction`, R_R = A_R/mu with the node's own
-     * coefficient; with frozen friction it is the bound of the first step */
+    /* nodes: (element_count + 1) [N] A_R >= 0 in place of `reaction`, R_R = A_R/mu with the node's
+     * own coefficient; with frozen friction it is the bound of the first step */
     const double *friction_bound;
 } CpsStart;
 
@@ -102,13 +102,13 @@ typedef struct CpsFrictionZone {
                         touches */
 } CpsFrictionZone;
 
-/* A tension-only line, node 0 at end A, node `elements` at end B. */
+/* A tension-only line, node 0 at end A, node `element_count` at end B. */
 typedef struct CpsLine {
     uint32_t cookie;
     const char *name;
     double length;                /* [m] natural length > 0 */
-    int elements;                 /* >= 1 */
-    const double *element_length; /* (elements) [m], their sum is `length`; NULL: all equal */
+    int element_count;            /* >= 1 */
+    const double *element_length; /* (element_count) [m], their sum is `length`; NULL: all equal */
     double weight;    /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
     double stiffness; /* [N] EA > 0; INFINITY: inextensible */
     int zone_count;   /* >= 0, default 0 */
@@ -134,11 +134,11 @@ typedef struct CpsTurn {
     double angle; /* [rad] by which it turns in this stage, right-hand rule */
 } CpsTurn;
 
-/* An entry of the history, reached in `steps` equal load steps. */
+/* An entry of the history, reached in `step_count` equal load steps. */
 typedef struct CpsStage {
     uint32_t cookie; /* of cps_stage_default(); a stage made otherwise is refused */
     const char *name;
-    int steps; /* >= 1 */
+    int step_count; /* >= 1 */
     int change_count;
     const CpsChange *change;
     int turn_count;
@@ -149,15 +149,16 @@ typedef struct CpsStage {
 } CpsStage;
 
 typedef enum CpsFrictionPolicy {
-    CPS_FRICTION_FROZEN, /* the bound A = mu R is that of the reference configuration   (S90 section
-                            2 d) */
-    CPS_FRICTION_CONSISTENT /* the default, Coulomb's law: A = mu R with the reaction of the
+    CPS_FRICTION_POLICY_FROZEN, /* the bound A = mu R is that of the reference configuration   (S90
+                            section 2 d) */
+    CPS_FRICTION_POLICY_CONSISTENT /* the default, Coulomb's law: A = mu R with the reaction of the
                                configuration reached */
 } CpsFrictionPolicy;
 
 typedef enum CpsContactPolicy {
-    CPS_CONTACT_REACHED,  /* no node ends below an obstacle: contact of the configuration reached */
-    CPS_CONTACT_REFERENCE /* only what touches at the reference is kept out, S90 (35) */
+    CPS_CONTACT_POLICY_REACHED,  /* no node ends below an obstacle: contact of the configuration
+                                    reached */
+    CPS_CONTACT_POLICY_REFERENCE /* only what touches at the reference is kept out, S90 (35) */
 } CpsContactPolicy;
 
 typedef enum CpsLinearSystem {
@@ -173,8 +174,8 @@ typedef struct CpsSolverOptions {
     /* [-] a step is cut until two halves change displacements per length and tensions per largest
      * force by no more, 1e-9..1; default 0: steps are as given */
     double path_tolerance;
-    int halvings; /* how often a step may be halved, for the path or because it does not converge,
-                     0..30, default 10 */
+    int max_halvings; /* how often a step may be halved, for the path or because it does not
+                     converge, 0..30, default 10 */
 } CpsSolverOptions;
 
 typedef struct CpsScene {

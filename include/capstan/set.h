@@ -264,7 +264,7 @@ CPS_API CpsStatus cps_set_measure(const CpsSet *set, CpsSetMeasure *measure, Cps
 typedef struct CpsSetConic {
     CpsSetOutcome outcome; /* CPS_SET_OUTCOME_EMPTY, CPS_SET_OUTCOME_UNBOUNDED (it holds a line) or
                               CPS_SET_OUTCOME_NOT_AVAILABLE: all else is 0 */
-    int space, unknowns, rows, cones;
+    int space, unknown_count, row_count, cone_count;
     const int *dim;           /* (cones) 1: z >= 0; d: z_1 >= |(z_2, .., z_d)| */
     const double *origin, *p; /* (space), (space x unknowns) */
     const double *a, *b;      /* (rows x unknowns), (rows) */

@@ -162,16 +162,16 @@ typedef struct CpsLedger {
 
 typedef struct CpsLineReport {
     CpsOutcome outcome;         /* the worst of the parts that the step was taken in */
-    int iterations;             /* of all that was solved, parts that were not kept included */
+    int iteration_count;        /* of all that was solved, parts that were not kept included */
     CpsPlaces places;           /* of the parts the one that leaves most open */
     CpsCertificate certificate; /* of the last part */
     double dissipated;          /* [J] in this step */
     CpsLedger ledger; /* of this step; zero for a line whose start is computed by statics in it */
-    int parts;        /* in which the step was taken, 1 or more */
-    double share; /* of the step that the last part was, which is what the view shows: 1 where it
-                     was not cut */
-    int snaps;    /* parts in which the line jumped, however small the load */
-    double jump;  /* [m] the longest displacement of a node in such a part */
+    int part_count;   /* in which the step was taken, 1 or more */
+    double share;   /* of the step that the last part was, which is what the view shows: 1 where it
+                       was not cut */
+    int snap_count; /* parts in which the line jumped, however small the load */
+    double jump;    /* [m] the longest displacement of a node in such a part */
     /* [J] of the imbalance, what parts that could not be cut any more made from nothing; with a
      * path tolerance also what they lost, snaps apart: 0 unless it is more than 5 % of what is
      * dissipated and worked in such a part */
@@ -206,13 +206,13 @@ typedef struct CpsStepReport {
                          the evolution */
     int index;        /* 0, 1, ... */
     CpsOutcome outcome;
-    int iterations;             /* largest over the lines */
+    int iteration_count;        /* largest over the lines */
     CpsCertificate certificate; /* energies, gap, scale and J residuals summed, all else the largest
                                    of the lines; a tension_bound of NaN on any line makes it NaN */
     double dissipated;          /* [J] */
     CpsLedger ledger;           /* sum of the lines */
-    int parts;                  /* largest over the lines */
-    int snaps;                  /* sum of the lines */
+    int part_count;             /* largest over the lines */
+    int snap_count;             /* sum of the lines */
     CpsPlaces places;           /* largest over the lines */
     double jump;                /* [m] largest of the lines */
     double unaccounted;         /* [J] sum of the lines */
@@ -222,18 +222,18 @@ typedef struct CpsStepReport {
 /* The index of an obstacle where there is none. */
 enum { CPS_NO_OBSTACLE = -1 };
 
-/* Everything about one line after a step. Views into the evolution; n = elements + 1 nodes. Forces
- * act on the line; arrays (n, 3) are stored node after node. A node touches up to `contacts`
- * obstacles at once, and what belongs to a contact has all nodes' nearest obstacles first: entry j
- * is the first contact of node j, entry n + j its second. */
+/* Everything about one line after a step. Views into the evolution; n = element_count + 1 nodes.
+ * Forces act on the line; arrays (n, 3) are stored node after node. A node touches up to
+ * `contact_count` obstacles at once, and what belongs to a contact has all nodes' nearest obstacles
+ * first: entry j is the first contact of node j, entry n + j its second. */
 typedef struct CpsLineView {
     const char *name;
-    int elements;
-    int contacts;   /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    bool one_plane; /* all contacts are with one plane with isotropic friction, or there is no
-                       obstacle: what regularized.h and the solutions of a step (evolve.h) need */
+    int element_count;
+    int contact_count; /* of a node: 2 where the scene has more than one obstacle, else 1 */
+    bool one_plane;    /* all contacts are with one plane with isotropic friction, or there is no
+                          obstacle: what regularized.h and the solutions of a step (evolve.h) need */
     const double *arc_length;     /* (n) [m] natural abscissa a of the nodes */
-    const double *element_length; /* (elements) [m] */
+    const double *element_length; /* (element_count) [m] */
     double compliance;            /* [1/N] 1/EA, 0: inextensible */
     CpsEnd end[2];                /* what was imposed in this step */
     const double *reference;      /* (n, 3) [m] x_R of this step */
@@ -241,27 +241,28 @@ typedef struct CpsLineView {
     const double *load;           /* (n, 3) [N] weight and free-end forces */
     double weight_before[3]; /* [N/m] per natural length where the step, or its last part, began;
                                 another one than now where gravity changes */
-    const int *obstacle;  /* (contacts, n) index in the scene of the nearest and the next obstacle;
-                             CPS_NO_OBSTACLE without one */
-    const double *normal; /* (contacts, n, 3) [-] that of the obstacle at the configuration reached;
-                             0 0 0 without */
-    const double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact
-                          looked for */
-    const double *friction_bound;  /* (contacts, n) [N] w = A h, of the larger coefficient (of a
-                                      friction set: its multiple); 0 where friction does not act */
+    const int *obstacle;     /* (contact_count, n) index in the scene of the nearest and the next
+                                obstacle;     CPS_NO_OBSTACLE without one */
+    const double *normal;    /* (contact_count, n, 3) [-] that of the obstacle at the configuration
+                                reached;    0 0 0 without */
+    const double *gap; /* (contact_count, n) [m] n.u >= -gap, u from the reference; INFINITY: no
+                          contact looked for */
+    const double *friction_bound; /* (contact_count, n) [N] w = A h, of the larger coefficient (of a
+                                     friction set: its multiple); 0 where friction does not act */
     const double *friction_factor; /* (n) [-] of the friction zones, the mean over the length that a
                                       node stands for; 1 without zones */
-    const double *friction_force;  /* (contacts, n, 3) [N] F, in the set of forces that w bounds */
-    const double *reaction;        /* (contacts, n) [N] R >= 0, along the normal */
-    /* (contacts, n, 3) [m] slip on the obstacle in this step, tangential: on a plane the part of u
-     * in it, on a curved obstacle along the surface; 0 before the first step */
+    const double
+        *friction_force;    /* (contact_count, n, 3) [N] F, in the set of forces that w bounds */
+    const double *reaction; /* (contact_count, n) [N] R >= 0, along the normal */
+    /* (contact_count, n, 3) [m] slip on the obstacle in this step, tangential: on a plane the part
+     * of u in it, on a curved obstacle along the surface; 0 before the first step */
     const double *slide;
-    const double *segment_force; /* (elements, 3) [N] p: what the B side does to the A side */
-    /* (elements) [N] T >= 0 from the elongation unknown, not from positions */
+    const double *segment_force; /* (element_count, 3) [N] p: what the B side does to the A side */
+    /* (element_count) [N] T >= 0 from the elongation unknown, not from positions */
     const double *tension;
     /* (n, 3) [-] slides: velocities that prove it, the fastest of size 1; else 0 */
     const double *motion;
-    const unsigned char *state; /* (contacts, n) CpsNodeState */
+    const unsigned char *state; /* (contact_count, n) CpsNodeState */
     /* [m] what reference, position and the places of held ends are measured from: 0 0 0, but a
      * place near the lines where these lie more than 512 lengths away; same for all lines */
     double origin[3];
@@ -272,16 +273,16 @@ typedef struct CpsLineView {
      * elsewhere all numbers are 0. Where they are looked for, the other numbers of an element
      * without obstacle have no meaning. */
     bool has_element_contacts;
-    const int *element_obstacle;  /* (elements) */
-    const double *element_share;  /* (elements) [-] beta */
-    const double *element_normal; /* (elements, 3) [-] */
-    const double *element_gap; /* (elements) [m] with what an element may lie deep, min(l^2/(4 R),
-                                  R/4), added */
-    const double *element_friction_bound; /* (elements) [N] */
-    const double *element_friction_force; /* (elements, 3) [N] */
-    const double *element_reaction;       /* (elements) [N] */
-    const double *element_slide;          /* (elements, 3) [m] */
-    const unsigned char *element_state;   /* (elements) */
+    const int *element_obstacle;  /* (element_count) */
+    const double *element_share;  /* (element_count) [-] beta */
+    const double *element_normal; /* (element_count, 3) [-] */
+    const double *element_gap; /* (element_count) [m] with what an element may lie deep, min(l^2/(4
+                                  R), R/4), added */
+    const double *element_friction_bound; /* (element_count) [N] */
+    const double *element_friction_force; /* (element_count, 3) [N] */
+    const double *element_reaction;       /* (element_count) [N] */
+    const double *element_slide;          /* (element_count, 3) [m] */
+    const unsigned char *element_state;   /* (element_count) */
 } CpsLineView;
 
 /* A node this near to an obstacle, per length of its line, touches it: far above the rounding of

@@ -126,7 +126,8 @@ static void distribute_excess(CpsiLine *line, Vec3 rest) {
 
 void cpsi_balance_forces(CpsiLine *line) {
     const int n = line->n, elements = n - 1;
-    if (line->end[CPS_END_A].kind == CPS_END_FREE && line->end[CPS_END_B].kind == CPS_END_FREE) {
+    if (line->end[CPS_END_A].kind == CPS_END_KIND_FREE &&
+        line->end[CPS_END_B].kind == CPS_END_KIND_FREE) {
         for (int round = 0; round < 2;
              round++) { /* the second round removes the rounding error of the first */
             Vec3 rest = vec3(0, 0, 0);
@@ -136,9 +137,10 @@ void cpsi_balance_forces(CpsiLine *line) {
     }
     /* from B to A, starting from zero beyond a free end or from the computed force of the last
      * element */
-    if (line->end[CPS_END_B].kind == CPS_END_FREE || line->end[CPS_END_A].kind == CPS_END_HELD) {
+    if (line->end[CPS_END_B].kind == CPS_END_KIND_FREE ||
+        line->end[CPS_END_A].kind == CPS_END_KIND_HELD) {
         Vec3 p = segment_force(line, elements - 1);
-        if (line->end[CPS_END_B].kind == CPS_END_FREE) p = node_force(line, n - 1);
+        if (line->end[CPS_END_B].kind == CPS_END_KIND_FREE) p = node_force(line, n - 1);
         vec3_store(&line->segment_force[3 * (elements - 1)], p);
         for (int e = elements - 2; e >= 0; e--) {
             p = vec3_add(p, node_force(line, e + 1));

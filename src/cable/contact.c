@@ -356,9 +356,9 @@ void cpsi_contact_reset(CpsiLine *line) {
 void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
                                 CpsFrictionPolicy friction, bool frictionless) {
     const size_t n = (size_t)line->n;
-    line->contact_everywhere = contact == CPS_CONTACT_REACHED;
+    line->contact_everywhere = contact == CPS_CONTACT_POLICY_REACHED;
     line->keeps_reference_axes = line->has_local_axes && line->contact_everywhere &&
-                                 friction == CPS_FRICTION_FROZEN && !frictionless;
+                                 friction == CPS_FRICTION_POLICY_FROZEN && !frictionless;
     memcpy(line->reference, line->position, 3 * n * sizeof *line->reference);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         line->friction_bound[c] = 0;

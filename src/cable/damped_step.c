@@ -24,7 +24,7 @@ static bool is_finite(const CpsiLine *line) {
  * step corrects. */
 static bool solve(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                   double drag) {
-    if (options->friction_policy == CPS_FRICTION_CONSISTENT && !options->frictionless) {
+    if (options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT && !options->frictionless) {
         const CpsiRound coupled = {.bounds = CPSI_BOUNDS_COUPLED, .centering = true, .drag = drag};
         const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, &coupled);
         if (cpsi_line_is_clean(&ipm) && is_finite(line)) return true;
@@ -52,7 +52,7 @@ CpsiDampedStep cpsi_line_damped_step(CpsiLine *line, CpsiChainProgram *program,
         cpsi_contact_detect(line, true);
         cpsi_contact_update_geometry(line);
     }
-    if (options->friction_policy == CPS_FRICTION_CONSISTENT) cpsi_rounds_couple_bounds(line);
+    if (options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT) cpsi_rounds_couple_bounds(line);
     cpsi_line_release_open_contacts(line, program);
     cpsi_line_classify(line, program);
     cpsi_line_report_ends(line);

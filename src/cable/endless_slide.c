@@ -206,7 +206,8 @@ static bool slides_towards(CpsiLine *line, bool to_a, double margin) {
 }
 
 bool cpsi_line_slides_endlessly(CpsiLine *line, double margin) {
-    if (line->end[CPS_END_A].kind != CPS_END_FREE || line->end[CPS_END_B].kind != CPS_END_FREE)
+    if (line->end[CPS_END_A].kind != CPS_END_KIND_FREE ||
+        line->end[CPS_END_B].kind != CPS_END_KIND_FREE)
         return false;
     if (line->element_contacts > 0 && has_resting_element(line)) return false;
     return slides_towards(line, false, margin) || slides_towards(line, true, margin);

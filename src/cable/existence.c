@@ -13,7 +13,7 @@
 /* Ends farther apart than an inextensible line is long: a constant force along the ends is a
  * proof. */
 static bool too_short(CpsiLine *line) {
-    if (line->compliance > 0 || !cpsi_line_both_ends(line, CPS_END_HELD)) return false;
+    if (line->compliance > 0 || !cpsi_line_both_ends(line, CPS_END_KIND_HELD)) return false;
     const Vec3 span =
         vec3_sub(vec3_load(line->end[CPS_END_B].value), vec3_load(line->end[CPS_END_A].value));
     const double distance = vec3_norm(span);
@@ -29,7 +29,7 @@ static bool too_short(CpsiLine *line) {
  * of B where the obstacle does not prevent it. This holds on one plane with isotropic friction, or
  * without obstacles; in other cases the loop finds out. */
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
-    if (!cpsi_line_both_ends(line, CPS_END_FREE) || line->has_local_axes) return false;
+    if (!cpsi_line_both_ends(line, CPS_END_KIND_FREE) || line->has_local_axes) return false;
     Vec3 sum = vec3(0, 0, 0);
     double friction = 0, steepest = 0, least = INFINITY, loads = 0;
     bool stopped = false;
@@ -48,7 +48,7 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     const Vec3 tangent = vec3_axpy(-normal, n, sum);
     /* all reactions together balance B.n; friction is largest if they act where its coefficient
      * is */
-    if (options->friction_policy == CPS_FRICTION_CONSISTENT && !options->frictionless)
+    if (options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT && !options->frictionless)
         friction = steepest * fmax(0, -normal);
     const double pull = vec3_norm(tangent), beyond = pull > friction ? pull - friction : 0;
     const double fall = sqrt(beyond * beyond + along * along);
@@ -59,7 +59,8 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.proof_value = fall;
     /* with bounds coupled to the reactions, whose sum is -B.n, friction would hold the line
      * wherever they act */
-    const bool frozen = options->friction_policy == CPS_FRICTION_FROZEN && !options->frictionless;
+    const bool frozen =
+        options->friction_policy == CPS_FRICTION_POLICY_FROZEN && !options->frictionless;
     if (frozen && along == 0 && pull <= least * -normal) line->report.coulomb = least * -normal;
     return true;
 }
@@ -89,7 +90,7 @@ static bool moves_away(const CpsiLine *line, const CpsiObstacle *obstacle, Vec3 
 }
 
 bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *load) {
-    if (!cpsi_line_both_ends(line, CPS_END_FREE)) return false;
+    if (!cpsi_line_both_ends(line, CPS_END_KIND_FREE)) return false;
     Vec3 sum = vec3(0, 0, 0);
     double loads = 0;
     for (int j = 0; j < line->n; j++) {

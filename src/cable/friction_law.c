@@ -25,7 +25,7 @@ CpsiFrictionLaw cpsi_friction_law(const CpsiLine *line, int c) {
     return (
         CpsiFrictionLaw){.friction = factor * friction,
                          .ratio = {friction > 0 ? mu[0] * by : 1, friction > 0 ? mu[1] * by : 1},
-                         .box = obstacle->shape == CPS_FRICTION_BOX};
+                         .box = obstacle->shape == CPS_FRICTION_SHAPE_BOX};
 }
 
 void cpsi_line_lay_out_friction(CpsiLine *line) {

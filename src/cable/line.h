@@ -149,8 +149,8 @@ static inline double cpsi_line_contact_share(const CpsiLine *line, int c) {
 
 /* Is node j an end that is held? */
 static inline bool cpsi_line_is_held(const CpsiLine *line, int j) {
-    return (j == 0 && line->end[CPS_END_A].kind == CPS_END_HELD) ||
-           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_HELD);
+    return (j == 0 && line->end[CPS_END_A].kind == CPS_END_KIND_HELD) ||
+           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_KIND_HELD);
 }
 
 /* Is the node, or the whole element, of contact c held? */

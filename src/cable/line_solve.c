@@ -40,7 +40,7 @@ void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
         for (int a = 0; a < 3; a++)
             line->load[3 * j + a] = cpsi_line_share(line, j) * line->weight[a];
     for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_FREE)
+        if (line->end[end].kind == CPS_END_KIND_FREE)
             for (int a = 0; a < 3; a++)
                 line->load[3 * (end == CPS_END_A ? 0 : line->n - 1) + a] += line->end[end].value[a];
 }
@@ -55,7 +55,7 @@ double cpsi_line_end_distance(const CpsiLine *line) {
 }
 
 bool cpsi_line_is_taut(const CpsiLine *line) {
-    return line->compliance == 0 && cpsi_line_both_ends(line, CPS_END_HELD) &&
+    return line->compliance == 0 && cpsi_line_both_ends(line, CPS_END_KIND_HELD) &&
            cpsi_line_end_distance(line) >= line->length * (1 - CPSI_TAUT);
 }
 
@@ -66,7 +66,7 @@ static double force_scale(const CpsiLine *line, double distance) {
     const double strain = distance / line->length - 1, c = line->compliance;
     double weight = line->length * vec3_norm(vec3_load(line->weight)), scale = weight;
     for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
-    if (!cpsi_line_both_ends(line, CPS_END_HELD) || (scale == 0 && strain <= 0)) return scale;
+    if (!cpsi_line_both_ends(line, CPS_END_KIND_HELD) || (scale == 0 && strain <= 0)) return scale;
     /* the left side grows with T: bracket the root by doubling, then bisect */
     double low = scale > 0 ? scale : DBL_MIN, high = low;
     while (high < 1e300 && c * high - (weight / high) * (weight / high) / 24 < strain) high *= 2;
@@ -100,7 +100,7 @@ bool cpsi_line_is_near(const CpsiLine *line) {
  * path from the reference must not pass an obstacle. */
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool consistent =
-        line->has_local_axes && options->friction_policy == CPS_FRICTION_CONSISTENT;
+        line->has_local_axes && options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT;
     if ((consistent || line->keeps_reference_axes) &&
         !(cpsi_contact_depth(line) <= 0.1 * CPSI_TOUCH * line->length))
         return false;
@@ -133,7 +133,7 @@ CpsOutcome cpsi_line_outcome(const CpsiLine *line, const CpsiStepOptions *option
     const CpsCertificate *c = &line->report.certificate;
     const double tolerance = options->solver.tolerance;
     const bool finite = isfinite(c->gap) && isfinite(c->scale) && isfinite(c->force_residual);
-    const bool consistent = options->friction_policy == CPS_FRICTION_FROZEN ||
+    const bool consistent = options->friction_policy == CPS_FRICTION_POLICY_FROZEN ||
                             c->friction_residual <= CPSI_CLEAN * c->largest_force;
     if (finite && consistent && ipm->residual <= fmax(0.01 * tolerance, CPSI_CLEAN) &&
         c->gap <= tolerance * c->scale && c->stretch_residual <= fmin(tolerance, POSITION_TOL) &&
@@ -209,7 +209,7 @@ static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program,
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(line->position, line->reference, 3 * n * sizeof *line->position);
     for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_HELD)
+        if (line->end[end].kind == CPS_END_KIND_HELD)
             memcpy(&line->position[end == CPS_END_A ? 0 : 3 * (n - 1)], line->end[end].value,
                    sizeof line->end[end].value);
     memset(line->friction_force, 0, 3 * contacts * sizeof *line->friction_force);
@@ -219,7 +219,7 @@ static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program,
     if (round->bounds != CPSI_BOUNDS_FIXED)
         memset(line->friction_bound, 0, contacts * sizeof *line->friction_bound);
     if (line->has_local_axes) memset(line->active, 0, contacts * sizeof *line->active);
-    line->report.iterations +=
+    line->report.iteration_count +=
         cpsi_least_motion(line, round->least, NULL, round->bounds, most_iterations(line, options));
     if (line->report.places == CPS_PLACES_ANY) return false;
     cpsi_step_program_clear(line, program);
@@ -257,7 +257,7 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     scale.force = force;
     cpsi_step_program_unpack(line, program, &scale);
-    line->report.iterations += ipm.iterations;
+    line->report.iteration_count += ipm.iterations;
     line->report.places = CPS_PLACES_UNIQUE;
     if (!(loads > 0) && round->least && largest_force(line) <= CPSI_CLEAN * force &&
         rests_unloaded(line, program, options, round))
@@ -266,7 +266,8 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
         straighten(line);
     else if (round->least && !round->reaction_stiffness && !(round->drag > 0) &&
              cpsi_line_is_clean(&ipm))
-        line->report.iterations += cpsi_least_motion(line, round->least, program, round->bounds,
-                                                     most_iterations(line, options));
+        line->report.iteration_count +=
+            cpsi_least_motion(line, round->least, program, round->bounds,
+                              most_iterations(line, options));
     return ipm;
 }

@@ -94,7 +94,7 @@ static const CpsiStrategy STRATEGY[] = {
 };
 
 static unsigned conditions(const CpsiLine *line, const CpsiStepOptions *options) {
-    const bool consistent = options->friction_policy == CPS_FRICTION_CONSISTENT;
+    const bool consistent = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT;
     unsigned found = options->least && options->least->chose ? CHOSE : 0;
     if (!line->has_local_axes) return found;
     found |= LOCAL_AXES;
@@ -121,7 +121,7 @@ static CpsiIpmReport solve_program(CpsiLine *line, CpsiChainProgram *program,
 /* Solve the step from its reference by one strategy, in rounds or as one program. */
 static void solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                        const CpsiStrategy *strategy, bool in_rounds) {
-    const bool coupled = options->friction_policy == CPS_FRICTION_CONSISTENT &&
+    const bool coupled = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
                          !options->frictionless && line->obstacle_count > 0;
     const CpsiBounds bounds = !coupled                 ? CPSI_BOUNDS_FIXED
                               : strategy->trial_bounds ? CPSI_BOUNDS_TRIAL
@@ -241,7 +241,8 @@ static void report_initial_ends(CpsiLine *line) {
 bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *options,
                                      double margin) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
-    if (options->friction_policy != CPS_FRICTION_CONSISTENT || options->frictionless) return false;
+    if (options->friction_policy != CPS_FRICTION_POLICY_CONSISTENT || options->frictionless)
+        return false;
     report_initial_ends(line);
     cpsi_line_set_reference(line, options);
     if (!cpsi_line_slides_endlessly(line, margin)) return false;
@@ -298,7 +299,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
      * the forces that were certified */
     const bool looked =
         line->has_local_axes &&
-        (options->friction_policy == CPS_FRICTION_CONSISTENT || options->frictionless);
+        (options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT || options->frictionless);
     if ((looked || line->keeps_reference_axes) && line->contacts > 1) {
         cpsi_contact_detect(line, true);
         cpsi_contact_update_geometry(line);

@@ -128,7 +128,7 @@ void cpsi_line_report_ends(CpsiLine *line) {
         CpsEndReport *out = &line->report.end[end];
         memcpy(out->position, &line->position[3 * j], sizeof out->position);
         Vec3 force = vec3_load(line->end[end].value);
-        if (line->end[end].kind == CPS_END_HELD) {
+        if (line->end[end].kind == CPS_END_KIND_HELD) {
             /* the force of the support balances the element's tension, the node's weight and the
              * force of the element's contact on the node */
             const Vec3 pull =

@@ -46,8 +46,8 @@ static bool turn_about(const CpsiLine *line, const CpsiObstacle *o, bool statics
 
 bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
                            CpsiShortfall *out) {
-    if (line->compliance > 0 || !cpsi_line_both_ends(line, CPS_END_HELD) ||
-        options->contact_policy != CPS_CONTACT_REACHED)
+    if (line->compliance > 0 || !cpsi_line_both_ends(line, CPS_END_KIND_HELD) ||
+        options->contact_policy != CPS_CONTACT_POLICY_REACHED)
         return false;
     const Vec3 a = held_at(line, CPS_END_A), b = held_at(line, CPS_END_B);
     const double allowed = line->length * (1 + CPSI_TAUT);

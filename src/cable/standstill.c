@@ -21,7 +21,7 @@ static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) 
     for (int end = 0; end < 2; end++) {
         const double *at = &line->reference[end == CPS_END_A ? 0 : 3 * (line->n - 1)],
                      *to = line->end[end].value;
-        if (line->end[end].kind == CPS_END_HELD)
+        if (line->end[end].kind == CPS_END_KIND_HELD)
             for (int a = 0; a < 3; a++)
                 if (at[a] != to[a]) return false;
     }
@@ -35,7 +35,8 @@ static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) 
         if (f[0] == 0 && f[1] == 0 && f[2] == 0) continue;
         /* whether F lies in a given set is not computed: its bound must be the one under which F
          * was found, as a bound coupled to the reaction is */
-        if (set->given && !(bound > 0 && options->friction_policy == CPS_FRICTION_CONSISTENT))
+        if (set->given &&
+            !(bound > 0 && options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT))
             return false;
         memcpy(inside, f, sizeof f);
         cpsi_friction_law_clip(set, bound, bound, inside);

@@ -83,7 +83,7 @@ static void initial_guess(const CpsiLine *line, CpsiChainProgram *program) {
     const int last = line->n - 1;
     const double *base = base_of(line);
     for (int end = 0; end < 2; end++) {
-        if (line->end[end].kind != CPS_END_HELD) continue;
+        if (line->end[end].kind != CPS_END_KIND_HELD) continue;
         for (int a = 0; a < 3; a++)
             shift[end][a] =
                 (line->end[end].value[a] - base[3 * (end ? last : 0) + a]) / line->length;
@@ -315,7 +315,7 @@ static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program) {
         for (int a = 0; a < 3; a++) line->position[3 * j + a] = base[3 * j + a] + shift[a];
     }
     for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_HELD)
+        if (line->end[end].kind == CPS_END_KIND_HELD)
             memcpy(&line->position[3 * (end == CPS_END_A ? 0 : line->n - 1)], line->end[end].value,
                    sizeof line->end[end].value);
 }

@@ -21,7 +21,7 @@ static const double OPTIMUM_RANGE = 1e-5;
 static const double FEASIBLE_TOL = 1e-9;
 
 CpsiForceLaw cpsi_force_law(const CpsiStepOptions *options, bool exact) {
-    return (CpsiForceLaw){.frozen = options->friction_policy == CPS_FRICTION_FROZEN,
+    return (CpsiForceLaw){.frozen = options->friction_policy == CPS_FRICTION_POLICY_FROZEN,
                           .frictionless = options->frictionless,
                           .exact = exact};
 }

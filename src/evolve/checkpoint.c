@@ -91,13 +91,13 @@ static void pass_bend(Tape *tape, CpsBend *bend) {
 
 static void pass_line_report(Tape *tape, CpsLineReport *report) {
     PASS(tape, report->outcome);
-    PASS(tape, report->iterations);
+    PASS(tape, report->iteration_count);
     PASS(tape, report->places);
     pass_energies(tape, &report->certificate, &report->ledger);
     PASS(tape, report->dissipated);
-    PASS(tape, report->parts);
+    PASS(tape, report->part_count);
     PASS(tape, report->share);
-    PASS(tape, report->snaps);
+    PASS(tape, report->snap_count);
     PASS(tape, report->jump);
     PASS(tape, report->unaccounted);
     for (int end = 0; end < 2; end++) pass_end_report(tape, &report->end[end]);
@@ -117,11 +117,11 @@ static void pass_line_report(Tape *tape, CpsLineReport *report) {
 static void pass_step_report(Tape *tape, CpsStepReport *report) {
     PASS(tape, report->index);
     PASS(tape, report->outcome);
-    PASS(tape, report->iterations);
+    PASS(tape, report->iteration_count);
     pass_energies(tape, &report->certificate, &report->ledger);
     PASS(tape, report->dissipated);
-    PASS(tape, report->parts);
-    PASS(tape, report->snaps);
+    PASS(tape, report->part_count);
+    PASS(tape, report->snap_count);
     PASS(tape, report->places);
     PASS(tape, report->jump);
     PASS(tape, report->unaccounted);
@@ -240,7 +240,7 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
                         (int)evolution->options.contact_policy,
                         solver->max_iterations,
                         (int)solver->linear_system,
-                        solver->halvings};
+                        solver->max_halvings};
     hash_bytes(&hash, what, sizeof what);
     hash_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
     hash_numbers(&hash, 3, evolution->origin);

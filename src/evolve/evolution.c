@@ -48,7 +48,7 @@ static bool scene_has_element_contacts(const CpsScene *scene) {
     bool round = false;
     for (int k = 0; k < scene->obstacle_count; k++)
         round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
-    return round && scene->contact_policy == CPS_CONTACT_REACHED;
+    return round && scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
 }
 
 static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {
@@ -117,7 +117,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     for (int i = 0; i < scene->line_count; i++) {
         CpsiLine *line = real ? &evolution->line[i] : &any;
         line->name = copy_name(arena, scene->line[i].name);
-        line->n = scene->line[i].elements + 1;
+        line->n = scene->line[i].element_count + 1;
         line->has_local_axes = has_local_axes;
         line->contacts = contacts;
         line->element_contacts = element_contacts;
@@ -191,9 +191,9 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     const double size = vec3_norm(gravity);
     vec3_store(line->weight, vec3_scale(size > 0 ? def->weight / size : 0, gravity));
     memcpy(line->weight_before, line->weight, sizeof line->weight);
-    for (int e = 0; e < def->elements; e++)
+    for (int e = 0; e < def->element_count; e++)
         line->element_length[e] =
-            def->element_length ? def->element_length[e] : def->length / def->elements;
+            def->element_length ? def->element_length[e] : def->length / def->element_count;
     cpsi_line_set_arc_length(line);
     fill_friction_factor(line, def);
     if (line->has_local_axes)
@@ -201,7 +201,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     cpsi_start_place(def, line->position);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
-        if (line->end[end].kind == CPS_END_HELD) cpsi_start_end(def, end, line->end[end].value);
+        if (line->end[end].kind == CPS_END_KIND_HELD)
+            cpsi_start_end(def, end, line->end[end].value);
     }
     switch (def->start.kind) {
     case CPS_START_STATIC: move_to_free_side(line); break;
@@ -233,7 +234,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     for (int i = 0; i < scene->stage_count; i++) {
         const CpsStage *from = &scene->stage[i];
         CpsiEvolutionStage *stage = &evolution->stage[i];
-        stage->steps = from->steps;
+        stage->steps = from->step_count;
         stage->change_count = from->change_count;
         for (int k = 0; k < from->change_count; k++)
             stage->change[k] = (CpsiChange){.line = from->change[k].line,
@@ -244,7 +245,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         memcpy(stage->to, from->gravity_changes ? from->gravity : stage->from, sizeof stage->to);
         stage->turn_count = from->turn_count;
         for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
-        evolution->step_count += from->steps;
+        evolution->step_count += from->step_count;
     }
     if (evolution->has_static) evolution->step_count++;
     if (evolution->step_count == 0) {
@@ -315,7 +316,7 @@ int cps_evolution_step_count(const CpsEvolution *evolution) {
     return evolution ? evolution->step_count : 0;
 }
 
-int cps_evolution_remaining(const CpsEvolution *evolution) {
+int cps_evolution_remaining_count(const CpsEvolution *evolution) {
     return !evolution || evolution->ended ? 0 : evolution->step_count - evolution->done;
 }
 
@@ -325,7 +326,8 @@ static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
     CpsEnd now = {.kind = kind};
     if (kind == line->end[end].kind) return line->end[end];
     const double *x = &line->position[3 * (end == CPS_END_A ? 0 : line->n - 1)];
-    memcpy(now.value, kind == CPS_END_HELD ? x : line->report.end[end].force, sizeof now.value);
+    memcpy(now.value, kind == CPS_END_KIND_HELD ? x : line->report.end[end].force,
+           sizeof now.value);
     return now;
 }
 
@@ -348,9 +350,10 @@ static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
         for (int i = 0; i < stage->change_count; i++) {
             const CpsiChange *change = &stage->change[i];
             const CpsiLine *line = &evolution->line[change->line];
-            if (change->to.kind != CPS_END_HELD || line->end[change->end].kind == CPS_END_HELD)
+            if (change->to.kind != CPS_END_KIND_HELD ||
+                line->end[change->end].kind == CPS_END_KIND_HELD)
                 continue;
-            const CpsEnd from = end_now(line, change->end, CPS_END_HELD);
+            const CpsEnd from = end_now(line, change->end, CPS_END_KIND_HELD);
             const double *a = from.value, *b = change->to.value, *o = evolution->origin;
             /* rounding of the data, which are coordinates of the scene */
             const double rounding =
@@ -434,7 +437,7 @@ static void place_statically(CpsEvolution *evolution) {
             continue;
         }
         options.frictionless = true;
-        options.contact_policy = CPS_CONTACT_REACHED;
+        options.contact_policy = CPS_CONTACT_POLICY_REACHED;
         cpsi_line_place_statically(line, &evolution->program, &options, &evolution->scratch);
     }
 }
@@ -444,11 +447,12 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     CpsCertificate *to = &step->certificate;
     const CpsCertificate *from = &line->certificate;
     step->outcome = cps_outcome_worse(step->outcome, line->outcome);
-    if (line->iterations > step->iterations) step->iterations = line->iterations;
+    if (line->iteration_count > step->iteration_count)
+        step->iteration_count = line->iteration_count;
     step->dissipated += line->dissipated;
     cpsi_ledger_add(&step->ledger, &line->ledger);
-    if (line->parts > step->parts) step->parts = line->parts;
-    step->snaps += line->snaps;
+    if (line->part_count > step->part_count) step->part_count = line->part_count;
+    step->snap_count += line->snap_count;
     if (line->places > step->places) step->places = line->places;
     step->jump = cpsi_max_nan(step->jump, line->jump);
     step->unaccounted += line->unaccounted;
@@ -507,9 +511,9 @@ CpsStatus cps_evolution_interrupt(CpsEvolution *evolution, bool (*asked)(void *u
 
 CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     if (!evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution is NULL");
-    if (cps_evolution_remaining(evolution) == 0)
+    if (cps_evolution_remaining_count(evolution) == 0)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "no load step remains: ask cps_evolution_remaining first");
+                         "no load step remains: ask cps_evolution_remaining_count first");
     const double begin = seconds();
     const bool statics = evolution->has_static && evolution->done == 0;
     const CpsStatus status = statics ? CPS_OK : check_grabs(evolution, err);

@@ -40,7 +40,7 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
     CpsiLedgerStart start = {0};
     potentials(line, &start.elastic, &start.gravity);
     for (int i = 0; i < 2; i++) {
-        const bool is_free = end[i].kind == CPS_END_FREE;
+        const bool is_free = end[i].kind == CPS_END_KIND_FREE;
         const int j = i == CPS_END_A ? 0 : line->n - 1;
         start.known[i] = known || is_free;
         for (int a = 0; a < 3; a++) {

@@ -26,14 +26,14 @@ static const double TOUCH = 1e-7, NOTHING = 1e-6;
 static const double LARGEST = 1e100;
 
 static double element_length(const CpsLine *line, int e) {
-    return line->element_length ? line->element_length[e] : line->length / line->elements;
+    return line->element_length ? line->element_length[e] : line->length / line->element_count;
 }
 
 /* ---- check ---- */
 
 static CpsStatus check_lengths(const CpsLine *line, CpsError *err) {
     const bool elastic = isfinite(line->stiffness);
-    for (int e = 0; e < line->elements; e++) {
+    for (int e = 0; e < line->element_count; e++) {
         const Vec3 a = vec3_load(&line->start.point[3 * e]),
                    b = vec3_load(&line->start.point[3 * (e + 1)]);
         const double l = element_length(line, e), found = vec3_norm(vec3_sub(b, a));
@@ -73,10 +73,10 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
     double at = 0, largest = 0;
     int first = 0;
     if (force) {
-        for (int j = 0; j <= line->elements; j++) largest = fmax(largest, force[j]);
-        for (int j = 0; j <= line->elements; j++) {
+        for (int j = 0; j <= line->element_count; j++) largest = fmax(largest, force[j]);
+        for (int j = 0; j <= line->element_count; j++) {
             const double before = j > 0 ? element_length(line, j - 1) : 0,
-                         after = j < line->elements ? element_length(line, j) : 0;
+                         after = j < line->element_count ? element_length(line, j) : 0;
             at += before;
             const double factor =
                 cpsi_zone_factor(line, &first, at - 0.5 * before, 0.5 * (before + after));
@@ -94,9 +94,9 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
             if (!(force[j] > NOTHING * largest)) continue;
             /* a node below the obstacle is refused elsewhere, unless contact is that of the
              * reference, where it may be there and has no reaction */
-            const bool near =
-                gap <= TOUCH * line->length &&
-                (scene->contact_policy == CPS_CONTACT_REACHED || gap >= -TOUCH * line->length);
+            const bool near = gap <= TOUCH * line->length &&
+                              (scene->contact_policy == CPS_CONTACT_POLICY_REACHED ||
+                               gap >= -TOUCH * line->length);
             if (!nearest || !near)
                 return cpsi_fail(err, CPS_ERR_ARGUMENT,
                                  "line '%s': start: the %s of node %d is %g N, but it touches no "
@@ -115,10 +115,11 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
 
 CpsStatus cpsi_node_start_check(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     const CpsStart *start = &line->start;
-    if (!start->point || start->point_count != line->elements + 1)
+    if (!start->point || start->point_count != line->element_count + 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "line '%s': start has %d nodes, expected %d: one more than elements",
-                         line->name, start->point ? start->point_count : 0, line->elements + 1);
+                         line->name, start->point ? start->point_count : 0,
+                         line->element_count + 1);
     for (int i = 0; i < 3 * start->point_count; i++)
         if (!(fabs(start->point[i]) <= LARGEST))
             return cpsi_fail(
@@ -132,7 +133,8 @@ CpsStatus cpsi_node_start_check(const CpsScene *scene, const CpsLine *line, CpsE
             line->name);
     CpsStatus status = check_lengths(line, err);
     if (status == CPS_OK)
-        status = check_forces(line, start->tension, line->elements, "tension", "of element", err);
+        status =
+            check_forces(line, start->tension, line->element_count, "tension", "of element", err);
     if (status == CPS_OK)
         status =
             check_forces(line, start->reaction, start->point_count, "reaction", "at node", err);
@@ -160,7 +162,7 @@ static double balance(const CpsiLine *line, const CpsLine *def, int j, Vec3 norm
     if (j > 0) sum = vec3_sub(sum, force_of(line, def, j - 1));
     if (j + 1 < line->n) sum = vec3_add(sum, force_of(line, def, j));
     for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_FREE && j == (end == CPS_END_A ? 0 : line->n - 1))
+        if (line->end[end].kind == CPS_END_KIND_FREE && j == (end == CPS_END_A ? 0 : line->n - 1))
             sum = vec3_add(sum, vec3_load(line->end[end].value));
     return fmax(0, -vec3_dot(sum, normal));
 }

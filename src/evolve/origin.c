@@ -35,7 +35,7 @@ static Box places_of(const CpsScene *scene) {
         const CpsLine *line = &scene->line[i];
         for (int k = 0; k < line->start.point_count; k++) include(&box, &line->start.point[3 * k]);
         for (int end = 0; end < 2; end++)
-            if (line->end[end].kind == CPS_END_HELD) include(&box, line->end[end].value);
+            if (line->end[end].kind == CPS_END_KIND_HELD) include(&box, line->end[end].value);
     }
     return box;
 }
@@ -56,7 +56,7 @@ static void shift(double x[3], const double origin[3]) {
 }
 
 static void shift_end(CpsEnd *end, const double origin[3]) {
-    if (end->kind == CPS_END_HELD) shift(end->value, origin);
+    if (end->kind == CPS_END_KIND_HELD) shift(end->value, origin);
 }
 
 /* Copy data into a block of which `used` bytes are taken; all data in it have the alignment of a

@@ -51,7 +51,7 @@ CpsStatus cpsi_path_check(const CpsScene *scene, CpsError *err) {
     for (int i = 0; i < scene->line_count; i++)
         for (int end = 0; end < 2; end++) {
             cpsi_start_end(&scene->line[i], end, place[i].end[end]);
-            if (scene->line[i].end[end].kind == CPS_END_FREE) place[i].end[end][0] = NAN;
+            if (scene->line[i].end[end].kind == CPS_END_KIND_FREE) place[i].end[end][0] = NAN;
         }
     CpsStatus status = CPS_OK;
     for (int k = 0; k < scene->stage_count && status == CPS_OK; k++) {
@@ -59,7 +59,7 @@ CpsStatus cpsi_path_check(const CpsScene *scene, CpsError *err) {
         for (int i = 0; i < stage->change_count && status == CPS_OK; i++) {
             const CpsChange *change = &stage->change[i];
             double *at = place[change->line].end[change->end];
-            const bool held = change->to.kind == CPS_END_HELD;
+            const bool held = change->to.kind == CPS_END_KIND_HELD;
             if (held && !isnan(at[0])) status = check_path(scene, k, change, at, err);
             memcpy(at, change->to.value, sizeof place->end[0]);
             if (!held) at[0] = NAN;

@@ -38,9 +38,9 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
     *done = (CpsiRelaxation){0};
     for (int k = 0; k < STEPS && !cpsi_interrupt_seen(program->base.interrupt); k++) {
         const CpsiLedgerStart start = cpsi_ledger_start(line, from, known);
-        line->report.iterations = 0;
+        line->report.iteration_count = 0;
         const CpsiDampedStep step = cpsi_line_damped_step(line, program, options, drag);
-        done->iterations += line->report.iterations;
+        done->iterations += line->report.iteration_count;
         const double taken = drag;
         drag = next_drag(line, &step, drag);
         if (!step.solved) {

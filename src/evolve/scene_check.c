@@ -46,21 +46,21 @@ CpsScene cps_scene_default(void) {
     return (CpsScene){
         .cookie = SCENE_COOKIE,
         .gravity = {0, 0, -9.81},
-        .friction_policy = CPS_FRICTION_CONSISTENT,
+        .friction_policy = CPS_FRICTION_POLICY_CONSISTENT,
         .solver = {.tolerance = 1e-8,
                    .max_iterations = 60,
                    .linear_system = CPS_LINEAR_SYSTEM_CHAIN,
-                   .halvings = 10},
+                   .max_halvings = 10},
     };
 }
 
 CpsLine cps_line_default(void) {
     return (CpsLine){
         .cookie = LINE_COOKIE,
-        .elements = 100,
+        .element_count = 100,
         .stiffness = INFINITY,
         .start = {.axis = {0, 0, 1}},
-        .end = {{.kind = CPS_END_HELD, .value = {NAN, NAN, NAN}}, {.kind = CPS_END_FREE}},
+        .end = {{.kind = CPS_END_KIND_HELD, .value = {NAN, NAN, NAN}}, {.kind = CPS_END_KIND_FREE}},
     };
 }
 
@@ -74,7 +74,7 @@ CpsObstacle cps_obstacle_default(void) {
     };
 }
 
-CpsStage cps_stage_default(void) { return (CpsStage){.cookie = STAGE_COOKIE, .steps = 1}; }
+CpsStage cps_stage_default(void) { return (CpsStage){.cookie = STAGE_COOKIE, .step_count = 1}; }
 
 /* ---- the check ----
  *
@@ -154,7 +154,8 @@ static CpsStatus check_friction_keys(const CpsObstacle *o, CpsError *err) {
         return FAIL_AT("friction.lateral", err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': friction: lateral is %g, expected a finite number >= 0",
                        o->name, o->friction_lateral);
-    if (o->friction_shape != CPS_FRICTION_ELLIPSE && o->friction_shape != CPS_FRICTION_BOX)
+    if (o->friction_shape != CPS_FRICTION_SHAPE_ELLIPSE &&
+        o->friction_shape != CPS_FRICTION_SHAPE_BOX)
         return FAIL_AT("friction.shape", err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': friction: unknown shape %d", o->name,
                        (int)o->friction_shape);
@@ -215,13 +216,13 @@ static double place_tolerance(const CpsLine *line, Vec3 x) {
 }
 
 static CpsStatus check_elements(const CpsLine *line, CpsError *err) {
-    if (line->elements < 1)
+    if (line->element_count < 1)
         return FAIL_AT("elements", err, CPS_ERR_ARGUMENT,
                        "line '%s': elements is %d, expected at least 1", line->name,
-                       line->elements);
+                       line->element_count);
     if (!line->element_length) return CPS_OK;
     double sum = 0;
-    for (int i = 0; i < line->elements; i++) {
+    for (int i = 0; i < line->element_count; i++) {
         if (!positive(line->element_length[i]))
             return FAIL_AT(
                 "elements", err, CPS_ERR_ARGUMENT,
@@ -314,9 +315,9 @@ static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
     if (!positive(radius))
         return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
                        "line '%s': start: the arc's first point lies on its axis", line->name);
-    for (int i = 0; i < line->elements; i++) {
+    for (int i = 0; i < line->element_count; i++) {
         const double l =
-            line->element_length ? line->element_length[i] : line->length / line->elements;
+            line->element_length ? line->element_length[i] : line->length / line->element_count;
         if (l > 2 * radius)
             return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
                            "line '%s': start: an element is %g m long, longer than the arc's "
@@ -368,14 +369,14 @@ static int first_below(const CpsScene *scene, const CpsLine *line, int count, co
 /* No node of the initial shape may lie below the obstacle; statics places a line above it by
  * itself. With contact of the reference given nodes may lie below it. */
 static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, CpsError *err) {
-    const bool through =
-        line->start.kind == CPS_START_NODES && scene->contact_policy == CPS_CONTACT_REFERENCE;
+    const bool through = line->start.kind == CPS_START_NODES &&
+                         scene->contact_policy == CPS_CONTACT_POLICY_REFERENCE;
     if (scene->obstacle_count == 0 || line->start.kind == CPS_START_STATIC || through)
         return CPS_OK;
     CpsiStartWalk walk = cpsi_start_walk(line);
-    for (int first = 0; first <= line->elements; first += NODES_AT_ONCE) {
+    for (int first = 0; first <= line->element_count; first += NODES_AT_ONCE) {
         Vec3 x[NODES_AT_ONCE];
-        const int left = line->elements + 1 - first;
+        const int left = line->element_count + 1 - first;
         const int count = left < NODES_AT_ONCE ? left : NODES_AT_ONCE;
         for (int i = 0; i < count; i++) x[i] = cpsi_start_next(&walk);
         const int low = first_below(scene, line, count, x);
@@ -394,11 +395,11 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
     const CpsEnd *e = &line->end[end];
     const char *letter = end_letter(end), *place = end == CPS_END_A ? "ends.A" : "ends.B";
     const double *v = e->value;
-    if (e->kind != CPS_END_HELD && e->kind != CPS_END_FREE)
+    if (e->kind != CPS_END_KIND_HELD && e->kind != CPS_END_KIND_FREE)
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                        "line '%s': ends: end %s has the unknown kind %d", line->name, letter,
                        (int)e->kind);
-    if (e->kind == CPS_END_FREE) {
+    if (e->kind == CPS_END_KIND_FREE) {
         if (are_usable(v)) return CPS_OK;
         return FAIL_AT(
             place, err, CPS_ERR_ARGUMENT,
@@ -461,7 +462,7 @@ static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
     if (status == CPS_OK) status = check_start_height(scene, line, err);
     for (int end = 0; end < 2 && status == CPS_OK; end++) status = check_end(scene, line, end, err);
     if (status == CPS_OK && line->start.kind == CPS_START_STATIC &&
-        line->end[0].kind == CPS_END_FREE && line->end[1].kind == CPS_END_FREE)
+        line->end[0].kind == CPS_END_KIND_FREE && line->end[1].kind == CPS_END_KIND_FREE)
         status = FAIL_AT("ends", err, CPS_ERR_ARGUMENT,
                          "line '%s': ends: both are free, but a static start needs a held one",
                          line->name);
@@ -487,7 +488,7 @@ static CpsStatus check_change(const CpsScene *scene, int stage, int index, CpsEr
                            stage + 1, line->name, letter);
     }
     const double *v = change->to.value;
-    if (change->to.kind != CPS_END_HELD && change->to.kind != CPS_END_FREE)
+    if (change->to.kind != CPS_END_KIND_HELD && change->to.kind != CPS_END_KIND_FREE)
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s has the unknown kind %d",
                        stage + 1, line->name, letter, (int)change->to.kind);
     if (!are_usable(v))
@@ -496,7 +497,7 @@ static CpsStatus check_change(const CpsScene *scene, int stage, int index, CpsEr
                        line->name, letter, v[0], v[1], v[2]);
     const char *name = "";
     const double above =
-        change->to.kind == CPS_END_HELD ? height(scene, vec3_load(v), &name) : INFINITY;
+        change->to.kind == CPS_END_KIND_HELD ? height(scene, vec3_load(v), &name) : INFINITY;
     if (!(above >= -place_tolerance(line, vec3_load(v))))
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                        "stage %d: %s.%s is moved to %g m below obstacle '%s'", stage + 1,
@@ -546,10 +547,10 @@ static CpsStatus check_stage(const CpsScene *scene, int k, int64_t *steps, CpsEr
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: not made by cps_stage_default()", k + 1);
     if (!stage->name || !stage->name[0])
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: it has no name", k + 1);
-    if (stage->steps < 1)
+    if (stage->step_count < 1)
         return FAIL_AT("steps", err, CPS_ERR_ARGUMENT, "stage %d: steps is %d, expected at least 1",
-                       k + 1, stage->steps);
-    *steps += stage->steps;
+                       k + 1, stage->step_count);
+    *steps += stage->step_count;
     if (*steps > MAX_STEPS)
         return FAIL_AT("steps", err, CPS_ERR_LIMIT,
                        "stage %d: steps of the history exceed %lld in all, the limit", k + 1,
@@ -592,20 +593,20 @@ static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
         return FAIL_AT("solver.path_tolerance", err, CPS_ERR_ARGUMENT,
                        "solver: path_tolerance is %g, expected 0 or 1e-9 to 1",
                        solver->path_tolerance);
-    if (solver->halvings < 0 || solver->halvings > 30)
+    if (solver->max_halvings < 0 || solver->max_halvings > 30)
         return FAIL_AT("solver.halvings", err, CPS_ERR_ARGUMENT,
-                       "solver: halvings is %d, expected 0 to 30", solver->halvings);
+                       "solver: halvings is %d, expected 0 to 30", solver->max_halvings);
     if (solver->linear_system != CPS_LINEAR_SYSTEM_CHAIN &&
         solver->linear_system != CPS_LINEAR_SYSTEM_DENSE)
         return FAIL_AT("solver.linear_system", err, CPS_ERR_ARGUMENT,
                        "solver: linear_system has the unknown value %d",
                        (int)solver->linear_system);
-    if (scene->friction_policy != CPS_FRICTION_FROZEN &&
-        scene->friction_policy != CPS_FRICTION_CONSISTENT)
+    if (scene->friction_policy != CPS_FRICTION_POLICY_FROZEN &&
+        scene->friction_policy != CPS_FRICTION_POLICY_CONSISTENT)
         return FAIL_AT("friction_policy", err, CPS_ERR_ARGUMENT,
                        "friction_policy: unknown value %d", (int)scene->friction_policy);
-    if (scene->contact_policy != CPS_CONTACT_REACHED &&
-        scene->contact_policy != CPS_CONTACT_REFERENCE)
+    if (scene->contact_policy != CPS_CONTACT_POLICY_REACHED &&
+        scene->contact_policy != CPS_CONTACT_POLICY_REFERENCE)
         return FAIL_AT("contact_policy", err, CPS_ERR_ARGUMENT, "contact_policy: unknown value %d",
                        (int)scene->contact_policy);
     if (!are_usable(scene->gravity))
@@ -629,7 +630,7 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
                        scene->line_count, (int)MAX_LINES);
     int64_t elements = 0;
     for (int i = 0; i < scene->line_count; i++) {
-        elements += scene->line[i].elements > 0 ? scene->line[i].elements : 0;
+        elements += scene->line[i].element_count > 0 ? scene->line[i].element_count : 0;
         if (elements > MAX_ELEMENTS)
             return FAIL_AT("lines", err, CPS_ERR_LIMIT,
                            "lines: %lld elements or more together, the limit is %lld",

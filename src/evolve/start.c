@@ -5,7 +5,7 @@
 static Vec3 shape_point(const CpsLine *line, int i) { return vec3_load(&line->start.point[3 * i]); }
 
 static double element_length(const CpsLine *line, int i) {
-    return line->element_length ? line->element_length[i] : line->length / line->elements;
+    return line->element_length ? line->element_length[i] : line->length / line->element_count;
 }
 
 double cpsi_start_length(const CpsLine *line) {
@@ -30,7 +30,7 @@ CpsiArc cpsi_start_arc(const CpsLine *line) {
 }
 
 static bool is_placed(const CpsEnd *end) {
-    return end->kind == CPS_END_HELD && vec3_finite(end->value);
+    return end->kind == CPS_END_KIND_HELD && vec3_finite(end->value);
 }
 
 /* ends of the first guess of a static line, of which at least one is held */
@@ -65,7 +65,7 @@ static Vec3 polyline_point(CpsiStartWalk *walk) {
     for (; walk->piece + 1 < line->start.point_count; walk->piece++) {
         const Vec3 a = shape_point(line, walk->piece), b = shape_point(line, walk->piece + 1);
         const double length = vec3_norm(vec3_sub(b, a));
-        if (walk->node < line->elements && target <= walk->behind + length)
+        if (walk->node < line->element_count && target <= walk->behind + length)
             return vec3_axpy(length > 0 ? (target - walk->behind) / length : 0, vec3_sub(b, a), a);
         walk->behind += length;
     }
@@ -84,7 +84,7 @@ static void go_on(CpsiStartWalk *walk) {
     if (line->start.kind == CPS_START_ARC) walk->angle += 2 * asin(l / (2 * walk->arc.radius));
     walk->node++;
     walk->natural =
-        line->element_length ? walk->natural + l : line->length * walk->node / line->elements;
+        line->element_length ? walk->natural + l : line->length * walk->node / line->element_count;
 }
 
 Vec3 cpsi_start_next(CpsiStartWalk *walk) {
@@ -97,22 +97,23 @@ Vec3 cpsi_start_next(CpsiStartWalk *walk) {
     case CPS_START_NODES: x = shape_point(line, walk->node); break;
     case CPS_START_STATIC:
         x = vec3_axpy(walk->natural / line->length, vec3_sub(walk->to, walk->from), walk->from);
-        if (walk->node == line->elements) x = walk->to;
+        if (walk->node == line->element_count) x = walk->to;
         break;
     }
 
-    if (walk->node < line->elements) go_on(walk);
+    if (walk->node < line->element_count) go_on(walk);
     return x;
 }
 
 /* On to the last node, without the places of those before. */
 static void to_last(CpsiStartWalk *walk) {
-    while (walk->node < walk->line->elements) go_on(walk);
+    while (walk->node < walk->line->element_count) go_on(walk);
 }
 
 void cpsi_start_place(const CpsLine *line, double *position) {
     CpsiStartWalk walk = cpsi_start_walk(line);
-    for (int i = 0; i <= line->elements; i++) vec3_store(&position[3 * i], cpsi_start_next(&walk));
+    for (int i = 0; i <= line->element_count; i++)
+        vec3_store(&position[3 * i], cpsi_start_next(&walk));
 }
 
 void cpsi_start_end(const CpsLine *line, int end, double position[3]) {

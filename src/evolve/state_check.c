@@ -31,7 +31,8 @@ enum { OUTCOMES = CPS_OUTCOME_LIST(COUNT_ONE), RANGES = CPS_RANGE_LIST(COUNT_ONE
 
 static bool is_outcome(CpsOutcome outcome) { return within(outcome, 0, OUTCOMES - 1); }
 static bool is_end(const CpsEnd *end) {
-    return (end->kind == CPS_END_HELD || end->kind == CPS_END_FREE) && all_finite(end->value, 3);
+    return (end->kind == CPS_END_KIND_HELD || end->kind == CPS_END_KIND_FREE) &&
+           all_finite(end->value, 3);
 }
 
 /* Do `current` and `part` agree with the number of steps taken? */
@@ -47,8 +48,8 @@ static bool is_place_in_history(const CpsEvolution *evolution) {
 static bool is_step_report(const CpsEvolution *evolution) {
     const CpsStepReport *report = &evolution->report;
     return report->index == evolution->done - 1 && is_outcome(report->outcome) &&
-           within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) && report->iterations >= 0 &&
-           report->parts >= 0 && report->snaps >= 0 &&
+           within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
+           report->iteration_count >= 0 && report->part_count >= 0 && report->snap_count >= 0 &&
            memchr(evolution->step_name, '\0', sizeof evolution->step_name);
 }
 
@@ -58,8 +59,8 @@ static bool is_line_report(const CpsLineReport *report, int obstacles) {
     const bool bends = report->bend.turn > 0 || report->outcome == CPS_OUTCOME_MESH_TOO_COARSE;
     bool sound = is_outcome(report->outcome) &&
                  within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
-                 report->iterations >= 0 && report->parts >= 0 && report->snaps >= 0 &&
-                 within(report->pierced, -1, obstacles - 1) &&
+                 report->iteration_count >= 0 && report->part_count >= 0 &&
+                 report->snap_count >= 0 && within(report->pierced, -1, obstacles - 1) &&
                  within(report->proof_obstacle, -1, obstacles - 1) &&
                  within(report->bend.obstacle, 0, bends || obstacles > 0 ? obstacles - 1 : 0);
     for (int end = 0; end < 2; end++)

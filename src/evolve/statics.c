@@ -25,9 +25,11 @@ enum { PUSHES = 30 };
 
 /* [m] Length of line from node j to the nearest held end. */
 static double from_held(const CpsiLine *line, int j) {
-    const double a = line->end[CPS_END_A].kind == CPS_END_HELD ? line->arc_length[j] : INFINITY,
-                 b = line->end[CPS_END_B].kind == CPS_END_HELD ? line->length - line->arc_length[j]
-                                                               : INFINITY;
+    const double a = line->end[CPS_END_A].kind == CPS_END_KIND_HELD ? line->arc_length[j]
+                                                                    : INFINITY,
+                 b = line->end[CPS_END_B].kind == CPS_END_KIND_HELD
+                         ? line->length - line->arc_length[j]
+                         : INFINITY;
     return fmin(a, b);
 }
 
@@ -85,13 +87,13 @@ void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
     for (int k = 0; k < line->obstacle_count; k++) scratch->turn[k] = 0;
     const bool short_of = cpsi_line_step_falls_short(line, options);
     if (!short_of) cpsi_line_step(line, program, options);
-    int iterations = line->report.iterations;
+    int iterations = line->report.iteration_count;
     if (line->report.outcome == CPS_OUTCOME_STALLED) {
         cpsi_substeps_restore(line, scratch);
         if (!cpsi_line_relax(line, program, options, line->end, scratch->turn, false, &done))
             cpsi_substeps_restore(line, scratch);
         cpsi_line_step(line, program, options);
-        iterations += done.iterations + line->report.iterations;
+        iterations += done.iterations + line->report.iteration_count;
     }
     const size_t heights =
         vec3_norm(vec3_load(line->weight)) > 0 ? sizeof HEIGHT / sizeof *HEIGHT : 0;
@@ -99,9 +101,9 @@ void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
         cpsi_substeps_restore(line, scratch);
         let_down(line, program, options, scratch, HEIGHT[i], &iterations);
         cpsi_line_step(line, program, options);
-        iterations += line->report.iterations;
+        iterations += line->report.iteration_count;
     }
-    line->report.iterations = iterations;
-    line->report.parts = 1;
+    line->report.iteration_count = iterations;
+    line->report.part_count = 1;
     line->report.share = 1;
 }

@@ -176,7 +176,7 @@ static Part accept(Advance *substeps, double from, double to, bool known) {
     if (is_answer(line->report.outcome) && cpsi_contact_turns_too_far(line))
         line->report.outcome = CPS_OUTCOME_STALLED;
     line->report.share = to - from;
-    substeps->iterations += line->report.iterations;
+    substeps->iterations += line->report.iteration_count;
     Part part = {0};
     if (!cps_outcome_is_final(line->report.outcome)) part.ledger = cpsi_ledger_close(line, &start);
     part.report = line->report;
@@ -190,14 +190,14 @@ static void add(Advance *substeps, const Part *part) {
     CpsLineReport *whole = &substeps->whole;
     const CpsLineReport before = *whole;
     *whole = part->report;
-    whole->parts = before.parts + 1;
-    whole->snaps = before.snaps;
+    whole->part_count = before.part_count + 1;
+    whole->snap_count = before.snap_count;
     whole->jump = before.jump;
     whole->unaccounted = before.unaccounted;
     whole->outcome = cps_outcome_worse(before.outcome, whole->outcome);
     if (before.places > whole->places) whole->places = before.places;
     if (cpsi_bend_is_sharper(&before.bend, &whole->bend)) whole->bend = before.bend;
-    whole->iterations = substeps->iterations;
+    whole->iteration_count = substeps->iterations;
     whole->dissipated += before.dissipated;
     for (int end = 0; end < 2; end++) whole->end[end].work += before.end[end].work;
     cpsi_ledger_add(&substeps->ledger, &part->ledger);
@@ -330,15 +330,16 @@ static void divide(Advance *substeps, double from, double middle, double to, Tri
  * definition (S90 P2.1). The friction of the reference may then produce energy, and a path
  * tolerance shows how much that matters. */
 static bool may_branch(const Advance *substeps) {
-    return substeps->options->friction_policy == CPS_FRICTION_CONSISTENT && substeps->jumps < JUMPS;
+    return substeps->options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
+           substeps->jumps < JUMPS;
 }
 
 /* May the line jump? With contact of the reference and frozen friction a step is one convex problem
  * without a path. */
 static bool may_relax(const Advance *substeps) {
     const CpsiStepOptions *options = substeps->options;
-    const bool convex = options->friction_policy == CPS_FRICTION_FROZEN &&
-                        options->contact_policy == CPS_CONTACT_REFERENCE;
+    const bool convex = options->friction_policy == CPS_FRICTION_POLICY_FROZEN &&
+                        options->contact_policy == CPS_CONTACT_POLICY_REFERENCE;
     return !convex && substeps->relaxed < RELAXATIONS;
 }
 
@@ -363,7 +364,7 @@ static void keep_part(Advance *substeps, const Trial *trial) {
     if (trial->halved) add(substeps, &trial->second);
     substeps->known = true;
     if (trial->sudden || trial->error.displacement > substeps->options->solver.path_tolerance) {
-        whole->snaps++;
+        whole->snap_count++;
         whole->jump = cpsi_max_nan(whole->jump, trial->longest);
     } else if (is_open(&trial->open)) {
         whole->unaccounted += trial->open.energy;
@@ -412,8 +413,8 @@ static bool relax(Advance *substeps, double from, double to) {
         cpsi_substeps_restore(line, substeps->scratch);
         return false;
     }
-    whole->parts++;
-    whole->snaps++;
+    whole->part_count++;
+    whole->snap_count++;
     whole->jump = cpsi_max_nan(whole->jump,
                                cpsi_line_largest_displacement(line, substeps->scratch->position));
     whole->dissipated += done.dissipated;
@@ -521,7 +522,7 @@ void cpsi_line_substeps(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
     for (int k = 0; k < count && !cps_outcome_is_final(substeps.whole.outcome); k++) {
         /* once a part is not certified, there is no point in dividing the rest */
         const int halvings =
-            cps_outcome_is_certified(substeps.whole.outcome) ? options->solver.halvings : 0;
+            cps_outcome_is_certified(substeps.whole.outcome) ? options->solver.max_halvings : 0;
         advance_portion(&substeps, (Portion){(double)k / count, (double)(k + 1) / count}, halvings);
     }
     line->report = substeps.whole;

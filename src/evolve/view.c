@@ -58,8 +58,8 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
     const int *const only = from->obstacle_count > 0 ? fill->first : fill->none;
     CpsLineView view = {
         .name = from->name,
-        .elements = from->n - 1,
-        .contacts = from->contacts,
+        .element_count = from->n - 1,
+        .contact_count = from->contacts,
         .one_plane = !from->has_local_axes,
         .arc_length = from->arc_length,
         .element_length = from->element_length,

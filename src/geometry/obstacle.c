@@ -21,7 +21,8 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
 }
 
 static bool is_isotropic(const CpsiObstacle *o) {
-    return !o->has_set && o->friction[0] == o->friction[1] && o->shape == CPS_FRICTION_ELLIPSE;
+    return !o->has_set && o->friction[0] == o->friction[1] &&
+           o->shape == CPS_FRICTION_SHAPE_ELLIPSE;
 }
 
 bool cpsi_obstacle_needs_local_axes(const CpsiObstacle *o) {

@@ -96,7 +96,8 @@ CpsOutcome cpsi_results_outcome(const CpsResults *results);
 /* State of node j, from the stronger of its contacts: a node that slides on one obstacle slides. */
 static inline unsigned char cpsi_node_state(const CpsLineView *view, int j) {
     const unsigned char state = view->state[j],
-                        other = view->contacts > 1 ? view->state[view->elements + 1 + j] : 0;
+                        other =
+                            view->contact_count > 1 ? view->state[view->element_count + 1 + j] : 0;
     return other > state ? other : state;
 }
 

@@ -165,14 +165,14 @@ static void run_rounds(CpsFirstOrder *s) {
     f->anchor = ANCHOR * unit;
     r->verdict = CPS_FIRST_ORDER_VERDICT_UNDECIDED;
     double held_before = 0;
-    for (int stuck = 0; r->rounds < MAX_ROUNDS && stuck < STUCK_ROUNDS; ++r->rounds) {
+    for (int stuck = 0; r->round_count < MAX_ROUNDS && stuck < STUCK_ROUNDS; ++r->round_count) {
         const double noise = fmin(rounding(f), FORCE_ROUNDING * force);
         CpsiNewton newton = {.tolerance = fmax(0.1 * FORCE_TOLERANCE * force, noise),
                              .max_iterations = NEWTON_LIMIT};
         cpsi_newton_minimise(&smooth, s->unknown, &newton, s->work);
         cpsi_first_order_store(f, s->unknown);
-        r->iterations += newton.iterations;
-        const double residual_before = r->rounds > 0 ? r->residual : INFINITY;
+        r->iteration_count += newton.iterations;
+        const double residual_before = r->round_count > 0 ? r->residual : INFINITY;
         r->residual = fmax(accept_solution(f, r), newton.residual);
         if (r->residual <= fmax(FORCE_TOLERANCE * force, 10 * newton.tolerance)) {
             r->verdict = CPS_FIRST_ORDER_VERDICT_SOLVED;
@@ -290,7 +290,7 @@ CpsFirstOrderReport cps_first_order_report(const CpsFirstOrder *solution) {
 
 CpsFirstOrderView cps_first_order_view(const CpsFirstOrder *solution) {
     if (!solution) return (CpsFirstOrderView){0};
-    return (CpsFirstOrderView){.elements = solution->elements,
+    return (CpsFirstOrderView){.element_count = solution->elements,
                                .arc_length = solution->arc,
                                .displacement = solution->f.u,
                                .strain = solution->along,

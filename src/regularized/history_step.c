@@ -40,7 +40,7 @@ CpsStatus cps_regularized_next(const CpsLineView *step, double friction,
     if (!(friction >= 0 && isfinite(friction)))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "friction: found %g, expected a finite number >= 0",
                          friction);
-    if (previous->asked != 0 || previous->cells.cells != step->elements)
+    if (previous->asked != 0 || previous->cells.cells != step->element_count)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "previous was not solved last on the elements of this line (cells = 0)");
     const CpsStatus status = cps_regularized_create(step, out, err);

@@ -39,7 +39,7 @@ void cps_regularized_destroy(CpsRegularized *classic) {
 CpsRegularizedStep cps_regularized_step(const CpsRegularized *classic) {
     if (!classic) return (CpsRegularizedStep){0};
     const CpsiStep *step = &classic->step;
-    return (CpsRegularizedStep){.elements = step->own.cells,
+    return (CpsRegularizedStep){.element_count = step->own.cells,
                                 .length = step->length,
                                 .stiffness = 1 / step->compliance,
                                 .energy = step->energy,
@@ -63,7 +63,7 @@ CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *classic) {
     for (int k = 0; k < 3 * (step->own.cells + 1); ++k) load += fabs(step->own.load[k]);
     const double per_length = fmax(load, 1e-3 * step->force) / step->length;
     return (CpsRegularizedParameters){.cookie = PARAMETERS_COOKIE,
-                                      .cells = COARSE_CELLS,
+                                      .cell_count = COARSE_CELLS,
                                       /* the line sinks in by a tenth of its length */
                                       .penalty = 10 * per_length / step->length,
                                       /* the line bends under its own weight */
@@ -81,7 +81,7 @@ CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *classic) {
     double shortest = step->length;
     for (int i = 0; i < step->own.cells; ++i) shortest = fmin(shortest, step->own.width[i]);
     const double finer = 800 * shortest / step->length;
-    fine.cells = 0;
+    fine.cell_count = 0;
     fine.penalty *= 1e6;
     fine.stiffness *= 1e-9;
     fine.delta *= 1e-7;
@@ -154,10 +154,10 @@ static void follow(CpsRegularized *c, CpsRegularizedParameters from,
             c->f.parameters.penalty = between(from.penalty, to->penalty, t);
         }
         newton.tolerance = cpsi_regularized_limit(&c->f);
-        newton.max_iterations = max_iterations - report->iterations;
+        newton.max_iterations = max_iterations - report->iteration_count;
         cpsi_newton_minimise(&smooth, c->unknown, &newton, c->work);
-        report->iterations += newton.iterations;
-        report->evaluations += newton.evaluations;
+        report->iteration_count += newton.iterations;
+        report->evaluation_count += newton.evaluations;
     }
     report->converged = newton.converged;
     report->gradient = newton.residual;
@@ -169,10 +169,10 @@ static CpsStatus check(const CpsRegularizedParameters *p, int max_iterations, Cp
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "the parameters were not made by cps_regularized_parameters_default(), "
                          "_coarse() or _fine()");
-    if (p->cells != 0 && !(p->cells >= 2 && p->cells <= MAX_CELLS))
+    if (p->cell_count != 0 && !(p->cell_count >= 2 && p->cell_count <= MAX_CELLS))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "cells: found %d, expected 0 (the step's elements) or 2 to %d", p->cells,
-                         (int)MAX_CELLS);
+                         "cells: found %d, expected 0 (the step's elements) or 2 to %d",
+                         p->cell_count, (int)MAX_CELLS);
     const struct {
         const char *name;
         double value;
@@ -195,10 +195,10 @@ CpsStatus cps_regularized_solve(CpsRegularized *classic, const CpsRegularizedPar
     if (!classic || !parameters || !report)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic, parameters or report is NULL");
     CpsStatus status = check(parameters, max_iterations, err);
-    const bool again = classic->asked == parameters->cells;
+    const bool again = classic->asked == parameters->cell_count;
     const CpsRegularizedParameters from =
         again ? classic->f.parameters : cps_regularized_coarse(classic);
-    if (status == CPS_OK) status = prepare(classic, parameters->cells, err);
+    if (status == CPS_OK) status = prepare(classic, parameters->cell_count, err);
     if (status != CPS_OK) return status;
     *report = (CpsRegularizedReport){0};
     follow(classic, from, parameters, max_iterations, report);
@@ -211,7 +211,7 @@ CpsStatus cps_regularized_solve(CpsRegularized *classic, const CpsRegularizedPar
 
 CpsRegularizedView cps_regularized_view(const CpsRegularized *classic) {
     if (!classic || classic->asked < 0) return (CpsRegularizedView){0};
-    return (CpsRegularizedView){.cells = classic->cells.cells,
+    return (CpsRegularizedView){.cell_count = classic->cells.cells,
                                 .arc_length = classic->cells.arc,
                                 .position = classic->f.place,
                                 .tension = classic->tension,

@@ -28,7 +28,7 @@ static void layout(CpsiCells *c, int cells, CpsiArena *arena) {
 /* ---- the step ---- */
 
 static void fill_own(CpsiCells *own, const CpsLineView *view) {
-    const size_t elements = (size_t)view->elements, n = elements + 1;
+    const size_t elements = (size_t)view->element_count, n = elements + 1;
     memcpy(own->width, view->element_length, elements * sizeof(double));
     memcpy(own->arc, view->arc_length, n * sizeof(double));
     memcpy(own->reference, view->reference, 3 * n * sizeof(double));
@@ -69,7 +69,7 @@ static double force_of(const CpsiCells *own) {
 }
 
 CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err) {
-    if (view->end[CPS_END_A].kind != CPS_END_HELD)
+    if (view->end[CPS_END_A].kind != CPS_END_KIND_HELD)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "line '%s': end A is free, but the method keeps x(0) in place (S90 (8)): "
                          "hold end A, or turn the line round",
@@ -86,12 +86,12 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
                          "coefficient: use plane obstacles with friction alone",
                          view->name);
     *step = (CpsiStep){.compliance = view->compliance,
-                       .held = view->end[CPS_END_B].kind == CPS_END_HELD};
-    layout(&step->own, view->elements, &step->arena);
+                       .held = view->end[CPS_END_B].kind == CPS_END_KIND_HELD};
+    layout(&step->own, view->element_count, &step->arena);
     if (!cpsi_arena_allocate(&step->arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    layout(&step->own, view->elements, &step->arena);
+    layout(&step->own, view->element_count, &step->arena);
     fill_own(&step->own, view);
-    step->length = view->arc_length[view->elements];
+    step->length = view->arc_length[view->element_count];
     if (!step->held) memcpy(step->end_force, view->end[CPS_END_B].value, sizeof step->end_force);
     step->energy = energy_of(&step->own, step->compliance);
     step->force = force_of(&step->own);

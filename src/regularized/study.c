@@ -66,36 +66,37 @@ CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
                                .factor = {2, 10, 10, 10},
                                .max_iterations = NEWTON_LIMIT};
     CpsRegularizedParameters *from = &options.from;
-    const int last = to->cells > 0 ? to->cells : 4 * cps_regularized_step(classic).elements;
-    int cells = from->cells;
-    for (options.values[CPS_STUDY_STAGE_H] = 1;
-         cells < last && options.values[CPS_STUDY_STAGE_H] < MAX_HALVINGS; cells *= 2)
-        ++options.values[CPS_STUDY_STAGE_H];
-    if (to->cells >
+    const int last =
+        to->cell_count > 0 ? to->cell_count : 4 * cps_regularized_step(classic).element_count;
+    int cells = from->cell_count;
+    for (options.value_count[CPS_STUDY_STAGE_H] = 1;
+         cells < last && options.value_count[CPS_STUDY_STAGE_H] < MAX_HALVINGS; cells *= 2)
+        ++options.value_count[CPS_STUDY_STAGE_H];
+    if (to->cell_count >
         0) { /* the first h, such that the last one is that asked for, or smaller by a few cells */
-        const int halvings = 1 << (options.values[CPS_STUDY_STAGE_H] - 1);
-        from->cells = (last + halvings - 1) / halvings;
-        if (from->cells < 2) from->cells = 2;
+        const int halvings = 1 << (options.value_count[CPS_STUDY_STAGE_H] - 1);
+        from->cell_count = (last + halvings - 1) / halvings;
+        if (from->cell_count < 2) from->cell_count = 2;
     }
     /* lambda starts with the first value, n and delta with the one after it */
-    options.values[CPS_STUDY_STAGE_LAMBDA] =
+    options.value_count[CPS_STUDY_STAGE_LAMBDA] =
         1 + divisions(to->penalty / from->penalty, &options.factor[CPS_STUDY_STAGE_LAMBDA]);
-    options.values[CPS_STUDY_STAGE_N] =
+    options.value_count[CPS_STUDY_STAGE_N] =
         to->stiffness > 0
             ? divisions(from->stiffness / to->stiffness, &options.factor[CPS_STUDY_STAGE_N])
             : 1;
-    options.values[CPS_STUDY_STAGE_DELTA] =
+    options.value_count[CPS_STUDY_STAGE_DELTA] =
         divisions(from->delta / to->delta, &options.factor[CPS_STUDY_STAGE_DELTA]);
-    if (options.values[CPS_STUDY_STAGE_LAMBDA] == 1) from->penalty = to->penalty;
+    if (options.value_count[CPS_STUDY_STAGE_LAMBDA] == 1) from->penalty = to->penalty;
     if (!(to->stiffness > 0)) {
         from->stiffness = 0;
-    } else if (options.values[CPS_STUDY_STAGE_N] == 0) {
+    } else if (options.value_count[CPS_STUDY_STAGE_N] == 0) {
         from->stiffness = 10 * to->stiffness;
-        options.values[CPS_STUDY_STAGE_N] = 1;
+        options.value_count[CPS_STUDY_STAGE_N] = 1;
     }
-    if (options.values[CPS_STUDY_STAGE_DELTA] == 0) {
+    if (options.value_count[CPS_STUDY_STAGE_DELTA] == 0) {
         from->delta = 10 * to->delta;
-        options.values[CPS_STUDY_STAGE_DELTA] = 1;
+        options.value_count[CPS_STUDY_STAGE_DELTA] = 1;
     }
     return options;
 }
@@ -128,7 +129,7 @@ static void begin_stage(Trail *trail, CpsStudyStage stage, const CpsRegularizedS
         return;
     }
     trail->count = 0;
-    trail->samples = stage == CPS_STUDY_STAGE_H ? coarsest - 1 : step->elements;
+    trail->samples = stage == CPS_STUDY_STAGE_H ? coarsest - 1 : step->element_count;
     for (int i = 0; i < trail->samples; ++i)
         trail->place[i] = stage == CPS_STUDY_STAGE_H
                               ? (i + 1) * step->length / coarsest
@@ -139,7 +140,7 @@ static void sample(const CpsRegularized *classic, const Trail *trail, double *te
     const CpsRegularizedView view = cps_regularized_view(classic);
     for (int i = 0; i < trail->samples; ++i)
         tension[i] =
-            cpsi_between_middles(view.cells, view.arc_length, view.tension, trail->place[i]);
+            cpsi_between_middles(view.cell_count, view.arc_length, view.tension, trail->place[i]);
 }
 
 /* add the newest solution and compute the rates of its row */
@@ -171,7 +172,7 @@ static double seconds(void) {
 }
 
 static void fill_view(CpsiArena *arena, int cells, CpsRegularizedView *view) {
-    *view = (CpsRegularizedView){.cells = cells,
+    *view = (CpsRegularizedView){.cell_count = cells,
                                  .arc_length = CPSI_TAKE(arena, cells + 1, double),
                                  .position = CPSI_TAKE(arena, 3 * ((size_t)cells + 1), double),
                                  .tension = CPSI_TAKE(arena, cells, double),
@@ -181,10 +182,10 @@ static void fill_view(CpsiArena *arena, int cells, CpsRegularizedView *view) {
 static CpsStatus keep(Kept *kept, const CpsRegularizedView *view, CpsError *err) {
     CpsRegularizedView copy;
     CpsiArena arena = {0};
-    fill_view(&arena, view->cells, &copy);
+    fill_view(&arena, view->cell_count, &copy);
     if (!cpsi_arena_allocate(&arena)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    fill_view(&arena, view->cells, &copy);
-    const size_t cells = (size_t)view->cells * sizeof(double);
+    fill_view(&arena, view->cell_count, &copy);
+    const size_t cells = (size_t)view->cell_count * sizeof(double);
     memcpy((double *)copy.arc_length, view->arc_length, cells + sizeof(double));
     memcpy((double *)copy.position, view->position, 3 * (cells + sizeof(double)));
     memcpy((double *)copy.tension, view->tension, cells);
@@ -199,13 +200,13 @@ static void advance(CpsStudyStage stage, const CpsStudyOptions *options, int k,
     const double factor = options->factor[stage];
     switch (stage) {
     case CPS_STUDY_STAGE_H:
-        if (k > 0) p->cells *= 2;
+        if (k > 0) p->cell_count *= 2;
         break;
     case CPS_STUDY_STAGE_LAMBDA:
         if (k > 0)
             p->penalty *= factor;
         else
-            p->cells = 0; /* the step's own elements from this stage on */
+            p->cell_count = 0; /* the step's own elements from this stage on */
         break;
     case CPS_STUDY_STAGE_N: p->stiffness /= factor; break;
     case CPS_STUDY_STAGE_DELTA: p->delta /= factor; break;
@@ -219,8 +220,8 @@ static CpsStatus run_stages(CpsRegularized *classic, const CpsStudyOptions *opti
     const CpsRegularizedStep step = cps_regularized_step(classic);
     CpsRegularizedParameters p = options->from;
     for (CpsStudyStage stage = CPS_STUDY_STAGE_H; stage < CPS_STUDY_STAGE_COUNT; ++stage) {
-        begin_stage(trail, stage, &step, options->from.cells);
-        for (int k = 0; k < options->values[stage]; ++k) {
+        begin_stage(trail, stage, &step, options->from.cell_count);
+        for (int k = 0; k < options->value_count[stage]; ++k) {
             advance(stage, options, k, &p);
             CpsStudyRow *row = &study->row[study->rows];
             *row = (CpsStudyRow){.stage = stage, .parameters = p};
@@ -246,18 +247,18 @@ static CpsStatus check(const CpsStudyOptions *options, CpsError *err) {
                          "the options were not made by cps_study_options_default()");
     for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) {
         const char *key = cps_study_stage_name((CpsStudyStage)s);
-        if (!(options->values[s] >= 1 && options->values[s] <= MAX_VALUES))
+        if (!(options->value_count[s] >= 1 && options->value_count[s] <= MAX_VALUES))
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
                              "values of stage %s: found %d, expected 1 to %d", key,
-                             options->values[s], (int)MAX_VALUES);
+                             options->value_count[s], (int)MAX_VALUES);
         if (!(options->factor[s] > 1 && isfinite(options->factor[s])))
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
                              "factor of stage %s: found %g, expected a number > 1", key,
                              options->factor[s]);
     }
-    if (!(options->from.cells >= 2 && options->from.cells <= MAX_COARSEST))
+    if (!(options->from.cell_count >= 2 && options->from.cell_count <= MAX_COARSEST))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "cells to begin with: found %d, expected 2 to %d",
-                         options->from.cells, (int)MAX_COARSEST);
+                         options->from.cell_count, (int)MAX_COARSEST);
     if (options->factor[CPS_STUDY_STAGE_H] != 2)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "factor of stage h: found %g, expected 2",
                          options->factor[CPS_STUDY_STAGE_H]);
@@ -272,12 +273,12 @@ CpsStatus cps_study_run(CpsRegularized *classic, const CpsStudyOptions *options,
     CpsStatus status = check(options, err);
     if (status != CPS_OK) return status;
     CpsStudy *study = calloc(1, sizeof *study);
-    const int elements = cps_regularized_step(classic).elements;
+    const int elements = cps_regularized_step(classic).element_count;
     const size_t samples =
-        (size_t)(elements > options->from.cells ? elements : options->from.cells);
+        (size_t)(elements > options->from.cell_count ? elements : options->from.cell_count);
     double *trails = calloc(4 * samples, sizeof *trails);
     if (study) {
-        for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) study->capacity += options->values[s];
+        for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) study->capacity += options->value_count[s];
         study->row = calloc((size_t)study->capacity, sizeof *study->row);
     }
     if (!study || !trails || !study->row) {

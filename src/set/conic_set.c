@@ -20,9 +20,9 @@ CpsStatus cps_set_conic(const CpsSet *set, CpsSetConic *conic, CpsError *err) {
         return CPS_OK;
     }
     *conic = (CpsSetConic){.space = form->n,
-                           .unknowns = form->unknowns,
-                           .rows = form->rows,
-                           .cones = form->cones,
+                           .unknown_count = form->unknowns,
+                           .row_count = form->rows,
+                           .cone_count = form->cones,
                            .dim = form->dim,
                            .origin = form->origin,
                            .p = form->p,

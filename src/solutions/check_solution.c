@@ -71,19 +71,19 @@ static double slip_gap(double bound, Vec3 slid, Vec3 friction) {
 static const double GAP_FLOOR = 1e-12;
 
 static bool held(const CpsLineView *step, int node) {
-    return (node == 0 && step->end[CPS_END_A].kind == CPS_END_HELD) ||
-           (node == step->elements && step->end[CPS_END_B].kind == CPS_END_HELD);
+    return (node == 0 && step->end[CPS_END_A].kind == CPS_END_KIND_HELD) ||
+           (node == step->element_count && step->end[CPS_END_B].kind == CPS_END_KIND_HELD);
 }
 
 /* S of docs/theory.md (5), for the step's own solution */
 static double scale_of(const CpsLineView *step, double tolerance) {
     double scale = 0, work = 0, moment = 0, loads = 0, largest = 0;
-    for (int i = 0; i < step->elements; ++i) {
+    for (int i = 0; i < step->element_count; ++i) {
         const double force = vec3_norm(cpsi_at(step->segment_force, i));
         scale += step->element_length[i] * (force + step->compliance * force * force);
         largest = cpsi_max_nan(largest, force);
     }
-    for (int j = 0; j <= step->elements; ++j) {
+    for (int j = 0; j <= step->element_count; ++j) {
         const Vec3 x = cpsi_at(step->position, j), u = vec3_sub(x, cpsi_at(step->reference, j)),
                    n = cpsi_at(step->normal, j), b = cpsi_at(step->load, j);
         if (!held(step, j))
@@ -94,7 +94,8 @@ static double scale_of(const CpsLineView *step, double tolerance) {
         largest = cpsi_max_nan(largest, vec3_norm(cpsi_at(step->friction_force, j)));
         if (!held(step, j)) largest = cpsi_max_nan(largest, step->reaction[j]);
     }
-    work += GAP_FLOOR * cpsi_max_nan(loads, largest) * step->arc_length[step->elements] / tolerance;
+    work += GAP_FLOOR * cpsi_max_nan(loads, largest) * step->arc_length[step->element_count] /
+            tolerance;
     return scale + (work <= moment ? work : moment);
 }
 
@@ -121,7 +122,7 @@ static void check_node(const CpsLineView *step, const double *position, int j, C
 }
 
 static void check_nodes(const CpsLineView *step, const double *position, Case *c) {
-    for (int i = 0; i < step->elements; ++i) {
+    for (int i = 0; i < step->element_count; ++i) {
         const double l = step->element_length[i], arc = step->arc_length[i] + l / 2;
         const Vec3 e = vec3_scale(1 / l, vec3_sub(cpsi_at(position, i + 1), cpsi_at(position, i)));
         const double stretch = vec3_norm(e);
@@ -130,12 +131,12 @@ static void check_nodes(const CpsLineView *step, const double *position, Case *c
         accept(&c->shorter, fmax(0, 1 - stretch), arc);
         accept(&c->longer, step->compliance > 0 ? 0 : fmax(0, stretch - 1), arc);
     }
-    for (int j = 0; j <= step->elements; ++j) check_node(step, position, j, c);
+    for (int j = 0; j <= step->element_count; ++j) check_node(step, position, j, c);
 }
 
 CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, double tolerance,
                              CpsJudgementReport *report, CpsError *err) {
-    if (!step || !position || !report || step->elements < 1)
+    if (!step || !position || !report || step->element_count < 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "step, position or report is NULL, or the step has no elements");
     if (!(tolerance > 0 && tolerance < 1))
@@ -147,14 +148,14 @@ CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, do
             "line '%s': more than one obstacle, or one that is curved or has directions; only "
             "planes with isotropic friction are judged",
             step->name);
-    for (int j = 0; j <= step->elements; ++j)
+    for (int j = 0; j <= step->element_count; ++j)
         if (!vec3_finite(position + 3 * (size_t)j))
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "position of node %d is not finite", j);
     Case c = {0};
     check_nodes(step, position, &c);
     const double scale = scale_of(step, tolerance), gap = tolerance * scale,
                  strain = sqrt(tolerance);
-    const double length = tolerance * step->arc_length[step->elements];
+    const double length = tolerance * step->arc_length[step->element_count];
     const struct {
         bool fails;
         CpsJudgement judgement;

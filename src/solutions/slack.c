@@ -25,8 +25,8 @@ static const double SAME = 1e-6, SLIP = 1e-9;
 
 double cpsi_slack_force(const CpsLineView *step) {
     double most = 0, sum = 0;
-    for (int i = 0; i < step->elements; ++i) most = cpsi_max_nan(most, step->tension[i]);
-    for (int j = 0; j <= step->elements; ++j) sum += vec3_norm(cpsi_at(step->load, j));
+    for (int i = 0; i < step->element_count; ++i) most = cpsi_max_nan(most, step->tension[i]);
+    for (int j = 0; j <= step->element_count; ++j) sum += vec3_norm(cpsi_at(step->load, j));
     return cpsi_max_nan(most, sum);
 }
 
@@ -41,10 +41,10 @@ static bool is_slack(const CpsLineView *step, int element, double force) {
 
 /* without friction, and without tension on either side; for an end: a free one */
 static bool is_loose(const CpsLineView *step, int node, double force) {
-    const int n = step->elements;
+    const int n = step->element_count;
     if (node == 0 || node == n) {
         const CpsEnd *end = &step->end[node == 0 ? CPS_END_A : CPS_END_B];
-        if (end->kind == CPS_END_HELD) return false;
+        if (end->kind == CPS_END_KIND_HELD) return false;
     }
     return (node == 0 || is_slack(step, node - 1, force)) &&
            (node == n || is_slack(step, node, force)) && !(step->friction_bound[node] > 0);
@@ -84,9 +84,11 @@ static void find_plane(const CpsLineView *step, double force, CpsiPiece *piece) 
 CpsiPiece cpsi_piece_at(const CpsLineView *step, int element, double force) {
     CpsiPiece piece = {.first = element, .last = element, .slack = is_slack(step, element, force)};
     if (!piece.slack) return piece;
-    while (piece.last + 1 < step->elements && is_loose(step, piece.last + 1, force)) ++piece.last;
+    while (piece.last + 1 < step->element_count && is_loose(step, piece.last + 1, force))
+        ++piece.last;
     piece.open[0] = element == 0 && is_loose(step, 0, force);
-    piece.open[1] = piece.last == step->elements - 1 && is_loose(step, step->elements, force);
+    piece.open[1] =
+        piece.last == step->element_count - 1 && is_loose(step, step->element_count, force);
     find_plane(step, force, &piece);
     return piece;
 }
@@ -115,8 +117,8 @@ static bool at_bound(const CpsLineView *step, int node) {
 }
 
 static bool is_held(const CpsLineView *step, int node) {
-    return (node == 0 && step->end[CPS_END_A].kind == CPS_END_HELD) ||
-           (node == step->elements && step->end[CPS_END_B].kind == CPS_END_HELD);
+    return (node == 0 && step->end[CPS_END_A].kind == CPS_END_KIND_HELD) ||
+           (node == step->element_count && step->end[CPS_END_B].kind == CPS_END_KIND_HELD);
 }
 
 /* Whether a node can move along the unit vector v of its plane by itself, with a solution as the
@@ -130,7 +132,7 @@ static bool may_go(const CpsLineView *step, int node, Vec3 v) {
     const double along = vec3_dot(force, v), size = vec3_norm(force);
     if (!(vec3_norm(vec3_cross(force, v)) <= SAME * size)) return false;
     const double slid = vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u));
-    return along < 0 || slid > SLIP * step->arc_length[step->elements];
+    return along < 0 || slid > SLIP * step->arc_length[step->element_count];
 }
 
 /* Whether the element between a node that moves along v and the next one, on side 0 or 1, moves
@@ -148,7 +150,7 @@ static bool carries(const CpsLineView *step, int node, int side, Vec3 v, double 
 static bool cluster_goes(const CpsLineView *step, int node, Vec3 v, double force) {
     if (!may_go(step, node, v)) return false;
     for (int side = 0; side < 2; ++side) {
-        const int end = side == 0 ? 0 : step->elements;
+        const int end = side == 0 ? 0 : step->element_count;
         for (int j = node; j != end && carries(step, j, side, v, force);) {
             j += side == 0 ? -1 : 1;
             if (!may_go(step, j, v)) return false;
@@ -177,11 +179,11 @@ static void note_node(const CpsLineView *step, int j, double force, CpsSlackPart
 }
 
 int cps_solution_slack(const CpsLineView *step, int capacity, CpsSlackPart *part) {
-    if (!step || step->elements < 1 || (capacity > 0 && !part)) return 0;
+    if (!step || step->element_count < 1 || (capacity > 0 && !part)) return 0;
     const double force = cpsi_slack_force(step);
     int parts = 0;
     CpsSlackPart now = {.to = -1};
-    for (int i = 0; i < step->elements;) {
+    for (int i = 0; i < step->element_count;) {
         const CpsiPiece piece = cpsi_piece_at(step, i, force);
         i = piece.last + 1;
         if (!piece.slack) continue;

@@ -221,7 +221,7 @@ static void read_piece(const CpsLineView *step, const CpsiPiece *piece, CpsCompl
         place_straight_on(&lay, position);
         placed = true;
     }
-    r->parts += placed;
+    r->part_count += placed;
     for (int i = piece->first; i <= piece->last; ++i)
         if (cpsi_element_stretch(step, position, i) < 1 - CPSI_FULL)
             r->left += step->element_length[i];
@@ -229,7 +229,7 @@ static void read_piece(const CpsLineView *step, const CpsiPiece *piece, CpsCompl
 
 CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, double *position,
                                 CpsSlackReport *report, CpsError *err) {
-    if (!step || !position || step->elements < 1)
+    if (!step || !position || step->element_count < 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "step or position is NULL, or the step has no elements");
     if ((unsigned)how >= CPS_COMPLETION_COUNT)
@@ -241,10 +241,10 @@ CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, doub
             "line '%s': more than one obstacle, or one that is curved or has directions; only "
             "planes with isotropic friction are completed",
             step->name);
-    memcpy(position, step->position, 3 * ((size_t)step->elements + 1) * sizeof *position);
+    memcpy(position, step->position, 3 * ((size_t)step->element_count + 1) * sizeof *position);
     CpsSlackReport r = {0};
     const double force = cpsi_slack_force(step);
-    for (int i = 0; i < step->elements;) {
+    for (int i = 0; i < step->element_count;) {
         const CpsiPiece piece = cpsi_piece_at(step, i, force);
         if (piece.slack) read_piece(step, &piece, how, position, &r);
         i = piece.last + 1;

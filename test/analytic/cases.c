@@ -14,7 +14,7 @@ void case_begin(Case *c, double length, int elements, double weight, double stif
                 .line = cps_line_default()};
     c->line.name = "line";
     c->line.length = length;
-    c->line.elements = elements;
+    c->line.element_count = elements;
     c->line.weight = weight;
     c->line.stiffness = stiffness;
     c->line.start.point = c->point;
@@ -52,8 +52,8 @@ void case_arc(Case *c, double radius) {
 
 void case_laid(Case *c, double x, double z) {
     c->line.start.kind = CPS_START_STATIC;
-    c->line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_HELD};
-    c->line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_HELD, .value = {x, 0, z}};
+    c->line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_KIND_HELD};
+    c->line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_KIND_HELD, .value = {x, 0, z}};
 }
 
 static void add(Case *c, int steps, CpsEndKind kind, double x, double y, double z) {
@@ -62,16 +62,16 @@ static void add(Case *c, int steps, CpsEndKind kind, double x, double y, double 
     c->change[s] = (CpsChange){.end = CPS_END_B, .to = {.kind = kind, .value = {x, y, z}}};
     c->stage[s] = (CpsStage){.cookie = cps_stage_default().cookie,
                              .name = "stage",
-                             .steps = steps,
+                             .step_count = steps,
                              .change_count = 1,
                              .change = &c->change[s]};
 }
 
 void case_force(Case *c, int steps, double x, double y, double z) {
-    add(c, steps, CPS_END_FREE, x, y, z);
+    add(c, steps, CPS_END_KIND_FREE, x, y, z);
 }
 void case_move(Case *c, int steps, double x, double y, double z) {
-    add(c, steps, CPS_END_HELD, x, y, z);
+    add(c, steps, CPS_END_KIND_HELD, x, y, z);
 }
 
 static void must(CpsStatus status, const CpsError *err) {
@@ -100,7 +100,7 @@ CpsLineView case_step(Run *run) {
     run->dissipated += report.dissipated;
     CpsLineView view = cps_evolution_line_view(run->evolution, 0);
     run->tension_error = report.certificate.tension_bound;
-    run->motion_error += run->tension_error * view.compliance * view.arc_length[view.elements];
+    run->motion_error += run->tension_error * view.compliance * view.arc_length[view.element_count];
     return view;
 }
 

@@ -33,13 +33,13 @@ void rig_begin(Rig *rig, int elements, double weight, double stiffness) {
     memset(rig, 0, sizeof *rig);
     rig->scene = cps_scene_default();
     rig->line = cps_line_default();
-    rig->scene.friction_policy = CPS_FRICTION_CONSISTENT;
+    rig->scene.friction_policy = CPS_FRICTION_POLICY_CONSISTENT;
     rig->scene.line_count = 1;
     rig->scene.line = &rig->line;
     rig->scene.obstacle = rig->obstacle;
     rig->scene.stage = rig->stage;
     rig->line.name = "line";
-    rig->line.elements = elements;
+    rig->line.element_count = elements;
     rig->line.weight = weight;
     rig->line.stiffness = stiffness;
     rig->line.start.kind = CPS_START_POLYLINE;
@@ -50,7 +50,7 @@ void rig_length(Rig *rig, double length) { rig->line.length = length; }
 
 void rig_graded(Rig *rig) {
     rig->line.length = 0;
-    for (int e = 0; e < rig->line.elements; e++) rig->line.length += rig->element_length[e];
+    for (int e = 0; e < rig->line.element_count; e++) rig->line.length += rig->element_length[e];
     rig->line.element_length = rig->element_length;
 }
 
@@ -84,7 +84,7 @@ void rig_stage(Rig *rig, int steps) {
     assert_true(s < RIG_STAGES);
     rig->stage[s] = (CpsStage){.cookie = cps_stage_default().cookie,
                                .name = "stage",
-                               .steps = steps,
+                               .step_count = steps,
                                .change = rig->change[s],
                                .turn = &rig->turn[s]};
 }
@@ -170,7 +170,8 @@ static void tangents(const CpsObstacle *o, const double *direction, const double
 static double support(const CpsObstacle *o, double lateral, double reaction, double a, double b) {
     a *= o->friction;
     b *= lateral;
-    return reaction * (o->friction_shape == CPS_FRICTION_BOX ? fabs(a) + fabs(b) : hypot(a, b));
+    return reaction *
+           (o->friction_shape == CPS_FRICTION_SHAPE_BOX ? fabs(a) + fabs(b) : hypot(a, b));
 }
 
 /* of a set without width, what is within 1e-8 R of it is in it: axes are settled to that */
@@ -181,7 +182,7 @@ static double share(double force, double friction, double reaction) {
 static double gauge(const CpsObstacle *o, double lateral, double reaction, double a, double b) {
     a = share(a, o->friction, reaction);
     b = share(b, lateral, reaction);
-    return o->friction_shape == CPS_FRICTION_BOX ? fmax(fabs(a), fabs(b)) : hypot(a, b);
+    return o->friction_shape == CPS_FRICTION_SHAPE_BOX ? fmax(fabs(a), fabs(b)) : hypot(a, b);
 }
 
 /* The depth of x below the nearest surface, over zero. */
@@ -195,9 +196,10 @@ static double depth(const CpsScene *scene, const double *x) {
 /* The largest force of the line or on it. */
 static double largest(const CpsLineView *v) {
     double most = 0;
-    for (int e = 0; e < v->elements; e++) most = fmax(most, norm(&v->segment_force[3 * e]));
-    for (int j = 0; j <= v->elements; j++) most = fmax(most, norm(&v->load[3 * j]));
-    for (int c = 0; c < v->contacts * (v->elements + 1); c++) most = fmax(most, v->reaction[c]);
+    for (int e = 0; e < v->element_count; e++) most = fmax(most, norm(&v->segment_force[3 * e]));
+    for (int j = 0; j <= v->element_count; j++) most = fmax(most, norm(&v->load[3 * j]));
+    for (int c = 0; c < v->contact_count * (v->element_count + 1); c++)
+        most = fmax(most, v->reaction[c]);
     return most;
 }
 
@@ -260,13 +262,14 @@ static void audit_touch(Audit *audit, const CpsScene *scene, const double *turn,
 /* Contact c of node j. */
 static void audit_contact(Audit *audit, const CpsScene *scene, const double *turn,
                           const CpsLineView *v, int j, int c, double *sum) {
-    const int before = j > 0 ? j - 1 : 0, after = j < v->elements ? j + 1 : j;
+    const int before = j > 0 ? j - 1 : 0, after = j < v->element_count ? j + 1 : j;
     Touch touch = {.reaction = v->reaction[c], .bound = v->friction_bound[c]};
     memcpy(touch.friction, &v->friction_force[3 * c], sizeof touch.friction);
     memcpy(touch.place, &v->position[3 * j], sizeof touch.place);
     memcpy(touch.reference, &v->reference[3 * j], sizeof touch.reference);
     add(touch.along, &v->position[3 * after], -1, &v->position[3 * before]);
-    audit_touch(audit, scene, turn, &touch, v->obstacle[c], 0, v->arc_length[v->elements], sum);
+    audit_touch(audit, scene, turn, &touch, v->obstacle[c], 0, v->arc_length[v->element_count],
+                sum);
 }
 
 /* The contact of element e, at the point of it that is nearest to the obstacle: what it does in
@@ -285,37 +288,38 @@ static void audit_element(Audit *audit, const CpsScene *scene, const double *tur
     }
     const double radius = k < 0 ? 1 : scene->obstacle[k].radius;
     audit_touch(audit, scene, turn, &touch, k, fmin(l * l / radius, radius) / 4,
-                v->arc_length[v->elements], sum);
+                v->arc_length[v->element_count], sum);
 }
 
 /* The share of element e's contact on its node j, added to `sum`. */
 static void add_element(const CpsLineView *v, int e, int j, double *sum) {
-    if (!v->element_obstacle || e < 0 || e >= v->elements || v->element_obstacle[e] < 0) return;
+    if (!v->element_obstacle || e < 0 || e >= v->element_count || v->element_obstacle[e] < 0)
+        return;
     const double part = j == e ? 1 - v->element_share[e] : v->element_share[e];
     add(sum, sum, part, &v->element_friction_force[3 * e]);
     add(sum, sum, part * v->element_reaction[e], &v->element_normal[3 * e]);
 }
 
 Audit rig_audit(const CpsScene *scene, const double *turn, const CpsLineView *v) {
-    const int nodes = v->elements + 1;
-    const double length = v->arc_length[v->elements], force = largest(v);
+    const int nodes = v->element_count + 1;
+    const double length = v->arc_length[v->element_count], force = largest(v);
     Audit audit = {.scale = force * length};
     for (int j = 0; j < nodes; j++) {
         double sum[3];
         audit.penetration = fmax(audit.penetration, depth(scene, &v->position[3 * j]) / length);
         const int end = j == 0 ? CPS_END_A : CPS_END_B;
-        if ((j == 0 || j == v->elements) && v->end[end].kind == CPS_END_HELD) continue;
+        if ((j == 0 || j == v->element_count) && v->end[end].kind == CPS_END_KIND_HELD) continue;
         memcpy(sum, &v->load[3 * j], sizeof sum);
-        for (int c = j; c < v->contacts * nodes; c += nodes)
+        for (int c = j; c < v->contact_count * nodes; c += nodes)
             audit_contact(&audit, scene, turn, v, j, c, sum);
         if (j > 0) add(sum, sum, -1, &v->segment_force[3 * (j - 1)]);
-        if (j < v->elements) add(sum, sum, 1, &v->segment_force[3 * j]);
+        if (j < v->element_count) add(sum, sum, 1, &v->segment_force[3 * j]);
         add_element(v, j - 1, j, sum);
         add_element(v, j, j, sum);
         if (force > 0) audit.balance = fmax(audit.balance, norm(sum) / force);
     }
     if (v->element_obstacle)
-        for (int e = 0; e < v->elements; e++) {
+        for (int e = 0; e < v->element_count; e++) {
             double sum[3], told[3];
             if (v->element_obstacle[e] < 0) continue;
             audit_element(&audit, scene, turn, v, e, sum);
@@ -353,8 +357,8 @@ static void turns(RigRun *run, double *turn) {
     if (run->stage >= scene->stage_count) return;
     const CpsStage *stage = &scene->stage[run->stage];
     for (int k = 0; k < stage->turn_count; k++)
-        turn[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
-    if (++run->part == stage->steps) {
+        turn[stage->turn[k].obstacle] = stage->turn[k].angle / stage->step_count;
+    if (++run->part == stage->step_count) {
         run->part = 0;
         run->stage++;
     }
@@ -408,7 +412,7 @@ CpsLineView rig_step(RigRun *run) {
 CpsLineView rig_next(RigRun *run) {
     const int stage = run->stage;
     do rig_step(run);
-    while (run->stage == stage && cps_evolution_remaining(run->evolution) > 0);
+    while (run->stage == stage && cps_evolution_remaining_count(run->evolution) > 0);
     return run->view;
 }
 

@@ -11,7 +11,7 @@ enum { ELEMENTS = 200 };
 
 static void unit_line(Case *c, double friction, double x_to) {
     case_begin(c, 1, ELEMENTS, 1, 1);
-    c->scene.friction_policy = CPS_FRICTION_FROZEN; /* the annexes speak of P2.1 */
+    c->scene.friction_policy = CPS_FRICTION_POLICY_FROZEN; /* the annexes speak of P2.1 */
     case_bed(c, friction);
     case_straight(c, 0, x_to);
 }
@@ -67,7 +67,7 @@ static void example_11_1(void **state) {
     const double abar = 0.5, part = 1 - abar, h = 1.0 / ELEMENTS;
     unit_line(&c, 0.3, 1);
     case_corner(&c, abar);
-    c.scene.contact_policy = CPS_CONTACT_REFERENCE;
+    c.scene.contact_policy = CPS_CONTACT_POLICY_REFERENCE;
     case_force(&c, 1, 0, 0, 0);
     case_force(&c, 1, 0, 0, 0);
     case_force(&c, 1, 0, 0, -0.5);

@@ -33,9 +33,9 @@ static void wrap(Rig *rig, double mu, double theta, int n, double stiffness, dou
     for (int e = 0; e <= n; e++) rig->element_length[e] = e == 0 || e == n ? lead : chord;
     rig_graded(rig);
     const double *a = rig->point, *b = &rig->point[3];
-    rig_end(rig, CPS_END_A, CPS_END_FREE, force * (a[0] - b[0]) / lead, 0,
+    rig_end(rig, CPS_END_A, CPS_END_KIND_FREE, force * (a[0] - b[0]) / lead, 0,
             force * (a[2] - b[2]) / lead);
-    rig_end(rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
 }
 
 /* the law -------------------------------------------------------------------------------------- */
@@ -143,9 +143,9 @@ static void stick_below_the_law(void **state) {
     const double *a = rig.point, *b = &rig.point[3], *y = &rig.point[3 * N],
                  *z = &rig.point[3 * (N + 1)];
     rig_stage(&rig, 1);
-    rig_change(&rig, CPS_END_A, CPS_END_FREE, force * (a[0] - b[0]), 0, force * (a[2] - b[2]));
+    rig_change(&rig, CPS_END_A, CPS_END_KIND_FREE, force * (a[0] - b[0]), 0, force * (a[2] - b[2]));
     rig_stage(&rig, 1);
-    rig_change(&rig, CPS_END_B, CPS_END_FREE, pull * (z[0] - y[0]), 0, pull * (z[2] - y[2]));
+    rig_change(&rig, CPS_END_B, CPS_END_KIND_FREE, pull * (z[0] - y[0]), 0, pull * (z[2] - y[2]));
     RigRun run = rig_open(&rig);
     CpsLineView view = rig_next(&run);
     /* strains of 2e-6 turn the elements, and tilt the forces, by as much; 60 of them */
@@ -243,8 +243,8 @@ static double heavy(double mu, int n) {
     rig_obstacle(&rig, CPS_OBSTACLE_CYLINDER, mu);
     for (int j = 0; j <= n; j++) rig_point(&rig, sin(from + j * d), 0, cos(from + j * d));
     rig_length(&rig, n * 2 * sin(d / 2));
-    rig_end(&rig, CPS_END_A, CPS_END_FREE, -force * cos(from), 0, force * sin(from));
-    rig_end(&rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_FREE, -force * cos(from), 0, force * sin(from));
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
     rig_stage(&rig, 1);
     rig_turn(&rig, 0, -0.1);
     RigRun run = rig_open(&rig);
@@ -296,16 +296,16 @@ static void hoist(void **state) {
         rig_point(&rig, -cos(on * d), 0, sin(on * d) - chord * abs(k - on));
     }
     rig_length(&rig, chord * (N + 2 * LEAD));
-    rig_end(&rig, CPS_END_A, CPS_END_FREE, 0, 0, 0);
-    rig_end(&rig, CPS_END_B, CPS_END_FREE, 0, 0, 0);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_FREE, 0, 0, 0);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, 0);
     rig_stage(&rig, 1);
-    rig_change(&rig, CPS_END_A, CPS_END_FREE, 0, 0, -load);
-    rig_change(&rig, CPS_END_B, CPS_END_FREE, 0, 0, -1);
+    rig_change(&rig, CPS_END_A, CPS_END_KIND_FREE, 0, 0, -load);
+    rig_change(&rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, -1);
     rig_stage(&rig, steps);
     rig_turn(&rig, 0, 1);
     const double least = load * pow(per_node(mu, d), -N);
     rig_stage(&rig, 4);
-    rig_change(&rig, CPS_END_B, CPS_END_FREE, 0, 0, -1.02 * least);
+    rig_change(&rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, -1.02 * least);
     RigRun run = rig_open(&rig);
     CpsLineView view = rig_next(&run);
     const double before = view.position[2];

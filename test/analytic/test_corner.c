@@ -44,7 +44,7 @@ static void block(Rig *rig, const double e[3]) {
     rig_length(rig, LENGTH);
     rig_point(rig, 0, 0, 0);
     rig_point(rig, LENGTH * e[0], LENGTH * e[1], LENGTH * e[2]);
-    rig_end(rig, CPS_END_B, CPS_END_FREE, 0, 0, 0);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, 0);
 }
 
 static CpsObstacle *plane(Rig *rig, const double n[3], double mu) {
@@ -124,10 +124,10 @@ static void check_slide(const Corner *corner, const CpsLineView *view, double pu
  * weight does. Returns whether the block slides. */
 static bool expect(const Corner *corner, Rig *rig, const double force[3], double pull, Must must) {
     rig_stage(rig, 1);
-    rig_change(rig, CPS_END_B, CPS_END_FREE, force[0], force[1], force[2]);
+    rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, force[0], force[1], force[2]);
     RigRun run = rig_open(rig);
     const CpsLineView view = rig_step(&run);
-    CHECK_INT(view.contacts, 2);
+    CHECK_INT(view.contact_count, 2);
     const double *e = corner->e, load = pull + corner->reaction[0] + corner->reaction[1];
     double moved[3], rubs = 0;
     for (int a = 0; a < 3; a++) moved[a] = view.position[3 + a] - LENGTH * e[a];
@@ -300,11 +300,11 @@ static void string_in_a_corner(void **state) {
         rig.scene.gravity[2] = -9.81 * cos(lean);
         rig_point(&rig, 0, 0, 0);
         rig_point(&rig, length, 0, 0);
-        rig_end(&rig, CPS_END_B, CPS_END_FREE, 0, 0, 0);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, 0);
         plane(&rig, UP, MU[0]);
         plane(&rig, ASIDE, MU[1]);
         rig_stage(&rig, 4);
-        rig_change(&rig, CPS_END_B, CPS_END_FREE, pull, 0, 0);
+        rig_change(&rig, CPS_END_B, CPS_END_KIND_FREE, pull, 0, 0);
         RigRun run = rig_open(&rig);
         const CpsLineView view = rig_next(&run);
         const double h = length / n, motion = pull * pull / (2 * q * stiffness);
@@ -329,7 +329,7 @@ static CpsEvolution *solved(const Rig *rig) {
     CpsError err = {0};
     CpsEvolution *out = NULL;
     CHECK_INT(cps_evolution_create(&rig->scene, &out, &err), CPS_OK);
-    while (cps_evolution_remaining(out) > 0) {
+    while (cps_evolution_remaining_count(out) > 0) {
         CHECK_INT(cps_evolution_step(out, &err), CPS_OK);
         CHECK_INT(cps_evolution_report(out).outcome, CPS_OUTCOME_SOLVED);
     }
@@ -345,7 +345,7 @@ static void sweep(Rig *rig, bool pipe, int elements) {
     rig->scene.gravity[1] = 4; /* the line leans on what it meets, with all its nodes */
     rig_point(rig, 0, 0, 0);
     rig_point(rig, 10, 0, 0);
-    rig_end(rig, CPS_END_B, CPS_END_FREE, 0, 0, 0);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, 0);
     plane(rig, UP, 0.4)->grain[0] = 1;
     if (pipe) {
         CpsObstacle *round = rig_obstacle(rig, CPS_OBSTACLE_CYLINDER, 0.3);
@@ -359,9 +359,9 @@ static void sweep(Rig *rig, bool pipe, int elements) {
     rig->obstacle[1].grain[0] = 1;
     rig->obstacle[1].grain[1] = 0.5;
     rig_stage(rig, 4);
-    rig_change(rig, CPS_END_B, CPS_END_FREE, 60, 60, 0);
+    rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, 60, 60, 0);
     rig_stage(rig, 4);
-    rig_change(rig, CPS_END_B, CPS_END_FREE, 200, 60, 0);
+    rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, 200, 60, 0);
 }
 
 static void the_same_set_given_twice(void **state) {
@@ -389,7 +389,7 @@ static void the_same_set_given_twice(void **state) {
                 view[i] = cps_evolution_line_view(evolution[i], 0);
             }
             double place = 0, force = 0, pressed = 0, rubbed = 0;
-            const int n = view[0].elements + 1;
+            const int n = view[0].element_count + 1;
             for (int i = 0; i < 3 * n; i++)
                 place = fmax(place, fabs(view[0].position[i] - view[1].position[i]));
             for (int c = 0; c < 2 * n;

@@ -34,9 +34,9 @@ static void draw(const char *name, double mu, double from, double to, int steps,
     rig_obstacle(&rig, CPS_OBSTACLE_CYLINDER, mu);
     rig_point(&rig, start, 0, HEIGHT);
     rig_point(&rig, sin(from), 0, cos(from));
-    rig_end(&rig, CPS_END_A, CPS_END_HELD, start, 0, HEIGHT);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, start, 0, HEIGHT);
     rig_stage(&rig, steps);
-    rig_change(&rig, CPS_END_A, CPS_END_HELD, to, 0, HEIGHT);
+    rig_change(&rig, CPS_END_A, CPS_END_KIND_HELD, to, 0, HEIGHT);
     RigRun run = rig_open(&rig);
     int snaps = 0;
     double worst = 0, before = start, least = 0;
@@ -50,14 +50,14 @@ static void draw(const char *name, double mu, double from, double to, int steps,
         worst = fmax(worst, fabs(view.position[5] - (on ? cos(theta) : HEIGHT - LENGTH)));
         const CpsStepReport report = cps_evolution_report(run.evolution);
         least = fmin(least, report.ledger.imbalance);
-        if (path_tolerance > 0) CHECK_INT(report.snaps, !on && before < limit);
+        if (path_tolerance > 0) CHECK_INT(report.snap_count, !on && before < limit);
         /* the way of the jump, from a place within a part of 2^-10 of the step before the limit */
-        if (report.snaps > 0) {
+        if (report.snap_count > 0) {
             const double away = hypot(limit - sin(atan(mu)), HEIGHT - LENGTH - cos(atan(mu)));
             rig_show(name, "jump [m]", away, report.jump);
             CHECK_NEAR(report.jump, away, 1e-3);
         }
-        snaps += report.snaps;
+        snaps += report.snap_count;
         before = a;
     }
     rig_show(name, "worst place [m]", 0, worst);

@@ -13,14 +13,16 @@
 
 static const double LENGTH = 100, WEIGHT = 10, FRICTION = 0.5, STIFFNESS = 2e3;
 
-static double tip(const CpsLineView *view) { return view->position[3 * (size_t)view->elements]; }
+static double tip(const CpsLineView *view) {
+    return view->position[3 * (size_t)view->element_count];
+}
 
 /* largest difference between the elements' forces and the exact tension at their middles, away from
  * where sliding ends
  */
 static double tension_error(const CpsLineView *view, double pull) {
     double worst = 0, density = FRICTION * WEIGHT;
-    for (size_t i = 0; i < (size_t)view->elements; i++) {
+    for (size_t i = 0; i < (size_t)view->element_count; i++) {
         double h = view->element_length[i], middle = view->arc_length[i] + h / 2;
         double exact = fmax(0, pull - density * (LENGTH - middle));
         if (exact > 0 && exact < density * h) continue;

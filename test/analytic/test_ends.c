@@ -85,11 +85,11 @@ static void drawn_along(void **unused) {
                      start = d.held == CPS_END_A ? 0 : d.length;
         const double far =
             d.length * (0.5 + (isinf(d.stiffness) ? 0 : 2 * d.resistance / d.stiffness));
-        rig_end(&rig, d.held, CPS_END_HELD, start, 0, 0);
-        rig_end(&rig, 1 - d.held, CPS_END_FREE, 0, 0, 0);
+        rig_end(&rig, d.held, CPS_END_KIND_HELD, start, 0, 0);
+        rig_end(&rig, 1 - d.held, CPS_END_KIND_FREE, 0, 0, 0);
         for (int k = 1; k <= 3; k++) {
             rig_stage(&rig, 1);
-            rig_change(&rig, d.held, CPS_END_HELD, start + sign * k * far, 0, 0);
+            rig_change(&rig, d.held, CPS_END_KIND_HELD, start + sign * k * far, 0, 0);
         }
         CpsEvolution *run = begin(&rig);
         next(run);
@@ -120,10 +120,10 @@ static void holds_the_rest(void **unused) {
         if (isinf(d.stiffness))
             rig.line.stiffness = 1e3 * d.weight * d.length; /* else nothing slides */
         const double pull = d.resistance * draw(1.2, 5), sign = d.held == CPS_END_A ? 1 : -1;
-        rig_end(&rig, d.held, CPS_END_HELD, d.held == CPS_END_A ? 0 : d.length, 0, 0);
-        rig_end(&rig, 1 - d.held, CPS_END_FREE, 0, 0, 0);
+        rig_end(&rig, d.held, CPS_END_KIND_HELD, d.held == CPS_END_A ? 0 : d.length, 0, 0);
+        rig_end(&rig, 1 - d.held, CPS_END_KIND_FREE, 0, 0, 0);
         rig_stage(&rig, 1);
-        rig_change(&rig, 1 - d.held, CPS_END_FREE, sign * pull, 0, 0);
+        rig_change(&rig, 1 - d.held, CPS_END_KIND_FREE, sign * pull, 0, 0);
         CpsEvolution *run = begin(&rig);
         const CpsLineReport report = next(run);
         const double rest = pull - d.resistance;
@@ -146,12 +146,12 @@ static void back_again(void **unused) {
     rig_obstacle(&rig, CPS_OBSTACLE_PLANE, mu);
     rig_point(&rig, 0, 0, 0);
     rig_point(&rig, length, 0, 0);
-    rig_end(&rig, CPS_END_A, CPS_END_FREE, 0, 0, 0);
-    rig_end(&rig, CPS_END_B, CPS_END_HELD, length, 0, 0);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_FREE, 0, 0, 0);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, length, 0, 0);
     rig_stage(&rig, 10);
-    rig_change(&rig, CPS_END_B, CPS_END_HELD, length + 1, 0, 0);
+    rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, length + 1, 0, 0);
     rig_stage(&rig, 200);
-    rig_change(&rig, CPS_END_B, CPS_END_HELD, length, 0, 0);
+    rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, length, 0, 0);
     RigRun run = rig_open(&rig);
     for (int k = 0; k < 210; k++) {
         rig_step(&run);
@@ -168,10 +168,10 @@ static void held_in_the_air(void **unused) {
     rig_length(&rig, 10);
     rig_obstacle(&rig, CPS_OBSTACLE_PLANE, 0.5);
     rig.line.start.kind = CPS_START_STATIC;
-    rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0.01);
-    rig_end(&rig, CPS_END_B, CPS_END_HELD, 9.999, 0, 0.01);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0.01);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, 9.999, 0, 0.01);
     rig_stage(&rig, 1);
-    rig_change(&rig, CPS_END_B, CPS_END_HELD, 10.001, 0, 0.01);
+    rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, 10.001, 0, 0.01);
     RigRun run = rig_open(&rig);
     rig_step(&run);
     const CpsLineView view = rig_step(&run);
@@ -198,11 +198,11 @@ static void held_on_a_drum(void **unused) {
         for (int e = 0; e < n; e++) rig.element_length[e] = h;
         rig_graded(&rig);
         for (int j = 0; j <= n; j++) rig_point(&rig, sin(j * theta / n), 0, cos(j * theta / n));
-        rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 1);
-        rig_end(&rig, CPS_END_B, CPS_END_FREE, 0, 0, 0);
+        rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, 0, 0, 1);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, 0);
         rig_stage(&rig, 1);
         /* B's tangent at its own node; the last chord is half an element's angle short of it */
-        rig_change(&rig, CPS_END_B, CPS_END_FREE, pull * cos(theta), 0, -pull * sin(theta));
+        rig_change(&rig, CPS_END_B, CPS_END_KIND_FREE, pull * cos(theta), 0, -pull * sin(theta));
         RigRun run = rig_open(&rig);
         rig_step(&run);
         error[k] = rig_show("held on a drum, mu 0.4, 2 rad", "tension at the held end [N]",
@@ -225,8 +225,8 @@ static void grounded_between_nodes(void **unused) {
         rig_obstacle(&rig, CPS_OBSTACLE_PLANE, 0.5);
         rig_point(&rig, 0, 0, 0);
         rig_point(&rig, length, 0, 0);
-        rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
-        rig_end(&rig, CPS_END_B, CPS_END_FREE, 30, 0, lift);
+        rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 30, 0, lift);
         RigRun run = rig_open(&rig);
         rig_step(&run);
         CHECK_RELATIVE(run.report.grounded, length - lift / weight, 1e-9);
@@ -249,11 +249,11 @@ static void grounded_between_nodes(void **unused) {
                 rig_point(&rig, copysign(sin(on) + off * cos(on), s), 0,
                           cos(on) - off * sin(on) + 2e-3);
             }
-            rig_end(&rig, CPS_END_A, CPS_END_HELD, -x, 0, z + 2e-3);
-            rig_end(&rig, CPS_END_B, CPS_END_HELD, x, 0, z + 2e-3);
+            rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, -x, 0, z + 2e-3);
+            rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, x, 0, z + 2e-3);
             rig_stage(&rig, 1);
-            rig_change(&rig, CPS_END_A, CPS_END_HELD, -x, 0, z - 1e-4);
-            rig_change(&rig, CPS_END_B, CPS_END_HELD, x, 0, z - 1e-4);
+            rig_change(&rig, CPS_END_A, CPS_END_KIND_HELD, -x, 0, z - 1e-4);
+            rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, x, 0, z - 1e-4);
             RigRun run = rig_open(&rig);
             rig_step(&run);
             const double strain =

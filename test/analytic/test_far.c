@@ -45,12 +45,12 @@ static void build(Rig *rig, uint64_t seed, const double at[3]) {
         o->point[2] = at[2];
     }
     rig->line.start.kind = CPS_START_STATIC;
-    rig_end(rig, CPS_END_A, CPS_END_HELD, at[0], at[1], at[2] + 0.25);
-    rig_end(rig, CPS_END_B, CPS_END_HELD, at[0] + place(0.85, 0.9), at[1], at[2] + 0.375);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, at[0], at[1], at[2] + 0.25);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, at[0] + place(0.85, 0.9), at[1], at[2] + 0.375);
     for (int s = 0; s < 3; s++) {
         rig_stage(rig, 1 + (int)chance(0, 3));
         const double x = place(0.8, 0.9), y = place(-0.2, 0.2), z = place(0.3, 0.5);
-        rig_change(rig, CPS_END_B, CPS_END_HELD, at[0] + x, at[1] + y, at[2] + z);
+        rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, at[0] + x, at[1] + y, at[2] + z);
     }
 }
 
@@ -69,7 +69,7 @@ static void solve(uint64_t seed, const double at[3], Answer *out) {
     CpsEvolution *evolution;
     memset(out, 0, sizeof *out);
     if (cps_evolution_create(&rig.scene, &evolution, &err) != CPS_OK) fail_msg("%s", err.message);
-    for (; cps_evolution_remaining(evolution) > 0; out->steps++) {
+    for (; cps_evolution_remaining_count(evolution) > 0; out->steps++) {
         CHECK_INT(cps_evolution_step(evolution, &err), CPS_OK);
         const CpsLineView view = cps_evolution_line_view(evolution, 0);
         const CpsLineReport report = cps_evolution_line_report(evolution, 0);
@@ -160,7 +160,7 @@ static void saved_far_away(void **state) {
     cps_evolution_save(a, saved);
     CHECK_INT(cps_evolution_load(b, saved, size, &err), CPS_OK);
     CHECK_INT(cps_evolution_load(c, saved, size, &err), CPS_ERR_ARGUMENT);
-    while (cps_evolution_remaining(a) > 0) {
+    while (cps_evolution_remaining_count(a) > 0) {
         CHECK_INT(cps_evolution_step(a, &err), CPS_OK);
         CHECK_INT(cps_evolution_step(b, &err), CPS_OK);
     }

@@ -39,7 +39,7 @@ static void rig(Rig *r, double length, int elements, double weight, double stiff
     r->bed.name = "bed";
     r->line.name = "line";
     r->line.length = length;
-    r->line.elements = elements;
+    r->line.element_count = elements;
     r->line.weight = weight;
     r->line.stiffness = stiffness;
     r->point[3] = length;
@@ -56,7 +56,7 @@ static void change(Rig *r, int steps, int end, CpsEndKind kind, double x, double
     r->change[0] = (CpsChange){.end = end, .to = {.kind = kind, .value = {x, y, z}}};
     r->stage = (CpsStage){.cookie = cps_stage_default().cookie,
                           .name = "go",
-                          .steps = steps,
+                          .step_count = steps,
                           .change_count = 1,
                           .change = r->change};
     r->scene.stage_count = 1;
@@ -67,7 +67,7 @@ static void change(Rig *r, int steps, int end, CpsEndKind kind, double x, double
 static CpsLineView go(Rig *r) {
     CpsError err = {0};
     do_(cps_evolution_create(&r->scene, &r->evolution, &err), &err);
-    while (cps_evolution_remaining(r->evolution) > 0) {
+    while (cps_evolution_remaining_count(r->evolution) > 0) {
         do_(cps_evolution_step(r->evolution, &err), &err);
         const CpsStepReport report = cps_evolution_report(r->evolution);
         if (report.outcome != CPS_OUTCOME_SOLVED)
@@ -106,9 +106,10 @@ static void drag_over_two_zones(void **state) {
             r.bed.friction = mu;
             r.line.zone_count = 2;
             r.line.zone = zone;
-            r.scene.friction_policy = frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+            r.scene.friction_policy =
+                frozen ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
             r.scene.solver.tolerance = 1e-11;
-            change(&r, 3, CPS_END_B, CPS_END_FREE, pull, 0, 0);
+            change(&r, 3, CPS_END_B, CPS_END_KIND_FREE, pull, 0, 0);
             const CpsLineView view = go(&r);
             const double left = pull - near * WEIGHT * reach, h = LENGTH / n;
             const double motion = (pull * reach - near * WEIGHT * reach * reach / 2 +
@@ -141,11 +142,11 @@ typedef struct Pair {
 
 static Pair difference(const CpsLineView *a, const CpsLineView *b, double length, double force) {
     Pair out = {0};
-    for (int i = 0; i < 3 * (a->elements + 1); i++) {
+    for (int i = 0; i < 3 * (a->element_count + 1); i++) {
         out.position = fmax(out.position, fabs(a->position[i] - b->position[i]) / length);
         out.force = fmax(out.force, fabs(a->friction_force[i] - b->friction_force[i]) / force);
     }
-    for (int i = 0; i < a->elements; i++)
+    for (int i = 0; i < a->element_count; i++)
         out.tension = fmax(out.tension, fabs(a->tension[i] - b->tension[i]) / force);
     return out;
 }
@@ -154,7 +155,7 @@ static Pair difference(const CpsLineView *a, const CpsLineView *b, double length
 static void aside(Rig *r, bool cylinder) {
     if (!cylinder) {
         rig(r, LENGTH, 30, WEIGHT, STIFFNESS);
-        change(r, 3, CPS_END_B, CPS_END_FREE, 120, 90, 20);
+        change(r, 3, CPS_END_B, CPS_END_KIND_FREE, 120, 90, 20);
         return;
     }
     /* over the top of a cylinder of radius 1, from one side to a little before the other */
@@ -163,7 +164,7 @@ static void aside(Rig *r, bool cylinder) {
     r->bed.radius = 1;
     r->line.start.kind = CPS_START_ARC;
     memcpy(r->point, (const double[]){-1, 0, 0, 0, 0, 0}, sizeof r->point);
-    change(r, 3, CPS_END_B, CPS_END_FREE, 2, 15, -60);
+    change(r, 3, CPS_END_B, CPS_END_KIND_FREE, 2, 15, -60);
 }
 
 static void the_same_set_given_twice(void **state) {
@@ -182,10 +183,10 @@ static void the_same_set_given_twice(void **state) {
                 aside(&a, cylinder);
                 aside(&b, cylinder);
                 a.scene.friction_policy = b.scene.friction_policy =
-                    frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+                    frozen ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
                 a.bed.friction = axial;
                 a.bed.friction_lateral = lateral;
-                a.bed.friction_shape = box ? CPS_FRICTION_BOX : CPS_FRICTION_ELLIPSE;
+                a.bed.friction_shape = box ? CPS_FRICTION_SHAPE_BOX : CPS_FRICTION_SHAPE_ELLIPSE;
                 b.bed.friction_set = sets[box];
                 const CpsLineView va = go(&a), vb = go(&b);
                 const Pair off = difference(&va, &vb, a.line.length, a.line.length * WEIGHT);
@@ -255,13 +256,13 @@ static void a_free_line_on_a_ratchet(void **state) {
         rig(&r, LENGTH, 20, WEIGHT, 1e4);
         r.bed.friction_set = set;
         r.bed.grain[0] = 1;
-        r.line.end[CPS_END_A].kind = CPS_END_FREE;
+        r.line.end[CPS_END_A].kind = CPS_END_KIND_FREE;
         memset(r.line.end[CPS_END_A].value, 0, sizeof r.line.end[CPS_END_A].value);
-        change(&r, 1, force > 0 ? CPS_END_B : CPS_END_A, CPS_END_FREE, force, 0, 0);
+        change(&r, 1, force > 0 ? CPS_END_B : CPS_END_A, CPS_END_KIND_FREE, force, 0, 0);
         if (k < 2) {
             const CpsLineView v = go(&r);
             double sum = 0;
-            for (int j = 0; j <= v.elements; j++) sum += v.friction_force[3 * j];
+            for (int j = 0; j <= v.element_count; j++) sum += v.friction_force[3 * j];
             CHECK_NEAR(sum, -force, 1e-9 * all); /* the balance of the loop */
         } else {
             CpsError err = {0};
@@ -290,9 +291,10 @@ static void ratchet(void **state) {
             rig(&r, LENGTH, n, WEIGHT, STIFFNESS);
             r.bed.friction_set = set;
             r.bed.grain[0] = back ? -1 : 1;
-            r.scene.friction_policy = frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+            r.scene.friction_policy =
+                frozen ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
             r.scene.solver.tolerance = 1e-11;
-            change(&r, 2, CPS_END_B, CPS_END_FREE, pull, 0, 0);
+            change(&r, 2, CPS_END_B, CPS_END_KIND_FREE, pull, 0, 0);
             const CpsLineView view = go(&r);
             const double mu = back ? 0.8 : 0.2, q = mu * WEIGHT, h = LENGTH / n;
             const double error =
@@ -326,13 +328,14 @@ static void a_node_on_grooves(void **state) {
             rig(&r, 1, 1, WEIGHT, 1e4);
             r.bed.friction_set = set;
             r.bed.grain[0] = 1;
-            r.scene.friction_policy = frozen ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+            r.scene.friction_policy =
+                frozen ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
             r.scene.solver.tolerance = 1e-12;
             /* the line lies along `angle` from A to B; A is drawn away from B, a little aside */
             r.point[3] = cos(angle);
             r.point[4] = sin(angle);
             const double turn = angle + 0.3;
-            change(&r, 1, CPS_END_A, CPS_END_HELD, -way * cos(turn), -way * sin(turn), 0);
+            change(&r, 1, CPS_END_A, CPS_END_KIND_HELD, -way * cos(turn), -way * sin(turn), 0);
             const CpsLineView v = go(&r);
             const double *f = &v.friction_force[3], R = v.friction_bound[1],
                          u[2] = {v.position[3] - r.point[3], v.position[4] - r.point[4]};
@@ -408,9 +411,11 @@ static void ratchet_on_a_cylinder(void **state) {
                     r->bed.friction = mu;
                 /* hanging from A: 1 N; the end that is held goes down, or lets the rope back up by
                  * a little */
-                r->line.end[back ? CPS_END_B : CPS_END_A] = (CpsEnd){CPS_END_FREE, {0, 0, -1}};
-                r->line.end[back ? CPS_END_A : CPS_END_B] = (CpsEnd){CPS_END_HELD, {NAN, NAN, NAN}};
-                change(r, 1, back ? CPS_END_A : CPS_END_B, CPS_END_HELD, back ? -1 : 1, 0, -0.02);
+                r->line.end[back ? CPS_END_B : CPS_END_A] = (CpsEnd){CPS_END_KIND_FREE, {0, 0, -1}};
+                r->line.end[back ? CPS_END_A : CPS_END_B] =
+                    (CpsEnd){CPS_END_KIND_HELD, {NAN, NAN, NAN}};
+                change(r, 1, back ? CPS_END_A : CPS_END_B, CPS_END_KIND_HELD, back ? -1 : 1, 0,
+                       -0.02);
                 view[which] = go(r);
             }
             const Pair off = difference(&view[0], &view[1], a.line.length, exp(mu * wrap));
@@ -496,11 +501,12 @@ static void random_rig(Rig *r, CpsSet *set) {
         r->bed.grain[0] = uniform(-1, 1);
         r->bed.grain[1] = uniform(-1, 1);
     } else {
-        r->scene.solver.halvings = 2; /* what does not settle says so soon */
+        r->scene.solver.max_halvings = 2; /* what does not settle says so soon */
     }
-    r->scene.friction_policy = uniform(0, 1) < 0.3 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+    r->scene.friction_policy =
+        uniform(0, 1) < 0.3 ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
     const double all = r->line.length * WEIGHT, x = uniform(-0.3, 1) * all;
-    change(r, 2, CPS_END_B, CPS_END_FREE, surface ? uniform(-0.2, 0.2) * all : x,
+    change(r, 2, CPS_END_B, CPS_END_KIND_FREE, surface ? uniform(-0.2, 0.2) * all : x,
            uniform(-0.3, 0.3) * all, surface ? -fabs(x) - 0.3 * all : 0);
 }
 
@@ -512,7 +518,7 @@ static double check_against(const Rig *r, const CpsSet *set, const CpsLineView *
     double worst = 0;
     const double size = hypot(r->bed.grain[0], r->bed.grain[1]), c = r->bed.grain[0] / size,
                  s = r->bed.grain[1] / size;
-    for (int j = 1; j <= v->elements; j++) {
+    for (int j = 1; j <= v->element_count; j++) {
         const double w = v->friction_bound[j], *f = &v->friction_force[3 * j],
                      *u = &v->slide[3 * j];
         if (!(w > 1e-6 * WEIGHT)) continue;
@@ -539,7 +545,7 @@ static void random_sets_are_certified(void **state) {
         const bool grain = r.bed.grain[0] != 0 || r.bed.grain[1] != 0,
                    known = grain && r.bed.kind == CPS_OBSTACLE_PLANE;
         do_(cps_evolution_create(&r.scene, &r.evolution, &err), &err);
-        while (cps_evolution_remaining(r.evolution) > 0) {
+        while (cps_evolution_remaining_count(r.evolution) > 0) {
             do_(cps_evolution_step(r.evolution, &err), &err);
             const CpsStepReport report = cps_evolution_report(r.evolution);
             const CpsLineView view = cps_evolution_line_view(r.evolution, 0);
@@ -551,7 +557,7 @@ static void random_sets_are_certified(void **state) {
                 continue;
             }
             solved[grain]++;
-            for (int i = 0; i < 3 * (view.elements + 1); i++)
+            for (int i = 0; i < 3 * (view.element_count + 1); i++)
                 CHECK_FINITE(view.friction_force[i] + view.position[i]);
             CHECK_LESS(report.certificate.gap, 1e-8 * report.certificate.scale);
             if (!known) continue;

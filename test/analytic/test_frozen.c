@@ -71,7 +71,7 @@ static void build(Rig *rig, uint64_t seed) {
     state_of_chance = seed;
     rig_begin(rig, ELEMENTS, 1, pow(10, chance(0.5, 4)));
     rig_length(rig, 1);
-    rig->scene.friction_policy = CPS_FRICTION_FROZEN;
+    rig->scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
     if (chance(0, 1) < 0.8) {
         CpsObstacle *bed = rig_obstacle(rig, CPS_OBSTACLE_PLANE, chance(0, 0.8));
         bed->normal[0] = chance(-0.2, 0.2);
@@ -97,22 +97,23 @@ static void build(Rig *rig, uint64_t seed) {
         place(rig, 0.6, a);
         place(rig, 0.6, b);
     } while (hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]) > 0.95);
-    rig_end(rig, CPS_END_A, CPS_END_HELD, a[0], a[1], a[2]);
-    rig_end(rig, CPS_END_B, CPS_END_HELD, b[0], b[1], b[2]);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, a[0], a[1], a[2]);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, b[0], b[1], b[2]);
     for (int s = 0; s < 3; s++) {
         rig_stage(rig, 1 + (int)chance(0, 3));
         if (chance(0, 1) < 0.3) {
-            rig_change(rig, CPS_END_B, CPS_END_FREE, chance(-2, 2), chance(-2, 2), chance(-1, 2));
+            rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, chance(-2, 2), chance(-2, 2),
+                       chance(-1, 2));
         } else {
             place(rig, 0.6, b);
-            rig_change(rig, CPS_END_B, CPS_END_HELD, b[0], b[1], b[2]);
+            rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, b[0], b[1], b[2]);
         }
     }
 }
 
 static bool is_held(const CpsLineView *v, int j) {
-    return (j == 0 && v->end[0].kind == CPS_END_HELD) ||
-           (j == v->elements && v->end[1].kind == CPS_END_HELD);
+    return (j == 0 && v->end[0].kind == CPS_END_KIND_HELD) ||
+           (j == v->element_count && v->end[1].kind == CPS_END_KIND_HELD);
 }
 
 /* What the steps before leave: reactions by node and obstacle. */
@@ -160,7 +161,7 @@ static void look_at(const Rig *rig, const Touch *t, bool known, double largest, 
 /* A contact of a free node; adds its forces to `sum`. */
 static void look_at_node(const Rig *rig, const CpsLineView *v, const Before *before, int c,
                          double largest, double *sum, Worst *w, double *law) {
-    const int j = c % (v->elements + 1), k = obstacle_of(v, c);
+    const int j = c % (v->element_count + 1), k = obstacle_of(v, c);
     Touch t = {.obstacle = k,
                .reaction = v->reaction[c],
                .bound = v->friction_bound[c],
@@ -220,7 +221,7 @@ static void look_at_element(const Rig *rig, const CpsLineView *v, const Before *
 static void add_elements(const CpsLineView *v, int j, double *sum) {
     if (v->element_obstacle)
         for (int e = j - 1; e <= j; e++) {
-            if (e < 0 || e >= v->elements || v->element_obstacle[e] < 0) continue;
+            if (e < 0 || e >= v->element_count || v->element_obstacle[e] < 0) continue;
             const double part = e == j ? 1 - v->element_share[e] : v->element_share[e];
             for (int a = 0; a < 3; a++)
                 sum[a] += part * (v->element_friction_force[3 * e + a] +
@@ -230,7 +231,7 @@ static void add_elements(const CpsLineView *v, int j, double *sum) {
 
 static void audit(const Rig *rig, const CpsLineView *v, const CpsLineReport *report,
                   const Before *before, Worst *w) {
-    const int n = v->elements + 1;
+    const int n = v->element_count + 1;
     const double largest = report->certificate.largest_force;
     double law = 0;
     for (int j = 0; j < n; j++) {
@@ -238,7 +239,7 @@ static void audit(const Rig *rig, const CpsLineView *v, const CpsLineReport *rep
         w->depth = fmax(w->depth, depth(rig, &v->position[3 * j]));
         for (int a = 0; a < 3; a++) {
             sum[a] = v->load[3 * j + a];
-            if (j < v->elements) sum[a] += v->segment_force[3 * j + a];
+            if (j < v->element_count) sum[a] += v->segment_force[3 * j + a];
             if (j > 0) sum[a] -= v->segment_force[3 * (j - 1) + a];
         }
         add_elements(v, j, sum);
@@ -251,12 +252,12 @@ static void audit(const Rig *rig, const CpsLineView *v, const CpsLineReport *rep
             w->support = fmax(w->support, fabs(v->reaction[j] + dot(sum, normal)) / largest);
             continue;
         }
-        for (int c = j; c < v->contacts * n; c += n)
+        for (int c = j; c < v->contact_count * n; c += n)
             look_at_node(rig, v, before, c, largest, sum, w, &law);
         w->balance = fmax(w->balance, size(sum) / largest);
     }
     if (v->element_obstacle)
-        for (int e = 0; e < v->elements; e++) {
+        for (int e = 0; e < v->element_count; e++) {
             double unused[3] = {0};
             if (v->element_obstacle[e] >= 0)
                 look_at_element(rig, v, before, e, largest, unused, w, &law);
@@ -265,13 +266,13 @@ static void audit(const Rig *rig, const CpsLineView *v, const CpsLineReport *rep
 }
 
 static void remember(const CpsLineView *v, Before *before) {
-    const int n = v->elements + 1;
+    const int n = v->element_count + 1;
     memset(before, 0, sizeof *before);
     before->known = true;
-    for (int c = 0; c < v->contacts * n; c++)
+    for (int c = 0; c < v->contact_count * n; c++)
         before->reaction[obstacle_of(v, c)][c % n] = v->reaction[c];
     if (v->element_obstacle)
-        for (int e = 0; e < v->elements; e++)
+        for (int e = 0; e < v->element_count; e++)
             if (v->element_obstacle[e] >= 0)
                 before->element[v->element_obstacle[e]][e] = v->element_reaction[e];
 }
@@ -301,16 +302,17 @@ static void random_scenes(void **state) {
             continue; /* an end's way leads through an obstacle */
         Before before = {.known = false};
         Worst worst = {0};
-        for (int s = 0; cps_evolution_remaining(evolution) > 0; s++) {
+        for (int s = 0; cps_evolution_remaining_count(evolution) > 0; s++) {
             if (cps_evolution_step(evolution, &err) != CPS_OK) break;
             const CpsLineReport report = cps_evolution_line_report(evolution, 0);
             const CpsLineView view = cps_evolution_line_view(evolution, 0);
             steps++;
-            if (report.parts > 1) before.known = false; /* the reference is that of the last part */
+            if (report.part_count > 1)
+                before.known = false; /* the reference is that of the last part */
             if (report.outcome == CPS_OUTCOME_SOLVED && s > 0) {
                 solved++;
                 audit(&rig, &view, &report, &before, &worst);
-                for (int c = 0; c < view.contacts * (ELEMENTS + 1); c++)
+                for (int c = 0; c < view.contact_count * (ELEMENTS + 1); c++)
                     pressed += view.reaction[c] > 0;
             }
             remember(&view, &before);
@@ -334,17 +336,18 @@ static void strict_contact(void **state) {
     for (uint64_t seed = 1; seed <= SCENES; seed++) {
         Rig rig;
         build(&rig, seed);
-        rig.scene.contact_policy = CPS_CONTACT_REFERENCE;
-        rig.scene.friction_policy = seed % 2 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+        rig.scene.contact_policy = CPS_CONTACT_POLICY_REFERENCE;
+        rig.scene.friction_policy =
+            seed % 2 ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
         CpsError err = {0};
         CpsEvolution *evolution;
         if (cps_evolution_create(&rig.scene, &evolution, &err) != CPS_OK) continue;
-        for (int s = 0; cps_evolution_remaining(evolution) > 0; s++) {
+        for (int s = 0; cps_evolution_remaining_count(evolution) > 0; s++) {
             if (cps_evolution_step(evolution, &err) != CPS_OK) break;
             const CpsLineReport report = cps_evolution_line_report(evolution, 0);
             const CpsLineView view = cps_evolution_line_view(evolution, 0);
             if (s == 0 || report.outcome != CPS_OUTCOME_SOLVED) continue;
-            for (int c = 0; c < view.contacts * (ELEMENTS + 1); c++) {
+            for (int c = 0; c < view.contact_count * (ELEMENTS + 1); c++) {
                 const int j = c % (ELEMENTS + 1);
                 if (is_held(&view, j)) continue;
                 double n[3];
@@ -371,18 +374,18 @@ static void held_end_on_a_ball(void **state) {
         Rig rig;
         rig_begin(&rig, ELEMENTS, 1, 1000);
         rig_length(&rig, 1);
-        rig.scene.friction_policy = CPS_FRICTION_FROZEN;
+        rig.scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
         CpsObstacle *ball = rig_obstacle(&rig, CPS_OBSTACLE_SPHERE, 0.3);
         ball->radius = 0.5;
         rig.line.start.kind = CPS_START_STATIC;
-        rig_end(&rig, CPS_END_A, CPS_END_HELD, -0.9, 0, 0.1);
-        rig_end(&rig, CPS_END_B, CPS_END_HELD, 0, 0, 0.5);
+        rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, -0.9, 0, 0.1);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, 0, 0, 0.5);
         for (int s = 1; s <= 3; s++) {
             const double angle = 0.1 * s * (k % 2 ? 1 : -1), turn = 0.7 * k, r[2] = {0.55, 0.5};
             for (int i = 0; i < 2; i++) {
                 const double from = angle - (i ? 0 : 0.1);
                 rig_stage(&rig, 1);
-                rig_change(&rig, CPS_END_B, CPS_END_HELD, r[i] * sin(from) * cos(turn),
+                rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, r[i] * sin(from) * cos(turn),
                            r[i] * sin(from) * sin(turn), r[i] * cos(from));
             }
         }
@@ -392,7 +395,7 @@ static void held_end_on_a_ball(void **state) {
         Worst worst = {0};
         Before before = {.known = false};
         int carried = 0;
-        for (int s = 0; cps_evolution_remaining(evolution) > 0; s++) {
+        for (int s = 0; cps_evolution_remaining_count(evolution) > 0; s++) {
             CHECK_INT(cps_evolution_step(evolution, &err), CPS_OK);
             const CpsLineReport report = cps_evolution_line_report(evolution, 0);
             const CpsLineView view = cps_evolution_line_view(evolution, 0);

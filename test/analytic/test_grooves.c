@@ -60,7 +60,7 @@ static bool run_all(const CpsScene *scene,
     assert_non_null(mkdtemp(directory));
     must(cps_evolution_create(scene, &evolution, &err), &err);
     must(cps_results_open(directory, scene, evolution, NULL, &results, &err), &err);
-    for (int step = 0; cps_evolution_remaining(evolution) > 0; step++) {
+    for (int step = 0; cps_evolution_remaining_count(evolution) > 0; step++) {
         must(cps_evolution_step(evolution, &err), &err);
         must(cps_results_append(results, evolution, &err), &err);
         solved = solved && cps_evolution_report(evolution).outcome == CPS_OUTCOME_SOLVED;
@@ -108,7 +108,7 @@ typedef struct Tip {
 static void look_at_tip(const CpsEvolution *evolution, int step, void *user) {
     (void)step;
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
-    const int j = view.elements;
+    const int j = view.element_count;
     *(Tip *)user = (Tip){{view.position[3 * j], view.position[3 * j + 1]},
                          {view.friction_force[3 * j], view.friction_force[3 * j + 1]}};
 }
@@ -199,7 +199,7 @@ static CpsSceneFile *drag(const char *friction, const char *zones, double pull, 
 
 static void look_at_motion(const CpsEvolution *evolution, int step, void *user) {
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
-    ((double *)user)[step] = view.position[3 * (size_t)view.elements] - LENGTH;
+    ((double *)user)[step] = view.position[3 * (size_t)view.element_count] - LENGTH;
 }
 
 /* The integral of (F - Q)^+ over K where the density is `near` over `reach` from B on and `far`
@@ -382,7 +382,7 @@ static void the_form_is_the_set(void **state) {
         must(cps_set_conic(set, &form, &err), &err);
         CHECK_INT(form.outcome, CPS_SET_OUTCOME_ANSWERED);
         CHECK_INT(form.space, 2);
-        const size_t n = (size_t)form.unknowns, m = (size_t)form.rows;
+        const size_t n = (size_t)form.unknown_count, m = (size_t)form.row_count;
         Conic *conic = conic_create(n, m);
         for (size_t i = 0, c = 0; i < m; i += (size_t)form.dim[c++])
             conic->cone[i] = (size_t)form.dim[c];
@@ -423,7 +423,7 @@ static void what_has_no_form_says_so(void **state) {
     CHECK_INT(form.outcome, CPS_SET_OUTCOME_EMPTY);
     must(cps_set_conic(point[0], &form, &err), &err);
     CHECK_INT(form.outcome, CPS_SET_OUTCOME_ANSWERED);
-    CHECK_INT(form.unknowns, 0);
+    CHECK_INT(form.unknown_count, 0);
     cps_set_conic_free(&form);
     cps_set_conic_free(&form);
     CHECK_INT(cps_set_conic(NULL, &form, &err), CPS_ERR_ARGUMENT);

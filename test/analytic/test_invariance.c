@@ -40,8 +40,8 @@ static void turn_back(const View *view, const double x[3], double out[3]) {
 static void set_end(Rig *rig, const View *view, bool change, int end, CpsEndKind kind, double x,
                     double y, double z) {
     double to[3];
-    turn_to(view, (const double[]){x, y, z}, kind == CPS_END_HELD, to);
-    if (kind == CPS_END_FREE)
+    turn_to(view, (const double[]){x, y, z}, kind == CPS_END_KIND_HELD, to);
+    if (kind == CPS_END_KIND_FREE)
         for (int a = 0; a < 3; a++) to[a] *= view->force;
     const int e = view->reversed ? 1 - end : end;
     if (change)
@@ -73,13 +73,13 @@ static void pipe_scene(Rig *rig, const View *view) {
              0.5, 0.8);
     obstacle(rig, view, CPS_OBSTACLE_CYLINDER, (const double[]){3, 0, 0}, (const double[]){0, 1, 0},
              1, 0.3, 0.2)
-        ->friction_shape = CPS_FRICTION_BOX;
+        ->friction_shape = CPS_FRICTION_SHAPE_BOX;
     rig->line.start.kind = CPS_START_STATIC;
     rig_length(rig, 7.2 * view->scale);
-    set_end(rig, view, false, CPS_END_A, CPS_END_HELD, 0, 0, 0);
-    set_end(rig, view, false, CPS_END_B, CPS_END_HELD, 6, 0, 0.2);
+    set_end(rig, view, false, CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0);
+    set_end(rig, view, false, CPS_END_B, CPS_END_KIND_HELD, 6, 0, 0.2);
     rig_stage(rig, 6);
-    set_end(rig, view, true, CPS_END_B, CPS_END_HELD, 6.1, 1, 0.6);
+    set_end(rig, view, true, CPS_END_B, CPS_END_KIND_HELD, 6.1, 1, 0.6);
 }
 
 /* Around the drum: half a turn, heavy, held at one end, pulled at the other; the drum turns and
@@ -98,8 +98,8 @@ static void drum_scene(Rig *rig, const View *view) {
     }
     double chord = hypot(2 * sin(d / 2), 0.05 / N);
     rig_length(rig, N * chord * view->scale);
-    set_end(rig, view, false, CPS_END_A, CPS_END_FREE, -2 * cos(from), 0, 2 * sin(from));
-    rig_end(rig, view->reversed ? CPS_END_A : CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    set_end(rig, view, false, CPS_END_A, CPS_END_KIND_FREE, -2 * cos(from), 0, 2 * sin(from));
+    rig_end(rig, view->reversed ? CPS_END_A : CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
     rig_stage(rig, 3);
     rig_turn(rig, 0, -0.05);
     rig_stage(rig, 3);
@@ -114,7 +114,7 @@ static void run_it(void (*make)(Rig *, const View *), const View *view, Found *f
     Rig rig;
     make(&rig, view);
     RigRun run = rig_open(&rig);
-    while (cps_evolution_remaining(run.evolution) > 0) rig_step(&run);
+    while (cps_evolution_remaining_count(run.evolution) > 0) rig_step(&run);
     for (int j = 0; j <= N; j++)
         turn_back(view, &run.view.position[3 * (view->reversed ? N - j : j)], &found->place[3 * j]);
     for (int e = 0; e < N; e++)

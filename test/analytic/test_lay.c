@@ -19,7 +19,7 @@ static const double PI = 3.14159265358979323846;
 /* largest way of a node from the start */
 static double farthest(const RigRun *run) {
     double most = 0;
-    for (int j = 0; j <= run->view.elements; j++) {
+    for (int j = 0; j <= run->view.element_count; j++) {
         const double *x = &run->view.position[3 * j], *start = &run->rig->point[3 * j];
         most = fmax(most, hypot(hypot(x[0] - start[0], x[1] - start[1]), x[2] - start[2]));
     }
@@ -41,8 +41,8 @@ static double lay(double radius, double lateral, CpsFrictionShape shape, double 
     bed->friction_shape = shape;
     for (int j = 0; j <= N; j++) rig_point(&rig, radius * cos(j * d), radius * sin(j * d), 0);
     rig_length(&rig, N * 2 * radius * sin(d / 2) / (1 + tension / stiffness));
-    rig_end(&rig, CPS_END_A, CPS_END_HELD, NAN, NAN, NAN);
-    rig_end(&rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
     RigRun run = rig_open(&rig);
     rig_step(&run);
     const double way = farthest(&run);
@@ -72,10 +72,10 @@ static void critical_radius(void **state) {
         const char *name;
         double lateral;
         CpsFrictionShape shape;
-    } BED[] = {{"lay, mu 0.5", 0.5, CPS_FRICTION_ELLIPSE},
-               {"lay, mu 0.5 by 0.8, ellipse", 0.8, CPS_FRICTION_ELLIPSE},
-               {"lay, mu 0.5 by 0.3, ellipse", 0.3, CPS_FRICTION_ELLIPSE},
-               {"lay, mu 0.5 by 0.8, box", 0.8, CPS_FRICTION_BOX}};
+    } BED[] = {{"lay, mu 0.5", 0.5, CPS_FRICTION_SHAPE_ELLIPSE},
+               {"lay, mu 0.5 by 0.8, ellipse", 0.8, CPS_FRICTION_SHAPE_ELLIPSE},
+               {"lay, mu 0.5 by 0.3, ellipse", 0.3, CPS_FRICTION_SHAPE_ELLIPSE},
+               {"lay, mu 0.5 by 0.8, box", 0.8, CPS_FRICTION_SHAPE_BOX}};
     for (int i = 0; i < 4; i++) {
         const double exact = tension * (1 + strain) / (BED[i].lateral * 10);
         const double found = critical(BED[i].lateral, BED[i].shape, tension);
@@ -108,10 +108,10 @@ static double pull_arc(double theta, double axial, double lateral, double force)
     rig_obstacle(&rig, CPS_OBSTACLE_PLANE, axial)->friction_lateral = lateral;
     for (int j = 0; j <= N; j++) rig_point(&rig, cos(j * d), sin(j * d), 0);
     rig_length(&rig, N * 2 * sin(d / 2));
-    rig_end(&rig, CPS_END_A, CPS_END_FREE, 0, 0, 0);
-    rig_end(&rig, CPS_END_B, CPS_END_FREE, 0, 0, 0);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_FREE, 0, 0, 0);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, 0);
     rig_stage(&rig, 1);
-    rig_change(&rig, CPS_END_B, CPS_END_FREE, -force * sin(theta - d / 2),
+    rig_change(&rig, CPS_END_B, CPS_END_KIND_FREE, -force * sin(theta - d / 2),
                force * cos(theta - d / 2), 0);
     RigRun run = rig_open(&rig);
     rig_step(&run);
@@ -154,11 +154,11 @@ static void lateral_slip(void **state) {
     rig_point(&rig, 0, 0, 0);
     rig_point(&rig, length * (1 + tension / stiffness), 0, 0);
     rig_length(&rig, length);
-    rig_end(&rig, CPS_END_A, CPS_END_HELD, NAN, NAN, NAN);
-    rig_end(&rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
     rig_stage(&rig, 5);
-    rig_change(&rig, CPS_END_A, CPS_END_HELD, 0, 1, 0);
-    rig_change(&rig, CPS_END_B, CPS_END_HELD, length * (1 + tension / stiffness), 1, 0);
+    rig_change(&rig, CPS_END_A, CPS_END_KIND_HELD, 0, 1, 0);
+    rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, length * (1 + tension / stiffness), 1, 0);
     RigRun run = rig_open(&rig);
     const CpsLineView v = rig_next(&run);
     double worst = 0, even = 0, radius = 0;
@@ -201,10 +201,10 @@ static void tow(const char *name, CpsFrictionShape shape, double mu1, double mu2
     rig_point(&rig, 0, 0, 0);
     rig_point(&rig, 1, 0, 0);
     rig_length(&rig, 1);
-    rig_end(&rig, CPS_END_A, CPS_END_FREE, 0, 0, 0);
-    rig_end(&rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_FREE, 0, 0, 0);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
     rig_stage(&rig, 120);
-    rig_change(&rig, CPS_END_B, CPS_END_HELD, 1 + way * direction[0], way * direction[1], 0);
+    rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, 1 + way * direction[0], way * direction[1], 0);
     RigRun run = rig_open(&rig);
     double worst = 0;
     for (int k = 0; k < 120; k++) {
@@ -212,16 +212,16 @@ static void tow(const char *name, CpsFrictionShape shape, double mu1, double mu2
         const double s1 = v.position[0] - v.reference[0], s2 = v.position[1] - v.reference[1],
                      r = v.reaction[0];
         const double size = hypot(mu1 * s1, mu2 * s2);
-        if (shape == CPS_FRICTION_BOX || size < 1e-6) continue;
+        if (shape == CPS_FRICTION_SHAPE_BOX || size < 1e-6) continue;
         worst = fmax(worst, hypot(v.friction_force[0] + r * mu1 * mu1 * s1 / size,
                                   v.friction_force[1] + r * mu2 * mu2 * s2 / size) /
                                 r);
     }
-    if (shape == CPS_FRICTION_ELLIPSE)
+    if (shape == CPS_FRICTION_SHAPE_ELLIPSE)
         CHECK_LESS(rig_show(name, "force off its closed form, /R", 0, worst),
                    1e-6); /* the gap is quadratic in it */
     const CpsLineView v = run.view;
-    const bool box = shape == CPS_FRICTION_BOX;
+    const bool box = shape == CPS_FRICTION_SHAPE_BOX;
     const double exact =
         box ? atan2(mu2, mu1) : atan2(mu2 * mu2 * direction[1], mu1 * mu1 * direction[0]);
     const double found = atan2(v.position[4] - v.position[1], v.position[3] - v.position[0]);
@@ -232,10 +232,10 @@ static void tow(const char *name, CpsFrictionShape shape, double mu1, double mu2
 
 static void normality(void **state) {
     (void)state;
-    tow("tow, ellipse 0.6 by 0.3", CPS_FRICTION_ELLIPSE, 0.6, 0.3, 0.8);
-    tow("tow, ellipse 0.2 by 0.9", CPS_FRICTION_ELLIPSE, 0.2, 0.9, 0.3);
-    tow("tow, disc", CPS_FRICTION_ELLIPSE, 0.5, 0.5, 0.8);
-    tow("tow, box 0.6 by 0.3", CPS_FRICTION_BOX, 0.6, 0.3, 0.8);
+    tow("tow, ellipse 0.6 by 0.3", CPS_FRICTION_SHAPE_ELLIPSE, 0.6, 0.3, 0.8);
+    tow("tow, ellipse 0.2 by 0.9", CPS_FRICTION_SHAPE_ELLIPSE, 0.2, 0.9, 0.3);
+    tow("tow, disc", CPS_FRICTION_SHAPE_ELLIPSE, 0.5, 0.5, 0.8);
+    tow("tow, box 0.6 by 0.3", CPS_FRICTION_SHAPE_BOX, 0.6, 0.3, 0.8);
 }
 
 /* on a sphere ---------------------------------------------------------------------------------- */
@@ -255,8 +255,8 @@ static double geodesic(int n, double *aside) {
     rig_point(&rig, 0.5, 0.3, 1.2);
     rig_point(&rig, 2, 0, 0.6);
     rig_length(&rig, way / (1 + strain));
-    rig_end(&rig, CPS_END_A, CPS_END_HELD, NAN, NAN, NAN);
-    rig_end(&rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
     RigRun run = rig_open(&rig);
     const CpsLineView v = rig_step(&run);
     *aside = 0;
@@ -303,8 +303,8 @@ static double latitude(double mu, double part, CpsFrictionShape shape) {
     ball->friction_shape = shape;
     for (int j = 0; j <= N; j++) rig_point(&rig, r * cos(j * d), r * sin(j * d), sin(lambda));
     rig_length(&rig, N * 2 * r * sin(d / 2) / (1 + strain));
-    rig_end(&rig, CPS_END_A, CPS_END_HELD, NAN, NAN, NAN);
-    rig_end(&rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
     RigRun run = rig_open(&rig);
     rig_step(&run);
     const double way = farthest(&run);
@@ -319,7 +319,7 @@ static void sphere_latitude(void **state) {
         for (int k = 0; k < 2; k++) {
             char name[48];
             snprintf(name, sizeof name, "latitude, mu %g, %s", MU[i], k ? "box" : "ellipse");
-            const CpsFrictionShape shape = k ? CPS_FRICTION_BOX : CPS_FRICTION_ELLIPSE;
+            const CpsFrictionShape shape = k ? CPS_FRICTION_SHAPE_BOX : CPS_FRICTION_SHAPE_ELLIPSE;
             CHECK_LESS(rig_show(name, "way at 0.999 of the limit [m]", 0,
                                 latitude(MU[i], 0.999, shape)),
                        1e-6);

@@ -50,11 +50,11 @@ static double solve(const Mooring *m, int elements, double tension[2]) {
     rig_graded(&rig);
     if (m->bed) rig_obstacle(&rig, CPS_OBSTACLE_PLANE, m->mu);
     rig.line.start.kind = CPS_START_STATIC;
-    rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
-    rig_end(&rig, CPS_END_B, CPS_END_HELD, m->span, 0, m->height);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, m->span, 0, m->height);
     if (m->shift != 0) {
         rig_stage(&rig, 10);
-        rig_change(&rig, CPS_END_B, CPS_END_HELD, m->span + m->shift, 0, m->height);
+        rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, m->span + m->shift, 0, m->height);
     }
     RigRun run = rig_open(&rig);
     rig_step(&run);

@@ -33,16 +33,16 @@ static void lay(Rig *rig, Bed bed, int elements, double pretension) {
     rig_point(rig, 0, 0, 0);
     rig_point(rig, LENGTH * (1 + pretension / STIFFNESS), 0, 0);
     rig_length(rig, LENGTH);
-    rig_end(rig, CPS_END_A, CPS_END_HELD, NAN, NAN, NAN);
-    rig_end(rig, CPS_END_B, CPS_END_FREE, pretension, 0, 0);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_FREE, pretension, 0, 0);
 }
 
 static void pull(Rig *rig, int steps, double force) {
     rig_stage(rig, steps);
-    rig_change(rig, CPS_END_B, CPS_END_FREE, force, 0, 0);
+    rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, force, 0, 0);
 }
 
-static double tip(const CpsLineView *view) { return view->position[3 * view->elements]; }
+static double tip(const CpsLineView *view) { return view->position[3 * view->element_count]; }
 
 /* A closed loop from high to low and back, after a first pull to high: its loss and the swing of
  * the end. */
@@ -168,7 +168,7 @@ static void no_time(void **state) {
                 for (int s = 0; s < rig.scene.stage_count; s++) rig.stage[s].name = "slowly";
             RigRun run = rig_open(&rig);
             CpsLineView view = {0};
-            while (cps_evolution_remaining(run.evolution) > 0) view = rig_step(&run);
+            while (cps_evolution_remaining_count(run.evolution) > 0) view = rig_step(&run);
             found[way][0] = tip(&view);
             found[way][1] = run.dissipated;
             rig_close(&run);

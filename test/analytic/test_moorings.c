@@ -57,13 +57,13 @@ static void mooring(Rig *rig, int elements, double mu, double laid) {
     rig_obstacle(rig, CPS_OBSTACLE_PLANE, mu);
     rig->line.start.kind = CPS_START_STATIC;
     rig_length(rig, LENGTH);
-    rig_end(rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
-    rig_end(rig, CPS_END_B, CPS_END_HELD, laid, 0, HEIGHT);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, laid, 0, HEIGHT);
 }
 
 static void move(Rig *rig, int steps, double x, double y) {
     rig_stage(rig, steps);
-    rig_change(rig, CPS_END_B, CPS_END_HELD, x, y, HEIGHT);
+    rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, x, y, HEIGHT);
 }
 
 /* Lay at `from`, go over `by` to `to`; horizontal force and anchor tension against the closed form.
@@ -80,7 +80,7 @@ static void against(const char *name, double mu, double sign, double from, doubl
         if (by != to) move(&rig, 10, to, 0);
         RigRun run = rig_open(&rig);
         rig_step(&run);
-        while (cps_evolution_remaining(run.evolution) > 0) rig_step(&run);
+        while (cps_evolution_remaining_count(run.evolution) > 0) rig_step(&run);
         char figure[48];
         snprintf(figure, sizeof figure, "horizontal force, N = %d [N]", n);
         const double h =

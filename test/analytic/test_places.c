@@ -15,18 +15,18 @@
 
 static double largest_move(const CpsLineView *v) {
     double most = 0;
-    for (int i = 0; i < 3 * (v->elements + 1); i++)
+    for (int i = 0; i < 3 * (v->element_count + 1); i++)
         most = fmax(most, fabs(v->position[i] - v->reference[i]));
     return most;
 }
 
 /* An end of no force. */
-static void let_go(Case *c, int end) { c->line.end[end] = (CpsEnd){.kind = CPS_END_FREE}; }
+static void let_go(Case *c, int end) { c->line.end[end] = (CpsEnd){.kind = CPS_END_KIND_FREE}; }
 
 /* A step named so that changes nothing. */
 static void hold(Case *c, int steps) {
     c->stage[c->scene.stage_count++] =
-        (CpsStage){.cookie = cps_stage_default().cookie, .name = "nothing", .steps = steps};
+        (CpsStage){.cookie = cps_stage_default().cookie, .name = "nothing", .step_count = steps};
 }
 
 static CpsPlaces places(const Run *run) {
@@ -48,7 +48,7 @@ static void nothing_loads_the_line(void **state) {
         for (int s = 0; s < 3; s++) {
             const CpsLineView v = case_step(&run);
             CHECK_NEAR(largest_move(&v), 0, 0);
-            for (int e = 0; e < v.elements; e++) CHECK_NEAR(v.tension[e], 0, 0);
+            for (int e = 0; e < v.element_count; e++) CHECK_NEAR(v.tension[e], 0, 0);
             if (k == 0 && s == 0) CHECK_INT(places(&run), CPS_PLACES_NEAREST);
         }
         case_close(&run);
@@ -99,7 +99,7 @@ static void dropped_beside_a_wall(void **state) {
         Run run = case_open(&c);
         for (int s = 0; s < 3; s++) {
             const CpsLineView v = case_step(&run);
-            for (int j = 0; j <= v.elements; j++) {
+            for (int j = 0; j <= v.element_count; j++) {
                 const double want[3] = {0.05 * j, 0, 0};
                 CHECK_VECTOR(&v.position[3 * j], want, 1e-13); /* 1e-16 per operation */
             }
@@ -118,7 +118,7 @@ static void end_goes_back(void **state) {
         case_begin(&c, 1, 100, 1, inextensible ? INFINITY : 1e3);
         case_bed(&c, 0);
         case_straight(&c, 0, 1);
-        c.line.end[CPS_END_B].kind = CPS_END_HELD;
+        c.line.end[CPS_END_B].kind = CPS_END_KIND_HELD;
         c.line.end[CPS_END_B].value[0] = 1;
         case_move(&c, 1, 0.5, 0, 0);
         Run run = case_open(&c);
@@ -214,7 +214,7 @@ static void nearest_by_projections(void **state) {
         c.line.element_length = element;
         if (kind > 0) case_bed(&c, 0);
         case_straight(&c, 0, length);
-        c.line.end[CPS_END_B].kind = CPS_END_HELD;
+        c.line.end[CPS_END_B].kind = CPS_END_KIND_HELD;
         c.line.end[CPS_END_B].value[0] = length;
         double to[2][3];
         for (int m = 0; m < 2; m++) {
@@ -282,7 +282,7 @@ static void the_other_way_round(void **state) {
             c.point[3 * far] = cosine;
             c.point[3 * far + 1] = sine;
             for (int e = 0; e < 2; e++) {
-                c.line.end[e].kind = CPS_END_HELD;
+                c.line.end[e].kind = CPS_END_KIND_HELD;
                 memcpy(c.line.end[e].value, &c.point[3 * e], sizeof c.line.end[e].value);
             }
             case_move(&c, 1, cosine * to[0] - sine * mirror * to[1],

@@ -18,9 +18,9 @@ static double allowed(double l, double radius) { return fmin(l * l / (4 * radius
  * allowed. */
 static double deepest(const Rig *rig, const CpsLineView *v) {
     double worst = -INFINITY;
-    for (int i = 0; i < rig->scene.obstacle_count * v->elements * 201; i++) {
-        const int e = i / 201 % v->elements;
-        const CpsObstacle *o = &rig->scene.obstacle[i / 201 / v->elements];
+    for (int i = 0; i < rig->scene.obstacle_count * v->element_count * 201; i++) {
+        const int e = i / 201 % v->element_count;
+        const CpsObstacle *o = &rig->scene.obstacle[i / 201 / v->element_count];
         double from[3];
         for (int k = 0; k < 3; k++) {
             const double a = v->position[3 * e + k], b = v->position[3 * e + 3 + k];
@@ -49,11 +49,11 @@ static RigRun pose(Rig *rig, CpsObstacleKind kind, double radius, double mu, int
     }
     rig_point(rig, off - half, below, 0);
     rig_point(rig, off + half, below, 0);
-    rig_end(rig, CPS_END_A, CPS_END_HELD, off - half, below, 0);
-    rig_end(rig, CPS_END_B, CPS_END_HELD, off + half, below, 0);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, off - half, below, 0);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, off + half, below, 0);
     rig_stage(rig, steps);
-    rig_change(rig, CPS_END_A, CPS_END_HELD, off - half, above, 0);
-    rig_change(rig, CPS_END_B, CPS_END_HELD, off + half, above, 0);
+    rig_change(rig, CPS_END_A, CPS_END_KIND_HELD, off - half, above, 0);
+    rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, off + half, above, 0);
     return rig_open(rig);
 }
 
@@ -68,7 +68,7 @@ static void carry(const char *name, CpsObstacleKind kind, double radius, double 
         const CpsLineView view = rig_step(&run);
         worst = fmax(worst, deepest(&rig, &view));
         CHECK_LESS(run.report.certificate.element_penetration, 1e-10 * LENGTH);
-        for (int e = 0; e < view.elements; e++) least = fmin(least, view.element_reaction[e]);
+        for (int e = 0; e < view.element_count; e++) least = fmin(least, view.element_reaction[e]);
     }
     rig_show(name, "deepest element beyond its chord [m]", 0, fmax(0, worst));
     /* rounds end where nothing is deeper than 1e-10 of the length */
@@ -114,11 +114,11 @@ static void order(void **state) {
 /* The element that alone lies on the post, -1 where there is none or a node lies there. */
 static int across(const CpsLineView *v) {
     int one = -1;
-    for (int j = 0; j <= v->elements; j++)
+    for (int j = 0; j <= v->element_count; j++)
         if (v->reaction[j] > 0) return -1;
-    for (int e = 0; e < v->elements; e++)
-        if (v->element_reaction[e] > 0) one = one < 0 ? e : v->elements;
-    return one < v->elements ? one : -1;
+    for (int e = 0; e < v->element_count; e++)
+        if (v->element_reaction[e] > 0) one = one < 0 ? e : v->element_count;
+    return one < v->element_count ? one : -1;
 }
 
 /* A line without weight is pulled through over a post, one of its elements sliding across: what the
@@ -138,12 +138,12 @@ static void work(void **state) {
         o->axis[2] = 1;
         rig_point(&rig, -1.03, -0.15, 0);
         rig_point(&rig, 0.97, -0.15, 0);
-        rig_end(&rig, CPS_END_A, CPS_END_HELD, -1.03, -0.15, 0);
-        rig_end(&rig, CPS_END_B, CPS_END_FREE, pull, 0, 0);
+        rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, -1.03, -0.15, 0);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, pull, 0, 0);
         rig_stage(&rig, 10);
-        rig_change(&rig, CPS_END_A, CPS_END_HELD, -1.03, 0.4, 0);
+        rig_change(&rig, CPS_END_A, CPS_END_KIND_HELD, -1.03, 0.4, 0);
         rig_stage(&rig, 40);
-        rig_change(&rig, CPS_END_A, CPS_END_HELD, -1.13, 0.44, 0);
+        rig_change(&rig, CPS_END_A, CPS_END_KIND_HELD, -1.13, 0.44, 0);
         RigRun run = rig_open(&rig);
         rig_next(&run);
         double dissipated = 0, worked = 0;
@@ -190,7 +190,7 @@ static void bends(void **state) {
             const CpsLineView v = cps_evolution_line_view(run.evolution, 0);
             const CpsLineReport r = cps_evolution_line_report(run.evolution, 0);
             const int e = across(&v);
-            if (e < 1 || e + 1 >= v.elements || !(v.element_friction_bound[e] > 0)) continue;
+            if (e < 1 || e + 1 >= v.element_count || !(v.element_friction_bound[e] > 0)) continue;
             const double *x = &v.position[3 * e];
             const double d = acos(((x[0] - x[-3]) * (x[6] - x[3]) + (x[1] - x[-2]) * (x[7] - x[4]) +
                                    (x[2] - x[-1]) * (x[8] - x[5])) /
@@ -229,7 +229,7 @@ static void two_posts(void **state) {
         RigRun run =
             pose(&rig, CPS_OBSTACLE_CYLINDER, 0.01, 0.3, 5 + 5 * (i % 3), 0.013, -0.05, 0.3, 12);
         cps_evolution_destroy(run.evolution);
-        rig.scene.solver.halvings = 3;
+        rig.scene.solver.max_halvings = 3;
         rig.obstacle[0].point[0] = -apart / 2;
         CpsObstacle *other = rig_obstacle(&rig, CPS_OBSTACLE_CYLINDER, 0.3);
         other->radius = 0.01;

@@ -121,7 +121,8 @@ static void lay(Rig *rig, const Case *c, uint64_t *seed) {
 
 static double longest_of(const Rig *rig) {
     double longest = 0;
-    for (int j = 0; j < rig->line.elements; j++) longest = fmax(longest, rig->element_length[j]);
+    for (int j = 0; j < rig->line.element_count; j++)
+        longest = fmax(longest, rig->element_length[j]);
     return longest;
 }
 
@@ -151,12 +152,12 @@ static bool outcome(const Case *c, uint64_t seed, bool shrunk, double share, Cps
     const double s = way_of_end(c, R, rig->line.length * (1 + share));
     double to[3];
     place(c, c->radius * (1 + c->lift), c->turn, rise_of(c, 1), s, to);
-    rig_end(rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
     const double *last = &rig->point[3 * c->elements];
-    rig_end(rig, CPS_END_B, CPS_END_HELD, last[0], last[1], last[2]);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, last[0], last[1], last[2]);
     rig_stage(rig, 1);
-    rig_change(rig, CPS_END_B, CPS_END_HELD, to[0], to[1], to[2]);
-    rig->scene.solver.halvings = 0;
+    rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, to[0], to[1], to[2]);
+    rig->scene.solver.max_halvings = 0;
     rig->scene.solver.max_iterations = 2; /* whether it is solved is not asked */
     bool taken = isfinite(s);
     if (taken) {

@@ -34,7 +34,7 @@ static void example_5_7(Case *c) {
     case_begin(c, 6.28, 800, 9.81, 10);
     case_bed(c, 0.0255);
     case_straight(c, 0, 6.28);
-    c->scene.friction_policy = CPS_FRICTION_FROZEN;
+    c->scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
     case_force(c, 1, 0.5, 0.5, 0.5);
 }
 
@@ -133,7 +133,7 @@ static void own_history_of_example_5_7(void **state) {
         CpsRegularizedReport report = solve(next, fine);
         CpsRegularizedView own = cps_regularized_view(next);
         double lowest = 0, farthest = 0;
-        for (int j = 0; j <= view.elements; j++) {
+        for (int j = 0; j <= view.element_count; j++) {
             lowest = fmin(lowest, own.position[3 * (size_t)j + 2]);
             for (size_t k = 3 * (size_t)j; k < 3 * (size_t)j + 3; k++)
                 farthest = fmax(farthest, fabs(own.position[k] - view.position[k]));
@@ -195,7 +195,7 @@ static void open_annex(Annex *t, double fx, double fy, double fz) {
     case_begin(&t->c, 1, ELEMENTS, 1, 1);
     case_bed(&t->c, 1);
     case_straight(&t->c, 0, 1);
-    t->c.scene.friction_policy = CPS_FRICTION_FROZEN; /* (78) */
+    t->c.scene.friction_policy = CPS_FRICTION_POLICY_FROZEN; /* (78) */
     case_force(&t->c, 1, fx, fy, fz);
     t->run = case_open(&t->c);
     t->view = case_step(&t->run);
@@ -303,7 +303,7 @@ static void p10_1_with_either_contact(void **state) {
     case_begin(&c, 1, ELEMENTS, 1, 1);
     case_bed(&c, 1);
     case_straight(&c, 0, 1);
-    c.scene.friction_policy = CPS_FRICTION_FROZEN;
+    c.scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
     case_force(&c, 1, 0.5, 0, 0.1);
     case_force(&c, 1, 0.5, 0, 0);
     Run run = case_open(&c);
@@ -373,7 +373,7 @@ static void example_11_3_consistent(void **state) {
     case_begin(&c, 1, ELEMENTS, 1, 1);
     case_bed(&c, 0.4);
     case_straight(&c, 0, 1);
-    c.scene.friction_policy = CPS_FRICTION_CONSISTENT;
+    c.scene.friction_policy = CPS_FRICTION_POLICY_CONSISTENT;
     case_force(&c, 1, 0, 0, 1);
     Run run = case_open(&c);
     CpsLineView view = case_step(&run);

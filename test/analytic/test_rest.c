@@ -48,23 +48,23 @@ typedef struct Copy {
 
 /* False where a node rubs that has left its obstacle, as frozen friction lets it. */
 static bool copy(const Rig *rig, const CpsLineView *view, const CpsLineReport *report, Copy *out) {
-    const int n = view->elements + 1;
+    const int n = view->element_count + 1;
     const double fine = 1e-9 * rig->line.length;
     memset(out, 0, sizeof *out);
-    out->line =
-        (RestLine){.elements = (size_t)view->elements,
-                   .contacts = (size_t)view->contacts,
-                   .element_length = view->element_length,
-                   .position = (const double(*)[3])(const void *)view->position,
-                   .load = (const double(*)[3])(const void *)view->load,
-                   .normal = (const double(*)[3])(const void *)out->normal,
-                   .slide = (const double(*)[3])(const void *)out->slide,
-                   .friction = out->friction,
-                   .contact = out->contact,
-                   .frozen = rig->scene.friction_policy == CPS_FRICTION_FROZEN,
-                   .held = {view->end[0].kind == CPS_END_HELD, view->end[1].kind == CPS_END_HELD},
-                   .force = report->certificate.largest_force};
-    for (int c = 0; c < view->contacts * n; c++) {
+    out->line = (RestLine){.elements = (size_t)view->element_count,
+                           .contacts = (size_t)view->contact_count,
+                           .element_length = view->element_length,
+                           .position = (const double(*)[3])(const void *)view->position,
+                           .load = (const double(*)[3])(const void *)view->load,
+                           .normal = (const double(*)[3])(const void *)out->normal,
+                           .slide = (const double(*)[3])(const void *)out->slide,
+                           .friction = out->friction,
+                           .contact = out->contact,
+                           .frozen = rig->scene.friction_policy == CPS_FRICTION_POLICY_FROZEN,
+                           .held = {view->end[0].kind == CPS_END_KIND_HELD,
+                                    view->end[1].kind == CPS_END_KIND_HELD},
+                           .force = report->certificate.largest_force};
+    for (int c = 0; c < view->contact_count * n; c++) {
         const double *x = &view->position[3 * (c % n)], *from = &view->reference[3 * (c % n)],
                      *normal = &view->normal[3 * c];
         const int on = view->obstacle[c];
@@ -95,7 +95,7 @@ static bool compare(const char *name, const Rig *rig, const CpsLineView *view,
     const double force = report->certificate.largest_force;
     for (int end = 0; end < 2; end++) {
         const CpsTensionRange *range = &report->end[end].range;
-        const size_t e = end == CPS_END_A ? 0 : (size_t)view->elements - 1;
+        const size_t e = end == CPS_END_A ? 0 : (size_t)view->element_count - 1;
         const double least = rest_tension(&like.line, e, -1),
                      greatest = rest_tension(&like.line, e, 1);
         const double close = 1e-7 * force; /* to which the program's values and bounds agree */
@@ -129,8 +129,8 @@ static void bed(Rig *rig, double stiffness, bool turned, double lengths, double 
     const double far = 2 * lengths;
     rig_point(rig, turned ? far : 0, 0, 0);
     rig_point(rig, turned ? 0 : far, 0, 0);
-    rig_end(rig, turned ? CPS_END_B : CPS_END_A, CPS_END_HELD, 0, 0, 0);
-    rig_end(rig, turned ? CPS_END_A : CPS_END_B, CPS_END_FREE, 0, 0, 0);
+    rig_end(rig, turned ? CPS_END_B : CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0);
+    rig_end(rig, turned ? CPS_END_A : CPS_END_B, CPS_END_KIND_FREE, 0, 0, 0);
 }
 
 static void pulled_and_let_go(bool turned, double lengths, double forces) {
@@ -140,9 +140,9 @@ static void pulled_and_let_go(bool turned, double lengths, double forces) {
     bed(&rig, INFINITY, turned, lengths, forces);
     rig_stage(&rig, 1);
     rig_stage(&rig, 2);
-    rig_change(&rig, near, CPS_END_FREE, f, 0, 0);
+    rig_change(&rig, near, CPS_END_KIND_FREE, f, 0, 0);
     rig_stage(&rig, 2);
-    rig_change(&rig, near, CPS_END_FREE, 0, 0, 0);
+    rig_change(&rig, near, CPS_END_KIND_FREE, 0, 0, 0);
     rig_stage(&rig, 3);
     RigRun run = rig_open(&rig);
     for (int stage = 0; stage < 4; stage++) {
@@ -200,11 +200,11 @@ static void as_stiff_ones(void **state) {
     for (int k = 0; k < 2; k++) {
         bed(&rig[k], k ? INFINITY : 1e12, false, 1, 1e4);
         rig_stage(&rig[k], 3);
-        rig_change(&rig[k], CPS_END_B, CPS_END_FREE, f, 0, 0);
+        rig_change(&rig[k], CPS_END_B, CPS_END_KIND_FREE, f, 0, 0);
         rig_stage(&rig[k], 2);
-        rig_change(&rig[k], CPS_END_B, CPS_END_FREE, f / 6, 0, 0);
+        rig_change(&rig[k], CPS_END_B, CPS_END_KIND_FREE, f / 6, 0, 0);
         rig_stage(&rig[k], 4);
-        rig_change(&rig[k], CPS_END_B, CPS_END_FREE, f / 2, 0, 0);
+        rig_change(&rig[k], CPS_END_B, CPS_END_KIND_FREE, f / 2, 0, 0);
         run[k] = rig_open(&rig[k]);
     }
     for (int stage = 0; stage < 3; stage++) {
@@ -234,12 +234,13 @@ static void with_directions(void **state) {
     for (int k = 0; k < 18; k++) {
         const bool zones = k >= 8 && k < 16, given = k >= 16;
         bed(&rig, INFINITY, k % 3 == 0, 1, 1);
-        if (k % 5 == 0) rig.scene.friction_policy = CPS_FRICTION_FROZEN;
+        if (k % 5 == 0) rig.scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
         if (given)
             rig.obstacle[0].friction_set = disc;
         else
             rig.obstacle[0].friction_lateral = LATERAL[k % 4];
-        rig.obstacle[0].friction_shape = k / 4 % 2 ? CPS_FRICTION_BOX : CPS_FRICTION_ELLIPSE;
+        rig.obstacle[0].friction_shape =
+            k / 4 % 2 ? CPS_FRICTION_SHAPE_BOX : CPS_FRICTION_SHAPE_ELLIPSE;
         if (zones) {
             rig.line.zone = &zone;
             rig.line.zone_count = 1;
@@ -247,10 +248,10 @@ static void with_directions(void **state) {
         const int near = k % 3 == 0 ? CPS_END_A : CPS_END_B;
         rig_stage(&rig, 1);
         rig_stage(&rig, 1);
-        rig_change(&rig, near, CPS_END_FREE, f, 0, 0);
+        rig_change(&rig, near, CPS_END_KIND_FREE, f, 0, 0);
         CpsEvolution *evolution;
         assert_int_equal(cps_evolution_create(&rig.scene, &evolution, &err), CPS_OK);
-        while (cps_evolution_remaining(evolution) > 0)
+        while (cps_evolution_remaining_count(evolution) > 0)
             assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
         const CpsLineReport report = cps_evolution_line_report(evolution, 0);
         CHECK_INT(report.outcome, CPS_OUTCOME_SOLVED);
@@ -277,8 +278,8 @@ static void without_choice(void **state) {
         bed(&rig, INFINITY, false, 1, 1);
         if (!slides) rig.scene.obstacle_count = 0;
         rig_stage(&rig, 1);
-        rig_change(&rig, CPS_END_B, CPS_END_HELD, slides ? 2.1 : 1.3, 0, slides ? 0 : 0.4);
-        if (slides) rig_change(&rig, CPS_END_A, CPS_END_FREE, 0, 0, 0);
+        rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, slides ? 2.1 : 1.3, 0, slides ? 0 : 0.4);
+        if (slides) rig_change(&rig, CPS_END_A, CPS_END_KIND_FREE, 0, 0, 0);
         CpsEvolution *evolution;
         assert_int_equal(cps_evolution_create(&rig.scene, &evolution, NULL), CPS_OK);
         assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
@@ -310,8 +311,8 @@ static void shallow(void **state) {
         rig_begin(&rig, elements, 9.81, INFINITY);
         rig_length(&rig, length);
         rig.line.start.kind = CPS_START_STATIC;
-        rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
-        rig_end(&rig, CPS_END_B, CPS_END_HELD, length * (1 - slack), 0, 0);
+        rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, length * (1 - slack), 0, 0);
         rig_stage(&rig, 1);
         RigRun run = rig_open(&rig);
         const CpsLineView view = rig_next(&run);
@@ -340,11 +341,11 @@ static void moored_as_a_stiff_one(void **state) {
         rig_length(&rig[k], 902.2);
         rig_obstacle(&rig[k], CPS_OBSTACLE_PLANE, 1);
         rig[k].line.start.kind = CPS_START_STATIC;
-        rig_end(&rig[k], CPS_END_A, CPS_END_HELD, 0, 0, 0);
-        rig_end(&rig[k], CPS_END_B, CPS_END_HELD, 800, 0, 250);
+        rig_end(&rig[k], CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0);
+        rig_end(&rig[k], CPS_END_B, CPS_END_KIND_HELD, 800, 0, 250);
         for (int stage = 0; stage < 4; stage++) {
             rig_stage(&rig[k], 3);
-            if (TO[stage] > 0) rig_change(&rig[k], CPS_END_B, CPS_END_HELD, TO[stage], 0, 250);
+            if (TO[stage] > 0) rig_change(&rig[k], CPS_END_B, CPS_END_KIND_HELD, TO[stage], 0, 250);
         }
         run[k] = rig_open(&rig[k]);
     }
@@ -381,7 +382,7 @@ static void drum(Rig *rig, int nodes, double d, double mu, bool held, double f) 
     double end[3];
     rig_point(rig, x - 0.5 * cos(angle + d), 0, z - 0.5 * sin(angle + d));
     memcpy(end, rig->point, sizeof end);
-    rig_end(rig, CPS_END_A, CPS_END_HELD, end[0], 0, end[2]);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, end[0], 0, end[2]);
     rig->element_length[0] = rig->element_length[nodes] = 0.5;
     rig_point(rig, x, 0, z);
     for (int k = 1; k < nodes; k++, angle -= d) {
@@ -394,9 +395,9 @@ static void drum(Rig *rig, int nodes, double d, double mu, bool held, double f) 
     rig_graded(rig);
     const double *last = &rig->point[3 * (nodes + 1)];
     if (held)
-        rig_end(rig, CPS_END_B, CPS_END_HELD, last[0], 0, last[2]);
+        rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, last[0], 0, last[2]);
     else
-        rig_end(rig, CPS_END_B, CPS_END_FREE, f * cos(angle), 0, f * sin(angle));
+        rig_end(rig, CPS_END_B, CPS_END_KIND_FREE, f * cos(angle), 0, f * sin(angle));
 }
 
 static void over_a_drum(void **state) {
@@ -454,8 +455,8 @@ static void in_a_groove(void **state) {
         }
         rig_point(&rig, 0, 0, 0);
         rig_point(&rig, n, 0, 0);
-        rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
-        rig_end(&rig, CPS_END_B, CPS_END_FREE, 1, 0, 0);
+        rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 1, 0, 0);
         rig_stage(&rig, 1);
         rig_stage(&rig, 3);
         RigRun run = rig_open(&rig);
@@ -491,7 +492,7 @@ static void wind(Rig *rig, uint64_t *seed) {
     const double lengths = pow(10, uniform(seed, -6, 6)), forces = pow(10, uniform(seed, -6, 6)),
                  h = lengths / elements;
     rig_begin(rig, elements, uniform(seed, 0.2, 2) * forces / lengths, INFINITY);
-    if (uniform(seed, 0, 1) < 0.3) rig->scene.friction_policy = CPS_FRICTION_FROZEN;
+    if (uniform(seed, 0, 1) < 0.3) rig->scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
     CpsObstacle *plane = rig_obstacle(rig, CPS_OBSTACLE_PLANE, uniform(seed, 0.1, 1));
     const double slope = uniform(seed, 0, 0.08);
     plane->normal[0] = -sin(slope);
@@ -510,9 +511,9 @@ static void wind(Rig *rig, uint64_t *seed) {
     const double *at[2] = {rig->point, &rig->point[3 * elements]};
     for (int end = 0; end < 2; end++)
         if (end == first || both)
-            rig_end(rig, end, CPS_END_HELD, at[end][0], at[end][1], at[end][2]);
+            rig_end(rig, end, CPS_END_KIND_HELD, at[end][0], at[end][1], at[end][2]);
         else
-            rig_end(rig, end, CPS_END_FREE, 0, 0, 0);
+            rig_end(rig, end, CPS_END_KIND_FREE, 0, 0, 0);
     rig_stage(rig, 1);
     for (int k = 0; k < 2; k++) {
         rig_stage(rig, 1 + (int)uniform(seed, 0, 3));
@@ -525,7 +526,8 @@ static void wind(Rig *rig, uint64_t *seed) {
                         0.3 * (at[first][a] - at[1 - first][a]) * uniform(seed, 0, 1);
         if (both) to[2] = to[0] * tan(slope) + 1e-3 * lengths; /* a little above the bed */
         if (uniform(seed, 0, 1) < 0.7)
-            rig_change(rig, 1 - first, both ? CPS_END_HELD : CPS_END_FREE, to[0], to[1], to[2]);
+            rig_change(rig, 1 - first, both ? CPS_END_KIND_HELD : CPS_END_KIND_FREE, to[0], to[1],
+                       to[2]);
     }
 }
 
@@ -543,10 +545,12 @@ static void at_random(void **state) {
             skipped++;
             continue;
         }
-        for (int stage = 0; stage < rig.scene.stage_count && cps_evolution_remaining(evolution) > 0;
+        for (int stage = 0;
+             stage < rig.scene.stage_count && cps_evolution_remaining_count(evolution) > 0;
              stage++) {
             for (int step = 0;
-                 step < rig.stage[stage].steps && cps_evolution_remaining(evolution) > 0; step++)
+                 step < rig.stage[stage].step_count && cps_evolution_remaining_count(evolution) > 0;
+                 step++)
                 cps_evolution_step(evolution, NULL);
             const CpsLineReport report = cps_evolution_line_report(evolution, 0);
             const CpsLineView view = cps_evolution_line_view(evolution, 0);
@@ -577,8 +581,8 @@ static void in_files(void **state) {
     rig_obstacle(&rig, CPS_OBSTACLE_PLANE, 0.5);
     rig_point(&rig, 0, 0, 0);
     rig_point(&rig, 2, 0, 0);
-    rig_end(&rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
-    rig_end(&rig, CPS_END_B, CPS_END_FREE, 4, 0, 0);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 4, 0, 0);
     rig_stage(&rig, 1);
     rig_stage(&rig, 2);
     CpsEvolution *evolution;
@@ -589,7 +593,7 @@ static void in_files(void **state) {
     assert_int_equal(cps_evolution_create(&rig.scene, &evolution, NULL), CPS_OK);
     assert_int_equal(cps_results_open(directory, &rig.scene, evolution, NULL, &results, NULL),
                      CPS_OK);
-    while (cps_evolution_remaining(evolution) > 0) {
+    while (cps_evolution_remaining_count(evolution) > 0) {
         assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
         assert_int_equal(cps_results_append(results, evolution, NULL), CPS_OK);
     }

@@ -29,7 +29,7 @@ static double winding(const double *x, int elements) {
 /* Does the line leave the plane of the equator so far that it may go over the ball? */
 static bool lifts(const Rig *rig, const CpsLineView *view) {
     bool off = false;
-    for (int j = 0; j <= rig->line.elements; j++)
+    for (int j = 0; j <= rig->line.element_count; j++)
         off = off || fabs(view->position[3 * j + 2]) > 0.1 * rig->obstacle->radius;
     return off && rig->obstacle->kind == CPS_OBSTACLE_SPHERE;
 }
@@ -58,13 +58,13 @@ static void run(const Rig *rig, const char *name, Tally *tally) {
         print_error("%s: %s\n", name, err.message);
         fail();
     }
-    double wound = winding(cps_evolution_line_view(evolution, 0).position, rig->line.elements),
+    double wound = winding(cps_evolution_line_view(evolution, 0).position, rig->line.element_count),
            ends[2][3];
-    for (bool goes = true; goes && cps_evolution_remaining(evolution) > 0;) {
+    for (bool goes = true; goes && cps_evolution_remaining_count(evolution) > 0;) {
         const CpsLineView before = cps_evolution_line_view(evolution, 0);
         for (int k = 0; k < 3; k++) {
             ends[0][k] = before.position[k];
-            ends[1][k] = before.position[3 * rig->line.elements + k];
+            ends[1][k] = before.position[3 * rig->line.element_count + k];
         }
         if (cps_evolution_step(evolution, &err)) {
             print_error("%s: %s\n", name, err.message);
@@ -77,9 +77,9 @@ static void run(const Rig *rig, const char *name, Tally *tally) {
         tally->certified++;
         tally->balls += rig->obstacle->kind == CPS_OBSTACLE_SPHERE;
         if (lifts(rig, &view)) break;
-        wound +=
-            angle(ends[1], &view.position[3 * rig->line.elements]) - angle(ends[0], view.position);
-        const double off = winding(view.position, rig->line.elements) - wound;
+        wound += angle(ends[1], &view.position[3 * rig->line.element_count]) -
+                 angle(ends[0], view.position);
+        const double off = winding(view.position, rig->line.element_count) - wound;
         if (fabs(off) <= SAME) continue;
         tally->passed++;
         print_error("%s, step %s: certified, and wound %.6f turns more than its ends went round\n",
@@ -97,8 +97,9 @@ static void across(uint64_t *seed, int i, Tally *tally) {
     const int elements = 8 + (int)splitmix(seed, 0, 24);
     const double radius = 4.0 / elements * pow(10, splitmix(seed, -1, 0.6));
     rig_begin(rig, elements, splitmix(seed, 0, 1) < 0.5 ? 0 : 0.2, pow(10, splitmix(seed, 2, 4)));
-    rig->scene.friction_policy = i % 3 == 0 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
-    rig->scene.solver.halvings = 6;
+    rig->scene.friction_policy =
+        i % 3 == 0 ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
+    rig->scene.solver.max_halvings = 6;
     rig_length(rig, 4);
     const bool ball = stand(rig, seed, i, radius)->kind == CPS_OBSTACLE_SPHERE;
     const double y = 1 + 1.5 * radius, lean = ball ? 0 : splitmix(seed, -0.3, 0.3),
@@ -106,17 +107,17 @@ static void across(uint64_t *seed, int i, Tally *tally) {
     if (ball) rig->line.weight = 0;
     rig_point(rig, -2, -y, -lean);
     rig_point(rig, 2, -y, lean + rise);
-    rig_end(rig, CPS_END_A, CPS_END_HELD, -2, -y, -lean);
-    rig_end(rig, CPS_END_B, CPS_END_HELD, 2, -y, lean + rise);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, -2, -y, -lean);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, 2, -y, lean + rise);
     static const int STEPS[] = {1, 4, 25};
     rig_stage(rig, STEPS[i % 3]);
     const double to = splitmix(seed, -0.2, 1.5);
-    rig_change(rig, CPS_END_A, CPS_END_HELD, -2, to, -lean);
-    rig_change(rig, CPS_END_B, CPS_END_HELD, 2, to, lean + rise);
+    rig_change(rig, CPS_END_A, CPS_END_KIND_HELD, -2, to, -lean);
+    rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, 2, to, lean + rise);
     char name[128];
     snprintf(name, sizeof name, "across %d, %s, R/h %.3g, %d steps, %s", i, ball ? "ball" : "post",
              radius * elements / 4, STEPS[i % 3],
-             rig->scene.friction_policy == CPS_FRICTION_FROZEN ? "frozen" : "consistent");
+             rig->scene.friction_policy == CPS_FRICTION_POLICY_FROZEN ? "frozen" : "consistent");
     run(rig, name, tally);
     free(rig);
 }
@@ -129,28 +130,29 @@ static void around(uint64_t *seed, int i, Tally *tally) {
     const double length = 3,
                  radius = fmin(0.25, length / elements * pow(10, splitmix(seed, -1, 1)));
     rig_begin(rig, elements, splitmix(seed, 0, 1) < 0.5 ? 0 : 0.2, pow(10, splitmix(seed, 2, 4)));
-    rig->scene.friction_policy = i % 3 == 0 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
-    rig->scene.solver.halvings = 6;
+    rig->scene.friction_policy =
+        i % 3 == 0 ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
+    rig->scene.solver.max_halvings = 6;
     rig_length(rig, length);
     const bool ball = stand(rig, seed, i, radius)->kind == CPS_OBSTACLE_SPHERE;
     if (ball) rig->line.weight = 0;
     const double reach = radius + splitmix(seed, 0.3, 0.6), way = i % 2 ? 1 : -1;
     rig_point(rig, -length + 0.2, -reach, 0);
     rig_point(rig, 0.2, -reach, 0);
-    rig_end(rig, CPS_END_A, CPS_END_HELD, -length + 0.2, -reach, 0);
-    rig_end(rig, CPS_END_B, CPS_END_HELD, 0.2, -reach, 0);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, -length + 0.2, -reach, 0);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, 0.2, -reach, 0);
     static const int STEPS[] = {1, 3};
     const double from = atan2(-reach, 0.2), around = hypot(0.2, reach);
     for (int k = 1; k <= 8; k++) { /* chords of 40 degrees come as near as 0.94 of the circle */
         rig_stage(rig, STEPS[i % 2]);
         const double turn = from + way * (k <= 5 || i % 4 < 2 ? k : 10 - k) * PI / 4.5;
-        rig_change(rig, CPS_END_B, CPS_END_HELD, around * cos(turn), around * sin(turn),
+        rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, around * cos(turn), around * sin(turn),
                    ball ? 0 : 0.1 * k);
     }
     char name[128];
     snprintf(name, sizeof name, "around %d, %s, R/h %.3g, %s", i, ball ? "ball" : "post",
              radius * elements / length,
-             rig->scene.friction_policy == CPS_FRICTION_FROZEN ? "frozen" : "consistent");
+             rig->scene.friction_policy == CPS_FRICTION_POLICY_FROZEN ? "frozen" : "consistent");
     run(rig, name, tally);
     free(rig);
 }

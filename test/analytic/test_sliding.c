@@ -53,7 +53,7 @@ static void lay_round(Rig *rig, const Case *c) {
 
 /* A force of size `force` along the lead of an end, outwards. */
 static void pull(const Rig *rig, int end, double force, double out[3]) {
-    const int n = rig->line.elements;
+    const int n = rig->line.element_count;
     const double *tip = &rig->point[end == CPS_END_A ? 0 : 3 * n],
                  *next = &rig->point[end == CPS_END_A ? 3 : 3 * (n - 1)];
     const double size = hypot(tip[0] - next[0], tip[2] - next[2]);
@@ -63,12 +63,12 @@ static void pull(const Rig *rig, int end, double force, double out[3]) {
 static void pull_both(Rig *rig, const Case *c, double ratio) {
     double a[3], b[3];
     pull(rig, CPS_END_A, c->force, a);
-    rig_end(rig, CPS_END_A, CPS_END_FREE, a[0], a[1], a[2]);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_FREE, a[0], a[1], a[2]);
     pull(rig, CPS_END_B, c->force, b);
-    rig_end(rig, CPS_END_B, CPS_END_FREE, b[0], b[1], b[2]);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_FREE, b[0], b[1], b[2]);
     rig_stage(rig, 1);
     pull(rig, CPS_END_B, ratio * c->force, b);
-    rig_change(rig, CPS_END_B, CPS_END_FREE, b[0], b[1], b[2]);
+    rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, b[0], b[1], b[2]);
 }
 
 /* The outcome where F_B/F_A goes from 1 to `ratio`; of a slide its proof. */
@@ -81,12 +81,12 @@ static CpsOutcome outcome(const Case *c, double ratio, double *power) {
     *power = run.report.proof_value;
     if (found == CPS_OUTCOME_SLIDES) {
         double fastest = 0; /* it stays where it was, and nothing follows */
-        for (int j = 0; j <= run.view.elements; j++) {
+        for (int j = 0; j <= run.view.element_count; j++) {
             const double *v = &run.view.motion[3 * j];
             fastest = fmax(fastest, sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
         }
         CHECK_NEAR(fastest, 1, 1e-14);
-        CHECK_INT(cps_evolution_remaining(run.evolution), 0);
+        CHECK_INT(cps_evolution_remaining_count(run.evolution), 0);
     }
     rig_close(&run);
     return found;
@@ -137,8 +137,8 @@ static void what_does_not_slide(void **state) {
             ceiling->point[2] = 2.5;
         }
         pull_both(&rig, &c, 1.5 * limit_of(&c));
-        if (kind == 1) rig_end(&rig, CPS_END_A, CPS_END_HELD, NAN, NAN, NAN);
-        if (kind == 2) rig.scene.friction_policy = CPS_FRICTION_FROZEN;
+        if (kind == 1) rig_end(&rig, CPS_END_A, CPS_END_KIND_HELD, NAN, NAN, NAN);
+        if (kind == 2) rig.scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
         RigRun run = rig_open(&rig);
         CpsError err; /* not rig_try: its audit is of consistent friction */
         CHECK_INT(cps_evolution_step(run.evolution, &err), CPS_OK);

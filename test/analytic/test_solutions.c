@@ -45,7 +45,7 @@ static void open_bench(Bench *b, double mu, double stiffness) {
     case_begin(&b->c, 1, ELEMENTS, 1, stiffness);
     case_bed(&b->c, mu);
     case_straight(&b->c, 0, 1);
-    b->c.scene.friction_policy = CPS_FRICTION_FROZEN;
+    b->c.scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
 }
 
 static void solve_bench(Bench *b) {
@@ -72,7 +72,7 @@ static void slack_on_a_smooth_bed(void **state) {
             CHECK_NEAR(slack.slack, 1, 1e-12);
             CHECK_NEAR(slack.loose, 1, 1e-12);
             CHECK_NEAR(slack.left, 0, 0);
-            CHECK_INT(slack.parts, 1);
+            CHECK_INT(slack.part_count, 1);
             CpsSlackPart part;
             CHECK_INT(cps_solution_slack(&b.view, 1, &part), 1);
             CHECK_NEAR(part.to - part.from, 1, 1e-12);
@@ -93,7 +93,7 @@ static void slack_between_ends_that_meet(void **state) {
     (void)state;
     Bench b;
     open_bench(&b, 0, 1);
-    b.c.line.elements = 7;
+    b.c.line.element_count = 7;
     case_move(&b.c, 1, 0.05, 0, 0);
     b.run = case_open(&b.c);
     b.view = case_step(&b.run);
@@ -116,7 +116,7 @@ static void check_laid(Bench *b, bool closes) {
         assert_int_equal(judge(b).judgement,
                          closes ? CPS_JUDGEMENT_SOLUTION : CPS_JUDGEMENT_RELAXED);
         if (closes)
-            for (int i = 0; i < b->view.elements; i++) {
+            for (int i = 0; i < b->view.element_count; i++) {
                 const double *x = &b->position[3 * i];
                 double length =
                     sqrt(pow(x[3] - x[0], 2) + pow(x[4] - x[1], 2) + pow(x[5] - x[2], 2));
@@ -125,7 +125,7 @@ static void check_laid(Bench *b, bool closes) {
                 // what the bed carries stays on it; 1e-9 N is far below a node's weight of 0.01 N
                 if (i > 0 && b->view.reaction[i] > 1e-9) CHECK_BETWEEN(x[2], -1e-12, 1e-9);
             }
-        const int tip = 3 * b->view.elements;
+        const int tip = 3 * b->view.element_count;
         for (int k = 0; k < 3; k++) {
             CHECK_NEAR(b->position[k], b->view.position[k], 0);
             CHECK_NEAR(b->position[tip + k], b->view.position[tip + k], 0);
@@ -160,7 +160,7 @@ static void slack_of_uneven_elements(void **state) {
     for (int k = 0; k < 4; k++) {
         Bench b;
         open_bench(&b, 0, 1);
-        b.c.line.elements = 6;
+        b.c.line.element_count = 6;
         b.c.line.element_length = MESH[k];
         case_move(&b.c, 1, chord[k], 0, 0);
         solve_bench(&b);
@@ -236,7 +236,7 @@ static void slack_held_by_friction(void **state) {
     CHECK_NEAR(part.to, slack.slack, 1e-12);
     CHECK_NEAR(slack.loose, 0, 0);
     CHECK_NEAR(slack.held, slack.slack, 1e-12);
-    CHECK_INT(slack.parts, 0);
+    CHECK_INT(slack.part_count, 0);
 
     assert_true(part.has_friction && !part.sliding && part.grounded);
     // a made-up friction force at its bound: the elements beside it are straight at their length,
@@ -461,7 +461,7 @@ static void existence(void **state) {
     assert_int_equal(outcome_of(&b.c, &proof), CPS_OUTCOME_SOLVED);
 
     open_bench(&b, 0.3, 1);
-    b.c.line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_FREE};
+    b.c.line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_KIND_FREE};
     case_force(&b.c, 1, 0.5, 0, 0);
     assert_int_equal(outcome_of(&b.c, &proof), CPS_OUTCOME_UNBOUNDED);
     CHECK_NEAR(show("no end held", "fall, f - mu w l [N]", 0.2, proof), 0, 0.3 / ELEMENTS + 1e-9);

@@ -31,22 +31,22 @@ static void first_step(double friction, CpsFrictionPolicy law, double minimum, c
     Run run = case_open(&c);
     CpsLineView view = case_step(&run);
     double primal = cps_evolution_report(run.evolution).certificate.primal;
-    const double *found = &view.position[3 * (size_t)view.elements];
+    const double *found = &view.position[3 * (size_t)view.element_count];
     char name[64];
     snprintf(name, sizeof name, "example 5.7, %s = %.6f N/m",
-             law == CPS_FRICTION_FROZEN ? "A" : "mu w", friction * 9.81);
-    if (law == CPS_FRICTION_FROZEN)
+             law == CPS_FRICTION_POLICY_FROZEN ? "A" : "mu w", friction * 9.81);
+    if (law == CPS_FRICTION_POLICY_FROZEN)
         CHECK_NEAR(show(name, "minimum of J + j [J]", minimum, primal), 0, 7e-8);
     for (int k = 0; k < 3; k++) CHECK_NEAR(show(name, "tip [m]", tip[k], found[k]), 0, digits);
-    while (cps_evolution_remaining(run.evolution) > 0) case_step(&run);
+    while (cps_evolution_remaining_count(run.evolution) > 0) case_step(&run);
     case_close(&run);
 }
 
 static void first_step_from_the_straight_line(void **state) {
     (void)state;
-    first_step(0.0255, CPS_FRICTION_FROZEN, -3.3278892,
+    first_step(0.0255, CPS_FRICTION_POLICY_FROZEN, -3.3278892,
                (const double[]){6.168437, 0.918939, 0.017434}, 6e-7);
-    first_step(0.25 / 9.81, CPS_FRICTION_FROZEN, -3.3280038,
+    first_step(0.25 / 9.81, CPS_FRICTION_POLICY_FROZEN, -3.3280038,
                (const double[]){6.16837, 0.91951, 0.01743}, 6e-6);
 }
 
@@ -54,8 +54,8 @@ static void first_step_from_the_straight_line(void **state) {
  * A; five decimals */
 static void first_step_with_consistent_friction(void **state) {
     (void)state;
-    first_step(0.0255, CPS_FRICTION_CONSISTENT, NAN, (const double[]){6.15607, 0.95754, 0.01738},
-               6e-6);
+    first_step(0.0255, CPS_FRICTION_POLICY_CONSISTENT, NAN,
+               (const double[]){6.15607, 0.95754, 0.01738}, 6e-6);
 }
 
 /* |tip of Y5 - tip of Y1| */
@@ -66,7 +66,7 @@ static double residual_motion(int elements, Shape shape) {
     double start[3], sum = 0;
     CpsLineView view = cps_evolution_line_view(run.evolution, 0);
     for (int k = 0; k < 3; k++) start[k] = view.position[3 * (size_t)elements + (size_t)k];
-    while (cps_evolution_remaining(run.evolution) > 0) view = case_step(&run);
+    while (cps_evolution_remaining_count(run.evolution) > 0) view = case_step(&run);
     for (int k = 0; k < 3; k++)
         sum += pow(view.position[3 * (size_t)elements + (size_t)k] - start[k], 2);
     case_close(&run);
@@ -95,11 +95,11 @@ static void strict_contact(void **state) {
     enum { N = 800 };
     Case c;
     example(&c, N, 0.0255, STRAIGHT);
-    c.scene.friction_policy = CPS_FRICTION_FROZEN;
-    c.scene.contact_policy = CPS_CONTACT_REFERENCE;
+    c.scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
+    c.scene.contact_policy = CPS_CONTACT_POLICY_REFERENCE;
     Run run = case_open(&c);
     CpsLineView view = {0};
-    while (cps_evolution_remaining(run.evolution) > 0) view = case_step(&run);
+    while (cps_evolution_remaining_count(run.evolution) > 0) view = case_step(&run);
     const double a = 13 * 6.28 / N, deep = a + 9.81 * a * a / 20;
     CHECK_NEAR(show("example 5.7, strict, Y5", "height of the tip [m]", -deep,
                     view.position[3 * N + 2]),
@@ -118,10 +118,10 @@ static void fine_mesh(void **state) {
     enum { N = 100000 };
     Case c;
     example(&c, N, 0.0255, STRAIGHT);
-    c.scene.friction_policy = CPS_FRICTION_FROZEN;
+    c.scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
     Run run = case_open(&c);
     CpsLineView view = {0};
-    for (int step = 0; cps_evolution_remaining(run.evolution) > 0; step++) {
+    for (int step = 0; cps_evolution_remaining_count(run.evolution) > 0; step++) {
         view = case_step(&run);
         const double height = 0.5 / 9.81 + 0.25 / (2 * 9.81 * 10);
         if (step == 2)

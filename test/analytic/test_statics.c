@@ -64,8 +64,8 @@ static double largest_tension(const Across *across) {
     turned(across, -0.3, 0, 0, at);
     turned(across, 0.3, across->askew, 0, other);
     const int first = across->reversed ? CPS_END_B : CPS_END_A;
-    rig_end(&rig, first, CPS_END_HELD, at[0], at[1], at[2]);
-    rig_end(&rig, CPS_END_A + CPS_END_B - first, CPS_END_HELD, other[0], other[1], other[2]);
+    rig_end(&rig, first, CPS_END_KIND_HELD, at[0], at[1], at[2]);
+    rig_end(&rig, CPS_END_A + CPS_END_B - first, CPS_END_KIND_HELD, other[0], other[1], other[2]);
     rig.line.start.kind = CPS_START_STATIC;
     RigRun run = rig_open(&rig);
     const CpsLineView view = rig_step(&run);

@@ -61,9 +61,9 @@ static void build(Rig *rig, const Wrap *wrap) {
     for (int e = 0; e <= n; e++) rig->element_length[e] = size * (e == 0 || e == n ? lead : chord);
     rig_graded(rig);
     const double *a = rig->point, *b = &rig->point[3], by = wrap->pull / (size * lead);
-    rig_end(rig, CPS_END_A, CPS_END_FREE, by * (a[0] - b[0]), by * (a[1] - b[1]),
+    rig_end(rig, CPS_END_A, CPS_END_KIND_FREE, by * (a[0] - b[0]), by * (a[1] - b[1]),
             by * (a[2] - b[2]));
-    rig_end(rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
 }
 
 /* The ratio of the tensions at the ends after the turn, over k^n or k^-n; the parts of the last
@@ -78,7 +78,7 @@ static double off(const Wrap *wrap, double angle, int steps, int *parts) {
     const double ratio = rig_tension(&view, wrap->n) / rig_tension(&view, 0);
     const double exact =
         pow(per_node(wrap->mu, wrap->theta / wrap->n), angle < 0 ? wrap->n : -wrap->n);
-    *parts = run.report.parts;
+    *parts = run.report.part_count;
     rig_close(&run);
     return ratio / exact - 1;
 }
@@ -164,7 +164,8 @@ static void parts_are_steps(void **state) {
                 plain(variant & 1 ? CPS_OBSTACLE_SPHERE : CPS_OBSTACLE_CYLINDER, 0.4, 0.7 * PI, 20);
             wrap.stiffness = 1e3;
             build(&rig, &wrap);
-            rig.scene.friction_policy = variant & 2 ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+            rig.scene.friction_policy =
+                variant & 2 ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
             rig_stage(&rig, whole ? 1 : steps);
             rig_turn(&rig, 0, -2 * PI);
             CpsError err;
@@ -173,7 +174,7 @@ static void parts_are_steps(void **state) {
             for (int k = 0; k < (whole ? 1 : steps); k++) {
                 CHECK_INT(cps_evolution_step(evolution, &err), CPS_OK);
                 CHECK_INT(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
-                CHECK_INT(cps_evolution_report(evolution).parts, whole ? steps : 1);
+                CHECK_INT(cps_evolution_report(evolution).part_count, whole ? steps : 1);
             }
             const CpsLineReport report = cps_evolution_line_report(evolution, 0);
             for (int k = 0; k < 3; k++) end[whole][k] = report.end[CPS_END_A].position[k];
@@ -200,8 +201,8 @@ static void carried(void **state) {
             rig_point(&rig, -cos(on * d), 0, sin(on * d) - chord * abs(k - on));
         }
         rig_length(&rig, chord * (N + 2 * LEAD));
-        rig_end(&rig, CPS_END_A, CPS_END_FREE, 0, 0, sign > 0 ? -load : -1);
-        rig_end(&rig, CPS_END_B, CPS_END_FREE, 0, 0, sign > 0 ? -1 : -load);
+        rig_end(&rig, CPS_END_A, CPS_END_KIND_FREE, 0, 0, sign > 0 ? -load : -1);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, sign > 0 ? -1 : -load);
         rig_stage(&rig, 1);
         rig_stage(&rig, 1);
         rig_turn(&rig, 0, sign * angle);
@@ -212,7 +213,7 @@ static void carried(void **state) {
         CHECK_LESS(fabs(rig_show("hoist, 4 rad in one step", "rise of the load [m]", angle,
                                  after - before)),
                    angle * d * d);
-        CHECK_GREATER(run.report.parts, 2);
+        CHECK_GREATER(run.report.part_count, 2);
         CHECK_LESS(fabs(rig_show("hoist, 4 rad in one step", "work of the drum [J]", angle,
                                  run.report.ledger.obstacles)),
                    2 * angle * d * d);
@@ -235,12 +236,12 @@ static void drawn(void **state) {
             rig_point(&rig, -cos(on * d), 0, sin(on * d) - chord * abs(k - on));
         }
         rig_length(&rig, chord * (N + 2 * LEAD));
-        rig_end(&rig, CPS_END_A, CPS_END_FREE, 0, 0, -1);
-        rig_end(&rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+        rig_end(&rig, CPS_END_A, CPS_END_KIND_FREE, 0, 0, -1);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
         rig_stage(&rig, 1);
         rig_stage(&rig, 1);
-        rig_change(&rig, CPS_END_B, CPS_END_HELD, 1, 0, -chord * LEAD - way);
-        rig.scene.solver.halvings = halvings;
+        rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, 1, 0, -chord * LEAD - way);
+        rig.scene.solver.max_halvings = halvings;
         RigRun run = rig_open(&rig);
         rig_next(&run);
         const CpsOutcome outcome = rig_try(&run);
@@ -248,7 +249,7 @@ static void drawn(void **state) {
             CHECK_INT(outcome, CPS_OUTCOME_STALLED);
         } else {
             CHECK_INT(outcome, CPS_OUTCOME_SOLVED);
-            CHECK_GREATER(run.report.parts, 1);
+            CHECK_GREATER(run.report.part_count, 1);
             /* N - 1 to N + 1 nodes turn it, by angles of order d: the law's error is of order
              * d^2 */
             const double ratio =
@@ -277,7 +278,7 @@ static void two_lines(int steps, double tension[2], int *parts) {
     rig_turn(&first, 0, -7);
     /* end B of the other goes out along its lead by 0.3 */
     const double *tip = &second.point[3 * (other.n + 1)], *foot = tip - 3;
-    rig_change(&first, CPS_END_B, CPS_END_HELD, tip[0] + 0.3 * (tip[0] - foot[0]), 0,
+    rig_change(&first, CPS_END_B, CPS_END_KIND_HELD, tip[0] + 0.3 * (tip[0] - foot[0]), 0,
                tip[2] + 0.3 * (tip[2] - foot[2]));
     first.change[0][0].line = 1;
     CpsError err;
@@ -286,7 +287,7 @@ static void two_lines(int steps, double tension[2], int *parts) {
     for (int k = 0; k < steps; k++) {
         CHECK_INT(cps_evolution_step(evolution, &err), CPS_OK);
         CHECK_INT(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
-        *parts = cps_evolution_report(evolution).parts;
+        *parts = cps_evolution_report(evolution).part_count;
     }
     for (int i = 0; i < 2; i++)
         tension[i] = cps_evolution_line_report(evolution, i).end[CPS_END_B].tension;

@@ -37,7 +37,7 @@ static int pull(const char *what, CpsObstacle obstacle, const double *start, int
     if (points == 2) line.start.kind = CPS_START_STRAIGHT;
     const CpsChange change = {.line = 0,
                               .end = CPS_END_B,
-                              .to = {CPS_END_FREE, {force[0], force[1], force[2]}}};
+                              .to = {CPS_END_KIND_FREE, {force[0], force[1], force[2]}}};
     const CpsStage stage = {.cookie = cps_stage_default().cookie,
                             .name = "pull",
                             .steps = 4,
@@ -51,7 +51,7 @@ static int pull(const char *what, CpsObstacle obstacle, const double *start, int
     CpsError err;
     CpsEvolution *evolution = NULL;
     if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) return failed(what, &err);
-    while (cps_evolution_remaining(evolution) > 0) {
+    while (cps_evolution_remaining_count(evolution) > 0) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) return failed(what, &err);
         const CpsStepReport step = cps_evolution_report(evolution);
         const CpsLineView view = cps_evolution_line_view(evolution, 0);

@@ -98,7 +98,7 @@ static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surfa
     same_number(compare, "lateral coefficient", o->name, (double)s->mu[1],
                 o->friction_lateral >= 0 ? o->friction_lateral : o->friction);
     same_number(compare, "shape of friction", o->name, s->box,
-                o->friction_shape == CPS_FRICTION_BOX);
+                o->friction_shape == CPS_FRICTION_SHAPE_BOX);
 }
 
 static void compare_run(Compare *compare) {
@@ -106,9 +106,9 @@ static void compare_run(Compare *compare) {
     const Source *source = &compare->source;
     same_number(compare, "tolerance", "the run", source->tolerance, scene->solver.tolerance);
     same(compare, "gravity", "the run", source->gravity, scene->gravity, 3, COPIED);
-    if (source->consistent != (scene->friction_policy == CPS_FRICTION_CONSISTENT))
+    if (source->consistent != (scene->friction_policy == CPS_FRICTION_POLICY_CONSISTENT))
         find(compare, "friction_policy: frozen or consistent");
-    if (source->touching_only != (scene->contact_policy == CPS_CONTACT_REFERENCE))
+    if (source->touching_only != (scene->contact_policy == CPS_CONTACT_POLICY_REFERENCE))
         find(compare, "contact_policy: reference or reached");
     if (source->surfaces != (size_t)scene->obstacle_count) {
         find(compare, "%zu obstacles, in the scene %d", source->surfaces, scene->obstacle_count);
@@ -119,14 +119,14 @@ static void compare_run(Compare *compare) {
 }
 
 static void compare_line(Compare *compare, const CpsLine *line, const Record *r) {
-    if (r->elements != (size_t)line->elements) {
+    if (r->elements != (size_t)line->element_count) {
         find(compare, "%zu elements of %s, in the scene %d", r->elements, line->name,
-             line->elements);
+             line->element_count);
         return;
     }
     for (size_t i = 0; i < r->elements; i++) {
         const double given =
-            line->element_length ? line->element_length[i] : line->length / line->elements;
+            line->element_length ? line->element_length[i] : line->length / line->element_count;
         if (fabs(r->element_length[i] - given) <= COPIED * given) continue;
         find(compare, "element_length of %s is %.17g, in the scene %.17g", line->name,
              r->element_length[i], given);
@@ -165,7 +165,7 @@ static void compare_line(Compare *compare, const CpsLine *line, const Record *r)
 static bool stage_of(const Compare *compare, size_t step, int *stage, int *part) {
     if (compare->source.has_static && step-- == 0) return false;
     for (*stage = 0; *stage < compare->scene->stage_count; ++*stage) {
-        const size_t steps = (size_t)compare->scene->stage[*stage].steps;
+        const size_t steps = (size_t)compare->scene->stage[*stage].step_count;
         *part = (int)step + 1;
         if (step < steps) return true;
         step -= steps;
@@ -177,7 +177,7 @@ static size_t planned(const Compare *compare) {
     size_t steps = 0;
     bool first = false;
     for (int i = 0; i < compare->scene->stage_count; i++)
-        steps += (size_t)compare->scene->stage[i].steps;
+        steps += (size_t)compare->scene->stage[i].step_count;
     for (int i = 0; i < compare->scene->line_count; i++)
         first = first || compare->scene->line[i].start.kind == CPS_START_STATIC;
     return steps + first > 0 ? steps + first : 1;
@@ -191,7 +191,7 @@ typedef struct Imposed {
 
 /* What is imposed, places about the origin of the file; NaN stays NaN. */
 static CpsEnd about(const Source *source, CpsEnd end) {
-    if (end.kind == CPS_END_HELD)
+    if (end.kind == CPS_END_KIND_HELD)
         for (int k = 0; k < 3; k++) end.value[k] -= source->origin[k];
     return end;
 }
@@ -236,7 +236,7 @@ static CpsEnd first_end(const Source *source, const CpsLine *line, int e, const 
     CpsEnd end = about(source, line->end[e]);
     double place[3];
     start_place(source, line, e, r, place);
-    if (end.kind == CPS_END_HELD)
+    if (end.kind == CPS_END_KIND_HELD)
         for (int k = 0; k < 3; k++)
             if (isnan(end.value[k])) end.value[k] = place[k];
     return end;
@@ -254,15 +254,15 @@ static void impose(const Source *source, Imposed *end, const CpsStage *stage, in
         if (part == 1 && before) end->noise = COPIED;
         if (part == 1 && change->to.kind != end->now.kind)
             for (int k = 0; k < 3; k++)
-                end->from.value[k] = change->to.kind == CPS_END_HELD ? place[k]
-                                     : before                        ? before->end_force[e][k]
-                                                                     : 0;
-        const double share = (double)part / stage->steps;
+                end->from.value[k] = change->to.kind == CPS_END_KIND_HELD ? place[k]
+                                     : before                             ? before->end_force[e][k]
+                                                                          : 0;
+        const double share = (double)part / stage->step_count;
         const CpsEnd to = about(source, change->to);
         end->now.kind = to.kind;
         for (int k = 0; k < 3; k++)
             end->now.value[k] =
-                part == stage->steps
+                part == stage->step_count
                     ? to.value[k]
                     : end->from.value[k] + share * (to.value[k] - end->from.value[k]);
     }
@@ -272,7 +272,7 @@ static void compare_end(Compare *compare, const CpsLine *line, int e, const Impo
                         const CpsEnd *was, size_t step, const Record *r) {
     char of[300];
     snprintf(of, sizeof of, "%.200s, end %c, step %zu", line->name, e ? 'B' : 'A', step);
-    if (r->end_kind[e] != (end->now.kind == CPS_END_FREE)) {
+    if (r->end_kind[e] != (end->now.kind == CPS_END_KIND_FREE)) {
         find(compare, "end_kind of %s", of);
         return;
     }
@@ -293,7 +293,7 @@ static void gravity_at(const Compare *compare, bool staged, int stage, int part,
     memcpy(g, scene->gravity, 3 * sizeof *g);
     if (staged)
         for (int s = 0; s <= stage; s++) {
-            const double share = s < stage ? 1 : (double)part / scene->stage[s].steps;
+            const double share = s < stage ? 1 : (double)part / scene->stage[s].step_count;
             if (scene->stage[s].gravity_changes)
                 for (int k = 0; k < 3; k++) g[k] += share * (scene->stage[s].gravity[k] - g[k]);
         }
@@ -390,7 +390,8 @@ static void compare_turns(Compare *compare, size_t step, const Record *r) {
         if (staged)
             for (int i = 0; i < compare->scene->stage[stage].turn_count; i++) {
                 const CpsTurn *turn = &compare->scene->stage[stage].turn[i];
-                if (turn->obstacle == k) angle = turn->angle / compare->scene->stage[stage].steps;
+                if (turn->obstacle == k)
+                    angle = turn->angle / compare->scene->stage[stage].step_count;
             }
         if (!(fabs(r->turn[k] - angle) <= COPIED * fabs(angle)))
             find(compare, "obstacle_turn of %s, step %zu, is %.17g, in the scene %.17g",

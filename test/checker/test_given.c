@@ -64,10 +64,11 @@ static int run(const char *text, const char *where, CpsSceneFile **read, int *pa
     if (!status)
         status =
             cps_results_open(where, cps_scene_file_scene(*read), evolution, NULL, &results, &err);
-    for (bool first = true; !status && cps_evolution_remaining(evolution) > 0; first = false) {
+    for (bool first = true; !status && cps_evolution_remaining_count(evolution) > 0;
+         first = false) {
         status = cps_evolution_step(evolution, &err);
         if (!status) status = cps_results_append(results, evolution, &err);
-        if (!status && parts && first) *parts = cps_evolution_line_report(evolution, 0).parts;
+        if (!status && parts && first) *parts = cps_evolution_line_report(evolution, 0).part_count;
     }
     if (!status) status = cps_results_finish(results, 0, &err);
     cps_results_destroy(results);
@@ -186,10 +187,10 @@ static void other_scenes_are_refused(void **state) {
     other.solver.tolerance = 1e-6;
     CHECK_INT(given_file(result, &other, NULL), 1);
     other = *cps_scene_file_scene(scene);
-    other.friction_policy = CPS_FRICTION_FROZEN;
+    other.friction_policy = CPS_FRICTION_POLICY_FROZEN;
     CHECK_INT(given_file(result, &other, NULL), 1);
     other = *cps_scene_file_scene(scene);
-    other.contact_policy = CPS_CONTACT_REFERENCE;
+    other.contact_policy = CPS_CONTACT_POLICY_REFERENCE;
     CHECK_INT(given_file(result, &other, NULL), 1);
     other = *cps_scene_file_scene(scene);
     other.gravity[2] = -9;

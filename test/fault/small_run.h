@@ -11,7 +11,7 @@ static inline CpsLine small_rope(int elements, const double point[6]) {
     CpsLine line = cps_line_default();
     line.name = "rope";
     line.length = 6;
-    line.elements = elements;
+    line.element_count = elements;
     line.weight = 10;
     line.stiffness = 1e4;
     line.start =
@@ -23,16 +23,16 @@ static inline CpsLine small_rope(int elements, const double point[6]) {
  * cleaned up as a program would do it. */
 static inline CpsStatus small_run(const char *directory, int elements, CpsError *err) {
     const double point[6] = {0, 0, 0, 6, 0, 0};
-    const CpsChange change[2] = {{0, CPS_END_B, {CPS_END_HELD, {5.9, 0.2, 0}}},
-                                 {0, CPS_END_B, {CPS_END_HELD, {6, 0, 0}}}};
+    const CpsChange change[2] = {{0, CPS_END_B, {CPS_END_KIND_HELD, {5.9, 0.2, 0}}},
+                                 {0, CPS_END_B, {CPS_END_KIND_HELD, {6, 0, 0}}}};
     const CpsStage stage[2] = {{.cookie = cps_stage_default().cookie,
                                 .name = "there",
-                                .steps = 2,
+                                .step_count = 2,
                                 .change_count = 1,
                                 .change = &change[0]},
                                {.cookie = cps_stage_default().cookie,
                                 .name = "back",
-                                .steps = 2,
+                                .step_count = 2,
                                 .change_count = 1,
                                 .change = &change[1]}};
     CpsObstacle bed = cps_obstacle_default();
@@ -52,7 +52,7 @@ static inline CpsStatus small_run(const char *directory, int elements, CpsError 
     CpsResults *results = NULL;
     CpsStatus status = cps_evolution_create(&scene, &evolution, err);
     if (!status) status = cps_results_open(directory, &scene, evolution, NULL, &results, err);
-    while (!status && cps_evolution_remaining(evolution) > 0) {
+    while (!status && cps_evolution_remaining_count(evolution) > 0) {
         status = cps_evolution_step(evolution, err);
         if (!status) status = cps_results_append(results, evolution, err);
     }

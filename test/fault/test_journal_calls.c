@@ -68,14 +68,14 @@ static char folder[] = "journal-calls-XXXXXX";
 
 static CpsEvolution *make_evolution(void) {
     const double point[6] = {0, 0, 0, 6, 0, 0};
-    const CpsChange change = {0, CPS_END_B, {CPS_END_HELD, {5.9, 0.2, 0}}};
+    const CpsChange change = {0, CPS_END_B, {CPS_END_KIND_HELD, {5.9, 0.2, 0}}};
     const CpsStage stage = {.cookie = cps_stage_default().cookie,
                             .name = "there",
-                            .steps = STEPS,
+                            .step_count = STEPS,
                             .change_count = 1,
                             .change = &change};
     CpsLine line = small_rope(ELEMENTS, point);
-    line.end[CPS_END_B] = (CpsEnd){CPS_END_HELD, {6, 0, 0}};
+    line.end[CPS_END_B] = (CpsEnd){CPS_END_KIND_HELD, {6, 0, 0}};
     CpsScene scene = cps_scene_default();
     scene.line_count = scene.stage_count = 1;
     scene.line = &line;

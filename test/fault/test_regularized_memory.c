@@ -18,7 +18,7 @@ static CpsStatus questions(const CpsLineView *view) {
     CpsStatus status = cps_regularized_create(view, &classic, NULL);
     if (status == CPS_OK) {
         CpsStudyOptions options = cps_study_options_default(classic);
-        for (int s = 0; s < CPS_STUDY_STAGE_COUNT; s++) options.values[s] = 2;
+        for (int s = 0; s < CPS_STUDY_STAGE_COUNT; s++) options.value_count[s] = 2;
         status = cps_study_run(classic, &options, NULL, NULL, &study, NULL);
     }
     if (status == CPS_OK)
@@ -45,14 +45,15 @@ static void every_allocation_may_fail(void **state) {
     CpsLine line = cps_line_default();
     line.name = "line";
     line.length = 1;
-    line.elements = 8;
+    line.element_count = 8;
     line.weight = 1;
     line.stiffness = 1;
     line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point};
-    const CpsChange change = {.end = CPS_END_B, .to = {.kind = CPS_END_FREE, .value = {0.5, 0, 0}}};
+    const CpsChange change = {.end = CPS_END_B,
+                              .to = {.kind = CPS_END_KIND_FREE, .value = {0.5, 0, 0}}};
     const CpsStage stage = {.cookie = cps_stage_default().cookie,
                             .name = "pull",
-                            .steps = 1,
+                            .step_count = 1,
                             .change_count = 1,
                             .change = &change};
     CpsScene scene = cps_scene_default();

@@ -233,13 +233,14 @@ static void go_on(CpsEvolution *evolution, bool step) {
         const CpsLineReport report = cps_evolution_line_report(evolution, i);
         must(cps_outcome_name(report.outcome)[0] && report.bend.obstacle < of->obstacle_count &&
              report.pierced < of->obstacle_count);
-        for (int j = 0; j < 3 * (view.elements + 1); ++j) sum += view.position[j];
+        for (int j = 0; j < 3 * (view.element_count + 1); ++j) sum += view.position[j];
         if (view.obstacle)
-            for (int c = 0; c < view.contacts * (view.elements + 1); ++c)
+            for (int c = 0; c < view.contact_count * (view.element_count + 1); ++c)
                 must(view.obstacle[c] < of->obstacle_count && view.state[c] <= 2);
     }
     must(isfinite(sum) || isinf(sum));
-    if (step && cps_evolution_remaining(evolution) > 0) (void)cps_evolution_step(evolution, NULL);
+    if (step && cps_evolution_remaining_count(evolution) > 0)
+        (void)cps_evolution_step(evolution, NULL);
 }
 
 enum { STATE_HEAD = 24 }; /* magic, size and fingerprint, which are compared */

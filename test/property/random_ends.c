@@ -30,12 +30,12 @@ static bool by_nodes(RandomScene *s, Nodes nodes, bool backwards) {
         const CpsLineView view = cps_evolution_line_view(start, i);
         CpsLine *line = &s->line[i];
         if (line->start.kind != CPS_START_ARC) continue;
-        for (int j = 0; j <= view.elements; j++)
-            memcpy(&nodes[i][3 * (backwards ? view.elements - j : j)], &view.position[3 * j],
+        for (int j = 0; j <= view.element_count; j++)
+            memcpy(&nodes[i][3 * (backwards ? view.element_count - j : j)], &view.position[3 * j],
                    3 * sizeof(double));
         line->start.kind = CPS_START_POLYLINE;
         line->start.point = nodes[i];
-        line->start.point_count = view.elements + 1;
+        line->start.point_count = view.element_count + 1;
     }
     cps_evolution_destroy(start);
     return true;
@@ -62,7 +62,7 @@ static void exchange(RandomScene *s) {
                        line->start.kind == CPS_START_STRAIGHT ? 2 : line->start.point_count);
         double *length = s->element_length[i];
         if (line->element_length)
-            for (int k = 0, last = line->elements - 1; k < last - k; k++) {
+            for (int k = 0, last = line->element_count - 1; k < last - k; k++) {
                 const double keep = length[k];
                 length[k] = length[last - k];
                 length[last - k] = keep;
@@ -76,11 +76,12 @@ static void exchange(RandomScene *s) {
 /* [-] The farthest node of a line from that of the other, over the length. */
 static double apart(const CpsLineView *one, const CpsLineView *other) {
     double most = 0;
-    for (int j = 0; j <= one->elements; j++) {
-        const double *x = &one->position[3 * j], *y = &other->position[3 * (one->elements - j)];
+    for (int j = 0; j <= one->element_count; j++) {
+        const double *x = &one->position[3 * j],
+                     *y = &other->position[3 * (one->element_count - j)];
         most = fmax(most, hypot(hypot(x[0] - y[0], x[1] - y[1]), x[2] - y[2]));
     }
-    return most / one->arc_length[one->elements];
+    return most / one->arc_length[one->element_count];
 }
 
 /* [-] How far the certificate lets a node be off, over the length: the strain that its bound of the
@@ -91,7 +92,7 @@ static double left(const CpsLineView *view, const CpsLineReport *report) {
 }
 
 static bool says_so(const CpsLineReport *report) {
-    return !cps_outcome_is_certified(report->outcome) || report->snaps > 0 ||
+    return !cps_outcome_is_certified(report->outcome) || report->snap_count > 0 ||
            report->unaccounted > 0 || report->slack > 0;
 }
 
@@ -142,7 +143,7 @@ static void run_pair(Count *count, int class_index, int seed, bool coarse) {
     for (int k = 0; k < 2; k++) random_scene_make(class_index, (uint64_t)seed, &scene[k]);
     if (coarse)
         for (int k = 0; k < scene[0].scene.stage_count; k++)
-            scene[0].stage[k].steps = scene[1].stage[k].steps = 1;
+            scene[0].stage[k].step_count = scene[1].stage[k].step_count = 1;
     bool open = by_nodes(&scene[0], nodes[0], false) && by_nodes(&scene[1], nodes[1], true);
     exchange(&scene[1]);
     for (int k = 0; k < 2; k++)
@@ -153,7 +154,8 @@ static void run_pair(Count *count, int class_index, int seed, bool coarse) {
     }
     count->pairs++;
     memset(count->left, 0, sizeof count->left);
-    while (open && cps_evolution_remaining(run[0]) > 0 && cps_evolution_remaining(run[1]) > 0) {
+    while (open && cps_evolution_remaining_count(run[0]) > 0 &&
+           cps_evolution_remaining_count(run[1]) > 0) {
         for (int k = 0; k < 2; k++)
             if (cps_evolution_step(run[k], &err) != CPS_OK) abort();
         open = compare(count, run, class_index, seed);

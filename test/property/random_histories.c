@@ -34,7 +34,7 @@ static bool chance(double probability) { return uniform(0, 1) < probability; }
 static void rubbing(CpsObstacle *o) {
     o->friction = uniform(0.05, 1);
     if (chance(0.5)) o->friction_lateral = uniform(0.05, 1);
-    if (chance(0.3)) o->friction_shape = CPS_FRICTION_BOX;
+    if (chance(0.3)) o->friction_shape = CPS_FRICTION_SHAPE_BOX;
     if (chance(0.2)) {
         o->grain[0] = uniform(-1, 1);
         o->grain[1] = uniform(-1, 1);
@@ -74,10 +74,10 @@ static void stage(Rig *rig, double from[3], double length, double force, int pip
         somewhere(length, to);
         /* some of the way, so that a load step is a few per cent of the length */
         for (int a = 0; a < 3; a++) from[a] += uniform(0.2, 0.6) * (to[a] - from[a]);
-        rig_change(rig, CPS_END_B, CPS_END_HELD, from[0], from[1], from[2]);
+        rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, from[0], from[1], from[2]);
     } else if (what < 0.8 || pipe < 0) {
-        rig_change(rig, CPS_END_B, CPS_END_FREE, force * uniform(0, 1), force * uniform(-0.5, 0.5),
-                   force * uniform(0, 0.5));
+        rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, force * uniform(0, 1),
+                   force * uniform(-0.5, 0.5), force * uniform(0, 0.5));
     } else {
         rig_turn(rig, pipe, uniform(-0.3, 0.3));
     }
@@ -102,8 +102,8 @@ static void wound(Rig *rig) {
     }
     rig_length(rig, (n + 2 * lead) * chord);
     for (int a = 0; a < 3; a++) x[a] = rig->point[3 * (n + 2 * lead) + a];
-    rig_end(rig, CPS_END_A, CPS_END_FREE, -pull, 0, 0);
-    rig_end(rig, CPS_END_B, CPS_END_HELD, NAN, NAN, NAN);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_FREE, -pull, 0, 0);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
     const int stages = 3 + (int)uniform(0, 4);
     for (int k = 0; k < stages; k++) {
         const double what = uniform(0, 1);
@@ -115,9 +115,9 @@ static void wound(Rig *rig) {
         x[0] *= out;
         x[2] *= out;
         if (what < 0.2)
-            rig_change(rig, CPS_END_B, CPS_END_HELD, x[0], x[1], x[2]);
+            rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, x[0], x[1], x[2]);
         else if (what < 0.5)
-            rig_change(rig, CPS_END_A, CPS_END_FREE, -pull * uniform(0.3, 3),
+            rig_change(rig, CPS_END_A, CPS_END_KIND_FREE, -pull * uniform(0.3, 3),
                        pull * uniform(-0.1, 0.1), pull * uniform(-0.2, 0.2));
         else
             rig_turn(rig, 0, uniform(-0.5, 0.5));
@@ -146,8 +146,8 @@ static void make(Rig *rig, uint64_t seed) {
         curved(rig, CPS_OBSTACLE_CYLINDER, span);
     }
     if (chance(0.3)) curved(rig, CPS_OBSTACLE_SPHERE, span);
-    rig_end(rig, CPS_END_A, CPS_END_HELD, 0, 0, 0);
-    rig_end(rig, CPS_END_B, CPS_END_HELD, at[0], at[1], at[2]);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, 0, 0, 0);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, at[0], at[1], at[2]);
     const int stages = 3 + (int)uniform(0, 3);
     for (int k = 0; k < stages; k++) stage(rig, at, length, heavy, pipe);
 }
@@ -163,7 +163,7 @@ static int class_of(const Rig *rig) {
     const CpsObstacle *bed = &rig->obstacle[0];
     if (bed->kind != CPS_OBSTACLE_PLANE) return DRUM;
     if (rig->scene.obstacle_count == 1)
-        return bed->friction_lateral == -1 && bed->friction_shape == CPS_FRICTION_ELLIPSE
+        return bed->friction_lateral == -1 && bed->friction_shape == CPS_FRICTION_SHAPE_ELLIPSE
                    ? ISOTROPIC
                    : ANISOTROPIC;
     for (int k = 1; k < rig->scene.obstacle_count; k++)
@@ -203,8 +203,8 @@ static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, c
     const CpsLineReport report = cps_evolution_line_report(evolution, 0);
     const CpsStepReport step = cps_evolution_report(evolution);
     count->steps++;
-    count->parts += report.parts;
-    count->cut += report.parts > 1;
+    count->parts += report.part_count;
+    count->cut += report.part_count > 1;
     if (!cps_outcome_is_certified(report.outcome)) {
         count->refused++;
         printf("seed %llu, step %d: %s\n", (unsigned long long)seed, step.index,
@@ -232,7 +232,7 @@ static void run_one(Count *counts, uint64_t seed, int halvings, int class) {
     make(&rig, seed);
     if (class >= 0 && class_of(&rig) != class) return;
     Count *count = &counts[class_of(&rig)];
-    if (halvings >= 0) rig.scene.solver.halvings = halvings;
+    if (halvings >= 0) rig.scene.solver.max_halvings = halvings;
     CpsError err = {0};
     CpsEvolution *evolution;
     if (cps_evolution_create(&rig.scene, &evolution, &err) != CPS_OK) {
@@ -243,8 +243,9 @@ static void run_one(Count *counts, uint64_t seed, int halvings, int class) {
     for (int s = rig.line.start.kind == CPS_START_STATIC ? -1 : 0; s < rig.scene.stage_count; s++) {
         double turn[RIG_OBSTACLES] = {0};
         const CpsStage *now = s < 0 ? NULL : &rig.stage[s];
-        if (now && now->turn_count) turn[now->turn->obstacle] = now->turn->angle / now->steps;
-        for (int i = 0; i < (now ? now->steps : 1) && cps_evolution_remaining(evolution) > 0; i++) {
+        if (now && now->turn_count) turn[now->turn->obstacle] = now->turn->angle / now->step_count;
+        for (int i = 0;
+             i < (now ? now->step_count : 1) && cps_evolution_remaining_count(evolution) > 0; i++) {
             if (cps_evolution_step(evolution, &err) != CPS_OK) abort();
             judge(count, &rig, evolution, turn, seed, s < 0);
         }

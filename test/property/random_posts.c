@@ -101,7 +101,7 @@ static void rubbing(Scene *s, CpsObstacle *o) {
     }
     o->friction = uniform(0.05, 0.6);
     if (chance(0.2)) o->friction_lateral = uniform(0.05, 0.6);
-    if (chance(0.1)) o->friction_shape = CPS_FRICTION_BOX;
+    if (chance(0.1)) o->friction_shape = CPS_FRICTION_SHAPE_BOX;
     if (chance(0.1)) {
         o->grain[0] = uniform(-1, 1);
         o->grain[2] = 1;
@@ -171,22 +171,23 @@ static void make(Scene *s, int number) {
                  up = high + uniform(0, 0.15) * length;
     rig_point(rig, -half, y, 0);
     rig_point(rig, half, y, 0);
-    rig_end(rig, CPS_END_A, CPS_END_HELD, -half, y, 0);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, -half, y, 0);
     if (pulled)
-        rig_end(rig, CPS_END_B, CPS_END_FREE, force, 0, 0);
+        rig_end(rig, CPS_END_B, CPS_END_KIND_FREE, force, 0, 0);
     else
-        rig_end(rig, CPS_END_B, CPS_END_HELD, half, y, 0);
+        rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, half, y, 0);
     const int steps = 1 + (int)uniform(0, 30);
     rig_stage(rig, steps);
-    rig_change(rig, CPS_END_A, CPS_END_HELD, -half, up,
+    rig_change(rig, CPS_END_A, CPS_END_KIND_HELD, -half, up,
                s->flat ? 0 : uniform(-0.05, 0.05) * length);
     if (pulled)
-        rig_change(rig, CPS_END_B, CPS_END_FREE, force, 0.4 * force, 0);
+        rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, force, 0.4 * force, 0);
     else
-        rig_change(rig, CPS_END_B, CPS_END_HELD, half, up * uniform(0.5, 1), 0);
+        rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, half, up * uniform(0.5, 1), 0);
     rig_stage(rig, 1 + steps / 2);
-    rig_change(rig, CPS_END_A, CPS_END_HELD, -0.98 * half, 0.8 * up, 0);
-    rig->scene.friction_policy = chance(0.15) ? CPS_FRICTION_FROZEN : CPS_FRICTION_CONSISTENT;
+    rig_change(rig, CPS_END_A, CPS_END_KIND_HELD, -0.98 * half, 0.8 * up, 0);
+    rig->scene.friction_policy =
+        chance(0.15) ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
 }
 
 /* what is looked at ---------------------------------------------------------------------------- */
@@ -231,7 +232,7 @@ static double depth(const Scene *s, const CpsLineView *view) {
         const CpsObstacle *o = &s->rig.obstacle[k];
         double a[3], b[3];
         seen(o, view->position, b);
-        for (int e = 0; e < view->elements; e++) {
+        for (int e = 0; e < view->element_count; e++) {
             const double l = view->element_length[e],
                          allowed = fmin(l * l / (4 * o->radius), o->radius / 4);
             memcpy(a, b, sizeof a);
@@ -261,7 +262,7 @@ static double winding(const CpsObstacle *o, const double *x, int elements) {
 /* Turns by which the line has come round an obstacle beyond what its ends went, from place `from`
  * to place `to`. A free end's way is straight as long as it is short. */
 static double passed(const Scene *s, const double *from, const double *to) {
-    const int elements = s->rig.line.elements;
+    const int elements = s->rig.line.element_count;
     double worst = 0;
     for (int k = 0; k < s->rig.scene.obstacle_count; k++) {
         const CpsObstacle *o = &s->rig.obstacle[k];
@@ -315,7 +316,7 @@ static void judge(const Scene *s, const char *name, const CpsEvolution *evolutio
         printf(
             "%s, %s: WRONG: certified, %.3g of the length too deep, %.6f turns round an obstacle\n",
             name, step, fmax(0, deep), turns);
-    if (s->rig.scene.friction_policy == CPS_FRICTION_CONSISTENT && !s->sets) {
+    if (s->rig.scene.friction_policy == CPS_FRICTION_POLICY_CONSISTENT && !s->sets) {
         const Audit audit = rig_audit(&s->rig.scene, still, &view);
         if (!right(&audit, &report.certificate)) {
             wrong = true;
@@ -350,16 +351,16 @@ static void check_file(const Scene *s, const char *name, const char *directory, 
  * took. */
 static double go(const Scene *s, const char *name, CpsEvolution *evolution, CpsResults *results,
                  Tally *tally) {
-    const size_t size = 3 * (size_t)(s->rig.line.elements + 1) * sizeof(double);
+    const size_t size = 3 * (size_t)(s->rig.line.element_count + 1) * sizeof(double);
     double *before = malloc(size), spent = 0;
     CpsError err;
     if (!before) abort();
-    while (cps_evolution_remaining(evolution) > 0 && spent <= LATE) {
+    while (cps_evolution_remaining_count(evolution) > 0 && spent <= LATE) {
         memcpy(before, cps_evolution_line_view(evolution, 0).position, size);
         const clock_t begun = clock();
         if (cps_evolution_step(evolution, &err)) break; /* an end's way leads through an obstacle */
         spent += (double)(clock() - begun) / CLOCKS_PER_SEC;
-        tally->iterations += cps_evolution_report(evolution).iterations;
+        tally->iterations += cps_evolution_report(evolution).iteration_count;
         judge(s, name, evolution, before, tally);
         if (cps_results_append(results, evolution, &err)) {
             print_error("%s: %s\n", name, err.message);
@@ -381,10 +382,10 @@ static void run(int number, const char *directory, Tally tallies[2]) {
     make(&s, number);
     Tally *tally = &tallies[s.rig.scene.friction_policy];
     snprintf(name, sizeof name, "scene %d, %d obstacles%s, %d elements, h/R %.2f, %s%s", number,
-             s.rig.scene.obstacle_count, s.sets ? " with friction sets" : "", s.rig.line.elements,
-             s.thickest,
-             s.rig.scene.friction_policy == CPS_FRICTION_FROZEN ? "frozen" : "consistent",
-             s.rig.line.end[1].kind == CPS_END_FREE ? ", pulled" : "");
+             s.rig.scene.obstacle_count, s.sets ? " with friction sets" : "",
+             s.rig.line.element_count, s.thickest,
+             s.rig.scene.friction_policy == CPS_FRICTION_POLICY_FROZEN ? "frozen" : "consistent",
+             s.rig.line.end[1].kind == CPS_END_KIND_FREE ? ", pulled" : "");
     if (cps_evolution_create(&s.rig.scene, &evolution, &err) ||
         cps_results_open(directory, &s.rig.scene, evolution, &terse, &results, &err)) {
         printf("%s: %s\n", name, err.message);
@@ -445,7 +446,7 @@ int main(int argc, char **argv) {
         for (int k = 0; k < SCENES * share; k++) run(k, directory, tally);
     if (only >= 0) run(only, directory, tally);
     if (system(command) != 0) printf("%s is left behind\n", directory);
-    const bool enough = tell("consistent friction", &tally[CPS_FRICTION_CONSISTENT]) &
-                        tell("frozen friction", &tally[CPS_FRICTION_FROZEN]);
+    const bool enough = tell("consistent friction", &tally[CPS_FRICTION_POLICY_CONSISTENT]) &
+                        tell("frozen friction", &tally[CPS_FRICTION_POLICY_FROZEN]);
     return tally[0].wrong + tally[1].wrong > 0 || tally[0].late + tally[1].late > 0 || !enough;
 }

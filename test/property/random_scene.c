@@ -72,7 +72,7 @@ void maker_begin(Maker *maker, double tilt, double friction, bool obstacle) {
     out->scene.obstacle = obstacle ? out->obstacle : NULL;
     out->scene.line = out->line;
     out->scene.stage = out->stage;
-    out->scene.friction_policy = CPS_FRICTION_FROZEN; // of the classes before "consistent"
+    out->scene.friction_policy = CPS_FRICTION_POLICY_FROZEN; // of the classes before "consistent"
     out->expected = CPS_OUTCOME_SOLVED;
 }
 
@@ -85,7 +85,7 @@ void maker_begin_line(Maker *maker, int elements) {
     *line = cps_line_default();
     snprintf(out->line_name[i], sizeof out->line_name[i], "line%d", i);
     line->name = out->line_name[i];
-    line->elements = elements ? elements : 5 + random_below(random, SCENE_ELEMENTS - 4);
+    line->element_count = elements ? elements : 5 + random_below(random, SCENE_ELEMENTS - 4);
     line->length = maker->length = random_decades(random, 0, 3);
     line->weight = maker->weight = random_decades(random, -1, 4);
     line->start.point = out->point[i];
@@ -148,7 +148,7 @@ static void start_polyline(Maker *maker, double rise) {
 /* a circular arc in the plane; its elements must fit as chords */
 static void start_arc(Maker *maker) {
     CpsLine *line = maker_line(maker);
-    double most = fmin(6.2, 1.5 * line->elements);
+    double most = fmin(6.2, 1.5 * line->element_count);
     double radius = maker->length / random_uniform(&maker->random, 0.3, most),
            angle = random_uniform(&maker->random, 0, 6.283);
     double local[2][3] = {{maker->foot[0], maker->foot[1], maker->foot[2]},
@@ -182,7 +182,7 @@ void maker_stage(Maker *maker, int steps) {
     snprintf(out->stage_name[s], sizeof out->stage_name[s], "s%d", s);
     out->stage[s] = (CpsStage){.cookie = cps_stage_default().cookie,
                                .name = out->stage_name[s],
-                               .steps = steps,
+                               .step_count = steps,
                                .change = out->change[s],
                                .turn = out->turn[s]};
 }
@@ -203,7 +203,7 @@ static double force_b(Maker *maker, double low, double high) {
     double local[3] = {cos(angle) * cos(climb), sin(angle) * cos(climb), sin(climb)}, value[3];
     double size = maker->weight * maker->length * random_decades(random, low, high);
     maker_direction(&maker->frame, local, size, value);
-    maker_change(maker, CPS_END_B, CPS_END_FREE, value);
+    maker_change(maker, CPS_END_B, CPS_END_KIND_FREE, value);
     return size;
 }
 
@@ -218,7 +218,7 @@ static void move_b(Maker *maker, double reach) {
                        maker->foot[1] + distance * sin(angle) * cos(climb),
                        maker->foot[2] + distance * sin(climb)};
     maker_place(&maker->frame, local, value);
-    maker_change(maker, CPS_END_B, CPS_END_HELD, value);
+    maker_change(maker, CPS_END_B, CPS_END_KIND_HELD, value);
 }
 
 /* ---- classes ---- */
@@ -272,12 +272,12 @@ static void make_slack(Maker *maker) {
         double at = maker->length * (1 - back);
         double local[3] = {maker->foot[0] + at * cos(angle), maker->foot[1] + at * sin(angle), 0};
         maker_place(&maker->frame, local, value);
-        maker_change(maker, CPS_END_B, CPS_END_HELD, value);
+        maker_change(maker, CPS_END_B, CPS_END_KIND_HELD, value);
     } else {
         double local[3] = {-cos(angle), -sin(angle), 0};
         maker_direction(&maker->frame, local,
                         back * maker->friction * maker->weight * maker->length, value);
-        maker_change(maker, CPS_END_B, CPS_END_FREE, value);
+        maker_change(maker, CPS_END_B, CPS_END_KIND_FREE, value);
     }
     if (random_chance(random, 0.5)) {
         maker_stage(maker, 1);
@@ -308,9 +308,9 @@ static void make_fully_slack(Maker *maker) {
     if (kind == 1) {
         double local[3] = {maker->foot[0] + 0.2 * maker->length, maker->foot[1], 0}, value[3];
         maker_place(&maker->frame, local, value);
-        maker_change(maker, CPS_END_B, CPS_END_HELD, value);
+        maker_change(maker, CPS_END_B, CPS_END_KIND_HELD, value);
     } else {
-        maker_change(maker, CPS_END_B, CPS_END_FREE, none);
+        maker_change(maker, CPS_END_B, CPS_END_KIND_FREE, none);
     }
     maker_any_stiffness(maker);
 }
@@ -383,7 +383,7 @@ static void make_stretched(Maker *maker, double excess, bool obstacle) {
                        maker->foot[2] + at * sin(climb)};
     maker_place(&maker->frame, local, value);
     maker_stage(maker, 1);
-    maker_change(maker, CPS_END_B, CPS_END_HELD, value);
+    maker_change(maker, CPS_END_B, CPS_END_KIND_HELD, value);
 }
 
 static void make_graded(Maker *maker) {
@@ -393,12 +393,12 @@ static void make_graded(Maker *maker) {
     CpsLine *line = maker_line(maker);
     double *l = maker->out->element_length[0], sum = 0, range = random_uniform(random, 2, 4);
     bool smooth = random_chance(random, 0.6);
-    for (int i = 0; i < line->elements; i++) {
-        l[i] =
-            pow(10, smooth ? range * i / (line->elements - 1) : random_uniform(random, 0, range));
+    for (int i = 0; i < line->element_count; i++) {
+        l[i] = pow(10, smooth ? range * i / (line->element_count - 1)
+                              : random_uniform(random, 0, range));
         sum += l[i];
     }
-    for (int i = 0; i < line->elements; i++) l[i] *= line->length / sum;
+    for (int i = 0; i < line->element_count; i++) l[i] *= line->length / sum;
     line->element_length = l;
     if (line->start.kind == CPS_START_ARC)
         start_polyline(maker, 0); // one long chord would not fit an arc
@@ -461,7 +461,7 @@ static void make_unbounded(Maker *maker) {
                 kind != 3);
     maker_begin_line(maker, 0);
     CpsLine *line = maker_line(maker);
-    line->end[CPS_END_A] = (CpsEnd){.kind = CPS_END_FREE};
+    line->end[CPS_END_A] = (CpsEnd){.kind = CPS_END_KIND_FREE};
     start_straight(maker, random_uniform(random, 0, 6.283), 0);
     maker_stage(maker, 1);
     double total = maker->weight * maker->length,
@@ -472,7 +472,7 @@ static void make_unbounded(Maker *maker) {
         local[2] = 1;
     }
     maker_direction(&maker->frame, local, kind < 2 ? beyond * pull : 0, value);
-    maker_change(maker, CPS_END_B, CPS_END_FREE, value);
+    maker_change(maker, CPS_END_B, CPS_END_KIND_FREE, value);
     maker_any_stiffness(maker);
     maker->out->expected = CPS_OUTCOME_UNBOUNDED;
 }
@@ -511,7 +511,7 @@ static void make_consistent(Maker *maker) {
         maker_any_stiffness(maker);
         break;
     }
-    maker->out->scene.friction_policy = CPS_FRICTION_CONSISTENT;
+    maker->out->scene.friction_policy = CPS_FRICTION_POLICY_CONSISTENT;
 }
 
 void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {

@@ -28,7 +28,7 @@ static void set_directions(Maker *maker, CpsObstacle *obstacle, bool box, bool g
     Random *random = &maker->random;
     obstacle->friction = fmax(obstacle->friction, 0.02);
     obstacle->friction_lateral = obstacle->friction * random_uniform(random, 0.3, 2);
-    obstacle->friction_shape = box ? CPS_FRICTION_BOX : CPS_FRICTION_ELLIPSE;
+    obstacle->friction_shape = box ? CPS_FRICTION_SHAPE_BOX : CPS_FRICTION_SHAPE_ELLIPSE;
     const double angle = random_uniform(random, 0, 6.283), local[3] = {cos(angle), sin(angle), 0};
     if (grain) maker_direction(&maker->frame, local, 1, obstacle->grain);
 }
@@ -72,8 +72,8 @@ static double wind(Maker *maker, Arc *arc) {
     Random *random = &maker->random;
     maker_begin_line(maker, 10 + random_below(random, SCENE_ELEMENTS - 9));
     CpsLine *line = maker_line(maker);
-    const double chord = 2 * arc->radius * sin(0.5 * arc->angle / line->elements);
-    line->length = maker->length = line->elements * chord;
+    const double chord = 2 * arc->radius * sin(0.5 * arc->angle / line->element_count);
+    line->length = maker->length = line->element_count * chord;
     const double tension = random_decades(random, 0, 4);
     line->weight = maker->weight =
         random_chance(random, 0.3) ? 0 : tension / arc->radius * random_decades(random, -4, -1.5);
@@ -90,7 +90,7 @@ static void pull_b(Maker *maker, const Arc *arc, double size, double aside) {
     double value[3];
     in_arc(maker, arc, arc->angle + 1.5707963 - outwards, size,
            size * random_uniform(random, -aside, aside), value);
-    maker_change(maker, CPS_END_B, CPS_END_FREE, value);
+    maker_change(maker, CPS_END_B, CPS_END_KIND_FREE, value);
 }
 
 /* a standing or a lying cylinder, or a ball, and an arc on it; mu theta up to 2 */
@@ -131,7 +131,7 @@ static void make_drum(Maker *maker, bool hand) {
     CpsLine *line = maker_line(maker);
     if (hand) {
         drum->friction = mu;
-        line->end[CPS_END_A].kind = CPS_END_FREE;
+        line->end[CPS_END_A].kind = CPS_END_KIND_FREE;
         const double hold = tension * exp(-random_uniform(random, 0.2, 0.6) * mu * arc.angle);
         in_arc(maker, &arc, -1.5707963, hold, 0, line->end[CPS_END_A].value);
         line->weight = maker->weight = 0;
@@ -139,7 +139,7 @@ static void make_drum(Maker *maker, bool hand) {
     maker_stage(maker, hand ? 1 : 1 + random_below(random, 3));
     double value[3];
     in_arc(maker, &arc, arc.angle + 1.5707963, tension, 0, value);
-    maker_change(maker, CPS_END_B, CPS_END_FREE, value);
+    maker_change(maker, CPS_END_B, CPS_END_KIND_FREE, value);
     const int stages = 1 + random_below(random, 3);
     for (int s = 0; s < stages; s++) {
         maker_stage(maker, 1 + random_below(random, 4));
@@ -190,7 +190,7 @@ static void make_pipe(Maker *maker) {
         longest = fmax(longest, hypot(to[1], way_over(r, a[0], a[2], to[0], to[2])));
         maker_place(&maker->frame, to, value);
         maker_stage(maker, 2 + random_below(random, 6));
-        maker_change(maker, CPS_END_B, CPS_END_HELD, value);
+        maker_change(maker, CPS_END_B, CPS_END_KIND_HELD, value);
     }
     line->length = maker->length = longest * (1 + random_decades(random, -2, -0.5));
     maker_stiffness(maker, random_decades(random, 1, 6), 0);
@@ -229,7 +229,7 @@ static void make_two(Maker *maker) {
         longest = fmax(longest, hypot(way_over(r, a[0], buried, to[0], to[2] + buried), to[1]));
         maker_place(&maker->frame, to, value);
         maker_stage(maker, 2 + random_below(random, 6));
-        maker_change(maker, CPS_END_B, CPS_END_HELD, value);
+        maker_change(maker, CPS_END_B, CPS_END_KIND_HELD, value);
     }
     line->length = maker->length = longest * (1 + random_decades(random, -4, -2));
     maker_stiffness(maker, random_decades(random, 1, 6), 0);
@@ -253,7 +253,8 @@ static void make_directions(Maker *maker, bool box) {
     maker_any_stiffness(maker);
     CpsLine *line = maker_line(maker);
     Arc arc = {.first = 0, .second = 1, .axis = 2, .angle = random_uniform(random, 0.05, 2)};
-    arc.radius = line->length / (2 * line->elements * sin(0.5 * arc.angle / line->elements));
+    arc.radius =
+        line->length / (2 * line->element_count * sin(0.5 * arc.angle / line->element_count));
     start_on(maker, &arc);
     const int stages = 1 + random_below(random, 4);
     for (int s = 0; s < stages; s++) {
@@ -262,7 +263,7 @@ static void make_directions(Maker *maker, bool box) {
         double value[3];
         in_arc(maker, &arc, arc.angle + 1.5707963 + random_uniform(random, -0.5, 0.5), size, 0,
                value);
-        maker_change(maker, CPS_END_B, CPS_END_FREE, value);
+        maker_change(maker, CPS_END_B, CPS_END_KIND_FREE, value);
     }
     set_directions(maker, &maker->out->obstacle[0], box, false);
 }
@@ -280,5 +281,5 @@ void random_scene_curved(int class_index, Maker *maker) {
     case SCENE_GRAIN: make_wild(maker, random_chance(&maker->random, 0.5), true); break;
     default: make_wild(maker, random_chance(&maker->random, 0.5), false); break; // wild
     }
-    maker->out->scene.friction_policy = CPS_FRICTION_CONSISTENT;
+    maker->out->scene.friction_policy = CPS_FRICTION_POLICY_CONSISTENT;
 }

@@ -62,7 +62,7 @@ static const char *run_scene(const RandomScene *random, const char *directory, T
     if (cps_evolution_create(&random->scene, &evolution, err) != CPS_OK) return "create";
     if (cps_results_open(directory, &random->scene, evolution, NULL, &results, err) != CPS_OK)
         failed = "open";
-    while (!failed && cps_evolution_remaining(evolution) > 0) {
+    while (!failed && cps_evolution_remaining_count(evolution) > 0) {
         if (*last > *worst_before) *worst_before = *last;
         if (cps_evolution_step(evolution, err) != CPS_OK) {
             failed = "step";
@@ -72,7 +72,7 @@ static const char *run_scene(const RandomScene *random, const char *directory, T
         CpsStepReport report = cps_evolution_report(evolution);
         *last = report.outcome;
         if (tally->iterations_count < MAX_STEPS)
-            tally->iterations[tally->iterations_count++] = report.iterations;
+            tally->iterations[tally->iterations_count++] = report.iteration_count;
     }
     if (!failed && cps_results_finish(results, 0, err) != CPS_OK) failed = "finish";
     cps_results_destroy(results);

@@ -41,13 +41,15 @@ void __wrap_free(void *place) {
 }
 
 static const double ends[] = {0, 0, 0, 6.28, 0, 0};
-static const CpsChange pull = {.line = 0, .end = CPS_END_B, .to = {CPS_END_FREE, {0.5, 0.5, 0.5}}};
+static const CpsChange pull = {.line = 0,
+                               .end = CPS_END_B,
+                               .to = {CPS_END_KIND_FREE, {0.5, 0.5, 0.5}}};
 static CpsStage stage;
 
 static CpsScene scene(const CpsObstacle *bed, const CpsLine *line) {
     stage = cps_stage_default();
     stage.name = "pull";
-    stage.steps = 3;
+    stage.step_count = 3;
     stage.change_count = 1;
     stage.change = &pull;
     CpsScene out = cps_scene_default();
@@ -62,7 +64,7 @@ static CpsLine rope(void) {
     CpsLine line = cps_line_default();
     line.name = "rope";
     line.length = 6.28;
-    line.elements = 50;
+    line.element_count = 50;
     line.weight = 9.81;
     line.stiffness = 10;
     line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = ends};
@@ -86,7 +88,7 @@ static void step_all(double stiffness) {
     CpsEvolution *evolution;
     assert_int_equal(cps_evolution_create(&s, &evolution, NULL), CPS_OK);
     const int before = allocations;
-    while (cps_evolution_remaining(evolution) > 0) {
+    while (cps_evolution_remaining_count(evolution) > 0) {
         assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
         assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
     }
@@ -166,7 +168,7 @@ static void friction_sets_and_zones_take_no_more(void **unused) {
         /* the set may go: the evolution has what it needs of it */
         cps_set_release(set);
         const int before = allocations;
-        while (cps_evolution_remaining(evolution) > 0) {
+        while (cps_evolution_remaining_count(evolution) > 0) {
             assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
             assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
         }

@@ -11,7 +11,7 @@ static CpsiFrictionLaw make(double first, double second, bool box) {
     CpsObstacle def = cps_obstacle_default();
     def.friction = first;
     def.friction_lateral = second;
-    def.friction_shape = box ? CPS_FRICTION_BOX : CPS_FRICTION_ELLIPSE;
+    def.friction_shape = box ? CPS_FRICTION_SHAPE_BOX : CPS_FRICTION_SHAPE_ELLIPSE;
     const CpsiObstacle o = cpsi_obstacle(&def);
     const CpsiLine line = {.obstacle_count = 1,
                            .obstacle = &o}; /* of one obstacle, without zones */

@@ -88,17 +88,17 @@ static void expect_same(const CpsEvolution *a, const CpsEvolution *b) {
         const CpsLineView x = cps_evolution_line_view(a, i), y = cps_evolution_line_view(b, i);
         const CpsLineReport p = cps_evolution_line_report(a, i),
                             q = cps_evolution_line_report(b, i);
-        const int n = x.elements + 1;
+        const int n = x.element_count + 1;
         same_numbers(x.position, y.position, 3 * n);
         same_numbers(x.reference, y.reference, 3 * n);
-        same_numbers(x.segment_force, y.segment_force, 3 * x.elements);
-        same_numbers(x.tension, y.tension, x.elements);
-        same_numbers(x.friction_force, y.friction_force, 3 * x.contacts * n);
-        same_numbers(x.reaction, y.reaction, x.contacts * n);
-        assert_memory_equal(x.state, y.state, (size_t)(x.contacts * n));
+        same_numbers(x.segment_force, y.segment_force, 3 * x.element_count);
+        same_numbers(x.tension, y.tension, x.element_count);
+        same_numbers(x.friction_force, y.friction_force, 3 * x.contact_count * n);
+        same_numbers(x.reaction, y.reaction, x.contact_count * n);
+        assert_memory_equal(x.state, y.state, (size_t)(x.contact_count * n));
         CHECK_INT((int)p.outcome, (int)q.outcome);
-        CHECK_INT(p.iterations, q.iterations);
-        CHECK_INT(p.parts, q.parts);
+        CHECK_INT(p.iteration_count, q.iteration_count);
+        CHECK_INT(p.part_count, q.part_count);
         same_numbers(&p.dissipated, &q.dissipated, 1);
         same_numbers(&p.certificate.gap, &q.certificate.gap, 1);
         same_numbers(&p.ledger.imbalance, &q.ledger.imbalance, 1);
@@ -111,7 +111,7 @@ static int count_asks(CpsSceneFile *file, int count[], int most) {
     Asked by = {.ends_at = -1};
     CpsEvolution *plain = begin(file, NULL), *watched = begin(file, &by);
     int steps = 0;
-    for (; cps_evolution_remaining(plain) > 0; steps++) {
+    for (; cps_evolution_remaining_count(plain) > 0; steps++) {
         assert_true(steps < most);
         by.count = 0;
         assert_int_equal(cps_evolution_step(plain, NULL), CPS_OK);
@@ -146,7 +146,7 @@ static void interrupt_all(const char *text, int tries, int least_asks) {
                 void *after = saved(evolution);
                 assert_memory_equal(before, after, cps_evolution_state_size(evolution));
                 free(after);
-                CHECK_INT(cps_evolution_remaining(evolution), steps - step);
+                CHECK_INT(cps_evolution_remaining_count(evolution), steps - step);
             }
         by = (Asked){.ends_at = -1};
         assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);

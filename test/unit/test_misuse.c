@@ -533,14 +533,16 @@ static void studies(void **state) {
         REFUSED(cps_solution_complete(view[i], CPS_COMPLETION_MEANDER, number, NULL, &err));
     }
     RUNS(cps_regularized_destroy(NULL));
-    GIVES(cps_regularized_step(NULL).elements == 0 && cps_regularized_step(NULL).position == NULL);
+    GIVES(cps_regularized_step(NULL).element_count == 0 &&
+          cps_regularized_step(NULL).position == NULL);
     GIVES(cps_regularized_coarse(NULL).penalty == 0 && cps_regularized_fine(NULL).penalty == 0);
     REFUSED(cps_regularized_solve(NULL, &parameters, 10, &report, &err));
-    GIVES(cps_regularized_view(NULL).cells == 0 && cps_regularized_view(NULL).position == NULL);
+    GIVES(cps_regularized_view(NULL).cell_count == 0 &&
+          cps_regularized_view(NULL).position == NULL);
     for (i = 0; i < ABSENCES; ++i) {
         GIVES(isnan(cps_regularized_end_tension(NULL, ABSENT[i])));
         GIVES(cps_study_row(NULL, ABSENT[i]).parameters.penalty == 0);
-        GIVES(cps_study_stage_end(NULL, (CpsStudyStage)ABSENT[i]).cells == 0);
+        GIVES(cps_study_stage_end(NULL, (CpsStudyStage)ABSENT[i]).cell_count == 0);
     }
     GIVES(cps_study_options_default(NULL).max_iterations == 0);
     GIVES(cps_study_options_to(NULL, NULL).max_iterations == 0);
@@ -550,7 +552,8 @@ static void studies(void **state) {
     REFUSED(cps_first_order_solve(NULL, CPS_FIRST_ORDER_CONTACT_REFERENCE, &first_order, &err));
     RUNS(cps_first_order_destroy(NULL));
     GIVES(cps_first_order_report(NULL).verdict == CPS_FIRST_ORDER_VERDICT_UNDECIDED);
-    GIVES(cps_first_order_view(NULL).elements == 0 && cps_first_order_view(NULL).strain == NULL);
+    GIVES(cps_first_order_view(NULL).element_count == 0 &&
+          cps_first_order_view(NULL).strain == NULL);
     REFUSED(cps_scene_check(NULL, &err));
 }
 

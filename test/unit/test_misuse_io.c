@@ -87,7 +87,10 @@ static void studies(void **state) {
     const char *const names[2] = {"a", NULL}, *const unnamed[1] = {NULL};
     const CpsLineView nothing = {0};
     const CpsCompletedLine line = {.title = "nothing of it", .view = &nothing};
-    CpsRegularizedRun run = {.title = "nothing of it", .steps = 1, .lines = 1, .step_name = names};
+    CpsRegularizedRun run = {.title = "nothing of it",
+                             .step_count = 1,
+                             .line_count = 1,
+                             .step_name = names};
     const CpsRegularizedLine bare = {.name = NULL};
     REFUSED(cps_study_write(NULL, &files, &err));
     REFUSED(cps_study_write("results-misuse-io", NULL, &err));
@@ -130,16 +133,16 @@ static void one_thing_missing(void **state) {
     const CpsRegularizedParameters parameters = {0};
     const CpsRegularizedReport report = {0};
     const CpsRegularizedLine line = {.name = "a",
-                                     .points = 2,
+                                     .point_count = 2,
                                      .position = ONE,
                                      .tension = ONE,
                                      .parameters = &parameters,
                                      .report = &report};
     const CpsRegularizedRun run = {
-        .title = "", .steps = 1, .lines = 1, .step_name = names, .line = &line};
+        .title = "", .step_count = 1, .line_count = 1, .step_name = names, .line = &line};
     WITHOUT(CpsRegularizedRun, run, title, cps_regularized_write(DIRECTORY, &given_, &err));
-    WITHOUT(CpsRegularizedRun, run, steps, cps_regularized_write(DIRECTORY, &given_, &err));
-    WITHOUT(CpsRegularizedRun, run, lines, cps_regularized_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsRegularizedRun, run, step_count, cps_regularized_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsRegularizedRun, run, line_count, cps_regularized_write(DIRECTORY, &given_, &err));
     WITHOUT(CpsRegularizedRun, run, step_name, cps_regularized_write(DIRECTORY, &given_, &err));
     WITHOUT(CpsRegularizedRun, run, line, cps_regularized_write(DIRECTORY, &given_, &err));
     REFUSED(cps_regularized_write(NULL, &run, &err));
@@ -156,7 +159,7 @@ static void one_thing_missing(void **state) {
         REFUSED(cps_regularized_write(DIRECTORY, &other, &err)); \
     } while (0)
     WITHOUT_OF_LINE(name);
-    WITHOUT_OF_LINE(points);
+    WITHOUT_OF_LINE(point_count);
     WITHOUT_OF_LINE(position);
     WITHOUT_OF_LINE(tension);
     WITHOUT_OF_LINE(parameters);

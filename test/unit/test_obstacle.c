@@ -253,10 +253,10 @@ static void has_local_axes(void **state) {
     assert_true(cpsi_obstacle_needs_local_axes(&o));
     CHECK_NEAR(o.friction[1], 0, 0);
     def.friction_lateral = 0.5;
-    def.friction_shape = CPS_FRICTION_BOX;
+    def.friction_shape = CPS_FRICTION_SHAPE_BOX;
     o = cpsi_obstacle(&def);
     assert_true(cpsi_obstacle_needs_local_axes(&o));
-    def.friction_shape = CPS_FRICTION_ELLIPSE;
+    def.friction_shape = CPS_FRICTION_SHAPE_ELLIPSE;
     def.kind = CPS_OBSTACLE_SPHERE;
     o = cpsi_obstacle(&def);
     assert_true(cpsi_obstacle_needs_local_axes(&o));

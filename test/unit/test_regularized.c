@@ -54,12 +54,12 @@ static void make_step(Step *s) {
         s->factor[j] = 1;
     }
     s->view = (CpsLineView){.name = "line",
-                            .elements = ELEMENTS,
+                            .element_count = ELEMENTS,
                             .arc_length = s->arc,
                             .element_length = s->width,
                             .one_plane = true,
                             .compliance = 0.05,
-                            .end = {{CPS_END_HELD, {0}}, {CPS_END_FREE, {0.1, 0.2, 0.3}}},
+                            .end = {{CPS_END_KIND_HELD, {0}}, {CPS_END_KIND_FREE, {0.1, 0.2, 0.3}}},
                             .reference = s->reference,
                             .position = s->position,
                             .load = s->load,
@@ -164,7 +164,7 @@ typedef struct Functional {
 
 static void open_functional(Functional *t, bool held) {
     make_step(&t->step);
-    if (held) t->step.view.end[CPS_END_B].kind = CPS_END_HELD;
+    if (held) t->step.view.end[CPS_END_B].kind = CPS_END_KIND_HELD;
     CpsError err = {0};
     assert_int_equal(cpsi_step_copy(&t->step.view, &t->copy, &err), CPS_OK);
     t->f = (CpsiRegularized){.step = &t->copy,
@@ -374,7 +374,7 @@ static void refusals(void **state) {
     make_step(&step);
     CpsError err = {0};
     CpsRegularized *classic = (CpsRegularized *)&step;
-    step.view.end[CPS_END_A].kind = CPS_END_FREE;
+    step.view.end[CPS_END_A].kind = CPS_END_KIND_FREE;
     assert_int_equal(cps_regularized_create(&step.view, &classic, &err), CPS_ERR_ARGUMENT);
     assert_null(classic);
     assert_non_null(strstr(err.message, "hold end A"));
@@ -397,7 +397,7 @@ static void refusals(void **state) {
     CpsRegularizedReport report;
     const CpsRegularizedParameters good = cps_regularized_coarse(classic);
     CpsRegularizedParameters bad[] = {good, good, good, good, good};
-    bad[0].cells = 1;
+    bad[0].cell_count = 1;
     bad[1].penalty = 0;
     bad[2].stiffness = NAN;
     bad[3].delta = -1;
@@ -406,7 +406,7 @@ static void refusals(void **state) {
         assert_int_equal(cps_regularized_solve(classic, &bad[i], 100, &report, &err),
                          CPS_ERR_ARGUMENT);
     assert_int_equal(cps_regularized_solve(classic, &good, 0, &report, &err), CPS_ERR_ARGUMENT);
-    assert_int_equal(cps_regularized_view(classic).cells, 0);
+    assert_int_equal(cps_regularized_view(classic).cell_count, 0);
 
     CpsRegularized *next = classic;
     assert_int_equal(cps_regularized_next(&step.view, 0.5, classic, &next, &err),
@@ -431,15 +431,15 @@ static void refusals(void **state) {
     assert_null(study);
     assert_non_null(strstr(err.message, "stage n"));
     options = cps_study_options_default(classic);
-    options.values[CPS_STUDY_STAGE_H] = options.values[CPS_STUDY_STAGE_LAMBDA] =
-        options.values[CPS_STUDY_STAGE_N] = options.values[CPS_STUDY_STAGE_DELTA] = 1;
+    options.value_count[CPS_STUDY_STAGE_H] = options.value_count[CPS_STUDY_STAGE_LAMBDA] =
+        options.value_count[CPS_STUDY_STAGE_N] = options.value_count[CPS_STUDY_STAGE_DELTA] = 1;
     assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_OK);
     assert_true(cps_study_row(study, cps_study_row_count(study) - 1).parameters.penalty > 0);
     assert_true(cps_regularized_end_tension(classic, CPS_END_B) >= 0);
     for (int k = 0; k < 4; ++k) {
         const int absent = (int[]){-1, 64, INT_MAX, INT_MIN}[k];
         assert_true(cps_study_row(study, absent).parameters.penalty == 0);
-        assert_int_equal(cps_study_stage_end(study, (CpsStudyStage)absent).cells, 0);
+        assert_int_equal(cps_study_stage_end(study, (CpsStudyStage)absent).cell_count, 0);
         assert_false(cps_regularized_end_tension(classic, absent) ==
                      cps_regularized_end_tension(classic, absent)); /* NaN */
         CpsFirstOrder *none = NULL;
@@ -464,7 +464,7 @@ static void limit_is_reported(void **state) {
     CpsRegularizedReport report;
     assert_int_equal(cps_regularized_create(&step.view, &classic, &err), CPS_OK);
     CpsRegularizedParameters p = cps_regularized_coarse(classic);
-    p.cells = 0;
+    p.cell_count = 0;
     p.delta *= 1e-4;
     assert_int_equal(cps_regularized_solve(classic, &p, 1, &report, &err), CPS_OK);
     assert_false(report.converged);

@@ -56,14 +56,14 @@ static void begin(Fixture *f, double length, double stiffness, double weight, bo
     cpsi_chain_program_resize(&f->program, 2, false);
     for (int a = 0; a < 3; a++) line->common_axes[4 * a] = 1;
     memcpy(&line->position[3], to, 3 * sizeof *to);
-    line->end[CPS_END_A] = (CpsEnd){CPS_END_HELD, {0, 0, 0}};
-    line->end[CPS_END_B] = (CpsEnd){CPS_END_FREE, {force[0], force[1], force[2]}};
+    line->end[CPS_END_A] = (CpsEnd){CPS_END_KIND_HELD, {0, 0, 0}};
+    line->end[CPS_END_B] = (CpsEnd){CPS_END_KIND_FREE, {force[0], force[1], force[2]}};
 }
 
 static CpsiStepOptions step_options(void) {
     CpsiStepOptions options = {.solver = cps_scene_default().solver};
-    options.friction_policy = CPS_FRICTION_CONSISTENT;
-    options.contact_policy = CPS_CONTACT_REACHED;
+    options.friction_policy = CPS_FRICTION_POLICY_CONSISTENT;
+    options.contact_policy = CPS_CONTACT_POLICY_REACHED;
     return options;
 }
 

@@ -42,7 +42,7 @@ static void make_scene(Fixture *f) {
     f->bed.friction = 0.3;
     for (int i = 0; i < LINES; i++) {
         f->line[i] = cps_line_default();
-        f->line[i].elements = ELEMENTS;
+        f->line[i].element_count = ELEMENTS;
         f->line[i].weight = 10;
         f->line[i].stiffness = 1e4;
     }
@@ -53,31 +53,31 @@ static void make_scene(Fixture *f) {
     f->line[1].name = "mooring-2";
     f->line[1].length = 12;
     f->line[1].start.kind = CPS_START_STATIC;
-    f->line[1].end[CPS_END_A] = (CpsEnd){CPS_END_HELD, {0, 4, 0}};
-    f->line[1].end[CPS_END_B] = (CpsEnd){CPS_END_HELD, {9, 4, 5}};
+    f->line[1].end[CPS_END_A] = (CpsEnd){CPS_END_KIND_HELD, {0, 4, 0}};
+    f->line[1].end[CPS_END_B] = (CpsEnd){CPS_END_KIND_HELD, {9, 4, 5}};
 
-    f->change[0] = (CpsChange){0, CPS_END_B, {CPS_END_FREE, {4, 6, 5}}};
-    f->change[1] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {9.5, 4, 5}}};
-    f->change[2] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {8.5, 4, 5}}};
-    f->change[3] = (CpsChange){1, CPS_END_B, {CPS_END_HELD, {9, 4, 5}}};
+    f->change[0] = (CpsChange){0, CPS_END_B, {CPS_END_KIND_FREE, {4, 6, 5}}};
+    f->change[1] = (CpsChange){1, CPS_END_B, {CPS_END_KIND_HELD, {9.5, 4, 5}}};
+    f->change[2] = (CpsChange){1, CPS_END_B, {CPS_END_KIND_HELD, {8.5, 4, 5}}};
+    f->change[3] = (CpsChange){1, CPS_END_B, {CPS_END_KIND_HELD, {9, 4, 5}}};
     f->stage[0] = (CpsStage){.cookie = cps_stage_default().cookie,
                              .name = HOSTILE,
-                             .steps = 1,
+                             .step_count = 1,
                              .change_count = 1,
                              .change = &f->change[0]};
     f->stage[1] = (CpsStage){.cookie = cps_stage_default().cookie,
                              .name = "surge out",
-                             .steps = CYCLE,
+                             .step_count = CYCLE,
                              .change_count = 1,
                              .change = &f->change[1]};
     f->stage[2] = (CpsStage){.cookie = cps_stage_default().cookie,
                              .name = "surge in",
-                             .steps = 2 * CYCLE,
+                             .step_count = 2 * CYCLE,
                              .change_count = 1,
                              .change = &f->change[2]};
     f->stage[3] = (CpsStage){.cookie = cps_stage_default().cookie,
                              .name = "surge home",
-                             .steps = CYCLE,
+                             .step_count = CYCLE,
                              .change_count = 1,
                              .change = &f->change[3]};
     f->scene = cps_scene_default();
@@ -109,7 +109,7 @@ static CpsEvolution *run_into(const char *directory, const CpsScene *scene) {
     must(cps_results_prepare(directory, true, &err),
          &err); /* of an earlier run of this test, of whatever version */
     must(cps_results_open(directory, scene, evolution, NULL, &results, &err), &err);
-    while (cps_evolution_remaining(evolution) > 0) {
+    while (cps_evolution_remaining_count(evolution) > 0) {
         must(cps_evolution_step(evolution, &err), &err);
         must(cps_results_append(results, evolution, &err), &err);
     }
@@ -270,7 +270,7 @@ static void obstacles_are_written(void **state) {
     make_scene(&f);
     CpsObstacle obstacle[2] = {f.bed, cps_obstacle_default()};
     obstacle[0].friction_lateral = 0.5;
-    obstacle[0].friction_shape = CPS_FRICTION_BOX;
+    obstacle[0].friction_shape = CPS_FRICTION_SHAPE_BOX;
     obstacle[1].name = "drum";
     obstacle[1].kind = CPS_OBSTACLE_CYLINDER;
     obstacle[1].point[2] = 30;
@@ -341,7 +341,7 @@ static void both_contacts_are_written(void **state) {
     double on[2 * N], force[3 * N] = {0}, in_file[3 * N];
     unsigned char rest[N];
     int file, both = 0;
-    assert_int_equal(v.contacts, 2);
+    assert_int_equal(v.contact_count, 2);
     for (int c = 0; c < 2 * N; c++) {
         on[c] = v.obstacle[c];
         for (int a = 0; a < 3; a++)
@@ -434,14 +434,14 @@ static void what_is_not_there_is_refused(void **state) {
     other = evolution_of(&smaller);
     assert_int_equal(cps_evolution_line_count(NULL), 0);
     assert_int_equal(cps_evolution_step_count(NULL), 0);
-    assert_int_equal(cps_evolution_remaining(NULL), 0);
+    assert_int_equal(cps_evolution_remaining_count(NULL), 0);
     assert_int_equal(cps_evolution_report(NULL).index, -1);
     assert_int_equal(cps_evolution_state_size(NULL), 0);
     cps_evolution_save(NULL, NULL);
     const int absent[] = {-1, LINES, INT_MAX, INT_MIN};
     for (size_t i = 0; i < sizeof absent / sizeof *absent; i++) {
         const CpsLineView view = cps_evolution_line_view(evolution, absent[i]);
-        assert_int_equal(view.elements, 0);
+        assert_int_equal(view.element_count, 0);
         assert_null(view.position);
         assert_int_equal(cps_evolution_line_report(evolution, absent[i]).outcome,
                          CPS_OUTCOME_STALLED);
@@ -540,7 +540,7 @@ static void wrong_calls_are_refused(void **state) {
     /* the same number of lines, of other elements */
     Fixture g;
     make_scene(&g);
-    g.line[1].elements++;
+    g.line[1].element_count++;
     CpsEvolution *other = evolution_of(&g.scene);
     must(cps_evolution_step(other, &err), &err);
     assert_int_equal(cps_results_append(results, other, &err), CPS_ERR_ARGUMENT);

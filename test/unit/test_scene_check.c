@@ -27,15 +27,15 @@ static void make(Parts *p) {
     p->line = cps_line_default();
     p->line.name = "cable";
     p->line.length = 10;
-    p->line.elements = 4;
+    p->line.element_count = 4;
     p->line.weight = 5;
     p->line.stiffness = 1e6;
     p->line.start.point_count = 2;
     p->line.start.point = p->point;
-    p->change = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_FREE, {1, 0, 0}}};
+    p->change = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_FREE, {1, 0, 0}}};
     p->stage = (CpsStage){.cookie = cps_stage_default().cookie,
                           .name = "pull",
-                          .steps = 3,
+                          .step_count = 3,
                           .change_count = 1,
                           .change = &p->change};
     p->scene = cps_scene_default();
@@ -177,14 +177,14 @@ static void refuses_each_wrong_name_and_number(void **state) {
     BAD(w.p.scene.solver.path_tolerance = 1e-10);
     BAD(w.p.scene.solver.path_tolerance = 2);
     BAD(w.p.scene.solver.path_tolerance = NAN);
-    BAD(w.p.scene.solver.halvings = -1);
-    BAD(w.p.scene.solver.halvings = 31);
+    BAD(w.p.scene.solver.max_halvings = -1);
+    BAD(w.p.scene.solver.max_halvings = 31);
     BAD(w.p.scene.solver.max_iterations = 0);
     BAD(w.p.scene.solver.max_iterations = 1001);
     BAD(w.p.stage.gravity_changes = true; w.p.stage.gravity[0] = NAN);
-    BAD(w.p.stage.steps = 0);
+    BAD(w.p.stage.step_count = 0);
     BAD(w.line[0].start.kind = CPS_START_STATIC;
-        w.line[0].end[0].kind = w.line[0].end[1].kind = CPS_END_FREE);
+        w.line[0].end[0].kind = w.line[0].end[1].kind = CPS_END_KIND_FREE);
 }
 
 /* one number made bad, and where the error says that it is */
@@ -293,7 +293,7 @@ static void refuses_wrong_lines(void **state) {
     p.line.length = -2;
     refused(&p, "line 'cable': length is -2 m, expected a positive finite number");
     make(&p);
-    p.line.elements = 0;
+    p.line.element_count = 0;
     refused(&p, "line 'cable': elements is 0");
     make(&p);
     p.line.weight = -1;
@@ -413,7 +413,7 @@ static void refuses_wrong_histories(void **state) {
     p.scene.contact_policy = (CpsContactPolicy)7;
     refused(&p, "contact_policy: unknown value 7");
     make(&p);
-    p.stage.steps = 0;
+    p.stage.step_count = 0;
     refused(&p, "stage 1: steps is 0");
     make(&p);
     p.stage.cookie = 0;
@@ -452,10 +452,10 @@ static void limits_sizes(void **state) {
     Parts p;
     CpsError err;
     make(&p);
-    p.line.elements = 10000001;
+    p.line.element_count = 10000001;
     assert_int_equal(cps_scene_check(&p.scene, &err), CPS_ERR_LIMIT);
     make(&p);
-    p.stage.steps = 1000001;
+    p.stage.step_count = 1000001;
     assert_int_equal(cps_scene_check(&p.scene, &err), CPS_ERR_LIMIT);
 }
 
@@ -561,7 +561,7 @@ static void places_arc(void **state) {
         memcpy(p.point, (double[]){1, 2, 3, 1, 2 + radius, 9},
                sizeof(double[6])); /* the centre may lie off the plane */
         p.line.length = 6.28;
-        p.line.elements = N;
+        p.line.element_count = N;
         p.line.element_length = graded ? lengths : NULL;
         p.line.start.kind = CPS_START_ARC;
         assert_int_equal(cps_scene_check(&p.scene, NULL), CPS_OK);
@@ -586,17 +586,17 @@ static void guesses_laid(void **state) {
     Parts p;
     make(&p);
     p.line.start.kind = CPS_START_STATIC;
-    p.line.end[0] = (CpsEnd){CPS_END_HELD, {1, 0, 0}};
-    p.line.end[1] = (CpsEnd){CPS_END_HELD, {1, 8, 4}};
+    p.line.end[0] = (CpsEnd){CPS_END_KIND_HELD, {1, 0, 0}};
+    p.line.end[1] = (CpsEnd){CPS_END_KIND_HELD, {1, 8, 4}};
     double x[15], end[3];
     cpsi_start_place(&p.line, x);
     for (int i = 0; i <= 4; i++) CHECK_VECTOR(&x[3 * i], ((double[]){1, 2.0 * i, i}), 1e-14);
 
     /* one end only: along the force, or down */
-    p.line.end[1] = (CpsEnd){CPS_END_FREE, {0, 3, 4}};
+    p.line.end[1] = (CpsEnd){CPS_END_KIND_FREE, {0, 3, 4}};
     cpsi_start_end(&p.line, CPS_END_B, end);
     CHECK_VECTOR(end, ((double[]){1, 6, 8}), 1e-14);
-    p.line.end[1] = (CpsEnd){CPS_END_FREE, {0, 0, 0}};
+    p.line.end[1] = (CpsEnd){CPS_END_KIND_FREE, {0, 0, 0}};
     cpsi_start_end(&p.line, CPS_END_B, end);
     CHECK_VECTOR(end, ((double[]){1, 0, -10}), 1e-14);
 }
@@ -607,7 +607,7 @@ static void places_many(void **state) {
     enum { N = 1000000 };
     Parts p;
     make(&p);
-    p.line.elements = N;
+    p.line.element_count = N;
     double *x = malloc((size_t)(N + 1) * sizeof(double[3]));
     assert_non_null(x);
     cpsi_start_place(&p.line, x);

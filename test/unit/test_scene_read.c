@@ -50,17 +50,17 @@ static void reads_defaults(void **state) {
     assert_int_equal(scene->obstacle_count, 0);
     assert_int_equal(scene->friction_policy, usual.friction_policy);
     assert_int_equal(scene->stage_count, 0);
-    assert_int_equal(scene->contact_policy, CPS_CONTACT_REACHED);
+    assert_int_equal(scene->contact_policy, CPS_CONTACT_POLICY_REACHED);
     assert_int_equal(scene->line_count, 1);
     const CpsLine *line = scene->line;
     assert_string_equal(line->name, "cable");
-    assert_int_equal(line->elements, 100);
+    assert_int_equal(line->element_count, 100);
     assert_null(line->element_length);
     assert_true(line->length == 10 && isinf(line->stiffness) && line->stiffness > 0);
     CHECK_NEAR(line->weight, 2 * 9.81, 1e-14); /* two roundings */
-    assert_int_equal(line->end[0].kind, CPS_END_HELD);
+    assert_int_equal(line->end[0].kind, CPS_END_KIND_HELD);
     assert_true(isnan(line->end[0].value[0]));
-    assert_int_equal(line->end[1].kind, CPS_END_FREE);
+    assert_int_equal(line->end[1].kind, CPS_END_KIND_FREE);
     assert_true(line->end[1].value[0] == 0 && line->end[1].value[1] == 0 &&
                 line->end[1].value[2] == 0);
     cps_scene_file_destroy(file);
@@ -92,20 +92,20 @@ static void reads_every_key(void **state) {
     assert_string_equal(scene->obstacle->name, "slope-1");
     assert_true(scene->obstacle->point[2] == 3 && scene->obstacle->normal[1] == -1 &&
                 scene->obstacle->friction == 0.25);
-    assert_int_equal(scene->contact_policy, CPS_CONTACT_REFERENCE);
+    assert_int_equal(scene->contact_policy, CPS_CONTACT_POLICY_REFERENCE);
     assert_true(scene->solver.tolerance == 1e-10);
     assert_int_equal(scene->solver.max_iterations, 33);
     assert_int_equal(scene->solver.linear_system, CPS_LINEAR_SYSTEM_DENSE);
 
     const CpsLine *one = &scene->line[0], *two = &scene->line[1], *three = &scene->line[2];
     assert_int_equal(one->start.kind, CPS_START_STATIC);
-    assert_true(one->weight == 3 && one->elements == 7 && one->end[0].value[2] == 8 &&
+    assert_true(one->weight == 3 && one->element_count == 7 && one->end[0].value[2] == 8 &&
                 one->end[1].value[2] == 6);
     assert_int_equal(two->start.kind, CPS_START_POLYLINE);
     assert_int_equal(two->start.point_count, 3);
-    assert_true(two->elements == 16 && two->weight == 15 && two->stiffness == 2000 &&
+    assert_true(two->element_count == 16 && two->weight == 15 && two->stiffness == 2000 &&
                 two->start.point[7] == 1);
-    assert_int_equal(two->end[0].kind, CPS_END_FREE);
+    assert_int_equal(two->end[0].kind, CPS_END_KIND_FREE);
     assert_int_equal(three->start.kind, CPS_START_ARC);
     assert_true(three->start.point[5] == 12 && three->start.axis[0] == 1 &&
                 three->start.axis[2] == 0);
@@ -113,12 +113,12 @@ static void reads_every_key(void **state) {
     assert_int_equal(scene->stage_count, 2);
     const CpsStage *stage = scene->stage;
     assert_string_equal(stage->name, "up & down");
-    assert_int_equal(stage->steps, 4);
+    assert_int_equal(stage->step_count, 4);
     assert_int_equal(stage->change_count, 2);
     assert_int_equal(stage->change[0].line, 1);
-    assert_int_equal(stage->change[0].to.kind, CPS_END_HELD);
+    assert_int_equal(stage->change[0].to.kind, CPS_END_KIND_HELD);
     assert_int_equal(stage->change[1].line, 0);
-    assert_int_equal(stage->change[1].to.kind, CPS_END_FREE);
+    assert_int_equal(stage->change[1].to.kind, CPS_END_KIND_FREE);
     assert_string_equal(stage[1].name, "entry 2");
     assert_int_equal(stage[1].change_count, 0);
     cps_scene_file_destroy(file);
@@ -143,7 +143,7 @@ static void reads_obstacles(void **state) {
     assert_int_equal(bed->kind, CPS_OBSTACLE_PLANE);
     assert_memory_equal(bed->normal, usual.normal, sizeof usual.normal);
     assert_true(bed->friction == 0.6 && bed->friction_lateral == 0.8 && bed->grain[1] == 2);
-    assert_int_equal(bed->friction_shape, CPS_FRICTION_BOX);
+    assert_int_equal(bed->friction_shape, CPS_FRICTION_SHAPE_BOX);
     assert_string_equal(drum->name, "drum");
     assert_int_equal(drum->kind, CPS_OBSTACLE_CYLINDER);
     CHECK_VECTOR(drum->point, ((double[]){1, 2, 3}), 0);
@@ -153,7 +153,7 @@ static void reads_obstacles(void **state) {
     assert_memory_equal(pipe->axis, usual.axis, sizeof usual.axis);
     assert_memory_equal(pipe->point, usual.point, sizeof usual.point);
     assert_true(pipe->friction == 0.1 && pipe->friction_lateral == usual.friction_lateral);
-    assert_int_equal(pipe->friction_shape, CPS_FRICTION_ELLIPSE);
+    assert_int_equal(pipe->friction_shape, CPS_FRICTION_SHAPE_ELLIPSE);
     assert_int_equal(ball->kind, CPS_OBSTACLE_SPHERE);
     assert_true(ball->radius == 7 && ball->point[1] == 5 && ball->axis[0] == 1 &&
                 ball->friction == 0);
@@ -217,7 +217,7 @@ static void reads_graded_elements(void **state) {
     CpsSceneFile *file = read_good(HEAD STRAIGHT ENDS "    elements: [0.5, [3, 4.5], [2, 4], 1]\n");
     const CpsLine *line = cps_scene_file_scene(file)->line;
     static const double want[] = {0.5, 1.5, 1.5, 1.5, 2, 2, 1};
-    assert_int_equal(line->elements, 7);
+    assert_int_equal(line->element_count, 7);
     for (int i = 0; i < 7; i++)
         CHECK_NEAR(line->element_length[i], want[i], 1e-15); /* exact in binary */
     cps_scene_file_destroy(file);

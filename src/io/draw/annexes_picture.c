@@ -58,7 +58,7 @@ static void draw_curve(const CpsStudyFiles *files, const CpsiFrame *frame, Along
                        double factor, const char *style, FILE *out) {
     const CpsRegularizedStep step = cps_regularized_step(files->classic);
     fprintf(out, "<polyline fill=\"none\" %s points=\"", style);
-    for (int i = 0; i < step.elements; ++i)
+    for (int i = 0; i < step.element_count; ++i)
         fprintf(out, "%.1f,%.1f ",
                 cpsi_frame_x(frame, (step.arc_length[i] + step.arc_length[i + 1]) / 2),
                 cpsi_frame_y(frame, factor * value(files, i)));
@@ -69,7 +69,7 @@ static void draw_pair(const CpsStudyFiles *files, int panel, Along *linear, Alon
                       const char *base, FILE *out) {
     const CpsRegularizedStep step = cps_regularized_step(files->classic);
     double range[2] = {0, 0};
-    for (int i = 0; i < step.elements; ++i) {
+    for (int i = 0; i < step.element_count; ++i) {
         cpsi_range_include(range, linear(files, i));
         cpsi_range_include(range, exact(files, i));
     }
@@ -102,7 +102,7 @@ static void draw_pair(const CpsStudyFiles *files, int panel, Along *linear, Alon
  * back has smaller abscissae again. */
 static double along_reference(const CpsRegularizedStep *step, Vec3 x) {
     const Vec3 from = vec3_load(step->reference),
-               chord = vec3_sub(vec3_load(step->reference + 3 * (size_t)step->elements), from);
+               chord = vec3_sub(vec3_load(step->reference + 3 * (size_t)step->element_count), from);
     const double length = vec3_norm(chord);
     return length > 0 ? vec3_dot(vec3_sub(x, from), chord) / length : 0;
 }
@@ -127,7 +127,7 @@ static void draw_places(const CpsStudyFiles *files, int panel, bool linear, FILE
     const int count = linear ? 3 : 2;
     double range[2] = {0, 0};
     for (int c = 0; c < count; ++c)
-        for (int j = 0; j <= step.elements; ++j)
+        for (int j = 0; j <= step.element_count; ++j)
             cpsi_range_include(range, node_along(files, shown[c], j));
     CpsiFrame frame = {.left = LEFT,
                        .top = TOP + PITCH * panel,
@@ -141,7 +141,7 @@ static void draw_places(const CpsStudyFiles *files, int panel, bool linear, FILE
     cpsi_frame_begin(out, &frame, panel);
     for (int c = 0; c < count; ++c) {
         fprintf(out, "<polyline fill=\"none\" %s points=\"", style[c]);
-        for (int j = 0; j <= step.elements; ++j)
+        for (int j = 0; j <= step.element_count; ++j)
             fprintf(out, "%.1f,%.1f ", cpsi_frame_x(&frame, step.arc_length[j]),
                     cpsi_frame_y(&frame, node_along(files, shown[c], j)));
         fputs("\"/>\n", out);
@@ -205,7 +205,7 @@ static void draw_energy(const CpsiFrame *frame, double stiffness, bool relaxed, 
 void cpsi_picture_relaxed(const CpsStudyFiles *files, FILE *out) {
     const CpsRegularizedStep step = cps_regularized_step(files->classic);
     double largest = 0;
-    for (int i = 0; i < step.elements; ++i) largest = fmax(largest, step.tension[i]);
+    for (int i = 0; i < step.element_count; ++i) largest = fmax(largest, step.tension[i]);
     if (!(largest > 0)) largest = step.force;
     const double stiffness = step.stiffness / largest, place = -(1 + 1 / stiffness),
                  least = -(1 + 1 / (2 * stiffness));

@@ -95,7 +95,7 @@ static CpsStatus draw_surface(FILE *out, const BodyPicture *p, int column, int k
 static void reach(const CpsDriveBody *body, double x[2], double y[2]) {
     x[0] = y[0] = INFINITY;
     x[1] = y[1] = -INFINITY;
-    for (int i = 0; i < body->patches; i++) {
+    for (int i = 0; i < body->patch_count; i++) {
         const CpsPatch *p = &body->patch[i];
         double r = p->size;
         for (int k = 0; k < p->corner_count; k++)
@@ -126,7 +126,7 @@ static CpsStatus draw_pushes(FILE *out, const BodyPicture *p, int column, CpsErr
                        .top = TOP,
                        .width = SIDE,
                        .height = SIDE};
-    const int count = p->body->pushes;
+    const int count = p->body->push_count;
     CpsPlanarMotion *motion = malloc(((size_t)count + 1) * sizeof *motion);
     if (!motion) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     reach(p->body, frame.x, frame.y);
@@ -135,7 +135,7 @@ static CpsStatus draw_pushes(FILE *out, const BodyPicture *p, int column, CpsErr
     CpsStatus status = CPS_OK;
     for (int i = 0; i < count && status == CPS_OK; i++) {
         const CpsDrivePush *push = &p->body->push[i];
-        status = cps_planar_drive(p->body->planar, push->rows, push->map, push->velocity,
+        status = cps_planar_drive(p->body->planar, push->row_count, push->map, push->velocity,
                                   &motion[i], err);
         if (status != CPS_OK) break;
         if (push->at_point) cpsi_range_points(frame.x, frame.y, 1, push->point);
@@ -245,7 +245,7 @@ static CpsStatus draw_body(void *what, FILE *out, CpsError *err) {
                 "<path d=\"M-11 0H11\" stroke=\"" CPSI_ORANGE
                 "\" stroke-dasharray=\"6 4\" stroke-width=\"1.4\"/>",
                 "ellipsoid with the same axes");
-    if (p->body->pushes)
+    if (p->body->push_count)
         cpsi_legend(out, &x, y,
                     "<circle r=\"5\" fill=\"#fff\" stroke=\"" CPSI_PLUM "\" stroke-width=\"2\"/>",
                     "centre of rotation");

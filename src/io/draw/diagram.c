@@ -100,7 +100,7 @@ void cpsi_draw_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
     char style[160];
     /* a vehicle's wheels are connected by its frame */
     double hub[4][2];
-    for (int i = 0; i < body->patches; i++) {
+    for (int i = 0; i < body->patch_count; i++) {
         const CpsPatch *p = &body->patch[i];
         const double own[3] = {p->position[0], p->position[1], p->angle};
         double at[2] = {p->position[0], p->position[1]}, x[2 * ROUND];
@@ -126,11 +126,11 @@ void cpsi_draw_body(FILE *out, const CpsiFrame *frame, const CpsDriveBody *body,
                  colour, open ? 0 : 0.25 * opacity, colour, open ? 2.5 : 1.2, opacity);
         cpsi_draw_curve(out, frame, n, x, true, style);
     }
-    if (!body->vehicle || body->patches < 2) return;
+    if (!body->vehicle || body->patch_count < 2) return;
     snprintf(style, sizeof style,
              "fill=\"none\" stroke=\"%s\" stroke-width=\"0.8\" stroke-opacity=\"%.2f\"", colour,
              0.7 * opacity);
-    const int n = body->patches < 4 ? body->patches : 4;
+    const int n = body->patch_count < 4 ? body->patch_count : 4;
     for (int i = 0; i < n; i++)
         for (int k = i + 1; k < n; k++) {
             const double line[4] = {hub[i][0], hub[i][1], hub[k][0], hub[k][1]};

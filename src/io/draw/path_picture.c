@@ -45,7 +45,7 @@ static CpsStatus draw_trace(void *what, FILE *out, CpsError *err) {
     const double arms[6] = {m->pole[0], m->pole[1], hinge[0], hinge[1], tracer[0], tracer[1]};
     frame.x[0] = frame.x[1] = m->pole[0];
     frame.y[0] = frame.y[1] = m->pole[1];
-    cpsi_range_points(frame.x, frame.y, d->points, d->point);
+    cpsi_range_points(frame.x, frame.y, d->point_count, d->point);
     cpsi_range_points(frame.x, frame.y, 3, arms);
     cpsi_range_points(frame.x, frame.y, 1, wheel);
     cpsi_range_pad(frame.x, 0.08);
@@ -59,7 +59,7 @@ static CpsStatus draw_trace(void *what, FILE *out, CpsError *err) {
                    *p->file->title ? p->file->title : "polar planimeter", text);
     cpsi_frame_axes(out, &frame, "x (m)", "y (m)");
     cpsi_frame_begin(out, &frame, 1);
-    cpsi_draw_curve(out, &frame, d->points, d->point, true,
+    cpsi_draw_curve(out, &frame, d->point_count, d->point, true,
                     "fill=\"#dfe9f6\" stroke=\"" CPSI_BLUE "\" stroke-width=\"1.6\"");
     cpsi_draw_curve(out, &frame, 3, arms, false,
                     "fill=\"none\" stroke=\"#555\" stroke-width=\"3\"");
@@ -88,7 +88,7 @@ static CpsStatus draw_trace(void *what, FILE *out, CpsError *err) {
 
 CpsStatus cps_drive_draw_planimeter(const CpsDriveFile *file, const CpsPlanimeterReading *reading,
                                     FILE *out, CpsError *err) {
-    if (!file || file->kind != CPS_DRIVE_PLANIMETER || file->planimeter.points < 3 || !reading)
+    if (!file || file->kind != CPS_DRIVE_PLANIMETER || file->planimeter.point_count < 3 || !reading)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "the file holds no planimeter, or there is no reading");
     TracePicture picture = {file, reading};

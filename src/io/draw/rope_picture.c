@@ -109,7 +109,7 @@ static void draw_strip(FILE *out, const RopePicture *p, double width) {
     double x[2] = {INFINITY, -INFINITY}, y[2] = {INFINITY, -INFINITY};
     char text[48];
     cpsi_range_points(x, y, p->count * (int)nodes, p->shot);
-    cpsi_range_points(x, y, p->rope->points, p->rope->path);
+    cpsi_range_points(x, y, p->rope->point_count, p->rope->path);
     cpsi_range_pad(x, 0.06);
     cpsi_range_pad(y, 0.06);
     for (int k = 0; k < p->count; k++) {
@@ -126,7 +126,7 @@ static void draw_strip(FILE *out, const RopePicture *p, double width) {
                 "stroke=\"#ccc\"/>\n",
                 frame.left, frame.top, side, (int)STRIP);
         cpsi_frame_begin(out, &frame, 10 + k);
-        cpsi_draw_curve(out, &frame, p->rope->points, p->rope->path, false,
+        cpsi_draw_curve(out, &frame, p->rope->point_count, p->rope->path, false,
                         "fill=\"none\" stroke=\"" CPSI_PLUM
                         "\" stroke-width=\"1\" stroke-dasharray=\"3 3\"");
         for (int before = 0; before < k; before++)

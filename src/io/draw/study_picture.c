@@ -40,10 +40,10 @@ static void draw_tension(FILE *out, const CpsiFrame *frame, int cells, const dou
 static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
     const CpsRegularizedStep step = cps_regularized_step(files->classic);
     double range[2] = {0, 0};
-    for (int i = 0; i < step.elements; ++i) cpsi_range_include(range, step.tension[i]);
+    for (int i = 0; i < step.element_count; ++i) cpsi_range_include(range, step.tension[i]);
     for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) {
         const CpsRegularizedView view = cps_study_stage_end(files->study, (CpsStudyStage)s);
-        for (int i = 0; i < view.cells; ++i) cpsi_range_include(range, view.tension[i]);
+        for (int i = 0; i < view.cell_count; ++i) cpsi_range_include(range, view.tension[i]);
     }
     const CpsiUnit unit = cpsi_unit("N", range[1]);
     CpsiFrame frame = {.left = LEFT,
@@ -57,14 +57,14 @@ static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
     snprintf(label, sizeof label, "tension (%s)", unit.name);
     cpsi_frame_axes(out, &frame, "natural length from A to B (m)", label);
     cpsi_frame_begin(out, &frame, 0);
-    draw_tension(out, &frame, step.elements, step.arc_length, step.tension, unit.factor,
+    draw_tension(out, &frame, step.element_count, step.arc_length, step.tension, unit.factor,
                  "stroke=\"#bbb\" stroke-width=\"7\" stroke-linejoin=\"round\"");
     for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) {
         const CpsRegularizedView view = cps_study_stage_end(files->study, (CpsStudyStage)s);
         snprintf(style, sizeof style, "stroke=\"%s\" stroke-width=\"%.1f\"", stage_colour(s).hex,
                  3.4 - 0.6 * s);
-        if (view.cells > 0)
-            draw_tension(out, &frame, view.cells, view.arc_length, view.tension, unit.factor,
+        if (view.cell_count > 0)
+            draw_tension(out, &frame, view.cell_count, view.arc_length, view.tension, unit.factor,
                          style);
     }
     cpsi_frame_end(out);
@@ -182,7 +182,7 @@ void cpsi_picture_study(const CpsStudyFiles *files, FILE *out) {
     int iterations = 0, open = 0;
     for (int i = 0; i < rows; ++i) {
         const CpsStudyRow row = cps_study_row(files->study, i);
-        iterations += row.report.iterations;
+        iterations += row.report.iteration_count;
         open += !row.report.converged;
     }
     char note[160];

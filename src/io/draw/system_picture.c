@@ -169,7 +169,7 @@ static void draw_map(FILE *out, const Maps *m, int index, int columns) {
 static CpsStatus draw_maps(void *what, FILE *out, CpsError *err) {
     Maps *m = what;
     const CpsDriveSystem *s = &m->file->system;
-    m->parameters = s->parameters < MOST_MAPS ? s->parameters : MOST_MAPS;
+    m->parameters = s->parameter_count < MOST_MAPS ? s->parameter_count : MOST_MAPS;
     const size_t cells = (size_t)GRID * GRID;
     m->gamma = malloc(cells * (3 + (size_t)m->parameters) * sizeof *m->gamma);
     if (!m->gamma) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
@@ -195,14 +195,14 @@ static CpsStatus draw_maps(void *what, FILE *out, CpsError *err) {
 
 CpsStatus cps_drive_draw_system(const CpsDriveFile *file, CpsDriveProgress *progress, void *user,
                                 FILE *out, CpsError *err) {
-    if (!file || file->kind != CPS_DRIVE_SYSTEM || file->system.driven != 2)
+    if (!file || file->kind != CPS_DRIVE_SYSTEM || file->system.driven_count != 2)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "maps are drawn of a system with two driven components; found %d",
-                         file ? file->system.driven : 0);
-    if (file->system.parameters > 500)
+                         file ? file->system.driven_count : 0);
+    if (file->system.parameter_count > 500)
         return cpsi_fail(err, CPS_ERR_LIMIT,
                          "maps are drawn of systems of up to 500 parameters; found %d",
-                         file->system.parameters);
+                         file->system.parameter_count);
     Maps maps = {.file = file, .progress = progress, .user = user};
     return cpsi_draw_plain(draw_maps, &maps, out, err);
 }

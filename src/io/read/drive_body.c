@@ -40,13 +40,14 @@ static CpsStatus build_patches(CpsiSetBuild *b, const CpsiList *list, CpsDriveBo
     CpsStatus status = CPS_OK;
     out->patch = patch;
     for (int i = 0; i < list->count && status == CPS_OK; i++) {
-        out->patches++;
+        out->patch_count++;
         status = build_patch(b, &values[i], &patch[i]);
         if (out->vehicle) patch[i].kind = CPS_PATCH_WHEEL;
         if (status == CPS_OK) status = check_patch(b->d, values[i].node, &patch[i]);
     }
     CpsError found;
-    if (status == CPS_OK && cps_planar_create(out->patches, patch, &out->planar, &found) != CPS_OK)
+    if (status == CPS_OK &&
+        cps_planar_create(out->patch_count, patch, &out->planar, &found) != CPS_OK)
         status = cpsi_document_place(b->d, list->node, &found);
     return status;
 }
@@ -71,7 +72,7 @@ static CpsStatus build_push(const CpsiDocument *d, const CpsiPushValues *values,
     const bool one = !isnan(normal[0]) && !isnan(speed), partial = isnan(normal[0]) != isnan(speed);
     *push = (CpsDrivePush){.at_point = has_at, .point = {at[0], at[1]}};
     if (turn && !has_at && !both && !one && !partial) {
-        push->rows = 3;
+        push->row_count = 3;
         push->map[0] = push->map[4] = push->map[8] = 1;
         memcpy(push->velocity, values->twist, sizeof values->twist);
         return CPS_OK;
@@ -85,7 +86,7 @@ static CpsStatus build_push(const CpsiDocument *d, const CpsiPushValues *values,
     if (one)
         for (int k = 0; k < 2; k++) normal[k] /= length;
     point_rows(at, one ? normal : NULL, push);
-    push->rows = one ? 1 : 2;
+    push->row_count = one ? 1 : 2;
     for (int k = 0; k < 2; k++) push->point_velocity[k] = one ? speed * normal[k] : velocity[k];
     push->velocity[0] = one ? speed : velocity[0];
     push->velocity[1] = one ? 0 : velocity[1];
@@ -98,7 +99,7 @@ static CpsStatus build_pushes(const CpsiDocument *d, const CpsiList *list, CpsDr
     if (!push) return cpsi_document_no_memory(d);
     CpsStatus status = CPS_OK;
     out->push = push;
-    out->pushes = list->count;
+    out->push_count = list->count;
     for (int i = 0; i < list->count && status == CPS_OK; i++)
         status = build_push(d, &values[i], &push[i]);
     return status;
@@ -108,7 +109,7 @@ static CpsStatus build_pushes(const CpsiDocument *d, const CpsiList *list, CpsDr
 
 static CpsStatus build_tow(const CpsiDocument *d, const CpsiTowValues *values, CpsDriveTow *out) {
     out->start = values->start;
-    out->steps = values->steps;
+    out->step_count = values->steps;
     CpsTow *tow = &out->start;
     memcpy(tow->pose, values->position, sizeof values->position);
     tow->pose[2] = values->orientation * CPSI_DEGREE;
@@ -124,7 +125,8 @@ static CpsStatus build_tow(const CpsiDocument *d, const CpsiTowValues *values, C
         return cpsi_document_wrong(d, values->node, "'tow'",
                                    "an 'end' no farther from the hitch than the rope is long");
     memcpy(tow->end, tow->rope > 0 ? end : hitch, sizeof tow->end);
-    return cpsi_build_path(d, &values->path, 2, tow->end, out->steps, &out->points, &out->path);
+    return cpsi_build_path(d, &values->path, 2, tow->end, out->step_count, &out->point_count,
+                           &out->path);
 }
 
 CpsStatus cpsi_build_body(CpsiSetBuild *b, const CpsiBodyValues *values, bool vehicle,

@@ -19,7 +19,8 @@ void cps_drive_file_destroy(CpsDriveFile *file) {
     Keep *keep = (Keep *)file;
     cps_system_destroy(file->system.system);
     cps_planar_destroy(file->body.planar);
-    for (int i = 0; i < file->body.patches; i++) cps_law_release((CpsLaw *)file->body.patch[i].law);
+    for (int i = 0; i < file->body.patch_count; i++)
+        cps_law_release((CpsLaw *)file->body.patch[i].law);
     cps_law_release((CpsLaw *)file->sweep.law);
     cpsi_pool_free(&keep->pool);
     free(keep);

@@ -25,7 +25,7 @@ static CpsStatus build_circle(const CpsiDocument *d, const CpsiCircleValues *cir
         x[2 * i] = circle->centre[0] + circle->radius * cos(a);
         x[2 * i + 1] = circle->centre[1] + circle->radius * sin(a);
     }
-    out->points = circle->points;
+    out->point_count = circle->points;
     out->point = x;
     return CPS_OK;
 }
@@ -48,7 +48,7 @@ static CpsStatus parse_rows(const CpsiDocument *d, const char *name, CpsiTextRow
     if (count < 3)
         return cpsi_fail_at(d->err, CPS_ERR_INPUT, name, 0, 0,
                             "found %d points, expected at least 3", count);
-    out->points = count;
+    out->point_count = count;
     out->point = x;
     return CPS_OK;
 }
@@ -71,7 +71,7 @@ static CpsStatus build_curve(const CpsiDocument *d, const CpsiCurveValues *curve
                              CpsDrivePlanimeter *out) {
     if (curve->file) return read_curve_file(d, curve, out);
     if (curve->circle.node) return build_circle(d, &curve->circle, out);
-    out->points = curve->points.rows;
+    out->point_count = curve->points.rows;
     out->point = curve->points.x;
     return CPS_OK;
 }
@@ -80,16 +80,16 @@ CpsStatus cpsi_build_planimeter(CpsiSetBuild *b, const CpsiPlanimeterValues *val
                                 CpsDrivePlanimeter *out) {
     const CpsiDocument *d = b->d;
     out->planimeter = values->planimeter;
-    out->steps = values->steps;
+    out->step_count = values->steps;
     CpsStatus status = build_curve(d, &values->curve, out);
-    if (status == CPS_OK && (double)out->points * out->steps > 1e8)
+    if (status == CPS_OK && (double)out->point_count * out->step_count > 1e8)
         return cpsi_document_fail(d, CPS_ERR_INPUT, values->node,
                                   "planimeter: more than 1e8 steps in all");
 
     /* a curve out of reach is reported here, with its position */
     CpsError found;
     if (status == CPS_OK &&
-        cps_planimeter_check(&out->planimeter, out->points, out->point, &found) != CPS_OK)
+        cps_planimeter_check(&out->planimeter, out->point_count, out->point, &found) != CPS_OK)
         status = cpsi_document_place(d, cpsi_yaml_child(values->node, "curve"), &found);
     return status;
 }
@@ -140,8 +140,8 @@ CpsStatus cpsi_build_rope(CpsiSetBuild *b, const CpsiRopeValues *values, CpsDriv
     out->rope = cps_rope_default();
     out->friction = values->friction;
     out->weight = values->weight;
-    out->steps = values->steps;
-    out->shots = values->shots;
+    out->step_count = values->steps;
+    out->shot_count = values->shots;
     out->rope.slack = values->slack;
     out->rope.resistance = out->friction * out->weight;
     CpsStatus status = build_shape(b->d, &values->shape, values->elements, out);
@@ -154,7 +154,7 @@ CpsStatus cpsi_build_rope(CpsiSetBuild *b, const CpsiRopeValues *values, CpsDriv
     if (status == CPS_OK && path)
         status =
             cpsi_build_path(b->d, &values->path, 2, out->rope.node + 2 * (size_t)values->elements,
-                            out->steps, &out->points, &out->path);
+                            out->step_count, &out->point_count, &out->path);
 
     /* a shape that the library rejects (nodes at one position) is reported here, with its
      * position */
@@ -170,7 +170,7 @@ CpsStatus cpsi_build_sweep(CpsiSetBuild *b, const CpsiSweepValues *values, CpsDr
     CpsLaw *law = NULL;
     out->start = cps_sweep_default();
     out->start.stiffness = values->stiffness;
-    out->steps = values->steps;
+    out->step_count = values->steps;
     CpsStatus status = cpsi_build_law(b, values->law, &law);
     out->law = law;
     if (status != CPS_OK) return status;
@@ -186,6 +186,6 @@ CpsStatus cpsi_build_sweep(CpsiSetBuild *b, const CpsiSweepValues *values, CpsDr
     if (status != CPS_OK) return status;
     if (position->node) memcpy(out->start.position, position->x, size);
     memcpy(out->start.end, end->node ? end->x : out->start.position, size);
-    return cpsi_build_path(b->d, &values->path, out->space, out->start.end, out->steps,
-                           &out->points, &out->path);
+    return cpsi_build_path(b->d, &values->path, out->space, out->start.end, out->step_count,
+                           &out->point_count, &out->path);
 }

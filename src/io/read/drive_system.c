@@ -180,7 +180,7 @@ static CpsStatus build_drive(const Names *names, const CpsiYaml *node, CpsDriveS
         cps_system_set_drive(out->system, map.rows, map.count, map.entry, &found) != CPS_OK)
         status = cpsi_document_place(names->d, node, &found);
     if (status != CPS_OK) return status;
-    out->driven = map.rows;
+    out->driven_count = map.rows;
     out->drive = map.text;
     return CPS_OK;
 }
@@ -210,7 +210,7 @@ CpsStatus cpsi_build_system(CpsiSetBuild *b, const CpsiSystemValues *values, Cps
     if (status == CPS_OK && cps_system_create(names.count, &out->system, &found) != CPS_OK)
         status = cpsi_document_place(b->d, values->node, &found);
     if (status != CPS_OK) return status;
-    out->parameters = names.count;
+    out->parameter_count = names.count;
     out->parameter = names.name;
     status = build_laws(&names, &values->laws, out->system);
     if (status == CPS_OK && constraints)
@@ -219,10 +219,10 @@ CpsStatus cpsi_build_system(CpsiSetBuild *b, const CpsiSystemValues *values, Cps
     if (status == CPS_OK && load) status = build_load(&names, load, out->system);
     out->loaded = load != NULL;
     if (status != CPS_OK || !asked->node) return status;
-    if (out->driven == 0)
+    if (out->driven_count == 0)
         return cpsi_document_wrong(b->d, asked->node, "'velocity'",
                                    "none, since nothing is driven: add 'drive'");
     out->velocity_count = asked->rows;
     out->velocity = asked->x;
-    return cpsi_expect_columns(b->d, asked, "'velocity'", out->driven);
+    return cpsi_expect_columns(b->d, asked, "'velocity'", out->driven_count);
 }

@@ -55,7 +55,7 @@ static CpsStatus check_size(const Build *b, const CpsiYaml *place) {
 /* Count the elements and check the limits before memory is allocated for them. */
 static CpsStatus count_elements(Build *b, const CpsiLineValues *values, CpsLine *line) {
     const CpsiYaml *list = values->elements, *given = cpsi_yaml_child(values->node, "elements");
-    double count = isnan(values->count) ? line->elements : values->count;
+    double count = isnan(values->count) ? line->element_count : values->count;
     if (list) count = 0;
     for (const CpsiYaml *item = list ? list->child : NULL; item; item = item->next) {
         double each = 1;
@@ -64,14 +64,14 @@ static CpsStatus count_elements(Build *b, const CpsiLineValues *values, CpsLine 
     }
     b->elements += count;
     const CpsStatus status = check_size(b, given ? given : values->node);
-    if (status == CPS_OK) line->elements = (int)count;
+    if (status == CPS_OK) line->element_count = (int)count;
     return status;
 }
 
 static CpsStatus build_elements(Build *b, const CpsiLineValues *values, CpsLine *line) {
     const CpsStatus status = count_elements(b, values, line);
     if (status != CPS_OK || !values->elements) return status;
-    double *length = CPSI_POOL_TAKE(b->pool, line->elements, double);
+    double *length = CPSI_POOL_TAKE(b->pool, line->element_count, double);
     if (!length) return cpsi_document_no_memory(b->d);
     line->element_length = length;
     for (const CpsiYaml *item = values->elements->child; item; item = item->next) {
@@ -102,22 +102,22 @@ static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const Cps
     const CpsiYaml *given = cpsi_yaml_child(values->node, "elements");
     const double *arc = file->arc_length;
     if (!given) {
-        b->elements += file->nodes - 1 - line->elements;
-        line->elements = file->nodes - 1;
+        b->elements += file->nodes - 1 - line->element_count;
+        line->element_count = file->nodes - 1;
     }
     const CpsStatus status = check_size(b, values->node);
     if (status != CPS_OK) return status;
-    if (given && line->elements != file->nodes - 1)
+    if (given && line->element_count != file->nodes - 1)
         return cpsi_document_fail(
             b->d, CPS_ERR_INPUT, given,
             "'elements': found %d, expected %d, one less than nodes are given, or none",
-            line->elements, file->nodes - 1);
+            line->element_count, file->nodes - 1);
     if (!arc) return CPS_OK;
-    double *length = CPSI_POOL_TAKE(b->pool, line->elements, double), worst = 0;
+    double *length = CPSI_POOL_TAKE(b->pool, line->element_count, double), worst = 0;
     if (!length) return cpsi_document_no_memory(b->d);
-    for (int e = 0; e < line->elements; e++) {
+    for (int e = 0; e < line->element_count; e++) {
         const double here =
-            line->element_length ? line->element_length[e] : line->length / line->elements;
+            line->element_length ? line->element_length[e] : line->length / line->element_count;
         length[e] = arc[e + 1] - arc[e];
         worst = fmax(worst, fabs(length[e] - here));
     }
@@ -178,7 +178,7 @@ static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsS
  * force. */
 static CpsEnd build_end(const CpsiEndValues *values) {
     const bool is_free = values->word == CPSI_END_FREE;
-    CpsEnd end = {.kind = is_free ? CPS_END_FREE : CPS_END_HELD};
+    CpsEnd end = {.kind = is_free ? CPS_END_KIND_FREE : CPS_END_KIND_HELD};
     for (int i = 0; i < 3; i++) end.value[i] = values->node || is_free ? values->value[i] : NAN;
     return end;
 }
@@ -194,7 +194,7 @@ static void first_position(const CpsLine *line, int end, double out[3]) {
     for (int i = 0; i < 3; i++) {
         out[i] = value[i];
         if (isnan(out[i]) && shape) out[i] = shape[i];
-        if (line->end[end].kind == CPS_END_FREE) out[i] = NAN;
+        if (line->end[end].kind == CPS_END_KIND_FREE) out[i] = NAN;
     }
 }
 
@@ -295,7 +295,7 @@ static CpsStatus build_change(const Build *b, const CpsiChangeValues *values, Cp
     const bool move = values->kind == CPSI_CHANGE_MOVE, force = values->kind == CPSI_CHANGE_FORCE;
     change->line = find_line(b, key);
     change->end = key[strlen(key) - 1] == 'A' ? CPS_END_A : CPS_END_B;
-    change->to.kind = force ? CPS_END_FREE : CPS_END_HELD;
+    change->to.kind = force ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
     double *held = b->held[change->line][change->end];
     if (move && isnan(held[0]))
         return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
@@ -349,7 +349,7 @@ static CpsStatus build_history(const Build *b, const CpsiList *history) {
     for (int i = 0; i < history->count; i++) {
         const CpsStatus status = build_stage(b, &values[i], i, &stage[i]);
         if (status != CPS_OK) return status;
-        steps += stage[i].steps;
+        steps += stage[i].step_count;
         if (steps > b->d->limits->max_steps)
             return cpsi_document_fail(b->d, CPS_ERR_LIMIT, values[i].node,
                                       "history: %lld load steps so far, the limit is %lld",

@@ -91,7 +91,7 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
         fprintf(out, "%d,", row->report.index);
         cpsi_write_csv(out, row->name);
         fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_name(row->report.outcome),
-                row->report.iterations, row->report.parts, row->report.snaps,
+                row->report.iteration_count, row->report.part_count, row->report.snap_count,
                 (int)row->report.places);
         for (int i = 0; i < STEP_COLUMNS; ++i) {
             fputc(',', out);

@@ -85,11 +85,11 @@ static void find_loose(const CpsLineView *view, int *first, int *last) {
     const int parts = cps_solution_slack(view, PARTS, part);
     double longest = 0;
     *first = 0;
-    *last = view->elements;
+    *last = view->element_count;
     for (int i = 0; i < parts && i < PARTS; ++i) {
         if (!part[i].loose || !(part[i].to - part[i].from > longest)) continue;
         longest = part[i].to - part[i].from;
-        for (int j = 0; j <= view->elements; ++j) {
+        for (int j = 0; j <= view->element_count; ++j) {
             if (view->arc_length[j] <= part[i].from) *first = j;
             if (view->arc_length[j] < part[i].to) *last = j + 1;
         }
@@ -102,7 +102,7 @@ static void completed_table(const void *what, FILE *out) {
     const CpsCompletedLine *c = what;
     const CpsLineView *view = c->view;
     fputs("arc_length,x,y,z,tension,reaction\nm,m,m,m,N,N\n", out);
-    for (int j = 0; j <= view->elements; ++j) {
+    for (int j = 0; j <= view->element_count; ++j) {
         cpsi_write_csv_number(out, view->arc_length[j]);
         for (int x = 0; x < 3; ++x)
             write_number(out, view->origin[x] + c->position[c->chosen][3 * (size_t)j + (size_t)x]);

@@ -186,9 +186,11 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     add_history(nc, source);
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "lines", names);
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "friction_policy",
-                     scene->friction_policy == CPS_FRICTION_CONSISTENT ? "consistent" : "frozen");
+                     scene->friction_policy == CPS_FRICTION_POLICY_CONSISTENT ? "consistent"
+                                                                              : "frozen");
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "contact_policy",
-                     scene->contact_policy == CPS_CONTACT_REFERENCE ? "reference" : "reached");
+                     scene->contact_policy == CPS_CONTACT_POLICY_REFERENCE ? "reference"
+                                                                           : "reached");
     cpsi_netcdf_numbers(&nc->file, "gravity", XYZ, scene->gravity);
     cpsi_netcdf_numbers(&nc->file, "tolerance", 1, &scene->solver.tolerance);
     if (origin[0] != 0 || origin[1] != 0 || origin[2] != 0)
@@ -258,11 +260,11 @@ static void define_zones(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
 static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     char name[NC_MAX_NAME + 1];
     snprintf(name, sizeof name, "%.200s_node", view->name);
-    ids->node = cpsi_netcdf_dimension(&nc->file, name, (size_t)view->elements + 1);
+    ids->node = cpsi_netcdf_dimension(&nc->file, name, (size_t)view->element_count + 1);
     snprintf(name, sizeof name, "%.200s_element", view->name);
-    ids->element = cpsi_netcdf_dimension(&nc->file, name, (size_t)view->elements);
+    ids->element = cpsi_netcdf_dimension(&nc->file, name, (size_t)view->element_count);
 
-    ids->contacts = view->contacts;
+    ids->contacts = view->contact_count;
     for (int f = 0; f < FIELDS; ++f) define_field(nc, ids, view, f);
     ids->compliance = cpsi_netcdf_variable(&nc->file, view->name, "compliance", NC_DOUBLE, 0, NULL,
                                            "1/EA, 0: inextensible", "N-1");
@@ -338,7 +340,7 @@ static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *
     for (int f = 0; f < FIELDS; ++f) {
         const CpsiField *field = &cpsi_field[f];
         if (field->fixed != fixed || !is_wanted(nc, f) || !has_field(view, field)) continue;
-        const size_t along = (size_t)view->elements + (field->place == CPSI_PLACE_NODE);
+        const size_t along = (size_t)view->element_count + (field->place == CPSI_PLACE_NODE);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
         const double *array = in_view(view, field);
         for (int c = 0; c < (field->contact ? ids->contacts : 1);
@@ -351,7 +353,7 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
                        const CpsLineReport *report) {
     write_fields(nc, ids, view, false);
     const size_t start[] = {nc->steps, 0, 0};
-    const size_t nodes[] = {1, (size_t)view->elements + 1}, ends[] = {1, ENDS, XYZ},
+    const size_t nodes[] = {1, (size_t)view->element_count + 1}, ends[] = {1, ENDS, XYZ},
                  vector[] = {1, XYZ};
     for (int c = 0; c < ids->contacts && nc->file.status == NC_NOERR; ++c) {
         const size_t from = (size_t)c * nodes[1];
@@ -361,7 +363,7 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
         cpsi_netcdf_ints(&nc->file, ids->obstacle[c], start, nodes, view->obstacle + from);
     }
 
-    const size_t elements[] = {1, (size_t)view->elements};
+    const size_t elements[] = {1, (size_t)view->element_count};
     if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_OBSTACLE))
         cpsi_netcdf_ints(&nc->file, ids->element_obstacle, start, elements, view->element_obstacle);
     if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_STATE))
@@ -370,7 +372,7 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     unsigned char kind[ENDS];
     double value[ENDS][XYZ], force[ENDS][XYZ], friction[ENDS][XYZ], tension[ENDS];
     for (int e = 0; e < ENDS; ++e) {
-        kind[e] = view->end[e].kind == CPS_END_FREE;
+        kind[e] = view->end[e].kind == CPS_END_KIND_FREE;
         memcpy(value[e], view->end[e].value, sizeof value[e]);
         memcpy(force[e], report->end[e].force, sizeof force[e]);
         memcpy(friction[e], report->end[e].friction_force, sizeof friction[e]);
@@ -392,9 +394,9 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     cpsi_netcdf_doubles(&nc->file, ids->weight_before, start, vector, view->weight_before);
 
     cpsi_netcdf_int(&nc->file, ids->outcome, start, (int)report->outcome);
-    cpsi_netcdf_int(&nc->file, ids->iterations, start, report->iterations);
-    cpsi_netcdf_int(&nc->file, ids->parts, start, report->parts);
-    cpsi_netcdf_int(&nc->file, ids->snaps, start, report->snaps);
+    cpsi_netcdf_int(&nc->file, ids->iterations, start, report->iteration_count);
+    cpsi_netcdf_int(&nc->file, ids->parts, start, report->part_count);
+    cpsi_netcdf_int(&nc->file, ids->snaps, start, report->snap_count);
     cpsi_netcdf_int(&nc->file, ids->places, start, (int)report->places);
     cpsi_netcdf_int(&nc->file, ids->proof_obstacle, start, report->proof_obstacle);
     for (int i = 0; i < NUMBERS; ++i) {
@@ -460,11 +462,11 @@ static char *join_names(const CpsEvolution *evolution, int count) {
 static CpsStatus check_sizes(const CpsEvolution *evolution, int count, CpsError *err) {
     for (int i = 0; i < count; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
-        const size_t nodes = (size_t)view.elements + 1;
+        const size_t nodes = (size_t)view.element_count + 1;
         if ((uint64_t)nodes * (XYZ * sizeof(double)) > MAX_RECORD) /* an int of nodes fits */
             return cpsi_fail(err, CPS_ERR_LIMIT,
                              "line %s has %d elements; result.nc holds at most %llu per line",
-                             view.name, view.elements,
+                             view.name, view.element_count,
                              (unsigned long long)(MAX_RECORD / (XYZ * sizeof(double)) - 1));
     }
     return CPS_OK;

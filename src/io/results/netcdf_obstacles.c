@@ -69,7 +69,7 @@ static void define_sets(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o, const CpsS
     if (!form_sets(file, o, scene)) return;
     o->set_unknowns = o->set_rows = 1; /* a dimension of no length would be an unlimited one */
     for (int k = 0; k < scene->obstacle_count; ++k) {
-        const size_t unknowns = (size_t)o->set[k].unknowns, rows = (size_t)o->set[k].rows;
+        const size_t unknowns = (size_t)o->set[k].unknown_count, rows = (size_t)o->set[k].row_count;
         if (unknowns > o->set_unknowns) o->set_unknowns = unknowns;
         if (rows > o->set_rows) o->set_rows = rows;
     }
@@ -161,16 +161,18 @@ static void write_sets(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *o) {
         double *cone = calloc(rows, sizeof *cone), *next = cone;
         if (!cone) cpsi_netcdf_keep(file, NC_ENOMEM);
         if (cone)
-            for (int c = 0; c < set->cones; next += set->dim[c++]) *next = set->dim[c];
+            for (int c = 0; c < set->cone_count; next += set->dim[c++]) *next = set->dim[c];
         write_padded(file, o->set_field[SET_ORIGIN], k, (size_t[]){TANGENTS, 1}, set->space, 0,
                      set->origin);
         write_padded(file, o->set_field[SET_MAP], k, (size_t[]){TANGENTS, unknowns}, set->space,
-                     set->unknowns, set->p);
+                     set->unknown_count, set->p);
         if (cone)
-            write_padded(file, o->set_field[SET_CONE], k, (size_t[]){rows, 1}, set->rows, 0, cone);
-        write_padded(file, o->set_field[SET_ROWS], k, (size_t[]){rows, unknowns}, set->rows,
-                     set->unknowns, set->a);
-        write_padded(file, o->set_field[SET_OFFSET], k, (size_t[]){rows, 1}, set->rows, 0, set->b);
+            write_padded(file, o->set_field[SET_CONE], k, (size_t[]){rows, 1}, set->row_count, 0,
+                         cone);
+        write_padded(file, o->set_field[SET_ROWS], k, (size_t[]){rows, unknowns}, set->row_count,
+                     set->unknown_count, set->a);
+        write_padded(file, o->set_field[SET_OFFSET], k, (size_t[]){rows, 1}, set->row_count, 0,
+                     set->b);
         free(cone);
     }
 }

@@ -38,7 +38,7 @@ static bool measure(const CpsEvolution *evolution, Layout *out) {
     memset(out, 0, sizeof *out);
     out->lines = cps_evolution_line_count(evolution);
     for (int i = 0; i < out->lines; ++i)
-        out->points += (uint64_t)cps_evolution_line_view(evolution, i).elements + 1;
+        out->points += (uint64_t)cps_evolution_line_view(evolution, i).element_count + 1;
     uint64_t end = 0;
     for (int b = 0; b < BLOCKS; ++b) {
         uint64_t size = 0;
@@ -90,14 +90,14 @@ static void write_header(FILE *out, const Layout *layout) {
 /* mean of the elements on both sides of a node */
 static double node_tension(const CpsLineView *view, int j) {
     if (j == 0) return view->tension[0];
-    if (j == view->elements) return view->tension[j - 1];
+    if (j == view->element_count) return view->tension[j - 1];
     return 0.5 * (view->tension[j - 1] + view->tension[j]);
 }
 
 /* reactions and friction of all contacts of a node */
 static void contact_force(const CpsLineView *view, int j, double force[3]) {
-    const int nodes = view->elements + 1;
-    for (int i = 0; i < view->contacts; ++i)
+    const int nodes = view->element_count + 1;
+    for (int i = 0; i < view->contact_count; ++i)
         for (size_t c = (size_t)j + (size_t)i * (size_t)nodes, k = 0; k < 3; ++k)
             force[k] +=
                 view->reaction[c] * view->normal[3 * c + k] + view->friction_force[3 * c + k];
@@ -133,20 +133,20 @@ static void write_block(FILE *out, const CpsEvolution *evolution, const Layout *
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         switch (block) {
         case BLOCK_CONNECTIVITY:
-            for (int64_t j = 0; j <= view.elements; ++j)
+            for (int64_t j = 0; j <= view.element_count; ++j)
                 fwrite(&(int64_t){node + j}, sizeof(int64_t), 1, out);
             break;
         case BLOCK_OFFSETS:
-            fwrite(&(int64_t){node + view.elements + 1}, sizeof(int64_t), 1, out);
+            fwrite(&(int64_t){node + view.element_count + 1}, sizeof(int64_t), 1, out);
             break;
         case BLOCK_FRICTION_STATE:
-            for (int j = 0; j <= view.elements; ++j) fputc(cpsi_node_state(&view, j), out);
+            for (int j = 0; j <= view.element_count; ++j) fputc(cpsi_node_state(&view, j), out);
             break;
         case BLOCK_LINE_ID: fwrite(&i, sizeof i, 1, out); break;
         default:
-            for (int j = 0; j <= view.elements; ++j) write_node(out, &view, block, j);
+            for (int j = 0; j <= view.element_count; ++j) write_node(out, &view, block, j);
         }
-        node += (int64_t)view.elements + 1;
+        node += (int64_t)view.element_count + 1;
     }
 }
 

@@ -46,7 +46,7 @@ static double value_of(const CpsRegularizedReport *report, int column) {
 }
 
 static const double *tip(const CpsRegularizedLine *line, int step) {
-    return line->position + 3 * ((size_t)(step + 1) * (size_t)line->points - 1);
+    return line->position + 3 * ((size_t)(step + 1) * (size_t)line->point_count - 1);
 }
 
 /* ---- history.csv ---- */
@@ -63,7 +63,7 @@ static void write_row(const CpsRegularizedRun *run, int s, const CpsRegularizedL
     cpsi_write_csv(out, run->step_name[s]);
     fputc(',', out);
     cpsi_write_csv(out, line->name);
-    fprintf(out, ",%d,%d", r->converged, r->iterations);
+    fprintf(out, ",%d,%d", r->converged, r->iteration_count);
     write_number(out, p->penalty);
     write_number(out, p->stiffness);
     write_number(out, p->delta);
@@ -80,8 +80,8 @@ static void history(const void *what, FILE *out) {
     fputs("\n,,,,N/m2,N m2,m,N,N,m,m,m", out);
     for (int i = 0; i < COLUMNS; ++i) fprintf(out, ",%s", COLUMN[i].unit);
     fputc('\n', out);
-    for (int s = 1; s < run->steps; ++s)
-        for (int i = 0; i < run->lines; ++i) write_row(run, s, &run->line[i], out);
+    for (int s = 1; s < run->step_count; ++s)
+        for (int i = 0; i < run->line_count; ++i) write_row(run, s, &run->line[i], out);
 }
 
 /* ---- summary.json ---- */
@@ -102,7 +102,7 @@ static void write_line(const CpsRegularizedLine *line, int s, FILE *out) {
     fprintf(
         out,
         ": {\"converged\": %s, \"iterations\": %d,\n          \"parameters\": {\"lambda_N/m2\": ",
-        r->converged ? "true" : "false", r->iterations);
+        r->converged ? "true" : "false", r->iteration_count);
     cpsi_write_json_number(out, p->penalty);
     fputs(", \"1/n_Nm2\": ", out);
     cpsi_write_json_number(out, p->stiffness);
@@ -128,8 +128,8 @@ static void write_line(const CpsRegularizedLine *line, int s, FILE *out) {
 static void summary(const void *what, FILE *out) {
     const CpsRegularizedRun *run = what;
     bool converged = true;
-    for (int i = 0; i < run->lines; ++i)
-        for (int s = 1; s < run->steps; ++s)
+    for (int i = 0; i < run->line_count; ++i)
+        for (int s = 1; s < run->step_count; ++s)
             converged = converged && run->line[i].report[s].converged;
     fputs("{\n  \"capstan\": ", out);
     cpsi_write_json_string(out, cps_version());
@@ -141,11 +141,11 @@ static void summary(const void *what, FILE *out) {
             converged ? "true" : "false", run->complete ? "true" : "false");
     cpsi_write_json_number(out, run->wall);
     fputs(",\n  \"steps\": [", out);
-    for (int s = 1; s < run->steps; ++s) {
+    for (int s = 1; s < run->step_count; ++s) {
         fputs(s > 1 ? ",\n    {\"name\": " : "\n    {\"name\": ", out);
         cpsi_write_json_string(out, run->step_name[s]);
         fputs(",\n      \"lines\": {\n", out);
-        for (int i = 0; i < run->lines; ++i) {
+        for (int i = 0; i < run->line_count; ++i) {
             if (i) fputs(",\n", out);
             write_line(&run->line[i], s, out);
         }
@@ -170,8 +170,8 @@ static void portrait(const void *what, FILE *out) {
         .title = p->run->title,
         .note = "Regularised, 1990: plan and elevation (heights stretched), step by step",
         .methods = 1,
-        .steps = p->run->steps,
-        .points = line->points,
+        .steps = p->run->step_count,
+        .points = line->point_count,
         .method = &history,
         .step_name = p->run->step_name};
     cpsi_picture_methods(&m, out);
@@ -182,17 +182,17 @@ static void portrait(const void *what, FILE *out) {
 static CpsStatus check(const CpsRegularizedRun *run, CpsError *err) {
     if (!run || !run->title || !run->step_name || !run->line)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "run, its title, step_name or line is NULL");
-    if (run->steps < 1 || run->lines < 1)
+    if (run->step_count < 1 || run->line_count < 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "found %d steps and %d lines, expected at least 1 and 1", run->steps,
-                         run->lines);
-    for (int i = 0; i < run->lines; ++i) {
+                         "found %d steps and %d lines, expected at least 1 and 1", run->step_count,
+                         run->line_count);
+    for (int i = 0; i < run->line_count; ++i) {
         const CpsRegularizedLine *line = &run->line[i];
         if (!line->name || !line->position || !line->parameters || !line->report ||
-            !line->tension || line->points < 2)
+            !line->tension || line->point_count < 2)
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "line %d has no name, points or results", i);
     }
-    for (int s = 0; s < run->steps; ++s)
+    for (int s = 0; s < run->step_count; ++s)
         if (!run->step_name[s]) return cpsi_fail(err, CPS_ERR_ARGUMENT, "step %d has no name", s);
     return CPS_OK;
 }
@@ -210,17 +210,17 @@ CpsStatus cps_regularized_write(const char *directory, const CpsRegularizedRun *
     CpsStatus status = check(run, err);
     if (status != CPS_OK) return status;
     if (!directory) return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory is NULL");
-    CpsiFile *set = calloc((size_t)run->lines + 1, sizeof *set);
-    Portrait *portraits = calloc((size_t)run->lines, sizeof *portraits);
+    CpsiFile *set = calloc((size_t)run->line_count + 1, sizeof *set);
+    Portrait *portraits = calloc((size_t)run->line_count, sizeof *portraits);
     if (set && portraits) {
         set[0] = (CpsiFile){"history.csv", history, run};
-        for (int i = 0; i < run->lines; ++i) {
+        for (int i = 0; i < run->line_count; ++i) {
             portraits[i] = (Portrait){.run = run, .line = i};
             snprintf(portraits[i].name, sizeof portraits[i].name, "line-%d.svg", i + 1);
             set[1 + i] = (CpsiFile){portraits[i].name, portrait, &portraits[i]};
         }
         const CpsiFile last = {"summary.json", summary, run};
-        status = cpsi_file_set_write(directory, set, run->lines + 1, &last, err);
+        status = cpsi_file_set_write(directory, set, run->line_count + 1, &last, err);
     } else {
         status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     }

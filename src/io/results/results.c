@@ -24,18 +24,18 @@ static bool copy_stages(CpsResults *results, const CpsScene *scene) {
     results->stage = calloc((size_t)scene->stage_count, sizeof *results->stage);
     if (!results->stage) return false;
     int64_t first = results->planned_steps;
-    for (int i = 0; i < scene->stage_count; ++i) first -= scene->stage[i].steps;
+    for (int i = 0; i < scene->stage_count; ++i) first -= scene->stage[i].step_count;
     for (int i = 0; i < scene->stage_count; ++i) {
         CpsiStage *stage = &results->stage[results->stage_count++];
         stage->name = copy_text(scene->stage[i].name);
         stage->first = (int)first;
-        first += scene->stage[i].steps;
+        first += scene->stage[i].step_count;
         stage->last = (int)first - 1;
         stage->turn = calloc((size_t)scene->obstacle_count + 1, sizeof *stage->turn);
         if (!stage->name || !stage->turn) return false;
         for (int k = 0; k < scene->stage[i].turn_count; ++k)
             stage->turn[scene->stage[i].turn[k].obstacle] =
-                scene->stage[i].turn[k].angle / scene->stage[i].steps;
+                scene->stage[i].turn[k].angle / scene->stage[i].step_count;
     }
     return true;
 }
@@ -68,8 +68,8 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     if (!copy_obstacles(results, scene)) return false;
     for (size_t i = 0; i < lines; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, (int)i);
-        results->line_length[i] = view.arc_length[view.elements];
-        results->line_elements[i] = view.elements;
+        results->line_length[i] = view.arc_length[view.element_count];
+        results->line_elements[i] = view.element_count;
         results->line_name[i] = copy_text(view.name);
         results->begins_static |= scene->line[i].start.kind == CPS_START_STATIC;
         results->line_count = (int)i + 1;
@@ -153,15 +153,15 @@ CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
  * excludes. For a held end the support takes the force; its reaction is only a part of that and is
  * left out. */
 static double open_reaction(const CpsLineView *view) {
-    const double touch = CPS_TOUCH * view->arc_length[view->elements];
+    const double touch = CPS_TOUCH * view->arc_length[view->element_count];
     double worst = 0;
-    const int first = view->end[CPS_END_A].kind == CPS_END_HELD;
-    const int last = view->elements - (view->end[CPS_END_B].kind == CPS_END_HELD);
+    const int first = view->end[CPS_END_A].kind == CPS_END_KIND_HELD;
+    const int last = view->element_count - (view->end[CPS_END_B].kind == CPS_END_KIND_HELD);
     for (int j = first; j <= last; ++j) {
         const Vec3 moved = vec3_sub(vec3_load(view->position + 3 * (size_t)j),
                                     vec3_load(view->reference + 3 * (size_t)j));
-        for (int i = 0; i < view->contacts; ++i) {
-            const size_t c = (size_t)j + (size_t)i * ((size_t)view->elements + 1);
+        for (int i = 0; i < view->contact_count; ++i) {
+            const size_t c = (size_t)j + (size_t)i * ((size_t)view->element_count + 1);
             const double distance = vec3_dot(vec3_load(view->normal + 3 * c), moved) + view->gap[c];
             /* written so that a NaN is kept */
             if (!(distance <= touch) && !(view->reaction[c] <= worst)) worst = view->reaction[c];
@@ -192,7 +192,7 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         CpsiLineRow *line = &row.line[i];
         line->report = cps_evolution_line_report(evolution, i);
         line->open_reaction = open_reaction(&view);
-        for (int e = 0; e < 2; ++e) line->held[e] = view.end[e].kind == CPS_END_HELD;
+        for (int e = 0; e < 2; ++e) line->held[e] = view.end[e].kind == CPS_END_KIND_HELD;
         if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
     }
     results->row[results->row_count++] = row;
@@ -215,7 +215,7 @@ static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsE
 static bool has_these_lines(const CpsResults *results, const CpsEvolution *evolution) {
     if (cps_evolution_line_count(evolution) != results->line_count) return false;
     for (int i = 0; i < results->line_count; ++i)
-        if (cps_evolution_line_view(evolution, i).elements != results->line_elements[i])
+        if (cps_evolution_line_view(evolution, i).element_count != results->line_elements[i])
             return false;
     return true;
 }

@@ -41,10 +41,10 @@ static size_t node_of(int i, int points, int elements) {
 /* State of the node. A node without contact but with friction, the frozen friction of the
  * reference, has its own state. */
 static unsigned char shown_state(const CpsLineView *view, size_t j) {
-    const size_t n = (size_t)view->elements + 1;
+    const size_t n = (size_t)view->element_count + 1;
     const unsigned char state = cpsi_node_state(view, (int)j);
     if (state == CPS_NODE_STATE_FREE)
-        for (size_t c = j; c < (size_t)view->contacts * n; c += n) {
+        for (size_t c = j; c < (size_t)view->contact_count * n; c += n) {
             const double *f = view->friction_force + 3 * c;
             if (f[0] != 0 || f[1] != 0 || f[2] != 0) return CPSI_SHAPE_IN_AIR;
         }
@@ -53,13 +53,13 @@ static unsigned char shown_state(const CpsLineView *view, size_t j) {
 
 static void sample(CpsiShape *shape, const CpsLineView *view) {
     for (int i = 0; i < shape->points; ++i) {
-        const size_t j = node_of(i, shape->points, view->elements);
+        const size_t j = node_of(i, shape->points, view->element_count);
         shape->abscissa[i] = view->arc_length[j];
         shape->state[i] = shown_state(view, j);
         memcpy(shape->position + 3 * (size_t)i, view->position + 3 * j, 3 * sizeof(double));
         memcpy(shape->reference + 3 * (size_t)i, view->reference + 3 * j, 3 * sizeof(double));
         if (i == 0) continue;
-        const size_t start = node_of(i - 1, shape->points, view->elements);
+        const size_t start = node_of(i - 1, shape->points, view->element_count);
         double sum = 0;
         for (size_t k = start; k < j; ++k) sum += view->tension[k] * view->element_length[k];
         shape->tension[i - 1] = sum / (view->arc_length[j] - view->arc_length[start]);
@@ -76,7 +76,7 @@ static bool take(CpsResults *results, const CpsEvolution *evolution, CpsiSnapsho
     size_t total = 0;
     for (size_t i = 0; i < lines; ++i) {
         out->shape[i].points =
-            point_count(results, cps_evolution_line_view(evolution, (int)i).elements);
+            point_count(results, cps_evolution_line_view(evolution, (int)i).element_count);
         total += (size_t)out->shape[i].points;
     }
     double *block = malloc(total * (8 * sizeof(double) + 1));

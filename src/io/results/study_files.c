@@ -57,11 +57,12 @@ static void write_study(const CpsStudyFiles *files, FILE *out) {
     fputc('\n', out);
     for (int r = 0; r < cps_study_row_count(files->study); ++r) {
         const CpsStudyRow row = cps_study_row(files->study, r);
-        const int cells = row.parameters.cells > 0 ? row.parameters.cells : step.elements;
+        const int cells =
+            row.parameters.cell_count > 0 ? row.parameters.cell_count : step.element_count;
         fprintf(out, "%s,%d", cps_study_stage_name(row.stage), cells);
         write_number(out, step.length / cells);
-        fprintf(out, ",%d,%d,%d", row.report.converged, row.report.iterations,
-                row.report.evaluations);
+        fprintf(out, ",%d,%d,%d", row.report.converged, row.report.iteration_count,
+                row.report.evaluation_count);
         for (int i = 0; i < COLUMNS; ++i)
             write_number(out,
                          *(const double *)(const void *)((const char *)&row + COLUMN[i].offset));
@@ -80,7 +81,7 @@ static void write_first_order(const CpsStudyFiles *files, FILE *out) {
         "P2.1.tension\n"
         "m,m,m,m,m,m,m,m,m,m,N,N,N,N,-,N,N,N,N\n",
         out);
-    for (int j = 0; j <= step.elements; ++j) {
+    for (int j = 0; j <= step.element_count; ++j) {
         const size_t k = 3 * (size_t)j;
         const double *const vector[] = {step.reference + k, step.position + k,
                                         view.displacement + k, view.friction_force + k};

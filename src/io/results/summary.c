@@ -86,8 +86,8 @@ static void write_line(FILE *out, const char *name, const CpsLineReport *report,
     write_key(out, name);
     fputs("{\n          ", out);
     write_string(out, "outcome", cps_outcome_name(report->outcome), ", ");
-    fprintf(out, "\"iterations\": %d, \"places_not_unique\": %d,\n          ", report->iterations,
-            (int)report->places);
+    fprintf(out, "\"iterations\": %d, \"places_not_unique\": %d,\n          ",
+            report->iteration_count, (int)report->places);
     write_number(out, "grounded_m", report->grounded, ", ");
     write_number(out, "slipping_m", report->slipping, ", ");
     write_number(out, "slack_m", report->slack, ", ");
@@ -129,7 +129,7 @@ static void write_certificate(FILE *out, const CpsResults *results, const CpsiRo
 /* the energy balance of a step */
 static void write_ledger(FILE *out, const CpsStepReport *report) {
     const CpsLedger *ledger = &report->ledger;
-    fprintf(out, "\"parts\": %d, \"snaps\": %d, ", report->parts, report->snaps);
+    fprintf(out, "\"parts\": %d, \"snaps\": %d, ", report->part_count, report->snap_count);
     write_number(out, "jump_m", report->jump, ", ");
     write_number(out, "unaccounted_J", report->unaccounted, ",\n      \"ledger_J\": {");
     write_number(out, "ends", ledger->ends, ", ");
@@ -144,7 +144,7 @@ static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row)
     fputs("    {\n      ", out);
     write_string(out, "name", row->name, ", ");
     write_string(out, "outcome", cps_outcome_name(row->report.outcome), ", ");
-    fprintf(out, "\"iterations\": %d,\n", row->report.iterations);
+    fprintf(out, "\"iterations\": %d,\n", row->report.iteration_count);
     write_certificate(out, results, row);
     write_ledger(out, &row->report);
     write_number(out, "wall_s", row->report.wall, ",\n      \"lines\": {\n");

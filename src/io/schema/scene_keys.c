@@ -176,7 +176,8 @@ static const CpsiKey SOLVER_KEYS[] = {
      .fallback = "0",
      .help = "a step is cut until two halves change displacements per length and tensions per "
              "largest force by no more; 0: steps as given"},
-    {"halvings", OPTIONAL, INTEGER(Scene, scene.solver.halvings), 0, 30, false, .fallback = "10",
+    {"halvings", OPTIONAL, INTEGER(Scene, scene.solver.max_halvings), 0, 30, false,
+     .fallback = "10",
      .help = "how often a step may be halved, for the path or because it does not converge"},
     {"linear_system", OPTIONAL, WORD(Scene, scene.solver.linear_system), .words = "chain dense",
      .fallback = "\"chain\"", .help = "dense: for comparison on small lines"},
@@ -196,7 +197,7 @@ static const CpsiMapping CHANGE = {"change", KEYS(CHANGE_KEYS), INTO(Change), WH
 static const CpsiKey STAGE_KEYS[] = {
     {"name", OPTIONAL, TEXT(Stage, stage.name, 0),
      .help = "name of the entry in the results; by default its number"},
-    {"steps", OPTIONAL, INTEGER(Stage, stage.steps), 1, 1e6, false, .fallback = "1",
+    {"steps", OPTIONAL, INTEGER(Stage, stage.step_count), 1, 1e6, false, .fallback = "1",
      .help = "go there in so many equal load steps"},
     {"gravity", OPTIONAL, POINT(Stage, stage.gravity, 3), ANY, .unit = "m/s2",
      .help = "what gravity becomes in this entry, evenly over its steps; the weight of all "
