@@ -2,6 +2,7 @@
 /* Names and texts of the status codes, from the list in base.h; returning an error with its
  * message. */
 #include "base/status.h"
+#include "base/words.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,25 +14,11 @@ const char *cps_version(void) {
     return VERSION(CPS_VERSION_MAJOR, CPS_VERSION_MINOR, CPS_VERSION_PATCH);
 }
 
-const char *cps_status_name(CpsStatus status) {
-    switch (status) {
-#define CASE(name, number, sentence) \
-    case name: return #name;
-        CPS_STATUS_LIST(CASE)
-#undef CASE
-    }
-    return "unknown status";
-}
+static const CpsiWords STATUS[] = {CPS_STATUS_LIST(CPSI_WORDS_WITH_NAME)};
 
-const char *cps_status_text(CpsStatus status) {
-    switch (status) {
-#define CASE(name, number, sentence) \
-    case name: return sentence;
-        CPS_STATUS_LIST(CASE)
-#undef CASE
-    }
-    return "unknown status";
-}
+const char *cps_status_name(CpsStatus status) { return CPSI_WORDS(STATUS, status).name; }
+
+const char *cps_status_text(CpsStatus status) { return CPSI_WORDS(STATUS, status).text; }
 
 CpsStatus cpsi_fail(CpsError *err, CpsStatus status, const char *format, ...) {
     if (err) {

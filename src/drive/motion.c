@@ -8,6 +8,7 @@
 
 #include "base/larger.h"
 #include "base/status.h"
+#include "base/words.h"
 #include "drive/kinematics.h"
 
 /* Rows of drive and constraints contradict W where the residual exceeds this share of W; rounding
@@ -26,24 +27,14 @@ static CpsStatus out_of_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a motion");
 }
 
+static const CpsiWords OUTCOME[] = {CPS_MOTION_OUTCOME_LIST(CPSI_WORDS_WITH_NAME)};
+
 const char *cps_motion_outcome_name(CpsMotionOutcome outcome) {
-    switch (outcome) {
-#define NAME(name, number, sentence) \
-    case name: return #name;
-        CPS_MOTION_OUTCOME_LIST(NAME)
-#undef NAME
-    }
-    return "CPS_MOTION_UNKNOWN";
+    return CPSI_WORDS(OUTCOME, outcome).name;
 }
 
 const char *cps_motion_outcome_text(CpsMotionOutcome outcome) {
-    switch (outcome) {
-#define SENTENCE(name, number, sentence) \
-    case name: return sentence;
-        CPS_MOTION_OUTCOME_LIST(SENTENCE)
-#undef SENTENCE
-    }
-    return "unknown outcome";
+    return CPSI_WORDS(OUTCOME, outcome).text;
 }
 
 CpsMotionOptions cps_motion_options_default(void) {

@@ -1,26 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Keys, sentences and kinds of outcomes, and keys of ranges, from the lists in step.h. */
+#include "base/words.h"
 #include "capstan/step.h"
 
-const char *cps_outcome_name(CpsOutcome outcome) {
-    switch (outcome) {
-#define CASE(name, number, key, sentence) \
-    case name: return key;
-        CPS_OUTCOME_LIST(CASE)
-#undef CASE
-    }
-    return "unknown";
-}
+static const CpsiWords OUTCOME[] = {CPS_OUTCOME_LIST(CPSI_WORDS_WITH_KEY)};
 
-const char *cps_outcome_text(CpsOutcome outcome) {
-    switch (outcome) {
-#define CASE(name, number, key, sentence) \
-    case name: return sentence;
-        CPS_OUTCOME_LIST(CASE)
-#undef CASE
-    }
-    return "unknown outcome";
-}
+const char *cps_outcome_name(CpsOutcome outcome) { return CPSI_WORDS(OUTCOME, outcome).name; }
+
+const char *cps_outcome_text(CpsOutcome outcome) { return CPSI_WORDS(OUTCOME, outcome).text; }
 
 bool cps_outcome_is_certified(CpsOutcome outcome) {
     return outcome == CPS_OUTCOME_SOLVED || outcome == CPS_OUTCOME_TAUT;
@@ -49,12 +36,6 @@ static int badness(CpsOutcome outcome) {
 
 CpsOutcome cps_outcome_worse(CpsOutcome a, CpsOutcome b) { return badness(b) > badness(a) ? b : a; }
 
-const char *cps_range_name(CpsRange range) {
-    switch (range) {
-#define CASE(name, number, key, sentence) \
-    case name: return key;
-        CPS_RANGE_LIST(CASE)
-#undef CASE
-    }
-    return "unknown";
-}
+static const CpsiWords RANGE[] = {CPS_RANGE_LIST(CPSI_WORDS_WITH_KEY)};
+
+const char *cps_range_name(CpsRange range) { return CPSI_WORDS(RANGE, range).name; }

@@ -8,6 +8,7 @@
 
 #include "base/larger.h"
 #include "base/status.h"
+#include "base/words.h"
 #include "regularized/band_blocks.h"
 #include "regularized/first_order.h"
 #include "regularized/handle.h"
@@ -38,24 +39,14 @@ struct CpsFirstOrder {
     CpsFirstOrderReport report;
 };
 
-static const struct {
-    const char *key, *sentence;
-} VERDICT[] = {
-#define CPS_FIRST_ORDER_TEXT(name, number, key, sentence) [number] = {key, sentence},
-    CPS_FIRST_ORDER_VERDICT_LIST(CPS_FIRST_ORDER_TEXT)
-#undef CPS_FIRST_ORDER_TEXT
-};
-
-static bool known(CpsFirstOrderVerdict verdict) {
-    return (unsigned)verdict < sizeof VERDICT / sizeof *VERDICT;
-}
+static const CpsiWords VERDICT[] = {CPS_FIRST_ORDER_VERDICT_LIST(CPSI_WORDS_WITH_KEY)};
 
 const char *cps_first_order_verdict_name(CpsFirstOrderVerdict verdict) {
-    return known(verdict) ? VERDICT[verdict].key : "unknown";
+    return CPSI_WORDS(VERDICT, verdict).name;
 }
 
 const char *cps_first_order_verdict_text(CpsFirstOrderVerdict verdict) {
-    return known(verdict) ? VERDICT[verdict].sentence : "unknown verdict";
+    return CPSI_WORDS(VERDICT, verdict).text;
 }
 
 /* ---- memory and the reference ---- */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Nodes of set expressions: construction, reference count, and their text. */
 #include "set/set.h"
+#include "base/words.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -8,24 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const CpsiWords OUTCOME[] = {CPS_SET_OUTCOME_LIST(CPSI_WORDS_WITH_NAME)};
+
 const char *cps_set_outcome_name(CpsSetOutcome outcome) {
-    switch (outcome) {
-#define CASE(name, number, sentence) \
-    case name: return #name;
-        CPS_SET_OUTCOME_LIST(CASE)
-#undef CASE
-    }
-    return "unknown outcome";
+    return CPSI_WORDS(OUTCOME, outcome).name;
 }
 
 const char *cps_set_outcome_text(CpsSetOutcome outcome) {
-    switch (outcome) {
-#define CASE(name, number, sentence) \
-    case name: return sentence;
-        CPS_SET_OUTCOME_LIST(CASE)
-#undef CASE
-    }
-    return "unknown outcome";
+    return CPSI_WORDS(OUTCOME, outcome).text;
 }
 
 CpsStatus cpsi_set_new(CpsiSetKind kind, int n, int count, const CpsSet *const *parts,

@@ -12,27 +12,18 @@
 
 #include "base/larger.h"
 #include "base/status.h"
+#include "base/words.h"
 #include "capstan/evolve.h"
 #include "regularized/band_blocks.h"
 
-static const struct {
-    const char *key, *sentence;
-} JUDGEMENT[] = {
-#define CPS_JUDGEMENT_TEXT(name, number, key, sentence) [number] = {key, sentence},
-    CPS_JUDGEMENT_LIST(CPS_JUDGEMENT_TEXT)
-#undef CPS_JUDGEMENT_TEXT
-};
-
-static bool known(CpsJudgement judgement) {
-    return (unsigned)judgement < sizeof JUDGEMENT / sizeof *JUDGEMENT;
-}
+static const CpsiWords JUDGEMENT[] = {CPS_JUDGEMENT_LIST(CPSI_WORDS_WITH_KEY)};
 
 const char *cps_judgement_name(CpsJudgement judgement) {
-    return known(judgement) ? JUDGEMENT[judgement].key : "unknown";
+    return CPSI_WORDS(JUDGEMENT, judgement).name;
 }
 
 const char *cps_judgement_text(CpsJudgement judgement) {
-    return known(judgement) ? JUDGEMENT[judgement].sentence : "unknown judgement";
+    return CPSI_WORDS(JUDGEMENT, judgement).text;
 }
 
 /* A sum, and the place of its largest term. */

@@ -19,24 +19,18 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "base/words.h"
 #include "regularized/band_blocks.h"
 #include "solutions/slack.h"
 
-static const struct {
-    const char *key, *sentence;
-} COMPLETION[] = {
-#define CPS_COMPLETION_TEXT(name, number, key, sentence) [number] = {key, sentence},
-    CPS_COMPLETION_LIST(CPS_COMPLETION_TEXT)
-#undef CPS_COMPLETION_TEXT
-};
+static const CpsiWords COMPLETION[] = {CPS_COMPLETION_LIST(CPSI_WORDS_WITH_KEY)};
 
 const char *cps_completion_name(CpsCompletion completion) {
-    return (unsigned)completion < CPS_COMPLETION_COUNT ? COMPLETION[completion].key : "unknown";
+    return CPSI_WORDS(COMPLETION, completion).name;
 }
 
 const char *cps_completion_text(CpsCompletion completion) {
-    return (unsigned)completion < CPS_COMPLETION_COUNT ? COMPLETION[completion].sentence
-                                                       : "unknown completion";
+    return CPSI_WORDS(COMPLETION, completion).text;
 }
 
 /* A piece, how it is laid out, and the sides of its polygon [m]. */
