@@ -231,7 +231,7 @@ static void print_figures(int kind, double value, double of) {
 void warnings_print(const Warnings *warnings) {
     for (int k = 0; k < WARNINGS; ++k) {
         if (warnings->kind[k].steps == 0) continue;
-        fputs("capstan: caution: step ", stderr);
+        fputs("capstan: warning: step ", stderr);
         cli_print_text(stderr, warnings->kind[k].step, 80, false);
         fputs(", line ", stderr);
         cli_print_text(stderr, warnings->kind[k].line, 80, false);

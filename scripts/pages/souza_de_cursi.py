@@ -258,7 +258,7 @@ def order_of_first_order(program):
     return f"{math.log2(far[0] / far[1]):.2f}"
 
 
-def cautions(program, number, pattern):
+def warnings(program, number, pattern):
     done = program.call("run", program.example(f"souza-de-cursi-1990-example-11-{number}"), "-o", os.path.join(program.folder, f"eleven-{number}"), errors=True)
     return [f"{float(c):.3g}" for c in re.search(pattern, done).groups()]
 
@@ -283,11 +283,11 @@ SENTENCES = [
     ("no solution: {} N at a = l carried by nothing (half an element's weight or friction carries {} N)", across),
     ("less than half an element's {} N across it or pushing", lambda p: across(p)[1]),
     ("second order in the change (observed {})", order_of_first_order),
-    ("the line is {} m inside the obstacle;", lambda p: cautions(p, 1, r"the line is (\S+) m inside")),
-    ("bounds differ from mu R by {} N of {} N", lambda p: cautions(p, 1, r"differ from mu R by (\S+) N, of (\S+) N in all")),
-    ("friction of {} N, of bounds of {} N, acts where", lambda p: cautions(p, 2, r"friction of (\S+) N, of bounds of (\S+) N in all, acts")),
-    ("friction of {} N of {} N acts in the air", lambda p: cautions(p, 3, r"friction of (\S+) N, of bounds of (\S+) N in all, acts")),
-    ("{} N is mu w l less the half element", lambda p: cautions(p, 2, r"friction of (\S+) N")),
+    ("the line is {} m inside the obstacle;", lambda p: warnings(p, 1, r"the line is (\S+) m inside")),
+    ("bounds differ from mu R by {} N of {} N", lambda p: warnings(p, 1, r"differ from mu R by (\S+) N, of (\S+) N in all")),
+    ("friction of {} N, of bounds of {} N, acts where", lambda p: warnings(p, 2, r"friction of (\S+) N, of bounds of (\S+) N in all, acts")),
+    ("friction of {} N of {} N acts in the air", lambda p: warnings(p, 3, r"friction of (\S+) N, of bounds of (\S+) N in all, acts")),
+    ("{} N is mu w l less the half element", lambda p: warnings(p, 2, r"friction of (\S+) N")),
 ]
 
 # data of examples and of tests, and the papers'

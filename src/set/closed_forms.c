@@ -210,20 +210,6 @@ bool cpsi_closed_support(const CpsSet *set, const double *w, double *point, doub
 
 /* ---- projection ---- */
 
-static void project_segment(const CpsSet *set, const double *p, double *nearest) {
-    const int n = set->n;
-    const double *from = set->a, *to = set->a + (set->count - 1) * n;
-    double along = 0, square = 0;
-    for (int i = 0; i < n; i++) {
-        along += (p[i] - from[i]) * (to[i] - from[i]);
-        square += (to[i] - from[i]) * (to[i] - from[i]);
-    }
-    const double t = square > 0 ? fmin(1, fmax(0, along / square)) : 0;
-    for (int i = 0; i < n; i++)
-        nearest[i] =
-            t < 0.5 ? from[i] + t * (to[i] - from[i]) : to[i] - (1 - t) * (to[i] - from[i]);
-}
-
 static void project_strip(const CpsSet *set, const double *p, double *nearest) {
     const int n = set->n;
     const double at = cpsi_dot(n, set->a, p), low = set->count == 2 ? -set->b[1] : -INFINITY;
@@ -271,7 +257,7 @@ bool cpsi_closed_project(const CpsSet *set, const double *p, double *nearest) {
         if (set->hull)
             cpsi_hull_project(set->hull, p, nearest);
         else if (set->count <= 2)
-            project_segment(set, p, nearest);
+            cpsi_nearest_on_segment(n, set->a, set->a + (set->count - 1) * n, p, nearest);
         return set->hull || set->count <= 2;
     case CPSI_SET_BALL: {
         double distance = 0;

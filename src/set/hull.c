@@ -305,16 +305,17 @@ double cpsi_hull_gauge(const CpsiHull *hull, const double *p) {
     return value;
 }
 
-/* The nearest point of a segment, in d coordinates. */
-static void nearest_on_edge(int d, const double *a, const double *b, const double *p,
-                            double *nearest) {
+void cpsi_nearest_on_segment(int n, const double *from, const double *to, const double *p,
+                             double *nearest) {
     double along = 0, square = 0;
-    for (int i = 0; i < d; i++) {
-        along += (p[i] - a[i]) * (b[i] - a[i]);
-        square += (b[i] - a[i]) * (b[i] - a[i]);
+    for (int i = 0; i < n; i++) {
+        along += (p[i] - from[i]) * (to[i] - from[i]);
+        square += (to[i] - from[i]) * (to[i] - from[i]);
     }
     const double t = square > 0 ? fmin(1, fmax(0, along / square)) : 0;
-    for (int i = 0; i < d; i++) nearest[i] = t < 1 ? a[i] + t * (b[i] - a[i]) : b[i];
+    for (int i = 0; i < n; i++)
+        nearest[i] =
+            t < 0.5 ? from[i] + t * (to[i] - from[i]) : to[i] - (1 - t) * (to[i] - from[i]);
 }
 
 /* The nearest point of a triangle: the foot of the perpendicular where that lies inside, else a
@@ -340,7 +341,7 @@ static void nearest_on_triangle(const double *corner, const double *p, double *n
     }
     for (int e = 0; e < 3; e++) {
         double x[3], square = 0;
-        nearest_on_edge(3, &corner[3 * e], &corner[3 * ((e + 1) % 3)], p, x);
+        cpsi_nearest_on_segment(3, &corner[3 * e], &corner[3 * ((e + 1) % 3)], p, x);
         for (int i = 0; i < 3; i++) square += (p[i] - x[i]) * (p[i] - x[i]);
         if (square < best) {
             best = square;
@@ -366,7 +367,7 @@ void cpsi_hull_project(const CpsiHull *hull, const double *p, double *nearest) {
     if (d > 1 && !inside)
         for (int k = 0; k < hull->pieces; k++) {
             if (d == 2)
-                nearest_on_edge(2, &hull->piece[4 * k], &hull->piece[4 * k + 2], c, x);
+                cpsi_nearest_on_segment(2, &hull->piece[4 * k], &hull->piece[4 * k + 2], c, x);
             else
                 nearest_on_triangle(&hull->piece[9 * k], c, x);
             double square = 0;

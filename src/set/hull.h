@@ -27,6 +27,10 @@ void cpsi_hull_free(CpsiHull *hull);
 void cpsi_hull_project(const CpsiHull *hull, const double *p, double *nearest);
 /* The radius of the largest ball within the affine span round a point of it; negative outside. */
 double cpsi_hull_margin(const CpsiHull *hull, const double *p);
+/* The point of the segment between two points that is nearest to p. */
+void cpsi_nearest_on_segment(int n, const double *from, const double *to, const double *p,
+                             double *nearest);
+
 /* The smallest t with p in t hull, for a hull that contains 0. */
 double cpsi_hull_gauge(const CpsiHull *hull, const double *p);
 

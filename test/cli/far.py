@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes in large coordinates: what the files carry, what the checker says of them, what is cautioned.
+"""Scenes in large coordinates: what the files carry, what the checker says of them, what is warned of.
 
 usage: far.py CAPSTAN CHECKER EXAMPLES"""
 import csv

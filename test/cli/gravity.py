@@ -57,7 +57,7 @@ def hanging():
             expect(f"hanging, {step['name']}: the ledger closes", abs(energy["imbalance"]) < 1e-9 * now * 2, energy)
             expect(f"hanging, {step['name']}: work of the mean weight",
                    abs(energy["gravity"] + (was + now) / 2 * (now - was) * 8 / (3 * 40)) < 0.002 * abs(energy["gravity"]), energy)
-    expect("hanging: no energy is missed while it grows heavy", not any("heavy" in l for l in said.splitlines() if "caution" in l), said)
+    expect("hanging: no energy is missed while it grows heavy", not any("heavy" in l for l in said.splitlines() if "warning" in l), said)
 
 
 def tilted():

@@ -39,6 +39,25 @@ def variables(path):
     return {name for name in names if (len("rope_" + name).to_bytes(4, "big") + ("rope_" + name).encode()) in data}
 
 
+def columns_documented():
+    """(name, unit) of each column of history.csv by docs/results.md, for one line called rope, in any order."""
+    page = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "results.md")
+    with open(page, encoding="utf-8") as file:
+        section = file.read().split("\n## history.csv\n")[1].split("\n## ")[0]
+    found = []
+    for row in section.splitlines():
+        cells = [cell.strip() for cell in row.split("|")]
+        if len(cells) == 5 and cells[1].startswith("`"):
+            for name in cells[1].replace("`", "").replace("LINE", "rope").split(", "):
+                found += [(name.replace("END", end), cells[2]) for end in (("A", "B") if "END" in name else ("",))]
+    return sorted(found)
+
+
+def columns(folder, out):
+    with open(os.path.join(folder, out, "history.csv"), newline="", encoding="utf-8") as table:
+        return sorted(zip(*[row for row, _ in zip(csv.reader(table), range(2))]))
+
+
 def history(folder, out):
     with open(os.path.join(folder, out, "history.csv"), newline="", encoding="utf-8") as table:
         return [{key: value for key, value in row.items() if key != "wall"} for row in csv.DictReader(table)]
@@ -56,6 +75,8 @@ with tempfile.TemporaryDirectory() as folder:
     check(variables(os.path.join(folder, "out", "result.nc")) ==
           set(PER_STEP + ALWAYS) | {name + "_second" for name in PER_STEP[3:9] + ["state", "obstacle"]},
           "whole: variables of result.nc")
+    check(columns(folder, "out") == columns_documented(),
+          f"history.csv and its table in docs/results.md: {sorted(set(columns(folder, 'out')) ^ set(columns_documented()))}")
     whole = history(folder, "out")
     done = run(folder, "short.yaml", "out", "--no-paraview")
     check(done.returncode == 0 and "result.pvd" not in done.stdout, f"--no-paraview: {done.stderr}{done.stdout}")

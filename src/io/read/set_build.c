@@ -4,20 +4,12 @@
 #include "io/read/set_build.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "base/status.h"
 #include "io/read/key_reader.h"
 #include "io/schema/set_keys.h"
 
 /* ---- sizes ---- */
-
-/* Polytopes of more components have no closed forms (docs/sets.md). */
-enum { MOST_CLOSED = 3 };
-
-static bool is_open_polytope(const CpsiKey *word, int components) {
-    return components > MOST_CLOSED && strcmp(word->name, "polytope") == 0;
-}
 
 /* Check that a set just made from a word with `items` points or rows is not too large for
  * queries.
@@ -131,7 +123,7 @@ static CpsStatus make_word(CpsiSetBuild *b, const CpsiYaml *node, const CpsiKey 
     const int components = made->set   ? cps_set_space(made->set)
                            : made->law ? cps_law_space(made->law)
                                        : 0;
-    const bool solved = b->solved_depth > 0 || is_open_polytope(word, components);
+    const bool solved = b->solved_depth > 0 || (word->closed > 0 && components > word->closed);
     if (status == CPS_OK && components > 0)
         status = weigh(b, node, components, made->set ? items_of(word, &values) : 0, solved);
     b->solved_depth -= word->solved;

@@ -81,6 +81,7 @@ typedef struct CpsiKey {
     /* For a word of laws: makes its object from its values (set_keys.h). */
     CpsStatus (*make)(const struct CpsiSetValues *values, struct CpsiSetMade *made, CpsError *err);
     bool solved; /* queries of it solve a conic program over all its parts */
+    int closed;  /* .. or do where it has more components than this; 0: any number is closed */
 } CpsiKey;
 
 /* A kind of mapping: its table of keys. */

@@ -267,7 +267,7 @@ static const CpsiKey SET_WORDS[] = {
      .help = "per component a half width or [low, high]; ends may be .inf"},
     {"segment", REQUIRED, ROWS(Set, rows, 0), 2, 2, false, MADE(make_segment),
      .help = "between two points"},
-    {"polytope", MATRIX, MADE(make_polytope), .help = "convex hull of points"},
+    {"polytope", MATRIX, MADE(make_polytope), .closed = 3, .help = "convex hull of points"},
     {"strip", UNDER(STRIP), MADE(make_strip), .help = "|<normal, x>| <= width/2"},
     {"half_space", UNDER(HALF_SPACE), MADE(make_half_space), .help = "<normal, x> <= offset"},
     {"inequalities", UNDER(INEQUALITIES), SOLVED(make_inequalities),

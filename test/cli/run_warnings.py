@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What capstan run says by itself of the examples of S90 annex 6.                usage: cautions.py CAPSTAN EXAMPLES"""
+"""What capstan run says by itself of the examples of S90 annex 6.                usage: run_warnings.py CAPSTAN EXAMPLES"""
 import json
 import math
 import os
@@ -24,7 +24,7 @@ def run(folder, scene, *more):
                           timeout=60)
     if done.returncode:
         faults.append(f"{scene}: exit code {done.returncode}: {done.stderr}")
-    return [line for line in done.stderr.splitlines() if "caution" in line]
+    return [line for line in done.stderr.splitlines() if "warning" in line]
 
 
 with tempfile.TemporaryDirectory() as folder:
@@ -36,7 +36,7 @@ with tempfile.TemporaryDirectory() as folder:
                 faults.append(f"{name}: '{words}' with '{figure}' not in {lines}")
         faults += [f"{name}: '{words}' in {lines}" for words in unsaid if any(words in line for line in lines)]
         if run(folder, path, "--quiet"):
-            faults.append(f"{name}: cautions in spite of --quiet")
+            faults.append(f"{name}: warnings in spite of --quiet")
 
         # the cure that is offered: nothing is left to say
         with open(path, encoding="utf-8") as file:
@@ -105,5 +105,5 @@ history: [{name: press, rope.B: {force: [%s, 0, -80]}}]
     if len(told) != 1 or abs(float(told[0].split("jumps by ")[1].split()[0]) - jump) > 1.1e-3:
         faults.append(f"crest: {told}, expected a jump of {jump}")
 
-print("\n".join(faults) or "cautions: said with their figures, and only there")
+print("\n".join(faults) or "warnings: said with their figures, and only there")
 sys.exit(1 if faults else 0)
