@@ -138,6 +138,16 @@ def check_validation(schema, folder):
         assert not validator.is_valid(bad), (key, value)
 
 
+def check_dictionary(schema, path):
+    """The words with which law files are mutated are those of the schema: none is missing, none is of the past."""
+    with open(path) as f:
+        words = {line[1:].split(":")[0].rstrip('"\n') for line in f if line.startswith('"')}
+    words = {word for word in words if word[:1].isalpha()}
+    wanted = set(schema["$defs"]["set"]["properties"]) | set(schema["$defs"]["term"]["properties"])
+    known = wanted | set(schema["$defs"]["file"]["properties"])
+    assert wanted <= words <= known, (sorted(wanted - words), sorted(words - known))
+
+
 def main():
     capstan, source = sys.argv[1:]
     with open(os.path.join(source, "docs", "formats.md")) as f:
@@ -155,6 +165,7 @@ def main():
 
     law_schema = json.loads(output(capstan, "schema", "law"))
     assert {"file", "set", "contact", "term"} < set(check_definitions(law_schema, documentation))
+    check_dictionary(law_schema, os.path.join(source, "test", "fuzz", "law.dict"))
     laws = check_words_validation(law_schema, os.path.join(folder, "laws"), [case[:2] for case in bad_laws.CASES],
                                   bad_laws.BEYOND_A_SCHEMA)
     drive_schema = json.loads(output(capstan, "schema", "drive"))
