@@ -11,6 +11,7 @@ import sys
 import tempfile
 
 from bad_scenes import GOOD
+from checks import is_told
 
 INPUT, IO = 3, 4
 ENTRY = "  - {name: pull, cable.B: {force: [1, 0, 0]}}\n"
@@ -342,4 +343,4 @@ with tempfile.TemporaryDirectory() as folder:
     main()
     os.chdir("/")
 print(f"{count} cases, {failed} failed")
-sys.exit(1 if failed else 0)
+sys.exit(0 if is_told(count) and not failed else 1)

@@ -10,6 +10,8 @@ import subprocess
 import sys
 import tempfile
 
+from checks import is_told
+
 OK, USAGE, INPUT, IO, NONE = 0, 2, 3, 4, 5
 
 HEAD = "capstan: 1\n"
@@ -152,7 +154,7 @@ def main():
             if done.returncode != code or message not in done.stderr:
                 complain(arguments, done, (code, message))
     print(f"{len(FILES) + len(QUESTIONS)} cases, {failed} failed")
-    return 1 if failed else 0
+    return 0 if is_told(len(FILES) + len(QUESTIONS)) and not failed else 1
 
 
 if __name__ == "__main__":

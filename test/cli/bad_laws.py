@@ -14,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 
+from checks import is_told
+
 INPUT, USAGE, OK, OPEN = 3, 2, 0, 1
 
 # name, value of `law:` (it begins in column 6 of line 2), expected after "FILE:"
@@ -264,7 +266,7 @@ def main():
         suite.pictures(os.path.join(sys.argv[2], "braked-wheel.yaml"))
         suite.answers(sys.argv[2])
         print(f"{suite.count} cases, {suite.failed} failed")
-        return 1 if suite.failed else 0
+        return 0 if is_told(suite.count) and not suite.failed else 1
 
 
 if __name__ == "__main__":

@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 
+from checks import is_told
+
 GOOD = """\
 capstan: 1
 obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}
@@ -305,7 +307,7 @@ def main():
         suite.unreadable()
         suite.usage()
         print(f"{suite.count} cases, {suite.failed} failed")
-        return 1 if suite.failed else 0
+        return 0 if is_told(suite.count) and not suite.failed else 1
 
 
 if __name__ == "__main__":

@@ -1,6 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the command share: the faults found, what is expected, and files as bytes."""
+import os
+import re
+import sys
+
 faults = []
+PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../docs/validation.md")
+
+
+def is_told(count):
+    """Does docs/validation.md tell that the running suite has so many inputs, and the sum of all suites?"""
+    with open(PAGE, encoding="utf-8") as file:
+        rows = {name: int(number) for name, number in re.findall(r"^\| `?((?:bad_\w+\.py|all of them))`? \| (\d+) \|", file.read(), re.M)}
+    suite, total = os.path.basename(sys.argv[0]), rows.pop("all of them", None)
+    if rows.get(suite) == count and sum(rows.values()) == total:
+        return True
+    print(f"docs/validation.md: {suite} has {count} inputs, the page says {rows.get(suite)}; its sum is {sum(rows.values())}, and it says {total}")
+    return False
+
 
 
 def expect(what, holds, found=""):

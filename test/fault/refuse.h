@@ -36,8 +36,12 @@ static void record(void) {
     asked++;
 }
 
+/* Where it is set, it decides about each allocation instead of `allowed`. */
+static bool (*is_refused)(void);
+
 static __attribute__((noinline)) bool refuse(void) {
     if (recording) record();
+    if (is_refused) return is_refused();
     return allowed >= 0 && allowed-- == 0;
 }
 

@@ -64,46 +64,21 @@ static int command(Command *run, long k, int argc, const char *const *argv, bool
  * that has not had its turn before. */
 static const char *which = "";
 
-/* The one after the k-th; `next`: of the places. -1: there are no more. */
-static long next_refused(long k, long *next) {
-    if (which[0] == '\0') return *next < places ? first[(*next)++] : -1;
-    return strcmp(which, "all") == 0 || k < 3000 ? k + 1 : k + 100;
+/* Is the k-th one of them? `fresh`: from a new place. */
+static bool is_chosen(long k, bool fresh) {
+    if (which[0] == '\0') return fresh;
+    return strcmp(which, "all") == 0 || k < 3000 || k % 100 == 0;
 }
 
-/* Refuse allocations in turn. `picture`: what the command writes where it ends well, if it
- * draws. */
-static void refuse_each(Command *run, const char *picture, long least, int argc,
-                        const char *const *argv, bool draws) {
-    bool reached = true;
-    long k = -1, tried = 0, next = places;
-    asked = 0;
-    recording = true;
-    assert_int_equal(command(run, -1, argc, argv, &reached), EXIT_OK);
-    recording = false;
-    reached = true;
-    while (reached && (k = next_refused(k, &next)) >= 0) {
-        const long before = live;
-        remove(picture);
-        const int code = command(run, k, argc, argv, &reached);
-        if (live != before) fail_msg("allocation %ld: %ld blocks lost", k, live - before);
-        /* a closed form without room for its scratch hands over to the solver, so a failure may be
-         * made good */
-        if (code != EXIT_OK && !(reached && code == EXIT_LIMIT))
-            fail_msg("allocation %ld: exit %d: %s", k, code, reported.message);
-        if (reported.status != CPS_OK && reported.status != CPS_ERR_MEMORY)
-            fail_msg("allocation %ld: %s: %s", k, cps_status_name(reported.status),
-                     reported.message);
-        tried += reached;
-        if ((access(picture, F_OK) == 0) != (draws && code == EXIT_OK))
-            fail_msg("allocation %ld: exit %d, and the picture is %s", k, code,
-                     draws ? "not there" : "there");
-    }
-    remove(picture);
-    print_message("%ld allocations, %ld refused\n", asked, tried);
-    /* built as shared libraries they cannot be reached */
-    if (asked == 0) skip();
-    /* `least`: what such a command takes at the very least */
-    assert_in_range(asked, least, 1000000);
+/* How a command with its k-th allocation refused has ended, which had `before` blocks; `there`: its
+ * picture. A closed form without room for its scratch hands over to the solver, so a failure may be
+ * made good. NULL, or what is wrong. */
+static const char *judge(int code, long before, bool draws, bool there) {
+    if (live != before) return "blocks are lost";
+    if (code != EXIT_OK && code != EXIT_LIMIT) return "the exit code is another";
+    if (reported.status != CPS_OK && reported.status != CPS_ERR_MEMORY)
+        return "the error is another";
+    return there == (draws && code == EXIT_OK) ? NULL : "a picture is there or missing";
 }
 
 #endif

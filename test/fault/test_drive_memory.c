@@ -4,7 +4,7 @@
  * allocated is given back, and no part of a picture stays. Allocations are counted by wrapping them
  * at link time. */
 
-#include "refuse_command.h"
+#include "refuse_in_copies.h"
 
 /* allocations: a read file, its sets or systems and answers take this many at the very least */
 enum { LEAST = 5 };
@@ -39,8 +39,10 @@ static void every_way(const char *text) {
     static const char *const ASK[] = {"drive", FILE_NAME, "--json", "--quiet"};
     static const char *const DRAW[] = {"drive", FILE_NAME, "--quiet", "--plot", PICTURE};
     write_file(FILE_NAME, text);
-    refuse_each(cmd_drive, PICTURE, LEAST, (int)(sizeof ASK / sizeof *ASK), ASK, false);
-    refuse_each(cmd_drive, PICTURE, LEAST, (int)(sizeof DRAW / sizeof *DRAW), DRAW, true);
+    refuse_in_copies(cmd_drive, FILE_NAME, PICTURE, false, LEAST, (int)(sizeof ASK / sizeof *ASK),
+                     ASK);
+    refuse_in_copies(cmd_drive, FILE_NAME, PICTURE, true, LEAST, (int)(sizeof DRAW / sizeof *DRAW),
+                     DRAW);
     remove(FILE_NAME);
 }
 
@@ -50,7 +52,8 @@ static void system_maps(void **state) {
                                           "-f",    "0,200",   "-p", PICTURE};
     every_way(SYSTEM);
     write_file(FILE_NAME, SYSTEM);
-    refuse_each(cmd_drive, PICTURE, LEAST, (int)(sizeof REDUCED / sizeof *REDUCED), REDUCED, true);
+    refuse_in_copies(cmd_drive, FILE_NAME, PICTURE, true, LEAST,
+                     (int)(sizeof REDUCED / sizeof *REDUCED), REDUCED);
     remove(FILE_NAME);
 }
 
@@ -58,7 +61,8 @@ static void system_resistance(void **state) {
     (void)state;
     static const char *const ASK[] = {"drive", FILE_NAME, "--json"};
     write_file(FILE_NAME, GREASE);
-    refuse_each(cmd_drive, PICTURE, LEAST, (int)(sizeof ASK / sizeof *ASK), ASK, false);
+    refuse_in_copies(cmd_drive, FILE_NAME, PICTURE, false, LEAST, (int)(sizeof ASK / sizeof *ASK),
+                     ASK);
     remove(FILE_NAME);
 }
 

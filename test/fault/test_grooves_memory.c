@@ -9,14 +9,14 @@
 #include "capstan/io.h"
 #include "capstan/results.h"
 #include "check.h"
+#include "hull_set.h"
 #include "refuse.h"
 
 static const char SCENE[] = "memory-grooves.yaml", RESULTS[] = "memory-grooves-out";
 static const char TEXT[] =
     "capstan: 1\n"
     "obstacles:\n"
-    "  bed: {plane: {}, friction: {set: {hull: [{disc: 0.3}, {segment: [[0, -0.5], [0, 0.9]]}]}, "
-    "grain: [1, 1, 0]}}\n"
+    "  bed: {plane: {}, friction: {set: " HULL_SET ", grain: [1, 1, 0]}}\n"
     "  wall: {plane: {point: [9, 0, 0], normal: [-1, 0, 0]}, friction: {set: {box: [0.2, 0]}}}\n"
     "lines:\n"
     "  rope:\n"

@@ -4,7 +4,7 @@
  * given back, and no part of a picture stays. Allocations are counted by wrapping them at link
  * time. */
 
-#include "refuse_command.h"
+#include "refuse_in_copies.h"
 
 /* allocations: a read file, its sets or systems and answers take this many at the very least */
 enum { LEAST = 50 };
@@ -26,8 +26,10 @@ static const char BODY_TEXT[] =
 static const char GREASE_TEXT[] =
     "capstan: 1\nresistance:\n  - {dry: {disc: 3}}\n  - {viscous: [[2, 0], [0, 2]]}\n";
 
-#define REFUSE_EACH(argv, draws) \
-    refuse_each(cmd_law, PICTURE, LEAST, (int)(sizeof(argv) / sizeof *(argv)), argv, draws)
+/* The second word of each is the file. */
+#define REFUSE_EACH(argv, draws)                                \
+    refuse_in_copies(cmd_law, (argv)[1], PICTURE, draws, LEAST, \
+                     (int)(sizeof(argv) / sizeof *(argv)), argv)
 
 static void planar_law(void **state) {
     (void)state;
