@@ -23,8 +23,13 @@ static double dissipated(const CpsiLine *line) {
     return sum;
 }
 
-/* Free, stick or slip, and slack: of two complementary quantities, the one that is larger on its
- * own scale counts as not zero. */
+/* A friction force is at its bound if it lacks no more than this share of it: a hundred times what
+ * the interior-point loop leaves at nodes that slip. */
+static const double AT_BOUND = 1e-4;
+
+/* Free or in contact, and slack: of two complementary quantities, the one that is larger on its own
+ * scale counts as not zero. A node slips if its friction is at its bound and it has moved by more
+ * than CPS_TOUCH lengths of the line on its obstacle; it sticks if not. */
 void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     const double weight = vec3_norm(vec3_load(line->weight));
     const double density =
@@ -41,14 +46,15 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
         const int c = program->disc.contact[k];
         const double *z = program->disc.z[k], *s = program->disc.s[k],
                      slide = sqrt(s[1] * s[1] + s[2] * s[2]);
-        if (line->state[c] == CPS_NODE_STATE_STICK &&
-            slide * z[0] > z[0] - sqrt(z[1] * z[1] + z[2] * z[2]))
+        if (line->state[c] == CPS_NODE_STATE_STICK && slide > CPSI_TOUCH &&
+            sqrt(z[1] * z[1] + z[2] * z[2]) >= (1 - AT_BOUND) * z[0])
             line->state[c] = CPS_NODE_STATE_SLIP;
     }
     for (int k = 0; k < program->conic.count; k++) {
         const int c = program->conic.contact[k];
         if (line->state[c] == CPS_NODE_STATE_STICK &&
-            cpsi_friction_conic_slip(program, k) > cpsi_friction_conic_margin(&program->conic, k))
+            cpsi_friction_conic_slip(program, k) > CPSI_TOUCH &&
+            cpsi_friction_conic_margin(&program->conic, k) <= AT_BOUND)
             line->state[c] = CPS_NODE_STATE_SLIP;
     }
     report->dissipated = dissipated(line);
