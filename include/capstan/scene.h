@@ -176,6 +176,8 @@ typedef struct CpsSolverOptions {
     double path_tolerance;
     int max_halvings; /* how often a step may be halved, for the path or because it does not
                      converge, 0..30, default 10 */
+    bool cold; /* each step is solved from nothing; default false: first by Newton's method from
+                  the step before */
 } CpsSolverOptions;
 
 typedef struct CpsScene {

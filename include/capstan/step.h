@@ -168,6 +168,7 @@ typedef struct CpsLineReport {
     double dissipated;          /* [J] in this step */
     CpsLedger ledger; /* of this step; zero for a line whose start is computed by statics in it */
     int part_count;   /* in which the step was taken, 1 or more */
+    int warm_count;   /* of these, found by Newton's method from the one before (theory.md 6b) */
     double share;   /* of the step that the last part was, which is what the view shows: 1 where it
                        was not cut */
     int snap_count; /* parts in which the line jumped, however small the load */
@@ -212,6 +213,7 @@ typedef struct CpsStepReport {
     double dissipated;          /* [J] */
     CpsLedger ledger;           /* sum of the lines */
     int part_count;             /* largest over the lines */
+    int warm_count;             /* largest over the lines */
     int snap_count;             /* sum of the lines */
     CpsPlaces places;           /* largest over the lines */
     double jump;                /* [m] largest of the lines */

@@ -84,6 +84,12 @@ SENTENCES = [
     ("farther than {} lengths from where the step began", number("cable/line_solve.c", "MAX_DISPLACEMENT")),
     ("The loop runs down to a relative gap of {},", number("cable/line_solve.h", "CPSI_TARGET")),
     ("is not below {} of s0 z0", number("ipm/soc.h", "CPSI_SOC_ROUNDING")),
+    ("of all equations are rounding, {} eps (1 + |u|/l)", number("chain/active_set.c", "ROUNDINGS")),
+    ("between nodes at rest is known to {} eps/l only", number("chain/active_set.c", "COORDINATE_ROUNDINGS")),
+    ("After {} linear systems, or {} without progress,", numbers(("chain/active_set.c", "MOST_STEPS"), ("chain/active_set.c", "PATIENCE"))),
+    ("moreover its gap must be at most {} of its scale", number("cable/line_solve.h", "CPSI_TARGET")),
+    ("A node slips where it has moved by more than {} L on", number(".h", "CPS_TOUCH")),
+    ("its friction is at its bound to {};", number("cable/report.c", "AT_BOUND")),
     ("= 0.0255 x 1 x 9.81 = {} N/m", lambda p: f"{0.0255 * 9.81:.6f}"),
     ("and {} eps of all terms are added", number("drive/certificate.c", "ROUNDING")),
 ]

@@ -20,6 +20,23 @@
 
 typedef struct CpsiFrictionLaw CpsiFrictionLaw; /* friction_law.h */
 
+/* The increments of the loads in a substep. */
+typedef struct CpsiLoadChange {
+    unsigned char known; /* 1: yes */
+    CpsEndKind kind[2];
+    double end[2][3]; /* [m] or [N] */
+    double weight[3]; /* [N/m] */
+    double turn;      /* [rad] the sum over the obstacles */
+} CpsiLoadChange;
+
+/* How Newton's method has fared (warm_step.h). */
+enum { CPSI_NEWTON_PATIENCE = 4 };
+typedef struct CpsiNewtonRecord {
+    int tried, solved; /* programs of the step: tried, and solved */
+    int failures;      /* steps in a row in which it was of no use, up to CPSI_NEWTON_PATIENCE */
+    int pause;         /* steps that are next solved without it */
+} CpsiNewtonRecord;
+
 typedef struct CpsiLine {
     const char *name;
     int n;                   /* nodes, elements + 1 */
@@ -43,6 +60,10 @@ typedef struct CpsiLine {
     CpsEnd end[2];          /* imposed now */
     double *arc_length;     /* (n) [m] */
     double *element_length; /* (n - 1) [m] element e joins nodes e and e + 1 */
+    CpsEnd end_before[2];   /* imposed at the beginning of the substep */
+    /* in the last substep; known where position - reference is its move */
+    CpsiLoadChange last_change;
+    CpsiNewtonRecord newton;
     /* the step */
     double *reference; /* (n, 3) [m] */
     double *position;  /* (n, 3) [m] */

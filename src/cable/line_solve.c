@@ -235,6 +235,36 @@ static double largest_force(const CpsiLine *line) {
     return most;
 }
 
+/* Are the places that the solution of the program leaves unique? With tension in every element and
+ * an end held they are. */
+static bool is_unique(CpsiLine *line, const CpsiChainProgram *program, const CpsiRound *round) {
+    cpsi_places_as_found(line, program);
+    if (line->report.places == CPS_PLACES_UNIQUE && !cpsi_line_both_ends(line, CPS_END_KIND_FREE))
+        return true;
+    if (!round->least) return false;
+    const bool chose = round->least->chose;
+    cpsi_least_motion(line, round->least, program, round->bounds, 0);
+    round->least->chose = chose;
+    return line->report.places == CPS_PLACES_UNIQUE;
+}
+
+/* Solve the program by Newton's method on the active set, where the places are unique. */
+static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
+                                const CpsiStepScale *scale, const CpsiRound *round,
+                                int max_iterations) {
+    cpsi_step_program_fill(line, program, scale);
+    CpsiIpmReport newton = cpsi_warm_step_solve(line, program, scale, round->guess, max_iterations);
+    line->report.iteration_count += newton.iterations;
+    line->newton.tried++;
+    if (newton.outcome != CPSI_IPM_SOLVED) return newton;
+    cpsi_step_program_unpack(line, program, scale);
+    if (is_unique(line, program, round))
+        line->newton.solved++;
+    else
+        newton.outcome = CPSI_IPM_STALLED;
+    return newton;
+}
+
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                               const CpsiStepOptions *options, const CpsiRound *round) {
     const bool taut = cpsi_line_is_taut(line);
@@ -246,6 +276,13 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                            .bounds = round->bounds,
                            .reaction_stiffness = round->reaction_stiffness,
                            .drag = round->drag};
+    if (round->guess != CPSI_GUESS_NONE && round->bounds != CPSI_BOUNDS_TRIAL &&
+        !round->reaction_stiffness && force > 0 && !taut) {
+        const CpsiIpmReport newton =
+            solve_warm(line, program, &scale, round, most_iterations(line, options));
+        if (newton.outcome == CPSI_IPM_SOLVED) return newton;
+    }
+    line->report.warm_count = 0; /* the step is not warm */
     cpsi_step_program_fill(line, program, &scale);
     double loads = 0;
     for (int i = 0; i < 3 * line->n; i++) loads += fabs(program->base.load[i]);

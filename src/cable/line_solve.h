@@ -7,6 +7,7 @@
 #include "cable/line.h"
 #include "cable/step_options.h"
 #include "cable/step_program.h"
+#include "cable/warm_step.h"
 #include "ipm/ipm.h"
 
 /* |distance - L| <= CPSI_TAUT L: an inextensible line is pulled straight, and its tension has no
@@ -41,6 +42,7 @@ typedef struct CpsiRound {
     bool reaction_stiffness; /* reactions turn with their normals */
     bool centering;          /* the loop ends with steps to the centre */
     double drag;             /* [-] (step_program.h) */
+    CpsiGuess guess;         /* from which Newton's method starts before the interior point */
     CpsiLeastMotion *least;  /* scratch memory of the rule of least motion, NULL: not applied */
 } CpsiRound;
 

@@ -109,6 +109,7 @@ static CpsiIpmReport solve_program(CpsiLine *line, CpsiChainProgram *program,
                                    const CpsiStepOptions *options, const CpsiStrategy *strategy,
                                    bool coupled) {
     const CpsiRound round = {.bounds = coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED,
+                             .guess = strategy->guess,
                              .centering = strategy->centering,
                              .least = strategy->least_motion ? options->least : NULL};
     const CpsiIpmReport ipm = cpsi_line_solve(line, program, options, &round);
@@ -137,12 +138,38 @@ static void solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
     }
 }
 
+/* Try the first strategy with Newton's method. False where its answer is not certified, or, if the
+ * method alone has found it, less accurate than that of the loop has to be. */
+static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                       CpsiGuess guess) {
+    CpsiStrategy first = STRATEGY[0];
+    first.guess = guess;
+    if (options->least) options->least->chose = false;
+    if (line->has_local_axes) cpsi_contact_reset(line);
+    line->report.warm_count = 1;
+    line->newton.tried = line->newton.solved = 0;
+    solve_once(line, program, options, &first, conditions(line, options) & ROUNDS);
+    const CpsCertificate *found = &line->report.certificate;
+    const bool good = cps_outcome_is_certified(line->report.outcome) &&
+                      (!line->report.warm_count || found->gap <= CPSI_TARGET * found->scale);
+    cpsi_warm_step_note(line, good);
+    return good;
+}
+
 /* Try the strategies that are of use, until one gives a certified answer. */
 static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
-                                 const CpsiStepOptions *options) {
+                                 const CpsiStepOptions *options, CpsiGuess guess) {
     const size_t contacts = (size_t)cpsi_line_all_contacts(line);
     bool again = false;
-    for (size_t i = 0; i < sizeof STRATEGY / sizeof *STRATEGY; i++) {
+    size_t tried = 0;
+    if (guess != CPSI_GUESS_NONE) {
+        if (solve_warm(line, program, options, guess)) return;
+        again = true;
+        /* one program that the loop has solved in the end is what the first strategy finds */
+        if (!line->report.warm_count && !(conditions(line, options) & ROUNDS)) tried = 1;
+        line->report.warm_count = 0;
+    }
+    for (size_t i = tried; i < sizeof STRATEGY / sizeof *STRATEGY; i++) {
         const CpsiStrategy *strategy = &STRATEGY[i];
         const unsigned found = conditions(line, options);
         if ((found & strategy->when) != strategy->when || (found & strategy->unless)) continue;
@@ -275,6 +302,7 @@ static void report_bend(CpsiLine *line) {
 
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     const CpsLineReport before = line->report;
+    const CpsiGuess guess = cpsi_warm_step_guess(line, program, options);
     report_initial_ends(line);
     store_forces_before(line);
     cpsi_line_set_reference(line, options);
@@ -289,7 +317,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     line->report.certificate = (CpsCertificate){0};
     line->report.outcome = CPS_OUTCOME_SOLVED;
     if (cpsi_line_has_no_equilibrium(line, options)) return;
-    solve_with_fallbacks(line, program, options);
+    solve_with_fallbacks(line, program, options, guess);
     if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
     cpsi_line_pierces(line, &line->report.pierced);

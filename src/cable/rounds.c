@@ -97,6 +97,7 @@ static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program,
 static CpsiRound first_round(const CpsiStepOptions *options, const CpsiStrategy *strategy,
                              CpsiBounds bounds) {
     return (CpsiRound){.bounds = bounds,
+                       .guess = strategy->guess,
                        .reaction_stiffness = strategy->reaction_stiffness,
                        .centering = strategy->centering,
                        .least = strategy->least_motion ? options->least : NULL};
@@ -148,6 +149,9 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             cpsi_contact_update_geometry(line);
         }
         ipm = solve_round(line, program, options, &posed);
+        posed.guess = strategy->guess == CPSI_GUESS_NONE || !cpsi_line_is_clean(&ipm)
+                          ? CPSI_GUESS_NONE
+                          : CPSI_GUESS_BASE;
         if (posed.bounds == CPSI_BOUNDS_COUPLED && !cpsi_line_is_clean(&ipm)) {
             posed.bounds = CPSI_BOUNDS_TRIAL;
             for (int c = 0; c < cpsi_line_all_contacts(line); c++)

@@ -15,9 +15,8 @@
  * without slip, and with forces balanced anew, the same forces add up to slightly more or less. */
 static const double GAP_GROWTH = 10;
 
-/* Does nothing change that could move the line?  Held ends are where they were, obstacles do not
- * turn, and friction is within its bounds. */
-static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) {
+/* Are held ends where they were, and do obstacles not turn? */
+static bool supports_rest(const CpsiLine *line) {
     for (int end = 0; end < 2; end++) {
         const double *at = &line->reference[end == CPS_END_A ? 0 : 3 * (line->n - 1)],
                      *to = line->end[end].value;
@@ -27,6 +26,11 @@ static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) 
     }
     for (int k = 0; k < line->obstacle_count; k++)
         if (line->turn[k] != 0) return false;
+    return true;
+}
+
+/* Is friction within its bounds? */
+static bool friction_holds(const CpsiLine *line, const CpsiStepOptions *options) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3], inside[3];
         const CpsiFrictionLaw *set = &line->friction_law[c];
@@ -49,7 +53,8 @@ static bool nothing_moves(const CpsiLine *line, const CpsiStepOptions *options) 
 bool cpsi_line_stands_still(CpsiLine *line, const CpsiStepOptions *options,
                             const CpsLineReport *before) {
     static const CpsiIpmReport nothing_left = {.outcome = CPSI_IPM_SOLVED};
-    if (!options->least || options->frictionless || !(before->share > 0)) return false;
+    if (!options->least || options->frictionless || !(before->share > 0) || !supports_rest(line))
+        return false;
     line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
     const double left =
         line->report.certificate.force_residual / line->report.certificate.largest_force;
@@ -59,7 +64,7 @@ bool cpsi_line_stands_still(CpsiLine *line, const CpsiStepOptions *options,
         cpsi_balance_forces(line);
         line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
     }
-    if (!nothing_moves(line, options)) return false;
+    if (!friction_holds(line, options)) return false;
     const CpsCertificate *c = &line->report.certificate;
     line->report.outcome = cpsi_line_outcome(line, options, &nothing_left);
     if (!cps_outcome_is_certified(line->report.outcome) ||

@@ -6,6 +6,8 @@
 
 #include <stdbool.h>
 
+#include "cable/warm_step.h"
+
 typedef struct CpsiStrategy {
     unsigned when;     /* conditions (line_step.c) that must all hold for it to be of use */
     unsigned unless;   /* conditions of which none may hold */
@@ -17,7 +19,9 @@ typedef struct CpsiStrategy {
     bool centering;    /* the loop ends with steps to the centre (line_solve.h) */
     bool reaction_stiffness; /* reactions turn with their normals within a round: Newton's method */
     bool trial_bounds;       /* friction bounds are found from round to round instead of coupled */
-    bool drag;               /* a drag may hold the nodes back from round to round */
+    CpsiGuess
+        guess; /* of the first round; later ones start from the one before. None: all are cold */
+    bool drag; /* a drag may hold the nodes back from round to round */
 } CpsiStrategy;
 
 #endif

@@ -22,7 +22,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = "capstan5";
+static const char MAGIC[8] = "capstan6";
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -65,6 +65,14 @@ static void pass_end(Tape *tape, CpsEnd *end) {
     PASS(tape, end->value);
 }
 
+static void pass_load_change(Tape *tape, CpsiLoadChange *change) {
+    PASS(tape, change->known);
+    PASS(tape, change->kind);
+    PASS(tape, change->end);
+    PASS(tape, change->weight);
+    PASS(tape, change->turn);
+}
+
 static void pass_end_report(Tape *tape, CpsEndReport *end) {
     PASS(tape, end->position);
     PASS(tape, end->force);
@@ -96,6 +104,7 @@ static void pass_line_report(Tape *tape, CpsLineReport *report) {
     pass_energies(tape, &report->certificate, &report->ledger);
     PASS(tape, report->dissipated);
     PASS(tape, report->part_count);
+    PASS(tape, report->warm_count);
     PASS(tape, report->share);
     PASS(tape, report->snap_count);
     PASS(tape, report->jump);
@@ -121,6 +130,7 @@ static void pass_step_report(Tape *tape, CpsStepReport *report) {
     pass_energies(tape, &report->certificate, &report->ledger);
     PASS(tape, report->dissipated);
     PASS(tape, report->part_count);
+    PASS(tape, report->warm_count);
     PASS(tape, report->snap_count);
     PASS(tape, report->places);
     PASS(tape, report->jump);
@@ -148,6 +158,9 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     for (int end = 0; end < 2; end++) pass_end(tape, &line->end[end]);
     PASS(tape, line->weight);
     PASS(tape, line->weight_before);
+    pass_load_change(tape, &line->last_change);
+    PASS(tape, line->newton.failures);
+    PASS(tape, line->newton.pause);
     pass_line_report(tape, &line->report);
 }
 
@@ -240,7 +253,8 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
                         (int)evolution->options.contact_policy,
                         solver->max_iterations,
                         (int)solver->linear_system,
-                        solver->max_halvings};
+                        solver->max_halvings,
+                        solver->cold};
     hash_bytes(&hash, what, sizeof what);
     hash_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
     hash_numbers(&hash, 3, evolution->origin);

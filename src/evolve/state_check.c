@@ -49,7 +49,8 @@ static bool is_step_report(const CpsEvolution *evolution) {
     const CpsStepReport *report = &evolution->report;
     return report->index == evolution->done - 1 && is_outcome(report->outcome) &&
            within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
-           report->iteration_count >= 0 && report->part_count >= 0 && report->snap_count >= 0 &&
+           report->iteration_count >= 0 && report->part_count >= 0 && report->warm_count >= 0 &&
+           report->snap_count >= 0 &&
            memchr(evolution->step_name, '\0', sizeof evolution->step_name);
 }
 
@@ -57,12 +58,12 @@ static bool is_step_report(const CpsEvolution *evolution) {
  * turns. */
 static bool is_line_report(const CpsLineReport *report, int obstacles) {
     const bool bends = report->bend.turn > 0 || report->outcome == CPS_OUTCOME_MESH_TOO_COARSE;
-    bool sound = is_outcome(report->outcome) &&
-                 within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
-                 report->iteration_count >= 0 && report->part_count >= 0 &&
-                 report->snap_count >= 0 && within(report->pierced, -1, obstacles - 1) &&
-                 within(report->proof_obstacle, -1, obstacles - 1) &&
-                 within(report->bend.obstacle, 0, bends || obstacles > 0 ? obstacles - 1 : 0);
+    bool sound =
+        is_outcome(report->outcome) && within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
+        report->iteration_count >= 0 && report->part_count >= 0 && report->warm_count >= 0 &&
+        report->snap_count >= 0 && within(report->pierced, -1, obstacles - 1) &&
+        within(report->proof_obstacle, -1, obstacles - 1) &&
+        within(report->bend.obstacle, 0, bends || obstacles > 0 ? obstacles - 1 : 0);
     for (int end = 0; end < 2; end++)
         sound = sound && within(report->end[end].range.kind, 0, RANGES - 1) &&
                 all_finite(report->end[end].force, 3);
@@ -80,10 +81,21 @@ static bool are_contacts(const CpsiLine *line) {
     return true;
 }
 
+static bool is_load_change(const CpsiLoadChange *change) {
+    bool sound = change->known <= 1 && all_finite(change->weight, 3) && isfinite(change->turn);
+    for (int end = 0; end < 2; end++)
+        sound = sound && (change->kind[end] == CPS_END_KIND_HELD || change->kind[end] == CPS_END_KIND_FREE) &&
+                all_finite(change->end[end], 3);
+    return sound;
+}
+
 static bool are_fields(const CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     return all_finite(line->reference, 3 * n) && all_finite(line->position, 3 * n) &&
            all_finite(line->load, 3 * n) && all_finite(line->motion, 3 * n) &&
+           is_load_change(&line->last_change) &&
+           within(line->newton.failures, 0, CPSI_NEWTON_PATIENCE) &&
+           within(line->newton.pause, 0, 1 << CPSI_NEWTON_PATIENCE) &&
            all_finite(line->weight, 3) && all_finite(line->weight_before, 3) &&
            all_finite(line->normal, 3 * contacts) &&
            all_finite(line->friction_force, 3 * contacts) &&

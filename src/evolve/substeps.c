@@ -106,6 +106,7 @@ void cpsi_substeps_restore(CpsiLine *line, const CpsiSubsteps *scratch) {
                contacts * sizeof *line->obstacle_index);
     memcpy(line->report.end, scratch->end, sizeof scratch->end);
     memcpy(line->position, scratch->position, 3 * n * sizeof *line->position);
+    line->last_change.known = false;
 }
 
 /* The result of a part of a step. */
@@ -154,7 +155,10 @@ static void weight_at(const CpsiMove *move, double share, double weight[3]) {
 static void impose(const Advance *substeps, double from, double to) {
     weight_at(substeps->move, from, substeps->line->weight_before);
     weight_at(substeps->move, to, substeps->line->weight);
-    for (int end = 0; end < 2; end++) substeps->line->end[end] = end_at(substeps->move, end, to);
+    for (int end = 0; end < 2; end++) {
+        substeps->line->end_before[end] = end_at(substeps->move, end, from);
+        substeps->line->end[end] = end_at(substeps->move, end, to);
+    }
     for (int k = 0; k < substeps->line->obstacle_count; k++)
         substeps->scratch->turn[k] = (to - from) * substeps->move->angle[k];
 }
@@ -175,6 +179,7 @@ static Part accept(Advance *substeps, double from, double to, bool known) {
     cpsi_line_step(line, substeps->program, substeps->options);
     if (is_answer(line->report.outcome) && cpsi_contact_turns_too_far(line))
         line->report.outcome = CPS_OUTCOME_STALLED;
+    if (!cps_outcome_is_certified(line->report.outcome)) line->last_change.known = false;
     line->report.share = to - from;
     substeps->iterations += line->report.iteration_count;
     Part part = {0};
@@ -191,6 +196,7 @@ static void add(Advance *substeps, const Part *part) {
     const CpsLineReport before = *whole;
     *whole = part->report;
     whole->part_count = before.part_count + 1;
+    whole->warm_count = before.warm_count + part->report.warm_count;
     whole->snap_count = before.snap_count;
     whole->jump = before.jump;
     whole->unaccounted = before.unaccounted;
@@ -350,6 +356,14 @@ static Trial try_part(Advance *substeps, double from, double middle, double to, 
     trial.good = converged(&trial.first);
     if (!trial.good) return trial;
     trial.open = open_energy(substeps, &trial.first, NULL);
+    if (trial.first.report.warm_count > 0 && is_open(&trial.open)) {
+        /* restored, the line has no move to go on from: the part is taken cold */
+        cpsi_substeps_restore(substeps->line, substeps->scratch);
+        trial.first = accept(substeps, from, to, substeps->known);
+        trial.good = converged(&trial.first);
+        if (!trial.good) return trial;
+        trial.open = open_energy(substeps, &trial.first, NULL);
+    }
     if (substeps->options->solver.path_tolerance > 0)
         compare(substeps, from, middle, to, &trial);
     else if (cut && may_branch(substeps) && is_open(&trial.open))
@@ -406,6 +420,7 @@ static bool relax(Advance *substeps, double from, double to) {
     substeps->relaxed++;
     for (int end = 0; end < 2; end++) before[end] = end_at(substeps->move, end, from);
     impose(substeps, from, to);
+    line->last_change.known = false;
     const bool rests = cpsi_line_relax(line, substeps->program, substeps->options, before,
                                        substeps->scratch->turn, substeps->known, &done);
     substeps->iterations += done.iterations;

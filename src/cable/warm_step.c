@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Warm steps (warm_step.h). */
+#include "cable/warm_step.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cable/friction_law.h"
+#include "chain/active_set.h"
+#include "chain/frame.h"
+
+/* The increment of the loads is c times the last one, up to this share of it. */
+static const double SAME_WAY = 0.5;
+/* ... with a ratio c up to this. */
+static const double MOST_RATIO = 4;
+/* An extrapolated tension is at least this share of the last one. */
+static const double LEAST_TENSION = 0.5;
+/* A force is at its bound up to rounding of the interior-point loop. */
+static const double AT_BOUND = 1e-9;
+
+/* The increments of the loads in the substep. */
+static CpsiLoadChange change_of(const CpsiLine *line) {
+    CpsiLoadChange out = {.known = true};
+    for (int end = 0; end < 2; end++) {
+        out.kind[end] = line->end[end].kind;
+        if (line->end_before[end].kind != line->end[end].kind) out.known = false;
+        for (int a = 0; a < 3; a++)
+            out.end[end][a] = line->end[end].value[a] - line->end_before[end].value[a];
+    }
+    for (int a = 0; a < 3; a++) out.weight[a] = line->weight[a] - line->weight_before[a];
+    for (int k = 0; k < line->obstacle_count; k++) out.turn += line->turn[k];
+    return out;
+}
+
+/* <a, b> of two increments, in lengths of the line and forces of the size of its own. */
+static double product(const CpsiLine *line, const CpsiLoadChange *a, const CpsiLoadChange *b) {
+    const double force = line->report.certificate.largest_force;
+    const double by_force = force > 0 ? 1 / force : 1, by_weight = by_force * line->length;
+    double sum = a->turn * b->turn;
+    for (int i = 0; i < 3; i++) {
+        for (int end = 0; end < 2; end++) {
+            const double by = a->kind[end] == CPS_END_KIND_HELD ? 1 / line->length : by_force;
+            sum += by * a->end[end][i] * (by * b->end[end][i]);
+        }
+        sum += by_weight * a->weight[i] * (by_weight * b->weight[i]);
+    }
+    return sum;
+}
+
+/* The factor by which the last move is extrapolated; 0 where the loads do not go on. */
+static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
+    const CpsiLoadChange *last = &line->last_change;
+    if (!last->known || !now->known) return 0;
+    for (int end = 0; end < 2; end++)
+        if (last->kind[end] != now->kind[end]) return 0;
+    const double before = product(line, last, last), along = product(line, last, now),
+                 size = product(line, now, now), ratio = along / before;
+    if (!(before > 0) || !(ratio > 0) || !(ratio <= MOST_RATIO)) return 0;
+    const double aside = size - along * ratio;
+    return aside <= SAME_WAY * SAME_WAY * size ? ratio : 0;
+}
+
+CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
+                               const CpsiStepOptions *options) {
+    const CpsiLoadChange now = change_of(line);
+    const double ratio = ratio_of(line, &now);
+    const bool settled = line->last_change.known;
+    line->last_change = now;
+    if (options->frictionless) line->last_change.known = false;
+    if (!settled || options->frictionless || options->solver.cold) return CPSI_GUESS_NONE;
+    if (line->newton.pause > 0) {
+        line->newton.pause--;
+        return CPSI_GUESS_NONE;
+    }
+    if (!(ratio > 0)) return CPSI_GUESS_REFERENCE;
+    double *shift = program->base.residual, *tension = program->dt;
+    for (int i = 0; i < 3 * line->n; i++)
+        shift[i] = ratio * (line->position[i] - line->reference[i]);
+    for (int i = 1; i < line->n; i++) {
+        const double t = line->tension[i - 1], *x = &line->reference[3 * (i - 1)];
+        const double strain =
+            vec3_norm(vec3_sub(vec3_load(x + 3), vec3_load(x))) / line->element_length[i - 1] - 1;
+        const double before = line->compliance > 0 ? strain / line->compliance : t;
+        tension[i] = fmax(t + ratio * (t - before), LEAST_TENSION * t);
+    }
+    return CPSI_GUESS_EXTRAPOLATED;
+}
+
+/* Move the first guess of the program to `shift` from the base. */
+static void place(const CpsiLine *line, CpsiChainProgram *program, const double *shift) {
+    double before[3] = {0};
+    for (int j = 0; j < line->n; j++) {
+        const double *axes = program->frame ? &program->frame[9 * j] : line->common_axes;
+        double *u = &program->base.u[3 * j], to[3] = {0}, by[3] = {0}, moved[3] = {0};
+        if (shift) {
+            for (int a = 0; a < 3; a++) moved[a] = shift[3 * j + a] / line->length;
+            cpsi_frame_to(to, axes, moved);
+        }
+        for (int a = 0; a < 3 && !program->held[j]; a++) {
+            by[a] = to[a] - u[a];
+            u[a] = to[a];
+        }
+        if (program->frame)
+            cpsi_frame_from(moved, axes, by);
+        else
+            memcpy(moved, by, sizeof moved);
+        for (int a = 0; a < 3; a++) {
+            if (j > 0)
+                program->segment.s[j][1 + a] += (moved[a] - before[a]) / program->segment.length[j];
+            before[a] = moved[a];
+        }
+    }
+}
+
+/* Did friction slip at contact c in the last step or round? */
+static bool slipped(const CpsiLine *line, int c, CpsiGuess guess) {
+    if (guess == CPSI_GUESS_REFERENCE) return false;
+    if (guess == CPSI_GUESS_EXTRAPOLATED) return line->state[c] == CPS_NODE_STATE_SLIP;
+    double f[3], inside[3];
+    const double bound = line->friction_bound[c];
+    cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
+    memcpy(inside, f, sizeof f);
+    cpsi_friction_law_clip(&line->friction_law[c], bound, (1 - AT_BOUND) * bound, inside);
+    return inside[0] != f[0] || inside[1] != f[1];
+}
+
+static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale,
+                        CpsiGuess guess, const double *tension) {
+    CpsiUnilateral *unilateral = &program->unilateral;
+    CpsiFrictionDisc *disc = &program->disc;
+    for (int i = 1; i < line->n; i++)
+        program->segment.z[i][0] = (tension ? tension[i] : line->tension[i - 1]) / scale->force;
+    for (int k = 0; k < unilateral->count; k++) {
+        const int c = unilateral->contact[k];
+        const bool closed =
+            guess == CPSI_GUESS_BASE ? line->active[c] : line->state[c] != CPS_NODE_STATE_FREE;
+        unilateral->z[k] = closed ? line->reaction[c] / (scale->force * unilateral->weight[k]) : 0;
+    }
+    for (int d = 0; d < disc->count; d++) disc->s[d][0] = slipped(line, disc->contact[d], guess);
+}
+
+CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
+                                   const CpsiStepScale *scale, CpsiGuess guess,
+                                   int max_iterations) {
+    const bool extrapolated = guess == CPSI_GUESS_EXTRAPOLATED;
+    place(line, program, extrapolated ? program->base.residual : NULL);
+    guess_pairs(line, program, scale, guess, extrapolated ? program->dt : NULL);
+    return cpsi_chain_active_set(program, max_iterations);
+}
+
+void cpsi_warm_step_note(CpsiLine *line, bool certified) {
+    CpsiNewtonRecord *record = &line->newton;
+    if (certified && 2 * record->solved >= record->tried) {
+        record->failures = 0;
+    } else if (record->failures < CPSI_NEWTON_PATIENCE) {
+        record->failures++;
+    }
+    record->pause = record->failures > 1 ? (1 << record->failures) - 2 : 0;
+}

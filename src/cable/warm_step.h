@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Warm steps: in a history a step resembles the one before. Its program is first solved by Newton's
+ * method on the active set (chain/active_set.h), from the configuration extrapolated by the ratio
+ * of the loads' increments; the interior-point loop is used where that does not converge, or its
+ * answer is not certified (docs/theory.md 6b). */
+#ifndef CAPSTAN_SRC_CABLE_WARM_STEP_H
+#define CAPSTAN_SRC_CABLE_WARM_STEP_H
+
+#include "cable/line.h"
+#include "cable/step_options.h"
+#include "cable/step_program.h"
+#include "ipm/ipm.h"
+
+/* The guess from which a program is solved. */
+typedef enum CpsiGuess {
+    CPSI_GUESS_NONE,         /* the interior-point loop, from its own start */
+    CPSI_GUESS_REFERENCE,    /* at rest at the reference */
+    CPSI_GUESS_EXTRAPOLATED, /* the last move, from the reference */
+    CPSI_GUESS_BASE          /* the solution of the last round, where the base is */
+} CpsiGuess;
+
+/* Before the step, whose loads and reference are still those of the last one: extrapolate the last
+ * move to the new loads. The guess is kept in scratch memory of the program until it is solved.
+ * The reference is the guess where they do not go on as they went. */
+CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
+                               const CpsiStepOptions *options);
+
+/* Solve the program of a round, which has been written, from a guess. The places are unique. */
+CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
+                                   const CpsiStepScale *scale, CpsiGuess guess, int max_iterations);
+
+/* After a step that was solved from a guess: where Newton's method was of no use several times in a
+ * row, the next 2, 6 or 14 steps are solved without it. It was of use if the step is certified and
+ * half of its programs were solved so. */
+void cpsi_warm_step_note(CpsiLine *line, bool certified);
+
+#endif

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Newton's method on the active set (active_set.h; docs/theory.md 6b).
+ *
+ * Unknowns are the displacements u and the tensions T; reactions and friction are what balances the
+ * nodes. With p = T e/|e| the force in an element, g = load - p_i + p_i+1 the force on a node
+ * without that of its contact, the equations are
+ *
+ *     taut element        |e| = 1 + c T              slack        T = 0
+ *     open contact        g = 0                      closed       gap + u_z = 0, R = -g_z
+ *     friction sticks     s = 0, F = -g_xy           slips        F = A tau/|tau|, tau = F - rho s
+ *
+ * with A = mu R where bounds are coupled, s the slip and F = -g_xy (Alart and Curnier 1991; Hueber,
+ * Stadler and Wohlmuth 2008). Which of each pair holds is read from the signs of what the other one
+ * leaves free: T < 0 or |e| > 1, R < 0 or penetration, |F| > A, F.s > 0. Newton's method for the
+ * equations of the present set is one linear system of the chain (active_status.c,
+ * active_system.c). */
+#include "chain/active_set.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "base/larger.h"
+#include "chain/newton.h"
+
+/* More linear systems than this take longer than the interior-point loop. */
+enum { MOST_STEPS = 30 };
+/* Nor do steps without progress pay, so many in which the residual has not fallen to this share of
+ * the least one. */
+enum { PATIENCE = 20 };
+static const double PROGRESS = 0.9;
+/* Rounding in units of the last place: of an elongation or a balance, by a few operations; and of a
+ * force between nodes at rest, by their coordinates and those of the reference. */
+static const double ROUNDINGS = 16, COORDINATE_ROUNDINGS = 64;
+
+static inline void to_node(const CpsiChainProgram *program, int j, double v[3]) {
+    if (!program->frame) return;
+    const double common[3] = {v[0], v[1], v[2]};
+    cpsi_frame_to(v, &program->frame[9 * j], common);
+}
+
+/* The force of each element, the error of its law, |e| - 1 - c T, and the force g on each node. */
+static void measure(CpsiNewton *newton) {
+    CpsiChainProgram *program = newton->program;
+    CpsiSegment *st = &program->segment;
+    double *g = program->base.residual, before[3] = {0}, most = 0;
+    memcpy(g, program->base.load, 3 * (size_t)program->n * sizeof *g);
+    for (int i = 1; i <= program->n; i++) {
+        double after[3] = {0};
+        if (i < program->n) {
+            const double *s = st->s[i], tension = st->z[i][0];
+            const double size = sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]), over = 1 / size;
+            st->inverse_w[i] = over;
+            st->g[i] = size - 1 - st->compliance * tension;
+            for (int a = 0; a < 3; a++) after[a] = tension * over * s[1 + a];
+            if (tension > most) most = tension;
+        }
+        double pull[3] = {after[0] - before[0], after[1] - before[1], after[2] - before[2]};
+        to_node(program, i - 1, pull);
+        for (int a = 0; a < 3; a++) {
+            g[3 * (i - 1) + a] += pull[a];
+            before[a] = after[a];
+        }
+    }
+    newton->force = most > 1 ? most : 1;
+}
+
+static void set_rounding(CpsiNewton *newton) {
+    const CpsiChainProgram *program = newton->program;
+    double shortest = 1, farthest = 0;
+    for (int i = 1; i < program->n; i++) shortest = fmin(shortest, program->segment.length[i]);
+    for (int a = 0; a < 3 * program->n; a++)
+        farthest = cpsi_max_nan(farthest, fabs(program->base.u[a]));
+    newton->rounding = ROUNDINGS * DBL_EPSILON * (1 + farthest / shortest);
+    newton->noise = COORDINATE_ROUNDINGS * DBL_EPSILON * (1 + 1 / shortest);
+}
+
+/* Decide the active set at the present iterate, and set up its linear system. Returns the error of
+ * its equations, elongations and forces per largest force. */
+static double prepare(CpsiNewton *newton, bool first) {
+    newton->changed = false;
+    measure(newton);
+    if (!first) {
+        cpsi_newton_decide(newton);
+        if (newton->changed) measure(newton);
+    }
+    cpsi_newton_assemble(newton);
+    return cpsi_max_nan(newton->strain_error, newton->force_error / newton->force);
+}
+
+/* The pair (s, z) of disc d. */
+static void finish_friction(const CpsiNewton *newton, int d) {
+    const CpsiChainProgram *program = newton->program;
+    const CpsiFrictionDisc *disc = &program->disc;
+    double *s = disc->s[d], *z = disc->z[d];
+    if (!cpsi_newton_rubs(newton, d)) {
+        memset(s, 0, sizeof disc->s[d]);
+        if (program->bounds_coupled) memset(z, 0, sizeof disc->z[d]);
+        return;
+    }
+    const CpsiNodeFriction now = cpsi_newton_friction(program, d);
+    const bool slips = !(newton->status[disc->node[d]] & CPSI_STICKS);
+    /* a force inside its bound is one that sticks (cable/report.c) */
+    const double slid = cpsi_newton_size(now.s), size = cpsi_newton_size(now.f),
+                 most = slips ? now.bound : (1 - 4 * DBL_EPSILON) * now.bound;
+    const double keep = size > most ? most / size : 1;
+    z[0] = now.bound;
+    s[0] = slips ? slid : 0;
+    for (int a = 0; a < 2; a++) {
+        s[1 + a] = slips ? now.s[a] : 0;
+        z[1 + a] = slips && slid > CPSI_LEAST_SLIP ? -now.bound * now.s[a] / slid : keep * now.f[a];
+    }
+}
+
+/* The pairs (s, z) of the solution. */
+static void finish(const CpsiNewton *newton) {
+    const CpsiChainProgram *program = newton->program;
+    const CpsiSegment *st = &program->segment;
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    for (int i = 1; i < program->n; i++) {
+        st->s[i][0] = 1 + st->compliance * st->z[i][0];
+        for (int a = 1; a < 4; a++) st->z[i][a] = -st->z[i][0] * st->inverse_w[i] * st->s[i][a];
+    }
+    for (int k = 0; k < unilateral->count; k++) {
+        const int j = unilateral->node[k];
+        const bool closed =
+            !cpsi_newton_is_other(program, j, k) && (newton->status[j] & CPSI_CLOSED);
+        unilateral->s[k] = closed ? 0 : cpsi_newton_gap(program, k);
+        if (!closed) unilateral->z[k] = 0;
+    }
+    for (int d = 0; d < program->disc.count; d++) finish_friction(newton, d);
+}
+
+/* At most so many steps from the guess, with the matrix prepared for them. */
+static CpsiIpmReport iterate(CpsiNewton *newton, int most) {
+    CpsiChainProgram *program = newton->program;
+    CpsiIpmReport report = {.outcome = CPSI_IPM_STALLED};
+    double least = INFINITY;
+    int waited = 0;
+    for (int step = 0; step <= most; step++) {
+        report.residual = prepare(newton, step == 0);
+        if (newton->lost || !isfinite(report.residual)) break;
+        if (step > 0 && !newton->changed && report.residual <= newton->rounding) {
+            report.outcome = CPSI_IPM_SOLVED;
+            break;
+        }
+        if (report.residual < PROGRESS * least) {
+            least = report.residual;
+            waited = 0;
+        } else if (++waited > PATIENCE) {
+            break;
+        }
+        if (cpsi_interrupt_seen(program->base.interrupt)) break;
+        if (!program->ops->factor(program->linsys, &program->matrix)) break;
+        program->ops->solve(program->linsys, &program->matrix, program->base.du, program->dt,
+                            program->matrix.second ? program->node_frames.second_reaction_change
+                                                   : NULL);
+        report.iterations++;
+        cpsi_newton_advance(newton);
+    }
+    return report;
+}
+
+CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations) {
+    const size_t n = (size_t)program->n;
+    CpsiMatrix *matrix = &program->matrix;
+    const CpsiMatrixSecond *second = matrix->second;
+    const double *share = matrix->share;
+    unsigned char *bytes = (unsigned char *)program->segment.q;
+    CpsiNewton newton = {.program = program,
+                         .status = bytes,
+                         .held = bytes + n,
+                         .taut = bytes + 2 * n};
+    set_rounding(&newton);
+    cpsi_newton_begin(&newton);
+    if (newton.lost) return (CpsiIpmReport){.outcome = CPSI_IPM_STALLED};
+    matrix->held = newton.held;
+    matrix->frame = program->frame;
+    matrix->second = NULL;
+    matrix->share = NULL;
+    const CpsiIpmReport report =
+        iterate(&newton, max_iterations < MOST_STEPS ? max_iterations : MOST_STEPS);
+    matrix->held = program->held;
+    matrix->second = second;
+    matrix->share = share;
+    if (report.outcome == CPSI_IPM_SOLVED) finish(&newton);
+    return report;
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Newton's method on the active set of a program over a chain: which elements are taut, which
+ * contacts are closed, and where friction sticks or slips. From a guess near the solution, as there
+ * is one in a history, it takes a few linear systems where the interior-point loop takes some
+ * twenty (docs/theory.md 6b). */
+#ifndef CAPSTAN_SRC_CHAIN_ACTIVE_SET_H
+#define CAPSTAN_SRC_CHAIN_ACTIVE_SET_H
+
+#include "chain/elements.h"
+#include "ipm/ipm.h"
+
+/* Solve the program from the guess that it holds:
+ *
+ *     base.u                  displacements; those of held nodes are given
+ *     segment.s[i][1..3]      e at base.u
+ *     segment.z[i][0]         tension; 0: the element is slack
+ *     unilateral.z[k]         reaction; 0: the contact is open
+ *     disc.s[k][0]            0: friction sticks
+ *
+ * Where it returns CPSI_IPM_SOLVED, u and all pairs (s, z) are the solution, with complementary
+ * parts that are exactly 0, and forces that balance to rounding. Otherwise the program holds
+ * nothing of use and has to be written again: the method has not converged within a few steps, or
+ * the program has something that it does not treat (friction conics, drag, active second contacts
+ * or contacts of elements, elements without tension that are free to move). Allocates nothing. */
+CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations);
+
+#endif

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The active set of Newton's method (active_set.c): which of each pair holds, read from the sign of
+ * what the other one leaves free. */
+#include <string.h>
+
+#include "chain/newton.h"
+
+/* elements ------------------------------------------------------------------------------------- */
+
+/* Which elements are taut. */
+static void decide_elements(CpsiNewton *newton) {
+    CpsiSegment *st = &newton->program->segment;
+    for (int i = 1; i < newton->program->n; i++) {
+        const bool before = newton->taut[i];
+        bool now = before;
+        if (before && st->z[i][0] < 0) now = false;
+        if (!before && st->g[i] > newton->rounding) now = true;
+        if (now != before) newton->changed = true;
+        newton->taut[i] = now;
+        if (!now) st->z[i][0] = 0;
+        const bool fixed = cpsi_newton_is_fixed(newton, i);
+        if (now ? fixed && st->compliance == 0 : !fixed) newton->lost = true;
+    }
+}
+
+/* contacts ------------------------------------------------------------------------------------- */
+
+/* Move node j by (x, y, z) in its own axes. */
+static void move_node(CpsiNewton *newton, int j, double x, double y, double z) {
+    CpsiChainProgram *program = newton->program;
+    CpsiSegment *st = &program->segment;
+    double by[3] = {x, y, z};
+    if (x == 0 && y == 0 && z == 0) return;
+    for (int a = 0; a < 3; a++) program->base.u[3 * j + a] += by[a];
+    cpsi_newton_to_common(program, j, by);
+    for (int a = 0; a < 3; a++) {
+        if (j > 0) st->s[j][1 + a] += by[a] / st->length[j];
+        if (j + 1 < program->n) st->s[j + 1][1 + a] -= by[a] / st->length[j + 1];
+    }
+}
+
+/* Move the node of unilateral contact k onto its surface. */
+static void close_contact(CpsiNewton *newton, int k) {
+    const CpsiUnilateral *unilateral = &newton->program->unilateral;
+    const int j = unilateral->node[k];
+    newton->status[j] |= CPSI_CLOSED;
+    move_node(newton, j, 0, 0, -unilateral->gap[k] - newton->program->base.u[3 * j + 2]);
+}
+
+/* Move the node of disc d back to where it has not slipped. */
+static void stick(CpsiNewton *newton, int d) {
+    const int j = newton->program->disc.node[d];
+    const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
+    newton->status[j] |= CPSI_STICKS;
+    move_node(newton, j, -now.s[0] / now.b[0], -now.s[1] / now.b[1], 0);
+}
+
+/* Is the map of disc d diagonal and regular, and the disc the only one of its node? */
+static bool is_plain(const CpsiFrictionDisc *disc, int d) {
+    if (d > 0 && disc->node[d - 1] == disc->node[d]) return false;
+    if (!disc->map) return true;
+    const double *b = disc->map[d];
+    return b[0] > 0 && b[4] > 0 && b[1] == 0 && b[2] == 0 && b[3] == 0 && b[5] == 0;
+}
+
+/* Which nodes cannot move. */
+static void note_held(CpsiNewton *newton) {
+    for (int j = 0; j < newton->program->n; j++) {
+        const unsigned char all = CPSI_CLOSED | CPSI_STICKS | CPSI_LANDS | CPSI_STOPS,
+                            rests = CPSI_CLOSED | CPSI_STICKS;
+        newton->held[j] = newton->program->held[j] || (newton->status[j] & all) == rests;
+    }
+}
+
+/* The status of friction that the guess gives. False where it is of a kind that is not treated. */
+static bool begin_friction(CpsiNewton *newton, int d) {
+    const CpsiChainProgram *program = newton->program;
+    const CpsiFrictionDisc *disc = &program->disc;
+    if (cpsi_newton_is_other(program, disc->node[d], disc->unilateral[d]))
+        return program->bounds_coupled;
+    if (!is_plain(disc, d)) return false;
+    newton->status[disc->node[d]] |= CPSI_RUBS;
+    if (cpsi_newton_rubs(newton, d) && !(disc->s[d][0] > 0)) stick(newton, d);
+    return true;
+}
+
+void cpsi_newton_begin(CpsiNewton *newton) {
+    CpsiChainProgram *program = newton->program;
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    const CpsiFrictionDisc *disc = &program->disc;
+    newton->lost = program->conic.count > 0 || program->drag > 0;
+    memset(newton->status, 0, (size_t)program->n);
+    memset(disc->q, 0, (size_t)disc->count * sizeof *disc->q);
+    for (int i = 1; i < program->n; i++) newton->taut[i] = program->segment.z[i][0] > 0;
+    for (int k = 0; k < unilateral->count && !newton->lost; k++) {
+        if (!(unilateral->z[k] > 0)) continue;
+        newton->lost = cpsi_newton_is_other(program, unilateral->node[k], k);
+        if (!newton->lost) close_contact(newton, k);
+    }
+    for (int d = 0; d < disc->count && !newton->lost; d++)
+        newton->lost = !begin_friction(newton, d);
+    note_held(newton);
+    if (program->segment.compliance > 0) return;
+    for (int i = 1; i < program->n && !newton->lost; i++)
+        newton->lost = newton->taut[i] && cpsi_newton_is_fixed(newton, i);
+}
+
+/* Which contacts are closed; R of those. */
+static void decide_contacts(CpsiNewton *newton) {
+    const CpsiChainProgram *program = newton->program;
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++) {
+        const int j = unilateral->node[k];
+        const double gap = cpsi_newton_gap(program, k);
+        if (cpsi_newton_is_other(program, j, k)) {
+            newton->lost = newton->lost || gap < -newton->rounding;
+            continue;
+        }
+        const double force = -program->base.residual[3 * j + 2];
+        unsigned char *status = &newton->status[j];
+        if ((*status & CPSI_CLOSED) && (*status & CPSI_LANDS)) {
+            *status &= (unsigned char)~CPSI_LANDS;
+            close_contact(newton, k);
+            newton->changed = true;
+        }
+        if (*status & CPSI_CLOSED) {
+            unilateral->z[k] = force > 0 ? force / unilateral->weight[k] : 0;
+            if (force >= -newton->noise * newton->force) continue;
+            *status &= CPSI_RUBS;
+            newton->changed = true;
+        } else if (gap < -newton->rounding) {
+            *status |= CPSI_CLOSED | CPSI_LANDS;
+            unilateral->z[k] = force > 0 ? force / unilateral->weight[k] : 0;
+            newton->changed = true;
+        }
+    }
+}
+
+/* Let disc d slip in the direction of -f. */
+static void release(CpsiNewton *newton, int d, const double f[2]) {
+    const double size = cpsi_newton_size(f);
+    newton->status[newton->program->disc.node[d]] &= (unsigned char)~CPSI_STICKS;
+    for (int a = 0; a < 2; a++) newton->program->disc.q[d][1 + a] = f[a] / size;
+    newton->changed = true;
+}
+
+/* The force on disc d, which sticks, exceeds its bound: the excess will be carried by what its
+ * neighbours can still take, and those that cannot take it slip too. */
+static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction *now) {
+    const CpsiChainProgram *program = newton->program;
+    const CpsiFrictionDisc *disc = &program->disc;
+    const double size = cpsi_newton_size(now->f);
+    for (int way = -1; way <= 1; way += 2) {
+        double left = disc->weight[d] * (size - now->bound);
+        for (int e = d + way; e >= 0 && e < disc->count; e += way) {
+            const int j = disc->node[e];
+            if (j != disc->node[e - way] + way || !(newton->status[j] & CPSI_STICKS)) break;
+            const CpsiNodeFriction next = cpsi_newton_friction(program, e);
+            const double along = (next.f[0] * now->f[0] + next.f[1] * now->f[1]) / size;
+            left -= disc->weight[e] * (next.bound - along);
+            if (left <= 0) break;
+            release(newton, e, cpsi_newton_size(next.f) > 0 ? next.f : now->f);
+        }
+    }
+}
+
+/* Where friction sticks. A node that lands slips at first. */
+static void decide_friction(CpsiNewton *newton) {
+    const CpsiChainProgram *program = newton->program;
+    const CpsiFrictionDisc *disc = &program->disc;
+    for (int d = 0; d < disc->count; d++) {
+        if (!cpsi_newton_rubs(newton, d)) continue;
+        unsigned char *status = &newton->status[disc->node[d]];
+        const CpsiNodeFriction now = cpsi_newton_friction(program, d);
+        if (*status & CPSI_STOPS) {
+            *status &= (unsigned char)~CPSI_STOPS;
+            stick(newton, d);
+            newton->changed = true;
+        }
+        if (*status & CPSI_STICKS) {
+            if (disc->weight[d] * (cpsi_newton_size(now.f) - now.bound) <=
+                newton->noise * newton->force)
+                continue;
+            release(newton, d, now.f);
+            release_neighbours(newton, d, &now);
+        } else if (now.s[0] * now.f[0] + now.s[1] * now.f[1] > 0) {
+            *status |= CPSI_STICKS | CPSI_STOPS;
+            newton->changed = true;
+        }
+    }
+}
+
+void cpsi_newton_decide(CpsiNewton *newton) {
+    decide_contacts(newton);
+    decide_friction(newton);
+    note_held(newton);
+    decide_elements(newton);
+}

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The linear system of Newton's method on the active set (active_set.c), for the equations of the
+ * present set. Nodes that stick are held, the normal of a closed contact is stiff, and friction
+ * that follows its reaction is the part without symmetry. */
+#include "base/larger.h"
+#include "chain/newton.h"
+
+/* An element between nodes that move keeps at least this share of its tension in a step. */
+static const double LEAST_TENSION = 0.1;
+/* The stiffness of a direction in which a node is held: its inverse vanishes beside any
+ * compliance. */
+static const double RIGID = 1e30;
+/* The stiffness that moves a node to where its new status wants it: far beyond those of elements,
+ * and such that its product with a displacement keeps digits of the force. */
+static const double PULLING = 1e12;
+/* rho, per stiffness of the line across itself at the node: of the order of one. Beyond a hundred
+ * it decides by slips that are still far from the solution, below one the direction of a slip
+ * follows forces that are. */
+static const double SLIP_STIFFNESS = 10;
+
+static void load_elements(CpsiNewton *newton) {
+    CpsiChainProgram *program = newton->program;
+    const CpsiSegment *st = &program->segment;
+    CpsiMatrix *matrix = &program->matrix;
+    for (int i = 1; i < program->n; i++) {
+        const double l = st->length[i], over = st->inverse_w[i], tension = st->z[i][0];
+        const double share = 1 - st->compliance * tension * over;
+        for (int a = 0; a < 3; a++) matrix->direction[3 * i + a] = st->s[i][1 + a] * over;
+        if (newton->taut[i]) {
+            if (!(share > 0)) newton->lost = true;
+            matrix->stiffness[i] = tension * over / l;
+            matrix->compliance[i] = st->compliance * l / share;
+            program->dt[i] = fabs(st->g[i]) <= newton->rounding && cpsi_newton_is_fixed(newton, i)
+                                 ? 0
+                                 : -st->g[i] * l / share;
+            newton->strain_error = cpsi_max_nan(newton->strain_error, fabs(st->g[i]));
+        } else {
+            matrix->stiffness[i] = 0;
+            matrix->compliance[i] = RIGID;
+            program->dt[i] = 0;
+        }
+    }
+}
+
+/* The direction of friction on disc d, and what the linear system needs of it. */
+typedef struct Direction {
+    double q[2];   /* tau/|tau|, or opposite to the slip */
+    double across; /* stiffness across it */
+    double by;     /* factor of the error across it */
+} Direction;
+
+/* tau = f - rho s, with rho the stiffness of the line across itself. Where tau lies within the
+ * bound, the direction is that of the slip, or that in which the node was released. */
+static Direction direction_of(const CpsiNewton *newton, int d, const CpsiNodeFriction *now) {
+    const CpsiChainProgram *program = newton->program;
+    const double *stiffness = program->matrix.stiffness, *last = &program->disc.q[d][1];
+    const int j = program->disc.node[d];
+    const double before = j > 0 ? stiffness[j] : 0,
+                 after = j + 1 < program->n ? stiffness[j + 1] : 0,
+                 rho = SLIP_STIFFNESS * (before + after) / program->disc.weight[d];
+    const double tau[2] = {now->f[0] - rho * now->s[0], now->f[1] - rho * now->s[1]};
+    const double size = cpsi_newton_size(tau), slid = cpsi_newton_size(now->s),
+                 beyond = size - now->bound;
+    Direction out = {.q = {last[0], last[1]}, .by = 1};
+    if (beyond > now->bound * rho / RIGID) {
+        for (int a = 0; a < 2; a++) out.q[a] = tau[a] / size;
+        out.across = now->bound * rho / beyond;
+        out.by = size / beyond;
+        return out;
+    }
+    if (slid > 0 && now->s[0] * last[0] + now->s[1] * last[1] <= 0)
+        for (int a = 0; a < 2; a++) out.q[a] = -now->s[a] / slid;
+    out.across = slid > now->bound / RIGID ? now->bound / slid : RIGID;
+    return out;
+}
+
+/* The rows of a node whose friction slips: f - A q = 0. Along q it is A, which may follow the
+ * reaction; across, a change of the slip turns q. */
+static void load_slip(CpsiNewton *newton, int d) {
+    CpsiChainProgram *program = newton->program;
+    const CpsiFrictionDisc *disc = &program->disc;
+    const int j = disc->node[d];
+    const double weight = disc->weight[d];
+    const CpsiNodeFriction now = cpsi_newton_friction(program, d);
+    const Direction to = direction_of(newton, d, &now);
+    const double *q = to.q, *b = now.b, along = now.f[0] * q[0] + now.f[1] * q[1];
+    const double slid = cpsi_newton_size(now.s), certain = slid / (slid + CPSI_LEAST_SLIP);
+    const double stiffness = weight * to.across;
+    double *diagonal = &program->matrix.diagonal[6 * j], *f = &program->base.du[3 * j];
+    diagonal[0] = stiffness * b[0] * b[0] * q[1] * q[1];
+    diagonal[1] = -stiffness * b[0] * b[1] * q[0] * q[1];
+    diagonal[2] = stiffness * b[1] * b[1] * q[0] * q[0];
+    for (int a = 0; a < 2; a++) {
+        const double rest = now.f[a] - along * q[a], error = (along - now.bound) * q[a];
+        f[a] = -weight * b[a] * (error + to.by * rest);
+        newton->force_error =
+            cpsi_max_nan(newton->force_error, weight * b[a] * fabs(error + certain * rest));
+        if (program->bounds_coupled)
+            program->matrix.skew[2 * j + a] = b[a] * q[a] * disc->friction[d] * diagonal[5];
+        disc->q[d][1 + a] = q[a];
+    }
+}
+
+/* The rows of all nodes without what friction adds; the errors of those where none acts. */
+static void load_nodes(CpsiNewton *newton) {
+    CpsiChainProgram *program = newton->program;
+    double error = 0;
+    for (int j = 0; j < program->n; j++) {
+        double *diagonal = &program->matrix.diagonal[6 * j], *f = &program->base.du[3 * j];
+        const double *g = &program->base.residual[3 * j];
+        const int status = newton->status[j];
+        const bool rubs =
+            (status & CPSI_RUBS) && (!program->bounds_coupled || (status & CPSI_CLOSED));
+        for (int a = 0; a < 6; a++) diagonal[a] = 0;
+        for (int a = 0; a < 2; a++) program->matrix.skew[2 * j + a] = 0;
+        for (int a = 0; a < 3; a++) f[a] = g[a];
+        if (newton->held[j]) continue;
+        if (status & CPSI_CLOSED) {
+            diagonal[5] = status & CPSI_LANDS ? PULLING : RIGID;
+            f[2] = 0;
+        }
+        if (status & CPSI_STICKS) diagonal[0] = diagonal[2] = status & CPSI_STOPS ? PULLING : RIGID;
+        if (rubs) f[0] = f[1] = 0;
+        for (int a = 0; a < 3; a++) error = cpsi_max_nan(error, fabs(f[a]));
+    }
+    newton->force_error = error;
+}
+
+/* What friction and landing nodes add to the rows of their nodes. */
+static void load_contacts(CpsiNewton *newton) {
+    CpsiChainProgram *program = newton->program;
+    const CpsiFrictionDisc *disc = &program->disc;
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    double *f = program->base.du;
+    for (int d = 0; d < disc->count; d++) {
+        const int j = disc->node[d];
+        if (newton->held[j < program->n ? j : 0] || !cpsi_newton_rubs(newton, d)) continue;
+        if (!(newton->status[j] & CPSI_STICKS)) {
+            load_slip(newton, d);
+        } else if (newton->status[j] & CPSI_STOPS) {
+            const CpsiNodeFriction now = cpsi_newton_friction(program, d);
+            for (int a = 0; a < 2; a++) f[3 * j + a] = -PULLING * now.s[a] / now.b[a];
+        }
+    }
+    for (int k = 0; k < unilateral->count; k++) {
+        const int j = unilateral->node[k];
+        if (cpsi_newton_is_other(program, j, k) || !(newton->status[j] & CPSI_LANDS)) continue;
+        const double to = -unilateral->gap[k] - program->base.u[3 * j + 2];
+        f[3 * j + 2] = PULLING * to;
+        for (int a = 0; a < 2; a++) f[3 * j + a] += program->matrix.skew[2 * j + a] * to;
+    }
+}
+
+void cpsi_newton_assemble(CpsiNewton *newton) {
+    newton->strain_error = 0;
+    load_elements(newton);
+    load_nodes(newton);
+    load_contacts(newton);
+}
+
+void cpsi_newton_advance(CpsiNewton *newton) {
+    CpsiChainProgram *program = newton->program;
+    CpsiSegment *st = &program->segment;
+    double before[3] = {0};
+    for (int j = 0; j < program->n; j++) {
+        double *x = &program->base.du[3 * j], v[3] = {x[0], x[1], x[2]};
+        for (int a = 0; a < 3; a++) program->base.u[3 * j + a] += x[a];
+        cpsi_newton_to_common(program, j, v);
+        if (j > 0) {
+            const double *m = &program->matrix.direction[3 * j];
+            double along = 0;
+            for (int a = 0; a < 3; a++) {
+                const double d = v[a] - before[a];
+                st->s[j][1 + a] += d / st->length[j];
+                along += m[a] * d;
+            }
+            if (newton->taut[j]) {
+                const double least =
+                    cpsi_newton_is_fixed(newton, j) ? -1 : LEAST_TENSION * st->z[j][0];
+                st->z[j][0] = fmax(least, st->z[j][0] + program->dt[j] +
+                                              program->matrix.stiffness[j] * along);
+            }
+        }
+        for (int a = 0; a < 3; a++) before[a] = v[a];
+    }
+}

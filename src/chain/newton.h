@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the parts of Newton's method on the active set share (active_set.h): the state of one
+ * solution, and what its contacts are like at the present iterate. */
+#ifndef CAPSTAN_SRC_CHAIN_NEWTON_H
+#define CAPSTAN_SRC_CHAIN_NEWTON_H
+
+#include <math.h>
+
+#include "chain/chain_program.h"
+#include "chain/frame.h"
+
+/* A slip shorter than this, per length of the line, has no direction (CPS_TOUCH). */
+#define CPSI_LEAST_SLIP 1e-9
+
+/* Bits of a node's status: its contact is closed; friction may act; friction sticks; the node has
+ * just landed, or stopped, and is not yet where that wants it. */
+enum { CPSI_CLOSED = 1, CPSI_RUBS = 2, CPSI_STICKS = 4, CPSI_LANDS = 8, CPSI_STOPS = 16 };
+
+/* Of one solution. The bytes lie in an array of the interior-point loop that is not used here. */
+typedef struct CpsiNewton {
+    CpsiChainProgram *program;
+    unsigned char *status;            /* (n) */
+    unsigned char *held;              /* (n) the node cannot move in this set */
+    unsigned char *taut;              /* (n) element i */
+    double rounding;                  /* of an elongation, and of a force per largest force */
+    double noise;                     /* the same of a force between nodes at rest */
+    double force;                     /* the largest force */
+    double strain_error, force_error; /* of the equations, at most */
+    bool changed;                     /* the active set has changed */
+    bool lost;                        /* there is something that this method does not treat */
+} CpsiNewton;
+
+static inline void cpsi_newton_to_common(const CpsiChainProgram *program, int j, double v[3]) {
+    if (!program->frame) return;
+    const double own[3] = {v[0], v[1], v[2]};
+    cpsi_frame_from(v, &program->frame[9 * j], own);
+}
+
+/* Does element i lie between two nodes that cannot move? */
+static inline bool cpsi_newton_is_fixed(const CpsiNewton *newton, int i) {
+    return newton->held[i - 1] && newton->held[i];
+}
+
+static inline double cpsi_newton_size(const double v[2]) { return sqrt(v[0] * v[0] + v[1] * v[1]); }
+
+/* The friction of a node in its tangent plane, for one disc: f = F/(w b), s = o + b u. */
+typedef struct CpsiNodeFriction {
+    double b[2], s[2], f[2];
+    double bound; /* A */
+} CpsiNodeFriction;
+
+static inline CpsiNodeFriction cpsi_newton_friction(const CpsiChainProgram *program, int d) {
+    const CpsiFrictionDisc *disc = &program->disc;
+    const int j = disc->node[d];
+    const double *u = &program->base.u[3 * j], *g = &program->base.residual[3 * j];
+    CpsiNodeFriction out = {.b = {1, 1}};
+    for (int a = 0; a < 2; a++) {
+        if (disc->map) out.b[a] = disc->map[d][4 * a];
+        out.s[a] = out.b[a] * u[a] + (disc->offset ? disc->offset[d][a] : 0);
+        out.f[a] = -g[a] / (disc->weight[d] * out.b[a]);
+    }
+    out.bound = program->bounds_coupled
+                    ? disc->friction[d] * program->unilateral.z[disc->unilateral[d]]
+                    : disc->z[d][0];
+    return out;
+}
+
+/* Is this the contact of an element, or the second one of its node? */
+static inline bool cpsi_newton_is_other(const CpsiChainProgram *program, int node, int k) {
+    return node >= program->n ||
+           (k >= 0 && program->unilateral.normal && program->unilateral.second[k]);
+}
+
+/* May friction act on disc d? */
+static inline bool cpsi_newton_rubs(const CpsiNewton *newton, int d) {
+    const CpsiChainProgram *program = newton->program;
+    const int j = program->disc.node[d];
+    if (cpsi_newton_is_other(program, j, program->disc.unilateral[d])) return false;
+    return !program->bounds_coupled || (newton->status[j] & CPSI_CLOSED);
+}
+
+/* The gap of unilateral contact k. */
+static inline double cpsi_newton_gap(const CpsiChainProgram *program, int k) {
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    const int j = unilateral->node[k];
+    if (j >= program->n) cpsi_chain_point_place(program, j - program->n, program->base.u);
+    return unilateral->gap[k] + cpsi_unilateral_rise(unilateral, k, program->base.u);
+}
+
+/* active_status.c */
+
+/* The active set of the guess; nodes are moved to where it wants them. */
+void cpsi_newton_begin(CpsiNewton *newton);
+
+/* Change the active set where the present iterate violates it. */
+void cpsi_newton_decide(CpsiNewton *newton);
+
+/* active_system.c */
+
+/* Set up the linear system of the present set, and find the errors of its equations. */
+void cpsi_newton_assemble(CpsiNewton *newton);
+
+/* u and T by the solution of the linear system. */
+void cpsi_newton_advance(CpsiNewton *newton);
+
+#endif
