@@ -12,7 +12,7 @@
 #include "capstan/io.h"
 
 typedef struct Tally {
-    int steps, iterations, uncertified;
+    int steps, iterations, uncertified, warm;
     double seconds, gap, friction, dissipated, force[3];
 } Tally;
 
@@ -32,6 +32,7 @@ static Tally run(const CpsScene *scene) {
         tally.iterations += report.iteration_count;
         tally.seconds += report.wall;
         tally.dissipated += report.dissipated;
+        tally.warm += report.warm_count == report.part_count;
         tally.uncertified += !cps_outcome_is_certified(report.outcome);
         tally.gap = fmax(tally.gap, report.certificate.gap / report.certificate.scale);
         tally.friction = fmax(tally.friction, report.certificate.friction_residual /
@@ -62,10 +63,11 @@ int main(int argc, char **argv) {
         if (next.seconds < best.seconds) best = next;
     }
     printf("steps,elements,iterations,seconds,ms_per_step,worst_gap,worst_friction_residual,"
-           "uncertified,last_lateral_N,dissipated_J\n");
-    printf("%d,%d,%d,%.4f,%.4f,%.1e,%.1e,%d,%.1f,%.1f\n", best.steps, scene->line[0].element_count,
-           best.iterations, best.seconds, 1e3 * best.seconds / best.steps, best.gap, best.friction,
-           best.uncertified, best.force[1], best.dissipated);
+           "uncertified,last_lateral_N,dissipated_J,warm\n");
+    printf("%d,%d,%d,%.4f,%.4f,%.1e,%.1e,%d,%.1f,%.1f,%d\n", best.steps,
+           scene->line[0].element_count, best.iterations, best.seconds,
+           1e3 * best.seconds / best.steps, best.gap, best.friction, best.uncertified,
+           best.force[1], best.dissipated, best.warm);
     cps_scene_file_destroy(file);
     return 0;
 }
