@@ -84,8 +84,10 @@ static bool are_contacts(const CpsiLine *line) {
 static bool is_load_change(const CpsiLoadChange *change) {
     bool sound = change->known <= 1 && all_finite(change->weight, 3) && isfinite(change->turn);
     for (int end = 0; end < 2; end++)
-        sound = sound && (change->kind[end] == CPS_END_KIND_HELD || change->kind[end] == CPS_END_KIND_FREE) &&
-                all_finite(change->end[end], 3);
+        sound =
+            sound &&
+            (change->kind[end] == CPS_END_KIND_HELD || change->kind[end] == CPS_END_KIND_FREE) &&
+            all_finite(change->end[end], 3);
     return sound;
 }
 
