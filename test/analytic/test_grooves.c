@@ -29,7 +29,7 @@ static void must(CpsStatus status, const CpsError *err) {
     fail();
 }
 
-static CpsSceneFile *read_scene(const char *format, ...) {
+__attribute__((format(printf, 1, 2))) static CpsSceneFile *read_scene(const char *format, ...) {
     char path[] = "capstan-grooves-XXXXXX";
     const int fd = mkstemp(path);
     assert_true(fd >= 0);

@@ -50,14 +50,14 @@ static char directory[] = "capstan-given-XXXXXX", result[64], copy[64];
 static CpsSceneFile *scene;
 
 /* A scene file into results in `where`. `parts`: of its first step, if not NULL. */
-static int run(const char *text, const char *where, CpsSceneFile **read, int *parts) {
+static CpsStatus run(const char *text, const char *where, CpsSceneFile **read, int *parts) {
     CpsError err = {0};
     CpsEvolution *evolution = NULL;
     CpsResults *results = NULL;
     char yaml[80];
     snprintf(yaml, sizeof yaml, "%s/scene.yaml", where);
     FILE *out = fopen(yaml, "w");
-    if (!out || fputs(text, out) < 0 || fclose(out) != 0) return -1;
+    if (!out || fputs(text, out) < 0 || fclose(out) != 0) return CPS_ERR_IO;
     CpsStatus status = cps_scene_read(yaml, NULL, read, &err);
     if (!status) status = cps_evolution_create(cps_scene_file_scene(*read), &evolution, &err);
     if (!status) status = cps_results_prepare(where, true, &err); /* the scene lies there */
@@ -82,7 +82,7 @@ static int solve(void **state) {
     if (!mkdtemp(directory)) return -1;
     snprintf(result, sizeof result, "%s/result.nc", directory);
     snprintf(copy, sizeof copy, "%s/copy.nc", directory);
-    return run(SCENE, directory, &scene, NULL);
+    return run(SCENE, directory, &scene, NULL) != CPS_OK;
 }
 
 static int clean(void **state) {

@@ -133,9 +133,9 @@ static void refuses_each_wrong_count_and_kind(void **state) {
     BAD(w.line[1].cookie = 0);
     BAD(w.obstacle[1].cookie = 0);
     /* unknown kinds */
-    BAD(w.obstacle[0].kind = -1);
+    BAD(w.obstacle[0].kind = (CpsObstacleKind)-1);
     BAD(w.obstacle[0].kind = 99);
-    BAD(w.line[0].start.kind = -1);
+    BAD(w.line[0].start.kind = (CpsStartKind)-1);
     BAD(w.line[0].start.kind = 99);
     BAD(w.line[0].end[0].kind = 99);
     BAD(w.change[0].to.kind = 99);
