@@ -86,7 +86,10 @@ static void *replace(const char *name, void *found) {
     return found;
 }
 
-void *__wrap_dlopen(const char *path, int how) { return none ? NULL : __real_dlopen(path, how); }
+/* none of this name: the linker says why */
+void *__wrap_dlopen(const char *path, int how) {
+    return __real_dlopen(none ? "libnetcdf-is-not-here.so" : path, how);
+}
 void *__wrap_dlsym(void *handle, const char *name) {
     if (asked++ == lacks) return NULL;
     return replace(name, __real_dlsym(handle, name));
@@ -119,6 +122,7 @@ static void no_library(void **state) {
     if (run(&err) == CPS_OK) skip(); /* built as shared libraries it cannot be reached */
     assert_int_equal(err.status, CPS_ERR_IO);
     assert_non_null(strstr(err.message, "without"));
+    assert_non_null(strstr(err.message, "libnetcdf-is-not-here.so"));
 }
 
 static void a_function_is_missing(void **state) {

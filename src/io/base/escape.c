@@ -44,10 +44,11 @@ static bool is_control(const char *text, size_t length) {
 const char *cpsi_number(char out[CPSI_NUMBER_SIZE], double x) {
     out[0] = '\0';
     if (!isfinite(x)) return out;
-    for (int digits = 15; digits <= 17; ++digits) {
+    for (int digits = 15; digits < 17; ++digits) {
         snprintf(out, CPSI_NUMBER_SIZE, "%.*g", digits, x);
-        if (strtod(out, NULL) == x) break;
+        if (strtod(out, NULL) == x) return out;
     }
+    snprintf(out, CPSI_NUMBER_SIZE, "%.17g", x); /* always suffices */
     return out;
 }
 
