@@ -26,6 +26,15 @@ static const char SCENE[] = "results-few.yaml", OUT[] = "results-few";
     ", 1]}}, ends: {A: held, B: held}}}\n"
 #define PULL "history:\n  - {rope.B: {move: [0, 0, 0.1]}, steps: 2}\n"
 
+static CpsStatus take_steps(CpsEvolution *evolution, CpsResults *results, CpsError *err) {
+    CpsStatus status = CPS_OK;
+    while (!status && cps_evolution_remaining_count(evolution) > 0) {
+        status = cps_evolution_step(evolution, err);
+        if (!status) status = cps_results_append(results, evolution, err);
+    }
+    return status;
+}
+
 /* Run `text`, all of its steps or none, into OUT. */
 static CpsStatus run(const char *text, bool steps, CpsError *err) {
     FILE *out = fopen(SCENE, "w");
@@ -39,10 +48,7 @@ static CpsStatus run(const char *text, bool steps, CpsError *err) {
     if (!status) status = cps_evolution_create(cps_scene_file_scene(file), &evolution, err);
     if (!status)
         status = cps_results_open(OUT, cps_scene_file_scene(file), evolution, NULL, &results, err);
-    while (!status && steps && cps_evolution_remaining_count(evolution) > 0) {
-        status = cps_evolution_step(evolution, err);
-        if (!status) status = cps_results_append(results, evolution, err);
-    }
+    if (!status && steps) status = take_steps(evolution, results, err);
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
     if (!status) assert_int_equal(cps_results_write_summary(results, 0, full, err), CPS_ERR_IO);

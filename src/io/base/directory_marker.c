@@ -32,9 +32,10 @@ static CpsStatus fail_name(const char *path, const char *name, CpsError *err) {
 
 /* names ---------------------------------------------------------------------------------------- */
 
+/* `end` begins with its only dot. */
 static bool ends_with(const char *name, const char *end) {
-    const size_t length = strlen(name), more = strlen(end);
-    return length > more && strcmp(name + length - more, end) == 0;
+    const char *dot = strrchr(name, '.');
+    return dot && strcmp(dot, end) == 0;
 }
 
 bool cpsi_marker_knows(const char *name) {
@@ -149,10 +150,11 @@ bool cpsi_marker_is_alone(int folder) {
 CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, CpsError *err) {
     CpsStatus status = CPS_OK;
     DIR *listing = list_folder(folder);
-    const char *name = listing ? next_name(listing) : NULL;
-    for (; name && status == CPS_OK; name = next_name(listing))
-        if (cpsi_marker_knows(name)) status = cpsi_names_add(&marker->written, name, err);
-    if (!name && status == CPS_OK && errno != 0)
+    const char *name;
+    if (listing)
+        while (status == CPS_OK && (name = next_name(listing)) != NULL)
+            if (cpsi_marker_knows(name)) status = cpsi_names_add(&marker->written, name, err);
+    if (status == CPS_OK && errno != 0)
         status =
             cpsi_fail(err, CPS_ERR_IO, "cannot list the directory of results: %s", strerror(errno));
     if (listing) closedir(listing);

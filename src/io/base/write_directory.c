@@ -36,7 +36,7 @@ enum { TEMPORARY_SIZE = CPSI_NAME_SIZE };
 static CpsStatus fail_path(const CpsiDirectory *directory, const char *name, int code,
                            CpsError *err) {
     return cpsi_fail(err, CPS_ERR_IO, "cannot write %s/%s: %s; earlier results are kept",
-                     directory->path, name, code ? strerror(code) : "the write failed");
+                     directory->path, name, strerror(code));
 }
 
 static void temporary_name(char out[TEMPORARY_SIZE], const char *name) {

@@ -21,7 +21,7 @@ static bool is_kept(const CpsResults *results, int step) {
 }
 
 void cpsi_snapshot_free(CpsiSnapshot *snapshot) {
-    if (snapshot->shape) free(snapshot->shape[0].position);
+    free(snapshot->shape[0].position);
     free(snapshot->shape);
     *snapshot = (CpsiSnapshot){0};
 }
