@@ -9,8 +9,8 @@
  *     [ E  0   0  ] [-dy] = - values,     H = sum over rays of (l/|s1|) A1'(1 - n n')A1
  *     [ G  0   0  ] [-dm]
  *
- * which is regular where x, y and z are unique; EASE on the diagonals keeps the other unknowns
- * where they are.
+ * which is regular where x, y and z are unique; a small number on the diagonals keeps the other
+ * unknowns where they are. Refinement removes it from the others, as in sparse_system.c.
  *
  * For a cone that is hardly active, or whose force is far smaller than the others, the loop may end
  * with the wrong activity. Newton's steps then leave the cone; the side on which they do shows the
@@ -25,7 +25,13 @@
 #include "conic/sparse_program.h"
 #include "linalg/dense.h"
 
-static const double EASE = 1e-10;
+/* The numbers added to the diagonals, in the order tried. Constraints that are weak beside others
+ * need a small one. The factor's growth goes with its inverse square, so that on large programs the
+ * first can lose all digits; the second loses half of them, which refinement restores. */
+static const double EASE[] = {1e-10, 3e-8};
+/* A step that leaves more than it is to remove is not one. Those between are kept, since along weak
+ * constraints Newton's next steps remove what refinement has left. */
+static const double ROUGH = 1;
 enum { STEPS = 4, ROUNDS = 6 };
 /* Number of times the assumed activity of cones may be corrected. */
 enum { TRIALS = 4 };
@@ -46,6 +52,8 @@ typedef struct Polish {
     int *index;
     size_t entries;
     double *value;
+    double ease;  /* what is added to the diagonals of `value` */
+    size_t tried; /* the first of EASE that has not failed */
     signed char *sign;
     CpsiLdl *ldl;
     double *at, *step, *left, *fix; /* (size) */
@@ -97,6 +105,7 @@ static bool begin(Polish *p) {
         program->free_place + (size_t)(d->unknowns + d->equations) + d->start[d->equations];
     p->multipliers = 0;
     p->left_some = false;
+    p->tried = 0;
     memcpy(p->other, p->active, (size_t)cones->count * sizeof *p->other);
     Walk w = {0};
     for (int k = 0; k < cones->count; k++) {
@@ -213,18 +222,18 @@ static bool write_matrix(Polish *p) {
         if (size > largest) largest = size;
         for (int j = 0; j < d->block[k].unknowns; j++) {
             p->start[column++] = at;
-            for (int i = 0; i <= j; i++) add_entry(p, &at, first + i, i == j ? EASE : 0);
+            for (int i = 0; i <= j; i++) add_entry(p, &at, first + i, i == j ? p->ease : 0);
         }
     }
     for (; column < d->unknowns; column++) {
         p->start[column] = at;
-        add_entry(p, &at, column, EASE);
+        add_entry(p, &at, column, p->ease);
     }
     for (int i = 0; i < d->equations; i++, column++) {
         p->start[column] = at;
         for (size_t e = d->start[i]; e < d->start[i + 1]; e++)
             add_entry(p, &at, d->column[e], d->value[e]);
-        add_entry(p, &at, column, -EASE);
+        add_entry(p, &at, column, -p->ease);
     }
     double *g = malloc(largest * sizeof *g);
     if (!g) return false;
@@ -237,7 +246,7 @@ static bool write_matrix(Polish *p) {
             p->start[column] = at;
             for (int j = 0; j < n; j++)
                 add_entry(p, &at, w.x + j, g[(size_t)r * (size_t)n + (size_t)j]);
-            add_entry(p, &at, column, -EASE);
+            add_entry(p, &at, column, -p->ease);
         }
     } while (next(d, &w));
     p->start[column] = at;
@@ -245,34 +254,56 @@ static bool write_matrix(Polish *p) {
     return true;
 }
 
-/* out -= matrix x, without EASE */
+/* out -= matrix x, without what eases it */
 static void subtract_product(const Polish *p, const double *x, double *out) {
     for (int j = 0; j < p->size; j++)
         for (size_t e = p->start[j]; e < p->start[j + 1]; e++) {
             const int i = p->index[e];
-            const double value = i == j ? p->value[e] - EASE * p->sign[j] : p->value[e];
+            const double value = i == j ? p->value[e] - p->ease * p->sign[j] : p->value[e];
             out[i] -= value * x[j];
             if (i != j) out[j] -= value * x[i];
         }
 }
 
-/* step = matrix^-1 left, with iterative refinement */
-static bool solve(Polish *p) {
-    if (!write_matrix(p)) return false;
-    if (!p->ldl) {
-        const CpsiPattern pattern = {.n = p->size, .start = p->start, .index = p->index};
-        size_t entries;
-        p->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &entries);
-    }
-    if (!p->ldl || !cpsi_ldl_factor(p->ldl, p->value, p->sign, 1e-3 * EASE)) return false;
-    memset(p->step, 0, (size_t)p->size * sizeof *p->step);
+/* The largest absolute value; NaN where one is. */
+static double largest_of(int n, const double *x) {
+    double most = 0;
+    for (int i = 0; i < n; i++) most = cpsi_max_nan(most, fabs(x[i]));
+    return most;
+}
+
+/* step = matrix^-1 left with the present factor and iterative refinement. Returns the relative
+ * residual. */
+static double refine(Polish *p) {
+    const size_t size = (size_t)p->size;
+    const double whole = largest_of(p->size, p->left);
+    memset(p->step, 0, size * sizeof *p->step);
+    memcpy(p->fix, p->left, size * sizeof *p->fix);
     for (int round = 0; round < ROUNDS; round++) {
-        memcpy(p->fix, p->left, (size_t)p->size * sizeof *p->fix);
-        subtract_product(p, p->step, p->fix);
         cpsi_ldl_solve(p->ldl, p->fix);
         for (int i = 0; i < p->size; i++) p->step[i] += p->fix[i];
+        memcpy(p->fix, p->left, size * sizeof *p->fix);
+        subtract_product(p, p->step, p->fix);
     }
-    return true;
+    return whole > 0 ? largest_of(p->size, p->fix) / whole : 0;
+}
+
+/* step = matrix^-1 left; false where no regularisation gives one, or when memory does not
+ * suffice. */
+static bool solve(Polish *p) {
+    for (; p->tried < sizeof EASE / sizeof *EASE; p->tried++) {
+        p->ease = EASE[p->tried];
+        if (!write_matrix(p)) return false;
+        if (!p->ldl) {
+            const CpsiPattern pattern = {.n = p->size, .start = p->start, .index = p->index};
+            size_t entries;
+            p->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &entries);
+        }
+        if (!p->ldl) return false;
+        if (cpsi_ldl_factor(p->ldl, p->value, p->sign, 1e-3 * p->ease) && refine(p) <= ROUGH)
+            return true;
+    }
+    return false;
 }
 
 /* Newton's steps with the present activities. A point is accepted if it is admissible and its
@@ -317,7 +348,7 @@ static void doubt(Polish *p) {
     p->left_some = true;
 }
 
-void cpsi_sparse_polish(CpsiSparseProgram *program, double residual) {
+double cpsi_sparse_polish(CpsiSparseProgram *program, double residual) {
     const CpsiCones *cones = &program->core.cones;
     Polish p = {.program = program, .best = INFINITY};
     double largest = 0;
@@ -325,7 +356,7 @@ void cpsi_sparse_polish(CpsiSparseProgram *program, double residual) {
         largest = fmax(largest, fabs(program->core.base.u[j]));
     p.enough = fmax(residual, ROUNDING * (1 + largest));
     p.active = cones->count > 0 ? malloc(2 * (size_t)cones->count * sizeof *p.active) : NULL;
-    if (!p.active) return;
+    if (!p.active) return INFINITY;
     p.other = p.active + cones->count;
     CPSI_FOR_CONES(k, i, cones->count, cones->dim)
         p.active[k] = cpsi_active(&cones->s[i], &cones->z[i], cones->dim[k]);
@@ -337,4 +368,5 @@ void cpsi_sparse_polish(CpsiSparseProgram *program, double residual) {
         memcpy(p.active, p.other, (size_t)cones->count * sizeof *p.active);
     }
     free(p.active);
+    return p.best;
 }

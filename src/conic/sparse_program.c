@@ -26,8 +26,9 @@ typedef struct Regular {
     double held, loose; /* blocks and equations; free unknowns */
 } Regular;
 static const Regular REGULAR[] = {{3e-8, 1e-9}, {3e-8, 1e-7}, {1e-10, 1e-9}, {1e-10, 1e-12}};
-/* The next regularisation is tried above this merit, in units of 1 + the largest unknown; a
- * successful run ends at the rounding of that unknown. */
+/* The next regularisation is tried while gap plus residual of the run's best iterate and of the
+ * polished answer are both above this, in units of 1 + the largest unknown, to whose rounding a
+ * successful run comes. */
 static const double SOUND = 1e-14;
 /* Limit for the entries of the factor: 6 GB. */
 static const size_t MOST_ENTRIES = (size_t)500 << 20;
@@ -205,25 +206,34 @@ static void regularise(CpsiSparseProgram *program, const Regular *with) {
     }
 }
 
+/* Replace a solution by the polished one, where there is one. */
+static void polish(CpsiSparseProgram *program, CpsiConicResult *result) {
+    if (result->outcome != CPSI_CONIC_SOLVED) return;
+    const double residual = cpsi_sparse_polish(program, result->residual);
+    result->residual = fmin(result->residual, residual);
+    result->gap = fabs(cpsi_dot(program->core.cones.rows, result->s, result->z));
+}
+
 CpsiConicResult cpsi_sparse_program_solve(CpsiSparseProgram *program, double accept) {
     const CpsiIpmOptions options = {.target = TARGET,
                                     .scale = DBL_MIN,
                                     .max_iterations = MAX_ITERATIONS};
     CpsiHomogeneous *core = &program->core;
+    CpsiConicResult result;
+    bool accepted = false, sound = false;
     cpsi_homogeneous_begin(core);
-    for (size_t k = 0; k < sizeof REGULAR / sizeof *REGULAR; k++) {
+    for (size_t k = 0; k < sizeof REGULAR / sizeof *REGULAR && !sound; k++) {
         regularise(program, &REGULAR[k]);
         cpsi_ipm_solve(&core->base, &options); /* keeps the best iterate of all runs */
+        result = cpsi_homogeneous_result(core);
         double largest = 0;
-        for (int j = 0; j < core->unknowns; j++) largest = fmax(largest, fabs(core->best[j]));
-        largest /= core->best[cpsi_homogeneous_tau(core)];
-        if (core->found.gap + core->found.residual <= SOUND * (1 + largest)) break;
-    }
-    CpsiConicResult result = cpsi_homogeneous_result(core);
-    const bool accepted = result.residual <= accept && result.gap <= accept;
-    if (result.outcome == CPSI_CONIC_SOLVED) {
-        cpsi_sparse_polish(program, result.residual);
-        result.gap = fabs(cpsi_dot(core->cones.rows, result.s, result.z));
+        for (int j = 0; j < core->unknowns; j++) largest = fmax(largest, fabs(result.x[j]));
+        const double enough = SOUND * (1 + largest);
+        sound = result.gap + result.residual <= enough;
+        accepted = result.residual <= accept && result.gap <= accept;
+        polish(program, &result);
+        sound = sound || result.gap + result.residual <= enough;
+        accepted = accepted || (result.residual <= accept && result.gap <= accept);
     }
     if (!accepted) result.outcome = CPSI_CONIC_FAILED;
     return result;
