@@ -18,7 +18,6 @@
 
 #include <string.h>
 
-#include "cable/friction_law.h"
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
 

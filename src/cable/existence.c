@@ -7,7 +7,6 @@
 #include <math.h>
 
 #include "cable/contact.h"
-#include "cable/friction_law.h"
 #include "cable/line_solve.h"
 
 /* Ends farther apart than an inextensible line is long: a constant force along the ends is a

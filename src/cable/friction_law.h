@@ -6,21 +6,13 @@
 #define CAPSTAN_SRC_CABLE_FRICTION_LAW_H
 
 #include "cable/friction_set.h"
-#include "cable/line.h"
 
-struct CpsiFrictionLaw {
+typedef struct CpsiFrictionLaw {
     double friction; /* [-] the larger coefficient, 1 for a general set: w = friction R */
     double ratio[2]; /* of the coefficients along the two tangents to it, 0..1, the larger is 1 */
     bool box;
     const CpsiFrictionSet *given; /* NULL: ellipse or box */
-};
-
-/* The law of contact c of a line, by the obstacle that it is with and its place on the line. */
-CpsiFrictionLaw cpsi_friction_law(const CpsiLine *line, int c);
-
-/* Lay out line->friction_law, the law of every contact: when contacts have been detected or moved
- * along the line, once per round. */
-void cpsi_line_lay_out_friction(CpsiLine *line);
+} CpsiFrictionLaw;
 
 /* phi(u) + <F, u> >= 0 [J], of a force F in the set and a slip u, both in the tangent axes;
  * computed without cancellation except for a general set. */

@@ -3,7 +3,6 @@
 #include "cable/line.h"
 
 #include "base/larger.h"
-#include "cable/friction_law.h"
 
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
@@ -121,4 +120,34 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         line->state[j] = CPS_NODE_STATE_STICK;
         if (line->has_local_axes) line->obstacle_index[j] = on;
     }
+}
+
+/* The factor of the friction zones at contact c: that of its node, or between those of its
+ * element's nodes. */
+static double zone_factor(const CpsiLine *line, int c) {
+    const int e = cpsi_line_element(line, c);
+    if (!line->friction_factor) return 1;
+    if (e < 0) return line->friction_factor[cpsi_line_node(line, c)];
+    return (1 - line->beta[e]) * line->friction_factor[e] +
+           line->beta[e] * line->friction_factor[e + 1];
+}
+
+CpsiFrictionLaw cpsi_line_friction_law(const CpsiLine *line, int c) {
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    const CpsiFrictionSet *given =
+        obstacle && obstacle->has_set ? line->friction_set[obstacle - line->obstacle] : NULL;
+    if (!obstacle || (obstacle->has_set && !given)) return (CpsiFrictionLaw){.ratio = {1, 1}};
+    const double factor = zone_factor(line, c);
+    if (obstacle->has_set) return (CpsiFrictionLaw){.friction = factor, .given = given};
+    const double *mu = obstacle->friction, friction = fmax(mu[0], mu[1]),
+                 by = friction > 0 ? 1 / friction : 0;
+    return (
+        CpsiFrictionLaw){.friction = factor * friction,
+                         .ratio = {friction > 0 ? mu[0] * by : 1, friction > 0 ? mu[1] * by : 1},
+                         .box = obstacle->shape == CPS_FRICTION_SHAPE_BOX};
+}
+
+void cpsi_line_lay_out_friction(CpsiLine *line) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++)
+        line->friction_law[c] = cpsi_line_friction_law(line, c);
 }

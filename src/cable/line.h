@@ -14,11 +14,9 @@
 
 #include "base/arena.h"
 #include "cable/anderson.h"
-#include "cable/friction_set.h"
+#include "cable/friction_law.h"
 #include "capstan/step.h"
 #include "geometry/obstacle.h"
-
-typedef struct CpsiFrictionLaw CpsiFrictionLaw; /* friction_law.h */
 
 /* The increments of the loads in a substep. */
 typedef struct CpsiLoadChange {
@@ -223,5 +221,12 @@ double cpsi_line_pierces(const CpsiLine *line, int *obstacle);
  * from its own strain (S90 section 2 d 2). Sets reaction and state at `position`; nodes nearer than
  * `touch` [m] touch. */
 void cpsi_line_start_reaction(CpsiLine *line, double touch);
+
+/* The law of contact c of a line, by the obstacle that it is with and its place on the line. */
+CpsiFrictionLaw cpsi_line_friction_law(const CpsiLine *line, int c);
+
+/* Lay out line->friction_law, the law of every contact: when contacts have been detected or moved
+ * along the line, once per round. */
+void cpsi_line_lay_out_friction(CpsiLine *line);
 
 #endif

@@ -119,7 +119,7 @@ static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     line->reaction[j] = up;
     vec3_store(&line->normal[3 * j], n);
     if (line->has_local_axes) line->obstacle_index[j] = on;
-    line->friction_law[j] = cpsi_friction_law(line, j);
+    line->friction_law[j] = cpsi_line_friction_law(line, j);
     line->state[j] =
         CPS_NODE_STATE_STICK; /* if it is released in the next step, it starts with this friction */
     const Vec3 friction = half_friction(line, end, on, n, up);

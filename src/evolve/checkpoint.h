@@ -4,7 +4,7 @@
 #ifndef CAPSTAN_SRC_EVOLVE_CHECKPOINT_H
 #define CAPSTAN_SRC_EVOLVE_CHECKPOINT_H
 
-#include "evolve/evolution.h"
+#include "evolve/state.h"
 
 /* A hash of the constant data of an evolution, which in all likelihood differs between scenes. */
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution);

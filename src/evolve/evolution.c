@@ -17,14 +17,15 @@
 #include "base/status.h"
 #include "cable/tension_field.h"
 #include "evolve/checkpoint.h"
-#include "evolve/evolution.h"
 #include "evolve/friction_zone.h"
 #include "evolve/ledger.h"
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
 #include "evolve/path_check.h"
 #include "evolve/start.h"
+#include "evolve/state.h"
 #include "evolve/statics.h"
+#include "evolve/view.h"
 
 /* create --------------------------------------------------------------------------------------- */
 

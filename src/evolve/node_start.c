@@ -8,7 +8,6 @@
 
 #include "base/status.h"
 #include "base/vec3.h"
-#include "cable/friction_law.h"
 #include "evolve/friction_zone.h"
 #include "geometry/obstacle.h"
 
@@ -182,7 +181,7 @@ void cpsi_node_start(CpsiLine *line, const CpsLine *def) {
         if (start->reaction) {
             line->reaction[j] = start->reaction[j];
         } else if (start->friction_bound) {
-            const double friction = cpsi_friction_law(line, j).friction;
+            const double friction = cpsi_line_friction_law(line, j).friction;
             line->reaction[j] = friction > 0 ? start->friction_bound[j] / friction : 0;
         } else {
             line->reaction[j] = balance(line, def, j, cpsi_obstacle_normal(&line->obstacle[on], x));

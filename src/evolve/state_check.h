@@ -4,7 +4,7 @@
 #ifndef CAPSTAN_SRC_EVOLVE_STATE_CHECK_H
 #define CAPSTAN_SRC_EVOLVE_STATE_CHECK_H
 
-#include "evolve/evolution.h"
+#include "evolve/state.h"
 
 /* Check counters, indices, kinds and numbers of an evolution against their ranges. Returns a
  * description of the fault, or NULL. */

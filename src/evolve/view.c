@@ -2,8 +2,6 @@
 /* The views of the lines of an evolution (view.h). */
 #include "evolve/view.h"
 
-#include "evolve/evolution.h"
-
 void cpsi_view_layout(CpsiViewFill *fill, CpsiArena *arena, int n) {
     fill->zero = CPSI_TAKE(arena, 3 * n, double);
     fill->one = CPSI_TAKE(arena, n, double);

@@ -3,17 +3,7 @@
 #ifndef CAPSTAN_SRC_EVOLVE_VIEW_H
 #define CAPSTAN_SRC_EVOLVE_VIEW_H
 
-#include "base/arena.h"
-#include "cable/line.h"
-
-/* Arrays of equal entries for what a line does not have; shared by all lines, whose largest number
- * of nodes is n. */
-typedef struct CpsiViewFill {
-    double *zero;         /* (3 n) 0 */
-    double *one;          /* (n) 1 */
-    int *first, *none;    /* (n) 0: the first obstacle; -1: none */
-    unsigned char *state; /* (n) CPS_NODE_STATE_FREE */
-} CpsiViewFill;
+#include "evolve/state.h"
 
 /* Place the arrays for lines of up to n nodes in the arena; then write their entries. */
 void cpsi_view_layout(CpsiViewFill *fill, CpsiArena *arena, int n);

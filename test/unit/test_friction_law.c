@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Ellipse and box of friction forces: dissipation is the support function, the gap is phi + F.u and
  * not less than 0, clipped forces are in the set, room keeps them there. */
-#include "cable/friction_law.h"
+#include "cable/line.h"
 
 #include "check.h"
 
@@ -15,7 +15,7 @@ static CpsiFrictionLaw make(double first, double second, bool box) {
     const CpsiObstacle o = cpsi_obstacle(&def);
     const CpsiLine line = {.obstacle_count = 1,
                            .obstacle = &o}; /* of one obstacle, without zones */
-    return cpsi_friction_law(&line, 0);
+    return cpsi_line_friction_law(&line, 0);
 }
 
 /* The point of the set's boundary at parameter t, with bound w of the larger coefficient. */
@@ -38,7 +38,7 @@ static void ratios(void **state) {
     set = make(0, 0, false);
     CHECK_NEAR(set.friction, 0, 0);
     const CpsiLine nowhere = {.obstacle_count = 0};
-    set = cpsi_friction_law(&nowhere, 0);
+    set = cpsi_line_friction_law(&nowhere, 0);
     CHECK_NEAR(set.friction, 0, 0);
 }
 

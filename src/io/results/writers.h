@@ -15,7 +15,7 @@ void cpsi_summary_write(const CpsResults *results, double wall, FILE *out);
 CpsStatus cpsi_summary_file(const CpsResults *results, double wall, FILE *out, CpsError *err);
 void cpsi_history_write(const CpsResults *results, FILE *out);
 
-/* netcdf.c: result.nc. `turn` is (obstacles) [rad], their turns in the step. */
+/* netcdf_run.c: result.nc. `turn` is (obstacles) [rad], their turns in the step. */
 CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution,
                            const CpsResultsOptions *options, CpsiNetcdf **out, CpsError *err);
 CpsStatus cpsi_netcdf_append(CpsiNetcdf *netcdf, const CpsEvolution *evolution, const double *turn,

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The data of an evolution. */
-#ifndef CAPSTAN_SRC_EVOLVE_EVOLUTION_H
-#define CAPSTAN_SRC_EVOLVE_EVOLUTION_H
+#ifndef CAPSTAN_SRC_EVOLVE_STATE_H
+#define CAPSTAN_SRC_EVOLVE_STATE_H
 
 #include "cable/force_set.h"
 #include "cable/friction_set.h"
 #include "cable/least_motion.h"
 #include "capstan/evolve.h"
 #include "evolve/substeps.h"
-#include "evolve/view.h"
 
 enum { CPSI_STEP_NAME = 96 };
 
@@ -25,6 +24,15 @@ typedef struct CpsiEvolutionStage {
     CpsTurn *turn;
     double from[3], to[3]; /* [m/s2] gravity before the stage and after it */
 } CpsiEvolutionStage;
+
+/* Arrays of equal entries for what a line does not have; shared by all lines, whose largest number
+ * of nodes is n. */
+typedef struct CpsiViewFill {
+    double *zero;         /* (3 n) 0 */
+    double *one;          /* (n) 1 */
+    int *first, *none;    /* (n) 0: the first obstacle; -1: none */
+    unsigned char *state; /* (n) CPS_NODE_STATE_FREE */
+} CpsiViewFill;
 
 struct CpsEvolution {
     CpsiArena arena;
