@@ -147,7 +147,6 @@ static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
     if (options->least) options->least->chose = false;
     if (line->has_local_axes) cpsi_contact_reset(line);
     line->report.warm_count = 1;
-    line->newton.tried = line->newton.solved = 0;
     solve_once(line, program, options, &first, conditions(line, options) & ROUNDS);
     const CpsCertificate *found = &line->report.certificate;
     const bool good = cps_outcome_is_certified(line->report.outcome) &&
@@ -165,8 +164,8 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
     if (guess != CPSI_GUESS_NONE) {
         if (solve_warm(line, program, options, guess)) return;
         again = true;
-        /* one program that the loop has solved in the end is what the first strategy finds */
-        if (!line->report.warm_count && !(conditions(line, options) & ROUNDS)) tried = 1;
+        /* where Newton's method has solved no program, this was the first strategy */
+        if (line->newton.solved == 0) tried = 1;
         line->report.warm_count = 0;
     }
     for (size_t i = tried; i < sizeof STRATEGY / sizeof *STRATEGY; i++) {

@@ -65,6 +65,7 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
     const CpsiLoadChange now = change_of(line);
     const double ratio = ratio_of(line, &now);
     const bool settled = line->last_change.known;
+    line->newton.tried = line->newton.solved = 0;
     line->last_change = now;
     if (options->frictionless) line->last_change.known = false;
     if (!settled || options->frictionless || options->solver.cold) return CPSI_GUESS_NONE;

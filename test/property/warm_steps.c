@@ -16,7 +16,7 @@
  *   - a warm step leaves a larger gap than GAP of its scale,
  *   - a node that slips lacks more of its bound in the warm step than in the cold one, beyond
  * rounding,
- *   - the resumed step has other bits,
+ *   - the resumed step has other bits, or a warm run accepts a state of the cold one as its own,
  *   - the first scene has fewer warm steps than --least says. */
 #include <math.h>
 #include <stdio.h>
@@ -121,6 +121,7 @@ static bool compare_step(CpsEvolution *const run[3], unsigned char *state, unsig
     CpsError err;
     if (cps_evolution_remaining_count(run[0]) == 0) return false;
     cps_evolution_save(run[0], state);
+    tally->failed += cps_evolution_load(run[1], state, size, &err) == CPS_OK;
     for (int k = 1; k < 3; k++) {
         /* the head of a state names the settings it was made with: this run's are other ones */
         cps_evolution_save(run[k], own);
