@@ -24,7 +24,7 @@
 
 #include "capstan/capstan.h"
 
-enum { MOST_SIZES = 32, MOST_REPEATS = 101, FULL = 1000 };
+enum { MOST_SIZES = 32, MOST_REPEATS = 101 };
 
 /* Unless told how often: repeat until this much time is spent on a size, but at least three
  * times. */
@@ -40,8 +40,6 @@ static const char usage[] =
     "  --elements LIST   numbers of elements, with commas\n"
     "                    (default 100,1000,10000,100000,1000000)\n"
     "  --repeat R        repeats per size, 1..101   (default: for about two seconds, at least 3)\n"
-    "  --stop TOL        stop at the first iteration that is certified at TOL, instead of the\n"
-    "                    smallest gap reached\n"
     "  --table           a table for reading, instead of CSV\n"
     "  --check           exit 1 unless all are solved, from 1000 elements on time per element\n"
     "                    stays within a factor of 1.6, and from 10000 on memory within 1000 bytes\n"
@@ -54,7 +52,6 @@ typedef struct Options {
     const char *name, *dump;
     int sizes, repeat;
     int elements[MOST_SIZES];
-    double stop;
     bool table, check, stream;
 } Options;
 
@@ -72,9 +69,10 @@ static void die(const char *what, const char *detail) {
     exit(1);
 }
 
+/* Of the processor, not of what else the machine does. */
 static double seconds(void) {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
@@ -143,50 +141,21 @@ static void setup_fill(Setup *setup, const Case *which, int elements) {
     setup->scene.stage_count = 1;
 }
 
-/* Run the history to its last step, the one that counts. `good` is cleared when a step before it is
- * not solved. */
-static CpsEvolution *run(const Case *which, int elements, double tolerance, int limit, bool *good) {
+/* Run the history to its last step, the one that counts, and set `spent` to the time of that
+ * step. */
+static CpsEvolution *run(const Case *which, int elements, double *spent) {
     Setup setup;
     CpsError err;
     CpsEvolution *evolution;
     setup_fill(&setup, which, elements);
-    if (tolerance > 0) setup.scene.solver.tolerance = tolerance;
-    setup.scene.solver.max_iterations = limit;
     if (cps_evolution_create(&setup.scene, &evolution, &err) != CPS_OK)
         die(which->name, err.message);
-    *good = true;
     while (cps_evolution_remaining_count(evolution) > 0) {
+        const double begin = seconds();
         if (cps_evolution_step(evolution, &err) != CPS_OK) die(which->name, err.message);
-        *good = *good && (cps_evolution_remaining_count(evolution) == 0 ||
-                          cps_evolution_report(evolution).outcome == CPS_OUTCOME_SOLVED);
+        *spent = seconds() - begin;
     }
     return evolution;
-}
-
-static bool certified(const Case *which, int elements, double tolerance, int limit) {
-    bool good;
-    CpsEvolution *evolution = run(which, elements, tolerance, limit, &good);
-    good = good && cps_evolution_report(evolution).outcome == CPS_OUTCOME_SOLVED;
-    cps_evolution_destroy(evolution);
-    return good;
-}
-
-/* The least iteration limit at which the step is certified at `tolerance`. */
-static int least_limit(const Case *which, int elements, double tolerance) {
-    if (tolerance <= 0 || !certified(which, elements, tolerance, FULL)) return FULL;
-    int fails = 0, works = 1;
-    while (works < FULL && !certified(which, elements, tolerance, works)) {
-        fails = works;
-        works *= 2;
-    }
-    while (works - fails > 1) {
-        const int middle = (works + fails) / 2;
-        if (certified(which, elements, tolerance, middle))
-            works = middle;
-        else
-            fails = middle;
-    }
-    return works;
 }
 
 /* measure -------------------------------------------------------------------------------------- */
@@ -204,22 +173,20 @@ static double peak_bytes(void) {
 
 /* Peak memory per element of one evolution; a small one before it brings in code and libraries. */
 static double memory_per_element(const Case *which, int elements) {
-    certified(which, 10, 0, FULL);
+    double unused;
+    cps_evolution_destroy(run(which, 10, &unused));
     const double before = peak_bytes();
-    certified(which, elements, 0, FULL);
+    cps_evolution_destroy(run(which, elements, &unused));
     return (peak_bytes() - before) / elements;
 }
 
 static Row measure(const Case *which, int elements, const Options *options) {
     Row row = {.elements = elements, .bytes = memory_per_element(which, elements)};
-    double wall[MOST_REPEATS];
-    const int limit = least_limit(which, elements, options->stop);
+    double spent[MOST_REPEATS];
     const double begin = seconds();
     do {
-        bool good;
-        CpsEvolution *evolution = run(which, elements, options->stop, limit, &good);
+        CpsEvolution *evolution = run(which, elements, &spent[row.repeats++]);
         const CpsStepReport report = cps_evolution_report(evolution);
-        wall[row.repeats++] = report.wall;
         row.outcome = report.outcome;
         row.iterations = report.iteration_count;
         row.gap = report.certificate.gap / report.certificate.scale;
@@ -228,9 +195,9 @@ static Row measure(const Case *which, int elements, const Options *options) {
     } while (options->repeat ? row.repeats < options->repeat
                              : row.repeats < 3 || (row.repeats < MOST_REPEATS &&
                                                    seconds() - begin < REPEAT_SECONDS));
-    qsort(wall, (size_t)row.repeats, sizeof *wall, ascending);
-    row.seconds = wall[row.repeats / 2];
-    row.least = wall[0];
+    qsort(spent, (size_t)row.repeats, sizeof *spent, ascending);
+    row.seconds = spent[row.repeats / 2];
+    row.least = spent[0];
     return row;
 }
 
@@ -276,7 +243,7 @@ static void print_head(bool table) {
                "   gap/S  residual B/element  outcome\n");
     else
         printf(
-            "case,elements,repeats,iterations,wall_median_ms,wall_min_ms,us_per_node_iteration,us_"
+            "case,elements,repeats,iterations,median_ms,min_ms,us_per_node_iteration,us_"
             "per_element,gap_over_scale,force_residual_relative,peak_bytes_per_element,outcome\n");
 }
 
@@ -384,12 +351,11 @@ static void write_view(FILE *out, const CpsLineView *view, const Row *row) {
 }
 
 static void dump(const Case *which, int elements, const Options *options) {
-    bool good;
-    const int limit = least_limit(which, elements, options->stop);
-    CpsEvolution *evolution = run(which, elements, options->stop, limit, &good);
+    double spent;
+    CpsEvolution *evolution = run(which, elements, &spent);
     const CpsStepReport report = cps_evolution_report(evolution);
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
-    const Row row = {.iterations = report.iteration_count, .seconds = report.wall};
+    const Row row = {.iterations = report.iteration_count, .seconds = spent};
     FILE *out = fopen(options->dump, "w");
     if (!out) die("cannot write", options->dump);
     write_view(out, &view, &row);
@@ -416,12 +382,15 @@ static void read_sizes(Options *options, char *list) {
 }
 
 static Options read_options(int argc, char **argv) {
-    static const struct option known[] = {
-        {"case", required_argument, NULL, 'c'},   {"elements", required_argument, NULL, 'n'},
-        {"repeat", required_argument, NULL, 'r'}, {"stop", required_argument, NULL, 's'},
-        {"table", no_argument, NULL, 't'},        {"check", no_argument, NULL, 'k'},
-        {"stream", no_argument, NULL, 'm'},       {"dump", required_argument, NULL, 'd'},
-        {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0}};
+    static const struct option known[] = {{"case", required_argument, NULL, 'c'},
+                                          {"elements", required_argument, NULL, 'n'},
+                                          {"repeat", required_argument, NULL, 'r'},
+                                          {"table", no_argument, NULL, 't'},
+                                          {"check", no_argument, NULL, 'k'},
+                                          {"stream", no_argument, NULL, 'm'},
+                                          {"dump", required_argument, NULL, 'd'},
+                                          {"help", no_argument, NULL, 'h'},
+                                          {NULL, 0, NULL, 0}};
     Options options = {.name = "all", .sizes = 5, .elements = {100, 1000, 10000, 100000, 1000000}};
     for (int key; (key = getopt_long(argc, argv, "h", known, NULL)) != -1;) {
         switch (key) {
@@ -430,7 +399,6 @@ static Options read_options(int argc, char **argv) {
         case 'r':
             options.repeat = whole_number(optarg, 1, MOST_REPEATS, "expected 1..101 repeats");
             break;
-        case 's': options.stop = strtod(optarg, NULL); break;
         case 't': options.table = true; break;
         case 'k': options.check = true; break;
         case 'm': options.stream = true; break;
@@ -438,8 +406,6 @@ static Options read_options(int argc, char **argv) {
         default: fputs(usage, key == 'h' ? stdout : stderr); exit(key == 'h' ? 0 : 2);
         }
     }
-    if (options.stop != 0 && !(options.stop >= 1e-14 && options.stop <= 1e-2))
-        die("--stop takes 1e-14..1e-2", NULL);
     return options;
 }
 
