@@ -18,7 +18,7 @@ static void print_direction(const double *grain) {
 }
 
 static void print_friction(const CpsObstacle *o) {
-    const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
+    const double lateral = o->has_friction_lateral ? o->friction_lateral : o->friction;
     if (o->friction_set) {
         char text[200];
         const size_t length = cps_set_text(o->friction_set, text, sizeof text);
@@ -55,7 +55,7 @@ static void print_end(char letter, const CpsEnd *end) {
     const double *v = end->value;
     if (end->kind == CPS_END_KIND_FREE)
         printf("  end %c: free, force (%g, %g, %g) N\n", letter, v[0], v[1], v[2]);
-    else if (isnan(v[0]))
+    else if (end->kind == CPS_END_KIND_AT_START)
         printf("  end %c: held where the start puts it\n", letter);
     else
         printf("  end %c: held at (%g, %g, %g) m\n", letter, v[0], v[1], v[2]);

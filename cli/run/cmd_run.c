@@ -45,8 +45,8 @@ static void print_head(FILE *table) {
 }
 
 /* An error of the tension [N], or - where it is not known. */
-static void print_error(FILE *table, double error) {
-    if (isfinite(error))
+static void print_error(FILE *table, bool known, double error) {
+    if (known && isfinite(error))
         fprintf(table, " %8.2g", error);
     else
         fprintf(table, " %8s", "-");
@@ -115,8 +115,8 @@ static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
                 certificate->scale > 0 ? certificate->gap / certificate->scale : certificate->gap,
                 shown_tension(&line, CPS_END_A), shown_tension(&line, CPS_END_B));
         const bool solved = line.outcome == CPS_OUTCOME_SOLVED || line.outcome == CPS_OUTCOME_TAUT;
-        print_error(table, solved ? certificate->tension_bound : NAN);
-        print_error(table, solved ? line.tension_mesh : NAN);
+        print_error(table, solved && certificate->has_tension_bound, certificate->tension_bound);
+        print_error(table, solved && line.has_tension_mesh, line.tension_mesh);
         fprintf(table, " %10.4g %10.4g %10.4g\n", line.grounded, line.slipping, line.slack);
         for (int e = 0; e < 2; ++e)
             print_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
@@ -140,15 +140,15 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         const double *d = line.proof;
         const CpsCertificate *c = &line.certificate;
         if (line.outcome == CPS_OUTCOME_INFEASIBLE) {
-            fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g)", line.proof_value, d[0], d[1],
+            fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g)", line.proof_length, d[0], d[1],
                     d[2]);
-            if (line.proof_obstacle >= 0) {
+            if (line.has_proof_obstacle) {
                 fputs(", the shortest path round obstacle ", stderr);
                 cli_print_text(stderr, scene->obstacle[line.proof_obstacle].name, 80, false);
             }
             fputc(')', stderr);
         } else if (line.outcome == CPS_OUTCOME_UNBOUNDED || line.outcome == CPS_OUTCOME_SLIDES) {
-            fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_value, d[0], d[1],
+            fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_force, d[0], d[1],
                     d[2]);
             if (line.coulomb > 0)
                 fprintf(
@@ -208,11 +208,11 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     const CpsStatus status = cps_results_append(run->results, run->evolution, err);
     if (status) return status;
     const CpsStepReport report = cps_evolution_report(run->evolution);
-    progress_step(&run->progress, report.index + 1, report.name);
+    progress_step(&run->progress, report.step_count, report.name);
     warnings_note_step(&run->warnings, run->scene, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
-    if (cli_is_shown(run->scene, steps, report.index) || report.outcome != CPS_OUTCOME_SOLVED ||
-        cli_interrupted())
+    if (cli_is_shown(run->scene, steps, report.step_count - 1) ||
+        report.outcome != CPS_OUTCOME_SOLVED || cli_interrupted())
         print_rows(run->table, run->verdicts, run->scene, run->evolution);
     if (report.outcome != CPS_OUTCOME_SOLVED) {
         progress_end(&run->progress);

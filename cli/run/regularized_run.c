@@ -66,7 +66,7 @@ CpsStatus regularized_step(Regularized *method, const CpsLineView *exact,
 typedef struct Track {
     Regularized method;
     int points;
-    double *position, *tension; /* (steps, points, 3), (steps, 2) */
+    double *position; /* (steps, points, 3) */
     CpsRegularizedParameters *parameters;
     CpsRegularizedReport *report;
 } Track;
@@ -84,7 +84,6 @@ static void free_history(History *h) {
         Track *t = &h->track[i];
         cps_regularized_destroy(t->method.last);
         free(t->position);
-        free(t->tension);
         free(t->parameters);
         free(t->report);
     }
@@ -104,10 +103,9 @@ static bool make_history(History *h, double friction, const RegularizedOptions *
         t->method.given = *given;
         t->points = cps_evolution_line_view(h->exact, i).element_count + 1;
         t->position = calloc(steps * (size_t)t->points, 3 * sizeof(double));
-        t->tension = calloc(steps, 2 * sizeof(double));
         t->parameters = calloc(steps, sizeof *t->parameters);
         t->report = calloc(steps, sizeof *t->report);
-        whole = t->position && t->tension && t->parameters && t->report;
+        whole = t->position && t->parameters && t->report;
     }
     if (!whole) fprintf(stderr, "capstan: out of memory\n");
     return whole;
@@ -130,8 +128,6 @@ static CpsStatus follow(History *h, CpsError *err) {
         if (status != CPS_OK) return status;
         const CpsRegularizedView own = cps_regularized_view(t->method.last);
         store(t, h->done, own.position, exact.origin);
-        for (int end = 0; end < 2; ++end)
-            t->tension[2 * h->done + end] = cps_regularized_end_tension(t->method.last, end);
     }
     return CPS_OK;
 }
@@ -191,8 +187,8 @@ static void tell(const History *h, const char *directory) {
             cli_print_text(stdout, cps_evolution_line_view(h->exact, i).name, LINE_WIDTH, true);
             printf(" %-13s %5d %12.6g %12.6g %9.1e %9.1e %9.1e %9.1e %9.1e %9.1e\n",
                    r->converged ? "converged" : "not converged", r->iteration_count,
-                   t->tension[2 * s], t->tension[2 * s + 1], r->compression, r->penetration,
-                   r->creep, r->friction_excess, r->tension_rms, r->position_max);
+                   r->end_tension[0], r->end_tension[1], r->compression, r->penetration, r->creep,
+                   r->friction_excess, r->tension_rms, r->position_max);
         }
     printf("\nno certificate: a regularised solution is no equilibrium under dry friction. Its "
            "parameters leave at most\n  %.2g N of push in the line (1/n), %.2g m inside the "
@@ -227,8 +223,7 @@ static int write_results(const History *h, double wall, const char *directory,
                                            .point_count = t->points,
                                            .position = t->position,
                                            .parameters = t->parameters,
-                                           .report = t->report,
-                                           .tension = t->tension};
+                                           .report = t->report};
         }
         const CpsRegularizedRun run = {.title = h->scene->title ? h->scene->title : "capstan",
                                        .step_count = h->done,

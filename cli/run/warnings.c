@@ -89,7 +89,7 @@ static double exchanged(const CpsLedger *l) {
 static void note_energy(Warnings *warnings, const CpsStepReport *step, const CpsLineReport *line,
                         const char *name) {
     const double beside = exchanged(&line->ledger), open = line->ledger.imbalance;
-    const double freed = open - (step->index == 0 ? fabs(line->ledger.ends) : 0);
+    const double freed = open - (step->step_count == 1 ? fabs(line->ledger.ends) : 0);
     const double known = line->certificate.gap + 1e-8 * line->certificate.scale;
     if (line->unaccounted > 0)
         note(warnings, WARNING_MADE, line->unaccounted, beside, step->name, name);
@@ -119,9 +119,9 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const double length = view.arc_length[view.element_count],
                      pierced = line.certificate.element_penetration;
-        if (line.pierced >= 0 && pierced > WARN_PIERCED * length)
+        if (line.has_pierced_obstacle && pierced > WARN_PIERCED * length)
             note_pierced(warnings, pierced, length, step, view.name,
-                         scene->obstacle[line.pierced].name);
+                         scene->obstacle[line.pierced_obstacle].name);
         if (line.outcome != CPS_OUTCOME_SOLVED) continue;
         note_energy(warnings, &report, &line, view.name);
         if (line.snap_count > 0) note(warnings, WARNING_JUMPED, line.jump, length, step, view.name);

@@ -93,7 +93,7 @@ static int reach_step(CpsEvolution *evolution, int number) {
                     cps_outcome_text(step.outcome));
             return cps_outcome_is_final(step.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
         }
-        if (step.index + 1 == number) return EXIT_OK;
+        if (step.step_count == number) return EXIT_OK;
     }
     if (cli_interrupted()) return 128 + cli_interrupted();
     fprintf(stderr, "capstan study: the scene has no step but a static one: give it a history\n");

@@ -87,8 +87,8 @@ static int run_evolution(Histories *h, int method, int line) {
         const CpsStepReport report = cps_evolution_report(evolution);
         snprintf(h->name[step], NAME_SIZE, "%s", report.name);
         if (report.outcome != CPS_OUTCOME_SOLVED) {
-            fprintf(stderr, "capstan study: step %d, %s: %s\n", report.index, METHOD[method],
-                    cps_outcome_text(report.outcome));
+            fprintf(stderr, "capstan study: step %d, %s: %s\n", report.step_count - 1,
+                    METHOD[method], cps_outcome_text(report.outcome));
             code = cps_outcome_is_final(report.outcome) ? EXIT_NO_SOLUTION : EXIT_NOT_CERTIFIED;
             break;
         }

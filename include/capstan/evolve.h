@@ -76,8 +76,8 @@ CPS_API void cps_evolution_save(const CpsEvolution *evolution, void *state);
 CPS_API CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t size,
                                      CpsError *err);
 
-/* Report on the last step taken; before the first one: index -1 and the start configuration in the
- * views. */
+/* Report on the last step taken; before the first one: step_count is 0, and the views show the
+ * start configuration. */
 CPS_API CpsStepReport cps_evolution_report(const CpsEvolution *evolution);
 CPS_API int cps_evolution_line_count(const CpsEvolution *evolution);
 CPS_API CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line);

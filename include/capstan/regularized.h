@@ -69,6 +69,8 @@ typedef struct CpsRegularizedReport {
     double
         friction_excess; /* [N] largest force that a node needs beyond what friction and contact may
                             give it when the line carries the tensions (45) and nothing else */
+    double
+        end_tension[2]; /* [N] at the ends A and B, of the same meaning as that of CpsEndReport */
 } CpsRegularizedReport;
 
 /* The configuration of the last solve; n = cell_count + 1 nodes, arrays (n, 3) node after node. */
@@ -120,10 +122,6 @@ CPS_API CpsStatus cps_regularized_solve(CpsRegularized *classic,
                                         int max_iterations, CpsRegularizedReport *report,
                                         CpsError *err);
 CPS_API CpsRegularizedView cps_regularized_view(const CpsRegularized *classic);
-
-/* [N] Tension of the last solve at an end, of the same meaning as that of CpsEndReport; NaN before
- * the first solve, and at no end. */
-CPS_API double cps_regularized_end_tension(const CpsRegularized *classic, int end);
 
 /* Parameters at which what they leave is small: those with which a study ends. */
 CPS_API CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *classic);

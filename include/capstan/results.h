@@ -187,7 +187,6 @@ typedef struct CpsRegularizedLine {
     const CpsRegularizedParameters *parameters; /* (step_count); of the start: not used, as below */
     /* (step_count) errors are against the exact step with frozen friction */
     const CpsRegularizedReport *report;
-    const double *tension; /* (step_count, 2) [N] in the first and in the last element */
 } CpsRegularizedLine;
 
 typedef struct CpsRegularizedRun {

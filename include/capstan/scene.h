@@ -39,8 +39,8 @@ typedef struct CpsObstacle {
     double radius;    /* [m] cylinder, sphere: > 0 */
     double friction;  /* [-] coefficient mu >= 0, default 0; where two directions differ, that along
                          the first one */
-    double
-        friction_lateral; /* [-] across the first direction; default -1: the same as `friction` */
+    bool has_friction_lateral; /* default false: in all directions as along the first */
+    double friction_lateral;   /* [-] >= 0, with the flag: coefficient across the first direction */
     CpsFrictionShape friction_shape; /* default ellipse */
     /* default NULL; else any planar set of set.h, bounded and with 0 in it, of the friction forces
      * on the line per unit normal force, along the first and second tangent: in place of the
@@ -53,8 +53,10 @@ typedef struct CpsObstacle {
 } CpsObstacle;
 
 typedef enum CpsEndKind {
-    CPS_END_KIND_HELD, /* value is the imposed position [m]        (S90 (8), remark 2.3.4) */
-    CPS_END_KIND_FREE  /* value is the force applied to the end [N] (S90 (9)) */
+    CPS_END_KIND_HELD,    /* `value` is the imposed position [m]         (S90 (8), remark 2.3.4) */
+    CPS_END_KIND_FREE,    /* `value` is the force applied to the end [N] (S90 (9)) */
+    CPS_END_KIND_AT_START /* held where the start puts it, which must not be a static start; `value`
+                             is not read. Of lines alone, not of changes */
 } CpsEndKind;
 
 typedef struct CpsEnd {
@@ -116,8 +118,8 @@ typedef struct CpsLine {
      * the mean over the length that it stands for */
     const CpsFrictionZone *zone;
     CpsStart start;
-    CpsEnd end[2]; /* default: A held and B free without force, both where the start puts them;
-                      a held end must agree with the start shape */
+    CpsEnd end[2]; /* default: A held where the start puts it, B free without force; a position
+                      must agree with the start */
 } CpsLine;
 
 /* One end of one line gets a new imposed position or force. A free end given a position is grabbed

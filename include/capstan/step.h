@@ -51,18 +51,16 @@ typedef struct CpsCertificate {
     double dual;          /* [J] a lower bound of the minimum, from the forces */
     double gap;           /* [J] sum of the local gaps, each >= 0; primal - dual up to rounding */
     double scale;         /* [J] S of docs/theory.md; certified when gap <= tolerance * scale */
-    double tension_bound; /* [N] guaranteed rms error of the tension along the line; NaN where it
-                             says nothing */
+    double tension_bound; /* [N] guaranteed rms error of the tension, with the flag below */
     double tension_estimate; /* [N] max |T - |p||: elongation against equilibrium */
     double force_residual;   /* [N] largest imbalance of forces on a node */
     double largest_force;    /* [N] largest force in the line or on it */
     double law_residual;     /* [J] sum of phi(u) + <u, F> */
     double contact_residual; /* [J] sum of R (n.u + gap) */
     /* [N] sum of |A - mu R|, A the friction bounds used and R the reactions found: what freezing A
-     * leaves out; 0 up to rounding with consistent friction and in a step without friction */
+     * leaves out; 0 up to rounding with consistent friction */
     double friction_residual;
-    double element_push; /* [N] largest part of an element's force that points against it: a line
-                            cannot push */
+    double element_push;        /* [N] largest compressive part of an element's force */
     double elongation_residual; /* [-] largest |x'| - (1 + c|p|) of an elastic element: elongation
                                    that its force does not explain */
     double stretch_residual;    /* [-] largest |x'| - 1 of an inextensible element */
@@ -70,6 +68,8 @@ typedef struct CpsCertificate {
     /* [m] deepest element inside a round obstacle, beyond min(l^2/(4 R), R/4) for the natural
      * length l of the element and the radius R; >= 0 */
     double element_penetration;
+    bool has_tension_bound; /* false for an inextensible line, and where the bound would be larger
+                               than the tension itself: tension_bound is 0 then */
 } CpsCertificate;
 
 /* How a node rests on the obstacle. */
@@ -102,9 +102,10 @@ CPS_API const char *cps_range_name(CpsRange range); /* "bounded", ... */
 
 /* Least and greatest tension of the element at an end, of all forces that balance and obey the laws
  * in the places and slips found. The first value is that of such forces, the second a bound from
- * virtual displacements that none exceeds. NaN where `kind` says nothing. */
+ * virtual displacements that none exceeds. */
 typedef struct CpsTensionRange {
     CpsRange kind;
+    bool has_values;                 /* the kind is bounded or unbounded; else all four are 0 */
     double least, least_bound;       /* [N] */
     double greatest, greatest_bound; /* [N] INFINITY where unbounded */
 } CpsTensionRange;
@@ -178,24 +179,27 @@ typedef struct CpsLineReport {
      * dissipated and worked in such a part */
     double unaccounted;
     CpsEndReport end[2];
-    double grounded;     /* [m] natural length in contact with a reaction */
-    double slipping;     /* [m] natural length that slid on the obstacle in this step */
-    double slack;        /* [m] natural length without tension */
-    double tension_mesh; /* [N] estimated error of the tension by the elements' lengths, to leading
-                            order; NaN where there is none */
-    int pierced;  /* the obstacle of the certificate's element_penetration; -1 where that is 0 */
-    CpsBend bend; /* the sharpest of the parts */
+    double grounded;           /* [m] natural length in contact with a reaction */
+    double slipping;           /* [m] natural length that slid on the obstacle in this step */
+    double slack;              /* [m] natural length without tension */
+    bool has_tension_mesh;     /* the next one is known, else 0 */
+    double tension_mesh;       /* [N] estimated error of the tension by the elements' lengths */
+    bool has_pierced_obstacle; /* the next one is known */
+    int pierced_obstacle;      /* that of the certificate's element_penetration */
+    CpsBend bend;              /* the sharpest of the parts */
     /* infeasible: unit vector in which the shortest path to end B leaves end A: straight, where a
      * constant force along it proves it, or round an obstacle; unbounded: the rigid direction in
      * which the energy falls; slides: the velocity of the end that leads, of the field `motion` of
      * the view; else 0 0 0 */
     double proof[3];
-    /* infeasible: [m] distance of the ends, or the least length of a line round the obstacle, -
-     * length > 0; unbounded: [N] fall of the energy per metre > 0; slides: [N] power of the loads
-     * per unit of speed, beyond all that friction can take, the least along the path > 0; else 0 */
-    double proof_value;
-    int proof_obstacle; /* infeasible: the obstacle that the line does not reach round, its index in
-                           the scene; -1: none, and else */
+    /* [m] infeasible: distance of the ends, or the least length of a line round the obstacle, less
+     * the line's length > 0; else 0 */
+    double proof_length;
+    /* [N] unbounded: fall of the energy per metre > 0; slides: power of the loads per unit of
+     * speed, beyond all that friction can take, the least along the path > 0; else 0 */
+    double proof_force;
+    bool has_proof_obstacle;
+    int proof_obstacle; /* infeasible, with the flag: that which the line does not reach round */
     /* [N] unbounded with frozen friction: what friction bears by Coulomb's law under these loads,
      * mu times what presses on the plane, where that is enough to hold the line; else 0 */
     double coulomb;
@@ -205,11 +209,11 @@ typedef struct CpsLineReport {
 typedef struct CpsStepReport {
     const char *name; /* "static", a stage's name, or "name k/n" within a stage of n steps; owned by
                          the evolution */
-    int index;        /* 0, 1, ... */
+    int step_count;   /* steps taken so far, this one included; 0 before the first one */
     CpsOutcome outcome;
     int iteration_count;        /* largest over the lines */
     CpsCertificate certificate; /* energies, gap, scale and J residuals summed, all else the largest
-                                   of the lines; a tension_bound of NaN on any line makes it NaN */
+                                   of the lines; has_tension_bound where all lines have one */
     double dissipated;          /* [J] */
     CpsLedger ledger;           /* sum of the lines */
     int part_count;             /* largest over the lines */
@@ -287,8 +291,7 @@ typedef struct CpsLineView {
     const unsigned char *element_state;   /* (element_count) */
 } CpsLineView;
 
-/* A node this near to an obstacle, per length of its line, touches it: far above the rounding of
- * positions, far below anything drawn. */
+/* A node this near to an obstacle, per length of its line, touches it. */
 #define CPS_TOUCH 1e-9
 
 #ifdef __cplusplus

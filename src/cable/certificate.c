@@ -302,12 +302,13 @@ CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance) {
     add_segments(line, &out);
     add_nodes(line, &out);
     out.scale += load_scale(line, out.largest_force, tolerance);
-    int pierced;
-    out.element_penetration = cpsi_line_pierces(line, &pierced);
+    out.element_penetration = cpsi_line_pierces(line, &(int){0});
     /* P - D >= sum (l c/2) (T - T*)^2, so rms(T - T*) <= sqrt(2 gap/(c L)); it says nothing beyond
      * the tension itself */
-    const double bound =
-        line->compliance > 0 ? sqrt(2 * out.gap / (line->compliance * line->length)) : NAN;
-    out.tension_bound = bound <= out.largest_force ? bound : NAN;
+    if (line->compliance > 0) {
+        const double bound = sqrt(2 * out.gap / (line->compliance * line->length));
+        out.has_tension_bound = bound <= out.largest_force;
+        if (out.has_tension_bound) out.tension_bound = bound;
+    }
     return out;
 }

@@ -197,7 +197,7 @@ static bool slides_towards(CpsiLine *line, bool to_a, double margin) {
         for (int j = 0; j < line->n; j++) a.factor = fmax(a.factor, line->friction_factor[j]);
     const double power = fill_motion(&a) && leading_path_is_clear(&a) ? least_power(&a, margin) : 0;
     if (power > 0) {
-        line->report.proof_value = power;
+        line->report.proof_force = power;
         vec3_store(line->report.proof, motion(&a, line->n - 1));
         return true;
     }

@@ -9,7 +9,7 @@
 /* Under its loads, does the line slide along itself, from its reference on and without end? Used
  * for a step that has found no solution; contacts and axes are those of the reference, and
  * line->motion is 0. The power in the proof must exceed `margin` times the sum of the sizes of its
- * terms. If it does, line->motion is the velocity of the proof, and report.proof and proof_value
+ * terms. If it does, line->motion is the velocity of the proof, and report.proof and proof_force
  * are set; else motion is 0. O(nodes). */
 bool cpsi_line_slides_endlessly(CpsiLine *line, double margin);
 

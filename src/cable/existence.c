@@ -19,7 +19,7 @@ static bool too_short(CpsiLine *line) {
     if (!(distance > line->length * (1 + CPSI_TAUT))) return false;
     line->report.outcome = CPS_OUTCOME_INFEASIBLE;
     vec3_store(line->report.proof, vec3_scale(1 / distance, span));
-    line->report.proof_value = distance - line->length;
+    line->report.proof_length = distance - line->length;
     return true;
 }
 
@@ -55,7 +55,7 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     const Vec3 slide = pull > 0 ? vec3_scale(beyond / (pull * fall), tangent) : vec3(0, 0, 0);
     line->report.outcome = CPS_OUTCOME_UNBOUNDED;
     vec3_store(line->report.proof, vec3_axpy(along / fall, n, slide));
-    line->report.proof_value = fall;
+    line->report.proof_force = fall;
     /* with bounds coupled to the reactions, whose sum is -B.n, friction would hold the line
      * wherever they act */
     const bool frozen =
@@ -112,6 +112,6 @@ bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options
     if (!cpsi_line_falls_away(line, direction, &load)) return false;
     line->report.outcome = CPS_OUTCOME_UNBOUNDED;
     for (int a = 0; a < 3; a++) line->report.proof[a] = direction[a];
-    line->report.proof_value = load;
+    line->report.proof_force = load;
     return true;
 }

@@ -63,7 +63,6 @@ int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap) {
 
 double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
     double worst = 0;
-    *obstacle = -1;
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *o = &line->obstacle[k];
         for (int e = 0; e + 1 < line->n; e++) {

@@ -213,8 +213,8 @@ double cpsi_line_largest_displacement(const CpsiLine *line, const double *from);
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap);
 
 /* [m] The largest penetration of an element into a round obstacle at `position`, beyond the
- * allowance of its chord (cpsi_obstacle_allowance), and that obstacle; 0 and -1 where there is
- * none. */
+ * allowance of its chord (cpsi_obstacle_allowance), and that obstacle; 0, and *obstacle as it
+ * was, where there is none. */
 double cpsi_line_pierces(const CpsiLine *line, int *obstacle);
 
 /* The reaction at an initial configuration given as a shape: R = -(dT/da + w).n where it touches, T

@@ -256,11 +256,10 @@ static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
 /* Report the ends of the line where they are before the step, which is where they stay if there is
  * no equilibrium. */
 static void report_initial_ends(CpsiLine *line) {
-    line->report = (CpsLineReport){.pierced = -1, .proof_obstacle = -1};
+    line->report = (CpsLineReport){0};
     for (int end = 0; end < 2; end++) {
         memcpy(line->report.end[end].position,
                &line->position[end == CPS_END_A ? 0 : 3 * (line->n - 1)], 3 * sizeof(double));
-        line->report.end[end].range = (CpsTensionRange){CPS_RANGE_NONE, NAN, NAN, NAN, NAN};
     }
 }
 
@@ -286,7 +285,8 @@ bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) 
     cpsi_line_set_reference(line, options);
     line->report.outcome = CPS_OUTCOME_INFEASIBLE;
     vec3_store(line->report.proof, shortfall.leaves);
-    line->report.proof_value = shortfall.missing;
+    line->report.proof_length = shortfall.missing;
+    line->report.has_proof_obstacle = true;
     line->report.proof_obstacle = shortfall.obstacle;
     return true;
 }
@@ -299,6 +299,10 @@ static void report_bend(CpsiLine *line) {
         line->report.outcome = CPS_OUTCOME_MESH_TOO_COARSE;
 }
 
+static void report_piercing(CpsiLine *line) {
+    line->report.has_pierced_obstacle = cpsi_line_pierces(line, &line->report.pierced_obstacle) > 0;
+}
+
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     const CpsLineReport before = line->report;
     const CpsiGuess guess = cpsi_warm_step_guess(line, program, options);
@@ -306,10 +310,10 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     store_forces_before(line);
     cpsi_line_set_reference(line, options);
     if (cpsi_line_stands_still(line, options, &before)) {
-        cpsi_line_pierces(line, &line->report.pierced);
+        report_piercing(line);
         cpsi_line_report_ends(line);
         cpsi_line_report_lengths(line);
-        line->report.tension_mesh = cpsi_mesh_error(line);
+        line->report.has_tension_mesh = cpsi_mesh_error(line, &line->report.tension_mesh);
         report_bend(line);
         return;
     }
@@ -319,7 +323,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     solve_with_fallbacks(line, program, options, guess);
     if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
-    cpsi_line_pierces(line, &line->report.pierced);
+    report_piercing(line);
     classify(line, program);
     choose_forces(line, program, options);
     /* free contacts may be nearest to other obstacles after the last round; the other contacts keep
@@ -334,6 +338,6 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     if (looked) cpsi_contact_clear_undetermined_slip(line);
     cpsi_line_report_ends(line);
     cpsi_line_report_lengths(line);
-    line->report.tension_mesh = cpsi_mesh_error(line);
+    line->report.has_tension_mesh = cpsi_mesh_error(line, &line->report.tension_mesh);
     report_bend(line);
 }

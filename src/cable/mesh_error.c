@@ -138,7 +138,8 @@ static double bend_error(const CpsiLine *line, int j) {
     return half < 1 ? fabs(log1p(half) - log1p(-half) - mu * turn) : INFINITY;
 }
 
-double cpsi_mesh_error(const CpsiLine *line) {
+bool cpsi_mesh_error(const CpsiLine *line, double *error) {
+    *error = 0;
     double worst = 0, bends = 0, largest = 0;
     for (int e = 0; e + 1 < line->n; e++) largest = fmax(largest, vec3_norm(force_of(line, e)));
     for (int j = 0; j < line->n; j++) bends += bend_error(line, j);
@@ -147,10 +148,11 @@ double cpsi_mesh_error(const CpsiLine *line) {
         /* an element whose two nodes touch does not hang */
         const bool lies =
             e == first && carrying_contact(line, e) >= 0 && carrying_contact(line, e + 1) >= 0;
-        const double error = lies ? 0 : span_error(line, first, e);
-        if (!(error <= worst)) worst = error;
-        if (isnan(worst)) return NAN;
+        const double of_span = lies ? 0 : span_error(line, first, e);
+        if (isnan(of_span)) return false;
+        worst = fmax(worst, of_span);
         first = e + 1;
     }
-    return worst + largest * expm1(bends);
+    *error = worst + largest * expm1(bends);
+    return !isnan(*error);
 }

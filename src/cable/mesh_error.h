@@ -5,9 +5,9 @@
 
 #include "cable/line.h"
 
-/* [N] Estimate of the largest error of the tension in the line, to leading order in the elements'
- * lengths; NaN where no estimate is possible: the weight of an element exceeds its tension. Reads
- * segment forces, contacts and states; O(nodes). */
-double cpsi_mesh_error(const CpsiLine *line);
+/* Estimate the largest error of the tension in the line, *error [N], to leading order in the
+ * elements' lengths. False, and 0, where no estimate is possible: the weight of an element exceeds
+ * its tension. Reads segment forces, contacts and states; O(nodes). */
+bool cpsi_mesh_error(const CpsiLine *line, double *error);
 
 #endif

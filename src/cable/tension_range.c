@@ -58,25 +58,28 @@ static bool grows(CpsiForceSet *set, const CpsiLine *line, CpsiForceLaw law, int
 }
 
 static CpsTensionRange range_of(CpsiLine *line, CpsiForceSet *set, const CpsiForceLaw *law, int e) {
-    CpsTensionRange range = {CPS_RANGE_FAILED, NAN, NAN, NAN, NAN};
+    const CpsTensionRange failed = {.kind = CPS_RANGE_FAILED};
+    CpsTensionRange range = failed;
     bool known;
     const bool unbounded = grows(set, line, *law, e, &known);
     if (!known) return range;
     if (!cpsi_force_set_build(set, line, law)) {
-        range.least = range.least_bound = range.greatest = range.greatest_bound =
-            fmax(0, set->tension[e]);
-        range.kind = set->partial ? CPS_RANGE_NOT_GIVEN : CPS_RANGE_BOUNDED;
-        return range;
+        const double only = fmax(0, set->tension[e]);
+        if (!set->partial)
+            return (CpsTensionRange){CPS_RANGE_BOUNDED, true, only, only, only, only};
     }
-    if (set->partial) return (CpsTensionRange){CPS_RANGE_NOT_GIVEN, NAN, NAN, NAN, NAN};
-    if (!extreme(set, e, -1, &range.least, &range.least_bound)) return range;
+    if (set->partial) return (CpsTensionRange){.kind = CPS_RANGE_NOT_GIVEN};
+    if (!extreme(set, e, -1, &range.least, &range.least_bound)) return failed;
     if (unbounded) {
         range.greatest = range.greatest_bound = INFINITY;
         range.kind = CPS_RANGE_UNBOUNDED;
+        range.has_values = true;
         return range;
     }
     cpsi_force_set_build(set, line, law);
-    if (extreme(set, e, 1, &range.greatest, &range.greatest_bound)) range.kind = CPS_RANGE_BOUNDED;
+    if (!extreme(set, e, 1, &range.greatest, &range.greatest_bound)) return failed;
+    range.kind = CPS_RANGE_BOUNDED;
+    range.has_values = true;
     return range;
 }
 
@@ -87,6 +90,6 @@ void cpsi_line_tension_range(CpsiLine *line, CpsiForceSet *set, const CpsiStepOp
         *range = range_of(line, set, &law, end == CPS_END_A ? 0 : line->n - 2);
         /* without any force there is no scale for the bounds; report no range */
         if (range->kind == CPS_RANGE_BOUNDED && !(line->report.certificate.largest_force > 0))
-            *range = (CpsTensionRange){CPS_RANGE_NONE, NAN, NAN, NAN, NAN};
+            *range = (CpsTensionRange){.kind = CPS_RANGE_NONE};
     }
 }

@@ -41,12 +41,12 @@ static void pass(Tape *tape, void *data, size_t size) {
 
 /* A field that is added to one of these structs has to be added to its function below as well. */
 #if UINTPTR_MAX == 0xffffffffffffffff
-_Static_assert(sizeof(CpsCertificate) == 16 * 8 && sizeof(CpsLedger) == 6 * 8 &&
+_Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 6 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
                "these are passed whole: numbers without padding between them");
 _Static_assert(sizeof(CpsEndReport) == 11 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
                "add the new field to pass_end_report or pass_bend, then its size here");
-_Static_assert(sizeof(CpsLineReport) == 19 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
+_Static_assert(sizeof(CpsLineReport) == 21 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
                                             2 * sizeof(CpsEndReport) + sizeof(CpsBend),
                "add the new field to pass_line_report, then its size here");
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
@@ -54,9 +54,9 @@ _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(
 _Static_assert(sizeof(CpsEnd) == 4 * 8, "add the new field to pass_end, then its size here");
 #endif
 
-/* numbers only, without padding */
 static void pass_energies(Tape *tape, CpsCertificate *certificate, CpsLedger *ledger) {
-    PASS(tape, *certificate);
+    pass(tape, certificate, offsetof(CpsCertificate, has_tension_bound)); /* numbers */
+    PASS(tape, certificate->has_tension_bound);
     PASS(tape, *ledger);
 }
 
@@ -81,6 +81,7 @@ static void pass_end_report(Tape *tape, CpsEndReport *end) {
     PASS(tape, end->friction_force);
     CpsTensionRange *range = &end->range;
     PASS(tape, range->kind);
+    PASS(tape, range->has_values);
     PASS(tape, range->least);
     PASS(tape, range->least_bound);
     PASS(tape, range->greatest);
@@ -113,18 +114,22 @@ static void pass_line_report(Tape *tape, CpsLineReport *report) {
     PASS(tape, report->grounded);
     PASS(tape, report->slipping);
     PASS(tape, report->slack);
+    PASS(tape, report->has_tension_mesh);
     PASS(tape, report->tension_mesh);
-    PASS(tape, report->pierced);
+    PASS(tape, report->has_pierced_obstacle);
+    PASS(tape, report->pierced_obstacle);
     pass_bend(tape, &report->bend);
     PASS(tape, report->proof);
-    PASS(tape, report->proof_value);
+    PASS(tape, report->proof_length);
+    PASS(tape, report->proof_force);
+    PASS(tape, report->has_proof_obstacle);
     PASS(tape, report->proof_obstacle);
     PASS(tape, report->coulomb);
 }
 
 /* all but its name, which is the evolution's step_name */
 static void pass_step_report(Tape *tape, CpsStepReport *report) {
-    PASS(tape, report->index);
+    PASS(tape, report->step_count);
     PASS(tape, report->outcome);
     PASS(tape, report->iteration_count);
     pass_energies(tape, &report->certificate, &report->ledger);

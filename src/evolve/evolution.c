@@ -202,8 +202,9 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     cpsi_start_place(def, line->position);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
-        if (line->end[end].kind == CPS_END_KIND_HELD)
-            cpsi_start_end(def, end, line->end[end].value);
+        if (def->end[end].kind == CPS_END_KIND_FREE) continue;
+        line->end[end].kind = CPS_END_KIND_HELD;
+        cpsi_start_end(def, end, line->end[end].value);
     }
     switch (def->start.kind) {
     case CPS_START_STATIC: move_to_free_side(line); break;
@@ -261,7 +262,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->program.base.interrupt = &evolution->interrupt;
     evolution->forces.program.base.interrupt = &evolution->interrupt;
     evolution->least.program.chain.base.interrupt = &evolution->interrupt;
-    evolution->report = (CpsStepReport){.name = evolution->step_name, .index = -1};
+    evolution->report = (CpsStepReport){.name = evolution->step_name};
     evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
 }
 
@@ -465,7 +466,8 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->friction_residual += from->friction_residual;
     to->law_residual += from->law_residual;
     to->contact_residual += from->contact_residual;
-    to->tension_bound = cpsi_max_nan(to->tension_bound, from->tension_bound);
+    to->has_tension_bound = to->has_tension_bound && from->has_tension_bound;
+    to->tension_bound = to->has_tension_bound ? fmax(to->tension_bound, from->tension_bound) : 0;
     to->tension_estimate = cpsi_max_nan(to->tension_estimate, from->tension_estimate);
     to->force_residual = cpsi_max_nan(to->force_residual, from->force_residual);
     to->largest_force = cpsi_max_nan(to->largest_force, from->largest_force);
@@ -495,7 +497,7 @@ static void find_ranges(CpsEvolution *evolution) {
             continue;
         }
         for (int end = 0; end < 2; end++)
-            line->report.end[end].range = (CpsTensionRange){CPS_RANGE_STRAIN, NAN, NAN, NAN, NAN};
+            line->report.end[end].range = (CpsTensionRange){.kind = CPS_RANGE_STRAIN};
     }
 }
 
@@ -536,7 +538,9 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
         return cpsi_fail(err, CPS_ERR_INTERRUPTED,
                          "the load step was interrupted, and is not taken");
     }
-    evolution->report = (CpsStepReport){.name = evolution->step_name, .index = evolution->done};
+    evolution->report = (CpsStepReport){.name = evolution->step_name,
+                                        .step_count = evolution->done + 1,
+                                        .certificate.has_tension_bound = true};
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);
     evolution->done++;
@@ -550,7 +554,7 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
 
 CpsStepReport cps_evolution_report(const CpsEvolution *evolution) {
     return evolution ? evolution->report
-                     : (CpsStepReport){.name = "", .index = -1, .outcome = CPS_OUTCOME_STALLED};
+                     : (CpsStepReport){.name = "", .outcome = CPS_OUTCOME_STALLED};
 }
 
 int cps_evolution_line_count(const CpsEvolution *evolution) {
@@ -562,8 +566,7 @@ static bool has_line(const CpsEvolution *evolution, int line) {
 }
 
 CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line) {
-    if (!has_line(evolution, line))
-        return (CpsLineReport){.outcome = CPS_OUTCOME_STALLED, .pierced = -1, .proof_obstacle = -1};
+    if (!has_line(evolution, line)) return (CpsLineReport){.outcome = CPS_OUTCOME_STALLED};
     CpsLineReport report = evolution->line[line].report;
     for (int end = 0; end < 2; end++)
         for (int a = 0; a < 3; a++)

@@ -60,7 +60,7 @@ CpsLine cps_line_default(void) {
         .element_count = 100,
         .stiffness = INFINITY,
         .start = {.axis = {0, 0, 1}},
-        .end = {{.kind = CPS_END_KIND_HELD, .value = {NAN, NAN, NAN}}, {.kind = CPS_END_KIND_FREE}},
+        .end = {{.kind = CPS_END_KIND_AT_START}, {.kind = CPS_END_KIND_FREE}},
     };
 }
 
@@ -70,7 +70,6 @@ CpsObstacle cps_obstacle_default(void) {
         .kind = CPS_OBSTACLE_PLANE,
         .normal = {0, 0, 1},
         .axis = {0, 1, 0},
-        .friction_lateral = -1,
     };
 }
 
@@ -150,9 +149,13 @@ static CpsStatus check_friction_keys(const CpsObstacle *o, CpsError *err) {
         return FAIL_AT("friction", err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': friction is %g, expected a finite number >= 0", o->name,
                        o->friction);
-    if (o->friction_lateral != -1 && !not_negative(o->friction_lateral))
+    if (o->has_friction_lateral && !not_negative(o->friction_lateral))
         return FAIL_AT("friction.lateral", err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': friction: lateral is %g, expected a finite number >= 0",
+                       o->name, o->friction_lateral);
+    if (!o->has_friction_lateral && o->friction_lateral != 0)
+        return FAIL_AT("friction.lateral", err, CPS_ERR_ARGUMENT,
+                       "obstacle '%s': friction: lateral is %g, but has_friction_lateral is false",
                        o->name, o->friction_lateral);
     if (o->friction_shape != CPS_FRICTION_SHAPE_ELLIPSE &&
         o->friction_shape != CPS_FRICTION_SHAPE_BOX)
@@ -395,7 +398,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
     const CpsEnd *e = &line->end[end];
     const char *letter = end_letter(end), *place = end == CPS_END_A ? "ends.A" : "ends.B";
     const double *v = e->value;
-    if (e->kind != CPS_END_KIND_HELD && e->kind != CPS_END_KIND_FREE)
+    if (e->kind < CPS_END_KIND_HELD || e->kind > CPS_END_KIND_AT_START)
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                        "line '%s': ends: end %s has the unknown kind %d", line->name, letter,
                        (int)e->kind);
@@ -407,7 +410,12 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
             line->name, letter, v[0], v[1], v[2]);
     }
     const bool is_static = line->start.kind == CPS_START_STATIC;
-    if (isnan(v[0]) && isnan(v[1]) && isnan(v[2])) {
+    if (e->kind == CPS_END_KIND_AT_START) {
+        if (v[0] != 0 || v[1] != 0 || v[2] != 0)
+            return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                           "line '%s': ends: end %s is held where the start puts it, but has a "
+                           "position: its kind is then CPS_END_KIND_HELD",
+                           line->name, letter);
         if (!is_static) return CPS_OK;
         return FAIL_AT(
             place, err, CPS_ERR_ARGUMENT,
@@ -427,9 +435,9 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
                        -above, name);
     if (is_static) return CPS_OK;
 
-    /* the end of the initial shape: compute it as if no value were given */
+    /* the end of the initial shape: compute it as if no position were given */
     CpsLine open = *line;
-    open.end[end].value[0] = NAN;
+    open.end[end].kind = CPS_END_KIND_AT_START;
     double start[3];
     cpsi_start_end(&open, end, start);
     const double off = vec3_norm(vec3_sub(vec3_load(start), vec3_load(v)));

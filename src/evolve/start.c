@@ -29,9 +29,7 @@ CpsiArc cpsi_start_arc(const CpsLine *line) {
     return (CpsiArc){.centre = centre, .e1 = e1, .e2 = vec3_cross(unit, e1), .radius = radius};
 }
 
-static bool is_placed(const CpsEnd *end) {
-    return end->kind == CPS_END_KIND_HELD && vec3_finite(end->value);
-}
+static bool is_placed(const CpsEnd *end) { return end->kind == CPS_END_KIND_HELD; }
 
 /* ends of the first guess of a static line, of which at least one is held */
 static void statics_guess(const CpsLine *line, Vec3 guess[2]) {

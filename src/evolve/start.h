@@ -45,8 +45,7 @@ Vec3 cpsi_start_next(CpsiStartWalk *walk);
 /* All nodes.  position   (elements + 1, 3) [m], written */
 void cpsi_start_place(const CpsLine *line, double *position);
 
-/* The initial position of an end: the value of a held end, or the end of the initial shape (free,
- * or held with value NaN). */
+/* The initial position of an end: the position of a held end, else the end of the initial shape. */
 void cpsi_start_end(const CpsLine *line, int end, double position[3]);
 
 #endif

@@ -47,23 +47,28 @@ static bool is_place_in_history(const CpsEvolution *evolution) {
 
 static bool is_step_report(const CpsEvolution *evolution) {
     const CpsStepReport *report = &evolution->report;
-    return report->index == evolution->done - 1 && is_outcome(report->outcome) &&
+    return report->step_count == evolution->done && is_outcome(report->outcome) &&
            within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
            report->iteration_count >= 0 && report->part_count >= 0 && report->warm_count >= 0 &&
            report->snap_count >= 0 &&
            memchr(evolution->step_name, '\0', sizeof evolution->step_name);
 }
 
+static bool is_obstacle(bool given, int index, int obstacles) {
+    return within(index, 0, given ? obstacles - 1 : 0);
+}
+
 /* The obstacle index of a bend is used wherever the mesh is too coarse, else only where the line
  * turns. */
 static bool is_line_report(const CpsLineReport *report, int obstacles) {
     const bool bends = report->bend.turn > 0 || report->outcome == CPS_OUTCOME_MESH_TOO_COARSE;
-    bool sound =
-        is_outcome(report->outcome) && within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
-        report->iteration_count >= 0 && report->part_count >= 0 && report->warm_count >= 0 &&
-        report->snap_count >= 0 && within(report->pierced, -1, obstacles - 1) &&
-        within(report->proof_obstacle, -1, obstacles - 1) &&
-        within(report->bend.obstacle, 0, bends || obstacles > 0 ? obstacles - 1 : 0);
+    bool sound = is_outcome(report->outcome) &&
+                 within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
+                 report->iteration_count >= 0 && report->part_count >= 0 &&
+                 report->warm_count >= 0 && report->snap_count >= 0 &&
+                 is_obstacle(report->has_pierced_obstacle, report->pierced_obstacle, obstacles) &&
+                 is_obstacle(report->has_proof_obstacle, report->proof_obstacle, obstacles) &&
+                 within(report->bend.obstacle, 0, bends || obstacles > 0 ? obstacles - 1 : 0);
     for (int end = 0; end < 2; end++)
         sound = sound && within(report->end[end].range.kind, 0, RANGES - 1) &&
                 all_finite(report->end[end].force, 3);

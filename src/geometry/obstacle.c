@@ -14,7 +14,7 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
                         .has_set = def->friction_set};
     out.frame = cpsi_plane(def->point, def->kind == CPS_OBSTACLE_PLANE ? def->normal : def->axis);
     out.friction[0] = def->friction;
-    out.friction[1] = def->friction_lateral >= 0 ? def->friction_lateral : def->friction;
+    out.friction[1] = def->has_friction_lateral ? def->friction_lateral : def->friction;
     out.grain = vec3_load(def->grain);
     out.has_grain = vec3_norm(out.grain) > 0;
     return out;

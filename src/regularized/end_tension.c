@@ -48,8 +48,7 @@ double cpsi_end_push(const CpsRegularized *classic, int end) {
     return up;
 }
 
-double cps_regularized_end_tension(const CpsRegularized *classic, int end) {
-    if (!classic || classic->asked < 0 || (end != CPS_END_A && end != CPS_END_B)) return NAN;
+double cpsi_end_tension(const CpsRegularized *classic, int end) {
     const CpsiCells *c = &classic->cells;
     if (end == CPS_END_B && !classic->step.held)
         return vec3_norm(vec3_load(classic->step.end_force));

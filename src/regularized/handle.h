@@ -18,4 +18,7 @@ struct CpsRegularized {
  * end in the air. */
 double cpsi_end_push(const CpsRegularized *classic, int end);
 
+/* [N] Tension of the last solution at an end, as in CpsEndReport. */
+double cpsi_end_tension(const CpsRegularized *classic, int end);
+
 #endif

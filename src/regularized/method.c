@@ -206,6 +206,7 @@ CpsStatus cps_regularized_solve(CpsRegularized *classic, const CpsRegularizedPar
     cpsi_regularized_measure(&classic->f, report);
     for (int i = 0; i < classic->cells.cells; ++i)
         classic->tension[i] = cpsi_regularized_tension(&classic->f, i);
+    for (int end = 0; end < 2; ++end) report->end_tension[end] = cpsi_end_tension(classic, end);
     return CPS_OK;
 }
 

@@ -95,7 +95,7 @@ CpsLineView case_step(Run *run) {
     must(cps_results_append(run->results, run->evolution, &err), &err);
     CpsStepReport report = cps_evolution_report(run->evolution);
     if (report.outcome != CPS_OUTCOME_SOLVED)
-        print_error("step %d: %s\n", report.index, cps_outcome_text(report.outcome));
+        print_error("step %d: %s\n", report.step_count - 1, cps_outcome_text(report.outcome));
     CHECK_INT(report.outcome, CPS_OUTCOME_SOLVED);
     run->dissipated += report.dissipated;
     CpsLineView view = cps_evolution_line_view(run->evolution, 0);

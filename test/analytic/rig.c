@@ -66,6 +66,11 @@ CpsObstacle *rig_obstacle(Rig *rig, CpsObstacleKind kind, double friction) {
     return &rig->obstacle[k];
 }
 
+void rig_lateral(CpsObstacle *obstacle, double friction) {
+    obstacle->has_friction_lateral = true;
+    obstacle->friction_lateral = friction;
+}
+
 void rig_point(Rig *rig, double x, double y, double z) {
     const int k = rig->line.start.point_count++;
     assert_true(k < RIG_POINTS);
@@ -219,7 +224,7 @@ static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn
                           const Touch *touch, const double *n, double length) {
     double first[3], second[3], from[3], slid[3];
     const double *f = touch->friction, reaction = touch->reaction;
-    const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
+    const double lateral = o->has_friction_lateral ? o->friction_lateral : o->friction;
     const double w = fmax(o->friction, lateral) * reaction;
     tangents(o, touch->along, n, first, second);
     memcpy(from, touch->reference, sizeof from);

@@ -31,6 +31,8 @@ void rig_begin(Rig *rig, int elements, double weight, double stiffness);
 void rig_length(Rig *rig, double length);
 void rig_graded(Rig *rig);
 CpsObstacle *rig_obstacle(Rig *rig, CpsObstacleKind kind, double friction);
+/* Give an obstacle another coefficient across the first direction. */
+void rig_lateral(CpsObstacle *obstacle, double friction);
 /* add a point of a polyline start */
 void rig_point(Rig *rig, double x, double y, double z);
 void rig_end(Rig *rig, int end, CpsEndKind kind, double x, double y, double z);

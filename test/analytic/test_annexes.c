@@ -135,7 +135,8 @@ static Record printed_11_3(const CpsLineView *view) {
                 .contacts = 1,
                 .compliance = 1,
                 .end_kind = {END_HELD, END_FREE},
-                .end_value = {{0, 0, 0}, {0, 0, 1}}};
+                .held_position = {{0, 0, 0}, {NAN, NAN, NAN}},
+                .applied_force = {{NAN, NAN, NAN}, {0, 0, 1}}};
     Vector **vector[] = {&r.reference, &r.position, &r.load,         &r.normal,
                          &r.friction,  &r.slide,    &r.segment_force};
     double **scalar[] = {&r.element_length, &r.gap, &r.friction_bound, &r.reaction,

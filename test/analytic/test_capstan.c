@@ -35,7 +35,7 @@ static void wrap(Rig *rig, double mu, double theta, int n, double stiffness, dou
     const double *a = rig->point, *b = &rig->point[3];
     rig_end(rig, CPS_END_A, CPS_END_KIND_FREE, force * (a[0] - b[0]) / lead, 0,
             force * (a[2] - b[2]) / lead);
-    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
 }
 
 /* the law -------------------------------------------------------------------------------------- */
@@ -244,7 +244,7 @@ static double heavy(double mu, int n) {
     for (int j = 0; j <= n; j++) rig_point(&rig, sin(from + j * d), 0, cos(from + j * d));
     rig_length(&rig, n * 2 * sin(d / 2));
     rig_end(&rig, CPS_END_A, CPS_END_KIND_FREE, -force * cos(from), 0, force * sin(from));
-    rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
     rig_stage(&rig, 1);
     rig_turn(&rig, 0, -0.1);
     RigRun run = rig_open(&rig);

@@ -382,6 +382,7 @@ static void the_same_set_given_twice(void **state) {
                 sweep(&rig[i], pipe, 20);
                 for (int k = 0; k < 2; k++) {
                     CpsObstacle *o = &rig[i].obstacle[k];
+                    o->has_friction_lateral = true;
                     o->friction_lateral = mu[k][1];
                     if (i && which & 1 << k) o->friction_set = set[k];
                 }

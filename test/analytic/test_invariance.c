@@ -62,6 +62,7 @@ static CpsObstacle *obstacle(Rig *rig, const View *view, CpsObstacleKind kind,
     turn_to(view, point, true, o->point);
     turn_to(view, axis, false, kind == CPS_OBSTACLE_PLANE ? o->normal : o->axis);
     o->radius = radius * view->scale;
+    o->has_friction_lateral = true;
     o->friction_lateral = lateral;
     return o;
 }
@@ -99,7 +100,7 @@ static void drum_scene(Rig *rig, const View *view) {
     double chord = hypot(2 * sin(d / 2), 0.05 / N);
     rig_length(rig, N * chord * view->scale);
     set_end(rig, view, false, CPS_END_A, CPS_END_KIND_FREE, -2 * cos(from), 0, 2 * sin(from));
-    rig_end(rig, view->reversed ? CPS_END_A : CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(rig, view->reversed ? CPS_END_A : CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
     rig_stage(rig, 3);
     rig_turn(rig, 0, -0.05);
     rig_stage(rig, 3);

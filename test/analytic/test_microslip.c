@@ -23,7 +23,7 @@ static void lay(Rig *rig, Bed bed, int elements, double pretension) {
     rig_begin(rig, elements, WEIGHT, STIFFNESS);
     CpsObstacle *o =
         rig_obstacle(rig, bed == BED_CREST ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_PLANE, FRICTION);
-    if (bed == BED_TWO) o->friction_lateral = 0.8;
+    if (bed == BED_TWO) rig_lateral(o, 0.8);
     if (bed == BED_CREST) {
         o->axis[0] = 1;
         o->axis[1] = 0;
@@ -33,7 +33,7 @@ static void lay(Rig *rig, Bed bed, int elements, double pretension) {
     rig_point(rig, 0, 0, 0);
     rig_point(rig, LENGTH * (1 + pretension / STIFFNESS), 0, 0);
     rig_length(rig, LENGTH);
-    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(rig, CPS_END_A, CPS_END_KIND_AT_START, 0, 0, 0);
     rig_end(rig, CPS_END_B, CPS_END_KIND_FREE, pretension, 0, 0);
 }
 

@@ -245,7 +245,8 @@ static void two_posts(void **state) {
                 CHECK_LESS(deepest(&rig, &v), 1e-9);
                 certified++;
             } else if (r.certificate.element_penetration > 1e-10 * LENGTH) {
-                CHECK_BETWEEN(r.pierced, 0, 1);
+                assert_true(r.has_pierced_obstacle);
+                CHECK_BETWEEN(r.pierced_obstacle, 0, 1);
                 pierced++;
             }
         }

@@ -152,7 +152,7 @@ static bool outcome(const Case *c, uint64_t seed, bool shrunk, double share, Cps
     const double s = way_of_end(c, R, rig->line.length * (1 + share));
     double to[3];
     place(c, c->radius * (1 + c->lift), c->turn, rise_of(c, 1), s, to);
-    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
     const double *last = &rig->point[3 * c->elements];
     rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, last[0], last[1], last[2]);
     rig_stage(rig, 1);
@@ -199,7 +199,7 @@ static void short_of_the_way(void **state) {
             tried[ball][0]++;
             if (found == CPS_OUTCOME_INFEASIBLE)
                 print_error("case %d: longer by %g of its length, yet infeasible by %g m\n", i,
-                            slack, report.proof_value);
+                            slack, report.proof_length);
             assert_true(found != CPS_OUTCOME_INFEASIBLE);
         }
         if (outcome(&c, seed, true, slack, &found, &report)) {
@@ -210,11 +210,10 @@ static void short_of_the_way(void **state) {
                             cps_outcome_name(found));
             assert_true((found == CPS_OUTCOME_INFEASIBLE) != c.elastic);
             if (c.elastic) continue;
-            assert_true(report.proof_value > 0);
-            assert_true(report.proof_obstacle == 0 || report.proof_obstacle == -1);
-            straight[ball] +=
-                report.proof_obstacle <
-                0; /* the obstacle is hardly in the way: the ends alone are too far apart */
+            assert_true(report.proof_length > 0);
+            assert_int_equal(report.proof_obstacle, 0);
+            straight[ball] += !report.has_proof_obstacle; /* the obstacle is hardly in the way: the
+                                                             ends alone are too far apart */
         }
     }
     for (int k = 0; k < 2; k++)

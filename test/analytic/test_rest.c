@@ -238,7 +238,7 @@ static void with_directions(void **state) {
         if (given)
             rig.obstacle[0].friction_set = disc;
         else
-            rig.obstacle[0].friction_lateral = LATERAL[k % 4];
+            rig_lateral(&rig.obstacle[0], LATERAL[k % 4]);
         rig.obstacle[0].friction_shape =
             k / 4 % 2 ? CPS_FRICTION_SHAPE_BOX : CPS_FRICTION_SHAPE_ELLIPSE;
         if (zones) {

@@ -63,7 +63,7 @@ static void build(Rig *rig, const Wrap *wrap) {
     const double *a = rig->point, *b = &rig->point[3], by = wrap->pull / (size * lead);
     rig_end(rig, CPS_END_A, CPS_END_KIND_FREE, by * (a[0] - b[0]), by * (a[1] - b[1]),
             by * (a[2] - b[2]));
-    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
 }
 
 /* The ratio of the tensions at the ends after the turn, over k^n or k^-n; the parts of the last
@@ -237,7 +237,7 @@ static void drawn(void **state) {
         }
         rig_length(&rig, chord * (N + 2 * LEAD));
         rig_end(&rig, CPS_END_A, CPS_END_KIND_FREE, 0, 0, -1);
-        rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
         rig_stage(&rig, 1);
         rig_stage(&rig, 1);
         rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, 1, 0, -chord * LEAD - way);

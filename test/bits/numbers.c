@@ -57,7 +57,7 @@ static int pull(const char *what, CpsObstacle obstacle, const double *start, int
         const CpsLineView view = cps_evolution_line_view(evolution, 0);
         uint64_t hash = mixed(14695981039346656037u, 3 * (view.elements + 1), view.position);
         hash = mixed(hash, view.elements, view.tension);
-        printf("%s %d: %s, tip %a, dissipated %a, all %016llx\n", what, step.index,
+        printf("%s %d: %s, tip %a, dissipated %a, all %016llx\n", what, step.step_count - 1,
                cps_outcome_name(step.outcome), view.position[3 * view.elements], step.dissipated,
                (unsigned long long)hash);
     }

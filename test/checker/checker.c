@@ -305,7 +305,7 @@ static void judge_reach(Judge *judge, const Source *source, const Record *r, con
     }
     // the coordinates are about the obstacle there, which may be far larger than the line
     double size = m->length + m->extent + (double)source->surface[r->proof_obstacle].radius;
-    same(judge, "proof_value", r->proof_value, missing, COPY_TOLERANCE * size);
+    same(judge, "proof_length", r->proof_length, missing, COPY_TOLERANCE * size);
     at_most(judge, "proof vector off the shortest path", off, CLAIM_TOLERANCE);
     at_most(judge, "length of the proof vector - 1",
             fabs(hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1), COPY_TOLERANCE);
@@ -321,8 +321,9 @@ static void judge_infeasible(Judge *judge, const Record *r, const Measures *m) {
              m->ends_distance, m->length);
     }
     double excess = m->ends_distance - m->length, along = 0;
-    for (int k = 0; k < 3; k++) along += r->proof[k] * (r->end_value[1][k] - r->end_value[0][k]);
-    same(judge, "proof_value", r->proof_value, excess, COPY_TOLERANCE * (m->length + m->extent));
+    for (int k = 0; k < 3; k++)
+        along += r->proof[k] * (r->held_position[1][k] - r->held_position[0][k]);
+    same(judge, "proof_length", r->proof_length, excess, COPY_TOLERANCE * (m->length + m->extent));
     at_most(judge, "proof vector off the line of the ends", m->ends_distance - along,
             PLACE_TOLERANCE * m->length);
     at_most(judge, "proof vector longer than 1",
@@ -338,7 +339,7 @@ static void judge_unbounded(Judge *judge, const Record *r, const Measures *m) {
         find(judge, "unbounded, but the energy falls by %.3g N along the proof", m->rigid_fall);
     if (m->meets) find(judge, "unbounded, but the line meets an obstacle on its way");
     at_most(judge, "rigid motion into the obstacle", -m->rigid_rise_least, COPY_TOLERANCE);
-    same(judge, "proof_value", r->proof_value, m->rigid_fall, FORCE_FLOOR * m->largest_force);
+    same(judge, "proof_force", r->proof_force, m->rigid_fall, FORCE_FLOOR * m->largest_force);
 }
 
 static void judge_slides(Judge *judge, const Source *source, const Record *r) {
@@ -347,7 +348,7 @@ static void judge_slides(Judge *judge, const Source *source, const Record *r) {
     if (what)
         find(judge, "slides without end, but %s", what);
     else
-        same(judge, "proof_value", r->proof_value, power, 0);
+        same(judge, "proof_force", r->proof_force, power, 0);
 }
 
 /* Contact is seen from where the nodes end up, but from the reference on one plane, where it is the
@@ -392,6 +393,10 @@ static void judge_record(const Source *source, const Record *r, const char *line
         find(&judge, "%s holds a value that cannot be (NaN, infinite or negative)", m.missing);
         report->not_finite++;
     } else {
+        if (r->proof_length != 0 && r->outcome != OUTCOME_INFEASIBLE)
+            find(&judge, "proof_length of a line that is not infeasible");
+        if (r->proof_force != 0 && r->outcome != OUTCOME_UNBOUNDED && r->outcome != OUTCOME_SLIDES)
+            find(&judge, "proof_force of a line that is neither unbounded nor slides");
         switch (r->outcome) {
         case OUTCOME_SOLVED:
         case OUTCOME_COARSE: // solved as well, but for the mesh

@@ -109,7 +109,7 @@ End end_measure(const Source *source, const Record *r, int e) {
     const size_t j = e ? r->elements : 0;
     if (r->end_kind[e] == END_FREE) {
         End end = {.reaction = r->reaction[j]};
-        widen(r->end_value[e], end.force);
+        widen(r->applied_force[e], end.force);
         return end;
     }
     Real length = 0, nearest = INFINITY;

@@ -96,7 +96,7 @@ static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surfa
     if (s->set || o->friction_set) return;
     same_number(compare, "axial coefficient", o->name, (double)s->mu[0], o->friction);
     same_number(compare, "lateral coefficient", o->name, (double)s->mu[1],
-                o->friction_lateral >= 0 ? o->friction_lateral : o->friction);
+                o->has_friction_lateral ? o->friction_lateral : o->friction);
     same_number(compare, "shape of friction", o->name, s->box,
                 o->friction_shape == CPS_FRICTION_SHAPE_BOX);
 }
@@ -236,9 +236,9 @@ static CpsEnd first_end(const Source *source, const CpsLine *line, int e, const 
     CpsEnd end = about(source, line->end[e]);
     double place[3];
     start_place(source, line, e, r, place);
-    if (end.kind == CPS_END_KIND_HELD)
-        for (int k = 0; k < 3; k++)
-            if (isnan(end.value[k])) end.value[k] = place[k];
+    if (end.kind != CPS_END_KIND_AT_START) return end;
+    end.kind = CPS_END_KIND_HELD;
+    memcpy(end.value, place, sizeof end.value);
     return end;
 }
 
@@ -281,10 +281,12 @@ static void compare_end(Compare *compare, const CpsLine *line, int e, const Impo
                        r->outcome == OUTCOME_SLIDES;
     if (ended && (r->parts > 1 || r->share < 1)) return;
     const double most = fmax(size(end->now.value), size(was->value));
+    const bool held = r->end_kind[e] == END_HELD;
+    const double *value = held ? r->held_position[e] : r->applied_force[e];
     for (int k = 0; k < 3; k++)
-        if (!(fabs(r->end_value[e][k] - end->now.value[k]) <= end->noise * most))
-            find(compare, "end_value of %s is %.17g, in the scene %.17g", of, r->end_value[e][k],
-                 end->now.value[k]);
+        if (!(fabs(value[k] - end->now.value[k]) <= end->noise * most))
+            find(compare, "%s of %s is %.17g, in the scene %.17g",
+                 held ? "end_held_position" : "end_applied_force", of, value[k], end->now.value[k]);
 }
 
 /* Gravity of the scene after so many steps of a stage, or without one that of its beginning. */
@@ -326,8 +328,8 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
         for (int k = 0; k < 3; k++) load[k] = share * weight * g[k];
         for (int e = 0; e < 2; e++) {
             if (r->end_kind[e] == END_HELD || j != (e ? r->elements : 0)) continue;
-            for (int k = 0; k < 3; k++) load[k] += r->end_value[e][k];
-            noise += size(r->end_value[e]);
+            for (int k = 0; k < 3; k++) load[k] += r->applied_force[e][k];
+            noise += size(r->applied_force[e]);
         }
         for (int k = 0; k < 3; k++)
             if (!(fabs(r->load[j][k] - load[k]) <= COPIED * noise)) {

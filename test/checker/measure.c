@@ -76,9 +76,10 @@ static bool all_within(const double *value, size_t count, double low, double hig
 }
 
 /* The first variable with a value that cannot be. Infinite may be: the gap to an obstacle that is
- * not looked for; NaN may be: the rms bound, where it says nothing. */
+ * not looked for; NaN must be what is not imposed on an end, and may be the rms bound. */
 static const char *missing_variable(const Record *r) {
     const double most = 1.7976931348623157e308, tiny = 4.9e-324;
+    const bool place[2] = {r->end_kind[0] == END_HELD, r->end_kind[1] == END_HELD}; /* is imposed */
     size_t n = r->nodes, m = r->elements, all = r->contacts * n + (r->has_elements ? m : 0);
     const struct {
         const char *name;
@@ -99,14 +100,18 @@ static const char *missing_variable(const Record *r) {
         {"friction_bound", r->friction_bound, all, 0, most},
         {"reaction", r->reaction, all, -most, most},
         {"contact_gap", r->gap, all, -most, INFINITY},
-        {"end_value", r->end_value[0], 6, -most, most},
+        {"end_held_position", r->held_position[0], place[0] ? 3 : 0, -most, most},
+        {"end_held_position", r->held_position[1], place[1] ? 3 : 0, -most, most},
+        {"end_applied_force", r->applied_force[0], place[0] ? 0 : 3, -most, most},
+        {"end_applied_force", r->applied_force[1], place[1] ? 0 : 3, -most, most},
         {"end_force", r->end_force[0], 6, -most, most},
         {"end_friction_force", r->end_friction_force[0], 6, -most, most},
         {"end_tension", r->end_tension, 2, 0, most},
         {"element_share", r->share_of, r->has_elements ? m : 0, 0, 1},
         {"proof", r->proof, 3, -most, most},
         {"motion", r->motion ? r->motion[0] : NULL, r->motion ? 3 * n : 0, -most, most},
-        {"proof_value", &r->proof_value, 1, -most, most},
+        {"proof_length", &r->proof_length, 1, 0, most},
+        {"proof_force", &r->proof_force, 1, 0, most},
         {"dissipated", &r->dissipated, 1, -most, most},
         {"unaccounted", &r->unaccounted, 1, 0, most},
         {"bend_turn", &r->bend_turn, 1, 0, most},
@@ -117,6 +122,11 @@ static const char *missing_variable(const Record *r) {
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         if (!all_within(table[k].value, table[k].count, table[k].low, table[k].high))
             return table[k].name;
+    }
+    for (int k = 0; k < 6; k++) {
+        const int e = k / 3;
+        if (!isnan(place[e] ? r->applied_force[e][k % 3] : r->held_position[e][k % 3]))
+            return place[e] ? "end_applied_force" : "end_held_position";
     }
     for (int k = 0; k < CLAIMS; k++) {
         bool may_miss = k == CLAIM_TENSION_BOUND && isnan(r->claim[k]);
@@ -512,7 +522,7 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
     subtract(r->position[j], r->reference[j], u);
     for (int e = 0; e < 2; e++)
         if (j == (e ? r->elements : 0) && r->end_kind[e] == END_FREE)
-            for (int k = 0; k < 3; k++) weight[k] -= r->end_value[e][k];
+            for (int k = 0; k < 3; k++) weight[k] -= r->applied_force[e][k];
     // where gravity changes the weight works with the mean of what it was and what it is
     const Real share = ((j > 0 ? (Real)r->element_length[j - 1] : 0) +
                         (j < r->elements ? (Real)r->element_length[j] : 0)) /
@@ -549,8 +559,8 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     // must balance
     if (held(r, j)) {
         Triple imposed, off;
-        widen(r->end_value[j == 0 ? 0 : 1], imposed);
-        subtract(r->position[j], r->end_value[j == 0 ? 0 : 1], off);
+        widen(r->held_position[j == 0 ? 0 : 1], imposed);
+        subtract(r->position[j], r->held_position[j == 0 ? 0 : 1], off);
         raise_to(&m->held_error, size(off));
         add(&s->dual, -dot(pull, imposed));
         add(&s->imbalance_work, dot(pull, off));
@@ -569,7 +579,7 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
     m->rigid_rise_least = INFINITY;
     if (r->end_kind[0] == END_HELD && r->end_kind[1] == END_HELD) {
         Triple apart;
-        subtract(r->end_value[1], r->end_value[0], apart);
+        subtract(r->held_position[1], r->held_position[0], apart);
         m->ends_distance = (double)size(apart);
     }
     Triple v, b;

@@ -135,8 +135,8 @@ static bool has_power(const Record *r, size_t tail, size_t head, const Real *wei
     }
     const int trailing = head == r->elements ? 0 : 1;
     for (int k = 0; k < 3; k++) {
-        Real back = (Real)r->end_value[trailing][k] * r->motion[tail][k],
-             front = r->end_value[!trailing][k] * lead[k];
+        Real back = (Real)r->applied_force[trailing][k] * r->motion[tail][k],
+             front = r->applied_force[!trailing][k] * lead[k];
         sum += back + front;
         sizes += fabsl(back) + fabsl(front);
     }
@@ -164,7 +164,7 @@ const char *motion_contradiction(const Source *source, const Record *r, double *
         if (r->factor) factor = fmaxl(factor, r->factor[j]);
     }
     for (int k = 0; k < 3; k++)
-        weight[k] -= ((Real)r->end_value[0][k] + r->end_value[1][k]) / length;
+        weight[k] -= ((Real)r->applied_force[0][k] + r->applied_force[1][k]) / length;
     if (!(fabsl(fastest - 1) <= 1e-9L)) return "the fastest node does not move at the speed 1";
     for (size_t i = 0; i < r->elements; i++) {
         between(r, i, i + 1, e);

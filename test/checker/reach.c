@@ -41,8 +41,8 @@ static void flat(const Seen *seen, const double *x, Real out[2]) {
 static Seen look(const Surface *s, const Record *r) {
     Seen seen = {.surface = s};
     Triple a, b;
-    from_middle(s, r->end_value[0], a);
-    from_middle(s, r->end_value[1], b);
+    from_middle(s, r->held_position[0], a);
+    from_middle(s, r->held_position[1], b);
     if (s->kind == SURFACE_CYLINDER) {
         const Real down = dot(a, s->axis), up = dot(b, s->axis);
         seen.rise = up - down;
@@ -129,9 +129,9 @@ const char *reach_contradiction(const Source *source, const Record *r, bool stat
     int turns = 0;
     if (s->kind == SURFACE_CYLINDER && !statics) {
         Real at[2], next[2];
-        flat(&seen, r->end_value[0], at);
+        flat(&seen, r->held_position[0], at);
         for (size_t j = 0; j <= r->nodes; j++) {
-            flat(&seen, j < r->nodes ? r->reference[j] : r->end_value[1], next);
+            flat(&seen, j < r->nodes ? r->reference[j] : r->held_position[1], next);
             if (loses_side(at, next, s->radius, &turns)) return "the line lies across the axis";
             at[0] = next[0];
             at[1] = next[1];

@@ -466,7 +466,8 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     bad |= read_step(source, line, "parts", step, 0, 0, &parts, log);
     bad |= read_step(source, line, "share", step, 0, 0, &record->share, log);
     bad |= read_step(source, line, "end_kind", step, 2, 0, kind, log);
-    bad |= read_step(source, line, "end_value", step, 2, 3, record->end_value[0], log);
+    bad |= read_step(source, line, "end_held_position", step, 2, 3, record->held_position[0], log);
+    bad |= read_step(source, line, "end_applied_force", step, 2, 3, record->applied_force[0], log);
     bad |= read_step(source, line, "end_force", step, 2, 3, record->end_force[0], log);
     bad |= read_step(source, line, "end_friction_force", step, 2, 3, record->end_friction_force[0],
                      log);
@@ -474,7 +475,8 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     bad |= read_step(source, line, "dissipated", step, 0, 0, &record->dissipated, log);
     bad |= read_step(source, line, "unaccounted", step, 0, 0, &record->unaccounted, log);
     bad |= read_step(source, line, "proof", step, 3, 0, record->proof, log);
-    bad |= read_step(source, line, "proof_value", step, 0, 0, &record->proof_value, log);
+    bad |= read_step(source, line, "proof_length", step, 0, 0, &record->proof_length, log);
+    bad |= read_step(source, line, "proof_force", step, 0, 0, &record->proof_force, log);
     bad |= read_step(source, line, "bend_turn", step, 0, 0, &record->bend_turn, log);
     bad |= read_step(source, line, "bend_friction", step, 0, 0, &record->bend_friction, log);
     bad |= read_step(source, line, "bend_at", step, 0, 0, &record->bend_at, log);

@@ -88,12 +88,14 @@ typedef struct Record {
     int end_kind[2], outcome, iterations;
     int parts;    /* that the step was taken in; the arrays are those of the last one, */
     double share; /* which is so much of the step */
-    Vector end_value[2], end_force[2], end_friction_force[2], proof;
+    Vector held_position[2], applied_force[2]; /* what is imposed on an end; NaN: the other is */
+    Vector end_force[2], end_friction_force[2], proof;
     double end_tension[2], end_range[RANGES][2];
     double bend_turn, bend_friction,
         bend_at;        /* [rad], [-], [m] of the sharpest bend round an obstacle */
     int proof_obstacle; /* -1: none, or the file does not say */
-    double proof_value, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES], unaccounted;
+    double proof_length, proof_force, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES],
+        unaccounted;
 } Record;
 
 /* An open file: its lines and how many steps they have. */

@@ -89,6 +89,19 @@ static Field constant(const char *name, size_t rows, double value, double at_end
 
 static Field scalar(const char *name, double value) { return (Field){name, 0, 0, {value}}; }
 
+/* What is imposed on the ends: 0 a position, 1 a force; the other of the two is missing. */
+static const int HELD_FREE[2] = {0, 1};
+static size_t imposed(Field *field, const int kind[2], const double value[6]) {
+    field[0] = (Field){"end_kind", 2, 0, {kind[0], kind[1]}};
+    field[1] = (Field){"end_held_position", 2, 3, {0}};
+    field[2] = (Field){"end_applied_force", 2, 3, {0}};
+    for (int k = 0; k < 6; k++) {
+        field[1 + kind[k / 3]].value[k] = value[k];
+        field[2 - kind[k / 3]].value[k] = NAN;
+    }
+    return 3;
+}
+
 /* the second step repeats the first from where that ended: nothing moves, friction stays and does
  * no work */
 static size_t describe(const SampleLine *line, int again, Field *field) {
@@ -117,8 +130,7 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = scalar("iterations", 1);
     field[n++] = scalar("parts", 1);
     field[n++] = scalar("share", 1);
-    field[n++] = (Field){"end_kind", 2, 0, {line->end_kind[0], line->end_kind[1]}};
-    field[n++] = (Field){"end_value", 2, 3, {0, 0, 0, line->end_b, 0, 0}};
+    n += imposed(&field[n], line->end_kind, (double[]){0, 0, 0, line->end_b, 0, 0});
     // the bed carries the half element at A, next to which nothing rubs
     field[n++] = (Field){"end_force", 2, 3, {0, 0, 0, line->end_b, 0, 0}};
     field[n++] = (Field){"end_friction_force", 2, 3, {0}};
@@ -134,7 +146,8 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     field[n++] = scalar("ledger_imbalance", pull / 3);
     field[n++] = scalar("unaccounted", 0);
     field[n++] = (Field){"proof", 3, 0, {line->proof, 0, 0}};
-    field[n++] = scalar("proof_value", line->proof_value);
+    field[n++] = scalar("proof_length", line->outcome == 5 ? line->proof_value : 0);
+    field[n++] = scalar("proof_force", line->outcome == 4 ? line->proof_value : 0);
     field[n++] = scalar("bend_turn", 0);
     field[n++] = scalar("bend_friction", 0);
     field[n++] = scalar("bend_at", 0);
@@ -413,10 +426,9 @@ static size_t describe_wound(const Wound *w, Field *field) {
     field[n++] = scalar("iterations", 1);
     field[n++] = scalar("parts", 1);
     field[n++] = scalar("share", 1);
-    field[n++] = (Field){"end_kind", 2, 0, {0, 1}};
-    field[n] = (Field){"end_value", 2, 3, {w->place[0], w->place[1], w->place[2]}};
-    for (int k = 0; k < 3; k++) field[n].value[3 + k] = load->value[3 * ELEMENTS + k];
-    n++;
+    const double *place = w->place, *pull = &load->value[3 * ELEMENTS];
+    n += imposed(&field[n], HELD_FREE,
+                 (double[]){place[0], place[1], place[2], pull[0], pull[1], pull[2]});
     field[n] = (Field){"end_force", 2, 3, {0}};
     for (int k = 0; k < 3; k++) {
         field[n].value[k] = -T[0] * w->chord[k] - held * w->normal[k] - rub[k];
@@ -429,7 +441,8 @@ static size_t describe_wound(const Wound *w, Field *field) {
     field[n++] = (Field){"end_friction_force", 2, 3, {rub[0], rub[1], rub[2]}};
     field[n++] = scalar("dissipated", work + ends);
     field[n++] = (Field){"proof", 3, 0, {0}};
-    field[n++] = scalar("proof_value", 0);
+    field[n++] = scalar("proof_length", 0);
+    field[n++] = scalar("proof_force", 0);
     field[n++] = scalar("ledger_obstacles", work + ends); // which is all dissipated
     field[n++] = scalar("bend_turn", DELTA);
     field[n++] = scalar("bend_friction", MU); // the same at all inner nodes
@@ -583,33 +596,19 @@ static size_t describe_post(Field *field) {
     field[n++] = scalar("iterations", 1);
     field[n++] = scalar("parts", 1);
     field[n++] = scalar("share", 1);
-    field[n++] = (Field){"end_kind", 2, 0, {0, 1}};
-    field[n++] = (Field){"end_value", 2, 3, {PLACE[0], PLACE[1], 0, PULL[0], PULL[1], 0}};
+    n += imposed(&field[n], HELD_FREE, (double[]){PLACE[0], PLACE[1], 0, PULL[0], PULL[1], 0});
     field[n++] = (Field){"end_force", 2, 3, {-FORCE[0], -FORCE[1], 0, PULL[0], PULL[1], 0}};
     field[n++] = (Field){"end_friction_force", 2, 3, {0}};
     field[n++] = (Field){"end_tension", 2, 0, {4, 6}};
     for (int k = 0; k < RANGES; k++) field[n++] = (Field){RANGE_NAME[k], 2, 0, {NAN, NAN}};
     field[n++] = (Field){"proof", 3, 0, {0}};
-    static const char *const NONE[] = {"dissipated",
-                                       "proof_value",
-                                       "ledger_ends",
-                                       "ledger_elastic",
-                                       "ledger_gravity",
-                                       "ledger_imbalance",
-                                       "gap",
-                                       "tension_bound",
-                                       "force_residual",
-                                       "law_residual",
-                                       "contact_residual",
-                                       "ledger_obstacles",
-                                       "penetration",
-                                       "stretch_residual",
-                                       "friction_residual",
-                                       "tension_estimate",
-                                       "element_penetration",
-                                       "unaccounted",
-                                       "element_push",
-                                       "elongation_residual"};
+    static const char *const NONE[] = {
+        "dissipated",         "proof_length",        "proof_force",      "ledger_ends",
+        "ledger_elastic",     "ledger_gravity",      "ledger_imbalance", "gap",
+        "tension_bound",      "force_residual",      "law_residual",     "contact_residual",
+        "ledger_obstacles",   "penetration",         "stretch_residual", "friction_residual",
+        "tension_estimate",   "element_penetration", "unaccounted",      "element_push",
+        "elongation_residual"};
     field[n++] = scalar("bend_turn", 2 * asin(0.6));
     field[n++] = scalar("bend_friction", MU);
     field[n++] = scalar("bend_at", 2 + 0.6 * 2);
@@ -680,12 +679,12 @@ static size_t describe_spill(Field *field) {
             f->value[i] = MOTION[i] / fastest;
         for (int j = 0; j < NODES && strcmp(f->name, "load") == 0; j++)
             f->value[3 * j + 2] = j == 0 ? -1 : j + 1 == NODES ? -10 : 0;
-        if (strcmp(f->name, "end_value") == 0) {
+        if (strcmp(f->name, "end_applied_force") == 0) {
             f->value[2] = -1;
             f->value[3] = 0;
             f->value[5] = -10;
         }
-        if (strcmp(f->name, "proof_value") == 0) f->value[0] = (10 / 9. - 1) / fastest;
+        if (strcmp(f->name, "proof_force") == 0) f->value[0] = (10 / 9. - 1) / fastest;
     }
     return n;
 }
@@ -732,7 +731,7 @@ static size_t describe_fall(Field *field) {
             f->value[0] = f->value[1] = 0;
             f->value[2] = -1;
         }
-        if (strcmp(f->name, "proof_value") == 0) f->value[0] = 5;
+        if (strcmp(f->name, "proof_force") == 0) f->value[0] = 5;
     }
     return n;
 }
@@ -761,7 +760,7 @@ static size_t describe_reel(Field *field) {
         Field *f = &field[k];
         const bool places = strcmp(f->name, "reference") == 0 || strcmp(f->name, "position") == 0;
         if (places) memcpy(f->value, PLACE, sizeof PLACE);
-        if (strcmp(f->name, "end_value") == 0) {
+        if (strcmp(f->name, "end_held_position") == 0) {
             f->value[0] = -1;
             f->value[3] = 1;
             f->value[5] = -1.5;
@@ -770,7 +769,7 @@ static size_t describe_reel(Field *field) {
             f->value[0] = 0;
             f->value[2] = 1;
         }
-        if (strcmp(f->name, "proof_value") == 0) f->value[0] = way - 4;
+        if (strcmp(f->name, "proof_length") == 0) f->value[0] = way - 4;
     }
     return n;
 }

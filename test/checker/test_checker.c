@@ -105,6 +105,12 @@ static const Tamper TAMPER[] = {
     {"drag_end_friction_force", 0, 1e-6, "end_friction_force against the neighbour's"},
     {"drag_end_tension", 1, 10.000001, "end_tension against the size"},
     {"drag_end_tension", 0, -1, "end_tension holds a value that cannot be"},
+    {"drag_end_held_position", 3, 5, "end_held_position holds a value that cannot be"},
+    {"drag_end_held_position", 0, NAN, "end_held_position holds a value that cannot be"},
+    {"drag_end_applied_force", 0, 0, "end_applied_force holds a value that cannot be"},
+    {"drag_end_applied_force", 3, NAN, "end_applied_force holds a value that cannot be"},
+    {"far_proof_force", 0, 1, "proof_force of a line that is neither unbounded nor slides"},
+    {"loose_proof_length", 0, 1, "proof_length of a line that is not infeasible"},
     {"drag_end_tension_least", 1, 10, "the range of an end's tension is not whole"},
     {"drag_end_tension_greatest_bound", 0, 10, "the range of an end's tension is not whole"},
     {"drag_reaction", 0, 0, "reaction on a held end"},
@@ -121,15 +127,15 @@ static const Tamper TAMPER[] = {
     {"drag_outcome", 0, 7, "slides without end, but an end is held"},
     {"loose_outcome", 0, 7, "slides without end, but friction is frozen"},
     {"drag_outcome", 0, 8, "unknown outcome"},
-    {"tight_end_value", 3, 3.999, "distance of the ends - length"},
+    {"tight_end_held_position", 3, 3.999, "distance of the ends - length"},
     {"tight_position", 3, 1.1, "stretch"},
-    {"far_end_value", 3, 4, "infeasible, but the ends are"},
+    {"far_end_held_position", 3, 4, "infeasible, but the ends are"},
     {"far_proof", 0, 0.5, "proof vector"},
-    {"far_proof_value", 0, 1, "proof_value"},
+    {"far_proof_length", 0, 1, "proof_length"},
     {"loose_load", 12, 15, "unbounded, but the energy falls"},
     {"loose_proof", 2, -0.1, "rigid motion"},
-    {"loose_proof_value", 0, 2, "proof_value"},
-    {"loose_end_kind", 0, 0, "unbounded, but an end is held"},
+    {"loose_proof_force", 0, 2, "proof_force"},
+    {"loose_end_kind", 0, 0, "end_held_position holds a value that cannot be"},
 };
 
 /* the same on the drum; node 2 is at half a radian from the top */
@@ -276,11 +282,11 @@ static const Tamper SPILL_TAMPER[] = {
     {"spill_motion", 14, -0.1, "an element would lengthen"},
     {"spill_motion", 5, 0, "the fastest node does not move at the speed 1"},
     {"spill_motion", 5, NAN, "motion holds a value that cannot be"},
-    {"spill_end_value", 5, -8.9, "no power that nothing can take"},
-    {"spill_end_value", 2, -1.2, "no power that nothing can take"},
+    {"spill_end_applied_force", 5, -8.9, "no power that nothing can take"},
+    {"spill_end_applied_force", 2, -1.2, "no power that nothing can take"},
     {"spill_load", 14, -14, "no power that nothing can take"}, // a line with weight
     {"spill_end_kind", 0, 0, "an end is held"},
-    {"spill_proof_value", 0, 0.1, "proof_value"},
+    {"spill_proof_force", 0, 0.1, "proof_force"},
     {"spill_reference", 6, 0.1, "an element would lengthen"},
     {"obstacle_friction_axial", 0, 0.51, "a node would press on an obstacle"},
     {"obstacle_radius", 0, 1.001, "a node lies inside an obstacle"},
@@ -291,9 +297,9 @@ static const Tamper SPILL_TAMPER[] = {
 static const Tamper FALL_TAMPER[] = {
     {"fall_proof", 2, 1, "unbounded, but the energy falls"},
     {"fall_proof", 0, 0.1, "length of the rigid motion"},
-    {"fall_proof_value", 0, 4.9, "proof_value"},
-    {"fall_load", 8, 1, "proof_value"},
-    {"fall_end_kind", 0, 0, "unbounded, but an end is held"},
+    {"fall_proof_force", 0, 4.9, "proof_force"},
+    {"fall_load", 8, 1, "proof_force"},
+    {"fall_end_kind", 0, 0, "end_held_position holds a value that cannot be"},
     {"fall_reference", 8, -1, "unbounded, but the line meets an obstacle"}, // it touches
     {"fall_reference", 8, 1.5,
      "unbounded, but the line meets an obstacle"}, // an element goes through the drum
@@ -306,13 +312,13 @@ static const Tamper FALL_TAMPER[] = {
 
 /* too short to reach round a drum */
 static const Tamper REEL_TAMPER[] = {
-    {"reel_end_value", 5, -1, "the line is long enough"},
-    {"reel_end_value", 5, 2, "the line is long enough"},
+    {"reel_end_held_position", 5, -1, "the line is long enough"},
+    {"reel_end_held_position", 5, 2, "the line is long enough"},
     {"reel_element_length", 0, 2, "the line is long enough"},
     {"reel_compliance", 0, 1e-9, "the line is elastic"},
     {"reel_end_kind", 1, 1, "an end is free"},
     {"reel_parts", 0, 2, "it is of a part of a step"},
-    {"reel_proof_value", 0, 0.5, "proof_value"},
+    {"reel_proof_length", 0, 0.5, "proof_length"},
     {"reel_proof", 0, 0.01, "proof vector"},
     {"reel_proof", 2, -1, "proof vector off the shortest path"},
     {"reel_proof_obstacle", 0, -1, "infeasible, but the ends are"},

@@ -118,19 +118,20 @@ typedef struct Falsified {
     } poke[POKES];
 } Falsified;
 
-/* the steps are 0, 1: pull; 2: turn; 3, 4: grab; 5: slack; end_value has 6 numbers in a step */
+/* the steps are 0, 1: pull; 2: turn; 3, 4: grab; 5: slack; what is imposed has 6 numbers in a step
+ */
 static const Falsified FALSIFIED[] = {
-    {"end_value of rope, end B, step 1", false, {{"rope_end_value", 6 + 3, 31}}},
-    {"end_value of rope, end B, step 1", false, {{"rope_end_value", 6 + 4, 1}}},
-    {"end_value of rope, end B, step 1",
+    {"end_applied_force of rope, end B, step 1", false, {{"rope_end_applied_force", 6 + 3, 31}}},
+    {"end_applied_force of rope, end B, step 1", false, {{"rope_end_applied_force", 6 + 4, 1}}},
+    {"end_applied_force of rope, end B, step 1",
      true,
-     {{"rope_end_value", 6 + 5, 1e-8}, {"rope_end_force", 6 + 5, 1e-8}}},
-    {"end_value of wire, end B, step 2",
+     {{"rope_end_applied_force", 6 + 5, 1e-8}, {"rope_end_force", 6 + 5, 1e-8}}},
+    {"end_applied_force of wire, end B, step 2",
      true,
-     {{"wire_end_value", 12 + 4, 1e-8}, {"wire_end_force", 12 + 4, 1e-8}}},
-    {"end_value of rope, end B, step 3", false, {{"rope_end_value", 18 + 4, 0.6}}},
-    {"end_value of rope, end A, step 5", true, {{"rope_end_value", 30, 1e-13}}},
-    {"end_value of wire, end A, step 0", true, {{"wire_end_value", 2, 1e-13}}},
+     {{"wire_end_applied_force", 12 + 4, 1e-8}, {"wire_end_force", 12 + 4, 1e-8}}},
+    {"end_held_position of rope, end B, step 3", false, {{"rope_end_held_position", 18 + 4, 0.6}}},
+    {"end_held_position of rope, end A, step 5", true, {{"rope_end_held_position", 30, 1e-13}}},
+    {"end_held_position of wire, end A, step 0", true, {{"wire_end_held_position", 2, 1e-13}}},
     {"end_kind of rope, end B, step 0", false, {{"rope_end_kind", 1, 0}}},
     {"end_kind of wire, end A, step 4", false, {{"wire_end_kind", 8, 1}}},
     {"load of rope at node 2, step 0", false, {{"rope_load", 8, -6.1}}},
@@ -240,7 +241,8 @@ static void first_step_in_parts(void **state) {
         CHECK_GREATER(parts, 1);
         snprintf(path, sizeof path, "%s/result.nc", where);
         CHECK_INT(given_file(path, cps_scene_file_scene(file), stdout), 0);
-        CHECK_INT(sample_poke(path, "rope_end_value", 4, 1.25), 0); /* y of end B half way */
+        CHECK_INT(sample_poke(path, "rope_end_held_position", 4, 1.25),
+                  0); /* y of end B half way */
         CHECK_GREATER(given_file(path, cps_scene_file_scene(file), NULL), 0);
         cps_scene_file_destroy(file);
         snprintf(path, sizeof path, "rm -r '%s'", where);

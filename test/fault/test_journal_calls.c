@@ -89,7 +89,7 @@ static CpsEvolution *make_evolution(void) {
 static double place[STEPS][NUMBERS];
 
 static void expect_place(const CpsEvolution *evolution) {
-    const int index = cps_evolution_report(evolution).index;
+    const int index = cps_evolution_report(evolution).step_count - 1;
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
     assert_in_range(index, 0, STEPS - 1);
     assert_memory_equal(view.position, place[index], sizeof place[index]);

@@ -232,7 +232,7 @@ static void go_on(CpsEvolution *evolution, bool step) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport report = cps_evolution_line_report(evolution, i);
         must(cps_outcome_name(report.outcome)[0] && report.bend.obstacle < of->obstacle_count &&
-             report.pierced < of->obstacle_count);
+             report.pierced_obstacle < of->obstacle_count);
         for (int j = 0; j < 3 * (view.element_count + 1); ++j) sum += view.position[j];
         if (view.obstacle)
             for (int c = 0; c < view.contact_count * (view.element_count + 1); ++c)

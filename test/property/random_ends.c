@@ -123,8 +123,9 @@ static bool compare(Count *count, CpsEvolution *const run[2], int class_index, i
             const CpsLedger l[2] = {report[0].ledger, report[1].ledger};
             printf("%s, seed %d, step %d, line %d: %.1e of the length apart; imbalance %.2e and "
                    "%.2e J, dissipated %.2e and %.2e J\n",
-                   random_scene_class_name(class_index), seed, cps_evolution_report(run[0]).index,
-                   i, distance, l[0].imbalance, l[1].imbalance, l[0].dissipated, l[1].dissipated);
+                   random_scene_class_name(class_index), seed,
+                   cps_evolution_report(run[0]).step_count - 1, i, distance, l[0].imbalance,
+                   l[1].imbalance, l[0].dissipated, l[1].dissipated);
             count->silent++;
             goes_on = false;
         } else {

@@ -33,7 +33,7 @@ static bool chance(double probability) { return uniform(0, 1) < probability; }
 
 static void rubbing(CpsObstacle *o) {
     o->friction = uniform(0.05, 1);
-    if (chance(0.5)) o->friction_lateral = uniform(0.05, 1);
+    if (chance(0.5)) rig_lateral(o, uniform(0.05, 1));
     if (chance(0.3)) o->friction_shape = CPS_FRICTION_SHAPE_BOX;
     if (chance(0.2)) {
         o->grain[0] = uniform(-1, 1);
@@ -103,7 +103,7 @@ static void wound(Rig *rig) {
     rig_length(rig, (n + 2 * lead) * chord);
     for (int a = 0; a < 3; a++) x[a] = rig->point[3 * (n + 2 * lead) + a];
     rig_end(rig, CPS_END_A, CPS_END_KIND_FREE, -pull, 0, 0);
-    rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, NAN, NAN, NAN);
+    rig_end(rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
     const int stages = 3 + (int)uniform(0, 4);
     for (int k = 0; k < stages; k++) {
         const double what = uniform(0, 1);
@@ -163,7 +163,7 @@ static int class_of(const Rig *rig) {
     const CpsObstacle *bed = &rig->obstacle[0];
     if (bed->kind != CPS_OBSTACLE_PLANE) return DRUM;
     if (rig->scene.obstacle_count == 1)
-        return bed->friction_lateral == -1 && bed->friction_shape == CPS_FRICTION_SHAPE_ELLIPSE
+        return !bed->has_friction_lateral && bed->friction_shape == CPS_FRICTION_SHAPE_ELLIPSE
                    ? ISOTROPIC
                    : ANISOTROPIC;
     for (int k = 1; k < rig->scene.obstacle_count; k++)
@@ -207,7 +207,7 @@ static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, c
     count->cut += report.part_count > 1;
     if (!cps_outcome_is_certified(report.outcome)) {
         count->refused++;
-        printf("seed %llu, step %d: %s\n", (unsigned long long)seed, step.index,
+        printf("seed %llu, step %d: %s\n", (unsigned long long)seed, step.step_count - 1,
                cps_outcome_name(report.outcome));
         return;
     }
@@ -223,8 +223,8 @@ static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, c
     count->wrong++;
     printf("seed %llu, step %d: WRONG: balance %.1e, depth %.1e, open %.1e, bound %.1e, outside "
            "%.1e, law %.1e of %.1e J, a node %.1e\n",
-           (unsigned long long)seed, step.index, audit.balance, audit.penetration, audit.open,
-           audit.bound, audit.outside, audit.law, audit.dissipated, audit.node_law);
+           (unsigned long long)seed, step.step_count - 1, audit.balance, audit.penetration,
+           audit.open, audit.bound, audit.outside, audit.law, audit.dissipated, audit.node_law);
 }
 
 static void run_one(Count *counts, uint64_t seed, int halvings, int class) {

@@ -100,7 +100,7 @@ static void rubbing(Scene *s, CpsObstacle *o) {
         return;
     }
     o->friction = uniform(0.05, 0.6);
-    if (chance(0.2)) o->friction_lateral = uniform(0.05, 0.6);
+    if (chance(0.2)) rig_lateral(o, uniform(0.05, 0.6));
     if (chance(0.1)) o->friction_shape = CPS_FRICTION_SHAPE_BOX;
     if (chance(0.1)) {
         o->grain[0] = uniform(-1, 1);

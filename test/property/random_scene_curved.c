@@ -27,6 +27,7 @@ static void set_round(Maker *maker, CpsObstacle *obstacle, CpsObstacleKind kind,
 static void set_directions(Maker *maker, CpsObstacle *obstacle, bool box, bool grain) {
     Random *random = &maker->random;
     obstacle->friction = fmax(obstacle->friction, 0.02);
+    obstacle->has_friction_lateral = true;
     obstacle->friction_lateral = obstacle->friction * random_uniform(random, 0.3, 2);
     obstacle->friction_shape = box ? CPS_FRICTION_SHAPE_BOX : CPS_FRICTION_SHAPE_ELLIPSE;
     const double angle = random_uniform(random, 0, 6.283), local[3] = {cos(angle), sin(angle), 0};

@@ -12,7 +12,7 @@ SAME = 1e-6
 # parts of what is dissipated and worked that may be made, or set free, without a word
 MADE, FREED = 0.05, 0.5
 # what may be no number: what is told only of some lines, ends and outcomes
-MAY_BE_NONE = ("proof", "proof_value", "motion", "end_tension_least", "end_tension_least_bound", "end_tension_greatest",
+MAY_BE_NONE = ("proof", "proof_length", "proof_force", "end_held_position", "end_applied_force", "motion", "end_tension_least", "end_tension_least_bound", "end_tension_greatest",
                "end_tension_greatest_bound", "tension_bound", "tension_mesh", "contact_gap", "contact_gap_second", "element_contact_gap",
                "normal", "normal_second", "element_normal")
 # no place may be farther from where the step begins, and no force larger, than this times what the scene is made of: an answer that is not
@@ -86,11 +86,10 @@ def reach(scene, line, step):
     """[m], [N]: of lengths and forces that the scene can make"""
     lengths, forces = line.length, line.length*size(line.weight)
     for end in range(2):
-        value = line.get("end_value", step)[3*end:3*end + 3]
         if line.get("end_kind", step)[end]:
-            forces += size(value)
+            forces += size(point(line.get("end_applied_force", step), end))
         else:
-            lengths += size(minus(value, line.get("reference", step)[:3]))
+            lengths += size(minus(point(line.get("end_held_position", step), end), line.get("reference", step)[:3]))
     if line.compliance > 0:
         lengths *= 1 + forces*line.compliance
         forces += lengths/line.length/line.compliance

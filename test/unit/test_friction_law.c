@@ -10,6 +10,7 @@ static const double PI = 3.14159265358979323846;
 static CpsiFrictionLaw make(double first, double second, bool box) {
     CpsObstacle def = cps_obstacle_default();
     def.friction = first;
+    def.has_friction_lateral = true;
     def.friction_lateral = second;
     def.friction_shape = box ? CPS_FRICTION_SHAPE_BOX : CPS_FRICTION_SHAPE_ELLIPSE;
     const CpsiObstacle o = cpsi_obstacle(&def);

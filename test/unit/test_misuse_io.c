@@ -135,7 +135,6 @@ static void one_thing_missing(void **state) {
     const CpsRegularizedLine line = {.name = "a",
                                      .point_count = 2,
                                      .position = ONE,
-                                     .tension = ONE,
                                      .parameters = &parameters,
                                      .report = &report};
     const CpsRegularizedRun run = {
@@ -161,7 +160,6 @@ static void one_thing_missing(void **state) {
     WITHOUT_OF_LINE(name);
     WITHOUT_OF_LINE(point_count);
     WITHOUT_OF_LINE(position);
-    WITHOUT_OF_LINE(tension);
     WITHOUT_OF_LINE(parameters);
     WITHOUT_OF_LINE(report);
 

@@ -248,10 +248,12 @@ static void has_local_axes(void **state) {
     CpsiObstacle o = cpsi_obstacle(&def);
     assert_false(cpsi_obstacle_needs_local_axes(&o));
     CHECK_NEAR(o.friction[1], 0.5, 0); /* across as along, if not said */
+    def.has_friction_lateral = true;
     def.friction_lateral = 0;
     o = cpsi_obstacle(&def);
     assert_true(cpsi_obstacle_needs_local_axes(&o));
     CHECK_NEAR(o.friction[1], 0, 0);
+    def.has_friction_lateral = true;
     def.friction_lateral = 0.5;
     def.friction_shape = CPS_FRICTION_SHAPE_BOX;
     o = cpsi_obstacle(&def);

@@ -269,6 +269,7 @@ static void obstacles_are_written(void **state) {
     Fixture f;
     make_scene(&f);
     CpsObstacle obstacle[2] = {f.bed, cps_obstacle_default()};
+    obstacle[0].has_friction_lateral = true;
     obstacle[0].friction_lateral = 0.5;
     obstacle[0].friction_shape = CPS_FRICTION_SHAPE_BOX;
     obstacle[1].name = "drum";
@@ -435,7 +436,7 @@ static void what_is_not_there_is_refused(void **state) {
     assert_int_equal(cps_evolution_line_count(NULL), 0);
     assert_int_equal(cps_evolution_step_count(NULL), 0);
     assert_int_equal(cps_evolution_remaining_count(NULL), 0);
-    assert_int_equal(cps_evolution_report(NULL).index, -1);
+    assert_int_equal(cps_evolution_report(NULL).step_count, 0);
     assert_int_equal(cps_evolution_state_size(NULL), 0);
     cps_evolution_save(NULL, NULL);
     const int absent[] = {-1, LINES, INT_MAX, INT_MIN};

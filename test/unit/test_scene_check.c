@@ -308,8 +308,11 @@ static void refuses_wrong_lines(void **state) {
     p.line.start.point = NULL;
     refused(&p, "line 'cable': start has 0 points");
     make(&p);
-    p.line.end[0].value[1] = 0;
+    p.line.end[0] = (CpsEnd){CPS_END_KIND_HELD, {NAN, 0, NAN}};
     refused(&p, "ends: end A is at (nan, 0, nan)");
+    make(&p);
+    p.line.end[0].value[1] = 1;
+    refused(&p, "end A is held where the start puts it, but has a position");
 }
 
 static void refuses_wrong_obstacles(void **state) {
@@ -340,6 +343,9 @@ static void refuses_wrong_obstacles(void **state) {
         assert_int_equal(cps_scene_check(&p.scene, NULL), k == 0 ? CPS_ERR_LIMIT : CPS_OK);
     }
     make(&p);
+    p.obstacle.friction_lateral = 0.2;
+    refused(&p, "has_friction_lateral");
+    p.obstacle.has_friction_lateral = true;
     p.obstacle.friction_lateral = -2;
     refused(&p, "lateral is -2");
     make(&p);
@@ -490,10 +496,10 @@ static void bounds_places(void **state) {
     (void)state;
     Parts p;
     make(&p);
-    memcpy(p.line.end[0].value, (double[]){0, 0, 0.9e-8}, sizeof(double[3]));
+    p.line.end[0] = (CpsEnd){CPS_END_KIND_HELD, {0, 0, 0.9e-8}};
     assert_int_equal(cps_scene_check(&p.scene, NULL), CPS_OK);
     make(&p);
-    memcpy(p.line.end[0].value, (double[]){0, 0, 1.1e-8}, sizeof(double[3]));
+    p.line.end[0] = (CpsEnd){CPS_END_KIND_HELD, {0, 0, 1.1e-8}};
     refused(&p, "end A is held at");
     make(&p);
     p.obstacle.point[2] = 0.9e-8;

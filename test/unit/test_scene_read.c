@@ -58,8 +58,7 @@ static void reads_defaults(void **state) {
     assert_null(line->element_length);
     assert_true(line->length == 10 && isinf(line->stiffness) && line->stiffness > 0);
     CHECK_NEAR(line->weight, 2 * 9.81, 1e-14); /* two roundings */
-    assert_int_equal(line->end[0].kind, CPS_END_KIND_HELD);
-    assert_true(isnan(line->end[0].value[0]));
+    assert_int_equal(line->end[0].kind, CPS_END_KIND_AT_START);
     assert_int_equal(line->end[1].kind, CPS_END_KIND_FREE);
     assert_true(line->end[1].value[0] == 0 && line->end[1].value[1] == 0 &&
                 line->end[1].value[2] == 0);
@@ -142,17 +141,18 @@ static void reads_obstacles(void **state) {
     assert_int_equal(scene->obstacle_count, 4);
     assert_int_equal(bed->kind, CPS_OBSTACLE_PLANE);
     assert_memory_equal(bed->normal, usual.normal, sizeof usual.normal);
-    assert_true(bed->friction == 0.6 && bed->friction_lateral == 0.8 && bed->grain[1] == 2);
+    assert_true(bed->friction == 0.6 && bed->has_friction_lateral && bed->friction_lateral == 0.8 &&
+                bed->grain[1] == 2);
     assert_int_equal(bed->friction_shape, CPS_FRICTION_SHAPE_BOX);
     assert_string_equal(drum->name, "drum");
     assert_int_equal(drum->kind, CPS_OBSTACLE_CYLINDER);
     CHECK_VECTOR(drum->point, ((double[]){1, 2, 3}), 0);
     CHECK_VECTOR(drum->axis, ((double[]){0, 0, 5}), 0);
-    assert_true(drum->radius == 0.5 && drum->friction == 0.3 &&
-                drum->friction_lateral == usual.friction_lateral);
+    assert_true(drum->radius == 0.5 && drum->friction == 0.3 && !drum->has_friction_lateral &&
+                drum->friction_lateral == 0);
     assert_memory_equal(pipe->axis, usual.axis, sizeof usual.axis);
     assert_memory_equal(pipe->point, usual.point, sizeof usual.point);
-    assert_true(pipe->friction == 0.1 && pipe->friction_lateral == usual.friction_lateral);
+    assert_true(pipe->friction == 0.1 && !pipe->has_friction_lateral);
     assert_int_equal(pipe->friction_shape, CPS_FRICTION_SHAPE_ELLIPSE);
     assert_int_equal(ball->kind, CPS_OBSTACLE_SPHERE);
     assert_true(ball->radius == 7 && ball->point[1] == 5 && ball->axis[0] == 1 &&

@@ -178,24 +178,22 @@ static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsS
  * force. */
 static CpsEnd build_end(const CpsiEndValues *values) {
     const bool is_free = values->word == CPSI_END_FREE;
+    if (!is_free && !values->node) return (CpsEnd){.kind = CPS_END_KIND_AT_START};
     CpsEnd end = {.kind = is_free ? CPS_END_KIND_FREE : CPS_END_KIND_HELD};
-    for (int i = 0; i < 3; i++) end.value[i] = values->node || is_free ? values->value[i] : NAN;
+    copy_vector(end.value, values->value);
     return end;
 }
 
-/* Initial position of a held end; for the end of an arc only the start itself knows it. */
+/* Initial position of a held end. NaN of a free one, and for the end of an arc, which only the
+ * start itself knows. */
 static void first_position(const CpsLine *line, int end, double out[3]) {
     const CpsStart *start = &line->start;
-    const double *value = line->end[end].value;
-    const bool known = end == CPS_END_A || start->kind != CPS_START_ARC;
-    const double *shape = start->point && known
-                              ? start->point + 3 * (end == CPS_END_A ? 0 : start->point_count - 1)
-                              : NULL;
-    for (int i = 0; i < 3; i++) {
-        out[i] = value[i];
-        if (isnan(out[i]) && shape) out[i] = shape[i];
-        if (line->end[end].kind == CPS_END_KIND_FREE) out[i] = NAN;
-    }
+    const CpsEnd *e = &line->end[end];
+    const bool known = start->point && (end == CPS_END_A || start->kind != CPS_START_ARC);
+    out[0] = NAN;
+    if (e->kind == CPS_END_KIND_HELD) copy_vector(out, e->value);
+    if (e->kind == CPS_END_KIND_AT_START && known)
+        copy_vector(out, start->point + 3 * (end == CPS_END_A ? 0 : start->point_count - 1));
 }
 
 static CpsStatus build_zones(const Build *b, const CpsiList *zones, CpsLine *line) {
@@ -248,6 +246,8 @@ static CpsStatus build_lines(Build *b, const CpsiList *lines) {
 static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsObstacle *obstacle) {
     CpsSet *set = NULL;
     *obstacle = values->obstacle;
+    obstacle->has_friction_lateral = !isnan(obstacle->friction_lateral);
+    if (!obstacle->has_friction_lateral) obstacle->friction_lateral = 0;
     obstacle->name = copy_text(b, values->node->key);
     if (!obstacle->name) return cpsi_document_no_memory(b->d);
     const CpsStatus status = values->set ? cpsi_build_set(&b->set, values->set, &set) : CPS_OK;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The history as CSV (RFC 4180): a row of names, a row of units, a row per step. The columns are
  * two tables, one for the step and one for each line; a value without meaning is an empty cell. */
+#include <math.h>
 #include <stddef.h>
 
 #include "io/base/escape.h"
@@ -9,10 +10,12 @@
 typedef struct Column {
     const char *name, *unit;
     size_t offset; /* offset of a double in the struct that the table describes */
+    size_t given;  /* offset of the flag that says whether it has a value; 0: always */
 } Column;
 
-#define STEP(member) offsetof(CpsStepReport, member)
-#define LINE(member) offsetof(CpsLineReport, member)
+#define STEP(member)          offsetof(CpsStepReport, member), 0
+#define LINE(member)          offsetof(CpsLineReport, member), 0
+#define LINE_IF(flag, member) offsetof(CpsLineReport, member), offsetof(CpsLineReport, flag)
 
 static const Column STEP_COLUMN[] = {
     {"primal", "J", STEP(certificate.primal)},
@@ -32,16 +35,15 @@ static const Column STEP_COLUMN[] = {
     {"wall", "s", STEP(wall)},
 };
 
+#define RANGE_COLUMN(letter, e, which) \
+    { letter ".tension_" #which, "N", LINE_IF(end[e].range.has_values, end[e].range.which) }
 #define END_COLUMNS(letter, e)                                                                    \
     {letter ".x", "m", LINE(end[e].position[0])}, {letter ".y", "m", LINE(end[e].position[1])},   \
         {letter ".z", "m", LINE(end[e].position[2])}, {letter ".fx", "N", LINE(end[e].force[0])}, \
         {letter ".fy", "N", LINE(end[e].force[1])}, {letter ".fz", "N", LINE(end[e].force[2])},   \
-        {letter ".tension", "N", LINE(end[e].tension)},                                           \
-        {letter ".tension_least", "N", LINE(end[e].range.least)},                                 \
-        {letter ".tension_least_bound", "N", LINE(end[e].range.least_bound)},                     \
-        {letter ".tension_greatest", "N", LINE(end[e].range.greatest)}, {                         \
-        letter ".tension_greatest_bound", "N", LINE(end[e].range.greatest_bound)                  \
-    }
+        {letter ".tension", "N", LINE(end[e].tension)}, RANGE_COLUMN(letter, e, least),           \
+        RANGE_COLUMN(letter, e, least_bound), RANGE_COLUMN(letter, e, greatest),                  \
+        RANGE_COLUMN(letter, e, greatest_bound)
 
 static const Column LINE_COLUMN[] = {
     END_COLUMNS("A", CPS_END_A),
@@ -53,8 +55,8 @@ static const Column LINE_COLUMN[] = {
     {"bend", "rad", LINE(bend.turn)},
     {"bend_ratio", "1", LINE(bend.ratio)},
     {"bend_coulomb", "1", LINE(bend.coulomb)},
-    {"tension_bound_rms", "N", LINE(certificate.tension_bound)},
-    {"tension_mesh_estimate", "N", LINE(tension_mesh)},
+    {"tension_bound_rms", "N", LINE_IF(certificate.has_tension_bound, certificate.tension_bound)},
+    {"tension_mesh_estimate", "N", LINE_IF(has_tension_mesh, tension_mesh)},
 };
 
 enum {
@@ -63,7 +65,9 @@ enum {
 };
 
 static double member(const void *report, const Column *column) {
-    return *(const double *)(const void *)((const char *)report + column->offset);
+    const char *at = report;
+    if (column->given && !*(const bool *)(at + column->given)) return NAN;
+    return *(const double *)(const void *)(at + column->offset);
 }
 
 static void write_heads(FILE *out, const CpsResults *results) {
@@ -88,7 +92,7 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
     write_heads(out, results);
     for (int r = 0; r < results->row_count; ++r) {
         const CpsiRow *row = &results->row[r];
-        fprintf(out, "%d,", row->report.index);
+        fprintf(out, "%d,", row->report.step_count - 1);
         cpsi_write_csv(out, row->name);
         fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_name(row->report.outcome),
                 row->report.iteration_count, row->report.part_count, row->report.snap_count,

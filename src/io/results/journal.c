@@ -188,7 +188,7 @@ CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution,
     *out = NULL;
     if (!directory || !evolution)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory and evolution are both needed");
-    if (cps_evolution_report(evolution).index >= 0)
+    if (cps_evolution_report(evolution).step_count > 0)
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
             "the evolution has taken steps already: open its journal before the first one");
@@ -237,7 +237,7 @@ CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *f
     }
     CpsError inner;
     const CpsStatus status = cps_evolution_load(evolution, journal->state, journal->size, &inner);
-    if (status == CPS_OK && cps_evolution_report(evolution).index != (int)journal->steps)
+    if (status == CPS_OK && cps_evolution_report(evolution).step_count != (int)journal->steps + 1)
         return refuse(journal, CPS_ERR_ARGUMENT,
                       "has its steps in another order: begin anew (--force)", err);
     if (status != CPS_OK)
@@ -255,10 +255,10 @@ CpsStatus cps_journal_append(CpsJournal *journal, const CpsEvolution *evolution,
     if (cps_evolution_state_size(evolution) != journal->size)
         return refuse(journal, CPS_ERR_ARGUMENT, "was opened for another evolution than this one",
                       err);
-    if (cps_evolution_report(evolution).index != (int)journal->steps)
+    if (cps_evolution_report(evolution).step_count != (int)journal->steps + 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "step %d follows the %d steps of the journal; append every step once",
-                         cps_evolution_report(evolution).index, (int)journal->steps);
+                         cps_evolution_report(evolution).step_count - 1, (int)journal->steps);
     if (journal->tail && ftruncate(journal->file, journal->end) != 0)
         return fail(journal, "write", err);
     journal->tail = false;

@@ -2,6 +2,7 @@
 /* A netCDF file that is being written (see netcdf_file.h). */
 #include "io/results/netcdf_file.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -48,6 +49,11 @@ void cpsi_netcdf_flags(CpsiNetcdfFile *file, int variable, nc_type type, size_t 
     static const int FLAG[] = {0, 1, 2};
     CALL(file, put_att_int, variable, "flag_values", type, count, value ? value : FLAG);
     cpsi_netcdf_text(file, variable, "flag_meanings", meanings);
+}
+
+void cpsi_netcdf_may_miss(CpsiNetcdfFile *file, int variable) {
+    const double none = NAN;
+    CALL(file, put_att_double, variable, "_FillValue", NC_DOUBLE, 1, &none);
 }
 
 void cpsi_netcdf_doubles(CpsiNetcdfFile *file, int variable, const size_t *start,

@@ -28,6 +28,8 @@ void cpsi_netcdf_text(CpsiNetcdfFile *file, int variable, const char *name, cons
 void cpsi_netcdf_numbers(CpsiNetcdfFile *file, const char *name, size_t count, const double *value);
 void cpsi_netcdf_flags(CpsiNetcdfFile *file, int variable, nc_type type, size_t count,
                        const int *value, const char *meanings);
+/* Doubles that may be missing: they are NaN then, the _FillValue of the variable. */
+void cpsi_netcdf_may_miss(CpsiNetcdfFile *file, int variable);
 
 /* Values. */
 void cpsi_netcdf_doubles(CpsiNetcdfFile *file, int variable, const size_t *start,

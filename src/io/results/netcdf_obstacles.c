@@ -128,7 +128,7 @@ static void write_fields(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstac
         const bool plane = o->kind == CPS_OBSTACLE_PLANE;
         const double kind = o->kind, radius = plane ? 0 : o->radius,
                      shape = o->friction_set ? 2 : o->friction_shape;
-        const double lateral = o->friction_lateral >= 0 ? o->friction_lateral : o->friction;
+        const double lateral = o->has_friction_lateral ? o->friction_lateral : o->friction;
         const double point[XYZ] = {o->point[0] - origin[0], o->point[1] - origin[1],
                                    o->point[2] - origin[2]};
         const double *value[CPSI_OBSTACLE_FIELDS] = {

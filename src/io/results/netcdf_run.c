@@ -29,13 +29,14 @@ enum { XYZ = 3, ENDS = 2, CONTACTS = 2, NAME_LENGTH = 96 };
 /* the format's limit on one variable in one record, in bytes (the specification of CDF-2) */
 static const uint64_t MAX_RECORD = 4294967292;
 
-#define REPORT(member)      offsetof(CpsLineReport, member)
-#define CERTIFICATE(member) REPORT(certificate.member)
+#define REPORT(member)          offsetof(CpsLineReport, member), 0
+#define REPORT_IF(flag, member) offsetof(CpsLineReport, member), offsetof(CpsLineReport, flag)
+#define CERTIFICATE(member)     REPORT(certificate.member)
 
 /* Numbers of CpsLineReport. */
 typedef struct Number {
-    const char *name, *long_name, *units; /* units NULL: the unit depends on another variable */
-    size_t offset;
+    const char *name, *long_name, *units;
+    size_t offset, given; /* given: of the flag that says whether there is a value; 0: always */
 } Number;
 
 static const Number NUMBER[] = {
@@ -43,9 +44,10 @@ static const Number NUMBER[] = {
     {"dual", "lower bound of the minimum, from the forces", "J", CERTIFICATE(dual)},
     {"gap", "sum of the local gaps", "J", CERTIFICATE(gap)},
     {"scale", "scale of the gap", "J", CERTIFICATE(scale)},
-    {"tension_bound", "guaranteed rms error of the tension", "N", CERTIFICATE(tension_bound)},
+    {"tension_bound", "guaranteed rms error of the tension", "N",
+     REPORT_IF(certificate.has_tension_bound, certificate.tension_bound)},
     {"tension_mesh", "estimated error of the tension by the elements' lengths", "N",
-     REPORT(tension_mesh)},
+     REPORT_IF(has_tension_mesh, tension_mesh)},
     {"tension_estimate", "largest difference of elongation and equilibrium tension", "N",
      CERTIFICATE(tension_estimate)},
     {"force_residual", "largest imbalance of forces on a node", "N", CERTIFICATE(force_residual)},
@@ -83,10 +85,11 @@ static const Number NUMBER[] = {
     {"unaccounted",
      "of that, more than 5 % of the energies of parts that could not be cut any more", "J",
      REPORT(unaccounted)},
-    {"proof_value",
-     "infeasible: what is missing of the length in m; unbounded: fall of energy per metre in N; "
-     "slides: least power in N",
-     NULL, REPORT(proof_value)},
+    {"proof_length", "infeasible: what is missing of the length, else 0", "m",
+     REPORT(proof_length)},
+    {"proof_force",
+     "unbounded: fall of energy per metre; slides: least power per unit of speed; else 0", "N",
+     REPORT(proof_force)},
 };
 
 /* Numbers of CpsFrictionZone. */
@@ -125,9 +128,9 @@ enum {
 typedef struct LineIds {
     int node, element; /* dimensions */
     int contacts;      /* of a node, as in the view */
-    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_value, end_force,
-        end_friction_force, end_tension, end_range[RANGES], outcome, iterations, parts, snaps,
-        places, proof, proof_obstacle, weight_before;
+    int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_held_position,
+        end_applied_force, end_force, end_friction_force, end_tension, end_range[RANGES], outcome,
+        iterations, parts, snaps, places, proof, proof_obstacle, weight_before;
     int field[FIELDS][CONTACTS];         /* unused where a view has no such array */
     int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
@@ -292,9 +295,14 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     ids->end_kind = cpsi_netcdf_variable(&nc->file, view->name, "end_kind", NC_BYTE, 2, on_ends,
                                          "what is imposed at A and B", "1");
     cpsi_netcdf_flags(&nc->file, ids->end_kind, NC_BYTE, 2, NULL, "held free");
-    ids->end_value =
-        cpsi_netcdf_variable(&nc->file, view->name, "end_value", NC_DOUBLE, 3, on_ends,
-                             "position in m of a held end, force in N on a free one", NULL);
+    ids->end_held_position =
+        cpsi_netcdf_variable(&nc->file, view->name, "end_held_position", NC_DOUBLE, 3, on_ends,
+                             "imposed position of a held end", "m");
+    ids->end_applied_force =
+        cpsi_netcdf_variable(&nc->file, view->name, "end_applied_force", NC_DOUBLE, 3, on_ends,
+                             "imposed force on a free end", "N");
+    cpsi_netcdf_may_miss(&nc->file, ids->end_held_position);
+    cpsi_netcdf_may_miss(&nc->file, ids->end_applied_force);
     ids->end_force = cpsi_netcdf_variable(&nc->file, view->name, "end_force", NC_DOUBLE, 3, on_ends,
                                           "force on the line at its ends", "N");
     ids->end_friction_force = cpsi_netcdf_variable(
@@ -302,9 +310,11 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
         "friction of the half element beside a held end that lies on an obstacle", "N");
     ids->end_tension = cpsi_netcdf_variable(&nc->file, view->name, "end_tension", NC_DOUBLE, 2,
                                             on_ends, "tension of the line at its ends", "N");
-    for (int i = 0; i < RANGES; ++i)
+    for (int i = 0; i < RANGES; ++i) {
         ids->end_range[i] = cpsi_netcdf_variable(&nc->file, view->name, RANGE[i].name, NC_DOUBLE, 2,
                                                  on_ends, RANGE[i].long_name, "N");
+        cpsi_netcdf_may_miss(&nc->file, ids->end_range[i]);
+    }
     ids->outcome = add_outcome(nc, view->name);
     ids->iterations = cpsi_netcdf_variable(&nc->file, view->name, "iterations", NC_INT, 1,
                                            &nc->step, "interior-point iterations", "1");
@@ -327,9 +337,11 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
         cpsi_netcdf_variable(&nc->file, view->name, "weight_before", NC_DOUBLE, 2, vectors,
                              "weight per natural length where the step, or its last part, began",
                              "N m-1");
-    for (int i = 0; i < NUMBERS; ++i)
+    for (int i = 0; i < NUMBERS; ++i) {
         ids->number[i] = cpsi_netcdf_variable(&nc->file, view->name, NUMBER[i].name, NC_DOUBLE, 1,
                                               &nc->step, NUMBER[i].long_name, NUMBER[i].units);
+        if (NUMBER[i].given) cpsi_netcdf_may_miss(&nc->file, ids->number[i]);
+    }
 }
 
 static const size_t ONE[] = {1}; /* count of a single number */
@@ -347,6 +359,10 @@ static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *
              ++c, array += along * (field->vector ? XYZ : 1))
             cpsi_netcdf_doubles(&nc->file, ids->field[f][c], start + fixed, count + fixed, array);
     }
+}
+
+static double number_at(const void *data, size_t offset) {
+    return *(const double *)(const void *)((const char *)data + offset);
 }
 
 static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view,
@@ -370,24 +386,30 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
         cpsi_netcdf_bytes(&nc->file, ids->element_state, start, elements, view->element_state);
 
     unsigned char kind[ENDS];
-    double value[ENDS][XYZ], force[ENDS][XYZ], friction[ENDS][XYZ], tension[ENDS];
+    double position[ENDS][XYZ], applied[ENDS][XYZ], force[ENDS][XYZ], friction[ENDS][XYZ],
+        tension[ENDS];
     for (int e = 0; e < ENDS; ++e) {
         kind[e] = view->end[e].kind == CPS_END_KIND_FREE;
-        memcpy(value[e], view->end[e].value, sizeof value[e]);
+        for (int k = 0; k < XYZ; ++k) {
+            position[e][k] = kind[e] ? NAN : view->end[e].value[k];
+            applied[e][k] = kind[e] ? view->end[e].value[k] : NAN;
+        }
         memcpy(force[e], report->end[e].force, sizeof force[e]);
         memcpy(friction[e], report->end[e].friction_force, sizeof friction[e]);
         tension[e] = report->end[e].tension;
     }
     cpsi_netcdf_bytes(&nc->file, ids->end_kind, start, ends, kind);
-    cpsi_netcdf_doubles(&nc->file, ids->end_value, start, ends, value[0]);
+    cpsi_netcdf_doubles(&nc->file, ids->end_held_position, start, ends, position[0]);
+    cpsi_netcdf_doubles(&nc->file, ids->end_applied_force, start, ends, applied[0]);
     cpsi_netcdf_doubles(&nc->file, ids->end_force, start, ends, force[0]);
     cpsi_netcdf_doubles(&nc->file, ids->end_friction_force, start, ends, friction[0]);
     cpsi_netcdf_doubles(&nc->file, ids->end_tension, start, ends, tension);
     for (int i = 0; i < RANGES; ++i) {
         double range[ENDS];
         for (int e = 0; e < ENDS; ++e)
-            range[e] = *(const double *)(const void *)((const char *)&report->end[e].range +
-                                                       RANGE[i].offset);
+            range[e] = report->end[e].range.has_values
+                           ? number_at(&report->end[e].range, RANGE[i].offset)
+                           : NAN;
         cpsi_netcdf_doubles(&nc->file, ids->end_range[i], start, ends, range);
     }
     cpsi_netcdf_doubles(&nc->file, ids->proof, start, vector, report->proof);
@@ -398,20 +420,22 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     cpsi_netcdf_int(&nc->file, ids->parts, start, report->part_count);
     cpsi_netcdf_int(&nc->file, ids->snaps, start, report->snap_count);
     cpsi_netcdf_int(&nc->file, ids->places, start, (int)report->places);
-    cpsi_netcdf_int(&nc->file, ids->proof_obstacle, start, report->proof_obstacle);
+    cpsi_netcdf_int(&nc->file, ids->proof_obstacle, start,
+                    report->has_proof_obstacle ? report->proof_obstacle : CPS_NO_OBSTACLE);
     for (int i = 0; i < NUMBERS; ++i) {
-        const double *number =
-            (const double *)(const void *)((const char *)report + NUMBER[i].offset);
-        cpsi_netcdf_doubles(&nc->file, ids->number[i], start, ONE, number);
+        const bool *given = (const bool *)((const char *)report + NUMBER[i].given);
+        const double number =
+            NUMBER[i].given && !*given ? NAN : number_at(report, NUMBER[i].offset);
+        cpsi_netcdf_doubles(&nc->file, ids->number[i], start, ONE, &number);
     }
 }
 
 static void write_zones(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line) {
     for (size_t k = 0; k < (size_t)line->zone_count; ++k)
-        for (int i = 0; i < ZONES; ++i)
-            cpsi_netcdf_doubles(&nc->file, ids->zone[i], &k, ONE,
-                                (const double *)(const void *)((const char *)&line->zone[k] +
-                                                               ZONE[i].offset));
+        for (int i = 0; i < ZONES; ++i) {
+            const double number = number_at(&line->zone[k], ZONE[i].offset);
+            cpsi_netcdf_doubles(&nc->file, ids->zone[i], &k, ONE, &number);
+        }
 }
 
 /* all definitions, then the fields that never change */

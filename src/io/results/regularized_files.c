@@ -67,7 +67,7 @@ static void write_row(const CpsRegularizedRun *run, int s, const CpsRegularizedL
     write_number(out, p->penalty);
     write_number(out, p->stiffness);
     write_number(out, p->delta);
-    for (int k = 0; k < 2; ++k) write_number(out, line->tension[2 * s + k]);
+    for (int k = 0; k < 2; ++k) write_number(out, r->end_tension[k]);
     for (int x = 0; x < 3; ++x) write_number(out, tip(line, s)[x]);
     for (int i = 0; i < COLUMNS; ++i) write_number(out, value_of(r, i));
     fputc('\n', out);
@@ -189,7 +189,7 @@ static CpsStatus check(const CpsRegularizedRun *run, CpsError *err) {
     for (int i = 0; i < run->line_count; ++i) {
         const CpsRegularizedLine *line = &run->line[i];
         if (!line->name || !line->position || !line->parameters || !line->report ||
-            !line->tension || line->point_count < 2)
+            line->point_count < 2)
             return cpsi_fail(err, CPS_ERR_ARGUMENT, "line %d has no name, points or results", i);
     }
     for (int s = 0; s < run->step_count; ++s)

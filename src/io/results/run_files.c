@@ -234,10 +234,10 @@ CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution,
             err, CPS_ERR_ARGUMENT,
             "the evolution has other lines than the one that these results were opened for");
     const CpsStepReport report = cps_evolution_report(evolution);
-    if (report.index != results->row_count)
+    if (report.step_count != results->row_count + 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "step %d follows step %d of the results; append every step once",
-                         report.index, results->row_count - 1);
+                         report.step_count - 1, results->row_count - 1);
     const locale_t before = uselocale(results->locale);
     const CpsStatus status = append(results, evolution, err);
     uselocale(before);

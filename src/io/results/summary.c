@@ -2,6 +2,8 @@
 /* The summary as one JSON object (RFC 8259), printed by `capstan run --json` and written to
  * summary.json. Keys are stable and contain their units; a number without meaning is null.
  * docs/results.md lists them. */
+#include <math.h>
+
 #include "io/base/escape.h"
 #include "io/base/file_list.h"
 #include "io/results/writers.h"
@@ -37,10 +39,10 @@ static void write_vector(FILE *out, const char *key, const double x[3], const ch
 static void write_range(FILE *out, const CpsTensionRange *range) {
     fputs(", \n            \"tension_range_N\": {", out);
     write_string(out, "kind", cps_range_name(range->kind), ", ");
-    write_number(out, "least", range->least, ", ");
-    write_number(out, "least_bound", range->least_bound, ", ");
-    write_number(out, "greatest", range->greatest, ", ");
-    write_number(out, "greatest_bound", range->greatest_bound, "}}");
+    write_number(out, "least", range->has_values ? range->least : NAN, ", ");
+    write_number(out, "least_bound", range->has_values ? range->least_bound : NAN, ", ");
+    write_number(out, "greatest", range->has_values ? range->greatest : NAN, ", ");
+    write_number(out, "greatest_bound", range->has_values ? range->greatest_bound : NAN, "}}");
 }
 
 static void write_end(FILE *out, const char *key, const CpsEndReport *end, const char *after) {
@@ -57,15 +59,15 @@ static void write_end(FILE *out, const char *key, const CpsEndReport *end, const
 /* the proof that there is no solution, in the units of its kind */
 static void write_proof(FILE *out, const CpsLineReport *report) {
     if (!cps_outcome_is_final(report->outcome)) return;
-    const char *value = report->outcome == CPS_OUTCOME_INFEASIBLE ? "excess_m"
-                        : report->outcome == CPS_OUTCOME_SLIDES   ? "power_N"
-                                                                  : "fall_N";
     fputs("          \"proof\": {", out);
     write_vector(out, "direction", report->proof, ", ");
-    if (report->outcome == CPS_OUTCOME_INFEASIBLE && report->proof_obstacle >= 0)
-        fprintf(out, "\"obstacle\": %d, ", report->proof_obstacle);
+    if (report->has_proof_obstacle) fprintf(out, "\"obstacle\": %d, ", report->proof_obstacle);
     if (report->coulomb > 0) write_number(out, "coulomb_N", report->coulomb, ", ");
-    write_number(out, value, report->proof_value, "},\n");
+    if (report->outcome == CPS_OUTCOME_INFEASIBLE)
+        write_number(out, "excess_m", report->proof_length, "},\n");
+    else
+        write_number(out, report->outcome == CPS_OUTCOME_SLIDES ? "power_N" : "fall_N",
+                     report->proof_force, "},\n");
 }
 
 /* the sharpest bend round an obstacle, where there is one */
@@ -92,7 +94,8 @@ static void write_line(FILE *out, const char *name, const CpsLineReport *report,
     write_number(out, "slipping_m", report->slipping, ", ");
     write_number(out, "slack_m", report->slack, ", ");
     write_number(out, "dissipated_J", report->dissipated, ",\n          ");
-    write_number(out, "tension_mesh_estimate_N", report->tension_mesh, ",\n");
+    write_number(out, "tension_mesh_estimate_N",
+                 report->has_tension_mesh ? report->tension_mesh : NAN, ",\n");
     write_proof(out, report);
     write_bend(out, &report->bend);
     write_end(out, "A", &report->end[CPS_END_A], ",\n");
@@ -107,9 +110,11 @@ static void write_certificate(FILE *out, const CpsResults *results, const CpsiRo
     write_number(out, "dual_J", c->dual, ", ");
     write_number(out, "gap_J", c->gap, ", ");
     write_number(out, "scale_J", c->scale, "},\n      \"tension_bound_rms_N\": {");
-    for (int i = 0; i < results->line_count; ++i)
-        write_number(out, results->line_name[i], row->line[i].report.certificate.tension_bound,
+    for (int i = 0; i < results->line_count; ++i) {
+        const CpsCertificate *of = &row->line[i].report.certificate;
+        write_number(out, results->line_name[i], of->has_tension_bound ? of->tension_bound : NAN,
                      i + 1 < results->line_count ? ", " : "");
+    }
     fputs("},\n      ", out);
     write_number(out, "tension_estimate_N", c->tension_estimate, ",\n      ");
     write_number(out, "force_residual_N", c->force_residual, ", ");

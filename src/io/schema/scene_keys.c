@@ -66,7 +66,9 @@ static const CpsiKey OBSTACLE_KEYS[] = {
 };
 
 static void begin_obstacle(void *values) {
-    ((CpsiObstacleValues *)values)->obstacle = cps_obstacle_default();
+    CpsObstacle *obstacle = &((CpsiObstacleValues *)values)->obstacle;
+    *obstacle = cps_obstacle_default();
+    obstacle->friction_lateral = NAN; /* not given */
 }
 
 static const CpsiMapping OBSTACLE = {"obstacle", KEYS(OBSTACLE_KEYS), INTO(Obstacle),
