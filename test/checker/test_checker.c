@@ -285,7 +285,7 @@ static const Tamper SPILL_TAMPER[] = {
     {"spill_end_applied_force", 5, -8.9, "no power that nothing can take"},
     {"spill_end_applied_force", 2, -1.2, "no power that nothing can take"},
     {"spill_load", 14, -14, "no power that nothing can take"}, // a line with weight
-    {"spill_end_kind", 0, 0, "an end is held"},
+    {"spill_end_kind", 0, 0, "end_held_position holds a value that cannot be"},
     {"spill_proof_force", 0, 0.1, "proof_force"},
     {"spill_reference", 6, 0.1, "an element would lengthen"},
     {"obstacle_friction_axial", 0, 0.51, "a node would press on an obstacle"},
@@ -316,7 +316,7 @@ static const Tamper REEL_TAMPER[] = {
     {"reel_end_held_position", 5, 2, "the line is long enough"},
     {"reel_element_length", 0, 2, "the line is long enough"},
     {"reel_compliance", 0, 1e-9, "the line is elastic"},
-    {"reel_end_kind", 1, 1, "an end is free"},
+    {"reel_end_kind", 1, 1, "end_applied_force holds a value that cannot be"},
     {"reel_parts", 0, 2, "it is of a part of a step"},
     {"reel_proof_length", 0, 0.5, "proof_length"},
     {"reel_proof", 0, 0.01, "proof vector"},
