@@ -60,7 +60,7 @@ static double solve(const Mooring *m, int elements, double tension[2]) {
     rig_step(&run);
     if (m->shift != 0) rig_next(&run);
     for (int e = 0; e < 2; e++) tension[e] = run.report.end[e].tension;
-    const double estimate = run.report.tension_mesh;
+    const double estimate = run.report.has_tension_mesh ? run.report.tension_mesh : NAN;
     rig_close(&run);
     return estimate;
 }

@@ -444,7 +444,7 @@ static CpsOutcome outcome_of(const Case *c, double *proof) {
     if (cps_evolution_create(&c->scene, &evolution, &err) != CPS_OK) fail_msg("%s", err.message);
     assert_int_equal(cps_evolution_step(evolution, &err), CPS_OK);
     const CpsLineReport line = cps_evolution_line_report(evolution, 0);
-    *proof = line.proof_force;
+    *proof = line.outcome == CPS_OUTCOME_INFEASIBLE ? line.proof_length : line.proof_force;
     cps_evolution_destroy(evolution);
     return line.outcome;
 }
