@@ -29,8 +29,9 @@ static void near(const char *what, double got, double expected, double allowed) 
     if (!(fabs(got - expected) <= allowed)) fail(what, got, expected);
 }
 
-static void same(const char *what, int got, int expected) {
-    if (got != expected) fail(what, got, expected);
+/* Wide enough for every enumeration, with a sign or without. */
+static void same(const char *what, long long got, long long expected) {
+    if (got != expected) fail(what, (double)got, (double)expected);
 }
 
 static double dot(int n, const double *a, const double *b) {

@@ -379,7 +379,7 @@ static void try_flat(void) {
              "constraint");
     need(cps_system_set_drive(system, 1, 1, (const CpsEntry[]){{0, 0, 1}}, &err), "drive");
     const double w = digit(3), works = e[1] == 0 && (held || e[2] == 0), power = -size * e[0] * w;
-    const double gamma = works ? fmax(-power, 2 * power) : 0, allowed = 1e-7 * size * 10;
+    const double gamma = works != 0 ? fmax(-power, 2 * power) : 0, allowed = 1e-7 * size * 10;
     need(cps_system_solve(system, &w, NULL, &motion, &err), "solve");
     const CpsMotionReport report = cps_motion_report(motion);
     same("outcome", report.outcome, CPS_MOTION_OUTCOME_SOLVED);
