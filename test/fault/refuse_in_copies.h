@@ -10,7 +10,7 @@
 
 #include "refuse_command.h"
 
-static const char COPY[] = "refuse-in-copies"; /* the directory in which copies work */
+static char copies[] = "refuse-in-copies-XXXXXX"; /* the directory in which copies work */
 static bool is_copy;
 static long tried, wrong_ones;
 
@@ -43,7 +43,7 @@ static bool refuse_in_copy(void) {
     if (child < 0) abort();
     if (child == 0) {
         is_copy = true;
-        if (chdir(COPY) != 0) abort();
+        if (chdir(copies) != 0) abort();
         own_temporary_files();
         return true;
     }
@@ -68,10 +68,11 @@ static _Noreturn void end_copy(int code, long before, const char *picture, bool 
 static void refuse_in_copies(Command *run, const char *input, const char *picture, bool draws,
                              long least, int argc, const char *const *argv) {
     char path[256];
-    snprintf(path, sizeof path, "%s/%s", COPY, input);
+    memset(strrchr(copies, '-') + 1, 'X', 6);
+    assert_non_null(mkdtemp(copies));
+    snprintf(path, sizeof path, "%s/%s", copies, input);
     remove(picture);
-    assert_int_equal(system("rm -rf refuse-in-copies"), 0);
-    assert_true(mkdir(COPY, 0777) == 0 && link(input, path) == 0);
+    assert_int_equal(link(input, path), 0);
     const long before = live;
     bool reached;
     asked = tried = wrong_ones = 0;
@@ -86,7 +87,7 @@ static void refuse_in_copies(Command *run, const char *input, const char *pictur
     print_message("%ld allocations, %ld refused\n", asked, tried);
     assert_int_equal(wrong_ones, 0);
     assert_int_equal(remove(path), 0);
-    assert_int_equal(remove(COPY), 0); /* no copy has left anything */
+    assert_int_equal(remove(copies), 0); /* no copy has left anything */
     /* built as shared libraries they cannot be reached */
     if (asked == 0) skip();
     assert_in_range(asked, least, 1000000);
