@@ -2,29 +2,29 @@
 /* capstan/base.h: status codes, the error record and the version.
  *
  * Rules that hold for the whole interface:
- *   - SI units everywhere; vectors are x, y, z; axes are right-handed, gravity is given by the
- *       scene.
- *   - Every call that can fail returns a CpsStatus and takes an optional CpsError last (NULL is
- *       accepted).
- *     The status says whether the call worked. What the mathematics said is an outcome (evolve.h).
- *   - The library copies what it needs. Each create has one destroy, and destroy accepts NULL.
- *   - A call with a status refuses, with CPS_ERR_ARGUMENT, a handle or array that is NULL where the
- *       call does not say that it
- *     may be, a count or size below what it says, and a number outside an enumeration;
- *         CPS_ERR_LIMIT what is too large.
- *     A call without a status gives nothing there, and for an index that there is not: 0, NULL,
- *         false, a struct of zeros, or
- *     NaN where 0 would be an answer. No handle is changed by a call that is refused.
+ *   - All quantities are in SI units. Vectors are x, y, z in right-handed axes; the scene gives the
+ *     direction of gravity.
+ *   - Every call that can fail returns a CpsStatus and takes a CpsError as its last argument, which
+ *     may be NULL. The status says whether the call worked. What the mathematics found is an
+ *     outcome (step.h, set.h, drive.h).
+ *   - The library copies what it needs. Every create has one destroy and every retain one release;
+ *     destroy and release accept NULL. Structs that are given to the library begin as
+ *     cps_.._default(), except rows of an array and what a writer of results.h is given.
+ *   - A call with a status returns CPS_ERR_ARGUMENT for a handle or an array that is NULL where its
+ *     description does not allow it, for a count or a size below the stated range, and for a number
+ *     outside an enumeration; CPS_ERR_LIMIT for what is too large. A refused call changes nothing.
+ *     A call without a status returns 0, NULL, false or a struct of zeros in these cases, and for
+ *     an index that does not exist.
  *   - The name of a number of things, entries of an array or steps taken, ends in `_count`; that of
- *       the largest number allowed begins with `max_`.
- *   - A returned `const double *` is a view owned by the handle, valid until the next non-const
- *       call on it.
+ *     the largest number allowed begins with `max_`.
+ *   - Where a value may be missing, a flag `has_..` or an enumeration says so, and the value is 0;
+ *     only residuals of laws (law.h) and rates of a study (regularized.h) are NaN instead.
+ *   - A returned `const double *` is a view that the handle owns. It is valid until the next
+ *     non-const call on that handle.
  *   - The library never prints, exits or aborts, and has no mutable global state: different handles
- *       may be
- *     used from different threads at the same time. That is promised of capstan's own code:
- *         libfyaml, which reads
- *     files, and libnetcdf, which writes result.nc, may end the process where they get no memory
- *         (capstan-io only). */
+ *     may be used by different threads at the same time. This holds for capstan's own code.
+ *     capstan-io also uses libfyaml to read files and libnetcdf to write result.nc; these may end
+ *     the process when they get no memory. */
 #ifndef CAPSTAN_BASE_H
 #define CAPSTAN_BASE_H
 

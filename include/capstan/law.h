@@ -45,10 +45,10 @@ CPS_API CpsStatus cps_law_unit_load(const CpsSet *unit, double load, CpsLaw **ou
 CPS_API CpsStatus cps_law_product(int count, const CpsLaw *const *parts, CpsLaw **out,
                                   CpsError *err);
 
-/* What makes the reduced law of cps_law_preimage the whole truth. With L the map, C' = L^-1(C)
- * always has L* N_C(L G) inside N_C'(G): whatever the parts do, the system obeys the reduced law.
- * The reverse, that every pair (G, W) of the reduced law comes from some motion of the parts, is
- * proved where range(L) meets C well enough (Rockafellar 1970, 23.8-23.9). */
+/* The condition under which the reduced law of cps_law_preimage is complete. With L the map,
+ * C' = L^-1(C) always has L* N_C(L G) inside N_C'(G): any motion of the parts obeys the reduced
+ * law. The reverse, that every pair (G, W) of the reduced law comes from some motion of the parts,
+ * is proved where range(L) meets C well enough (Rockafellar 1970, 23.8-23.9). */
 typedef enum CpsComposition {
     CPS_COMPOSITION_INTERIOR, /* range(L) meets the interior of C: equality (M77 section 10) */
     CPS_COMPOSITION_RELATIVE_INTERIOR, /* it meets the relative interior: equality (the brakeless
@@ -164,9 +164,9 @@ CPS_API CpsStatus cps_set_residual(const CpsSet *set, const double *force, const
  * Every term here is phi = h(g): g(V) is the dissipation function of a set C with 0, convex and
  * homogeneous of degree 1, and h is convex and increasing. Then
  *
- *     forces: -F = h'(g(V)) x a point of dg(V)       dissipated power: -<V, F> = g h'(g)
- *         conjugate: h*(gauge of C
- * at F)
+ *     forces:           -F = h'(g(V)) x a point of dg(V)
+ *     dissipated power: -<V, F> = g h'(g)
+ *     conjugate:        h*(gauge of C at F)
  *
  * Terms add up; so do their powers, and their conjugates by inf-convolution. */
 typedef struct CpsResistance CpsResistance;

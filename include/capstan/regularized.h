@@ -1,22 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/regularized.h: the methods of S90 as they stand in the paper, on a step that evolve.h has
- * solved exactly.
+/* capstan/regularized.h: the methods of S90 as they stand in the paper, applied to a step that
+ * evolve.h has solved exactly.
  *
  *   - The method of section 5 and annex 4: friction smoothed by delta, a vanishing stiffness 1/n, a
- *       penalty lambda for
- *     contact, finite differences h; one solve, and a study that runs h, lambda, n, delta to their
- *         limits in this order
- *     (theorems 9.1 and 9.2, result 5.6) and compares with the solution of P4.2.
- *   - The consistent first-order problem P10.1 of annex 5, which may have no solution, and then
- *       says which of its
- *     conditions fails.
+ *     penalty lambda for contact, finite differences of size h. There is one solve, and a study in
+ *     which h, lambda, n and delta go to their limits in this order (theorems 9.1 and 9.2, result
+ *     5.6), compared with the solution of P4.2.
+ *   - The consistent first-order problem P10.1 of annex 5. It may have no solution; then the report
+ *     says which of its conditions fails.
  *
  * The step is a view of one line after cps_evolution_step: its reference, loads, normals, friction
  * bounds and ends are the problem, its configuration and tensions the answer to compare with. End A
  * must be held, the line elastic, the obstacle a plane with isotropic friction, and the step taken
  * in one part. */
-#ifndef CAPSTAN_CLASSIC_H
-#define CAPSTAN_CLASSIC_H
+#ifndef CAPSTAN_REGULARIZED_H
+#define CAPSTAN_REGULARIZED_H
 
 #include "capstan/step.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/scene.h: what there is and what happens to it: lines, an obstacle, loads, a history.
+/* capstan/scene.h: lines, obstacles and loads, and the history of what is done to them.
  *
  * Plain value structs, filled by the user, copied by the library. Start from cps_scene_default(),
  * cps_line_default(), ... : a struct made otherwise lacks its cookie and is refused. */

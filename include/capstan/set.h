@@ -11,12 +11,12 @@
  * pairing.
  *
  * Every question separates three things:
- *   - the CpsStatus: did the call work? (a wrong argument, no memory)
+ *   - the CpsStatus: whether the call worked (an argument may be wrong, memory may be missing);
  *   - the outcome: what the mathematics says, or the reason why there is no answer
- *       (CPS_SET_OUTCOME_LIST);
- *   - value and gap: the number asked for and a bound on how far it is from the true one; `exact`
- *       tells that the number
- *     is a closed form, which leaves rounding only. docs/sets.md has the table of what is exact. */
+ *     (CPS_SET_OUTCOME_LIST);
+ *   - the value and its gap: the number asked for, and a bound on its distance from the true one.
+ *     `exact` says that the number is a closed form, with rounding errors only. docs/sets.md has a
+ *     table of what is exact. */
 #ifndef CAPSTAN_SET_H
 #define CAPSTAN_SET_H
 
