@@ -347,6 +347,7 @@ static void make_imposed(Maker *maker) {
         double local[3] = {maker->foot[0] + random_uniform(random, 0.2, 0.8) * maker->length,
                            maker->foot[1], random_uniform(random, 0, 0.5) * maker->length};
         line->start.kind = CPS_START_STATIC;
+        line->end[CPS_END_A].kind = line->end[CPS_END_B].kind = CPS_END_KIND_HELD;
         maker_place(&maker->frame, maker->foot, line->end[CPS_END_A].value);
         maker_place(&maker->frame, local, line->end[CPS_END_B].value);
     }
@@ -432,6 +433,7 @@ static void make_hanging(Maker *maker) {
         start_polyline(maker, 0.5);
         if (random_chance(random, 0.4)) {
             line->start.kind = CPS_START_STATIC;
+            line->end[CPS_END_A].kind = line->end[CPS_END_B].kind = CPS_END_KIND_HELD;
             memcpy(line->end[CPS_END_A].value, &line->start.point[0], sizeof line->end[0].value);
             memcpy(line->end[CPS_END_B].value, &line->start.point[3], sizeof line->end[0].value);
             line->start.point_count = 0;

@@ -180,6 +180,7 @@ static void make_pipe(Maker *maker) {
     line->end[CPS_END_B] = line->end[CPS_END_A];
     double a[3] = {-r * random_uniform(random, 1.3, 4), 0, r * random_uniform(random, 0.1, 0.6)};
     double b[3] = {r * random_uniform(random, 1.3, 4), 0, r * random_uniform(random, 0.1, 0.6)};
+    line->end[CPS_END_A].kind = line->end[CPS_END_B].kind = CPS_END_KIND_HELD;
     maker_place(&maker->frame, a, line->end[CPS_END_A].value);
     maker_place(&maker->frame, b, line->end[CPS_END_B].value);
     double longest = way_over(r, a[0], a[2], b[0], b[2]);
@@ -218,6 +219,7 @@ static void make_two(Maker *maker) {
     line->end[CPS_END_B] = line->end[CPS_END_A];
     const double a[3] = {-r * random_uniform(random, 2, 6), 0, 0},
                  b[3] = {r * random_uniform(random, 2, 6), 0, r * random_uniform(random, 0, 1.5)};
+    line->end[CPS_END_A].kind = line->end[CPS_END_B].kind = CPS_END_KIND_HELD;
     maker_place(&maker->frame, a, line->end[CPS_END_A].value);
     maker_place(&maker->frame, b, line->end[CPS_END_B].value);
     double longest = way_over(r, a[0], buried, b[0], b[2] + buried);
