@@ -53,12 +53,26 @@ static bool node_keeps(const CpsiLine *line, int j, int k, bool keep_active) {
     return false;
 }
 
-/* The obstacles of node j at x, as many as it has contacts: those that it keeps, else the nearest,
- * in the order of distance. */
+/* The third contact of node j: that of the element before it, where elements have contacts; -1:
+ * none. */
+static int third_contact(const CpsiLine *line, int j) {
+    return line->element_contacts > 0 && j > 0 ? cpsi_line_contacts(line) + j - 1 : -1;
+}
+
+/* Is obstacle k that of a third contact of node j that stays with it? */
+static bool third_keeps(const CpsiLine *line, int j, int k, bool keep_active) {
+    const int c = third_contact(line, j);
+    return c >= 0 && line->obstacle_index[c] == k && cpsi_line_is_third(line, c) &&
+           (is_kept(line, c) || (keep_active && line->active[c]));
+}
+
+/* The first two obstacles of node j at x: those that it keeps, else the nearest, in the order of
+ * distance. */
 static void nearest(const CpsiLine *line, int j, Vec3 x, bool keep_active, int on[2]) {
     double gap[2] = {INFINITY, INFINITY};
     on[0] = on[1] = -1;
     for (int k = 0; k < line->obstacle_count; k++) {
+        if (third_keeps(line, j, k, keep_active)) continue;
         const double distance = node_keeps(line, j, k, keep_active)
                                     ? -INFINITY
                                     : cpsi_obstacle_gap(&line->obstacle[k], x);
@@ -135,21 +149,69 @@ static Vec3 reference_normal(const CpsiLine *line, int k, int c) {
                                         cpsi_line_place(line, line->reference, c));
 }
 
+/* The contact with obstacle k as it was among the `count` contacts `before`, or a new one, at
+ * node j. */
+static SavedContact contact_with(const CpsiLine *line, int j, int k, const SavedContact before[],
+                                 int count) {
+    SavedContact now = {.obstacle_index = k, .gap = INFINITY, .state = CPS_NODE_STATE_FREE};
+    vec3_store(now.normal, reference_normal(line, k, j));
+    for (int i = 0; i < count; i++)
+        if (before[i].obstacle_index == k && k >= 0) now = before[i];
+    return now;
+}
+
+/* The plane with which node j has a third contact beside the obstacles `on`, -1: none. It is one
+ * that the node would leave without a contact although it was active, or lies below. Third contacts
+ * are with planes: if the obstacle left out is round, it takes the place of a plane in `on`. */
+static int third_obstacle(const CpsiLine *line, int j, const SavedContact before[3], int on[2]) {
+    const Vec3 x = vec3_load(&line->base[3 * j]);
+    int left_out = -1;
+    double least = 0;
+    for (int k = 0; k < line->obstacle_count; k++) {
+        bool active = false;
+        for (int i = 0; i < 3; i++) active |= before[i].active && before[i].obstacle_index == k;
+        const double gap = cpsi_obstacle_gap(&line->obstacle[k], x);
+        if (k == on[0] || k == on[1] || !(active || gap < -0.1 * CPSI_TOUCH * line->length) ||
+            (left_out >= 0 && gap >= least))
+            continue;
+        left_out = k;
+        least = gap;
+    }
+    if (left_out < 0 || line->obstacle[left_out].kind == CPS_OBSTACLE_PLANE) return left_out;
+    for (int i = 2; i-- > 0;)
+        if (on[i] >= 0 && line->obstacle[on[i]].kind == CPS_OBSTACLE_PLANE) {
+            const int plane = on[i];
+            on[i] = left_out;
+            return plane;
+        }
+    return -1;
+}
+
 /* Detect the contacts of node j at its base; those with the same obstacle as before keep their
  * data. */
 static void detect(CpsiLine *line, int j, bool keep_active) {
-    const int n = line->n;
-    SavedContact before[2] = {{.obstacle_index = -1}, {.obstacle_index = -1}};
-    int on[2];
+    const int n = line->n, third = third_contact(line, j);
+    const bool had_third = third >= 0 && cpsi_line_is_third(line, third);
+    SavedContact before[3] = {{.obstacle_index = -1},
+                              {.obstacle_index = -1},
+                              {.obstacle_index = -1}};
+    int on[2], plane = -1;
     nearest(line, j, vec3_load(&line->base[3 * j]), keep_active, on);
     for (int i = 0; i < line->contacts; i++) before[i] = save_contact(line, j + i * n);
+    if (had_third) before[2] = save_contact(line, third);
+    if (had_third && third_keeps(line, j, before[2].obstacle_index, keep_active))
+        plane = before[2].obstacle_index;
+    else if (third >= 0 && line->obstacle_count > 2 && !cpsi_line_is_held(line, j) &&
+             (had_third || line->obstacle_index[third] < 0))
+        plane = third_obstacle(line, j, before, on);
     for (int i = 0; i < line->contacts; i++) {
-        SavedContact now = {.obstacle_index = on[i], .gap = INFINITY, .state = CPS_NODE_STATE_FREE};
-        vec3_store(now.normal, reference_normal(line, on[i], j));
-        for (int k = 0; k < line->contacts; k++)
-            if (before[k].obstacle_index == on[i] && on[i] >= 0) now = before[k];
+        const SavedContact now = contact_with(line, j, on[i], before, 3);
         restore_contact(line, j + i * n, &now);
     }
+    if (!had_third && plane < 0) return;
+    const SavedContact now = contact_with(line, j, plane, before, 3);
+    restore_contact(line, third, &now);
+    line->beta[j - 1] = 1;
 }
 
 /* The point of element e, at positions x, that is nearest to obstacle k: its share of the element,
@@ -186,6 +248,7 @@ static void detect_element(CpsiLine *line, int e) {
             now =
                 (SavedContact){.obstacle_index = k, .gap = INFINITY, .state = CPS_NODE_STATE_FREE};
     }
+    if (now.obstacle_index < 0 && cpsi_line_is_third(line, c)) return;
     restore_contact(line, c, &now);
 }
 
@@ -196,13 +259,20 @@ static Vec3 direction_at(const CpsiLine *line, const double *x, int c) {
     return vec3_sub(vec3_load(&x[3 * (e + 1)]), vec3_load(&x[3 * e]));
 }
 
+/* Are the tangents of contact c kept? */
+static bool keeps_tangents(const CpsiLine *line, int c) {
+    return line->keeps_tangents &&
+           cpsi_obstacle_is_isotropic(&line->obstacle[line->obstacle_index[c]]);
+}
+
 /* Axes and curvature of contact c at its base; without an obstacle the axes of the world. */
 static void update_contact(CpsiLine *line, int c) {
     const Vec3 x = cpsi_line_place(line, line->base, c);
     double *axes = &line->axes[9 * c];
     if (line->obstacle_index[c] >= 0) {
+        const double *along = keeps_tangents(line, c) ? line->reference : line->base;
         cpsi_obstacle_axes(&line->obstacle[line->obstacle_index[c]], x,
-                           direction_at(line, line->base, c), axes, &line->curvature[3 * c]);
+                           direction_at(line, along, c), axes, &line->curvature[3 * c]);
         memcpy(&line->normal[3 * c], &axes[6], 3 * sizeof *axes);
         return;
     }
@@ -246,9 +316,10 @@ static Vec3 plane_slip(const CpsiLine *line, int c, Vec3 x) {
 /* [m] Permitted penetration at contact c: 0 of a node, that of its chord of an element. */
 static double allowance(const CpsiLine *line, int c) {
     const int e = cpsi_line_element(line, c);
-    return e < 0 ? 0
-                 : cpsi_obstacle_allowance(&line->obstacle[line->obstacle_index[c]],
-                                           line->element_length[e]);
+    return e < 0 || cpsi_line_is_third(line, c)
+               ? 0
+               : cpsi_obstacle_allowance(&line->obstacle[line->obstacle_index[c]],
+                                         line->element_length[e]);
 }
 
 Vec3 cpsi_contact_slip_between(const CpsiLine *line, int c, Vec3 from, Vec3 to) {
@@ -301,6 +372,7 @@ void cpsi_contact_update_geometry(CpsiLine *line) {
             const int on = line->obstacle_index[cpsi_line_contacts(line) + e];
             double share, gap;
             if (on >= 0 && clearance(line, line->base, e, on, &share, &gap)) line->beta[e] = share;
+            if (cpsi_line_is_third(line, cpsi_line_contacts(line) + e)) line->beta[e] = 1;
         }
     cpsi_line_lay_out_friction(line);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
@@ -355,6 +427,7 @@ void cpsi_contact_reset(CpsiLine *line) {
 void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
                                 CpsFrictionPolicy friction, bool frictionless) {
     const size_t n = (size_t)line->n;
+    line->keeps_tangents = false;
     line->contact_everywhere = contact == CPS_CONTACT_POLICY_REACHED;
     line->keeps_reference_axes = line->has_local_axes && line->contact_everywhere &&
                                  friction == CPS_FRICTION_POLICY_FROZEN && !frictionless;
@@ -479,7 +552,7 @@ static double turn_of_axes(const CpsiLine *line, int c, const double now[9]) {
     const double *before = &line->axes[9 * c];
     const Vec3 tangent = vec3_load(&now[0]), from = vec3_load(&before[0]);
     const double normal = vec3_norm(vec3_sub(vec3_load(&now[6]), vec3_load(&before[6])));
-    if (line->keeps_reference_axes) return normal;
+    if (line->keeps_reference_axes || keeps_tangents(line, c)) return normal;
     const double along = vec3_norm(vec3_sub(tangent, from)),
                  against = vec3_norm(vec3_axpy(1, tangent, from));
     return fmax(normal, line->friction_law[c].given ? along : fmin(along, against));
@@ -507,7 +580,7 @@ static double axes_turn_of_node(const CpsiLine *line, int j) {
 static double axes_turn_of_element(const CpsiLine *line, int e) {
     const int c = cpsi_line_contacts(line) + e, k = line->obstacle_index[c];
     double share, gap, now[9], curvature[3];
-    if (!line->active[c] || k < 0) return 0;
+    if (!line->active[c] || k < 0 || cpsi_line_is_third(line, c)) return 0;
     if (!clearance(line, line->position, e, k, &share, &gap)) return INFINITY;
     const Vec3 a = vec3_load(&line->position[3 * e]), along = direction_at(line, line->position, c);
     cpsi_obstacle_axes(&line->obstacle[k], vec3_axpy(share, along, a), along, now, curvature);

@@ -4,9 +4,10 @@
  *
  * A node touches up to `contacts` obstacles at once. The data of contacts are in arrays (contacts,
  * n): contact c < n is the first contact of node c, contact n <= c < 2 n is the second contact of
- * node c - n. Where there are round obstacles, and contact is not that of the reference, elements
- * touch as well: the contact of element e has the number `contacts` * n + e, at the point of the
- * element nearest to the axis or centre. */
+ * node c - n. Where there are round obstacles, or more than two, and contact is not that of the
+ * reference, elements touch as well: the contact of element e has the number `contacts` * n + e, at
+ * the point of the element nearest to the axis or centre. With a plane it is the third contact of
+ * node e + 1. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_H
 #define CAPSTAN_SRC_CABLE_LINE_H
 
@@ -52,8 +53,8 @@ typedef struct CpsiLine {
     bool has_local_axes;    /* each contact has its own axes at its position: not on a single plane
                                with isotropic friction */
     int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
-    int element_contacts;   /* of an element: 1 where there is a round obstacle, else 0; the arrays
-                               (contacts, n) have as many more rows */
+    int element_contacts;   /* of an element: 1 where there is a round obstacle, or a third, else 0;
+                               the arrays   (contacts, n) have as many more rows */
     double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
     CpsEnd end[2];          /* imposed now */
     double *arc_length;     /* (n) [m] */
@@ -103,6 +104,9 @@ typedef struct CpsiLine {
     bool keeps_reference_axes; /* friction is frozen with its bounds and axes at the reference while
                                   contacts are detected at the present positions; false on one plane
                                   and where contact is that of the reference */
+    bool keeps_tangents;       /* axes of isotropic friction, in which any tangents are as good, do
+                                  not follow the line: their first tangent is along the line at the
+                                  reference */
     double *watched;       /* (2 n, 3) [m] positions from which the progress of rounds with drag is
                               measured */
     CpsiAnderson anderson; /* of the rounds of a step */
@@ -144,6 +148,12 @@ static inline int cpsi_line_all_contacts(const CpsiLine *line) {
 }
 static inline int cpsi_line_element(const CpsiLine *line, int c) {
     return c < cpsi_line_contacts(line) ? -1 : c - cpsi_line_contacts(line);
+}
+
+/* Is c the third contact of a node, the end of its element? Elements have no others with planes. */
+static inline bool cpsi_line_is_third(const CpsiLine *line, int c) {
+    return c >= cpsi_line_contacts(line) && line->obstacle_index[c] >= 0 &&
+           line->obstacle[line->obstacle_index[c]].kind == CPS_OBSTACLE_PLANE;
 }
 
 /* Share of the force of a contact of element e that acts on its node j. */

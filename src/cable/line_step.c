@@ -50,7 +50,8 @@ enum {
     STATIC_ROUNDS = 2, /* ... and the initial configuration is computed by statics */
     FROZEN = 4,        /* ... and friction keeps the bounds and axes of the reference */
     ROUNDS = 8,        /* it is solved in rounds on tangent planes, not as one program */
-    CHOSE = 16         /* the rule of least motion chose among places in the last attempt */
+    ISOTROPIC = 16,    /* ... and there is an obstacle whose friction has no directions */
+    CHOSE = 32         /* the rule of least motion chose among places in the last attempt */
 };
 
 /* In the order tried, until one gives a certified answer. */
@@ -83,6 +84,22 @@ static const CpsiStrategy STRATEGY[] = {
      .least_motion = true,
      .centering = true,
      .trial_bounds = true},
+    /* tangents that are kept: where a slack line may lie in many ways, its direction changes from
+     * round to round, which isotropic friction need not follow. Then Newton's method with them */
+    {.when = LOCAL_AXES | ISOTROPIC,
+     .unless = STATIC_ROUNDS | FROZEN,
+     .rounds = 12,
+     .acceleration = true,
+     .least_motion = true,
+     .centering = true,
+     .keeps_tangents = true},
+    {.when = LOCAL_AXES | ISOTROPIC,
+     .unless = STATIC_ROUNDS | FROZEN,
+     .rounds = 12,
+     .acceleration = true,
+     .least_motion = true,
+     .reaction_stiffness = true,
+     .keeps_tangents = true},
     /* rounds with drag, for those that go to and fro or have far to go. The nearest place is not
      * the one on the way */
     {.when = ROUNDS,
@@ -101,6 +118,8 @@ static unsigned conditions(const CpsiLine *line, const CpsiStepOptions *options)
     if (options->frictionless) found |= STATIC_ROUNDS;
     if (line->keeps_reference_axes) found |= FROZEN;
     if (consistent || options->frictionless || line->keeps_reference_axes) found |= ROUNDS;
+    for (int k = 0; k < line->obstacle_count; k++)
+        if (cpsi_obstacle_is_isotropic(&line->obstacle[k])) found |= ISOTROPIC;
     return found;
 }
 
@@ -119,23 +138,50 @@ static CpsiIpmReport solve_program(CpsiLine *line, CpsiChainProgram *program,
     return ipm;
 }
 
-/* Solve the step from its reference by one strategy, in rounds or as one program. */
-static void solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                       const CpsiStrategy *strategy, bool in_rounds) {
+/* Solve the step from its reference by one strategy, in rounds or as one program; `drag` is the
+ * first one of rounds with drag. Returns whether the axes of the rounds were scattered
+ * (rounds.h). */
+static bool solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                       const CpsiStrategy *strategy, bool in_rounds, double drag) {
     const bool coupled = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
                          !options->frictionless && line->obstacle_count > 0;
     const CpsiBounds bounds = !coupled                 ? CPSI_BOUNDS_FIXED
                               : strategy->trial_bounds ? CPSI_BOUNDS_TRIAL
                                                        : CPSI_BOUNDS_COUPLED;
     if (strategy->drag) {
-        cpsi_dragged_rounds(line, program, options, strategy, bounds);
-    } else if (in_rounds) {
-        cpsi_tangent_plane_rounds(line, program, options, strategy, bounds);
-    } else {
-        const CpsiIpmReport ipm = solve_program(line, program, options, strategy, coupled);
-        if (coupled && !cpsi_line_is_clean(&ipm))
-            cpsi_tangent_plane_rounds(line, program, options, strategy, CPSI_BOUNDS_TRIAL);
+        cpsi_dragged_rounds(line, program, options, strategy, bounds, drag);
+        return false;
     }
+    if (in_rounds) return cpsi_tangent_plane_rounds(line, program, options, strategy, bounds);
+    const CpsiIpmReport ipm = solve_program(line, program, options, strategy, coupled);
+    if (coupled && !cpsi_line_is_clean(&ipm))
+        (void)cpsi_tangent_plane_rounds(line, program, options, strategy, CPSI_BOUNDS_TRIAL);
+    return false;
+}
+
+enum { STRATEGIES = sizeof STRATEGY / sizeof *STRATEGY };
+
+/* Rounds with kept tangents or with drag are tried next where the rounds before them scattered the
+ * axes, or have cost so many iterations times nodes, a tenth of a second. The drag is then this one
+ * at first, which is what lines take to which this happens. */
+static const double DEAR_WORK = 2.5e5, NODES_BESIDE = 30, FIRST_DRAG = 16;
+
+static bool is_for_scattered(const CpsiStrategy *strategy) {
+    return strategy->drag || strategy->keeps_tangents;
+}
+
+/* The next strategy that is of use, in the order of the table from `first` on; where that is
+ * `urged`, one for scattered axes. STRATEGIES: none is left. */
+static int next_strategy(unsigned found, bool urged, int first, const bool tried[STRATEGIES]) {
+    int next = STRATEGIES, for_scattered = STRATEGIES;
+    for (int i = STRATEGIES; i-- > 0;) {
+        const CpsiStrategy *strategy = &STRATEGY[i];
+        if (tried[i] || (found & strategy->when) != strategy->when || (found & strategy->unless))
+            continue;
+        if (is_for_scattered(strategy)) for_scattered = i;
+        if (i >= first) next = i;
+    }
+    return urged && for_scattered < STRATEGIES ? for_scattered : next;
 }
 
 /* Try the first strategy with Newton's method. False where its answer is not certified, or, if the
@@ -147,7 +193,7 @@ static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
     if (options->least) options->least->chose = false;
     if (line->has_local_axes) cpsi_contact_reset(line);
     line->report.warm_count = 1;
-    solve_once(line, program, options, &first, conditions(line, options) & ROUNDS);
+    (void)solve_once(line, program, options, &first, conditions(line, options) & ROUNDS, 0);
     const CpsCertificate *found = &line->report.certificate;
     const bool good = cps_outcome_is_certified(line->report.outcome) &&
                       (!line->report.warm_count || found->gap <= CPSI_TARGET * found->scale);
@@ -159,26 +205,31 @@ static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
 static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
                                  const CpsiStepOptions *options, CpsiGuess guess) {
     const size_t contacts = (size_t)cpsi_line_all_contacts(line);
-    bool again = false;
-    size_t tried = 0;
+    bool tried[STRATEGIES] = {false}, urged = false, again = false;
+    int first = 0; /* after the last one of the others that was tried */
     if (guess != CPSI_GUESS_NONE) {
         if (solve_warm(line, program, options, guess)) return;
         again = true;
         /* where Newton's method has solved no program, this was the first strategy */
-        if (line->newton.solved == 0) tried = 1;
+        if (line->newton.solved == 0) first = 1;
         line->report.warm_count = 0;
     }
-    for (size_t i = tried; i < sizeof STRATEGY / sizeof *STRATEGY; i++) {
-        const CpsiStrategy *strategy = &STRATEGY[i];
+    for (;; again = true) {
         const unsigned found = conditions(line, options);
-        if ((found & strategy->when) != strategy->when || (found & strategy->unless)) continue;
+        const int i = next_strategy(found, urged, first, tried);
+        if (i == STRATEGIES) return;
+        const CpsiStrategy *strategy = &STRATEGY[i];
         if (again) memset(line->reaction, 0, contacts * sizeof *line->reaction);
         if (options->least) options->least->chose = false;
+        line->keeps_tangents = strategy->keeps_tangents;
         if (line->has_local_axes) cpsi_contact_reset(line);
-        solve_once(line, program, options, strategy, found & ROUNDS);
+        const bool scattered =
+            solve_once(line, program, options, strategy, found & ROUNDS, urged ? FIRST_DRAG : 0);
+        urged = scattered || line->report.iteration_count * (line->n + NODES_BESIDE) > DEAR_WORK;
+        tried[i] = true;
+        if (!is_for_scattered(strategy)) first = i + 1;
         if (options->least && !strategy->least_motion) cpsi_places_as_found(line, program);
         if (cps_outcome_is_certified(line->report.outcome)) return;
-        again = true;
     }
 }
 

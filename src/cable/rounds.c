@@ -19,6 +19,12 @@ static const double AXES_CONVERGING = 1e-2;
 static const double AXES_TOL = 1e-10;
 /* Below this angle [rad] the error after a round is linear in the error before it. */
 static const double AXES_LINEAR = 0.1;
+/* Rounds in which the axes turn by more than this [rad] find no direction for a line that nothing
+ * holds across itself. */
+static const double AXES_SCATTERED = 0.5;
+/* Rounds with drag that no longer turn the axes by more than this [rad] are asked for their
+ * certificate before the drag is changed. */
+static const double AXES_SETTLED = 1e-5;
 /* ... and trial bounds differ by no more than this share, in sum, from mu R. */
 static const double BOUND_TOL = 1e-11;
 /* [-] The drag changes by factors of 4. The least value has an effect on a line with a tension of
@@ -131,7 +137,7 @@ static bool certify_last_round(CpsiLine *line, CpsiChainProgram *program,
     return cps_outcome_is_certified(line->report.outcome);
 }
 
-void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
+bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options, const CpsiStrategy *strategy,
                                CpsiBounds bounds) {
     const bool watched = strategy->patience > 0;
@@ -139,7 +145,7 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     double turned = line->has_local_axes ? INFINITY : 0, off = 0, best = INFINITY;
     const bool sides = !options->frictionless; /* a line placed by statics may pass obstacles */
-    bool arrived = true;
+    bool arrived = true, scattered = line->has_local_axes;
     int since = 0;
     for (int round = 0, most = strategy->rounds; round < most; round++) {
         if (line->has_local_axes && posed.bounds != CPSI_BOUNDS_TRIAL && strategy->acceleration)
@@ -163,6 +169,7 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             next_bounds(line, program, cpsi_line_unit_force(line, posed.bounds));
         }
         if (line->has_local_axes) arrived = cpsi_rounds_refresh_axes(line, sides, &turned);
+        scattered &= turned > AXES_SCATTERED && isfinite(turned);
         if (cpsi_interrupt_seen(program->base.interrupt)) break;
         if (turned <= AXES_TOL && off <= BOUND_TOL && cpsi_line_is_clean(&ipm)) break;
         if (turned <= AXES_CONVERGING && most < MAX_CONVERGING_ROUNDS) most = MAX_CONVERGING_ROUNDS;
@@ -174,10 +181,18 @@ void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
         if (round >= since + strategy->patience) break;
         if (arrived && posed.bounds != CPSI_BOUNDS_TRIAL && (round + 1) % strategy->patience == 0 &&
             certify_last_round(line, program, options, posed.bounds, &ipm))
-            return;
+            return false;
     }
     if (certify_last_round(line, program, options, posed.bounds, &ipm) && !arrived)
         line->report.outcome = CPS_OUTCOME_STALLED;
+    return scattered;
+}
+
+/* Has a line with drag come to rest, as nearly as its certificate asks? */
+static bool has_settled(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                        CpsiBounds bounds, const CpsiIpmReport *ipm, double turned) {
+    return turned <= AXES_SETTLED && cpsi_line_is_clean(ipm) &&
+           certify_last_round(line, program, options, bounds, ipm);
 }
 
 /* The progress of rounds with drag since the drag was changed. */
@@ -213,8 +228,9 @@ static double next_drag(const CpsiLine *line, const Watch *watch, double drag) {
 }
 
 void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                         const CpsiStrategy *strategy, CpsiBounds bounds) {
+                         const CpsiStrategy *strategy, CpsiBounds bounds, double drag) {
     CpsiRound posed = first_round(options, strategy, bounds);
+    posed.drag = drag;
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     Watch watch = {.from = line->watched, .before = &line->watched[3 * line->n]};
     double turned = INFINITY;
@@ -236,6 +252,7 @@ void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
             watch.waited = 0;
         }
         if (++watch.waited <= strategy->patience) continue;
+        if (arrived && has_settled(line, program, options, bounds, &ipm, turned)) return;
         if (posed.drag > MOST_DRAG) break;
         posed.drag = next_drag(line, &watch, posed.drag);
         begin_watch(line, &watch);

@@ -12,14 +12,16 @@
 
 /* Rounds from the reference. Coupled bounds depend on the reactions within each round; once the
  * loop cannot solve such a round, they become trial bounds, which go from no friction towards mu R.
- * Ends with the certificate at the position reached. */
-void cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
+ * Ends with the certificate at the position reached. Returns whether the axes were scattered: in
+ * no round did they turn by less than half a radian. */
+bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options, const CpsiStrategy *strategy,
                                CpsiBounds bounds);
 
-/* Rounds from the reference with a drag where they go to and fro, however far they go. */
+/* Rounds from the reference with a drag where they go to and fro, however far they go; `drag` is
+ * that of the first rounds. */
 void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                         const CpsiStrategy *strategy, CpsiBounds bounds);
+                         const CpsiStrategy *strategy, CpsiBounds bounds, double drag);
 
 /* Move the base to the position, with touching nodes moved onto the surfaces, and update the
  * contacts there. Friction forces keep their components while the axes turn, by at most `turned`

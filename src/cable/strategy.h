@@ -21,7 +21,9 @@ typedef struct CpsiStrategy {
     bool trial_bounds;       /* friction bounds are found from round to round instead of coupled */
     CpsiGuess
         guess; /* of the first round; later ones start from the one before. None: all are cold */
-    bool drag; /* a drag may hold the nodes back from round to round */
+    bool keeps_tangents; /* tangents of isotropic friction are those along the line at the
+                            reference, instead of following it */
+    bool drag;           /* a drag may hold the nodes back from round to round */
 } CpsiStrategy;
 
 #endif

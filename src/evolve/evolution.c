@@ -43,13 +43,14 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
     return cpsi_obstacle_needs_local_axes(&only);
 }
 
-/* Do elements have contacts, beside the nodes? With round obstacles they do; contact of the
- * reference is that of S90, where only nodes touch. */
+/* Do elements have contacts, beside the nodes? With round obstacles they do, and where a node may
+ * need a third contact; contact of the reference is that of S90, where only nodes touch. */
 static bool scene_has_element_contacts(const CpsScene *scene) {
     bool round = false;
     for (int k = 0; k < scene->obstacle_count; k++)
         round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
-    return round && scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
+    return (round || scene->obstacle_count > 2) &&
+           scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
 }
 
 static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {

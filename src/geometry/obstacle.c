@@ -20,13 +20,13 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
     return out;
 }
 
-static bool is_isotropic(const CpsiObstacle *o) {
+bool cpsi_obstacle_is_isotropic(const CpsiObstacle *o) {
     return !o->has_set && o->friction[0] == o->friction[1] &&
            o->shape == CPS_FRICTION_SHAPE_ELLIPSE;
 }
 
 bool cpsi_obstacle_needs_local_axes(const CpsiObstacle *o) {
-    return o->kind != CPS_OBSTACLE_PLANE || !is_isotropic(o);
+    return o->kind != CPS_OBSTACLE_PLANE || !cpsi_obstacle_is_isotropic(o);
 }
 
 static Vec3 unit(Vec3 v, Vec3 otherwise) {

@@ -64,6 +64,9 @@ double cpsi_obstacle_angle(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
  * of a cylinder or the centre of a sphere. False where that is one of its ends, and for a plane. */
 bool cpsi_obstacle_faces(const CpsiObstacle *obstacle, Vec3 a, Vec3 b, double *share);
 
+/* Is friction on the obstacle a disc, the same in all directions? */
+bool cpsi_obstacle_is_isotropic(const CpsiObstacle *obstacle);
+
 /* [m] How far an element of natural length l may cut into a round obstacle of radius R: delta =
  * min(l^2/(4 R), R/4). A chord between two points of the surface cuts in by l^2/(8 R) and more, but
  * by less than delta up to l = 1.3 R. */

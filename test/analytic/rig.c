@@ -291,8 +291,11 @@ static void audit_element(Audit *audit, const CpsScene *scene, const double *tur
         touch.along[i] = v->position[3 * e + 3 + i] - v->position[3 * e + i];
         sum[i] = 0;
     }
+    /* with a plane it is the contact of the node at the element's end */
+    const bool plane = k >= 0 && scene->obstacle[k].kind == CPS_OBSTACLE_PLANE;
     const double radius = k < 0 ? 1 : scene->obstacle[k].radius;
-    audit_touch(audit, scene, turn, &touch, k, fmin(l * l / radius, radius) / 4,
+    if (plane) CHECK_NEAR(b, 1, 0);
+    audit_touch(audit, scene, turn, &touch, k, plane ? 0 : fmin(l * l / radius, radius) / 4,
                 v->arc_length[v->element_count], sum);
 }
 

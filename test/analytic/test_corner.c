@@ -32,8 +32,10 @@
  * A string in a corner slides as on a bed that rubs by q = mu1 w1 + mu2 w2 per length: its tip
  * moves by H^2/(2 q K). */
 #include <stdio.h>
+#include <string.h>
 
 #include "rig.h"
+#include "splitmix.h"
 
 static const double PI = 3.14159265358979323846;
 static const double LENGTH = 1, STIFFNESS = 50, WEIGHT = 2; /* W of the block is half of that */
@@ -421,11 +423,70 @@ static void the_same_set_given_twice(void **state) {
     cps_set_release(set[1]);
 }
 
+/* Three planes meet in an apex and open upwards; where they do not rub, a block in it is borne by
+ * all three, R1 n1 + R2 n2 + R3 n3 = -load, whatever the reactions. The slack string has no
+ * tension. */
+static void pit_of_three_planes(void **state) {
+    (void)state;
+    static const double APEX[3] = {0.3, -0.2, 0.1};
+    uint64_t random = 11;
+    double worst = 0, deepest = 0;
+    int rubbing = 0;
+    for (int i = 0; i < 40; i++) {
+        Rig rig;
+        double n[3][3], reaction[3], load[3] = {0, 0, 0.5 * WEIGHT * LENGTH};
+        const double mu = i < 20 ? 0 : splitmix(&random, 0.05, 0.4);
+        rig_begin(&rig, 1 + i % 2, WEIGHT, STIFFNESS);
+        rig_length(&rig, LENGTH);
+        for (int k = 0; k < 3; k++) {
+            const double around = 2 * PI / 3 * k + splitmix(&random, -0.4, 0.4),
+                         up = splitmix(&random, 0.3, 0.8), across = sqrt(1 - up * up);
+            n[k][0] = across * cos(around);
+            n[k][1] = across * sin(around);
+            n[k][2] = up;
+            reaction[k] = splitmix(&random, 1, 5);
+            memcpy(plane(&rig, n[k], mu)->point, APEX, sizeof APEX);
+            for (int a = 0; a < 3; a++) load[a] -= reaction[k] * n[k][a];
+        }
+        /* half the weight of the last element is at its end; the other nodes lie in the pit too */
+        if (i % 2) load[2] -= 0.25 * WEIGHT * LENGTH;
+        rig_point(&rig, APEX[0], APEX[1], APEX[2] + 0.5);
+        rig_point(&rig, APEX[0] + 0.1, APEX[1] + 0.05, APEX[2] + 0.5 + sqrt(1 - 0.0125));
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, 1.2 * WEIGHT);
+        rig_stage(&rig, 1);
+        rig_change(&rig, CPS_END_B, CPS_END_KIND_FREE, load[0], load[1], load[2]);
+        RigRun run = rig_open(&rig);
+        CHECK_INT(rig_try(&run), CPS_OUTCOME_SOLVED); /* and the audit */
+        const CpsLineView v = run.view;
+        const int j = v.element_count, c[3] = {j, j + v.element_count + 1, j - 1};
+        rubbing += mu > 0 && v.element_obstacle[j - 1] >= 0 && v.element_reaction[j - 1] > 0;
+        for (int a = 0; a < 3 && mu == 0; a++) {
+            const int on = a < 2 ? v.obstacle[c[a]] : v.element_obstacle[c[a]];
+            const double found = a < 2 ? v.reaction[c[a]] : v.element_reaction[c[a]];
+            CHECK_INT(on >= 0 && on < 3, 1);
+            worst = fmax(worst, fabs(found - reaction[on]));
+            deepest = fmax(deepest, fabs(v.position[3 * j + a] - APEX[a]));
+        }
+        rig_close(&run);
+    }
+    rig_show("pit of three planes", "reactions, worst of 20 [N]", 0, worst);
+    rig_show("pit of three planes", "of 20 with friction, borne by all three", 20, rubbing);
+    rig_show("pit of three planes", "block off the apex, worst of 20 [m]", 0, deepest);
+    /* the loop ends at 1e-13 of its scale, and the reactions are not degenerate */
+    CHECK_LESS(worst, 1e-8 * 15);
+    CHECK_LESS(deepest, 1e-8 * LENGTH);
+    CHECK_GREATER(rubbing, 5);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bed_and_wall),       cmocka_unit_test(v_groove),
-        cmocka_unit_test(inclined_groove),    cmocka_unit_test(bed_and_pipe),
-        cmocka_unit_test(string_in_a_corner), cmocka_unit_test(the_same_set_given_twice),
+        cmocka_unit_test(bed_and_wall),
+        cmocka_unit_test(v_groove),
+        cmocka_unit_test(inclined_groove),
+        cmocka_unit_test(bed_and_pipe),
+        cmocka_unit_test(pit_of_three_planes),
+        cmocka_unit_test(string_in_a_corner),
+        cmocka_unit_test(the_same_set_given_twice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -458,20 +458,29 @@ static void judge_weight(const Record *r, const Record *before, Judge *judge) {
         }
 }
 
-/* The reaction of an obstacle on node j: it may have been the node's other contact. */
+/* The reaction of an obstacle on node j: it may have been another contact of the node, of which
+ * the third is that of the element before it, at its end. */
 static double reaction_on(const Record *r, size_t j, double obstacle) {
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
         if (r->obstacle[c] == obstacle) return r->reaction[c];
+    if (r->has_elements && j > 0 && r->share_of[j - 1] == 1) {
+        const size_t third = r->contacts * r->nodes + j - 1;
+        if (r->obstacle[third] == obstacle) return r->reaction[third];
+    }
     return 0;
 }
 
-/* The same of an element's contact, which has no other place where its reaction may have been. */
+/* The same of an element's contact, which has no other place where its reaction may have been,
+ * unless it is the third contact of a node. */
 static void judge_element_bound(const Record *r, const Record *before, size_t c, double largest,
                                 double shared, bool all, Judge *judge) {
+    const bool third = r->share_of[c - r->contacts * r->nodes] == 1;
     const double w = r->friction_bound[c],
-                 R = before->obstacle[c] == r->obstacle[c] ? before->reaction[c] : 0;
-    const double expected =
-        before->mu[c] * R; // with the zone's factor at the point where that reaction was
+                 R = third ? reaction_on(before, c - r->contacts * r->nodes + 1, r->obstacle[c])
+                     : before->obstacle[c] == r->obstacle[c] ? before->reaction[c]
+                                                             : 0;
+    // with the zone's factor at the point where that reaction was
+    const double expected = (third ? r->mu[c] : before->mu[c]) * R;
     if (r->obstacle[c] < 0 || (w == 0 && !all && R <= 1e-3 * largest + NOTHING)) return;
     // the mean of two factors, and as of a node
     const size_t i = c - r->contacts * r->nodes;

@@ -232,6 +232,13 @@ static bool stays(const Where *where, const Record *r, size_t c) {
     return where->frozen && r->friction_bound[c] > 0;
 }
 
+/* Is surface k, a plane, that of the third contact of node j, at the end of the element before
+ * it? */
+static bool is_third(const Where *where, const Record *r, size_t j, size_t k) {
+    return r->has_elements && j > 0 && r->obstacle[r->contacts * r->nodes + j - 1] == (int)k &&
+           where->source->surface[k].kind == SURFACE_PLANE;
+}
+
 /* Is the obstacle of contact c the nearest but for those before it, within a margin? One that stays
  * is so at the reference, and the other contact of its node is with the nearest of the rest. */
 static bool in_place(const Where *where, const Record *r, size_t j, size_t c, Real margin) {
@@ -245,7 +252,7 @@ static bool in_place(const Where *where, const Record *r, size_t j, size_t c, Re
     const Real distance = surface_distance(&source->surface[mine], x);
     size_t nearer = 0;
     for (size_t k = 0; k < source->surfaces; k++)
-        if (k != mine && (kept || k != other || (c == j && !beside)))
+        if (k != mine && !is_third(where, r, j, k) && (kept || k != other || (c == j && !beside)))
             nearer += distance > surface_distance(&source->surface[k], x) + margin;
     return nearer <= kept;
 }
@@ -475,22 +482,27 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     widen(r->friction[c], F);
     widen(r->slide[c], slide);
     const Seat seat =
-        element_seat(where, r, on, i, t, x, reference, surface_allowance(on, r->element_length[i]));
+        element_seat(where, r, on, i, t, x, reference,
+                     on->kind == SURFACE_PLANE ? 0 : surface_allowance(on, r->element_length[i]));
     const Real factor = r->factor ? (1 - t) * r->factor[i] + t * r->factor[i + 1] : 1;
     r->mu[c] = (double)(factor * surface_friction(on));
     // where it is, against what it says
-    if (on->kind == SURFACE_PLANE) m->misplaced++;
+    // a plane is touched by the node at the end of the element, beside two other obstacles
+    const bool third = on->kind == SURFACE_PLANE;
+    if (third && (r->contacts < 2 || held(r, i + 1) || r->obstacle[i + 1] == r->obstacle[c] ||
+                  r->obstacle[r->nodes + i + 1] == r->obstacle[c]))
+        m->misplaced++;
     // frozen friction acts on what has left the surface as well, where it last was
-    const Real facing = surface_facing(on, a, b);
+    const Real facing = third ? 1 : surface_facing(on, a, b);
     const bool left = where->frozen && R == 0;
-    if (!left || (facing > 0 && facing < 1))
+    if (third || !left || (facing > 0 && facing < 1))
         raise_to(&m->share_error, fabsl(facing - t) * size(along));
     for (int k = 0; k < 3; k++) {
         n[k] -= seat.normal[k];
         slide[k] -= seat.slide[k];
         start[k] = x[k] - seat.slide[k];
     }
-    raise_to(&m->normal_error, size(n) / (1 + where->reach / on->radius));
+    raise_to(&m->normal_error, size(n) / (1 + (third ? 0 : where->reach / on->radius)));
     raise_to(&m->slide_error, size(slide));
     if (r->friction_bound[c] > 0 && !left)
         raise_to(&m->gone_quarters, surface_angle(on, reference, x) / QUARTER);

@@ -533,8 +533,8 @@ static int read_contact(const Source *source, const char *line, size_t step, boo
     return bad;
 }
 
-/* what belongs to the contacts of elements: where an obstacle is round and contact is with every
- * obstacle reached */
+/* what belongs to the contacts of elements: where an obstacle is round, or there are three, and
+ * contact is with every obstacle reached */
 static int read_elements(const Source *source, const char *line, size_t step, Record *record,
                          FILE *log) {
     static const char *const NAME[8] = {"element_normal",         "element_friction_force",
@@ -548,7 +548,9 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
                      record->obstacle + from,       record->share_of};
     int bad = 0;
     for (size_t k = 0; k < source->surfaces; k++)
-        record->has_elements |= source->surface[k].kind != SURFACE_PLANE && !source->touching_only;
+        record->has_elements |=
+            (source->surface[k].kind != SURFACE_PLANE || source->surfaces > 2) &&
+            !source->touching_only;
     if (record->has_elements)
         for (size_t k = 0; k < 8; k++)
             bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);
