@@ -549,7 +549,7 @@ static size_t describe_corner(int again, Field *field) {
     field[n++].value[0] = 0;
     field[n++] = constant("obstacle", NODES, 0, 0);
     field[n++] = constant("obstacle_second", NODES, 1, 1);
-    return n;
+    return n + no_elements(&field[n]);
 }
 
 /* ---- the post ---- */
