@@ -460,7 +460,8 @@ static void pit_of_three_planes(void **state) {
         const CpsLineView v = run.view;
         const int j = v.element_count, c[3] = {j, j + v.element_count + 1, j - 1};
         rubbing += mu > 0 && v.element_obstacle[j - 1] >= 0 && v.element_reaction[j - 1] > 0;
-        for (int a = 0; a < 3 && mu == 0; a++) {
+        const int count = mu == 0 ? 3 : 0; /* reactions that are unique */
+        for (int a = 0; a < count; a++) {
             const int on = a < 2 ? v.obstacle[c[a]] : v.element_obstacle[c[a]];
             const double found = a < 2 ? v.reaction[c[a]] : v.element_reaction[c[a]];
             CHECK_INT(on >= 0 && on < 3, 1);
