@@ -275,10 +275,9 @@ typedef struct CpsLineView {
     /* Contact of an element with a round obstacle, at the point (1 - beta) x_e + beta x_{e+1} that
      * was nearest to its axis or centre; its forces act on the element's nodes by these shares. As
      * above for that point, whose slip is that of the point with this beta since the reference.
-     * With a plane it is the third contact of the node at the element's end, of share 1, and
-     * nothing is added to its gap. They are looked for where an obstacle is round, or there are
-     * more than two, and contact is not that of the reference; elsewhere all numbers are 0. Where
-     * they are looked for, the other numbers of an element without obstacle have no meaning. */
+     * With a plane it is the third contact of the node at the element's end, of share 1. They are
+     * looked for where an obstacle is round, or there are more than two, and contact is not that of
+     * the reference; elsewhere all are 0. Those of an element without obstacle have no meaning. */
     bool has_element_contacts;
     const int *element_obstacle;  /* (element_count) */
     const double *element_share;  /* (element_count) [-] beta */
