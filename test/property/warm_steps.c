@@ -71,7 +71,7 @@ static bool is_isotropic(const CpsScene *scene) {
     for (int k = 0; k < scene->obstacle_count; k++) {
         const CpsObstacle *o = &scene->obstacle[k];
         one = one && !o->friction_set &&
-              (o->friction_lateral < 0 || o->friction_lateral == o->friction);
+              (!o->has_friction_lateral || o->friction_lateral == o->friction);
     }
     return one;
 }
