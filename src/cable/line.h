@@ -21,7 +21,7 @@
 
 /* The increments of the loads in a substep. */
 typedef struct CpsiLoadChange {
-    unsigned char known; /* 1: yes */
+    bool known;
     CpsEndKind kind[2];
     double end[2][3]; /* [m] or [N] */
     double weight[3]; /* [N/m] */
@@ -54,7 +54,7 @@ typedef struct CpsiLine {
                                with isotropic friction */
     int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
     int element_contacts;   /* of an element: 1 where there is a round obstacle, or a third, else 0;
-                               the arrays   (contacts, n) have as many more rows */
+                               the arrays (contacts, n) have as many more rows */
     double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
     CpsEnd end[2];          /* imposed now */
     double *arc_length;     /* (n) [m] */

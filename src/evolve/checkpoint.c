@@ -39,11 +39,18 @@ static void pass(Tape *tape, void *data, size_t size) {
 
 #define PASS(tape, field) pass(tape, &(field), sizeof(field))
 
+/* A flag as a byte: any that is not 0 is read as true, for a bool may hold nothing but 0 and 1. */
+static void pass_flag(Tape *tape, bool *flag) {
+    unsigned char byte = *flag;
+    PASS(tape, byte);
+    if (tape->in) *flag = byte != 0;
+}
+
 /* A field that is added to one of these structs has to be added to its function below as well. */
 #if UINTPTR_MAX == 0xffffffffffffffff
 _Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 6 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
-               "these are passed whole: numbers without padding between them");
+               "add the new field to pass_energies or pass_end_report, then its size here");
 _Static_assert(sizeof(CpsEndReport) == 11 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
                "add the new field to pass_end_report or pass_bend, then its size here");
 _Static_assert(sizeof(CpsLineReport) == 21 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
@@ -56,7 +63,7 @@ _Static_assert(sizeof(CpsEnd) == 4 * 8, "add the new field to pass_end, then its
 
 static void pass_energies(Tape *tape, CpsCertificate *certificate, CpsLedger *ledger) {
     pass(tape, certificate, offsetof(CpsCertificate, has_tension_bound)); /* numbers */
-    PASS(tape, certificate->has_tension_bound);
+    pass_flag(tape, &certificate->has_tension_bound);
     PASS(tape, *ledger);
 }
 
@@ -66,7 +73,7 @@ static void pass_end(Tape *tape, CpsEnd *end) {
 }
 
 static void pass_load_change(Tape *tape, CpsiLoadChange *change) {
-    PASS(tape, change->known);
+    pass_flag(tape, &change->known);
     PASS(tape, change->kind);
     PASS(tape, change->end);
     PASS(tape, change->weight);
@@ -81,7 +88,7 @@ static void pass_end_report(Tape *tape, CpsEndReport *end) {
     PASS(tape, end->friction_force);
     CpsTensionRange *range = &end->range;
     PASS(tape, range->kind);
-    PASS(tape, range->has_values);
+    pass_flag(tape, &range->has_values);
     PASS(tape, range->least);
     PASS(tape, range->least_bound);
     PASS(tape, range->greatest);
@@ -114,15 +121,15 @@ static void pass_line_report(Tape *tape, CpsLineReport *report) {
     PASS(tape, report->grounded);
     PASS(tape, report->slipping);
     PASS(tape, report->slack);
-    PASS(tape, report->has_tension_mesh);
+    pass_flag(tape, &report->has_tension_mesh);
     PASS(tape, report->tension_mesh);
-    PASS(tape, report->has_pierced_obstacle);
+    pass_flag(tape, &report->has_pierced_obstacle);
     PASS(tape, report->pierced_obstacle);
     pass_bend(tape, &report->bend);
     PASS(tape, report->proof);
     PASS(tape, report->proof_length);
     PASS(tape, report->proof_force);
-    PASS(tape, report->has_proof_obstacle);
+    pass_flag(tape, &report->has_proof_obstacle);
     PASS(tape, report->proof_obstacle);
     PASS(tape, report->coulomb);
 }

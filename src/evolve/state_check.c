@@ -87,7 +87,7 @@ static bool are_contacts(const CpsiLine *line) {
 }
 
 static bool is_load_change(const CpsiLoadChange *change) {
-    bool sound = change->known <= 1 && all_finite(change->weight, 3) && isfinite(change->turn);
+    bool sound = all_finite(change->weight, 3) && isfinite(change->turn);
     for (int end = 0; end < 2; end++)
         sound =
             sound &&

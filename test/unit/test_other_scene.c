@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A saved state is refused by any other scene: each key of a scene file is changed in turn, and the
  * state of the scene before the change is not accepted by the one after it. A key that nobody
- * changes here fails the test, so that a new key cannot be left out of a scene's fingerprint. */
+ * changes here fails the test, so that a new key cannot be left out of a scene's fingerprint. A
+ * state with a byte changed is refused, or its flags are still flags. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -193,8 +194,46 @@ static void every_key_is_changed(void **state) {
         if (!found[i]) fail_msg("there is no key '%s'", CHANGE[i].key);
 }
 
+/* A flag that is read from bytes is 0 or 1, also where the byte was another. */
+static void assert_flag(const bool *flag) {
+    unsigned char byte;
+    memcpy(&byte, flag, 1);
+    assert_in_range(byte, 0, 1);
+}
+
+static void flags_of_a_changed_state_are_flags(void **state) {
+    (void)state;
+    CpsEvolution *evolution = evolution_of(SCENE);
+    assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
+    const size_t size = cps_evolution_state_size(evolution);
+    unsigned char *saved = malloc(size);
+    assert_non_null(saved);
+    cps_evolution_save(evolution, saved);
+    int accepted = 0;
+    for (size_t i = 0; i < size; i++) {
+        const unsigned char was = saved[i];
+        saved[i] = 2;
+        if (cps_evolution_load(evolution, saved, size, NULL) == CPS_OK) {
+            accepted++;
+            for (int k = 0; k < cps_evolution_line_count(evolution); k++) {
+                const CpsLineReport report = cps_evolution_line_report(evolution, k);
+                assert_flag(&report.has_tension_mesh);
+                assert_flag(&report.has_pierced_obstacle);
+                assert_flag(&report.has_proof_obstacle);
+                assert_flag(&report.certificate.has_tension_bound);
+                for (int end = 0; end < 2; end++) assert_flag(&report.end[end].range.has_values);
+            }
+        }
+        saved[i] = was;
+    }
+    assert_true(accepted > 100);
+    free(saved);
+    cps_evolution_destroy(evolution);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_change_makes_another_scene),
+                                       cmocka_unit_test(flags_of_a_changed_state_are_flags),
                                        cmocka_unit_test(every_key_is_changed)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
