@@ -22,7 +22,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "capstan/capstan.h"
+#include "capstan/evolve.h"
 
 enum { MOST_SIZES = 32, MOST_REPEATS = 101 };
 

@@ -2,7 +2,7 @@
 /* Pull the end of a rope that lies straight on a rough floor, and ask how far it moved. */
 #include <stdio.h>
 
-#include "capstan/capstan.h"
+#include "capstan/evolve.h"
 
 int main(void) {
     /* a floor with mu = 0.0255, and a soft rope along x, 6.28 m, 1 kg/m, EA = 10 N */

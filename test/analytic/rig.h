@@ -9,7 +9,7 @@
 #ifndef CAPSTAN_TEST_RIG_H
 #define CAPSTAN_TEST_RIG_H
 
-#include "capstan/capstan.h"
+#include "capstan/evolve.h"
 #include "check.h"
 
 enum { RIG_OBSTACLES = 3, RIG_STAGES = 16, RIG_POINTS = 1700 };

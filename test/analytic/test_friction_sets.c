@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "capstan/capstan.h"
+#include "capstan/evolve.h"
 #include "check.h"
 
 /* Print "case | figure | expected | found | difference"; returns found - expected. */

@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "capstan/capstan.h"
+#include "capstan/evolve.h"
+#include "capstan/planar.h"
 
 /* FNV-1a over the bytes of many numbers */
 static uint64_t mixed(uint64_t hash, int count, const double *number) {

@@ -3,7 +3,6 @@
 #ifndef CAPSTAN_TEST_FAULT_SMALL_RUN_H
 #define CAPSTAN_TEST_FAULT_SMALL_RUN_H
 
-#include "capstan/capstan.h"
 #include "capstan/results.h"
 
 /* A rope of 6 m, straight between two points. */

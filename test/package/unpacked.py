@@ -44,4 +44,4 @@ with tempfile.TemporaryDirectory() as folder:
     package.run(package.CMAKE, "--preset", "release", "-B", build + "-core", "-DCAPSTAN_IO=OFF", env=environment, cwd=source)
     package.run(package.CMAKE, "--install", build + "-core", "--component", "headers", "--prefix", os.path.join(folder, "prefix"))
     headers = os.listdir(os.path.join(folder, "prefix", "include", "capstan"))
-    assert "capstan.h" in headers and not {"io.h", "results.h"} & set(headers), headers
+    assert "evolve.h" in headers and not {"io.h", "results.h"} & set(headers), headers

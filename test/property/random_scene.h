@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "capstan/capstan.h"
+#include "capstan/evolve.h"
 
 enum {
     SCENE_LINES = 4,

@@ -23,7 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "capstan/capstan.h"
+#include "capstan/evolve.h"
 #include "capstan/io.h"
 
 /* magic, size and fingerprint of a state (evolve/checkpoint.c) */

@@ -4,7 +4,7 @@
  * --wrap). */
 #include <stdlib.h>
 
-#include "capstan/capstan.h"
+#include "capstan/evolve.h"
 #include "check.h"
 
 void *__real_malloc(size_t size);

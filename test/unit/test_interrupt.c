@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "capstan/capstan.h"
+#include "capstan/evolve.h"
 #include "capstan/io.h"
 #include "check.h"
 

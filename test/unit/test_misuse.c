@@ -7,7 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "capstan/capstan.h"
+#include "capstan/evolve.h"
+#include "capstan/planar.h"
+#include "capstan/regularized.h"
 #include "misuse.h"
 
 static const double ZERO[9] = {0}, ONE[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};

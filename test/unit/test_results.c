@@ -16,7 +16,6 @@
 
 #include <cmocka.h>
 
-#include "capstan/capstan.h"
 #include "capstan/results.h"
 #include "io/base/escape.h"
 

@@ -13,8 +13,6 @@
 
 #include <cmocka.h>
 
-#include "capstan/capstan.h"
-#include "capstan/io.h"
 #include "capstan/results.h"
 
 static const char SCENE[] = "results-few.yaml", OUT[] = "results-few";
