@@ -4,7 +4,11 @@
  * The centre is the analytic one of the conic form, the minimum of -sum log det(A v + b) (log of
  * the number itself for a half-line), where A'z^-1 = 0: Newton's method, damped while its decrement
  * is large (Nesterov and Nemirovskii 1994), from the point with the largest margin, which a small
- * conic program finds. */
+ * conic program finds.
+ *
+ * The support function is a formula where the expression has one, and for polygons however they are
+ * written. For the other sets, intersections with round parts, it is a small conic program; the
+ * last answer is kept, since the certificate asks twice for the same slip. */
 #include "cable/friction_set.h"
 
 #include <math.h>
@@ -26,12 +30,17 @@ static const double ACCEPT = 1e-9;
 static const double LEAST_MARGIN = 1e-9;
 /* Limit of the rows of the conic form: every touching node stores a matrix of them. */
 enum { MOST_ROWS = 128, MAX_CENTERING = 200 };
+/* The support function of a polygon and that of its corners differ by less, per reach: a few
+ * roundings of the small program. */
+static const double SAME_POLYGON = 1e-14;
 
 struct CpsiFrictionSet {
     CpsiConicSet shape;
     CpsiConicForm *form;
     CpsiArena arena;
+    CpsSet *closed; /* the set, where its support function is a formula; else NULL */
     double *centre, *cost;
+    double *last; /* (3) u and phi(u) of the last small program */
     CpsiConicProgram *program;
 };
 
@@ -71,6 +80,7 @@ static void layout(CpsiFrictionSet *set) {
     const CpsiConicForm *form = set->form;
     set->centre = CPSI_TAKE(&set->arena, form->unknowns, double);
     set->cost = CPSI_TAKE(&set->arena, form->unknowns, double);
+    set->last = CPSI_TAKE(&set->arena, 3, double);
     set->program =
         cpsi_conic_layout(&set->arena, form->unknowns, form->rows, form->cones, form->largest_cone);
 }
@@ -231,6 +241,55 @@ static CpsStatus find_reach(const CpsSet *set, double *reach, CpsError *err) {
     return CPS_OK;
 }
 
+/* phi(u) by the small conic program. */
+static double solve_phi(const CpsiFrictionSet *set, const double u[2]) {
+    const CpsiConicSet *form = &set->shape;
+    const double size = hypot(u[0], u[1]);
+    double largest = 0;
+    for (int j = 0; j < form->unknowns; j++) {
+        set->cost[j] = (form->p[j] * u[0] + form->p[form->unknowns + j] * u[1]) / size;
+        largest = fmax(largest, fabs(set->cost[j]));
+    }
+    const double here = -cpsi_dot(2, u, form->origin);
+    if (!(largest > 0)) return here;
+    /* of order one, like the rows */
+    for (int j = 0; j < form->unknowns; j++) set->cost[j] /= largest;
+    const CpsiConicResult result = cpsi_conic_solve(set->program, ACCEPT);
+    if (result.outcome != CPSI_CONIC_SOLVED) return NAN;
+    return here - size * largest * cpsi_dot(form->unknowns, set->cost, result.x);
+}
+
+/* Is the set the hull of these corners, points of it that go round it counterclockwise? It is if it
+ * reaches no further than each side. */
+static bool has_corners(const CpsiFrictionSet *set, int count, const double *corner) {
+    for (int k = 0; k < count; k++) {
+        const double *a = &corner[2 * k], *b = &corner[2 * ((k + 1) % count)];
+        const double inward[2] = {a[1] - b[1], b[0] - a[0]}, size = hypot(inward[0], inward[1]);
+        const double beyond = solve_phi(set, inward) + cpsi_dot(2, inward, a);
+        if (!(beyond <= SAME_POLYGON * set->shape.reach * size)) return false;
+    }
+    return count > 2;
+}
+
+/* The set, or the hull of its corners where it is a polygon, if that has a support function in
+ * closed form. */
+static CpsStatus find_closed(const CpsSet *of, CpsiFrictionSet *set, CpsError *err) {
+    if (cpsi_support_is_closed(of)) {
+        set->closed = cps_set_retain(of);
+        return CPS_OK;
+    }
+    for (int k = 0; k < set->form->cones; k++)
+        if (set->form->dim[k] > 1) return CPS_OK;
+    double corner[2 * MOST_ROWS];
+    int count = 0;
+    CpsSetAnswer answer;
+    const CpsStatus status = cps_set_vertices(of, 0, MOST_ROWS, corner, &count, &answer, err);
+    if (status || answer.outcome != CPS_SET_OUTCOME_ANSWERED || count > MOST_ROWS ||
+        !has_corners(set, count, corner))
+        return status;
+    return cps_set_hull_of_points(2, count, corner, &set->closed, err);
+}
+
 static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, CpsError *err) {
     CpsStatus status = cpsi_conic_form_make(of, &set->form, err);
     if (status) return status;
@@ -247,8 +306,9 @@ static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, 
     double reach;
     status = find_reach(of, &reach, err);
     if (!status) status = find_centre(set, name, err);
-    if (!status) describe(set, reach);
-    return status;
+    if (status) return status;
+    describe(set, reach);
+    return find_closed(of, set, err);
 }
 
 CpsStatus cpsi_friction_set_make(const CpsSet *set, const char *name, CpsiFrictionSet **out,
@@ -273,6 +333,7 @@ CpsStatus cpsi_friction_set_make(const CpsSet *set, const char *name, CpsiFricti
 
 void cpsi_friction_set_free(CpsiFrictionSet *set) {
     if (!set) return;
+    cps_set_release(set->closed);
     cpsi_conic_form_free(set->form);
     cpsi_arena_free(&set->arena);
     free(set);
@@ -281,19 +342,17 @@ void cpsi_friction_set_free(CpsiFrictionSet *set) {
 const CpsiConicSet *cpsi_friction_set_conic(const CpsiFrictionSet *set) { return &set->shape; }
 
 double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]) {
-    const CpsiConicSet *form = &set->shape;
-    const double size = hypot(u[0], u[1]);
+    const double size = hypot(u[0], u[1]), against[2] = {-u[0], -u[1]};
     if (!(size > 0)) return size;
-    double largest = 0;
-    for (int j = 0; j < form->unknowns; j++) {
-        set->cost[j] = (form->p[j] * u[0] + form->p[form->unknowns + j] * u[1]) / size;
-        largest = fmax(largest, fabs(set->cost[j]));
+    CpsSetAnswer answer;
+    if (set->closed && cpsi_support(set->closed, against, NULL, &answer, NULL) == CPS_OK &&
+        answer.outcome == CPS_SET_OUTCOME_ANSWERED)
+        return answer.value;
+    double *last = set->last;
+    if (last[0] != u[0] || last[1] != u[1]) {
+        last[2] = solve_phi(set, u);
+        last[0] = u[0];
+        last[1] = u[1];
     }
-    const double here = -cpsi_dot(2, u, form->origin);
-    if (!(largest > 0)) return here;
-    /* of order one, like the rows */
-    for (int j = 0; j < form->unknowns; j++) set->cost[j] /= largest;
-    const CpsiConicResult result = cpsi_conic_solve(set->program, ACCEPT);
-    if (result.outcome != CPSI_CONIC_SOLVED) return NAN;
-    return here - size * largest * cpsi_dot(form->unknowns, set->cost, result.x);
+    return last[2];
 }

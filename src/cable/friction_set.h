@@ -21,8 +21,10 @@ void cpsi_friction_set_free(CpsiFrictionSet *set);
 
 const CpsiConicSet *cpsi_friction_set_conic(const CpsiFrictionSet *set);
 
-/* phi(u) = max -<u, F> over the set; to about 1e-13 of reach |u|, NaN where the small program
- * failed. Not thread-safe: it writes to the set's scratch memory. */
+/* phi(u) = max -<u, F> over the set: by a formula for polygons and for what is made of points,
+ * discs, ellipses and boxes by sums, hulls and linear maps; else to about 1e-13 of reach |u| by a
+ * small conic program, NaN where that failed. Then it is not thread-safe: it writes to the set's
+ * scratch memory. */
 double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]);
 
 #endif

@@ -114,6 +114,8 @@ typedef enum CpsiZero { CPSI_ZERO_UNKNOWN, CPSI_ZERO_INSIDE, CPSI_ZERO_RELATIVE 
 CpsStatus cpsi_set_locate_zero(const CpsSet *set, CpsiZero *known, CpsError *err);
 CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer,
                        CpsError *err);
+/* Is the support function a formula in every direction, which allocates nothing? */
+bool cpsi_support_is_closed(const CpsSet *set);
 /* back = L'w for an image by L; components that are the rounding of cancelled terms are set to 0,
  * so that they do not become infinite with an unbounded part. */
 void cpsi_pull_back(const CpsSet *image, const double *w, double *back);

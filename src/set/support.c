@@ -231,6 +231,27 @@ static CpsStatus in_closure(const CpsSet *set, const double *w, double *point, C
     return status;
 }
 
+bool cpsi_support_is_closed(const CpsSet *set) {
+    enum { ON_STACK = 32 }; /* components for which CpsiScratch allocates nothing */
+    if (set->n > ON_STACK) return false;
+    switch (set->kind) {
+    case CPSI_SET_POINTS:
+    case CPSI_SET_BALL:
+    case CPSI_SET_ELLIPSOID:
+    case CPSI_SET_BOX: return true;
+    case CPSI_SET_PRODUCT:
+    case CPSI_SET_SUM:
+    case CPSI_SET_IMAGE:
+    case CPSI_SET_TRANSLATE:
+    case CPSI_SET_SCALE:
+    case CPSI_SET_HULL: break;
+    default: return false;
+    }
+    for (int k = 0; k < set->count; k++)
+        if (!cpsi_support_is_closed(set->part[k])) return false;
+    return true;
+}
+
 CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSetAnswer *answer,
                        CpsError *err) {
     double value;

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Friction sets by their expressions: phi(u) = max -<u, F> against the formula of each part,
+ * computed here, in random directions. */
+#include "cable/friction_set.h"
+
+#include "check.h"
+#include "splitmix.h"
+
+static const double TURN = 6.28318530717958647692;
+/* phi of a set with a formula: a few roundings of reach |u|, the reaches here being below 2. */
+static const double ROUNDING = 8e-16;
+/* ... and by the small program (friction_set.h). */
+static const double PROGRAM = 1e-12;
+
+static CpsiFrictionSet *made(CpsSet *set) {
+    CpsiFrictionSet *out = NULL;
+    CpsError err = {0};
+    const CpsStatus status = cpsi_friction_set_make(set, "bed", &out, &err);
+    if (status) print_error("%s\n", err.message);
+    assert_int_equal(status, CPS_OK);
+    assert_non_null(out);
+    cps_set_release(set);
+    return out;
+}
+
+static double most(int count, const double *corner, const double u[2]) {
+    double largest = -INFINITY;
+    for (int k = 0; k < count; k++)
+        largest = fmax(largest, -u[0] * corner[2 * k] - u[1] * corner[2 * k + 1]);
+    return largest;
+}
+
+/* Corners of a polygon round 0, its sides tangent to a circle. */
+static int polygon(uint64_t *stream, double (*corner)[2], double (*side)[2], double *offset) {
+    const int count = 3 + (int)splitmix(stream, 0, 6);
+    const double radius = splitmix(stream, 0.2, 0.8), first = splitmix(stream, 0, TURN);
+    double angle[9];
+    for (int k = 0; k <= count; k++)
+        angle[k] =
+            first + TURN * (k + (k < count && k > 0 ? splitmix(stream, -0.2, 0.2) : 0)) / count;
+    for (int k = 0; k < count; k++) {
+        const double middle = 0.5 * (angle[k] + angle[k + 1]),
+                     far = radius / cos(0.5 * (angle[k + 1] - angle[k]));
+        side[k][0] = cos(angle[k]);
+        side[k][1] = sin(angle[k]);
+        offset[k] = radius;
+        corner[k][0] = far * cos(middle);
+        corner[k][1] = far * sin(middle);
+    }
+    return count;
+}
+
+/* A polygon as a hull of corners, as inequalities, as an intersection of half-planes, and as the
+ * polar of its polar. */
+static void polygons(void **unused) {
+    (void)unused;
+    uint64_t stream = 15;
+    for (int trial = 0; trial < 30; trial++) {
+        double corner[9][2], side[9][2], offset[9], pole[9][2];
+        const int count = polygon(&stream, corner, side, offset);
+        CpsSet *set[4] = {NULL}, *half[9], *hull;
+        cps_set_hull_of_points(2, count, corner[0], &set[0], NULL);
+        cps_set_inequalities(2, count, side[0], offset, &set[1], NULL);
+        for (int k = 0; k < count; k++) {
+            cps_set_half_space(2, side[k], offset[k], &half[k], NULL);
+            for (int a = 0; a < 2; a++) pole[k][a] = side[k][a] / offset[k];
+        }
+        cps_set_intersection(count, (const CpsSet *const *)half, &set[2], NULL);
+        for (int k = 0; k < count; k++) cps_set_release(half[k]);
+        cps_set_hull_of_points(2, count, pole[0], &hull, NULL);
+        cps_set_polar(hull, &set[3], NULL);
+        cps_set_release(hull);
+        for (int way = 0; way < 4; way++) {
+            CpsiFrictionSet *friction = made(set[way]);
+            for (int look = 0; look < 40; look++) {
+                const double size = exp(splitmix(&stream, -20, 3)),
+                             angle = splitmix(&stream, 0, TURN);
+                const double u[2] = {size * cos(angle), size * sin(angle)};
+                /* the corners of the other writings are computed from their sides */
+                CHECK_NEAR(cpsi_friction_set_phi(friction, u), most(count, corner[0], u),
+                           ROUNDING * 4 * size);
+            }
+            cpsi_friction_set_free(friction);
+        }
+    }
+}
+
+/* Sum, hull, image, scale and translate of a disc, an ellipse, a box and a segment. */
+static void round_sets(void **unused) {
+    (void)unused;
+    uint64_t stream = 51;
+    for (int trial = 0; trial < 30; trial++) {
+        const double radius = splitmix(&stream, 0.1, 0.5), a = splitmix(&stream, 0.1, 0.5),
+                     b = splitmix(&stream, 0.1, 0.5), far = splitmix(&stream, 0.5, 1),
+                     shape[4] = {a * a, 0, 0, b * b}, low[2] = {-a, -b}, high[2] = {b, a},
+                     shift[2] = {0.3 * radius, -0.5 * radius}, map[4] = {0.6, 0.3, -0.2, 0.7},
+                     ends[2][2] = {{-0.2 * far, -far}, {0, far}},
+                     corners[4][2] = {{-a, -b}, {b, -b}, {b, a}, {-a, a}};
+        CpsSet *disc, *ellipse, *box, *segment, *moved, *set[4] = {NULL};
+        cps_set_ball(2, NULL, radius, &disc, NULL);
+        cps_set_ellipsoid(2, NULL, shape, &ellipse, NULL);
+        cps_set_box(2, low, high, &box, NULL);
+        cps_set_segment(2, ends[0], ends[1], &segment, NULL);
+        cps_set_translate(shift, disc, &moved, NULL);
+        cps_set_hull(2, (const CpsSet *const[]){disc, segment}, &set[0], NULL);
+        cps_set_sum(3, (const CpsSet *const[]){ellipse, segment, moved}, &set[1], NULL);
+        cps_set_image(2, map, box, &set[2], NULL);
+        cps_set_scale(-0.5, set[1], &set[3], NULL);
+        CpsSet *const parts[] = {disc, ellipse, box, segment, moved};
+        for (int k = 0; k < 5; k++) cps_set_release(parts[k]);
+        CpsiFrictionSet *friction[4];
+        for (int k = 0; k < 4; k++) friction[k] = made(set[k]);
+        for (int look = 0; look < 40; look++) {
+            const double size = exp(splitmix(&stream, -20, 3)), angle = splitmix(&stream, 0, TURN);
+            const double u[2] = {size * cos(angle), size * sin(angle)}, back[2] = {-u[0], -u[1]},
+                         pulled[2] = {map[0] * u[0] + map[2] * u[1], map[1] * u[0] + map[3] * u[1]};
+            const double tip = most(2, ends[0], u);
+            const double sum = hypot(a * u[0], b * u[1]) + tip + radius * size - shift[0] * u[0] -
+                               shift[1] * u[1],
+                         turned = hypot(a * u[0], b * u[1]) + most(2, ends[0], back) +
+                                  radius * size + shift[0] * u[0] + shift[1] * u[1];
+            const double want[] = {fmax(radius * size, tip), sum, most(4, corners[0], pulled),
+                                   0.5 * turned};
+            for (int k = 0; k < 4; k++)
+                CHECK_NEAR(cpsi_friction_set_phi(friction[k], u), want[k], ROUNDING * 4 * size);
+        }
+        for (int k = 0; k < 4; k++) cpsi_friction_set_free(friction[k]);
+    }
+}
+
+/* A disc cut by a half-plane has no formula: the small program, asked again and again. */
+static void cut_disc(void **unused) {
+    (void)unused;
+    uint64_t stream = 5;
+    const double up[2] = {0, 1}, cut = 0.3, radius = 0.5;
+    CpsSet *disc, *half, *both;
+    cps_set_ball(2, NULL, radius, &disc, NULL);
+    cps_set_half_space(2, up, cut, &half, NULL);
+    cps_set_intersection(2, (const CpsSet *const[]){disc, half}, &both, NULL);
+    cps_set_release(disc);
+    cps_set_release(half);
+    CpsiFrictionSet *friction = made(both);
+    for (int look = 0; look < 200; look++) {
+        const double size = exp(splitmix(&stream, -20, 3)), angle = splitmix(&stream, 0, TURN);
+        const double u[2] = {size * cos(angle), size * sin(angle)}, half_width = 0.4;
+        /* above the cut the nearest corner (0.4, 0.3) or (-0.4, 0.3) answers */
+        const double want =
+            -radius * u[1] > cut * size ? half_width * fabs(u[0]) - cut * u[1] : radius * size;
+        for (int again = 0; again < 2; again++)
+            CHECK_NEAR(cpsi_friction_set_phi(friction, u), want, PROGRAM * size);
+    }
+    CHECK_NEAR(cpsi_friction_set_phi(friction, (const double[2]){0, 0}), 0, 0);
+    cpsi_friction_set_free(friction);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(polygons), cmocka_unit_test(round_sets),
+                                       cmocka_unit_test(cut_disc)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
