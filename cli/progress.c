@@ -14,7 +14,7 @@ enum { BAR_WIDTH = 30, NAME_WIDTH = 24, SHORT_TABLE = 40 };
 static const double REDRAW = 0.05;
 
 double cli_now(void) {
-    struct timespec now;
+    struct timespec now = {0}; /* no time passes where there is no such clock */
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }

@@ -480,7 +480,7 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
 }
 
 static double seconds(void) {
-    struct timespec now;
+    struct timespec now = {0}; /* no time passes where there is no such clock */
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }

@@ -166,7 +166,7 @@ static void follow(Trail *trail, const CpsRegularized *classic, double factor, C
 /* ---- the run ---- */
 
 static double seconds(void) {
-    struct timespec now;
+    struct timespec now = {0}; /* no time passes where there is no such clock */
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* libnetcdf is not there, lacks one of its functions, or each call of it fails in turn: the run
- * says that result.nc cannot be written, and leaves nothing. The functions that open a library are
- * replaced (linked with --wrap). */
+ * says that result.nc cannot be written, and leaves nothing. The functions that open a library, and
+ * the clock, are replaced (linked with --wrap). */
 #include <dlfcn.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -20,11 +22,15 @@ void *__real_dlopen(const char *path, int how);
 void *__real_dlsym(void *handle, const char *name);
 void *__wrap_dlopen(const char *path, int how);
 void *__wrap_dlsym(void *handle, const char *name);
+int __real_timespec_get(struct timespec *now, int base);
+int __wrap_timespec_get(struct timespec *now, int base);
 
 static bool none;             /* there is no library */
 static int asked, lacks;      /* functions asked for so far; the one that is missing, from 0 */
 static long called, fails_at; /* calls so far; the one that fails, from 0 */
 static int why;               /* what it returns */
+static enum { WORKS, STOPPED, BEYOND_YEARS } clock_state;
+static bool clock_asked;
 
 static bool fails(void) { return called++ == fails_at; }
 
@@ -95,6 +101,15 @@ void *__wrap_dlsym(void *handle, const char *name) {
     return replace(name, __real_dlsym(handle, name));
 }
 
+/* BEYOND_YEARS: its year is no int. */
+int __wrap_timespec_get(struct timespec *now, int base) {
+    clock_asked = true;
+    if (clock_state == STOPPED) return 0;
+    const int answer = __real_timespec_get(now, base);
+    if (clock_state == BEYOND_YEARS) now->tv_sec = INT64_MAX;
+    return answer;
+}
+
 static CpsStatus run(CpsError *err) {
     asked = 0;
     called = 0;
@@ -112,6 +127,8 @@ static int start(void **state) {
     lacks = -1;
     fails_at = -1;
     why = NC_EHDFERR;
+    clock_state = WORKS;
+    clock_asked = false;
     return system("rm -rf netcdf-out");
 }
 
@@ -159,9 +176,41 @@ static void each_call_fails(void **state) {
     print_message("%ld calls of the library, each failed once\n", calls);
 }
 
+/* The attribute `history` of the file that a run has written. */
+static void read_history(char *text, size_t size) {
+    CpsError err;
+    int id;
+    size_t length;
+    assert_int_equal(run(&err), CPS_OK);
+    assert_int_equal(nc_open("netcdf-out/result.nc", NC_NOWRITE, &id), NC_NOERR);
+    assert_int_equal(nc_inq_attlen(id, NC_GLOBAL, "history", &length), NC_NOERR);
+    assert_in_range(length, 1, size - 1);
+    memset(text, 0, size);
+    assert_int_equal(nc_get_att_text(id, NC_GLOBAL, "history", text), NC_NOERR);
+    assert_int_equal(nc_close(id), NC_NOERR);
+}
+
+/* Without a clock the file says by what it was written, and no time. */
+static void no_clock(void **state) {
+    (void)state;
+    char text[128], expected[128];
+    snprintf(expected, sizeof expected, "written by capstan %s", cps_version());
+    read_history(text, sizeof text);
+    if (!clock_asked) skip();
+    assert_string_equal(strstr(text, "written"), expected);
+    assert_true(text[4] == '-' && text[10] == 'T' && strtol(text, NULL, 10) > 2000);
+    clock_state = STOPPED;
+    read_history(text, sizeof text);
+    assert_string_equal(text, expected);
+    clock_state = BEYOND_YEARS;
+    read_history(text, sizeof text);
+    assert_string_equal(text, expected);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test_setup(no_library, start),
                                        cmocka_unit_test_setup(a_function_is_missing, start),
-                                       cmocka_unit_test_setup(each_call_fails, start)};
+                                       cmocka_unit_test_setup(each_call_fails, start),
+                                       cmocka_unit_test_setup(no_clock, start)};
     return cmocka_run_group_tests_name("libnetcdf that fails", tests, NULL, NULL);
 }

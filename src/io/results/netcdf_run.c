@@ -168,13 +168,15 @@ static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
     return id;
 }
 
-/* When the file was begun and by what, as CF wants the first line of a file's history. */
+/* When the file was begun and by what, as CF wants the first line of a file's history. Where the
+ * clock cannot be read, or shows no year, by what alone. */
 static void add_history(CpsiNetcdf *nc, const char *source) {
     char history[96];
-    struct timespec now = {0};
-    struct tm utc = {0};
-    if (timespec_get(&now, TIME_UTC) == TIME_UTC) gmtime_r(&now.tv_sec, &utc);
-    const size_t length = strftime(history, sizeof history, "%Y-%m-%dT%H:%M:%SZ: ", &utc);
+    struct timespec now;
+    struct tm utc;
+    size_t length = 0;
+    if (timespec_get(&now, TIME_UTC) == TIME_UTC && gmtime_r(&now.tv_sec, &utc))
+        length = strftime(history, sizeof history, "%Y-%m-%dT%H:%M:%SZ: ", &utc);
     snprintf(history + length, sizeof history - length, "written by %s", source);
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "history", history);
 }
