@@ -27,6 +27,19 @@ void *cpsi_arena_take(CpsiArena *arena, size_t count, size_t size);
 bool cpsi_arena_allocate(CpsiArena *arena);
 void cpsi_arena_free(CpsiArena *arena);
 
+/* Arrays that are never in use at the same time may lie in the same memory. Place those of one use
+ * from arena->used on, return to there, place those of the other, then join: what follows lies
+ * behind both. */
+static inline size_t cpsi_arena_return(CpsiArena *arena, size_t begin) {
+    const size_t end = arena->used;
+    arena->used = begin;
+    return end;
+}
+
+static inline void cpsi_arena_join(CpsiArena *arena, size_t end) {
+    if (arena->used < end) arena->used = end;
+}
+
 #define CPSI_TAKE(arena, count, type) \
     ((type *)cpsi_arena_take((arena), (size_t)(count), sizeof(type)))
 

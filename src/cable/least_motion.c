@@ -52,13 +52,15 @@ enum { ACTIVE = 1, FRICTION = 2, SLIPS = 4, SLIPS_ACROSS = 8 };
 enum { HALVES = 3 };
 
 void cpsi_least_motion_layout(CpsiLeastMotion *least, CpsiArena *arena, int n, int contacts,
-                              const CpsiLinsysOps *ops) {
-    cpsi_nearest_program_layout(&least->program, arena, n, HALVES * contacts * n, ops);
+                              const CpsiChainProgram *program) {
+    const size_t end = cpsi_arena_return(arena, program->scratch);
     least->mark = CPSI_TAKE(arena, (size_t)contacts * (size_t)n, unsigned char);
     least->slack = CPSI_TAKE(arena, n, bool);
     least->cluster = CPSI_TAKE(arena, n, int);
     least->basis = CPSI_TAKE(arena, 9 * (size_t)n, double);
     least->place = CPSI_TAKE(arena, 3 * (size_t)n, double);
+    cpsi_arena_join(arena, end);
+    cpsi_nearest_program_layout(&least->program, arena, n, HALVES * contacts * n, program->ops);
 }
 
 /* the state of the round

@@ -8,7 +8,8 @@
 #include "cable/step_program.h"
 #include "chain/nearest_program.h"
 
-/* Scratch memory of the second program of a round and of its data. */
+/* Scratch memory of the second program of a round, and data of the round, which lie in the memory
+ * that the round's own program needs while it is being solved. */
 typedef struct CpsiLeastMotion {
     CpsiNearestProgram program;
     /* (contacts, n) the state of each contact in the round: bits of least_motion.c */
@@ -20,8 +21,10 @@ typedef struct CpsiLeastMotion {
     bool chose;    /* set where there was a choice; cleared by the caller */
 } CpsiLeastMotion;
 
+/* For steps that are solved with `program`, whose layout has just ended: the data of the round lie
+ * in its last arrays. */
 void cpsi_least_motion_layout(CpsiLeastMotion *least, CpsiArena *arena, int n, int contacts,
-                              const CpsiLinsysOps *ops);
+                              const CpsiChainProgram *program);
 
 /* Move the line from the configuration that a round has found to the one of least sum h |x - x_R|^2
  * among all that are compatible with its forces.

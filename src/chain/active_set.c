@@ -165,7 +165,7 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
     CpsiMatrix *matrix = &program->matrix;
     const CpsiMatrixSecond *second = matrix->second;
     const double *share = matrix->share;
-    unsigned char *bytes = (unsigned char *)program->segment.q;
+    unsigned char *bytes = (unsigned char *)program->segment.w;
     CpsiNewton newton = {.program = program,
                          .status = bytes,
                          .held = bytes + n,

@@ -90,7 +90,7 @@ void cpsi_newton_begin(CpsiNewton *newton) {
     const CpsiFrictionDisc *disc = &program->disc;
     newton->lost = program->conic.count > 0 || program->drag > 0;
     memset(newton->status, 0, (size_t)program->n);
-    memset(disc->q, 0, (size_t)disc->count * sizeof *disc->q);
+    memset(disc->w, 0, (size_t)disc->count * sizeof *disc->w);
     for (int i = 1; i < program->n; i++) newton->taut[i] = program->segment.z[i][0] > 0;
     for (int k = 0; k < unilateral->count && !newton->lost; k++) {
         if (!(unilateral->z[k] > 0)) continue;
@@ -140,7 +140,7 @@ static void decide_contacts(CpsiNewton *newton) {
 static void release(CpsiNewton *newton, int d, const double f[2]) {
     const double size = cpsi_newton_size(f);
     newton->status[newton->program->disc.node[d]] &= (unsigned char)~CPSI_STICKS;
-    for (int a = 0; a < 2; a++) newton->program->disc.q[d][1 + a] = f[a] / size;
+    for (int a = 0; a < 2; a++) newton->program->disc.w[d][1 + a] = f[a] / size;
     newton->changed = true;
 }
 

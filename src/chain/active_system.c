@@ -53,7 +53,7 @@ typedef struct Direction {
  * bound, the direction is that of the slip, or that in which the node was released. */
 static Direction direction_of(const CpsiNewton *newton, int d, const CpsiNodeFriction *now) {
     const CpsiChainProgram *program = newton->program;
-    const double *stiffness = program->matrix.stiffness, *last = &program->disc.q[d][1];
+    const double *stiffness = program->matrix.stiffness, *last = &program->disc.w[d][1];
     const int j = program->disc.node[d];
     const double before = j > 0 ? stiffness[j] : 0,
                  after = j + 1 < program->n ? stiffness[j + 1] : 0,
@@ -97,7 +97,7 @@ static void load_slip(CpsiNewton *newton, int d) {
             cpsi_max_nan(newton->force_error, weight * b[a] * fabs(error + certain * rest));
         if (program->bounds_coupled)
             program->matrix.skew[2 * j + a] = b[a] * q[a] * disc->friction[d] * diagonal[5];
-        disc->q[d][1 + a] = q[a];
+        disc->w[d][1 + a] = q[a];
     }
 }
 

@@ -60,8 +60,10 @@ typedef struct Chain {
     CpsiUnknowns scratch[2]; /* of a solve with points */
 } Chain;
 
-static CpsiLinsys *chain_layout(CpsiArena *arena, int n, bool second, bool points) {
+static CpsiLinsys *chain_layout(CpsiArena *arena, int n, bool second, bool points,
+                                size_t *scratch) {
     Chain *chain = CPSI_TAKE(arena, 1, Chain);
+    *scratch = arena->used;
     ChainBlock *block = CPSI_TAKE(arena, n, ChainBlock);
     ChainSecond *seconds = second ? CPSI_TAKE(arena, n, ChainSecond) : NULL;
     CpsiChainPoint *point = points ? CPSI_TAKE(arena, n, CpsiChainPoint) : NULL;

@@ -16,9 +16,6 @@ static void layout_segment(CpsiSegment *st, CpsiArena *arena, int n) {
     st->w = cpsi_arena_take(arena, (size_t)n, sizeof *st->w);
     st->g = CPSI_TAKE(arena, n, double);
     st->inverse_w = CPSI_TAKE(arena, n, double);
-    st->q = cpsi_arena_take(arena, (size_t)n, sizeof *st->q);
-    st->ds = cpsi_arena_take(arena, (size_t)n, sizeof *st->ds);
-    st->dz = cpsi_arena_take(arena, (size_t)n, sizeof *st->dz);
 }
 
 static void layout_disc(CpsiFrictionDisc *disc, CpsiArena *arena, int n) {
@@ -31,9 +28,6 @@ static void layout_disc(CpsiFrictionDisc *disc, CpsiArena *arena, int n) {
     disc->unilateral = CPSI_TAKE(arena, n, int);
     disc->friction = CPSI_TAKE(arena, n, double);
     disc->g = CPSI_TAKE(arena, n, double);
-    disc->q = cpsi_arena_take(arena, (size_t)n, sizeof *disc->q);
-    disc->ds = cpsi_arena_take(arena, (size_t)n, sizeof *disc->ds);
-    disc->dz = cpsi_arena_take(arena, (size_t)n, sizeof *disc->dz);
 }
 
 static void layout_unilateral(CpsiUnilateral *unilateral, CpsiArena *arena, int n) {
@@ -44,9 +38,38 @@ static void layout_unilateral(CpsiUnilateral *unilateral, CpsiArena *arena, int 
     unilateral->gap = CPSI_TAKE(arena, n, double);
     unilateral->s = CPSI_TAKE(arena, n, double);
     unilateral->z = CPSI_TAKE(arena, n, double);
-    unilateral->q = CPSI_TAKE(arena, n, double);
     unilateral->ds = CPSI_TAKE(arena, n, double);
     unilateral->dz = CPSI_TAKE(arena, n, double);
+}
+
+/* The right-hand sides q, and what the nodes add to the matrix: at points it is read by `solve` as
+ * well, elsewhere by `factor` alone, and q is not needed before that. */
+static void layout_right_hand_sides(CpsiChainProgram *program, CpsiArena *arena, int n, int discs,
+                                    int stops, bool points) {
+    CpsiSegment *st = &program->segment;
+    CpsiFrictionDisc *disc = &program->disc;
+    const size_t places = (size_t)n * (points ? 2 : 1), begin = arena->used;
+    st->q = cpsi_arena_take(arena, (size_t)n, sizeof *st->q);
+    disc->q = cpsi_arena_take(arena, (size_t)discs, sizeof *disc->q);
+    program->unilateral.q = CPSI_TAKE(arena, stops, double);
+    const size_t end = points ? arena->used : cpsi_arena_return(arena, begin);
+    program->matrix.diagonal = CPSI_TAKE(arena, 6 * places, double);
+    program->matrix.skew = CPSI_TAKE(arena, 2 * places, double);
+    cpsi_arena_join(arena, end);
+}
+
+/* The factor, and the directions, which are written when it has been used. */
+static void layout_factor(CpsiChainProgram *program, CpsiArena *arena, int n, int discs,
+                          bool second, bool points) {
+    CpsiSegment *st = &program->segment;
+    CpsiFrictionDisc *disc = &program->disc;
+    program->linsys = program->ops->layout(arena, n, second, points, &program->scratch);
+    const size_t end = cpsi_arena_return(arena, program->scratch);
+    st->ds = cpsi_arena_take(arena, (size_t)n, sizeof *st->ds);
+    st->dz = cpsi_arena_take(arena, (size_t)n, sizeof *st->dz);
+    disc->ds = cpsi_arena_take(arena, (size_t)discs, sizeof *disc->ds);
+    disc->dz = cpsi_arena_take(arena, (size_t)discs, sizeof *disc->dz);
+    cpsi_arena_join(arena, end);
 }
 
 static void clear(CpsiProgram *program) {
@@ -137,6 +160,7 @@ bool cpsi_chain_program_couple_bounds(CpsiChainProgram *program) {
     program->bounds_coupled = true;
     clear(base);
     for (int k = 0; k < base->kind_count; k++) base->kind[k]->scale(base);
+    if (!factor(base)) return false;
     /* dA = friction dR + (friction R - A): the mismatch takes the place of q0 */
     memset(program->segment.q, 0, (size_t)program->n * sizeof *program->segment.q);
     memset(program->unilateral.q, 0,
@@ -147,7 +171,6 @@ bool cpsi_chain_program_couple_bounds(CpsiChainProgram *program) {
         disc->q[k][1] = disc->q[k][2] = 0;
     }
     cpsi_friction_conic_predict_bounds(&program->conic, &program->unilateral);
-    if (!factor(base)) return false;
     memset(base->du, 0, (size_t)base->size * sizeof *base->du);
     for (int k = 0; k < base->kind_count; k++) base->kind[k]->load(base, 0);
     solve(base);
@@ -195,7 +218,8 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
                                             &cpsi_friction_disc, &cpsi_friction_conic};
     const int all = sizeof kinds / sizeof *kinds;
     const size_t places = (size_t)n * (points ? 2 : 1), size = 3 * places;
-    const int stops = (contacts > 1 ? contacts * n : n) + (points ? n : 0);
+    const int stops = (contacts > 1 ? contacts * n : n) + (points ? n : 0),
+              discs = contacts > 0 ? 2 * stops : n;
     program->base = (CpsiProgram){
         .load = CPSI_TAKE(arena, size, double),
         .u = CPSI_TAKE(arena, size, double),
@@ -211,7 +235,7 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
     layout_segment(&program->segment, arena, n);
     program->drag = 0;
     program->bounds_coupled = false;
-    layout_disc(&program->disc, arena, contacts > 0 ? 2 * stops : n);
+    layout_disc(&program->disc, arena, discs);
     layout_unilateral(&program->unilateral, arena, stops);
     program->conic = (CpsiFrictionConic){0};
     if (largest) cpsi_friction_conic_layout(&program->conic, arena, (int)places, stops, largest);
@@ -221,13 +245,12 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
     program->dt = CPSI_TAKE(arena, n, double);
     program->matrix = (CpsiMatrix){
         .held = program->held,
-        .diagonal = CPSI_TAKE(arena, 6 * places, double),
-        .skew = CPSI_TAKE(arena, 2 * places, double),
         .stiffness = CPSI_TAKE(arena, n, double),
         .direction = CPSI_TAKE(arena, 3 * (size_t)n, double),
         .compliance = CPSI_TAKE(arena, n, double),
     };
     program->ops = ops;
-    program->linsys = ops->layout(arena, n, contacts > 1, points);
+    layout_right_hand_sides(program, arena, n, discs, stops, points);
+    layout_factor(program, arena, n, discs, contacts > 1, points);
     cpsi_chain_program_resize(program, n, false);
 }

@@ -74,8 +74,9 @@ typedef struct CpsiLinsys CpsiLinsys;
 typedef struct CpsiLinsysOps {
     const char *name;
     /* Place the factor's storage for at most n nodes in the arena, with second directions and
-     * points or without. */
-    CpsiLinsys *(*layout)(CpsiArena *arena, int n, bool second, bool points);
+     * points or without. From *scratch of the arena on it holds what `factor` writes and `solve`
+     * reads: between the last solve and the next factor that memory may serve others. */
+    CpsiLinsys *(*layout)(CpsiArena *arena, int n, bool second, bool points, size_t *scratch);
     /* Factorise; false when a pivot is not finite (the matrix holds NaN or infinities). */
     bool (*factor)(CpsiLinsys *self, const CpsiMatrix *matrix);
     /* Solve with the last factor. In: x = f (n, or 2 n, 3), t = h (n). Out: the solution; x = 0 at

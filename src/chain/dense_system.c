@@ -30,8 +30,10 @@ static size_t point_at(const CpsiMatrix *a, size_t j) {
     return (size_t)(a->second ? 5 : 4) * (size_t)a->n + 3 * j;
 }
 
-static CpsiLinsys *dense_layout(CpsiArena *arena, int n, bool second, bool points) {
+static CpsiLinsys *dense_layout(CpsiArena *arena, int n, bool second, bool points,
+                                size_t *scratch) {
     Dense *dense = CPSI_TAKE(arena, 1, Dense);
+    *scratch = arena->used;
     const size_t size = (size_t)(4 + (second ? 1 : 0) + (points ? 3 : 0)) * (size_t)n;
     double *lu = CPSI_TAKE(arena, size * size, double), *b = CPSI_TAKE(arena, size, double);
     int *row = CPSI_TAKE(arena, size, int);

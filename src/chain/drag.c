@@ -56,4 +56,4 @@ static void advance(CpsiProgram *base, double alpha) {
     (void)alpha;
 }
 
-const CpsiKind cpsi_drag = {start, measure, scale, load, direct, aim, aim, advance};
+const CpsiKind cpsi_drag = {start, measure, scale, NULL, load, direct, aim, aim, advance};

@@ -8,6 +8,12 @@
 #include "chain/chain_system.h"
 #include "ipm/program.h"
 
+/* Two groups of arrays lie in memory that serves something else at other times (chain_program.c):
+ * the directions ds, dz of segments and friction discs, written after the last solve of an
+ * iteration and read until the next factorisation, in that of the factor; and the right-hand sides
+ * q of all three kinds, which begin after the factorisation, in that of the matrix's nodes, where
+ * no element has a point. */
+
 /* Element i = 1..n-1 between nodes i-1 and i; index 0 is unused. */
 typedef struct CpsiSegment {
     double *length;    /* (n) l_i > 0, their sum is 1 */
@@ -114,6 +120,9 @@ typedef struct CpsiChainProgram {
     CpsiMatrix matrix;
     const CpsiLinsysOps *ops;
     CpsiLinsys *linsys;
+    /* The arena from here to the end of the layout holds factor and directions alone: while the
+     * program is not being solved it may serve others. */
+    size_t scratch;
 } CpsiChainProgram;
 
 static inline CpsiChainProgram *cpsi_chain(CpsiProgram *program) {

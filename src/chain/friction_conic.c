@@ -491,5 +491,5 @@ void cpsi_friction_conic_predict_bounds(CpsiFrictionConic *conic,
     }
 }
 
-const CpsiKind cpsi_friction_conic = {start,  measure, scale,  load,
+const CpsiKind cpsi_friction_conic = {start,  measure, scale,  NULL,   load,
                                       direct, correct, centre, advance};

@@ -131,12 +131,15 @@ static void scale(CpsiProgram *base) {
                 across[a] = -2 * share * w[0] * (b[a] * w[1] + b[3 + a] * w[2]);
             cpsi_unilateral_couple_bound(program, i, weight, disc->friction[k], across);
         }
-        for (int a = 0; a < 3; a++) {
-            disc->w[k][a] = w[a];
-            disc->q[k][a] = -disc->z[k][a];
-        }
+        for (int a = 0; a < 3; a++) disc->w[k][a] = w[a];
         disc->g[k] = g;
     }
+}
+
+static void predict(CpsiProgram *base) {
+    CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
+    for (int k = 0; k < disc->count; k++)
+        for (int a = 0; a < 3; a++) disc->q[k][a] = -disc->z[k][a];
 }
 
 static void load(CpsiProgram *base, double keep) {
@@ -160,7 +163,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         double du[2];
         slide(disc, k, &base->du[3 * disc->node[k]], false, du);
         const double g = disc->g[k], share = 1 / (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
-        double *ds = disc->ds[k], *dz = disc->dz[k];
+        double ds[3], dz[3];
         dz[0] = bound_direction(program, k);
         const double wu = w[1] * du[0] + w[2] * du[1],
                      pull = 2 * share * (w[0] * (q[0] - dz[0]) + g * wu);
@@ -169,6 +172,11 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
             ds[1 + a] = du[a];
             dz[1 + a] = q[1 + a] - g * du[a] + pull * w[1 + a];
         }
+        if (!predictor)
+            for (int a = 0; a < 3; a++) {
+                disc->ds[k][a] = ds[a];
+                disc->dz[k][a] = dz[a];
+            }
         const double step = cpsi_soc_step(disc->q[k], predictor, w, g, z, ds, dz, 3);
         sums->inverse_step = cpsi_max_nan(sums->inverse_step, step);
     }
@@ -193,4 +201,5 @@ static void advance(CpsiProgram *base, double alpha) {
         }
 }
 
-const CpsiKind cpsi_friction_disc = {start, measure, scale, load, direct, correct, centre, advance};
+const CpsiKind cpsi_friction_disc = {start,  measure, scale,  predict, load,
+                                     direct, correct, centre, advance};

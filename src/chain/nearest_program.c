@@ -65,7 +65,7 @@ static void spring_aim(CpsiProgram *base, double target) {
     (void)target;
 }
 
-static const CpsiKind spring = {spring_start,  spring_measure, spring_scale, spring_load,
+static const CpsiKind spring = {spring_start,  spring_measure, spring_scale, NULL,      spring_load,
                                 spring_direct, spring_aim,     spring_aim,   spring_aim};
 
 /* half-space ----------------------------------------------------------------------------------- */
@@ -161,7 +161,7 @@ static void half_advance(CpsiProgram *base, double alpha) {
     }
 }
 
-static const CpsiKind half_space = {half_start,  half_measure, half_scale,  half_load,
+static const CpsiKind half_space = {half_start,  half_measure, half_scale,  NULL,        half_load,
                                     half_direct, half_correct, half_centre, half_advance};
 
 void cpsi_nearest_program_layout(CpsiNearestProgram *program, CpsiArena *arena, int n, int halves,

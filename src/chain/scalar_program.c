@@ -160,7 +160,8 @@ static void advance(CpsiProgram *base, double alpha) {
     cpsi_cones_advance(&scalar(base)->cones, alpha);
 }
 
-static const CpsiKind cones_kind = {start, measure, scale, load, direct, correct, NULL, advance};
+static const CpsiKind cones_kind = {start,  measure, scale, NULL,   load,
+                                    direct, correct, NULL,  advance};
 static const CpsiKind *const KINDS[] = {&cones_kind};
 
 /* the linear system ---------------------------------------------------------------------------- */

@@ -119,8 +119,14 @@ static void scale(CpsiProgram *base) {
         matrix->stiffness[i] = g * seg.inverse_length;
         matrix->compliance[i] = l * seg.d / (2 * seg.omega * g * seg.stiffening);
         for (int a = 0; a < 3; a++) matrix->direction[3 * i + a] = in * scaling.w[1 + a];
-        for (int a = 0; a < 4; a++) st->q[i][a] = -st->z[i][a];
     }
+}
+
+static void predict(CpsiProgram *base) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    CpsiSegment *st = &program->segment;
+    for (int i = 1; i < program->n; i++)
+        for (int a = 0; a < 4; a++) st->q[i][a] = -st->z[i][a];
 }
 
 static void load(CpsiProgram *base, double keep) {
@@ -146,7 +152,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     for (int i = 1; i < program->n; i++) {
         const double *w = st->w[i], *q = st->q[i], *s = st->s[i], *z = st->z[i];
         const double g = st->g[i], c = st->compliance, l = st->length[i], t = program->dt[i];
-        double *ds = st->ds[i], *dz = st->dz[i];
+        double ds[4], dz[4];
         const Segment seg = segment(w, g, c, l);
         const double rho = keep * (1 + c * z[0] - s[0]);
         const double k = 2 * g * w[0] * (rho + c * q[0]) * seg.inverse_d, in = st->inverse_w[i];
@@ -163,6 +169,11 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
                                                    : 2 * g * along * seg.inverse_d;
         dz[0] = (q[0] - g * (1 + 2 * seg.omega) * rho) * seg.inverse_d + w[0] * pull;
         ds[0] = c * dz[0] + rho;
+        if (!predictor)
+            for (int a = 0; a < 4; a++) {
+                st->ds[i][a] = ds[a];
+                st->dz[i][a] = dz[a];
+            }
         const double step = cpsi_soc_step(st->q[i], predictor, w, g, z, ds, dz, 4);
         sums->inverse_step = cpsi_max_nan(sums->inverse_step, step);
     }
@@ -189,4 +200,5 @@ static void advance(CpsiProgram *base, double alpha) {
         }
 }
 
-const CpsiKind cpsi_segment = {start, measure, scale, load, direct, correct, centre, advance};
+const CpsiKind cpsi_segment = {start,  measure, scale,  predict, load,
+                               direct, correct, centre, advance};

@@ -58,7 +58,6 @@ static void scale(CpsiProgram *base) {
     CpsiUnilateral *unilateral = &program->unilateral;
     for (int k = 0; k < unilateral->count; k++) {
         const int node = unilateral->node[k];
-        unilateral->q[k] = -unilateral->z[k];
         if (unilateral->curvature)
             for (int a = 0; a < 6; a++)
                 program->matrix.diagonal[6 * node + a] -=
@@ -73,6 +72,11 @@ static void scale(CpsiProgram *base) {
             second->row[3 * node + a] = second->column[3 * node + a] = unilateral->normal[k][a];
         second->compliance[node] = unilateral->s[k] / (unilateral->weight[k] * unilateral->z[k]);
     }
+}
+
+static void predict(CpsiProgram *base) {
+    CpsiUnilateral *unilateral = &cpsi_chain(base)->unilateral;
+    for (int k = 0; k < unilateral->count; k++) unilateral->q[k] = -unilateral->z[k];
 }
 
 static void load(CpsiProgram *base, double keep) {
@@ -132,4 +136,5 @@ static void advance(CpsiProgram *base, double alpha) {
     }
 }
 
-const CpsiKind cpsi_unilateral = {start, measure, scale, load, direct, correct, centre, advance};
+const CpsiKind cpsi_unilateral = {start,  measure, scale,  predict, load,
+                                  direct, correct, centre, advance};

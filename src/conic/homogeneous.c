@@ -154,7 +154,8 @@ static void advance(CpsiProgram *base, double alpha) {
     program->kappa += alpha * program->d_kappa;
 }
 
-static const CpsiKind HOMOGENEOUS = {start, measure, scale, load, direct, correct, NULL, advance};
+static const CpsiKind HOMOGENEOUS = {start,  measure, scale, NULL,   load,
+                                     direct, correct, NULL,  advance};
 static const CpsiKind *const KINDS[] = {&HOMOGENEOUS};
 
 static void clear(CpsiProgram *base) { (void)base; /* `scale` and `factor` write every entry */ }

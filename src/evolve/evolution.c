@@ -146,7 +146,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
                                    : &cpsi_linsys_chain;
     cpsi_chain_program_layout(&evolution->program, arena, nodes, has_local_axes ? contacts : 0,
                               element_contacts > 0, largest, ops);
-    cpsi_least_motion_layout(&evolution->least, arena, nodes, contacts, ops);
+    cpsi_least_motion_layout(&evolution->least, arena, nodes, contacts, &evolution->program);
     return placed;
 }
 

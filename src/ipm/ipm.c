@@ -68,6 +68,11 @@ static CpsiSums direction(CpsiProgram *program, double keep, bool predictor) {
     return sums;
 }
 
+static void predict(CpsiProgram *program) {
+    for (int k = 0; k < program->kind_count; k++)
+        if (program->kind[k]->predict) program->kind[k]->predict(program);
+}
+
 static void correct(CpsiProgram *program, double target) {
     for (int k = 0; k < program->kind_count; k++) program->kind[k]->correct(program, target);
 }
@@ -121,10 +126,10 @@ static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const Cp
 
 /* Whether the duals are a ray that proves that there is no feasible u. Its value must exceed loads,
  * friction and residuals, and it must not load elements with compliance. */
-static bool primal_infeasible(const CpsiProgram *program, const CpsiSums *sums, double imbalance) {
+static bool primal_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
     if (sums->ray_cost > 0 || !(sums->ray > RAY)) return false;
-    double neglected =
-        sums->bound + program->size * imbalance + sqrt(DBL_EPSILON) * sums->largest / RAY;
+    double neglected = sums->bound + program->size * program->imbalance(program) +
+                       sqrt(DBL_EPSILON) * sums->largest / RAY;
     for (int i = 0; i < program->size; i++) neglected += fabs(program->load[i]);
     return sums->ray > RAY * neglected;
 }
@@ -159,7 +164,7 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
             refine(program, options, &sums, &report);
             break;
         }
-        if (primal_infeasible(program, &sums, program->imbalance(program))) {
+        if (primal_infeasible(program, &sums)) {
             report.outcome = CPSI_IPM_INFEASIBLE;
             break;
         }
@@ -180,6 +185,7 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
             report.outcome = CPSI_IPM_STALLED;
             break;
         }
+        predict(program);
         const CpsiSums predictor = direction(program, 1, true);
         const double reach = step_length(&predictor, 1);
         const double sigma = (1 - reach) * (1 - reach);

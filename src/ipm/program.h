@@ -43,9 +43,10 @@ typedef struct CpsiKind {
     void (*start)(CpsiProgram *program, double mu, double margin);
     /* add the elements' forces to program->residual; add up s.z and residuals */
     void (*measure)(CpsiProgram *program, CpsiSums *sums);
-    /* the scaling; adds the condensed stiffness to the matrix; right-hand side q of the predictor,
-     * s o z -> 0 */
+    /* the scaling; adds the condensed stiffness to the matrix */
     void (*scale)(CpsiProgram *program);
+    /* right-hand side q of the predictor, s o z -> 0; NULL: `scale` has computed it */
+    void (*predict)(CpsiProgram *program);
     /* add to du, the right-hand side, the forces of q and of the residuals on the unknowns */
     void (*load)(CpsiProgram *program, double keep);
     /* direction (ds, dz) from du; step to the boundary; a predictor may store its second-order term

@@ -151,9 +151,10 @@ static void solve(const Case *c, const CpsiLinsysOps *ops, double *x, double *t,
                                copy.pressed ? &second : NULL,
                                copy.pointed ? copy.share : NULL};
     CpsiArena arena = {0};
-    ops->layout(&arena, c->n, true, c->pointed);
+    size_t scratch;
+    ops->layout(&arena, c->n, true, c->pointed, &scratch);
     assert_true(cpsi_arena_allocate(&arena));
-    CpsiLinsys *linsys = ops->layout(&arena, c->n, true, c->pointed);
+    CpsiLinsys *linsys = ops->layout(&arena, c->n, true, c->pointed, &scratch);
     assert_true(ops->factor(linsys, &matrix));
     memcpy(x, c->f, sizeof c->f);
     memcpy(t, c->h, sizeof c->h);
@@ -359,9 +360,10 @@ static void nan_is_refused(void **state_) {
     const CpsiMatrix matrix = {c.n,         c.held,       c.diagonal, c.skew, c.stiffness,
                                c.direction, c.compliance, NULL,       NULL,   NULL};
     CpsiArena arena = {0};
-    ops->layout(&arena, c.n, true, true);
+    size_t scratch;
+    ops->layout(&arena, c.n, true, true, &scratch);
     assert_true(cpsi_arena_allocate(&arena));
-    CpsiLinsys *linsys = ops->layout(&arena, c.n, true, true);
+    CpsiLinsys *linsys = ops->layout(&arena, c.n, true, true, &scratch);
     assert_false(ops->factor(linsys, &matrix));
     /* in the block of a point */
     Case other = random_points(&state, 1e-3);
