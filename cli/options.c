@@ -36,6 +36,8 @@ static const Option OPTIONS[] = {
     {"sync", 0, "WHEN", FOR_RUN, offsetof(CliOptions, sync), false,
      "step (default): wait for the disk after each step; end: once, faster, and a power cut may "
      "take the run"},
+    {"threads", 0, "N", FOR_RUN, offsetof(CliOptions, threads), false,
+     "threads that share the lines of the scene (default: 1); the results are the same"},
     {"method", 'm', "NAME", FOR_RUN, offsetof(CliOptions, method), false,
      "exact (default), or regularized: the method of 1990, without certificate"},
     {"velocity", 'v', "V,..", FOR_LAW | FOR_DRIVE, offsetof(CliOptions, velocity), true,

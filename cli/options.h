@@ -33,6 +33,7 @@ typedef struct CliOptions {
     bool no_paraview;           /* run: no .vtp and .pvd files */
     const char *fields;         /* run: variables of result.nc, NULL: all */
     const char *sync;           /* run: step or end, NULL: step */
+    const char *threads;        /* run: number of threads, NULL: 1 */
     const char *method;         /* run: exact or regularized, NULL: exact */
     const char *operand;        /* the scene or law file, "-" for standard input; NULL: not given */
     const char *plot;           /* law: picture, NULL: none */

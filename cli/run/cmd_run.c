@@ -23,7 +23,7 @@
 #include "run/warnings.h"
 #include "signals.h"
 
-enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
+enum { NAME_WIDTH = 18, LINE_WIDTH = 10, MAX_THREADS = 256 };
 
 /* A range narrower than this, relative to the largest force, is printed as one value. */
 static const double RANGE_SHOWN = 1e-5;
@@ -345,8 +345,24 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     return code;
 }
 
+/* The number of threads that --threads asks for. False after a message. */
+static bool read_threads(const char *text, int *threads) {
+    char *end = NULL;
+    errno = 0;
+    const long count = strtol(text, &end, 10);
+    if (end != text && *end == '\0' && errno == 0 && count >= 1 && count <= MAX_THREADS) {
+        *threads = (int)count;
+        return true;
+    }
+    cli_printf(stderr, "capstan run: --threads '%.40s': expected a whole number, 1 to %d\n", text,
+               (int)MAX_THREADS);
+    return false;
+}
+
 /* Change the scene according to the command line. False after a message. */
 static bool adjust(CpsScene *scene, const CliOptions *options) {
+    if (options->threads && !read_threads(options->threads, &scene->solver.thread_count))
+        return false;
     if (!options->path_tolerance) return true;
     char *end = NULL;
     errno = 0;
@@ -369,10 +385,10 @@ static bool is_sound(const CliOptions *options, bool *regularized) {
     else if (!*regularized && regularized_options_given(options))
         fputs("capstan run: --lambda, --n and --delta are those of --method regularized\n", stderr);
     else if (*regularized && (options->resume || options->path_tolerance || options->no_paraview ||
-                              options->fields || options->sync))
+                              options->fields || options->sync || options->threads))
         fputs("capstan run: --method regularized: takes the steps as given, without "
-              "--path-tolerance and "
-              "--resume, and writes no fields\n",
+              "--path-tolerance, "
+              "--threads and --resume, and writes no fields\n",
               stderr);
     else if (options->sync && strcmp(options->sync, "step") != 0 &&
              strcmp(options->sync, "end") != 0)

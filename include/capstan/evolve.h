@@ -55,8 +55,8 @@ CPS_API CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err);
 /* Let a step be interrupted while it is under way: it asks `asked` in each of its iterations, and
  * once that is true it is given up. cps_evolution_step then returns CPS_ERR_INTERRUPTED and the
  * evolution is as it was before the step. What is not interrupted has the same bits as without.
- * `asked` is called from the thread that steps, and calls nothing of this evolution; NULL: no more.
- */
+ * `asked` calls nothing of this evolution; with several threads (scene.h, thread_count) each of
+ * them calls it, also at the same time. NULL: no more. */
 CPS_API CpsStatus cps_evolution_interrupt(CpsEvolution *evolution, bool (*asked)(void *user),
                                           void *user, CpsError *err);
 

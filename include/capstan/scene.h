@@ -180,6 +180,8 @@ typedef struct CpsSolverOptions {
                      converge, 0..30, default 10 */
     bool cold; /* each step is solved from nothing; default false: first by Newton's method from
                   the step before */
+    int thread_count; /* threads that share the lines of a step, 1..256, default 1, the caller's; of
+                         no use beyond the number of lines. The answers are the same bits. */
 } CpsSolverOptions;
 
 typedef struct CpsScene {

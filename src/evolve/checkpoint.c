@@ -271,8 +271,9 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     hash_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
     hash_numbers(&hash, 3, evolution->origin);
     for (int i = 0; i < evolution->line_count; i++) hash_line(&hash, &evolution->line[i]);
+    CpsiFrictionSet **set = evolution->workspace[0].friction.set;
     for (int k = 0; k < evolution->obstacle_count; k++)
-        hash_obstacle(&hash, &evolution->obstacle[k], evolution->set ? evolution->set[k] : NULL);
+        hash_obstacle(&hash, &evolution->obstacle[k], set ? set[k] : NULL);
     for (int k = 0; k < evolution->stage_count; k++) hash_stage(&hash, &evolution->stage[k]);
     return hash;
 }

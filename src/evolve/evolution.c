@@ -53,41 +53,10 @@ static bool scene_has_element_contacts(const CpsScene *scene) {
            scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
 }
 
-static void free_sets(const CpsScene *scene, CpsiFrictionSet **set) {
-    if (set)
-        for (int k = 0; k < scene->obstacle_count; k++) cpsi_friction_set_free(set[k]);
-    free(set);
-}
-
-/* The friction sets of the obstacles; *out is NULL where none is given. `largest` has the largest
- * sizes of them all. */
-static CpsStatus make_sets(const CpsScene *scene, CpsiFrictionSet ***out, CpsiConicSet *largest,
-                           CpsError *err) {
-    *out = NULL;
-    *largest = (CpsiConicSet){0};
-    bool any = false;
-    for (int k = 0; k < scene->obstacle_count; k++) any = any || scene->obstacle[k].friction_set;
-    if (!any) return CPS_OK;
-    CpsiFrictionSet **set = calloc((size_t)scene->obstacle_count, sizeof(CpsiFrictionSet *));
-    if (!set) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for friction sets");
-    for (int k = 0; k < scene->obstacle_count; k++) {
-        const CpsObstacle *obstacle = &scene->obstacle[k];
-        if (!obstacle->friction_set) continue;
-        const CpsStatus status =
-            cpsi_friction_set_make(obstacle->friction_set, obstacle->name, &set[k], err);
-        if (status) {
-            free_sets(scene, set);
-            return status;
-        }
-        if (!set[k]) continue;
-        const CpsiConicSet *form = cpsi_friction_set_conic(set[k]);
-        if (form->unknowns > largest->unknowns) largest->unknowns = form->unknowns;
-        if (form->rows > largest->rows) largest->rows = form->rows;
-        if (form->cones > largest->cones) largest->cones = form->cones;
-        if (form->spread > largest->spread) largest->spread = form->spread;
-    }
-    *out = set;
-    return CPS_OK;
+/* More threads than lines would have nothing to do. */
+static int workspace_count(const CpsScene *scene) {
+    const int threads = scene->solver.thread_count;
+    return threads < scene->line_count ? threads : scene->line_count;
 }
 
 /* Everything an evolution holds, in one block (base/arena.h); called once to measure the size and
@@ -110,24 +79,29 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         if (real) evolution->obstacle_name[k] = name;
     }
     evolution->angle = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
-    evolution->scratch.turn = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
     evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
-    const bool has_local_axes = scene_needs_local_axes(scene);
-    const int contacts = scene->obstacle_count > 1 ? 2 : 1,
-              element_contacts = scene_has_element_contacts(scene) ? 1 : 0;
-    int nodes = 0, inextensible = 0;
+    CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
+                              .contacts = scene->obstacle_count > 1 ? 2 : 1,
+                              .element_contacts = scene_has_element_contacts(scene) ? 1 : 0,
+                              .has_local_axes = scene_needs_local_axes(scene),
+                              .has_path_tolerance = scene->solver.path_tolerance > 0,
+                              .largest = largest,
+                              .ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE
+                                         ? &cpsi_linsys_dense
+                                         : &cpsi_linsys_chain};
     for (int i = 0; i < scene->line_count; i++) {
         CpsiLine *line = real ? &evolution->line[i] : &any;
         line->name = copy_name(arena, scene->line[i].name);
         line->n = scene->line[i].element_count + 1;
-        line->has_local_axes = has_local_axes;
-        line->contacts = contacts;
-        line->element_contacts = element_contacts;
+        line->has_local_axes = size.has_local_axes;
+        line->contacts = size.contacts;
+        line->element_contacts = size.element_contacts;
         line->has_zones = scene->line[i].zone_count > 0;
         line->compliance = isinf(scene->line[i].stiffness) ? 0 : 1 / scene->line[i].stiffness;
         cpsi_line_layout(line, arena);
-        if (line->n > nodes) nodes = line->n;
-        if (line->compliance == 0 && line->n > inextensible) inextensible = line->n;
+        if (line->n > size.nodes) size.nodes = line->n;
+        if (line->compliance == 0 && line->n > size.inextensible_nodes)
+            size.inextensible_nodes = line->n;
     }
     for (int i = 0; i < scene->stage_count; i++) {
         CpsiEvolutionStage *stage = real ? &evolution->stage[i] : &none;
@@ -135,18 +109,13 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, CpsiChange);
         stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
     }
-    cpsi_view_layout(&evolution->fill, arena, nodes);
-    if (real) cpsi_view_fill(&evolution->fill, nodes);
-    cpsi_substeps_layout(&evolution->scratch, arena, nodes, contacts + element_contacts,
-                         scene->solver.path_tolerance > 0);
-    if (inextensible > 0)
-        cpsi_force_set_layout(&evolution->forces, arena, inextensible, contacts + element_contacts);
-    const CpsiLinsysOps *ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE
-                                   ? &cpsi_linsys_dense
-                                   : &cpsi_linsys_chain;
-    cpsi_chain_program_layout(&evolution->program, arena, nodes, has_local_axes ? contacts : 0,
-                              element_contacts > 0, largest, ops);
-    cpsi_least_motion_layout(&evolution->least, arena, nodes, contacts, &evolution->program);
+    cpsi_view_layout(&evolution->fill, arena, size.nodes);
+    if (real) cpsi_view_fill(&evolution->fill, size.nodes);
+    evolution->workspace_count = workspace_count(scene);
+    evolution->workspace = CPSI_TAKE(arena, evolution->workspace_count, CpsiWorkspace);
+    CpsiWorkspace nothing = {0};
+    for (int i = 0; i < evolution->workspace_count; i++)
+        cpsi_workspace_layout(real ? &evolution->workspace[i] : &nothing, arena, &size);
     return placed;
 }
 
@@ -155,8 +124,7 @@ static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
     static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1};
     line->obstacle_count = evolution->obstacle_count;
     line->obstacle = evolution->obstacle;
-    line->friction_set = (const CpsiFrictionSet *const *)evolution->set;
-    line->turn = evolution->scratch.turn;
+    cpsi_workspace_attach(&evolution->workspace[0], line);
     const bool own = line->has_local_axes || line->obstacle_count == 0;
     const CpsiPlane plane = own ? cpsi_plane(origin, up) : line->obstacle[0].frame;
     for (int i = 0; i < 3; i++) vec3_store(&line->common_axes[3 * i], plane.axis[i]);
@@ -218,8 +186,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
 static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->options = (CpsiStepOptions){.solver = scene->solver,
                                            .friction_policy = scene->friction_policy,
-                                           .contact_policy = scene->contact_policy,
-                                           .least = &evolution->least};
+                                           .contact_policy = scene->contact_policy};
     evolution->obstacle_count = scene->obstacle_count;
     for (int k = 0; k < scene->obstacle_count; k++)
         evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
@@ -229,7 +196,6 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
         const double pull = vec3_norm(vec3_load(scene->gravity));
         evolution->mass[i] = pull > 0 ? scene->line[i].weight / pull : 0;
-        if (evolution->line[i].compliance == 0) evolution->line[i].forces = &evolution->forces;
         evolution->move[i].angle = evolution->angle;
         evolution->is_static[i] = scene->line[i].start.kind == CPS_START_STATIC;
         evolution->has_static = evolution->has_static || evolution->is_static[i];
@@ -260,54 +226,77 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
                                                    .to = {g[0], g[1], g[2]}};
         evolution->stage_count = evolution->step_count = 1;
     }
-    evolution->program.base.interrupt = &evolution->interrupt;
-    evolution->forces.program.base.interrupt = &evolution->interrupt;
-    evolution->least.program.chain.base.interrupt = &evolution->interrupt;
+    for (int i = 0; i < evolution->workspace_count; i++)
+        cpsi_workspace_connect(&evolution->workspace[i]);
     evolution->report = (CpsStepReport){.name = evolution->step_name};
     evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
+}
+
+/* Give each workspace its friction sets and start the threads. `first` are the sets of the first
+ * one, which the evolution owns from now on. */
+static CpsStatus equip(CpsEvolution *evolution, const CpsScene *scene, CpsiFrictionSets first,
+                       CpsError *err) {
+    CpsiConicSet sizes;
+    CpsStatus status = CPS_OK;
+    evolution->workspace[0].friction = first;
+    for (int i = 1; i < evolution->workspace_count && status == CPS_OK; i++)
+        status = cpsi_friction_sets_make(scene, &evolution->workspace[i].friction, &sizes, err);
+    if (status != CPS_OK || evolution->workspace_count == 1) return status;
+    evolution->workers = cpsi_workers_create(evolution->workspace_count);
+    if (evolution->workers) return CPS_OK;
+    return cpsi_fail(err, CPS_ERR_MEMORY, "the system does not give %d threads: ask for fewer",
+                     evolution->workspace_count);
+}
+
+/* Place the evolution of a scene whose positions are relative to its origin. */
+static CpsStatus place(const CpsiLocalScene *local, const CpsiConicSet *largest, CpsEvolution **out,
+                       CpsError *err) {
+    CpsiArena arena = {0};
+    layout(&arena, &local->scene, largest);
+    const size_t bytes = arena.used;
+    if (!cpsi_arena_allocate(&arena))
+        return cpsi_fail(err, CPS_ERR_MEMORY, "%.3g MB for the scene's lines are not to be had",
+                         (double)bytes * 1e-6);
+    *out = layout(&arena, &local->scene, largest);
+    (*out)->arena = arena;
+    memcpy((*out)->origin, local->origin, sizeof local->origin);
+    return CPS_OK;
 }
 
 CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err) {
     if (!out)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the handle");
     *out = NULL;
-    CpsiFrictionSet **set = NULL;
+    CpsiFrictionSets sets = {0};
     CpsiConicSet sizes;
-    CpsStatus status = cps_scene_check(scene, err);
-    if (status == CPS_OK) status = make_sets(scene, &set, &sizes, err);
-    if (status != CPS_OK) return status;
     CpsiLocalScene local;
+    CpsEvolution *evolution = NULL;
+    CpsStatus status = cps_scene_check(scene, err);
+    if (status == CPS_OK) status = cpsi_friction_sets_make(scene, &sets, &sizes, err);
+    if (status != CPS_OK) return status;
     status = cpsi_local_scene(scene, &local, err);
-    if (status != CPS_OK) {
-        free_sets(scene, set);
-        return status;
-    }
-    const CpsiConicSet *largest = set ? &sizes : NULL;
-    CpsiArena arena = {0};
-    layout(&arena, scene, largest);
-    const size_t bytes = arena.used;
-    if (!cpsi_arena_allocate(&arena)) {
+    if (status == CPS_OK) {
+        status = place(&local, sets.set ? &sizes : NULL, &evolution, err);
+        if (status == CPS_OK) {
+            status = equip(evolution, scene, sets, err);
+            sets = (CpsiFrictionSets){0};
+            if (status == CPS_OK) fill(evolution, &local.scene);
+        }
         cpsi_local_scene_free(&local);
-        free_sets(scene, set);
-        return cpsi_fail(err, CPS_ERR_MEMORY, "%.3g MB for the scene's lines are not to be had",
-                         (double)bytes * 1e-6);
     }
-    CpsEvolution *evolution = layout(&arena, scene, largest);
-    evolution->arena = arena;
-    evolution->set = set;
-    memcpy(evolution->origin, local.origin, sizeof evolution->origin);
-    fill(evolution, &local.scene);
-    cpsi_local_scene_free(&local);
-    *out = evolution;
-    return CPS_OK;
+    cpsi_friction_sets_free(&sets);
+    if (status == CPS_OK)
+        *out = evolution;
+    else
+        cps_evolution_destroy(evolution);
+    return status;
 }
 
 void cps_evolution_destroy(CpsEvolution *evolution) {
     if (!evolution) return;
-    if (evolution->set)
-        for (int k = 0; k < evolution->obstacle_count; k++)
-            cpsi_friction_set_free(evolution->set[k]);
-    free(evolution->set);
+    cpsi_workers_destroy(evolution->workers);
+    for (int i = 0; i < evolution->workspace_count; i++)
+        cpsi_friction_sets_free(&evolution->workspace[i].friction);
     free(evolution->before);
     CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
     cpsi_arena_free(&arena);
@@ -423,26 +412,47 @@ static void plan_step(CpsEvolution *evolution) {
     }
 }
 
-/* Statics: the first equilibrium of lines that start by statics. The other lines take a load step
- * with constant ends. */
-static void place_statically(CpsEvolution *evolution) {
+/* Before the first step, where lines start by statics: loads that do not change. */
+static void plan_statics(CpsEvolution *evolution) {
     snprintf(evolution->step_name, CPSI_STEP_NAME, "static");
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int i = 0; i < evolution->line_count; i++) {
-        CpsiLine *line = &evolution->line[i];
-        CpsiStepOptions options = evolution->options;
+        const CpsiLine *line = &evolution->line[i];
         CpsiMove *move = &evolution->move[i];
         for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
-        if (!evolution->is_static[i]) {
-            cpsi_line_substeps(line, &evolution->program, &options, move, &evolution->scratch,
-                               false);
-            continue;
-        }
-        options.frictionless = true;
-        options.contact_policy = CPS_CONTACT_POLICY_REACHED;
-        cpsi_line_place_statically(line, &evolution->program, &options, &evolution->scratch);
     }
+}
+
+/* The ranges of the tensions at the ends, after the last step of a stage and after statics. */
+static void find_range(CpsiLine *line, const CpsiStepOptions *options) {
+    if (!cps_outcome_is_certified(line->report.outcome)) return;
+    if (line->forces)
+        cpsi_line_tension_range(line, line->forces, options);
+    else
+        for (int end = 0; end < 2; end++)
+            line->report.end[end].range = (CpsTensionRange){.kind = CPS_RANGE_STRAIN};
+}
+
+/* Take the load step of line i in a workspace: its first equilibrium without friction where it
+ * starts by statics, else the step that was planned. */
+static void step_line(void *data, int workspace_index, int i) {
+    CpsEvolution *evolution = data;
+    CpsiWorkspace *workspace = &evolution->workspace[workspace_index];
+    CpsiLine *line = &evolution->line[i];
+    CpsiStepOptions options = evolution->options;
+    options.least = &workspace->least;
+    cpsi_workspace_attach(workspace, line);
+    if (evolution->has_static && evolution->done == 0 && evolution->is_static[i]) {
+        options.frictionless = true;
+        CpsiStepOptions placing = options;
+        placing.contact_policy = CPS_CONTACT_POLICY_REACHED;
+        cpsi_line_place_statically(line, &workspace->program, &placing, &workspace->scratch);
+    } else {
+        cpsi_line_substeps(line, &workspace->program, &options, &evolution->move[i],
+                           &workspace->scratch, evolution->done > 0);
+    }
+    if (evolution->part == 0) find_range(line, &options);
 }
 
 /* Add a line's report to the step's. */
@@ -485,21 +495,16 @@ static double seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* The ranges of the tensions at the ends, after the last step of a stage and after statics. */
-static void find_ranges(CpsEvolution *evolution) {
-    for (int i = 0; i < evolution->line_count; i++) {
-        CpsiLine *line = &evolution->line[i];
-        CpsiStepOptions options = evolution->options;
-        options.frictionless =
-            evolution->has_static && evolution->done == 0 && evolution->is_static[i];
-        if (!cps_outcome_is_certified(line->report.outcome)) continue;
-        if (line->forces) {
-            cpsi_line_tension_range(line, line->forces, &options);
-            continue;
-        }
-        for (int end = 0; end < 2; end++)
-            line->report.end[end].range = (CpsTensionRange){.kind = CPS_RANGE_STRAIN};
-    }
+static void set_interrupt(CpsEvolution *evolution, CpsiInterrupt interrupt) {
+    for (int i = 0; i < evolution->workspace_count; i++)
+        evolution->workspace[i].interrupt = interrupt;
+}
+
+static bool was_interrupted(const CpsEvolution *evolution) {
+    bool seen = false;
+    for (int i = 0; i < evolution->workspace_count; i++)
+        seen = seen || cpsi_interrupt_seen(&evolution->workspace[i].interrupt);
+    return seen;
 }
 
 CpsStatus cps_evolution_interrupt(CpsEvolution *evolution, bool (*asked)(void *user), void *user,
@@ -510,7 +515,7 @@ CpsStatus cps_evolution_interrupt(CpsEvolution *evolution, bool (*asked)(void *u
         if (!evolution->before)
             return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory for the state before a step");
     }
-    evolution->interrupt = (CpsiInterrupt){.asked = asked, .user = user};
+    set_interrupt(evolution, (CpsiInterrupt){.asked = asked, .user = user});
     return CPS_OK;
 }
 
@@ -523,18 +528,15 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     const bool statics = evolution->has_static && evolution->done == 0;
     const CpsStatus status = statics ? CPS_OK : check_grabs(evolution, err);
     if (status) return status;
-    if (evolution->interrupt.asked) cps_evolution_save(evolution, evolution->before);
-    evolution->interrupt.seen = false;
-    if (statics) {
-        place_statically(evolution);
-    } else {
+    const CpsiInterrupt *interrupt = &evolution->workspace[0].interrupt;
+    if (interrupt->asked) cps_evolution_save(evolution, evolution->before);
+    set_interrupt(evolution, (CpsiInterrupt){.asked = interrupt->asked, .user = interrupt->user});
+    if (statics)
+        plan_statics(evolution);
+    else
         plan_step(evolution);
-        for (int i = 0; i < evolution->line_count; i++)
-            cpsi_line_substeps(&evolution->line[i], &evolution->program, &evolution->options,
-                               &evolution->move[i], &evolution->scratch, evolution->done > 0);
-    }
-    if (evolution->part == 0) find_ranges(evolution);
-    if (evolution->interrupt.seen) {
+    cpsi_workers_run(evolution->workers, step_line, evolution, evolution->line_count);
+    if (was_interrupted(evolution)) {
         cpsi_evolution_restore(evolution, evolution->before);
         return cpsi_fail(err, CPS_ERR_INTERRUPTED,
                          "the load step was interrupted, and is not taken");

@@ -36,7 +36,13 @@ static const double PLACE_TOLERANCE = 1e-9;
  * lengths written with 10 digits pass. */
 static const double SUM_TOLERANCE = 1e-9;
 /* Limits given by the memory of a large machine (1 kB per element) and by the size of results. */
-enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000, MAX_OBSTACLES = 1000 };
+enum {
+    MAX_ELEMENTS = 10000000,
+    MAX_STEPS = 1000000,
+    MAX_LINES = 10000,
+    MAX_OBSTACLES = 1000,
+    MAX_THREADS = 256
+};
 
 /* [rad] Limit of a turn in one stage, which takes a substep for every quarter of a turn: 10 000
  * turns. */
@@ -50,7 +56,8 @@ CpsScene cps_scene_default(void) {
         .solver = {.tolerance = 1e-8,
                    .max_iterations = 60,
                    .linear_system = CPS_LINEAR_SYSTEM_CHAIN,
-                   .max_halvings = 10},
+                   .max_halvings = 10,
+                   .thread_count = 1},
     };
 }
 
@@ -604,6 +611,10 @@ static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
     if (solver->max_halvings < 0 || solver->max_halvings > 30)
         return FAIL_AT("solver.halvings", err, CPS_ERR_ARGUMENT,
                        "solver: halvings is %d, expected 0 to 30", solver->max_halvings);
+    if (solver->thread_count < 1 || solver->thread_count > MAX_THREADS)
+        return FAIL_AT("solver.thread_count", err, CPS_ERR_ARGUMENT,
+                       "solver: thread_count is %d, expected 1 to %d", solver->thread_count,
+                       (int)MAX_THREADS);
     if (solver->linear_system != CPS_LINEAR_SYSTEM_CHAIN &&
         solver->linear_system != CPS_LINEAR_SYSTEM_DENSE)
         return FAIL_AT("solver.linear_system", err, CPS_ERR_ARGUMENT,

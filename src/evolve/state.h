@@ -3,11 +3,9 @@
 #ifndef CAPSTAN_SRC_EVOLVE_STATE_H
 #define CAPSTAN_SRC_EVOLVE_STATE_H
 
-#include "cable/force_set.h"
-#include "cable/friction_set.h"
-#include "cable/least_motion.h"
+#include "base/workers.h"
 #include "capstan/evolve.h"
-#include "evolve/substeps.h"
+#include "evolve/workspace.h"
 
 enum { CPSI_STEP_NAME = 96 };
 
@@ -43,28 +41,24 @@ struct CpsEvolution {
     int obstacle_count;
     CpsiObstacle *obstacle;     /* (obstacle_count) */
     const char **obstacle_name; /* (obstacle_count) */
-    CpsiFrictionSet *
-        *set;       /* (obstacle_count) general friction sets, NULL for obstacles without one */
-    double *angle;  /* (obstacle_count) [rad] by which each turns in the step */
-    CpsiMove *move; /* (line_count) the change of each line in the step */
-    CpsiSubsteps scratch;
-    CpsiLine *line;            /* (line_count) */
-    CpsiEvolutionStage *stage; /* (stage_count) */
-    bool has_static;           /* the first step places lines by statics */
-    bool *is_static;           /* (line_count) */
+    double *angle;              /* (obstacle_count) [rad] by which each turns in the step */
+    CpsiMove *move;             /* (line_count) the change of each line in the step */
+    CpsiLine *line;             /* (line_count) */
+    CpsiEvolutionStage *stage;  /* (stage_count) */
+    bool has_static;            /* the first step places lines by statics */
+    bool *is_static;            /* (line_count) */
     double *
         mass; /* (line_count) [kg/m] weight per gravity; 0 where there is no gravity at the start */
     int done; /* steps taken */
     int current, part; /* the next stage, and how many of its steps have been taken */
     bool ended;        /* an infeasible or unbounded step ends the history */
-    CpsiChainProgram program;
-    CpsiForceSet forces; /* scratch memory for the forces of inextensible lines */
-    CpsiLeastMotion least;
-    CpsiInterrupt interrupt; /* of all programs */
-    void *before;            /* the state before a step, where one may be interrupted; else NULL */
-    CpsiViewFill fill;       /* what views show where a line lacks an array */
-    double origin[3];        /* [m] all positions are relative to it */
-    uint64_t fingerprint;    /* of all constant data: identifies the scene */
+    int workspace_count;
+    CpsiWorkspace *workspace; /* (workspace_count) one for each thread */
+    CpsiWorkers *workers;     /* the threads; NULL where there is only the caller's */
+    void *before;             /* the state before a step, where one may be interrupted; else NULL */
+    CpsiViewFill fill;        /* what views show where a line lacks an array */
+    double origin[3];         /* [m] all positions are relative to it */
+    uint64_t fingerprint;     /* of all constant data: identifies the scene */
 };
 
 #endif

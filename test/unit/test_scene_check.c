@@ -177,6 +177,8 @@ static void refuses_each_wrong_name_and_number(void **state) {
     BAD(w.p.scene.solver.path_tolerance = 1e-10);
     BAD(w.p.scene.solver.path_tolerance = 2);
     BAD(w.p.scene.solver.path_tolerance = NAN);
+    BAD(w.p.scene.solver.thread_count = 0);
+    BAD(w.p.scene.solver.thread_count = 257);
     BAD(w.p.scene.solver.max_halvings = -1);
     BAD(w.p.scene.solver.max_halvings = 31);
     BAD(w.p.scene.solver.max_iterations = 0);
