@@ -16,6 +16,7 @@
 #include <cmocka.h>
 #include <netcdf.h>
 
+#include "io/results/writers.h"
 #include "small_run.h"
 
 void *__real_dlopen(const char *path, int how);
@@ -110,6 +111,17 @@ int __wrap_timespec_get(struct timespec *now, int base) {
     return answer;
 }
 
+/* Elements that the next line seen has, 0: as many as it has. */
+static int huge;
+CpsLineView __real_cps_evolution_line_view(const CpsEvolution *evolution, int line);
+CpsLineView __wrap_cps_evolution_line_view(const CpsEvolution *evolution, int line);
+CpsLineView __wrap_cps_evolution_line_view(const CpsEvolution *evolution, int line) {
+    CpsLineView view = __real_cps_evolution_line_view(evolution, line);
+    if (huge > 0) view.element_count = huge;
+    huge = 0;
+    return view;
+}
+
 static CpsStatus run(CpsError *err) {
     asked = 0;
     called = 0;
@@ -140,6 +152,32 @@ static void no_library(void **state) {
     assert_int_equal(err.status, CPS_ERR_IO);
     assert_non_null(strstr(err.message, "without"));
     assert_non_null(strstr(err.message, "libnetcdf-is-not-here.so"));
+}
+
+/* A line of more nodes than a record of result.nc can hold is refused before anything is opened. */
+static void too_many_nodes(void **state) {
+    (void)state;
+    const double point[6] = {0, 0, 0, 6, 0, 0};
+    const CpsLine line = small_rope(3, point);
+    const CpsResultsOptions options = cps_results_options_default();
+    CpsScene scene = cps_scene_default();
+    scene.line_count = 1;
+    scene.line = &line;
+    CpsError err = {0};
+    CpsEvolution *evolution = NULL;
+    CpsiNetcdf *netcdf = NULL;
+    assert_int_equal(cps_evolution_create(&scene, &evolution, &err), CPS_OK);
+    huge = 178956970; /* 4294967292 bytes hold one node less, with 3 doubles each */
+    const CpsStatus status =
+        cpsi_netcdf_open("netcdf-huge.nc", &scene, evolution, &options, &netcdf, &err);
+    const bool reached = huge == 0;
+    huge = 0;
+    cps_evolution_destroy(evolution);
+    if (!reached) skip();
+    assert_int_equal(status, CPS_ERR_LIMIT);
+    assert_null(netcdf);
+    assert_non_null(strstr(err.message, "178956970 elements"));
+    assert_int_not_equal(access("netcdf-huge.nc", F_OK), 0);
 }
 
 static void a_function_is_missing(void **state) {
@@ -211,6 +249,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test_setup(no_library, start),
                                        cmocka_unit_test_setup(a_function_is_missing, start),
                                        cmocka_unit_test_setup(each_call_fails, start),
-                                       cmocka_unit_test_setup(no_clock, start)};
+                                       cmocka_unit_test_setup(no_clock, start),
+                                       cmocka_unit_test_setup(too_many_nodes, start)};
     return cmocka_run_group_tests_name("libnetcdf that fails", tests, NULL, NULL);
 }

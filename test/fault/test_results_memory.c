@@ -72,9 +72,74 @@ static void every_allocation_may_fail(void **state) {
     assert_in_range(k, 20, 100000);
 }
 
+/* The same of a journal that is opened: it says so, and there is none. */
+static void a_journal_without_memory(void **state) {
+    (void)state;
+    const double point[6] = {0, 0, 0, 6, 0, 0};
+    const CpsLine line = small_rope(8, point);
+    CpsScene scene = cps_scene_default();
+    scene.line_count = 1;
+    scene.line = &line;
+    CpsError err;
+    CpsEvolution *evolution = NULL;
+    assert_int_equal(system("mkdir -p memory-journal"), 0);
+    assert_int_equal(cps_evolution_create(&scene, &evolution, &err), CPS_OK);
+    long k = 0;
+    for (;; k++) {
+        CpsJournal *journal = NULL;
+        allowed = k;
+        const CpsStatus status =
+            cps_journal_open("memory-journal", evolution, CPS_JOURNAL_NEW, &journal, &err);
+        const int reached = allowed < 0;
+        allowed = -1;
+        if (!reached) {
+            assert_int_equal(status, CPS_OK);
+            cps_journal_destroy(journal);
+            break;
+        }
+        assert_int_equal(status, CPS_ERR_MEMORY);
+        assert_null(journal);
+        assert_int_not_equal(access("memory-journal/.journal", F_OK), 0);
+    }
+    cps_evolution_destroy(evolution);
+    assert_int_equal(rmdir("memory-journal"), 0);
+    if (k == 0) skip();
+    assert_int_equal(k, 3); /* the journal, its directory, its state */
+}
+
+/* Numbers are written in the locale C, which takes memory. */
+static void a_summary_without_a_locale(void **state) {
+    (void)state;
+    static const double POSITION[6];
+    static const char *const NAME[] = {"start"};
+    const CpsRegularizedParameters parameters = {0};
+    const CpsRegularizedReport report = {0};
+    const CpsRegularizedLine line = {.name = "rope",
+                                     .point_count = 2,
+                                     .position = POSITION,
+                                     .parameters = &parameters,
+                                     .report = &report};
+    const CpsRegularizedRun run = {
+        .title = "", .step_count = 1, .line_count = 1, .step_name = NAME, .line = &line};
+    char text[1000] = "";
+    CpsError err;
+    FILE *out = fmemopen(text, sizeof text - 1, "w");
+    assert_non_null(out);
+    allowed = 0;
+    const CpsStatus status = cps_regularized_summary(&run, out, &err);
+    const int reached = allowed < 0;
+    allowed = -1;
+    fclose(out);
+    if (!reached) skip();
+    assert_int_equal(status, CPS_ERR_MEMORY);
+    assert_string_equal(text, "");
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation_may_fail)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation_may_fail),
+                                       cmocka_unit_test(a_journal_without_memory),
+                                       cmocka_unit_test(a_summary_without_a_locale)};
     /* of an earlier run of this test */
-    if (system("rm -rf memory-out") != 0) return 1;
+    if (system("rm -rf memory-out memory-journal") != 0) return 1;
     return cmocka_run_group_tests_name("results without memory", tests, NULL, NULL);
 }

@@ -28,7 +28,7 @@ int cpsi_netcdf_variable(CpsiNetcdfFile *file, const char *prefix, const char *n
     char full[NC_MAX_NAME + 1];
     int id = -1;
     const int length = snprintf(full, sizeof full, "%s%s%s", prefix, *prefix ? "_" : "", name);
-    if (length < 0 || (size_t)length >= sizeof full) cpsi_netcdf_keep(file, NC_EMAXNAME);
+    if ((size_t)length >= sizeof full) cpsi_netcdf_keep(file, NC_EMAXNAME);
     CALL(file, def_var, full, type, rank, shape, &id);
     cpsi_netcdf_text(file, id, "long_name", long_name);
     if (units) cpsi_netcdf_text(file, id, "units", units);

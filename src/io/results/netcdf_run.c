@@ -537,13 +537,12 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, cons
     const CpsStepReport report = cps_evolution_report(evolution);
     const size_t start[] = {nc->steps, 0}, count[] = {1, NAME_LENGTH};
     char name[NAME_LENGTH] = {0};
-    const char *given = report.name ? report.name : "";
-    memcpy(name, given, cpsi_utf8_cut(given, sizeof name));
+    memcpy(name, report.name, cpsi_utf8_cut(report.name, sizeof name));
 
     pthread_mutex_lock(&library_lock);
-    if (nc->file.status == NC_NOERR)
-        cpsi_netcdf_keep(&nc->file, nc->file.library.put_vara_text(nc->file.id, nc->step_name,
-                                                                   start, count, name));
+    /* nothing is appended after a failure (run_files.c) */
+    cpsi_netcdf_keep(&nc->file, nc->file.library.put_vara_text(nc->file.id, nc->step_name, start,
+                                                               count, name));
     cpsi_netcdf_int(&nc->file, nc->outcome, start, (int)report.outcome);
     cpsi_netcdf_doubles(&nc->file, nc->wall, start, ONE, &report.wall);
     const size_t turns[] = {1, (size_t)nc->obstacles.count};

@@ -88,7 +88,7 @@ static void history(const void *what, FILE *out) {
 
 static void write_key(FILE *out, const char *key, const char *unit) {
     char text[64];
-    const bool bare = unit[0] == '-' || unit[0] == '\0';
+    const bool bare = unit[0] == '-';
     snprintf(text, sizeof text, "%s%s%s", key, bare ? "" : "_", bare ? "" : unit);
     cpsi_write_json_string(out, text);
     fputs(": ", out);

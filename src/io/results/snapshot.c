@@ -4,6 +4,7 @@
  * The copies are those of the steps with their own pictures, an even selection for the overviews,
  * and always the last step so far, which the next step overwrites unless it is one of the
  * others. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,7 +47,7 @@ static unsigned char shown_state(const CpsLineView *view, size_t j) {
     if (state == CPS_NODE_STATE_FREE)
         for (size_t c = j; c < (size_t)view->contact_count * n; c += n) {
             const double *f = view->friction_force + 3 * c;
-            if (f[0] != 0 || f[1] != 0 || f[2] != 0) return CPSI_SHAPE_IN_AIR;
+            if (fabs(f[0]) + fabs(f[1]) + fabs(f[2]) > 0) return CPSI_SHAPE_IN_AIR;
         }
     return state;
 }
