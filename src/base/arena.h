@@ -40,7 +40,8 @@ static inline void cpsi_arena_join(CpsiArena *arena, size_t end) {
     if (arena->used < end) arena->used = end;
 }
 
-#define CPSI_TAKE(arena, count, type) \
-    ((type *)cpsi_arena_take((arena), (size_t)(count), sizeof(type)))
+/* Place an array: from here on it points to `count` items of its type. */
+#define CPSI_PLACE(arena, array, count) \
+    ((array) = cpsi_arena_take((arena), (size_t)(count), sizeof *(array)))
 
 #endif

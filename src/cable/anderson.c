@@ -25,11 +25,10 @@ static const double MAX_EXTRAPOLATION = 10;
 
 void cpsi_anderson_layout(CpsiAnderson *anderson, CpsiArena *arena, int n) {
     double **const all[] = {&anderson->from, &anderson->to, &anderson->displacement};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        *all[i] = CPSI_TAKE(arena, 3 * (size_t)n, double);
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) CPSI_PLACE(arena, *all[i], 3 * (size_t)n);
     for (int k = 0; k < CPSI_ANDERSON_MEMORY; k++) {
-        anderson->d_to[k] = CPSI_TAKE(arena, 3 * (size_t)n, double);
-        anderson->d_displacement[k] = CPSI_TAKE(arena, 3 * (size_t)n, double);
+        CPSI_PLACE(arena, anderson->d_to[k], 3 * (size_t)n);
+        CPSI_PLACE(arena, anderson->d_displacement[k], 3 * (size_t)n);
     }
 }
 

@@ -454,16 +454,16 @@ int cpsi_force_set_share(const CpsiForceSet *set, const CpsiLine *line, const Cp
 void cpsi_force_set_layout(CpsiForceSet *set, CpsiArena *arena, int n, int contacts) {
     const int all = n * contacts;
     cpsi_scalar_program_layout(&set->program, arena, n, 2 * n + 1, CONES * all + n + 1);
-    set->tangent = CPSI_TAKE(arena, 3 * (size_t)n, double);
-    set->tension = CPSI_TAKE(arena, n, double);
-    set->gain = CPSI_TAKE(arena, n, double);
-    set->scalar = CPSI_TAKE(arena, n, int);
-    set->site = CPSI_TAKE(arena, n, int);
-    set->segment_force = CPSI_TAKE(arena, 3 * (size_t)n, double);
-    set->kept_tension = CPSI_TAKE(arena, n, double);
-    set->reaction = CPSI_TAKE(arena, all, double);
-    set->friction = CPSI_TAKE(arena, 3 * (size_t)all, double);
-    set->bound = CPSI_TAKE(arena, all, double);
+    CPSI_PLACE(arena, set->tangent, 3 * (size_t)n);
+    CPSI_PLACE(arena, set->tension, n);
+    CPSI_PLACE(arena, set->gain, n);
+    CPSI_PLACE(arena, set->scalar, n);
+    CPSI_PLACE(arena, set->site, n);
+    CPSI_PLACE(arena, set->segment_force, 3 * (size_t)n);
+    CPSI_PLACE(arena, set->kept_tension, n);
+    CPSI_PLACE(arena, set->reaction, all);
+    CPSI_PLACE(arena, set->friction, 3 * (size_t)all);
+    CPSI_PLACE(arena, set->bound, all);
 }
 
 /* Copy the fields of a line to the set, or back. */

@@ -78,9 +78,9 @@ CpsStatus cpsi_friction_set_check(const CpsSet *set, const char *name, CpsError 
 
 static void layout(CpsiFrictionSet *set) {
     const CpsiConicForm *form = set->form;
-    set->centre = CPSI_TAKE(&set->arena, form->unknowns, double);
-    set->cost = CPSI_TAKE(&set->arena, form->unknowns, double);
-    set->last = CPSI_TAKE(&set->arena, 3, double);
+    CPSI_PLACE(&set->arena, set->centre, form->unknowns);
+    CPSI_PLACE(&set->arena, set->cost, form->unknowns);
+    CPSI_PLACE(&set->arena, set->last, 3);
     set->program =
         cpsi_conic_layout(&set->arena, form->unknowns, form->rows, form->cones, form->largest_cone);
 }
@@ -98,15 +98,15 @@ static void layout_work(CpsiArena *arena, Work *work, const CpsiConicForm *form)
     const size_t n = (size_t)form->unknowns, m = (size_t)form->rows;
     work->program = cpsi_conic_layout(arena, form->unknowns + 1, form->rows + 1, form->cones + 1,
                                       form->largest_cone);
-    work->a = CPSI_TAKE(arena, (m + 1) * (n + 1), double);
-    work->b = CPSI_TAKE(arena, m + 1, double);
-    work->c = CPSI_TAKE(arena, n + 1, double);
-    work->dim = CPSI_TAKE(arena, form->cones + 1, int);
-    work->z = CPSI_TAKE(arena, m, double);
-    work->gradient = CPSI_TAKE(arena, n, double);
-    work->step = CPSI_TAKE(arena, n, double);
-    work->hessian = CPSI_TAKE(arena, n * n, double);
-    work->factor = CPSI_TAKE(arena, n * n, double);
+    CPSI_PLACE(arena, work->a, (m + 1) * (n + 1));
+    CPSI_PLACE(arena, work->b, m + 1);
+    CPSI_PLACE(arena, work->c, n + 1);
+    CPSI_PLACE(arena, work->dim, form->cones + 1);
+    CPSI_PLACE(arena, work->z, m);
+    CPSI_PLACE(arena, work->gradient, n);
+    CPSI_PLACE(arena, work->step, n);
+    CPSI_PLACE(arena, work->hessian, n * n);
+    CPSI_PLACE(arena, work->factor, n * n);
 }
 
 /* The largest t <= 1 with A v + b - t e in K, and v. */

@@ -54,11 +54,11 @@ enum { HALVES = 3 };
 void cpsi_least_motion_layout(CpsiLeastMotion *least, CpsiArena *arena, int n, int contacts,
                               const CpsiChainProgram *program) {
     const size_t end = cpsi_arena_return(arena, program->scratch);
-    least->mark = CPSI_TAKE(arena, (size_t)contacts * (size_t)n, unsigned char);
-    least->slack = CPSI_TAKE(arena, n, bool);
-    least->cluster = CPSI_TAKE(arena, n, int);
-    least->basis = CPSI_TAKE(arena, 9 * (size_t)n, double);
-    least->place = CPSI_TAKE(arena, 3 * (size_t)n, double);
+    CPSI_PLACE(arena, least->mark, (size_t)contacts * (size_t)n);
+    CPSI_PLACE(arena, least->slack, n);
+    CPSI_PLACE(arena, least->cluster, n);
+    CPSI_PLACE(arena, least->basis, 9 * (size_t)n);
+    CPSI_PLACE(arena, least->place, 3 * (size_t)n);
     cpsi_arena_join(arena, end);
     cpsi_nearest_program_layout(&least->program, arena, n, HALVES * contacts * n, program->ops);
 }
@@ -154,9 +154,10 @@ static void complete(double *basis, int freedom) {
 
 /* Restrict node j to { gap + a.v >= 0 }, v its translation from its position in the round. */
 static void add_half_space(CpsiLeastMotion *least, int j, double weight, Vec3 a, double gap) {
-    CpsiHalfSpace *half = &least->program.half;
+    CpsiUnilateral *half = &least->program.chain.unilateral;
     const int k = half->count++;
     half->node[k] = j;
+    half->second[k] = true;
     half->weight[k] = weight;
     half->gap[k] = gap > 0 ? gap : 0;
     vec3_store(half->normal[k], a);
@@ -238,7 +239,7 @@ static bool build_clusters(const CpsiLine *line, CpsiLeastMotion *least, CpsiBou
     CpsiNearestProgram *program = &least->program;
     bool any = false;
     int count = 0;
-    program->half.count = 0;
+    program->chain.unilateral.count = 0;
     for (int first = 0, end; first < line->n; first = end, count++) {
         double *basis = &least->basis[9 * count], weight = 0;
         int *freedom = &program->freedom[count];
@@ -281,7 +282,7 @@ static bool build_clusters(const CpsiLine *line, CpsiLeastMotion *least, CpsiBou
 /* The largest violation of constraints by `place`, per length of the line: elements too long,
  * half-spaces left. 0 where there is none. */
 static double violation(const CpsiLine *line, const CpsiLeastMotion *least) {
-    const CpsiHalfSpace *half = &least->program.half;
+    const CpsiUnilateral *half = &least->program.chain.unilateral;
     double size = 0, most = 0;
     for (int j = 0; j < 3 * line->n; j++) most = fmax(most, fabs(least->place[j]));
     const double lost = 4 * DBL_EPSILON * most; /* [m] */
@@ -304,7 +305,7 @@ static double violation(const CpsiLine *line, const CpsiLeastMotion *least) {
  * without a free component are dropped. */
 static void project_half_spaces(const CpsiLine *line, CpsiLeastMotion *least) {
     CpsiNearestProgram *program = &least->program;
-    CpsiHalfSpace *half = &program->half;
+    CpsiUnilateral *half = &program->chain.unilateral;
     int kept = 0;
     for (int k = 0; k < half->count; k++) {
         const int j = half->node[k], cluster = least->cluster[j];

@@ -6,39 +6,40 @@
 
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
-    line->arc_length = CPSI_TAKE(arena, n, double);
-    line->element_length = CPSI_TAKE(arena, n, double);
-    line->reference = CPSI_TAKE(arena, 3 * n, double);
-    line->position = CPSI_TAKE(arena, 3 * n, double);
-    line->load = CPSI_TAKE(arena, 3 * n, double);
-    line->normal = CPSI_TAKE(arena, 3 * contacts, double);
-    line->gap = CPSI_TAKE(arena, contacts, double);
-    line->friction_factor = line->has_zones ? CPSI_TAKE(arena, n, double) : NULL;
-    line->friction_law = CPSI_TAKE(arena, contacts, CpsiFrictionLaw);
-    line->friction_bound = CPSI_TAKE(arena, contacts, double);
-    line->friction_force = CPSI_TAKE(arena, 3 * contacts, double);
-    line->reaction = CPSI_TAKE(arena, contacts, double);
-    line->segment_force = CPSI_TAKE(arena, 3 * n, double);
-    line->tension = CPSI_TAKE(arena, n, double);
-    line->motion = CPSI_TAKE(arena, 3 * n, double);
-    line->state = CPSI_TAKE(arena, contacts, unsigned char);
-    line->slide = CPSI_TAKE(arena, 3 * contacts, double);
-    line->winding = line->has_local_axes ? CPSI_TAKE(arena, contacts, double) : NULL;
-    line->base = line->has_local_axes ? CPSI_TAKE(arena, 3 * n, double) : NULL;
-    line->axes = line->has_local_axes ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
-    line->reference_axes = line->has_local_axes ? CPSI_TAKE(arena, 9 * contacts, double) : NULL;
-    line->curvature = line->has_local_axes ? CPSI_TAKE(arena, 3 * contacts, double) : NULL;
-    line->obstacle_index = line->has_local_axes ? CPSI_TAKE(arena, contacts, int) : NULL;
-    line->active = line->has_local_axes ? CPSI_TAKE(arena, contacts, bool) : NULL;
-    line->beta = line->element_contacts > 0 ? CPSI_TAKE(arena, n, double) : NULL;
-    line->node_reaction = line->has_local_axes ? CPSI_TAKE(arena, n, double) : NULL;
-    line->watched = line->has_local_axes ? CPSI_TAKE(arena, 6 * (size_t)n, double) : NULL;
-    if (line->has_local_axes) cpsi_anderson_layout(&line->anderson, arena, line->n);
-    const bool inextensible = line->compliance == 0;
-    line->tension_before = inextensible ? CPSI_TAKE(arena, n, double) : NULL;
-    line->reaction_before = inextensible ? CPSI_TAKE(arena, contacts, double) : NULL;
-    line->obstacle_index_before =
-        inextensible && line->has_local_axes ? CPSI_TAKE(arena, contacts, int) : NULL;
+    CPSI_PLACE(arena, line->arc_length, n);
+    CPSI_PLACE(arena, line->element_length, n);
+    CPSI_PLACE(arena, line->reference, 3 * n);
+    CPSI_PLACE(arena, line->position, 3 * n);
+    CPSI_PLACE(arena, line->load, 3 * n);
+    CPSI_PLACE(arena, line->normal, 3 * contacts);
+    CPSI_PLACE(arena, line->gap, contacts);
+    if (line->has_zones) CPSI_PLACE(arena, line->friction_factor, n);
+    CPSI_PLACE(arena, line->friction_law, contacts);
+    CPSI_PLACE(arena, line->friction_bound, contacts);
+    CPSI_PLACE(arena, line->friction_force, 3 * contacts);
+    CPSI_PLACE(arena, line->reaction, contacts);
+    CPSI_PLACE(arena, line->segment_force, 3 * n);
+    CPSI_PLACE(arena, line->tension, n);
+    CPSI_PLACE(arena, line->motion, 3 * n);
+    CPSI_PLACE(arena, line->state, contacts);
+    CPSI_PLACE(arena, line->slide, 3 * contacts);
+    if (line->has_local_axes) {
+        CPSI_PLACE(arena, line->winding, contacts);
+        CPSI_PLACE(arena, line->base, 3 * n);
+        CPSI_PLACE(arena, line->axes, 9 * contacts);
+        CPSI_PLACE(arena, line->reference_axes, 9 * contacts);
+        CPSI_PLACE(arena, line->curvature, 3 * contacts);
+        CPSI_PLACE(arena, line->obstacle_index, contacts);
+        CPSI_PLACE(arena, line->active, contacts);
+        CPSI_PLACE(arena, line->node_reaction, n);
+        CPSI_PLACE(arena, line->watched, 6 * n);
+        cpsi_anderson_layout(&line->anderson, arena, line->n);
+    }
+    if (line->element_contacts > 0) CPSI_PLACE(arena, line->beta, n);
+    if (line->compliance > 0) return;
+    CPSI_PLACE(arena, line->tension_before, n);
+    CPSI_PLACE(arena, line->reaction_before, contacts);
+    if (line->has_local_axes) CPSI_PLACE(arena, line->obstacle_index_before, contacts);
 }
 
 double cpsi_line_largest_displacement(const CpsiLine *line, const double *from) {

@@ -62,17 +62,14 @@ typedef struct Chain {
 
 static CpsiLinsys *chain_layout(CpsiArena *arena, int n, bool second, bool points,
                                 size_t *scratch) {
-    Chain *chain = CPSI_TAKE(arena, 1, Chain);
+    Chain measured, *placed = cpsi_arena_take(arena, 1, sizeof *placed),
+                    *chain = placed ? placed : &measured;
     *scratch = arena->used;
-    ChainBlock *block = CPSI_TAKE(arena, n, ChainBlock);
-    ChainSecond *seconds = second ? CPSI_TAKE(arena, n, ChainSecond) : NULL;
-    CpsiChainPoint *point = points ? CPSI_TAKE(arena, n, CpsiChainPoint) : NULL;
-    const CpsiUnknowns one = cpsi_unknowns_layout(arena, points ? n : 0),
-                       other = cpsi_unknowns_layout(arena, points ? n : 0);
-    if (chain)
-        *chain =
-            (Chain){.block = block, .second = seconds, .point = point, .scratch = {one, other}};
-    return (CpsiLinsys *)chain;
+    CPSI_PLACE(arena, chain->block, n);
+    if (second) CPSI_PLACE(arena, chain->second, n);
+    if (points) CPSI_PLACE(arena, chain->point, n);
+    for (int k = 0; k < 2; k++) chain->scratch[k] = cpsi_unknowns_layout(arena, points ? n : 0);
+    return (CpsiLinsys *)placed;
 }
 
 static inline double dot(const double a[3], const double b[3]) {

@@ -10,36 +10,36 @@
 #include "chain/frame.h"
 
 static void layout_segment(CpsiSegment *st, CpsiArena *arena, int n) {
-    st->length = CPSI_TAKE(arena, n, double);
-    st->s = cpsi_arena_take(arena, (size_t)n, sizeof *st->s);
-    st->z = cpsi_arena_take(arena, (size_t)n, sizeof *st->z);
-    st->w = cpsi_arena_take(arena, (size_t)n, sizeof *st->w);
-    st->g = CPSI_TAKE(arena, n, double);
-    st->inverse_w = CPSI_TAKE(arena, n, double);
+    CPSI_PLACE(arena, st->length, n);
+    CPSI_PLACE(arena, st->s, n);
+    CPSI_PLACE(arena, st->z, n);
+    CPSI_PLACE(arena, st->w, n);
+    CPSI_PLACE(arena, st->g, n);
+    CPSI_PLACE(arena, st->inverse_w, n);
 }
 
 static void layout_disc(CpsiFrictionDisc *disc, CpsiArena *arena, int n) {
-    disc->node = CPSI_TAKE(arena, n, int);
-    disc->contact = CPSI_TAKE(arena, n, int);
-    disc->weight = CPSI_TAKE(arena, n, double);
-    disc->s = cpsi_arena_take(arena, (size_t)n, sizeof *disc->s);
-    disc->z = cpsi_arena_take(arena, (size_t)n, sizeof *disc->z);
-    disc->w = cpsi_arena_take(arena, (size_t)n, sizeof *disc->w);
-    disc->unilateral = CPSI_TAKE(arena, n, int);
-    disc->friction = CPSI_TAKE(arena, n, double);
-    disc->g = CPSI_TAKE(arena, n, double);
+    CPSI_PLACE(arena, disc->node, n);
+    CPSI_PLACE(arena, disc->contact, n);
+    CPSI_PLACE(arena, disc->weight, n);
+    CPSI_PLACE(arena, disc->s, n);
+    CPSI_PLACE(arena, disc->z, n);
+    CPSI_PLACE(arena, disc->w, n);
+    CPSI_PLACE(arena, disc->unilateral, n);
+    CPSI_PLACE(arena, disc->friction, n);
+    CPSI_PLACE(arena, disc->g, n);
 }
 
 static void layout_unilateral(CpsiUnilateral *unilateral, CpsiArena *arena, int n) {
-    unilateral->node = CPSI_TAKE(arena, n, int);
-    unilateral->contact = CPSI_TAKE(arena, n, int);
-    unilateral->second = CPSI_TAKE(arena, n, bool);
-    unilateral->weight = CPSI_TAKE(arena, n, double);
-    unilateral->gap = CPSI_TAKE(arena, n, double);
-    unilateral->s = CPSI_TAKE(arena, n, double);
-    unilateral->z = CPSI_TAKE(arena, n, double);
-    unilateral->ds = CPSI_TAKE(arena, n, double);
-    unilateral->dz = CPSI_TAKE(arena, n, double);
+    CPSI_PLACE(arena, unilateral->node, n);
+    CPSI_PLACE(arena, unilateral->contact, n);
+    CPSI_PLACE(arena, unilateral->second, n);
+    CPSI_PLACE(arena, unilateral->weight, n);
+    CPSI_PLACE(arena, unilateral->gap, n);
+    CPSI_PLACE(arena, unilateral->s, n);
+    CPSI_PLACE(arena, unilateral->z, n);
+    CPSI_PLACE(arena, unilateral->ds, n);
+    CPSI_PLACE(arena, unilateral->dz, n);
 }
 
 /* The right-hand sides q, and what the nodes add to the matrix: at points it is read by `solve` as
@@ -49,12 +49,12 @@ static void layout_right_hand_sides(CpsiChainProgram *program, CpsiArena *arena,
     CpsiSegment *st = &program->segment;
     CpsiFrictionDisc *disc = &program->disc;
     const size_t places = (size_t)n * (points ? 2 : 1), begin = arena->used;
-    st->q = cpsi_arena_take(arena, (size_t)n, sizeof *st->q);
-    disc->q = cpsi_arena_take(arena, (size_t)discs, sizeof *disc->q);
-    program->unilateral.q = CPSI_TAKE(arena, stops, double);
+    CPSI_PLACE(arena, st->q, n);
+    CPSI_PLACE(arena, disc->q, discs);
+    CPSI_PLACE(arena, program->unilateral.q, stops);
     const size_t end = points ? arena->used : cpsi_arena_return(arena, begin);
-    program->matrix.diagonal = CPSI_TAKE(arena, 6 * places, double);
-    program->matrix.skew = CPSI_TAKE(arena, 2 * places, double);
+    CPSI_PLACE(arena, program->matrix.diagonal, 6 * places);
+    CPSI_PLACE(arena, program->matrix.skew, 2 * places);
     cpsi_arena_join(arena, end);
 }
 
@@ -65,10 +65,10 @@ static void layout_factor(CpsiChainProgram *program, CpsiArena *arena, int n, in
     CpsiFrictionDisc *disc = &program->disc;
     program->linsys = program->ops->layout(arena, n, second, points, &program->scratch);
     const size_t end = cpsi_arena_return(arena, program->scratch);
-    st->ds = cpsi_arena_take(arena, (size_t)n, sizeof *st->ds);
-    st->dz = cpsi_arena_take(arena, (size_t)n, sizeof *st->dz);
-    disc->ds = cpsi_arena_take(arena, (size_t)discs, sizeof *disc->ds);
-    disc->dz = cpsi_arena_take(arena, (size_t)discs, sizeof *disc->dz);
+    CPSI_PLACE(arena, st->ds, n);
+    CPSI_PLACE(arena, st->dz, n);
+    CPSI_PLACE(arena, disc->ds, discs);
+    CPSI_PLACE(arena, disc->dz, discs);
     cpsi_arena_join(arena, end);
 }
 
@@ -172,9 +172,11 @@ bool cpsi_chain_program_couple_bounds(CpsiChainProgram *program) {
     }
     cpsi_friction_conic_predict_bounds(&program->conic, &program->unilateral);
     memset(base->du, 0, (size_t)base->size * sizeof *base->du);
-    for (int k = 0; k < base->kind_count; k++) base->kind[k]->load(base, 0);
+    for (int k = 0; k < base->kind_count; k++)
+        if (base->kind[k]->load) base->kind[k]->load(base, 0);
     solve(base);
-    for (int k = 0; k < base->kind_count; k++) base->kind[k]->direct(base, 0, false, &unused);
+    for (int k = 0; k < base->kind_count; k++)
+        if (base->kind[k]->direct) base->kind[k]->direct(base, 0, false, &unused);
     return true;
 }
 
@@ -182,20 +184,16 @@ static void layout_own(CpsiChainProgram *program, CpsiArena *arena, int nodes, i
                        bool points) {
     const size_t n = (size_t)nodes, stops = n * (size_t)(contacts + points),
                  second = contacts > 1 ? n : 0;
-    program->node_frames.frame = CPSI_TAKE(arena, 9 * n * (points ? 2 : 1), double);
-    program->node_frames.share = points ? CPSI_TAKE(arena, n, double) : NULL;
-    program->node_frames.offset =
-        cpsi_arena_take(arena, 2 * stops, sizeof *program->node_frames.offset);
-    program->node_frames.map = cpsi_arena_take(arena, 2 * stops, sizeof *program->node_frames.map);
-    program->node_frames.normal =
-        cpsi_arena_take(arena, stops, sizeof *program->node_frames.normal);
-    program->node_frames.curvature =
-        cpsi_arena_take(arena, stops, sizeof *program->node_frames.curvature);
-    program->node_frames.second =
-        (CpsiMatrixSecond){.column = CPSI_TAKE(arena, 3 * second, double),
-                           .row = CPSI_TAKE(arena, 3 * second, double),
-                           .compliance = CPSI_TAKE(arena, second, double)};
-    program->node_frames.second_reaction_change = CPSI_TAKE(arena, second, double);
+    CPSI_PLACE(arena, program->node_frames.frame, 9 * n * (points ? 2 : 1));
+    if (points) CPSI_PLACE(arena, program->node_frames.share, n);
+    CPSI_PLACE(arena, program->node_frames.offset, 2 * stops);
+    CPSI_PLACE(arena, program->node_frames.map, 2 * stops);
+    CPSI_PLACE(arena, program->node_frames.normal, stops);
+    CPSI_PLACE(arena, program->node_frames.curvature, stops);
+    CPSI_PLACE(arena, program->node_frames.second.column, 3 * second);
+    CPSI_PLACE(arena, program->node_frames.second.row, 3 * second);
+    CPSI_PLACE(arena, program->node_frames.second.compliance, second);
+    CPSI_PLACE(arena, program->node_frames.second_reaction_change, second);
     program->node_frames.has_second_contacts = contacts > 1;
 }
 
@@ -212,45 +210,42 @@ void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes) 
     program->matrix.share = NULL;
 }
 
+void cpsi_chain_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int stops, int discs,
+                       bool second, bool points, const CpsiLinsysOps *ops) {
+    const size_t places = (size_t)n * (points ? 2 : 1);
+    CpsiMatrix *matrix = &program->matrix;
+    program->base.clear = clear;
+    program->base.factor = factor;
+    program->base.solve = solve;
+    program->base.imbalance = imbalance;
+    program->ops = ops;
+    CPSI_PLACE(arena, program->base.load, 3 * places);
+    CPSI_PLACE(arena, program->base.u, 3 * places);
+    CPSI_PLACE(arena, program->base.du, 3 * places);
+    CPSI_PLACE(arena, program->base.residual, 3 * places);
+    layout_segment(&program->segment, arena, n);
+    layout_disc(&program->disc, arena, discs);
+    layout_unilateral(&program->unilateral, arena, stops);
+    CPSI_PLACE(arena, program->held, n);
+    CPSI_PLACE(arena, program->dt, n);
+    matrix->held = program->held;
+    CPSI_PLACE(arena, matrix->stiffness, n);
+    CPSI_PLACE(arena, matrix->direction, 3 * (size_t)n);
+    CPSI_PLACE(arena, matrix->compliance, n);
+    layout_right_hand_sides(program, arena, n, discs, stops, points);
+    layout_factor(program, arena, n, discs, second, points);
+}
+
 void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts,
                                bool points, const CpsiConicSet *largest, const CpsiLinsysOps *ops) {
     static const CpsiKind *const kinds[] = {&cpsi_segment, &cpsi_drag, &cpsi_unilateral,
                                             &cpsi_friction_disc, &cpsi_friction_conic};
-    const int all = sizeof kinds / sizeof *kinds;
-    const size_t places = (size_t)n * (points ? 2 : 1), size = 3 * places;
-    const int stops = (contacts > 1 ? contacts * n : n) + (points ? n : 0),
-              discs = contacts > 0 ? 2 * stops : n;
-    program->base = (CpsiProgram){
-        .load = CPSI_TAKE(arena, size, double),
-        .u = CPSI_TAKE(arena, size, double),
-        .du = CPSI_TAKE(arena, size, double),
-        .residual = CPSI_TAKE(arena, size, double),
-        .kind_count = largest ? all : all - 1,
-        .kind = kinds,
-        .clear = clear,
-        .factor = factor,
-        .solve = solve,
-        .imbalance = imbalance,
-    };
-    layout_segment(&program->segment, arena, n);
-    program->drag = 0;
-    program->bounds_coupled = false;
-    layout_disc(&program->disc, arena, discs);
-    layout_unilateral(&program->unilateral, arena, stops);
-    program->conic = (CpsiFrictionConic){0};
-    if (largest) cpsi_friction_conic_layout(&program->conic, arena, (int)places, stops, largest);
-    memset(&program->node_frames, 0, sizeof program->node_frames);
+    const int all = sizeof kinds / sizeof *kinds, places = points ? 2 * n : n,
+              stops = (contacts > 1 ? contacts * n : n) + (points ? n : 0);
+    *program = (CpsiChainProgram){.base = {.kind = kinds, .kind_count = largest ? all : all - 1}};
+    if (largest) cpsi_friction_conic_layout(&program->conic, arena, places, stops, largest);
     if (contacts > 0) layout_own(program, arena, n, contacts, points);
-    program->held = CPSI_TAKE(arena, n, unsigned char);
-    program->dt = CPSI_TAKE(arena, n, double);
-    program->matrix = (CpsiMatrix){
-        .held = program->held,
-        .stiffness = CPSI_TAKE(arena, n, double),
-        .direction = CPSI_TAKE(arena, 3 * (size_t)n, double),
-        .compliance = CPSI_TAKE(arena, n, double),
-    };
-    program->ops = ops;
-    layout_right_hand_sides(program, arena, n, discs, stops, points);
-    layout_factor(program, arena, n, discs, contacts > 1, points);
+    cpsi_chain_layout(program, arena, n, stops, contacts > 0 ? 2 * stops : n, contacts > 1, points,
+                      ops);
     cpsi_chain_program_resize(program, n, false);
 }

@@ -38,6 +38,12 @@
 
 #include "chain/elements.h"
 
+/* Place the arrays of segments, unilateral contacts and friction discs, at most `stops` and `discs`
+ * of them, and the linear system of a program whose kinds are set; with second directions and
+ * points, or without. The factor comes last. */
+void cpsi_chain_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int stops, int discs,
+                       bool second, bool points, const CpsiLinsysOps *ops);
+
 /* Place a program for at most n nodes in the arena; `contacts`: 0, or nodes may have axes of their
  * own and 1 or 2 unilateral contacts, with two friction discs each; `points`: elements may also
  * have a point, with one such contact; `largest`: the sizes that no friction conic exceeds, or NULL

@@ -32,15 +32,15 @@ static size_t point_at(const CpsiMatrix *a, size_t j) {
 
 static CpsiLinsys *dense_layout(CpsiArena *arena, int n, bool second, bool points,
                                 size_t *scratch) {
-    Dense *dense = CPSI_TAKE(arena, 1, Dense);
+    Dense measured, *placed = cpsi_arena_take(arena, 1, sizeof *placed),
+                    *dense = placed ? placed : &measured;
     *scratch = arena->used;
     const size_t size = (size_t)(4 + (second ? 1 : 0) + (points ? 3 : 0)) * (size_t)n;
-    double *lu = CPSI_TAKE(arena, size * size, double), *b = CPSI_TAKE(arena, size, double);
-    int *row = CPSI_TAKE(arena, size, int);
-    const CpsiUnknowns one = cpsi_unknowns_layout(arena, points ? n : 0),
-                       other = cpsi_unknowns_layout(arena, points ? n : 0);
-    if (dense) *dense = (Dense){.lu = lu, .row = row, .b = b, .scratch = {one, other}};
-    return (CpsiLinsys *)dense;
+    CPSI_PLACE(arena, dense->lu, size * size);
+    CPSI_PLACE(arena, dense->b, size);
+    CPSI_PLACE(arena, dense->row, size);
+    for (int k = 0; k < 2; k++) dense->scratch[k] = cpsi_unknowns_layout(arena, points ? n : 0);
+    return (CpsiLinsys *)placed;
 }
 
 /* Entry (r, c) of D_j. */

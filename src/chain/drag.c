@@ -32,28 +32,4 @@ static void scale(CpsiProgram *base) {
 }
 
 /* The other passes have nothing to do: the term acts through the linear system alone. */
-static void start(CpsiProgram *base, double mu, double margin) {
-    (void)base;
-    (void)mu;
-    (void)margin;
-}
-static void load(CpsiProgram *base, double keep) {
-    (void)base;
-    (void)keep;
-}
-static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
-    (void)base;
-    (void)keep;
-    (void)predictor;
-    (void)sums;
-}
-static void aim(CpsiProgram *base, double target) {
-    (void)base;
-    (void)target;
-}
-static void advance(CpsiProgram *base, double alpha) {
-    (void)base;
-    (void)alpha;
-}
-
-const CpsiKind cpsi_drag = {start, measure, scale, NULL, load, direct, aim, aim, advance};
+const CpsiKind cpsi_drag = {.measure = measure, .scale = scale};

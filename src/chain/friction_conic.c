@@ -75,23 +75,23 @@ void cpsi_friction_conic_layout(CpsiFrictionConic *conic, CpsiArena *arena, int 
     const size_t spread = (size_t)largest->spread;
     conic->stride = 6 * unknowns + 6 * rows + (size_t)largest->cones + spread * unknowns;
     conic->index_stride = spread + unknowns;
-    conic->node = CPSI_TAKE(arena, count, int);
-    conic->contact = CPSI_TAKE(arena, count, int);
-    conic->second = CPSI_TAKE(arena, count, bool);
-    conic->unilateral = CPSI_TAKE(arena, count, int);
-    conic->form = CPSI_TAKE(arena, count, const CpsiConicSet *);
+    CPSI_PLACE(arena, conic->node, count);
+    CPSI_PLACE(arena, conic->contact, count);
+    CPSI_PLACE(arena, conic->second, count);
+    CPSI_PLACE(arena, conic->unilateral, count);
+    CPSI_PLACE(arena, conic->form, count);
     double **const scalars[] = {&conic->weight, &conic->friction, &conic->bound, &conic->d_bound,
                                 &conic->shift};
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++)
-        *scalars[i] = CPSI_TAKE(arena, count, double);
-    conic->offset = cpsi_arena_take(arena, count, sizeof *conic->offset);
-    conic->tangent = cpsi_arena_take(arena, count, sizeof *conic->tangent);
-    conic->turn = cpsi_arena_take(arena, count, sizeof *conic->turn);
-    conic->du = cpsi_arena_take(arena, count, sizeof *conic->du);
-    conic->frame = CPSI_TAKE(arena, 9 * (size_t)n, double);
-    conic->data = CPSI_TAKE(arena, count * conic->stride, double);
-    conic->index = CPSI_TAKE(arena, count * conic->index_stride, int);
-    conic->scratch = CPSI_TAKE(arena, 4 * spread + 2 * unknowns, double);
+        CPSI_PLACE(arena, *scalars[i], count);
+    CPSI_PLACE(arena, conic->offset, count);
+    CPSI_PLACE(arena, conic->tangent, count);
+    CPSI_PLACE(arena, conic->turn, count);
+    CPSI_PLACE(arena, conic->du, count);
+    CPSI_PLACE(arena, conic->frame, 9 * (size_t)n);
+    CPSI_PLACE(arena, conic->data, count * conic->stride);
+    CPSI_PLACE(arena, conic->index, count * conic->index_stride);
+    CPSI_PLACE(arena, conic->scratch, 4 * spread + 2 * unknowns);
 }
 
 /* ---- small products ---- */
@@ -446,26 +446,19 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     }
 }
 
-static void correct(CpsiProgram *base, double target) {
+static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiFrictionConic *conic = &cpsi_chain(base)->conic;
     for (int k = 0; k < conic->count; k++) {
         const Element e = element(conic, k);
+        if (!second_order)
+            for (int i = 0; i < e.form->rows; i++) e.ds[i] = e.dz[i] = 0;
         CPSI_FOR_CONES(c, i, e.form->cones, e.form->dim) {
-            const double aim = e.form->dim[c] > 1 ? cpsi_soc_aim(target, &e.s[i], &e.z[i]) : target;
-            cpsi_cone_correct(&e.q[i], e.form->dim[c], &e.w[i], e.g[c], &e.s[i], &e.z[i], &e.ds[i],
-                              &e.dz[i], aim, conic->scratch);
+            const int d = e.form->dim[c];
+            cpsi_cone_correct(&e.q[i], d, &e.w[i], e.g[c], &e.s[i], &e.z[i], &e.ds[i], &e.dz[i],
+                              d > 1 ? cpsi_soc_aim(target, &e.s[i], &e.z[i]) : target,
+                              conic->scratch);
         }
     }
-}
-
-/* As correct, without a second-order term. */
-static void centre(CpsiProgram *base, double target) {
-    CpsiFrictionConic *conic = &cpsi_chain(base)->conic;
-    for (int k = 0; k < conic->count; k++) {
-        const Element e = element(conic, k);
-        for (int i = 0; i < e.form->rows; i++) e.ds[i] = e.dz[i] = 0;
-    }
-    correct(base, target);
 }
 
 static void advance(CpsiProgram *base, double alpha) {
@@ -474,10 +467,7 @@ static void advance(CpsiProgram *base, double alpha) {
         const Element e = element(conic, k);
         conic->bound[k] += alpha * conic->d_bound[k];
         for (int j = 0; j < e.form->unknowns; j++) e.v[j] += alpha * e.dv[j];
-        for (int i = 0; i < e.form->rows; i++) {
-            e.s[i] += alpha * e.ds[i];
-            e.z[i] += alpha * e.dz[i];
-        }
+        cpsi_cone_advance((size_t)e.form->rows, alpha, e.s, e.ds, e.z, e.dz);
     }
 }
 
@@ -491,5 +481,4 @@ void cpsi_friction_conic_predict_bounds(CpsiFrictionConic *conic,
     }
 }
 
-const CpsiKind cpsi_friction_conic = {start,  measure, scale,  NULL,   load,
-                                      direct, correct, centre, advance};
+const CpsiKind cpsi_friction_conic = {start, measure, scale, NULL, load, direct, aim, advance};

@@ -25,7 +25,7 @@
 
 #include "base/larger.h"
 #include "chain/elements.h"
-#include "ipm/soc.h"
+#include "ipm/cone.h"
 
 /* Where bounds are coupled: the direction of the bound mu R of disc k, without the part that is
  * linear in n.du, and (bound_direction) all of it. */
@@ -188,18 +188,10 @@ static void aim(CpsiProgram *base, double target, bool second_order) {
         cpsi_soc_correct(disc->q[k], disc->s[k], disc->z[k], target, second_order, 3);
 }
 
-static void correct(CpsiProgram *base, double target) { aim(base, target, true); }
-
-static void centre(CpsiProgram *base, double target) { aim(base, target, false); }
-
 static void advance(CpsiProgram *base, double alpha) {
     CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
-    for (int k = 0; k < disc->count; k++)
-        for (int a = 0; a < 3; a++) {
-            disc->s[k][a] += alpha * disc->ds[k][a];
-            disc->z[k][a] += alpha * disc->dz[k][a];
-        }
+    cpsi_cone_advance(3 * (size_t)disc->count, alpha, disc->s[0], disc->ds[0], disc->z[0],
+                      disc->dz[0]);
 }
 
-const CpsiKind cpsi_friction_disc = {start,  measure, scale,  predict, load,
-                                     direct, correct, centre, advance};
+const CpsiKind cpsi_friction_disc = {start, measure, scale, predict, load, direct, aim, advance};

@@ -8,26 +8,19 @@
  *               half-spaces, any number at a node
  *           u_j in the span of its first `freedom` axes, 0 at held nodes
  *
- * The links are segments of chain_program.h with compliance 0. V > 0 is the expected size of u,
- * which makes the duals of order one. The objective is strongly convex: the solution is unique. */
+ * The links are segments of chain_program.h with compliance 0. The half-spaces are its unilateral
+ * contacts, all of them `second`: n_k is given in the axes of its node, 0 along axes that are not
+ * free. V > 0 is the expected size of u, which makes the duals of order one. The objective is
+ * strongly convex: the solution is unique. */
 #ifndef CAPSTAN_SRC_CHAIN_NEAREST_PROGRAM_H
 #define CAPSTAN_SRC_CHAIN_NEAREST_PROGRAM_H
 
 #include "chain/chain_program.h"
 
-typedef struct CpsiHalfSpace {
-    int count, capacity;
-    int *node;
-    double *weight;      /* (count) > 0 */
-    double *gap;         /* (count) g_k */
-    double (*normal)[3]; /* (count) n_k in the axes of its node, 0 along axes that are not free */
-    double *s, *z, *q, *ds, *dz; /* (count) */
-} CpsiHalfSpace;
-
 typedef struct CpsiNearestProgram {
-    CpsiChainProgram
-        chain; /* first member, so that its kinds can cast to it; without contacts and friction */
-    CpsiHalfSpace half;
+    /* first member, so that its kinds can cast to it; its unilateral contacts are the half-spaces
+     */
+    CpsiChainProgram chain;
     double *weight; /* (n) h_j */
     int *freedom;   /* (n) free axes of the node, 1..3 */
     double size;    /* V */

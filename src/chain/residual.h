@@ -19,9 +19,11 @@ typedef struct CpsiUnknowns {
 
 /* Place the arrays for n nodes with points. */
 static inline CpsiUnknowns cpsi_unknowns_layout(CpsiArena *arena, int n) {
-    return (CpsiUnknowns){.x = CPSI_TAKE(arena, 6 * (size_t)n, double),
-                          .t = CPSI_TAKE(arena, n, double),
-                          .f = CPSI_TAKE(arena, n, double)};
+    CpsiUnknowns unknowns;
+    CPSI_PLACE(arena, unknowns.x, 6 * (size_t)n);
+    CPSI_PLACE(arena, unknowns.t, n);
+    CPSI_PLACE(arena, unknowns.f, n);
+    return unknowns;
 }
 
 /* Subtract the left-hand sides at the unknowns from the right-hand sides; 0 at held nodes. */

@@ -152,7 +152,8 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     sums->inverse_step = cpsi_max_nan(sums->inverse_step, cpsi_cones_step(cones));
 }
 
-static void correct(CpsiProgram *base, double target) {
+static void aim(CpsiProgram *base, double target, bool second_order) {
+    (void)second_order; /* there are no centring steps */
     cpsi_cones_correct(&scalar(base)->cones, target);
 }
 
@@ -160,8 +161,7 @@ static void advance(CpsiProgram *base, double alpha) {
     cpsi_cones_advance(&scalar(base)->cones, alpha);
 }
 
-static const CpsiKind cones_kind = {start,  measure, scale, NULL,   load,
-                                    direct, correct, NULL,  advance};
+static const CpsiKind cones_kind = {start, measure, scale, NULL, load, direct, aim, advance};
 static const CpsiKind *const KINDS[] = {&cones_kind};
 
 /* the linear system ---------------------------------------------------------------------------- */
@@ -236,16 +236,14 @@ void cpsi_scalar_program_layout(CpsiScalarProgram *program, CpsiArena *arena, in
     *program = (CpsiScalarProgram){.max_sites = sites, .max_rows = rows, .max_scalars = scalars};
     CpsiProgram *base = &program->base;
     double **vector[] = {&base->load, &base->u, &base->du, &base->residual};
-    for (size_t k = 0; k < sizeof vector / sizeof *vector; k++)
-        *vector[k] = CPSI_TAKE(arena, size, double);
+    for (size_t k = 0; k < sizeof vector / sizeof *vector; k++) CPSI_PLACE(arena, *vector[k], size);
     double **per_scalar[] = {&program->weight, &program->diagonal, &program->off, &program->pivot};
     for (size_t k = 0; k < sizeof per_scalar / sizeof *per_scalar; k++)
-        *per_scalar[k] = CPSI_TAKE(arena, scalars, double);
-    program->site = CPSI_TAKE(arena, sites, CpsiSite);
-    program->g =
-        (double(*)[CPSI_SITE_SEEN])(void *)CPSI_TAKE(arena, CPSI_SITE_SEEN * (size_t)rows, double);
-    program->h = CPSI_TAKE(arena, rows, double);
-    program->dim = CPSI_TAKE(arena, rows, int);
+        CPSI_PLACE(arena, *per_scalar[k], scalars);
+    CPSI_PLACE(arena, program->site, sites);
+    CPSI_PLACE(arena, program->g, rows);
+    CPSI_PLACE(arena, program->h, rows);
+    CPSI_PLACE(arena, program->dim, rows);
     cpsi_cones_layout(arena, &program->cones, rows, rows, 3);
     base->kind_count = 1;
     base->kind = KINDS;

@@ -20,7 +20,7 @@
 #include "base/larger.h"
 #include "chain/elements.h"
 #include "chain/frame.h"
-#include "ipm/soc.h"
+#include "ipm/cone.h"
 
 /* 1 - c g is kept this far from 0, so that a stays finite: the step is inexact by as much. */
 static const double LEAST_STIFFENING = 1e-13;
@@ -186,19 +186,11 @@ static void aim(CpsiProgram *base, double target, bool second_order) {
         cpsi_soc_correct(st->q[i], st->s[i], st->z[i], target, second_order, 4);
 }
 
-static void correct(CpsiProgram *base, double target) { aim(base, target, true); }
-
-static void centre(CpsiProgram *base, double target) { aim(base, target, false); }
-
 static void advance(CpsiProgram *base, double alpha) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiSegment *st = &program->segment;
-    for (int i = 1; i < program->n; i++)
-        for (int a = 0; a < 4; a++) {
-            st->s[i][a] += alpha * st->ds[i][a];
-            st->z[i][a] += alpha * st->dz[i][a];
-        }
+    cpsi_cone_advance(4 * ((size_t)program->n - 1), alpha, st->s[1], st->ds[1], st->z[1],
+                      st->dz[1]);
 }
 
-const CpsiKind cpsi_segment = {start,  measure, scale,  predict, load,
-                               direct, correct, centre, advance};
+const CpsiKind cpsi_segment = {start, measure, scale, predict, load, direct, aim, advance};

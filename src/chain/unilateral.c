@@ -6,11 +6,12 @@
  *
  * Linearised: dz = q - (z/s) ds, ds = n.du + rho, rho = gap + n.u - s. So the node's block gains w
  * (z/s) n n^T: for a first contact in its entry zz, for a second contact as a second direction
- * (chain_system.h). */
+ * (chain_system.h), or in all its entries where the matrix has no second directions. */
 #include <math.h>
 
 #include "base/larger.h"
 #include "chain/elements.h"
+#include "ipm/cone.h"
 
 static void start(CpsiProgram *base, double mu, double margin) {
     CpsiChainProgram *program = cpsi_chain(base);
@@ -62,15 +63,22 @@ static void scale(CpsiProgram *base) {
             for (int a = 0; a < 6; a++)
                 program->matrix.diagonal[6 * node + a] -=
                     unilateral->weight[k] * unilateral->curvature[k][a];
-        if (!unilateral->normal || !unilateral->second[k]) {
-            program->matrix.diagonal[6 * node + 5] +=
-                unilateral->weight[k] * unilateral->z[k] / unilateral->s[k];
-            continue;
+        const double by = unilateral->weight[k] * unilateral->z[k] / unilateral->s[k];
+        double *diagonal = &program->matrix.diagonal[6 * node];
+        const double *n = unilateral->normal ? unilateral->normal[k] : NULL;
+        const CpsiMatrixSecond *second = program->matrix.second;
+        if (!n || !unilateral->second[k]) {
+            diagonal[5] += by;
+        } else if (second) {
+            for (int a = 0; a < 3; a++)
+                second->row[3 * node + a] = second->column[3 * node + a] = n[a];
+            second->compliance[node] =
+                unilateral->s[k] / (unilateral->weight[k] * unilateral->z[k]);
+        } else {
+            const double outer[6] = {n[0] * n[0], n[0] * n[1], n[1] * n[1],
+                                     n[0] * n[2], n[1] * n[2], n[2] * n[2]};
+            for (int a = 0; a < 6; a++) diagonal[a] += by * outer[a];
         }
-        const CpsiMatrixSecond *second = &program->node_frames.second;
-        for (int a = 0; a < 3; a++)
-            second->row[3 * node + a] = second->column[3 * node + a] = unilateral->normal[k][a];
-        second->compliance[node] = unilateral->s[k] / (unilateral->weight[k] * unilateral->z[k]);
     }
 }
 
@@ -98,8 +106,8 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         const double rho = keep * cpsi_unilateral_residual(program, k);
         double ds = cpsi_unilateral_rise(unilateral, k, base->du) + rho,
                dz = unilateral->q[k] - z / s * ds;
-        if (unilateral->second[k] &&
-            z > s) { /* n is oblique to the axes of du: n.du has too few digits */
+        /* n is oblique to the axes of du: n.du has too few digits */
+        if (program->matrix.second && unilateral->second[k] && z > s) {
             dz = unilateral->q[k] -
                  program->node_frames.second_reaction_change[unilateral->node[k]] /
                      unilateral->weight[k] -
@@ -123,18 +131,11 @@ static void aim(CpsiProgram *base, double target, bool second_order) {
             -unilateral->z[k] + target / unilateral->s[k] - (second_order ? unilateral->q[k] : 0);
 }
 
-static void correct(CpsiProgram *base, double target) { aim(base, target, true); }
-
-static void centre(CpsiProgram *base, double target) { aim(base, target, false); }
-
 static void advance(CpsiProgram *base, double alpha) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiUnilateral *unilateral = &program->unilateral;
-    for (int k = 0; k < unilateral->count; k++) {
-        unilateral->s[k] += alpha * unilateral->ds[k];
-        unilateral->z[k] += alpha * unilateral->dz[k];
-    }
+    cpsi_cone_advance((size_t)unilateral->count, alpha, unilateral->s, unilateral->ds,
+                      unilateral->z, unilateral->dz);
 }
 
-const CpsiKind cpsi_unilateral = {start,  measure, scale,  predict, load,
-                                  direct, correct, centre, advance};
+const CpsiKind cpsi_unilateral = {start, measure, scale, predict, load, direct, aim, advance};

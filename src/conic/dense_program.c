@@ -161,16 +161,16 @@ static const CpsiConicOperator DENSE = {multiply, multiply_transposed, offset, s
 
 CpsiConicProgram *cpsi_conic_layout(CpsiArena *arena, int unknowns, int rows, int cones,
                                     int largest_cone) {
-    CpsiConicProgram unplaced, *placed = CPSI_TAKE(arena, 1, CpsiConicProgram),
+    CpsiConicProgram unplaced, *placed = cpsi_arena_take(arena, 1, sizeof *placed),
                                *program = placed ? placed : &unplaced;
     const size_t m = (size_t)rows, size = (size_t)unknowns + 1 + m;
     cpsi_homogeneous_layout(&program->core, arena, &DENSE, unknowns, 0, rows, cones, largest_cone);
-    program->matrix = CPSI_TAKE(arena, size * size, double);
-    program->lu = CPSI_TAKE(arena, size * size, double);
-    program->fix = CPSI_TAKE(arena, 3 * size, double);
-    program->pivot = CPSI_TAKE(arena, size, int);
-    program->at = CPSI_TAKE(arena, m, int);
-    program->active = CPSI_TAKE(arena, cones, CpsiActive);
+    CPSI_PLACE(arena, program->matrix, size * size);
+    CPSI_PLACE(arena, program->lu, size * size);
+    CPSI_PLACE(arena, program->fix, 3 * size);
+    CPSI_PLACE(arena, program->pivot, size);
+    CPSI_PLACE(arena, program->at, m);
+    CPSI_PLACE(arena, program->active, cones);
     return placed;
 }
 

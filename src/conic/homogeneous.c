@@ -141,7 +141,8 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
                      cpsi_max_nan(-d_tau / tau, -program->d_kappa / program->kappa));
 }
 
-static void correct(CpsiProgram *base, double target) {
+static void aim(CpsiProgram *base, double target, bool second_order) {
+    (void)second_order; /* there are no centring steps */
     CpsiHomogeneous *program = homogeneous(base);
     const int at = cpsi_homogeneous_tau(program);
     cpsi_cones_correct(&program->cones, target);
@@ -154,8 +155,7 @@ static void advance(CpsiProgram *base, double alpha) {
     program->kappa += alpha * program->d_kappa;
 }
 
-static const CpsiKind HOMOGENEOUS = {start,  measure, scale, NULL,   load,
-                                     direct, correct, NULL,  advance};
+static const CpsiKind HOMOGENEOUS = {start, measure, scale, NULL, load, direct, aim, advance};
 static const CpsiKind *const KINDS[] = {&HOMOGENEOUS};
 
 static void clear(CpsiProgram *base) { (void)base; /* `scale` and `factor` write every entry */ }
@@ -172,8 +172,8 @@ void cpsi_homogeneous_layout(CpsiHomogeneous *program, CpsiArena *arena,
                  size = free_of_cones + (size_t)rows;
     *program = (CpsiHomogeneous){.operator= operator, .unknowns = unknowns, .equations = equations};
     cpsi_cones_layout(arena, &program->cones, rows, cones, largest_cone);
-    double *loop = CPSI_TAKE(arena, 4 * size, double);
-    program->best = CPSI_TAKE(arena, free_of_cones + 2 * (size_t)rows, double);
+    double *loop = cpsi_arena_take(arena, 4 * size, sizeof *loop);
+    CPSI_PLACE(arena, program->best, free_of_cones + 2 * (size_t)rows);
     if (!loop) return;
     program->base = (CpsiProgram){.size = (int)size,
                                   .load = loop,

@@ -59,15 +59,15 @@ static void lay(CpsiArena *arena, CpsiSparseProgram *program, const Sizes *sizes
                  all = size + rows;
     cpsi_homogeneous_layout(&program->core, arena, &cpsi_sparse_operator, d->unknowns, d->equations,
                             (int)rows, (int)sizes->cones, (int)sizes->largest);
-    program->dim = CPSI_TAKE(arena, sizes->cones, int);
-    program->b = CPSI_TAKE(arena, rows, double);
-    program->scaled_a = CPSI_TAKE(arena, sizes->squares, double);
-    program->scaled_b = CPSI_TAKE(arena, rows, double);
-    program->at = CPSI_TAKE(arena, 2 * (size_t)d->blocks, size_t);
-    program->value = CPSI_TAKE(arena, entries, double);
-    program->regular = CPSI_TAKE(arena, size, double);
-    program->sign = CPSI_TAKE(arena, size, signed char);
-    double *vectors = CPSI_TAKE(arena, 5 * (all + 1), double);
+    CPSI_PLACE(arena, program->dim, sizes->cones);
+    CPSI_PLACE(arena, program->b, rows);
+    CPSI_PLACE(arena, program->scaled_a, sizes->squares);
+    CPSI_PLACE(arena, program->scaled_b, rows);
+    CPSI_PLACE(arena, program->at, 2 * (size_t)d->blocks);
+    CPSI_PLACE(arena, program->value, entries);
+    CPSI_PLACE(arena, program->regular, size);
+    CPSI_PLACE(arena, program->sign, size);
+    double *vectors = cpsi_arena_take(arena, 5 * (all + 1), sizeof *vectors);
     if (!vectors) return;
     program->place = program->at + d->blocks;
     CpsiTriple *const vector[] = {&program->right, &program->left, &program->fix, &program->turned,

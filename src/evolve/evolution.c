@@ -31,7 +31,7 @@
 
 static char *copy_name(CpsiArena *arena, const char *name) {
     const size_t size = strlen(name) + 1;
-    char *copy = CPSI_TAKE(arena, size, char);
+    char *copy = cpsi_arena_take(arena, size, 1);
     if (copy) memcpy(copy, name, size);
     return copy;
 }
@@ -65,21 +65,21 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     CpsEvolution measured = {0};
     CpsiLine any = {0};
     CpsiEvolutionStage none = {0};
-    CpsEvolution *placed = CPSI_TAKE(arena, 1, CpsEvolution),
+    CpsEvolution *placed = cpsi_arena_take(arena, 1, sizeof *placed),
                  *evolution = placed ? placed : &measured;
     const bool real = placed != NULL;
-    evolution->line = CPSI_TAKE(arena, scene->line_count, CpsiLine);
-    evolution->is_static = CPSI_TAKE(arena, scene->line_count, bool);
-    evolution->mass = CPSI_TAKE(arena, scene->line_count, double);
-    evolution->stage = CPSI_TAKE(arena, scene->stage_count + 1, CpsiEvolutionStage);
-    evolution->obstacle = CPSI_TAKE(arena, scene->obstacle_count + 1, CpsiObstacle);
-    evolution->obstacle_name = CPSI_TAKE(arena, scene->obstacle_count + 1, const char *);
+    CPSI_PLACE(arena, evolution->line, scene->line_count);
+    CPSI_PLACE(arena, evolution->is_static, scene->line_count);
+    CPSI_PLACE(arena, evolution->mass, scene->line_count);
+    CPSI_PLACE(arena, evolution->stage, scene->stage_count + 1);
+    CPSI_PLACE(arena, evolution->obstacle, scene->obstacle_count + 1);
+    CPSI_PLACE(arena, evolution->obstacle_name, scene->obstacle_count + 1);
     for (int k = 0; k < scene->obstacle_count; k++) {
         const char *name = copy_name(arena, scene->obstacle[k].name);
         if (real) evolution->obstacle_name[k] = name;
     }
-    evolution->angle = CPSI_TAKE(arena, scene->obstacle_count + 1, double);
-    evolution->move = CPSI_TAKE(arena, scene->line_count, CpsiMove);
+    CPSI_PLACE(arena, evolution->angle, scene->obstacle_count + 1);
+    CPSI_PLACE(arena, evolution->move, scene->line_count);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
                               .contacts = scene->obstacle_count > 1 ? 2 : 1,
                               .element_contacts = scene_has_element_contacts(scene) ? 1 : 0,
@@ -106,13 +106,13 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     for (int i = 0; i < scene->stage_count; i++) {
         CpsiEvolutionStage *stage = real ? &evolution->stage[i] : &none;
         stage->name = copy_name(arena, scene->stage[i].name);
-        stage->change = CPSI_TAKE(arena, scene->stage[i].change_count, CpsiChange);
-        stage->turn = CPSI_TAKE(arena, scene->stage[i].turn_count, CpsTurn);
+        CPSI_PLACE(arena, stage->change, scene->stage[i].change_count);
+        CPSI_PLACE(arena, stage->turn, scene->stage[i].turn_count);
     }
     cpsi_view_layout(&evolution->fill, arena, size.nodes);
     if (real) cpsi_view_fill(&evolution->fill, size.nodes);
     evolution->workspace_count = workspace_count(scene);
-    evolution->workspace = CPSI_TAKE(arena, evolution->workspace_count, CpsiWorkspace);
+    CPSI_PLACE(arena, evolution->workspace, evolution->workspace_count);
     CpsiWorkspace nothing = {0};
     for (int i = 0; i < evolution->workspace_count; i++)
         cpsi_workspace_layout(real ? &evolution->workspace[i] : &nothing, arena, &size);

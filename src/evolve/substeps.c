@@ -76,12 +76,12 @@ static const double ROUNDING = 1e-9;
 void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int contacts,
                           bool path_tolerance) {
     const size_t all = (size_t)contacts * (size_t)n;
-    scratch->reaction = CPSI_TAKE(arena, all, double);
-    scratch->tension = CPSI_TAKE(arena, n, double);
-    scratch->state = CPSI_TAKE(arena, all, unsigned char);
-    scratch->obstacle_index = CPSI_TAKE(arena, all, int);
-    scratch->position = CPSI_TAKE(arena, 3 * (size_t)n, double);
-    scratch->trial = path_tolerance ? CPSI_TAKE(arena, 4 * (size_t)n, double) : NULL;
+    CPSI_PLACE(arena, scratch->reaction, all);
+    CPSI_PLACE(arena, scratch->tension, n);
+    CPSI_PLACE(arena, scratch->state, all);
+    CPSI_PLACE(arena, scratch->obstacle_index, all);
+    CPSI_PLACE(arena, scratch->position, 3 * (size_t)n);
+    if (path_tolerance) CPSI_PLACE(arena, scratch->trial, 4 * (size_t)n);
 }
 
 void cpsi_substeps_save(const CpsiLine *line, CpsiSubsteps *scratch) {

@@ -3,11 +3,11 @@
 #include "evolve/view.h"
 
 void cpsi_view_layout(CpsiViewFill *fill, CpsiArena *arena, int n) {
-    fill->zero = CPSI_TAKE(arena, 3 * n, double);
-    fill->one = CPSI_TAKE(arena, n, double);
-    fill->first = CPSI_TAKE(arena, n, int);
-    fill->none = CPSI_TAKE(arena, n, int);
-    fill->state = CPSI_TAKE(arena, n, unsigned char);
+    CPSI_PLACE(arena, fill->zero, 3 * n);
+    CPSI_PLACE(arena, fill->one, n);
+    CPSI_PLACE(arena, fill->first, n);
+    CPSI_PLACE(arena, fill->none, n);
+    CPSI_PLACE(arena, fill->state, n);
 }
 
 void cpsi_view_fill(CpsiViewFill *fill, int n) {

@@ -46,7 +46,7 @@ CpsStatus cpsi_friction_sets_make(const CpsScene *scene, CpsiFrictionSets *out,
 void cpsi_workspace_layout(CpsiWorkspace *workspace, CpsiArena *arena,
                            const CpsiWorkspaceSize *size) {
     const int contacts = size->contacts + size->element_contacts;
-    workspace->scratch.turn = CPSI_TAKE(arena, size->obstacles + 1, double);
+    CPSI_PLACE(arena, workspace->scratch.turn, size->obstacles + 1);
     cpsi_substeps_layout(&workspace->scratch, arena, size->nodes, contacts,
                          size->has_path_tolerance);
     if (size->inextensible_nodes > 0)

@@ -5,6 +5,8 @@
 #ifndef CAPSTAN_SRC_IPM_CONE_H
 #define CAPSTAN_SRC_IPM_CONE_H
 
+#include <stddef.h>
+
 #include "base/larger.h"
 #include "ipm/soc.h"
 
@@ -58,6 +60,15 @@ static inline void cpsi_cone_correct(double *q, int d, const double *w, double g
     const double inverse = target / cpsi_soc_det(s, d);
     q[0] = -z[0] + inverse * s[0] - g * two[0];
     for (int r = 1; r < d; r++) q[r] = -z[r] - inverse * s[r] - g * two[r];
+}
+
+/* s += alpha ds, z += alpha dz, of cones of `count` rows in all. */
+static inline void cpsi_cone_advance(size_t count, double alpha, double *s, const double *ds,
+                                     double *z, const double *dz) {
+    for (size_t i = 0; i < count; i++) {
+        s[i] += alpha * ds[i];
+        z[i] += alpha * dz[i];
+    }
 }
 
 #endif

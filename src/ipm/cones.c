@@ -8,7 +8,7 @@
 
 void cpsi_cones_layout(CpsiArena *arena, CpsiCones *cones, int rows, int count, int largest) {
     const size_t m = (size_t)rows;
-    double *at = CPSI_TAKE(arena, 7 * m + (size_t)count + 4 * (size_t)largest, double);
+    double *at = cpsi_arena_take(arena, 7 * m + (size_t)count + 4 * (size_t)largest, sizeof *at);
     *cones = (CpsiCones){.rows = rows, .count = count};
     if (!at) return;
     double **part[] = {&cones->s, &cones->z, &cones->ds, &cones->dz,
@@ -56,8 +56,5 @@ void cpsi_cones_correct(CpsiCones *cones, double target) {
 }
 
 void cpsi_cones_advance(CpsiCones *cones, double alpha) {
-    for (int i = 0; i < cones->rows; i++) {
-        cones->s[i] += alpha * cones->ds[i];
-        cones->z[i] += alpha * cones->dz[i];
-    }
+    cpsi_cone_advance((size_t)cones->rows, alpha, cones->s, cones->ds, cones->z, cones->dz);
 }

@@ -38,7 +38,7 @@ static const double FAR = 1e8;
 
 static void start(CpsiProgram *program) {
     for (int k = 0; k < program->kind_count; k++)
-        program->kind[k]->start(program, START_MU, START_MARGIN);
+        if (program->kind[k]->start) program->kind[k]->start(program, START_MU, START_MARGIN);
 }
 
 /* Residuals and complementarity of the iterate. */
@@ -61,10 +61,11 @@ static bool scale_and_factor(CpsiProgram *program) {
 static CpsiSums direction(CpsiProgram *program, double keep, bool predictor) {
     CpsiSums sums = {0};
     for (int i = 0; i < program->size; i++) program->du[i] = keep * program->residual[i];
-    for (int k = 0; k < program->kind_count; k++) program->kind[k]->load(program, keep);
+    for (int k = 0; k < program->kind_count; k++)
+        if (program->kind[k]->load) program->kind[k]->load(program, keep);
     program->solve(program);
     for (int k = 0; k < program->kind_count; k++)
-        program->kind[k]->direct(program, keep, predictor, &sums);
+        if (program->kind[k]->direct) program->kind[k]->direct(program, keep, predictor, &sums);
     return sums;
 }
 
@@ -73,13 +74,15 @@ static void predict(CpsiProgram *program) {
         if (program->kind[k]->predict) program->kind[k]->predict(program);
 }
 
-static void correct(CpsiProgram *program, double target) {
-    for (int k = 0; k < program->kind_count; k++) program->kind[k]->correct(program, target);
+static void aim(CpsiProgram *program, double target, bool second_order) {
+    for (int k = 0; k < program->kind_count; k++)
+        if (program->kind[k]->aim) program->kind[k]->aim(program, target, second_order);
 }
 
 static void advance(CpsiProgram *program, double alpha) {
     for (int i = 0; i < program->size; i++) program->u[i] += alpha * program->du[i];
-    for (int k = 0; k < program->kind_count; k++) program->kind[k]->advance(program, alpha);
+    for (int k = 0; k < program->kind_count; k++)
+        if (program->kind[k]->advance) program->kind[k]->advance(program, alpha);
 }
 
 static double step_length(const CpsiSums *sums, double fraction) {
@@ -108,7 +111,7 @@ static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const Cp
     for (int k = 0; k < options->centering_steps + sharpenings; k++) {
         if (k >= options->centering_steps) mu *= SHARPER;
         if (!scale_and_factor(program)) return;
-        for (int i = 0; i < program->kind_count; i++) program->kind[i]->centre(program, mu);
+        aim(program, mu, false);
         const CpsiSums step = direction(program, 1, false);
         const double alpha = step_length(&step, CLOSE);
         if (!(alpha >= LEAST_STEP)) return;
@@ -193,7 +196,7 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
         /* Corrector: aims at s o z = sigma mu e, but never below what the target requires, since
          * the residuals may still need distance from the boundary. */
         const double least = 0.1 * options->target * (options->scale + sums.scale) / sums.weight;
-        correct(program, fmax(sigma * mu, least));
+        aim(program, fmax(sigma * mu, least), true);
         const CpsiSums corrector = direction(program, 1 - sigma, false);
         const double alpha = step_length(&corrector, FRACTION);
         if (!(alpha >= LEAST_STEP)) {

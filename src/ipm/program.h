@@ -36,7 +36,8 @@ typedef struct CpsiSums {
         ray_cost; /* sum of w c z0^2: > 0 where an element's quadratic energy grows with the ray */
 } CpsiSums;
 
-/* One kind of element. `keep` is the share of the residuals that a direction is to remove. */
+/* One kind of element. A pass in which a kind has nothing to do is NULL. `keep` is the share of the
+ * residuals that a direction is to remove. */
 typedef struct CpsiKind {
     /* a centred pair (s, z) near the iterate u, with s o z = mu e and s at a distance of about
      * `margin` from the boundary */
@@ -45,19 +46,16 @@ typedef struct CpsiKind {
     void (*measure)(CpsiProgram *program, CpsiSums *sums);
     /* the scaling; adds the condensed stiffness to the matrix */
     void (*scale)(CpsiProgram *program);
-    /* right-hand side q of the predictor, s o z -> 0; NULL: `scale` has computed it */
+    /* right-hand side q of the predictor, s o z -> 0, unless `scale` has computed it */
     void (*predict)(CpsiProgram *program);
     /* add to du, the right-hand side, the forces of q and of the residuals on the unknowns */
     void (*load)(CpsiProgram *program, double keep);
     /* direction (ds, dz) from du; step to the boundary; a predictor may store its second-order term
      * in q */
     void (*direct)(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums);
-    /* q of the corrector: s o z -> target e, less the second-order term of the preceding
-     * predictor */
-    void (*correct)(CpsiProgram *program, double target);
-    /* q of a centring step, s o z -> target e, without a predictor; NULL for programs that are
-     * solved without centring */
-    void (*centre)(CpsiProgram *program, double target);
+    /* q of s o z -> target e: of a corrector less the second-order term of the preceding predictor,
+     * of a centring step without one */
+    void (*aim)(CpsiProgram *program, double target, bool second_order);
     /* s += alpha ds, z += alpha dz */
     void (*advance)(CpsiProgram *program, double alpha);
 } CpsiKind;

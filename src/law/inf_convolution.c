@@ -86,22 +86,22 @@ static void count_up(Program *p, int count, const CpsiShare *share) {
 
 static void layout(CpsiArena *arena, Program *p) {
     const size_t u = (size_t)p->unknowns, n = (size_t)p->n, m = (size_t)p->rows;
-    p->space = CPSI_TAKE(arena, (u + (size_t)p->lines + 1) * n, double);
-    p->column = CPSI_TAKE(arena, n * (u + 1), double);
-    p->equation = CPSI_TAKE(arena, n * u, double);
-    p->rhs = CPSI_TAKE(arena, n, double);
-    p->basis = CPSI_TAKE(arena, u * u, double);
-    p->normal = CPSI_TAKE(arena, 3 * n * n + 2 * n, double);
-    p->start = CPSI_TAKE(arena, u, double);
-    p->row = CPSI_TAKE(arena, m * u, double);
-    p->row_left = CPSI_TAKE(arena, m * u, double);
-    p->offset = CPSI_TAKE(arena, m, double);
-    p->b = CPSI_TAKE(arena, m, double);
-    p->cost = CPSI_TAKE(arena, u, double);
-    p->c = CPSI_TAKE(arena, u, double);
-    p->y = CPSI_TAKE(arena, u, double);
-    p->w = CPSI_TAKE(arena, u, double);
-    p->dim = CPSI_TAKE(arena, p->cones, int);
+    CPSI_PLACE(arena, p->space, (u + (size_t)p->lines + 1) * n);
+    CPSI_PLACE(arena, p->column, n * (u + 1));
+    CPSI_PLACE(arena, p->equation, n * u);
+    CPSI_PLACE(arena, p->rhs, n);
+    CPSI_PLACE(arena, p->basis, u * u);
+    CPSI_PLACE(arena, p->normal, 3 * n * n + 2 * n);
+    CPSI_PLACE(arena, p->start, u);
+    CPSI_PLACE(arena, p->row, m * u);
+    CPSI_PLACE(arena, p->row_left, m * u);
+    CPSI_PLACE(arena, p->offset, m);
+    CPSI_PLACE(arena, p->b, m);
+    CPSI_PLACE(arena, p->cost, u);
+    CPSI_PLACE(arena, p->c, u);
+    CPSI_PLACE(arena, p->y, u);
+    CPSI_PLACE(arena, p->w, u);
+    CPSI_PLACE(arena, p->dim, p->cones);
 }
 
 /* ---- writing ---- */

@@ -54,21 +54,21 @@ const char *cps_first_order_verdict_text(CpsFirstOrderVerdict verdict) {
 static void layout(CpsFirstOrder *s, int elements, CpsiArena *arena) {
     const size_t m = (size_t)elements, n = m + 1;
     CpsiFirstOrder *f = &s->f;
-    f->tangent = CPSI_TAKE(arena, 3 * m, double);
-    f->stretch = CPSI_TAKE(arena, m, double);
-    f->strain = CPSI_TAKE(arena, m, double);
-    f->gap = CPSI_TAKE(arena, n, double);
-    f->u = CPSI_TAKE(arena, 3 * n, double);
-    f->before = CPSI_TAKE(arena, 3 * n, double);
-    f->friction = CPSI_TAKE(arena, 3 * n, double);
-    f->push = CPSI_TAKE(arena, n, double);
-    f->gradient = CPSI_TAKE(arena, 3 * n, double);
-    s->arc = CPSI_TAKE(arena, n, double);
-    s->tension = CPSI_TAKE(arena, 3 * m, double);
-    s->along = CPSI_TAKE(arena, m, double);
-    s->friction = CPSI_TAKE(arena, 3 * n, double);
-    s->unknown = CPSI_TAKE(arena, 3 * n, double);
-    s->work = CPSI_TAKE(arena, 3 * n * (4 + CPSI_FIRST_ORDER_BAND + 1), double);
+    CPSI_PLACE(arena, f->tangent, 3 * m);
+    CPSI_PLACE(arena, f->stretch, m);
+    CPSI_PLACE(arena, f->strain, m);
+    CPSI_PLACE(arena, f->gap, n);
+    CPSI_PLACE(arena, f->u, 3 * n);
+    CPSI_PLACE(arena, f->before, 3 * n);
+    CPSI_PLACE(arena, f->friction, 3 * n);
+    CPSI_PLACE(arena, f->push, n);
+    CPSI_PLACE(arena, f->gradient, 3 * n);
+    CPSI_PLACE(arena, s->arc, n);
+    CPSI_PLACE(arena, s->tension, 3 * m);
+    CPSI_PLACE(arena, s->along, m);
+    CPSI_PLACE(arena, s->friction, 3 * n);
+    CPSI_PLACE(arena, s->unknown, 3 * n);
+    CPSI_PLACE(arena, s->work, 3 * n * (4 + CPSI_FIRST_ORDER_BAND + 1));
 }
 
 /* a node at most this far from the obstacle, per length of the line, touches it, as with contact

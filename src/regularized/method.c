@@ -95,11 +95,11 @@ CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *classic) {
 static void layout(CpsRegularized *c, int cells, CpsiArena *arena) {
     cpsi_cells_place(&c->cells, &c->step, cells, arena);
     const size_t places = (size_t)c->cells.cells + 1;
-    c->f.place = CPSI_TAKE(arena, 3 * places, double);
-    c->f.gradient = CPSI_TAKE(arena, 3 * places, double);
-    c->unknown = CPSI_TAKE(arena, 3 * places, double);
-    c->work = CPSI_TAKE(arena, 3 * places * (4 + CPSI_REGULARIZED_BAND + 1), double);
-    c->tension = CPSI_TAKE(arena, places, double);
+    CPSI_PLACE(arena, c->f.place, 3 * places);
+    CPSI_PLACE(arena, c->f.gradient, 3 * places);
+    CPSI_PLACE(arena, c->unknown, 3 * places);
+    CPSI_PLACE(arena, c->work, 3 * places * (4 + CPSI_REGULARIZED_BAND + 1));
+    CPSI_PLACE(arena, c->tension, places);
 }
 
 /* the initial positions: the reference, or the last solution where the cells are the same */

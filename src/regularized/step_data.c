@@ -9,20 +9,20 @@
 #include "regularized/band_blocks.h"
 
 static void layout(CpsiCells *c, int cells, CpsiArena *arena) {
-    const int n = cells + 1;
-    *c = (CpsiCells){.cells = cells,
-                     .width = CPSI_TAKE(arena, cells, double),
-                     .bend = CPSI_TAKE(arena, cells, double),
-                     .arc = CPSI_TAKE(arena, n, double),
-                     .share = CPSI_TAKE(arena, n, double),
-                     .reference = CPSI_TAKE(arena, 3 * (size_t)n, double),
-                     .normal = CPSI_TAKE(arena, 3 * (size_t)n, double),
-                     .gap = CPSI_TAKE(arena, n, double),
-                     .bound = CPSI_TAKE(arena, n, double),
-                     .factor = CPSI_TAKE(arena, n, double),
-                     .load = CPSI_TAKE(arena, 3 * (size_t)n, double),
-                     .tension = CPSI_TAKE(arena, cells, double),
-                     .position = CPSI_TAKE(arena, 3 * (size_t)n, double)};
+    const size_t n = (size_t)cells + 1;
+    c->cells = cells;
+    CPSI_PLACE(arena, c->width, cells);
+    CPSI_PLACE(arena, c->bend, cells);
+    CPSI_PLACE(arena, c->arc, n);
+    CPSI_PLACE(arena, c->share, n);
+    CPSI_PLACE(arena, c->reference, 3 * n);
+    CPSI_PLACE(arena, c->normal, 3 * n);
+    CPSI_PLACE(arena, c->gap, n);
+    CPSI_PLACE(arena, c->bound, n);
+    CPSI_PLACE(arena, c->factor, n);
+    CPSI_PLACE(arena, c->load, 3 * n);
+    CPSI_PLACE(arena, c->tension, cells);
+    CPSI_PLACE(arena, c->position, 3 * n);
 }
 
 /* ---- the step ---- */

@@ -172,11 +172,11 @@ static double seconds(void) {
 }
 
 static void fill_view(CpsiArena *arena, int cells, CpsRegularizedView *view) {
-    *view = (CpsRegularizedView){.cell_count = cells,
-                                 .arc_length = CPSI_TAKE(arena, cells + 1, double),
-                                 .position = CPSI_TAKE(arena, 3 * ((size_t)cells + 1), double),
-                                 .tension = CPSI_TAKE(arena, cells, double),
-                                 .exact = CPSI_TAKE(arena, cells, double)};
+    view->cell_count = cells;
+    CPSI_PLACE(arena, view->arc_length, cells + 1);
+    CPSI_PLACE(arena, view->position, 3 * ((size_t)cells + 1));
+    CPSI_PLACE(arena, view->tension, cells);
+    CPSI_PLACE(arena, view->exact, cells);
 }
 
 static CpsStatus keep(Kept *kept, const CpsRegularizedView *view, CpsError *err) {

@@ -88,14 +88,14 @@ static void layout_work(CpsiArena *arena, Work *work, const CpsiConicRows *conic
     const size_t u = (size_t)conic->unknowns, w = u + 1;
     const size_t equations = conic->equations > conic->unknowns ? (size_t)conic->equations : u;
     const size_t rows = conic->rows > conic->unknowns ? (size_t)conic->rows : u;
-    work->equation = CPSI_TAKE(arena, equations * u, double);
-    work->rhs = CPSI_TAKE(arena, equations, double);
-    work->start = CPSI_TAKE(arena, u, double);
-    work->rows = CPSI_TAKE(arena, (size_t)conic->rows * w, double);
-    work->map = CPSI_TAKE(arena, (size_t)n * w, double);
-    work->reach = CPSI_TAKE(arena, n, double);
-    work->span = CPSI_TAKE(arena, rows * u, double);
-    work->lines = CPSI_TAKE(arena, ((size_t)lines + u) * (size_t)n, double);
+    CPSI_PLACE(arena, work->equation, equations * u);
+    CPSI_PLACE(arena, work->rhs, equations);
+    CPSI_PLACE(arena, work->start, u);
+    CPSI_PLACE(arena, work->rows, (size_t)conic->rows * w);
+    CPSI_PLACE(arena, work->map, (size_t)n * w);
+    CPSI_PLACE(arena, work->reach, n);
+    CPSI_PLACE(arena, work->span, rows * u);
+    CPSI_PLACE(arena, work->lines, ((size_t)lines + u) * (size_t)n);
 }
 
 /* Express rows (count, from + 1) over v as rows over t, v = start + basis' t, basis (to, from);

@@ -29,8 +29,8 @@ static void layout_program(CpsiArena *arena, Layout *layout, const CpsiConicForm
     const int unknowns = form->unknowns > 0 ? form->unknowns : 1;
     layout->program =
         cpsi_conic_layout(arena, unknowns, form->rows, form->cones, form->largest_cone);
-    layout->cost = CPSI_TAKE(arena, unknowns, double);
-    layout->x = CPSI_TAKE(arena, form->n, double);
+    CPSI_PLACE(arena, layout->cost, unknowns);
+    CPSI_PLACE(arena, layout->x, form->n);
 }
 
 void cpsi_solution_free(CpsiSolution *solution) {
