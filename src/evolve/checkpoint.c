@@ -81,11 +81,7 @@ static void pass_load_change(Tape *tape, CpsiLoadChange *change) {
 }
 
 static void pass_end_report(Tape *tape, CpsEndReport *end) {
-    PASS(tape, end->position);
-    PASS(tape, end->force);
-    PASS(tape, end->tension);
-    PASS(tape, end->work);
-    PASS(tape, end->friction_force);
+    pass(tape, end, offsetof(CpsEndReport, range)); /* numbers */
     CpsTensionRange *range = &end->range;
     PASS(tape, range->kind);
     pass_flag(tape, &range->has_values);
@@ -96,12 +92,7 @@ static void pass_end_report(Tape *tape, CpsEndReport *end) {
 }
 
 static void pass_bend(Tape *tape, CpsBend *bend) {
-    PASS(tape, bend->turn);
-    PASS(tape, bend->friction);
-    PASS(tape, bend->ratio);
-    PASS(tape, bend->coulomb);
-    PASS(tape, bend->arc_length);
-    PASS(tape, bend->element);
+    pass(tape, bend, offsetof(CpsBend, obstacle)); /* numbers */
     PASS(tape, bend->obstacle);
 }
 

@@ -1,23 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The history as CSV (RFC 4180): a row of names, a row of units, a row per step. The columns are
  * two tables, one for the step and one for each line; a value without meaning is an empty cell. */
-#include <math.h>
-#include <stddef.h>
-
+#include "io/base/columns.h"
 #include "io/base/escape.h"
 #include "io/results/writers.h"
 
-typedef struct Column {
-    const char *name, *unit;
-    size_t offset; /* offset of a double in the struct that the table describes */
-    size_t given;  /* offset of the flag that says whether it has a value; 0: always */
-} Column;
+#define STEP(member)          CPSI_MEMBER(CpsStepReport, member)
+#define LINE(member)          CPSI_MEMBER(CpsLineReport, member)
+#define LINE_IF(flag, member) CPSI_MEMBER_IF(CpsLineReport, flag, member)
 
-#define STEP(member)          offsetof(CpsStepReport, member), 0
-#define LINE(member)          offsetof(CpsLineReport, member), 0
-#define LINE_IF(flag, member) offsetof(CpsLineReport, member), offsetof(CpsLineReport, flag)
-
-static const Column STEP_COLUMN[] = {
+static const CpsiColumn STEP_COLUMN[] = {
     {"primal", "J", STEP(certificate.primal)},
     {"dual", "J", STEP(certificate.dual)},
     {"gap", "J", STEP(certificate.gap)},
@@ -45,7 +37,7 @@ static const Column STEP_COLUMN[] = {
         RANGE_COLUMN(letter, e, least_bound), RANGE_COLUMN(letter, e, greatest),                  \
         RANGE_COLUMN(letter, e, greatest_bound)
 
-static const Column LINE_COLUMN[] = {
+static const CpsiColumn LINE_COLUMN[] = {
     END_COLUMNS("A", CPS_END_A),
     END_COLUMNS("B", CPS_END_B),
     {"grounded", "m", LINE(grounded)},
@@ -64,27 +56,14 @@ enum {
     LINE_COLUMNS = sizeof LINE_COLUMN / sizeof LINE_COLUMN[0]
 };
 
-static double member(const void *report, const Column *column) {
-    const char *at = report;
-    if (column->given && !*(const bool *)(at + column->given)) return NAN;
-    return *(const double *)(const void *)(at + column->offset);
-}
-
 static void write_heads(FILE *out, const CpsResults *results) {
     fputs("step,name,outcome,iterations,parts,snaps,places_not_unique", out);
-    for (int i = 0; i < STEP_COLUMNS; ++i) fprintf(out, ",%s", STEP_COLUMN[i].name);
-    for (int l = 0; l < results->line_count; ++l) {
-        for (int i = 0; i < LINE_COLUMNS; ++i) {
-            char name[256];
-            snprintf(name, sizeof name, "%.200s.%s", results->line_name[l], LINE_COLUMN[i].name);
-            fputc(',', out);
-            cpsi_write_csv(out, name);
-        }
-    }
-    fputs("\n1,,,1,1,1,1", out);
-    for (int i = 0; i < STEP_COLUMNS; ++i) fprintf(out, ",%s", STEP_COLUMN[i].unit);
+    cpsi_csv_names(out, STEP_COLUMN, STEP_COLUMNS, NULL);
     for (int l = 0; l < results->line_count; ++l)
-        for (int i = 0; i < LINE_COLUMNS; ++i) fprintf(out, ",%s", LINE_COLUMN[i].unit);
+        cpsi_csv_names(out, LINE_COLUMN, LINE_COLUMNS, results->line_name[l]);
+    fputs("\n1,,,1,1,1,1", out);
+    cpsi_csv_units(out, STEP_COLUMN, STEP_COLUMNS);
+    for (int l = 0; l < results->line_count; ++l) cpsi_csv_units(out, LINE_COLUMN, LINE_COLUMNS);
     fputs("\n", out);
 }
 
@@ -97,16 +76,9 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
         fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_name(row->report.outcome),
                 row->report.iteration_count, row->report.part_count, row->report.snap_count,
                 (int)row->report.places);
-        for (int i = 0; i < STEP_COLUMNS; ++i) {
-            fputc(',', out);
-            cpsi_write_csv_number(out, member(&row->report, &STEP_COLUMN[i]));
-        }
-        for (int l = 0; l < results->line_count; ++l) {
-            for (int i = 0; i < LINE_COLUMNS; ++i) {
-                fputc(',', out);
-                cpsi_write_csv_number(out, member(&row->line[l].report, &LINE_COLUMN[i]));
-            }
-        }
+        cpsi_csv_values(out, STEP_COLUMN, STEP_COLUMNS, &row->report);
+        for (int l = 0; l < results->line_count; ++l)
+            cpsi_csv_values(out, LINE_COLUMN, LINE_COLUMNS, &row->line[l].report);
         fputs("\n", out);
     }
 }

@@ -5,16 +5,12 @@
 
 #include "base/status.h"
 #include "base/vec3.h"
+#include "io/base/columns.h"
 #include "io/base/escape.h"
 #include "io/base/file_set.h"
 #include "io/draw/methods_picture.h"
 
 enum { MAX_METHODS = 4 };
-
-static void write_number(FILE *out, double x) {
-    fputc(',', out);
-    cpsi_write_csv_number(out, x);
-}
 
 /* ---- a history by several methods ---- */
 
@@ -40,8 +36,8 @@ static void methods_table(const void *what, FILE *out) {
             cpsi_write_csv(out, m->step_name[s]);
             fputc(',', out);
             cpsi_write_csv(out, m->method[k].name);
-            for (int x = 0; x < 3; ++x) write_number(out, place(m, k, s, m->points - 1)[x]);
-            write_number(out, farthest(m, k, s));
+            for (int x = 0; x < 3; ++x) cpsi_csv_next(out, place(m, k, s, m->points - 1)[x]);
+            cpsi_csv_next(out, farthest(m, k, s));
             fputc('\n', out);
         }
 }
@@ -105,9 +101,9 @@ static void completed_table(const void *what, FILE *out) {
     for (int j = 0; j <= view->element_count; ++j) {
         cpsi_write_csv_number(out, view->arc_length[j]);
         for (int x = 0; x < 3; ++x)
-            write_number(out, view->origin[x] + c->position[c->chosen][3 * (size_t)j + (size_t)x]);
-        write_number(out, j > 0 ? view->tension[j - 1] : NAN);
-        write_number(out, view->reaction[j]);
+            cpsi_csv_next(out, view->origin[x] + c->position[c->chosen][3 * (size_t)j + (size_t)x]);
+        cpsi_csv_next(out, j > 0 ? view->tension[j - 1] : NAN);
+        cpsi_csv_next(out, view->reaction[j]);
         fputc('\n', out);
     }
 }

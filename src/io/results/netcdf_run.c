@@ -10,12 +10,12 @@
  * (the only shared state in capstan-io). */
 #include <math.h>
 #include <pthread.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "base/status.h"
+#include "io/base/columns.h"
 #include "io/base/escape.h"
 #include "io/results/fields.h"
 #include "io/results/netcdf_file.h"
@@ -29,16 +29,17 @@ enum { XYZ = 3, ENDS = 2, CONTACTS = 2, NAME_LENGTH = 96 };
 /* the format's limit on one variable in one record, in bytes (the specification of CDF-2) */
 static const uint64_t MAX_RECORD = 4294967292;
 
-#define REPORT(member)          offsetof(CpsLineReport, member), 0
-#define REPORT_IF(flag, member) offsetof(CpsLineReport, member), offsetof(CpsLineReport, flag)
+#define REPORT(member)          CPSI_MEMBER(CpsLineReport, member)
+#define REPORT_IF(flag, member) CPSI_MEMBER_IF(CpsLineReport, flag, member)
 #define CERTIFICATE(member)     REPORT(certificate.member)
 
-/* Numbers of CpsLineReport. */
+/* A number of a struct. */
 typedef struct Number {
     const char *name, *long_name, *units;
-    size_t offset, given; /* given: of the flag that says whether there is a value; 0: always */
+    CpsiMember member;
 } Number;
 
+/* Numbers of CpsLineReport. */
 static const Number NUMBER[] = {
     {"primal", "energy and friction work of the configuration", "J", CERTIFICATE(primal)},
     {"dual", "lower bound of the minimum, from the forces", "J", CERTIFICATE(dual)},
@@ -93,29 +94,25 @@ static const Number NUMBER[] = {
 };
 
 /* Numbers of CpsFrictionZone. */
-static const struct {
-    const char *name, *long_name, *units;
-    size_t offset;
-} ZONE[] = {
+static const Number ZONE[] = {
     {"zone_from", "natural abscissa at which the stretch begins", "m",
-     offsetof(CpsFrictionZone, from)},
-    {"zone_to", "natural abscissa at which it ends", "m", offsetof(CpsFrictionZone, to)},
+     CPSI_MEMBER(CpsFrictionZone, from)},
+    {"zone_to", "natural abscissa at which it ends", "m", CPSI_MEMBER(CpsFrictionZone, to)},
     {"zone_factor", "factor of the friction of whatever it touches, 1 elsewhere", "1",
-     offsetof(CpsFrictionZone, factor)},
+     CPSI_MEMBER(CpsFrictionZone, factor)},
 };
 
 /* Numbers of CpsTensionRange, of each end. */
-static const struct {
-    const char *name, *long_name;
-    size_t offset;
-} RANGE[] = {
+static const Number RANGE[] = {
     {"end_tension_least",
-     "least tension of the end's element by forces that hold the line where it is",
-     offsetof(CpsTensionRange, least)},
-    {"end_tension_least_bound", "bound of it", offsetof(CpsTensionRange, least_bound)},
-    {"end_tension_greatest", "the greatest, infinite where there is none",
-     offsetof(CpsTensionRange, greatest)},
-    {"end_tension_greatest_bound", "bound of it", offsetof(CpsTensionRange, greatest_bound)},
+     "least tension of the end's element by forces that hold the line where it is", "N",
+     CPSI_MEMBER_IF(CpsTensionRange, has_values, least)},
+    {"end_tension_least_bound", "bound of it", "N",
+     CPSI_MEMBER_IF(CpsTensionRange, has_values, least_bound)},
+    {"end_tension_greatest", "the greatest, infinite where there is none", "N",
+     CPSI_MEMBER_IF(CpsTensionRange, has_values, greatest)},
+    {"end_tension_greatest_bound", "bound of it", "N",
+     CPSI_MEMBER_IF(CpsTensionRange, has_values, greatest_bound)},
 };
 
 enum {
@@ -314,7 +311,7 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
                                             on_ends, "tension of the line at its ends", "N");
     for (int i = 0; i < RANGES; ++i) {
         ids->end_range[i] = cpsi_netcdf_variable(&nc->file, view->name, RANGE[i].name, NC_DOUBLE, 2,
-                                                 on_ends, RANGE[i].long_name, "N");
+                                                 on_ends, RANGE[i].long_name, RANGE[i].units);
         cpsi_netcdf_may_miss(&nc->file, ids->end_range[i]);
     }
     ids->outcome = add_outcome(nc, view->name);
@@ -342,7 +339,7 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     for (int i = 0; i < NUMBERS; ++i) {
         ids->number[i] = cpsi_netcdf_variable(&nc->file, view->name, NUMBER[i].name, NC_DOUBLE, 1,
                                               &nc->step, NUMBER[i].long_name, NUMBER[i].units);
-        if (NUMBER[i].given) cpsi_netcdf_may_miss(&nc->file, ids->number[i]);
+        if (NUMBER[i].member.flag) cpsi_netcdf_may_miss(&nc->file, ids->number[i]);
     }
 }
 
@@ -361,10 +358,6 @@ static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *
              ++c, array += along * (field->vector ? XYZ : 1))
             cpsi_netcdf_doubles(&nc->file, ids->field[f][c], start + fixed, count + fixed, array);
     }
-}
-
-static double number_at(const void *data, size_t offset) {
-    return *(const double *)(const void *)((const char *)data + offset);
 }
 
 static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view,
@@ -409,9 +402,7 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     for (int i = 0; i < RANGES; ++i) {
         double range[ENDS];
         for (int e = 0; e < ENDS; ++e)
-            range[e] = report->end[e].range.has_values
-                           ? number_at(&report->end[e].range, RANGE[i].offset)
-                           : NAN;
+            range[e] = cpsi_member(&report->end[e].range, RANGE[i].member);
         cpsi_netcdf_doubles(&nc->file, ids->end_range[i], start, ends, range);
     }
     cpsi_netcdf_doubles(&nc->file, ids->proof, start, vector, report->proof);
@@ -425,9 +416,7 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     cpsi_netcdf_int(&nc->file, ids->proof_obstacle, start,
                     report->has_proof_obstacle ? report->proof_obstacle : CPS_NO_OBSTACLE);
     for (int i = 0; i < NUMBERS; ++i) {
-        const bool *given = (const bool *)((const char *)report + NUMBER[i].given);
-        const double number =
-            NUMBER[i].given && !*given ? NAN : number_at(report, NUMBER[i].offset);
+        const double number = cpsi_member(report, NUMBER[i].member);
         cpsi_netcdf_doubles(&nc->file, ids->number[i], start, ONE, &number);
     }
 }
@@ -435,7 +424,7 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
 static void write_zones(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line) {
     for (size_t k = 0; k < (size_t)line->zone_count; ++k)
         for (int i = 0; i < ZONES; ++i) {
-            const double number = number_at(&line->zone[k], ZONE[i].offset);
+            const double number = cpsi_member(&line->zone[k], ZONE[i].member);
             cpsi_netcdf_doubles(&nc->file, ids->zone[i], &k, ONE, &number);
         }
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The files of a history by the regularised method alone: table, summary, a picture per line. */
-#include <stddef.h>
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "io/base/columns.h"
 #include "io/base/escape.h"
 #include "io/base/file_set.h"
 #include "io/draw/methods_picture.h"
@@ -13,48 +13,34 @@ static const char *const WARRANT =
     "none: a regularised solution is no equilibrium under dry friction; 'left' says by how much, "
     "against the certified step with frozen friction";
 
-typedef struct Column {
-    const char *name, *unit;
-    size_t offset; /* offset of a double in CpsRegularizedReport */
-    bool left;     /* whether it is one of the residuals of the summary */
-} Column;
+#define REPORT(member) CPSI_MEMBER(CpsRegularizedReport, member)
 
-#define REPORT(member) offsetof(CpsRegularizedReport, member)
-
-static const Column COLUMN[] = {
-    {"gradient", "N", REPORT(gradient), false},
-    {"total", "J", REPORT(total), false},
-    {"elastic", "J", REPORT(elastic), false},
-    {"potential", "J", REPORT(potential), false},
-    {"friction_energy", "J", REPORT(friction_energy), false},
-    {"bending", "J", REPORT(bending), false},
-    {"contact", "J", REPORT(contact), false},
-    {"compression", "N", REPORT(compression), true},
-    {"shortening", "-", REPORT(shortening), true},
-    {"penetration", "m", REPORT(penetration), true},
-    {"creep", "m", REPORT(creep), true},
-    {"friction_excess", "N", REPORT(friction_excess), true},
-    {"energy_error", "J", REPORT(energy_error), true},
-    {"tension_rms_error", "N", REPORT(tension_rms), true},
-    {"tension_max_error", "N", REPORT(tension_max), true},
-    {"position_max_error", "m", REPORT(position_max), true},
+static const CpsiColumn COLUMN[] = {
+    {"gradient", "N", REPORT(gradient)},
+    {"total", "J", REPORT(total)},
+    {"elastic", "J", REPORT(elastic)},
+    {"potential", "J", REPORT(potential)},
+    {"friction_energy", "J", REPORT(friction_energy)},
+    {"bending", "J", REPORT(bending)},
+    {"contact", "J", REPORT(contact)},
+    {"compression", "N", REPORT(compression)},
+    {"shortening", "-", REPORT(shortening)},
+    {"penetration", "m", REPORT(penetration)},
+    {"creep", "m", REPORT(creep)},
+    {"friction_excess", "N", REPORT(friction_excess)},
+    {"energy_error", "J", REPORT(energy_error)},
+    {"tension_rms_error", "N", REPORT(tension_rms)},
+    {"tension_max_error", "N", REPORT(tension_max)},
+    {"position_max_error", "m", REPORT(position_max)},
 };
-enum { COLUMNS = sizeof COLUMN / sizeof COLUMN[0] };
-
-static double value_of(const CpsRegularizedReport *report, int column) {
-    return *(const double *)(const void *)((const char *)report + COLUMN[column].offset);
-}
+/* The summary has those from `compression` on: what the four parameters leave. */
+enum { COLUMNS = sizeof COLUMN / sizeof COLUMN[0], FIRST_LEFT = 7 };
 
 static const double *tip(const CpsRegularizedLine *line, int step) {
     return line->position + 3 * ((size_t)(step + 1) * (size_t)line->point_count - 1);
 }
 
 /* ---- history.csv ---- */
-
-static void write_number(FILE *out, double x) {
-    fputc(',', out);
-    cpsi_write_csv_number(out, x);
-}
 
 static void write_row(const CpsRegularizedRun *run, int s, const CpsRegularizedLine *line,
                       FILE *out) {
@@ -64,21 +50,21 @@ static void write_row(const CpsRegularizedRun *run, int s, const CpsRegularizedL
     fputc(',', out);
     cpsi_write_csv(out, line->name);
     fprintf(out, ",%d,%d", r->converged, r->iteration_count);
-    write_number(out, p->penalty);
-    write_number(out, p->stiffness);
-    write_number(out, p->delta);
-    for (int k = 0; k < 2; ++k) write_number(out, r->end_tension[k]);
-    for (int x = 0; x < 3; ++x) write_number(out, tip(line, s)[x]);
-    for (int i = 0; i < COLUMNS; ++i) write_number(out, value_of(r, i));
+    cpsi_csv_next(out, p->penalty);
+    cpsi_csv_next(out, p->stiffness);
+    cpsi_csv_next(out, p->delta);
+    for (int k = 0; k < 2; ++k) cpsi_csv_next(out, r->end_tension[k]);
+    for (int x = 0; x < 3; ++x) cpsi_csv_next(out, tip(line, s)[x]);
+    cpsi_csv_values(out, COLUMN, COLUMNS, r);
     fputc('\n', out);
 }
 
 static void history(const void *what, FILE *out) {
     const CpsRegularizedRun *run = what;
     fputs("step,line,converged,iterations,lambda,1/n,delta,tension_A,tension_B,B.x,B.y,B.z", out);
-    for (int i = 0; i < COLUMNS; ++i) fprintf(out, ",%s", COLUMN[i].name);
+    cpsi_csv_names(out, COLUMN, COLUMNS, NULL);
     fputs("\n,,,,N/m2,N m2,m,N,N,m,m,m", out);
-    for (int i = 0; i < COLUMNS; ++i) fprintf(out, ",%s", COLUMN[i].unit);
+    cpsi_csv_units(out, COLUMN, COLUMNS);
     fputc('\n', out);
     for (int s = 1; s < run->step_count; ++s)
         for (int i = 0; i < run->line_count; ++i) write_row(run, s, &run->line[i], out);
@@ -114,13 +100,10 @@ static void write_line(const CpsRegularizedLine *line, int s, FILE *out) {
         cpsi_write_json_number(out, tip(line, s)[x]);
     }
     fputs("],\n          \"left\": {", out);
-    const char *between = "";
-    for (int i = 0; i < COLUMNS; ++i) {
-        if (!COLUMN[i].left) continue;
-        fputs(between, out);
+    for (int i = FIRST_LEFT; i < COLUMNS; ++i) {
+        fputs(i > FIRST_LEFT ? ", " : "", out);
         write_key(out, COLUMN[i].name, COLUMN[i].unit);
-        cpsi_write_json_number(out, value_of(r, i));
-        between = ", ";
+        cpsi_write_json_number(out, cpsi_member(r, COLUMN[i].member));
     }
     fputs("}}", out);
 }

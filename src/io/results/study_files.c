@@ -2,21 +2,16 @@
 /* The files of a study of the 1990 method: tables of its solves and of P10.1, and the pictures. As
  * in history.csv the first row contains the names, the second the units. */
 #include <math.h>
-#include <stddef.h>
 
 #include "base/status.h"
+#include "io/base/columns.h"
 #include "io/base/escape.h"
 #include "io/base/file_set.h"
 #include "io/draw/study_picture.h"
 
-typedef struct Column {
-    const char *name, *unit;
-    size_t offset; /* offset of a double in CpsStudyRow */
-} Column;
+#define ROW(member) CPSI_MEMBER(CpsStudyRow, member)
 
-#define ROW(member) offsetof(CpsStudyRow, member)
-
-static const Column COLUMN[] = {
+static const CpsiColumn COLUMN[] = {
     {"lambda", "N/m2", ROW(parameters.penalty)},
     {"1/n", "N m2", ROW(parameters.stiffness)},
     {"delta", "m", ROW(parameters.delta)},
@@ -43,36 +38,31 @@ static const Column COLUMN[] = {
 };
 enum { COLUMNS = sizeof COLUMN / sizeof COLUMN[0] };
 
-static void write_number(FILE *out, double x) {
-    fputc(',', out);
-    cpsi_write_csv_number(out, x);
-}
-
-static void write_study(const CpsStudyFiles *files, FILE *out) {
+static void study_table(const void *what, FILE *out) {
+    const CpsStudyFiles *files = what;
     const CpsRegularizedStep step = cps_regularized_step(files->classic);
     fputs("stage,cells,h,converged,iterations,gradients", out);
-    for (int i = 0; i < COLUMNS; ++i) fprintf(out, ",%s", COLUMN[i].name);
+    cpsi_csv_names(out, COLUMN, COLUMNS, NULL);
     fputs("\n,,m,,,", out);
-    for (int i = 0; i < COLUMNS; ++i) fprintf(out, ",%s", COLUMN[i].unit);
+    cpsi_csv_units(out, COLUMN, COLUMNS);
     fputc('\n', out);
     for (int r = 0; r < cps_study_row_count(files->study); ++r) {
         const CpsStudyRow row = cps_study_row(files->study, r);
         const int cells =
             row.parameters.cell_count > 0 ? row.parameters.cell_count : step.element_count;
         fprintf(out, "%s,%d", cps_study_stage_name(row.stage), cells);
-        write_number(out, step.length / cells);
+        cpsi_csv_next(out, step.length / cells);
         fprintf(out, ",%d,%d,%d", row.report.converged, row.report.iteration_count,
                 row.report.evaluation_count);
-        for (int i = 0; i < COLUMNS; ++i)
-            write_number(out,
-                         *(const double *)(const void *)((const char *)&row + COLUMN[i].offset));
+        cpsi_csv_values(out, COLUMN, COLUMNS, &row);
         fputc('\n', out);
     }
 }
 
 /* P10.1 beside P2.1: a row per node; the value of an element is in the row of the node at its
  * end */
-static void write_first_order(const CpsStudyFiles *files, FILE *out) {
+static void first_order_table(const void *what, FILE *out) {
+    const CpsStudyFiles *files = what;
     const CpsRegularizedStep step = cps_regularized_step(files->classic);
     const CpsFirstOrderView view = cps_first_order_view(files->first_order);
     fputs(
@@ -87,19 +77,17 @@ static void write_first_order(const CpsStudyFiles *files, FILE *out) {
                                         view.displacement + k, view.friction_force + k};
         cpsi_write_csv_number(out, view.arc_length[j]);
         for (size_t v = 0; v < sizeof vector / sizeof *vector; ++v)
-            for (int x = 0; x < 3; ++x) write_number(out, vector[v][x]);
-        write_number(out, view.reaction[j]);
-        write_number(out, j > 0 ? view.strain[j - 1] : NAN);
+            for (int x = 0; x < 3; ++x) cpsi_csv_next(out, vector[v][x]);
+        cpsi_csv_next(out, view.reaction[j]);
+        cpsi_csv_next(out, j > 0 ? view.strain[j - 1] : NAN);
         for (int x = 0; x < 3; ++x)
-            write_number(out, j > 0 ? view.tension[k - 3 + (size_t)x] : NAN);
-        write_number(out, j > 0 ? step.tension[j - 1] : NAN);
+            cpsi_csv_next(out, j > 0 ? view.tension[k - 3 + (size_t)x] : NAN);
+        cpsi_csv_next(out, j > 0 ? step.tension[j - 1] : NAN);
         fputc('\n', out);
     }
 }
 
-static void study_table(const void *files, FILE *out) { write_study(files, out); }
 static void study_picture(const void *files, FILE *out) { cpsi_picture_study(files, out); }
-static void first_order_table(const void *files, FILE *out) { write_first_order(files, out); }
 static void first_order_picture(const void *files, FILE *out) {
     cpsi_picture_first_order(files, out);
 }
