@@ -180,7 +180,7 @@ static bool answer_push(DriveRun *run, int i) {
         cps_planar_motions(b->planar, push->row_count, push->map, push->velocity, 0, low, high,
                            &run->err) != CPS_OK)
         return false;
-    run->answered = run->answered && m.outcome == CPS_SET_OUTCOME_ANSWERED;
+    run->answered &= m.outcome == CPS_SET_OUTCOME_ANSWERED;
     if (run->json) {
         if (i) fputs(",\n    ", stdout);
         json_push(push, &m, low, high);
@@ -243,7 +243,7 @@ static bool go(DriveRun *run, Trail *t) {
 
 static void print_tow(DriveRun *run, const Trail *t) {
     const double radius = turning_radius(t);
-    run->answered = run->answered && t->inaccurate == 0;
+    run->answered &= t->inaccurate == 0;
     if (run->json) {
         printf(", \"tow\": {\"steps\": %d", t->count - 1);
         drive_json("work_J", t->tow.work);

@@ -103,7 +103,7 @@ static bool go(DriveRun *run, Sweep *s) {
 
 static void print_sweep(DriveRun *run, const Sweep *s) {
     const int n = run->file->sweep.space;
-    run->answered = run->answered && s->inaccurate == 0;
+    run->answered &= s->inaccurate == 0;
     if (run->json) {
         printf(", \"components\": %d, \"steps\": %d", n, s->count - 1);
         drive_json("work_J", s->state.work);

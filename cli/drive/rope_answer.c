@@ -75,7 +75,7 @@ static void json_rope(const RopeRun *r, double length, double sliding, double te
 static void print_velocity(const RopeRun *r) {
     const CpsMotionReport p = cps_motion_report(r->motion);
     double length, sliding, tension;
-    r->run->answered = r->run->answered && p.outcome != CPS_MOTION_OUTCOME_INACCURATE;
+    r->run->answered &= p.outcome != CPS_MOTION_OUTCOME_INACCURATE;
     if (p.outcome == CPS_MOTION_OUTCOME_BLOCKED || p.outcome == CPS_MOTION_OUTCOME_NO_BALANCE) {
         r->run->none = true;
         if (r->run->json)
@@ -212,7 +212,7 @@ static void print_path(const RopeRun *r) {
     if (cps_outcome_is_final(r->outcome))
         r->run->none = true;
     else
-        r->run->answered = r->run->answered && r->uncertified == 0;
+        r->run->answered &= r->uncertified == 0;
     if (r->run->json) {
         printf(", \"path\": {\"steps\": %d, \"outcome\": \"%s\", \"uncertified\": %d",
                r->rope->step_count, cps_outcome_name(r->outcome), r->uncertified);

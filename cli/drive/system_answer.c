@@ -336,7 +336,7 @@ static bool answer_motion(DriveRun *run, const double *velocity, int i) {
     }
     const CpsMotionOutcome outcome =
         good ? cps_motion_report(motion).outcome : CPS_MOTION_OUTCOME_SOLVED;
-    run->answered = run->answered && outcome != CPS_MOTION_OUTCOME_INACCURATE;
+    run->answered &= outcome != CPS_MOTION_OUTCOME_INACCURATE;
     run->none = run->none || outcome == CPS_MOTION_OUTCOME_NO_BALANCE ||
                 outcome == CPS_MOTION_OUTCOME_BLOCKED || outcome == CPS_MOTION_OUTCOME_NOT_ATTAINED;
     free_all(&all.velocities);
@@ -386,7 +386,7 @@ static bool print_reduced(DriveRun *run, const CpsSet *set, const double *asked,
     }
     const bool open = answer.outcome == CPS_SET_OUTCOME_NOT_AVAILABLE ||
                       answer.outcome == CPS_SET_OUTCOME_INACCURATE;
-    if (good) run->answered = run->answered && !open;
+    if (good) run->answered &= !open;
     law_answer_free(&about);
     cps_set_release(found);
     return good;
@@ -472,7 +472,7 @@ static int answer_reduced(DriveRun *run, const QueryList *velocity, const QueryL
                                     &run->err) == CPS_OK;
     if (!good) return cli_report(&run->err);
     if (!empty) good = cps_set_facts(set, 0, &facts, NULL, NULL, &run->err) == CPS_OK;
-    empty = empty || facts.outcome == CPS_SET_OUTCOME_EMPTY;
+    empty |= facts.outcome == CPS_SET_OUTCOME_EMPTY;
     good = good && (empty ? print_empty(run) : print_elimination(run, set, composition));
     if (run->json) fputs(",\n  \"answers\": [", stdout);
     if (!empty) {

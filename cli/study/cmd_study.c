@@ -32,7 +32,7 @@
 static bool is_placed(const CpsScene *scene) {
     bool placed = false;
     for (int i = 0; i < scene->line_count; ++i)
-        placed = placed || scene->line[i].start.kind == CPS_START_STATIC;
+        placed |= scene->line[i].start.kind == CPS_START_STATIC;
     return placed;
 }
 
@@ -152,7 +152,7 @@ static bool on_row(void *user, const CpsStudyRow *row, int done, int of) {
     StudyPrinter *printer = user;
     printer->progress.steps = of;
     progress_step(&printer->progress, done, cps_study_stage_name(row->stage));
-    printer->converged = printer->converged && row->report.converged;
+    printer->converged &= row->report.converged;
     return !cli_interrupted();
 }
 

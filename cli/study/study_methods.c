@@ -58,7 +58,7 @@ static int regularise(Histories *h, const CpsLineView *view, int step, Regulariz
     CpsRegularizedReport report;
     CpsRegularizedParameters fine;
     if (regularized_step(method, view, &fine, &report, &err) != CPS_OK) return cli_report(&err);
-    h->converged = h->converged && report.converged;
+    h->converged &= report.converged;
     store(h, REGULARISED, step, cps_regularized_view(method->last).position, view->origin);
     return EXIT_OK;
 }

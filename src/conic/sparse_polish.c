@@ -158,9 +158,9 @@ static bool place(Polish *p) {
         for (int r = 0; r < cpsi_active_count(kind, dim); r++) z[r] = *m++;
         const bool in = cpsi_active_place(kind, s, z, dim);
         if (!in && !p->left_some) p->other[w.all] = cpsi_active_corrected(kind, z, dim);
-        all_in = all_in && in;
+        all_in &= in;
     } while (next(d, &w));
-    p->left_some = p->left_some || !all_in;
+    p->left_some |= !all_in;
     return all_in;
 }
 

@@ -232,7 +232,7 @@ CpsiConicResult cpsi_sparse_program_solve(CpsiSparseProgram *program, double acc
         sound = result.gap + result.residual <= enough;
         accepted = result.residual <= accept && result.gap <= accept;
         polish(program, &result);
-        sound = sound || result.gap + result.residual <= enough;
+        sound |= result.gap + result.residual <= enough;
         accepted = accepted || (result.residual <= accept && result.gap <= accept);
     }
     if (!accepted) result.outcome = CPSI_CONIC_FAILED;

@@ -109,8 +109,7 @@ static void invert(Reduction *r) {
         for (size_t j = 0; j < m; j++) r->lu[j * m + i] = r->outer[i * m + j]; /* M */
     for (size_t i = 0; i < m * m; i++) largest = fmax(largest, fabs(r->lu[i]));
     r->invertible = cpsi_lu_factor(r->m, r->lu, r->pivot);
-    for (size_t i = 0; i < m; i++)
-        r->invertible = r->invertible && fabs(r->lu[i * m + i]) > 1e-8 * largest;
+    for (size_t i = 0; i < m; i++) r->invertible &= fabs(r->lu[i * m + i]) > 1e-8 * largest;
     if (!r->invertible) return;
     double *column = r->origin; /* used as scratch; G0 is written later */
     for (size_t j = 0; j < m; j++) {

@@ -101,8 +101,7 @@ static double force_size(const CpsSystem *system) {
     double size = system->load ? largest_of(system->n, system->load) : 0;
     for (int k = 0; k < system->forms; k++) {
         bool bounded = false; /* a cone has no size */
-        for (int i = 0; i < system->form[k]->rows; i++)
-            bounded = bounded || system->form[k]->b[i] != 0;
+        for (int i = 0; i < system->form[k]->rows; i++) bounded |= system->form[k]->b[i] != 0;
         if (bounded) size = fmax(size, system->form[k]->size);
     }
     return size > 0 ? size : 1;

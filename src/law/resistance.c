@@ -400,7 +400,7 @@ CpsStatus cps_resistance_forces(const CpsResistance *law, const double *velocity
         status = term_forces(law->n, &law->term[i], velocity, tolerance, &part[i], &one, err);
         if (status != CPS_OK) break;
         if (all.outcome == CPS_SET_OUTCOME_ANSWERED) all.outcome = one.outcome;
-        all.exact = all.exact && one.exact;
+        all.exact &= one.exact;
         all.value += one.value;
         all.gap += one.gap;
         all.tolerance = fmax(all.tolerance, one.tolerance);

@@ -161,7 +161,7 @@ CpsStatus cps_resistance_velocities(const CpsResistance *law, const double *forc
     const size_t n = (size_t)law->n;
     const bool dry = cps_resistance_is_dry(law);
     bool viscous = false;
-    for (int i = 0; i < law->count; i++) viscous = viscous || law->term[i].kind == CPSI_VISCOUS;
+    for (int i = 0; i < law->count; i++) viscous |= law->term[i].kind == CPSI_VISCOUS;
     double *velocity = calloc(n * ((size_t)law->count + 1), sizeof *velocity);
     if (!velocity) return out_of_memory(err);
     double *share = velocity + n;

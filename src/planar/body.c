@@ -264,7 +264,7 @@ CpsStatus cpsi_planar_dissipation_rate(const CpsPlanar *body, const double twist
             cpsi_patch_dissipation_rate(patch, velocity, twist[2], &friction, err);
         if (status != CPS_OK) return status;
         if (friction.outcome != CPS_SET_OUTCOME_ANSWERED) answer->outcome = friction.outcome;
-        answer->exact = answer->exact && friction.exact;
+        answer->exact &= friction.exact;
         answer->value += friction.power;
         answer->gap += friction.gap;
         total[0] += friction.force[0];

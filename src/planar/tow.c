@@ -153,7 +153,7 @@ CpsStatus cps_planar_tow(const CpsPlanar *body, CpsTow *tow, const double target
     if (out.pulled) status = iterate(body, tow, &pull_of_end, &out, err);
     if (status != CPS_OK) return status;
     if (out.outcome == CPS_SET_OUTCOME_ANSWERED) {
-        out.converged = out.converged || !out.pulled;
+        out.converged |= !out.pulled;
         cps_planar_move(tow->pose, out.twist);
         for (int i = 0; i < 2; i++) tow->end[i] = target[i];
         tow->work += out.work;

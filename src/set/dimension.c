@@ -60,7 +60,7 @@ static CpsStatus probe(Search *search, CpsSetOutcome *outcome, CpsError *err) {
     if (status) return status;
     const CpsSetAnswer *both[] = {&high, &low};
     for (int k = 0; k < 2; k++) {
-        search->exact = search->exact && both[k]->exact;
+        search->exact &= both[k]->exact;
         if (both[k]->outcome > CPS_SET_OUTCOME_NOT_ATTAINED ||
             both[k]->outcome == CPS_SET_OUTCOME_EMPTY) {
             *outcome = both[k]->outcome;

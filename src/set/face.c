@@ -186,7 +186,7 @@ static CpsStatus face_of_parts(const CpsSet *set, const double *w, double slack,
         }
         status = face_of(set->part[k], w + at, slack, &face[count], &one, err);
         answer->tolerance = fmax(answer->tolerance, one.tolerance);
-        answer->exact = answer->exact && one.exact;
+        answer->exact &= one.exact;
         answer->outcome = one.outcome;
         if (!status && one.outcome == CPS_SET_OUTCOME_ANSWERED) count++;
         if (set->kind == CPSI_SET_PRODUCT) at += set->part[k]->n;

@@ -44,7 +44,7 @@ static bool look(const CpsSet *set, const double *p, double theta, double x[2], 
     x[1] -= p[1];
     *most = fmin(*most, one.value - w[0] * p[0] - w[1] * p[1]);
     answer->gap = fmax(answer->gap, one.gap);
-    answer->exact = answer->exact && one.exact;
+    answer->exact &= one.exact;
     return true;
 }
 
@@ -149,7 +149,7 @@ CpsStatus cps_set_contains(const CpsSet *set, const double *point, double *separ
         for (int i = 0; separating && i < n; i++)
             separating[i] = outside ? (point[i] - nearest[i]) / distance : 0;
         answer->value = outside ? -distance : 0;
-        answer->exact = answer->exact && outside;
+        answer->exact &= outside;
         bool found = outside;
         if (!outside && n == 2) status = planar_margin(set, point, answer, &found, err);
         if (!status && !found) status = inscribed(set, point, answer, err);

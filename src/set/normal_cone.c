@@ -126,7 +126,7 @@ static CpsStatus as_rays(CpsiConicForm *form, CpsSet **out, CpsError *err) {
             const double size = cpsi_norm(form->n, ray);
             for (size_t i = 0; i < n; i++) ray[i] = size > 0 ? ray[i] / size : 0;
             /* a combination of the unknowns that lies in the null space of P */
-            simple = simple && size > 0;
+            simple &= size > 0;
         }
         if (simple)
             for (size_t l = 0; l < lines; l++)

@@ -37,7 +37,7 @@ double cpsi_walk_visit(CpsiWalk *walk, double theta, double x[2]) {
         walk->status = cpsi_support(walk->set, walk->w, walk->point, &answer, walk->err);
     if (walk->status == CPS_OK && answer.outcome != CPS_SET_OUTCOME_ANSWERED)
         walk->outcome = answer.outcome;
-    walk->exact = walk->exact && answer.exact;
+    walk->exact &= answer.exact;
     walk->gap = fmax(walk->gap, answer.gap);
     for (int i = 0; i < n; i++) {
         p[0] += (walk->point[i] - centre[i]) * basis[i];
@@ -258,7 +258,7 @@ static void store_ends(CpsiWalk *walk, int capacity, double *points, int *count)
         for (int i = 0; i < n; i++) walk->w[i] = sign * walk->basis[i];
         walk->status = cpsi_support(walk->set, walk->w, walk->point, &answer, walk->err);
         if (walk->status == CPS_OK) walk->outcome = answer.outcome;
-        walk->exact = walk->exact && answer.exact;
+        walk->exact &= answer.exact;
         walk->gap = fmax(walk->gap, answer.gap);
         if (*count < capacity) memcpy(&points[*count * n], walk->point, (size_t)n * sizeof *points);
         ++*count;

@@ -83,7 +83,7 @@ static void join(CpsSetAnswer *whole, const CpsSetAnswer *part) {
         [CPS_SET_OUTCOME_UNBOUNDED] = 2,     [CPS_SET_OUTCOME_INACCURATE] = 3,
         [CPS_SET_OUTCOME_NOT_AVAILABLE] = 4, [CPS_SET_OUTCOME_EMPTY] = 5};
     if (RANK[part->outcome] > RANK[whole->outcome]) whole->outcome = part->outcome;
-    whole->exact = whole->exact && part->exact;
+    whole->exact &= part->exact;
     whole->value += part->value;
     whole->gap += part->gap;
 }
@@ -492,7 +492,7 @@ CpsStatus cps_set_project(const CpsSet *set, const double *point, const double *
         for (size_t i = 0; good && i < n; i++)
             for (size_t j = 0; j < i; j++) {
                 const double off = fabs(metric[i * n + j] - metric[j * n + i]);
-                good = good && off <= 1e-12 * (metric[i * n + i] + metric[j * n + j]);
+                good &= off <= 1e-12 * (metric[i * n + i] + metric[j * n + j]);
             }
         if (!good)
             status = cpsi_fail(err, CPS_ERR_ARGUMENT, "metric is not symmetric positive definite");

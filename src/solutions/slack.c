@@ -172,8 +172,8 @@ static bool may_slide(const CpsLineView *step, int node, double force) {
 
 /* count what holds a node in the part that it belongs to */
 static void note_node(const CpsLineView *step, int j, double force, CpsSlackPart *part) {
-    part->grounded = part->grounded || step->reaction[j] > 0;
-    part->has_friction = part->has_friction || step->friction_bound[j] > 0;
+    part->grounded |= step->reaction[j] > 0;
+    part->has_friction |= step->friction_bound[j] > 0;
     part->at_bound = part->at_bound || at_bound(step, j);
     part->sliding = part->sliding || may_slide(step, j, force);
 }

@@ -127,7 +127,7 @@ bool cpsi_yaml_number(const char *text, double *number) {
     if (*after == '.') {
         s = after + 1;
         after = skip_digits(s);
-        digits = digits || after > s;
+        digits |= after > s;
     }
     if (!digits) return false;
     if (*after == 'e' || *after == 'E') {

@@ -112,8 +112,7 @@ static void summary(const void *what, FILE *out) {
     const CpsRegularizedRun *run = what;
     bool converged = true;
     for (int i = 0; i < run->line_count; ++i)
-        for (int s = 1; s < run->step_count; ++s)
-            converged = converged && run->line[i].report[s].converged;
+        for (int s = 1; s < run->step_count; ++s) converged &= run->line[i].report[s].converged;
     fputs("{\n  \"capstan\": ", out);
     cpsi_write_json_string(out, cps_version());
     fputs(",\n  \"title\": ", out);
