@@ -32,7 +32,7 @@ static Tally run(const CpsScene *scene) {
         tally.iterations += report.iteration_count;
         tally.seconds += report.wall;
         tally.dissipated += report.dissipated;
-        tally.warm += report.warm_count == report.part_count;
+        tally.warm += report.warm_count == report.substep_count;
         tally.uncertified += !cps_outcome_is_certified(report.outcome);
         tally.gap = fmax(tally.gap, report.certificate.gap / report.certificate.scale);
         tally.friction = fmax(tally.friction, report.certificate.friction_residual /

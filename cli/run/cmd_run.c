@@ -32,12 +32,12 @@ static void print_head(FILE *table) {
     static const char *const NAME[] = {"tension A", "tension B"},
                              *const ERROR[] = {"bound", "mesh"},
                              *const LENGTH[] = {"grounded", "slipping", "slack"};
-    fprintf(table, "%-*s %-*s %-15s %5s %4s %9s", NAME_WIDTH, "step", LINE_WIDTH, "line", "outcome",
-            "parts", "iter", "gap/scale");
+    fprintf(table, "%-*s %-*s %-15s %8s %4s %9s", NAME_WIDTH, "step", LINE_WIDTH, "line", "outcome",
+            "substeps", "iter", "gap/scale");
     for (int i = 0; i < 2; ++i) fprintf(table, " %12s", NAME[i]);
     for (int i = 0; i < 2; ++i) fprintf(table, " %8s", ERROR[i]);
     for (int i = 0; i < 3; ++i) fprintf(table, " %10s", LENGTH[i]);
-    fprintf(table, "\n%-*s %-*s %-15s %5s %4s %9s", NAME_WIDTH, "", LINE_WIDTH, "", "", "", "", "");
+    fprintf(table, "\n%-*s %-*s %-15s %8s %4s %9s", NAME_WIDTH, "", LINE_WIDTH, "", "", "", "", "");
     for (int i = 0; i < 2; ++i) fprintf(table, " %12s", "N");
     for (int i = 0; i < 2; ++i) fprintf(table, " %8s", "N");
     for (int i = 0; i < 3; ++i) fprintf(table, " %10s", "m");
@@ -110,8 +110,8 @@ static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
         cli_print_text(table, i == 0 ? step.name : "", NAME_WIDTH, true);
         fputc(' ', table);
         cli_print_text(table, cps_evolution_line_view(evolution, i).name, LINE_WIDTH, true);
-        fprintf(table, " %-15s %5d %4d %9.1e %12.6g %12.6g", cps_outcome_name(line.outcome),
-                line.part_count, line.iteration_count,
+        fprintf(table, " %-15s %8d %4d %9.1e %12.6g %12.6g", cps_outcome_name(line.outcome),
+                line.substep_count, line.iteration_count,
                 certificate->scale > 0 ? certificate->gap / certificate->scale : certificate->gap,
                 shown_tension(&line, CPS_END_A), shown_tension(&line, CPS_END_B));
         const bool solved = line.outcome == CPS_OUTCOME_SOLVED || line.outcome == CPS_OUTCOME_TAUT;

@@ -93,7 +93,7 @@ static void note_energy(Warnings *warnings, const CpsStepReport *step, const Cps
     const double known = line->certificate.gap + 1e-8 * line->certificate.scale;
     if (line->unaccounted > 0)
         note(warnings, WARNING_MADE, line->unaccounted, beside, step->name, name);
-    else if (line->snap_count == 0 && freed > WARN_FREED * beside && freed > known)
+    else if (line->jump_count == 0 && freed > WARN_FREED * beside && freed > known)
         note(warnings, WARNING_FREED, freed, beside, step->name, name);
 }
 
@@ -124,7 +124,7 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
                          scene->obstacle[line.pierced_obstacle].name);
         if (line.outcome != CPS_OUTCOME_SOLVED) continue;
         note_energy(warnings, &report, &line, view.name);
-        if (line.snap_count > 0) note(warnings, WARNING_JUMPED, line.jump, length, step, view.name);
+        if (line.jump_count > 0) note(warnings, WARNING_JUMPED, line.jump, length, step, view.name);
         const double residual = line.certificate.friction_residual;
         double bounds;
         const double lifted = lifted_friction(&view, &bounds);

@@ -292,11 +292,12 @@ static int study(const CpsScene *given, const char *directory, const CliOptions 
         const CpsStepReport step = cps_evolution_report(evolution);
         const CpsLineView view = cps_evolution_line_view(evolution, line);
         const double tolerance = study_find_tolerance(options->tolerance);
-        const int parts = cps_evolution_line_report(evolution, line).part_count;
-        if (parts > 1)
-            fprintf(stderr,
-                    "capstan study: the step was taken in %d parts: this is about the last one\n",
-                    parts);
+        const int substeps = cps_evolution_line_report(evolution, line).substep_count;
+        if (substeps > 1)
+            fprintf(
+                stderr,
+                "capstan study: the step was taken in %d substeps: this is about the last one\n",
+                substeps);
         snprintf(title, sizeof title, "%.120s: %.60s, %.60s", scene.title ? scene.title : "capstan",
                  step.name, view.name);
         if (!options->quiet) {

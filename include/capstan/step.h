@@ -167,12 +167,12 @@ typedef struct CpsLineReport {
     CpsPlaces places;           /* of the parts the one that leaves most open */
     CpsCertificate certificate; /* of the last part */
     double dissipated;          /* [J] in this step */
-    CpsLedger ledger; /* of this step; zero for a line whose start is computed by statics in it */
-    int part_count;   /* in which the step was taken, 1 or more */
-    int warm_count;   /* of these, found by Newton's method from the one before (theory.md 6b) */
+    CpsLedger ledger;  /* of this step; zero for a line whose start is computed by statics in it */
+    int substep_count; /* in which the step was taken, 1 or more */
+    int warm_count;    /* of these, found by Newton's method from the one before (theory.md 6b) */
     double share;   /* of the step that the last part was, which is what the view shows: 1 where it
                        was not cut */
-    int snap_count; /* parts in which the line jumped, however small the load */
+    int jump_count; /* parts in which the line jumped, however small the load */
     double jump;    /* [m] the longest displacement of a node in such a part */
     /* [J] of the imbalance, what parts that could not be cut any more made from nothing; with a
      * path tolerance also what they lost, snaps apart: 0 unless it is more than 5 % of what is
@@ -216,9 +216,9 @@ typedef struct CpsStepReport {
                                    of the lines; has_tension_bound where all lines have one */
     double dissipated;          /* [J] */
     CpsLedger ledger;           /* sum of the lines */
-    int part_count;             /* largest over the lines */
+    int substep_count;          /* largest over the lines */
     int warm_count;             /* largest over the lines */
-    int snap_count;             /* sum of the lines */
+    int jump_count;             /* sum of the lines */
     CpsPlaces places;           /* largest over the lines */
     double jump;                /* [m] largest of the lines */
     double unaccounted;         /* [J] sum of the lines */
@@ -262,7 +262,7 @@ typedef struct CpsLineView {
     const double *reaction; /* (contact_count, n) [N] R >= 0, along the normal */
     /* (contact_count, n, 3) [m] slip on the obstacle in this step, tangential: on a plane the part
      * of u in it, on a curved obstacle along the surface; 0 before the first step */
-    const double *slide;
+    const double *slip;
     const double *segment_force; /* (element_count, 3) [N] p: what the B side does to the A side */
     /* (element_count) [N] T >= 0 from the elongation unknown, not from positions */
     const double *tension;
@@ -287,7 +287,7 @@ typedef struct CpsLineView {
     const double *element_friction_bound; /* (element_count) [N] */
     const double *element_friction_force; /* (element_count, 3) [N] */
     const double *element_reaction;       /* (element_count) [N] */
-    const double *element_slide;          /* (element_count, 3) [m] */
+    const double *element_slip;           /* (element_count, 3) [m] */
     const unsigned char *element_state;   /* (element_count) */
 } CpsLineView;
 

@@ -382,7 +382,7 @@ void cpsi_contact_update_geometry(CpsiLine *line) {
         update_winding(line, c, before);
         if (line->keeps_reference_axes) set_reference_axes(line, c);
         const Vec3 x = cpsi_line_place(line, line->base, c), n = vec3_load(&line->normal[3 * c]);
-        vec3_store(&line->slide[3 * c], slip_to(line, c, x));
+        vec3_store(&line->slip[3 * c], slip_to(line, c, x));
         const Vec3 u = vec3_sub(x, cpsi_line_place(line, line->reference, c));
         const double gap =
             k < 0 ? INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x) + allowance(line, c);
@@ -457,7 +457,7 @@ void cpsi_contact_plane_slip(CpsiLine *line) {
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
             const Vec3 to = cpsi_line_place(line, line->position, c);
-            vec3_store(&line->slide[3 * c], plane_slip(line, c, to));
+            vec3_store(&line->slip[3 * c], plane_slip(line, c, to));
             const int k = line->obstacle_index[c];
             if (k < 0) continue;
             const Vec3 from = reference_normal(line, k, c),
@@ -479,7 +479,7 @@ void cpsi_contact_clear_undetermined_slip(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (line->obstacle_index[c] < 0 || line->friction_bound[c] > 0) continue;
         if (angle_from_reference(line, c) < HALF_ROUND) continue;
-        for (int a = 0; a < 3; a++) line->slide[3 * c + a] = 0;
+        for (int a = 0; a < 3; a++) line->slip[3 * c + a] = 0;
     }
 }
 
@@ -608,10 +608,10 @@ double cpsi_contact_move_base(CpsiLine *line, bool sides) {
     /* where nodes moved along the surface would pass an obstacle, they move straight; slide serves
      * as scratch memory here, it is computed anew afterwards */
     const size_t places = 3 * (size_t)line->n * sizeof *line->position;
-    memcpy(line->slide, line->position, places);
+    memcpy(line->slip, line->position, places);
     for (int j = 0; j < line->n; j++) move_along_surface(line, j);
     if (sides && cpsi_obstacle_side_share(line, line->base, line->position, 1) < 1)
-        memcpy(line->position, line->slide, places);
+        memcpy(line->position, line->slip, places);
     double turned =
         line->contact_everywhere && line->element_contacts > 0 ? penetration_turn(line) : 0;
     if (line->element_contacts > 0)

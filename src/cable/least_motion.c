@@ -184,7 +184,7 @@ static void restrict_slip(const CpsiLine *line, CpsiLeastMotion *least, int c, d
                from =
                    vec3_load(line->has_local_axes ? &line->base[3 * j] : &line->reference[3 * j]);
     const Vec3 u = vec3_sub(vec3_load(&line->position[3 * j]), from);
-    const Vec3 before = line->has_local_axes ? vec3_load(&line->slide[3 * c]) : vec3(0, 0, 0);
+    const Vec3 before = line->has_local_axes ? vec3_load(&line->slip[3 * c]) : vec3(0, 0, 0);
     const Vec3 slip =
         vec3_scale(1 / line->length, vec3_add(before, vec3_axpy(-vec3_dot(u, n), n, u)));
     Vec3 along[2] = {row(axes, 0), row(axes, 1)};

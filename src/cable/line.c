@@ -22,7 +22,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->tension, n);
     CPSI_PLACE(arena, line->motion, 3 * n);
     CPSI_PLACE(arena, line->state, contacts);
-    CPSI_PLACE(arena, line->slide, 3 * contacts);
+    CPSI_PLACE(arena, line->slip, 3 * contacts);
     if (line->has_local_axes) {
         CPSI_PLACE(arena, line->winding, contacts);
         CPSI_PLACE(arena, line->base, 3 * n);

@@ -81,7 +81,7 @@ typedef struct CpsiLine {
     unsigned char *state;          /* (contacts, n) CpsNodeState */
     /* (contacts, n, 3) [m] slip of the node on the obstacle in this step, tangential; without
      * has_local_axes computed after the step, for views */
-    double *slide;
+    double *slip;
     /* with has_local_axes, else NULL: the geometry of the contacts at `base` */
     /* (contacts, n) [rad] angle by which the node has moved round the contact's obstacle in this
      * step: on a cylinder the sum over the rounds, which may exceed a turn; on a ball the angle of
@@ -210,7 +210,7 @@ static inline Vec3 cpsi_line_friction_normal(const CpsiLine *line, int c) {
 
 /* [m] The slip of contact c on its obstacle in this step. */
 static inline Vec3 cpsi_line_slide(const CpsiLine *line, int c) {
-    if (line->has_local_axes) return vec3_load(&line->slide[3 * c]);
+    if (line->has_local_axes) return vec3_load(&line->slip[3 * c]);
     const Vec3 u = vec3_sub(vec3_load(&line->position[3 * c]), vec3_load(&line->reference[3 * c]));
     const Vec3 n = vec3_load(&line->normal[3 * c]);
     return vec3_axpy(-vec3_dot(u, n), n, u);

@@ -139,7 +139,7 @@ static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
     const int j = node_of(line, c), k = conic->count++;
     const double share = cpsi_line_contact_share(line, c) / line->length;
     double slip[3], axes[9];
-    cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slide[3 * c]);
+    cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slip[3 * c]);
     friction_axes(line, program, c, axes);
     conic->node[k] = j;
     conic->contact[k] = c;
@@ -164,7 +164,7 @@ static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
     const int j = node_of(line, c), count = line->has_local_axes && set->box ? 2 : 1;
     const double share = cpsi_line_contact_share(line, c) / line->length;
     double slip[3] = {0}, axes[9];
-    if (line->has_local_axes) cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slide[3 * c]);
+    if (line->has_local_axes) cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slip[3 * c]);
     friction_axes(line, program, c, axes);
     for (int i = 0; i < count; i++) {
         const int k = disc->count++;

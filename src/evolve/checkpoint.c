@@ -102,10 +102,10 @@ static void pass_line_report(Tape *tape, CpsLineReport *report) {
     PASS(tape, report->places);
     pass_energies(tape, &report->certificate, &report->ledger);
     PASS(tape, report->dissipated);
-    PASS(tape, report->part_count);
+    PASS(tape, report->substep_count);
     PASS(tape, report->warm_count);
     PASS(tape, report->share);
-    PASS(tape, report->snap_count);
+    PASS(tape, report->jump_count);
     PASS(tape, report->jump);
     PASS(tape, report->unaccounted);
     for (int end = 0; end < 2; end++) pass_end_report(tape, &report->end[end]);
@@ -132,9 +132,9 @@ static void pass_step_report(Tape *tape, CpsStepReport *report) {
     PASS(tape, report->iteration_count);
     pass_energies(tape, &report->certificate, &report->ledger);
     PASS(tape, report->dissipated);
-    PASS(tape, report->part_count);
+    PASS(tape, report->substep_count);
     PASS(tape, report->warm_count);
-    PASS(tape, report->snap_count);
+    PASS(tape, report->jump_count);
     PASS(tape, report->places);
     PASS(tape, report->jump);
     PASS(tape, report->unaccounted);
@@ -144,7 +144,7 @@ static void pass_step_report(Tape *tape, CpsStepReport *report) {
 static void pass_line(Tape *tape, CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     double *const nodes[] = {line->reference, line->position, line->load, line->motion};
-    double *const vectors[] = {line->normal, line->friction_force, line->slide};
+    double *const vectors[] = {line->normal, line->friction_force, line->slip};
     double *const scalars[] = {line->gap, line->friction_bound, line->reaction};
     for (size_t i = 0; i < sizeof nodes / sizeof *nodes; i++)
         pass(tape, nodes[i], 3 * n * sizeof(double));

@@ -464,9 +464,9 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
         step->iteration_count = line->iteration_count;
     step->dissipated += line->dissipated;
     cpsi_ledger_add(&step->ledger, &line->ledger);
-    if (line->part_count > step->part_count) step->part_count = line->part_count;
+    if (line->substep_count > step->substep_count) step->substep_count = line->substep_count;
     if (line->warm_count > step->warm_count) step->warm_count = line->warm_count;
-    step->snap_count += line->snap_count;
+    step->jump_count += line->jump_count;
     if (line->places > step->places) step->places = line->places;
     step->jump = cpsi_max_nan(step->jump, line->jump);
     step->unaccounted += line->unaccounted;

@@ -49,8 +49,8 @@ static bool is_step_report(const CpsEvolution *evolution) {
     const CpsStepReport *report = &evolution->report;
     return report->step_count == evolution->done && is_outcome(report->outcome) &&
            within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
-           report->iteration_count >= 0 && report->part_count >= 0 && report->warm_count >= 0 &&
-           report->snap_count >= 0 &&
+           report->iteration_count >= 0 && report->substep_count >= 0 && report->warm_count >= 0 &&
+           report->jump_count >= 0 &&
            memchr(evolution->step_name, '\0', sizeof evolution->step_name);
 }
 
@@ -64,8 +64,8 @@ static bool is_line_report(const CpsLineReport *report, int obstacles) {
     const bool bends = report->bend.turn > 0 || report->outcome == CPS_OUTCOME_MESH_TOO_COARSE;
     bool sound = is_outcome(report->outcome) &&
                  within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
-                 report->iteration_count >= 0 && report->part_count >= 0 &&
-                 report->warm_count >= 0 && report->snap_count >= 0 &&
+                 report->iteration_count >= 0 && report->substep_count >= 0 &&
+                 report->warm_count >= 0 && report->jump_count >= 0 &&
                  is_obstacle(report->has_pierced_obstacle, report->pierced_obstacle, obstacles) &&
                  is_obstacle(report->has_proof_obstacle, report->proof_obstacle, obstacles) &&
                  within(report->bend.obstacle, 0, bends || obstacles > 0 ? obstacles - 1 : 0);
@@ -105,11 +105,10 @@ static bool are_fields(const CpsiLine *line) {
            within(line->newton.pause, 0, 1 << CPSI_NEWTON_PATIENCE) &&
            all_finite(line->weight, 3) && all_finite(line->weight_before, 3) &&
            all_finite(line->normal, 3 * contacts) &&
-           all_finite(line->friction_force, 3 * contacts) &&
-           all_finite(line->slide, 3 * contacts) && none_is_nan(line->gap, contacts) &&
-           all_finite(line->friction_bound, contacts) && all_finite(line->reaction, contacts) &&
-           all_finite(line->segment_force, 3 * (n - 1)) && all_finite(line->tension, n - 1) &&
-           all_finite(line->beta, n);
+           all_finite(line->friction_force, 3 * contacts) && all_finite(line->slip, 3 * contacts) &&
+           none_is_nan(line->gap, contacts) && all_finite(line->friction_bound, contacts) &&
+           all_finite(line->reaction, contacts) && all_finite(line->segment_force, 3 * (n - 1)) &&
+           all_finite(line->tension, n - 1) && all_finite(line->beta, n);
 }
 
 const char *cpsi_state_fault(const CpsEvolution *evolution) {

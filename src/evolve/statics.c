@@ -104,6 +104,6 @@ void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
         iterations += line->report.iteration_count;
     }
     line->report.iteration_count = iterations;
-    line->report.part_count = 1;
+    line->report.substep_count = 1;
     line->report.share = 1;
 }

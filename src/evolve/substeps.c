@@ -195,9 +195,9 @@ static void add(Advance *substeps, const Part *part) {
     CpsLineReport *whole = &substeps->whole;
     const CpsLineReport before = *whole;
     *whole = part->report;
-    whole->part_count = before.part_count + 1;
+    whole->substep_count = before.substep_count + 1;
     whole->warm_count = before.warm_count + part->report.warm_count;
-    whole->snap_count = before.snap_count;
+    whole->jump_count = before.jump_count;
     whole->jump = before.jump;
     whole->unaccounted = before.unaccounted;
     whole->outcome = cps_outcome_worse(before.outcome, whole->outcome);
@@ -378,7 +378,7 @@ static void keep_part(Advance *substeps, const Trial *trial) {
     if (trial->halved) add(substeps, &trial->second);
     substeps->known = true;
     if (trial->sudden || trial->error.displacement > substeps->options->solver.path_tolerance) {
-        whole->snap_count++;
+        whole->jump_count++;
         whole->jump = cpsi_max_nan(whole->jump, trial->longest);
     } else if (is_open(&trial->open)) {
         whole->unaccounted += trial->open.energy;
@@ -428,8 +428,8 @@ static bool relax(Advance *substeps, double from, double to) {
         cpsi_substeps_restore(line, substeps->scratch);
         return false;
     }
-    whole->part_count++;
-    whole->snap_count++;
+    whole->substep_count++;
+    whole->jump_count++;
     whole->jump = cpsi_max_nan(whole->jump,
                                cpsi_line_largest_displacement(line, substeps->scratch->position));
     whole->dissipated += done.dissipated;

@@ -22,7 +22,7 @@ void cpsi_view_update(CpsiLine *line) {
     if (line->has_local_axes) return;
     for (int j = 0; j < line->n; j++) {
         const bool slides = vec3_norm(vec3_load(&line->normal[3 * j])) > 0;
-        vec3_store(&line->slide[3 * j], slides ? cpsi_line_slide(line, j) : vec3(0, 0, 0));
+        vec3_store(&line->slip[3 * j], slides ? cpsi_line_slide(line, j) : vec3(0, 0, 0));
     }
 }
 
@@ -38,13 +38,13 @@ static void view_elements(const CpsiLine *from, const CpsiViewFill *fill, CpsLin
         view->element_friction_bound = from->friction_bound + first;
         view->element_friction_force = from->friction_force + 3 * first;
         view->element_reaction = from->reaction + first;
-        view->element_slide = from->slide + 3 * first;
+        view->element_slip = from->slip + 3 * first;
         view->element_state = from->state + first;
     } else {
         view->element_obstacle = fill->none;
         view->element_share = view->element_normal = view->element_gap = fill->zero;
         view->element_friction_bound = view->element_friction_force = fill->zero;
-        view->element_reaction = view->element_slide = fill->zero;
+        view->element_reaction = view->element_slip = fill->zero;
         view->element_state = fill->state;
     }
 }
@@ -73,7 +73,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .friction_factor = from->has_zones ? from->friction_factor : fill->one,
         .friction_force = from->friction_force,
         .reaction = from->reaction,
-        .slide = from->slide,
+        .slip = from->slip,
         .segment_force = from->segment_force,
         .tension = from->tension,
         .motion = from->motion,

@@ -138,7 +138,7 @@ static Record printed_11_3(const CpsLineView *view) {
                 .held_position = {{0, 0, 0}, {NAN, NAN, NAN}},
                 .applied_force = {{NAN, NAN, NAN}, {0, 0, 1}}};
     Vector **vector[] = {&r.reference, &r.position, &r.load,         &r.normal,
-                         &r.friction,  &r.slide,    &r.segment_force};
+                         &r.friction,  &r.slip,     &r.segment_force};
     double **scalar[] = {&r.element_length, &r.gap, &r.friction_bound, &r.reaction,
                          &r.tension,        &r.mu,  &r.turn,           &r.obstacle};
     for (size_t k = 0; k < sizeof vector / sizeof *vector; k++)

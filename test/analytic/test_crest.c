@@ -50,14 +50,14 @@ static void draw(const char *name, double mu, double from, double to, int steps,
         worst = fmax(worst, fabs(view.position[5] - (on ? cos(theta) : HEIGHT - LENGTH)));
         const CpsStepReport report = cps_evolution_report(run.evolution);
         least = fmin(least, report.ledger.imbalance);
-        if (path_tolerance > 0) CHECK_INT(report.snap_count, !on && before < limit);
+        if (path_tolerance > 0) CHECK_INT(report.jump_count, !on && before < limit);
         /* the way of the jump, from a place within a part of 2^-10 of the step before the limit */
-        if (report.snap_count > 0) {
+        if (report.jump_count > 0) {
             const double away = hypot(limit - sin(atan(mu)), HEIGHT - LENGTH - cos(atan(mu)));
             rig_show(name, "jump [m]", away, report.jump);
             CHECK_NEAR(report.jump, away, 1e-3);
         }
-        snaps += report.snap_count;
+        snaps += report.jump_count;
         before = a;
     }
     rig_show(name, "worst place [m]", 0, worst);

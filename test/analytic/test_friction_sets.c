@@ -520,8 +520,7 @@ static double check_against(const Rig *r, const CpsSet *set, const CpsLineView *
     const double size = hypot(r->bed.grain[0], r->bed.grain[1]), c = r->bed.grain[0] / size,
                  s = r->bed.grain[1] / size;
     for (int j = 1; j <= v->element_count; j++) {
-        const double w = v->friction_bound[j], *f = &v->friction_force[3 * j],
-                     *u = &v->slide[3 * j];
+        const double w = v->friction_bound[j], *f = &v->friction_force[3 * j], *u = &v->slip[3 * j];
         if (!(w > 1e-6 * WEIGHT)) continue;
         const double force[] = {(c * f[0] + s * f[1]) / w, (-s * f[0] + c * f[1]) / w},
                      way[] = {-(c * u[0] + s * u[1]), s * u[0] - c * u[1]};

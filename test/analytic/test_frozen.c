@@ -307,7 +307,7 @@ static void random_scenes(void **state) {
             const CpsLineReport report = cps_evolution_line_report(evolution, 0);
             const CpsLineView view = cps_evolution_line_view(evolution, 0);
             steps++;
-            if (report.part_count > 1)
+            if (report.substep_count > 1)
                 before.known = false; /* the reference is that of the last part */
             if (report.outcome == CPS_OUTCOME_SOLVED && s > 0) {
                 solved++;

@@ -42,7 +42,7 @@ static double length_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1]
  * length. */
 typedef struct Copy {
     RestLine line;
-    double normal[CONTACTS][3], slide[CONTACTS][3], friction[CONTACTS];
+    double normal[CONTACTS][3], slip[CONTACTS][3], friction[CONTACTS];
     RestContact contact[CONTACTS];
 } Copy;
 
@@ -57,7 +57,7 @@ static bool copy(const Rig *rig, const CpsLineView *view, const CpsLineReport *r
                            .position = (const double(*)[3])(const void *)view->position,
                            .load = (const double(*)[3])(const void *)view->load,
                            .normal = (const double(*)[3])(const void *)out->normal,
-                           .slide = (const double(*)[3])(const void *)out->slide,
+                           .slip = (const double(*)[3])(const void *)out->slip,
                            .friction = out->friction,
                            .contact = out->contact,
                            .frozen = rig->scene.friction_policy == CPS_FRICTION_POLICY_FROZEN,
@@ -71,7 +71,7 @@ static bool copy(const Rig *rig, const CpsLineView *view, const CpsLineReport *r
         double open = view->gap[c], up = 0;
         memcpy(out->normal[c], normal, sizeof out->normal[c]);
         for (int a = 0; a < 3; a++) up += normal[a] * (x[a] - from[a]);
-        for (int a = 0; a < 3; a++) out->slide[c][a] = view->slide[3 * c + a];
+        for (int a = 0; a < 3; a++) out->slip[c][a] = view->slip[3 * c + a];
         open += up;
         if (on < 0 || !(open <= fine)) {
             if (view->friction_bound[c] > 1e-9 * out->line.force) return false;
@@ -79,7 +79,7 @@ static bool copy(const Rig *rig, const CpsLineView *view, const CpsLineReport *r
         }
         out->friction[c] = out->line.frozen ? view->friction_bound[c] : rig->obstacle[on].friction;
         out->contact[c] =
-            length_of(out->slide[c]) > fine && out->friction[c] > 0 ? REST_SLIPS : REST_STICKS;
+            length_of(out->slip[c]) > fine && out->friction[c] > 0 ? REST_SLIPS : REST_STICKS;
     }
     return true;
 }
@@ -330,7 +330,7 @@ static void shallow(void **state) {
 }
 
 /* The same of a mooring line laid between anchor and fairlead on a bed, drawn out until all of it
- * slides, paid back, held and drawn out again: elements rest, slide, lift and come down. */
+ * slides, paid back, held and drawn out again: elements rest, slip, lift and come down. */
 static void moored_as_a_stiff_one(void **state) {
     (void)state;
     static const double TO[] = {840, 800, 0, 840};

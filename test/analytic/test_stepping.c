@@ -34,8 +34,8 @@ static Sum run_all(const CpsScene *scene) {
         sum.ledger.dissipated += l->dissipated;
         sum.ledger.imbalance += l->imbalance;
         sum.exchanged += fabs(l->ends);
-        sum.parts += report.part_count;
-        sum.snaps += report.snap_count;
+        sum.parts += report.substep_count;
+        sum.snaps += report.jump_count;
         sum.jump = fmax(sum.jump, report.jump);
     }
     cps_evolution_destroy(evolution);
@@ -233,7 +233,7 @@ static void slide_is_a_snap(void **state) {
         const CpsStepReport report = cps_evolution_report(run.evolution);
         const double force = BLOCK.last * k / STEPS;
         const bool slides = force >= BLOCK.limit && before < BLOCK.limit;
-        CHECK_INT(report.snap_count, slides);
+        CHECK_INT(report.jump_count, slides);
         /* it lands where the force of its part, between limit and `force`, strains the string */
         if (slides)
             CHECK_NEAR(report.jump, 2 * BLOCK.length,

@@ -78,7 +78,7 @@ static double off(const Wrap *wrap, double angle, int steps, int *parts) {
     const double ratio = rig_tension(&view, wrap->n) / rig_tension(&view, 0);
     const double exact =
         pow(per_node(wrap->mu, wrap->theta / wrap->n), angle < 0 ? wrap->n : -wrap->n);
-    *parts = run.report.part_count;
+    *parts = run.report.substep_count;
     rig_close(&run);
     return ratio / exact - 1;
 }
@@ -174,7 +174,7 @@ static void parts_are_steps(void **state) {
             for (int k = 0; k < (whole ? 1 : steps); k++) {
                 CHECK_INT(cps_evolution_step(evolution, &err), CPS_OK);
                 CHECK_INT(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
-                CHECK_INT(cps_evolution_report(evolution).part_count, whole ? steps : 1);
+                CHECK_INT(cps_evolution_report(evolution).substep_count, whole ? steps : 1);
             }
             const CpsLineReport report = cps_evolution_line_report(evolution, 0);
             for (int k = 0; k < 3; k++) end[whole][k] = report.end[CPS_END_A].position[k];
@@ -213,7 +213,7 @@ static void carried(void **state) {
         CHECK_LESS(fabs(rig_show("hoist, 4 rad in one step", "rise of the load [m]", angle,
                                  after - before)),
                    angle * d * d);
-        CHECK_GREATER(run.report.part_count, 2);
+        CHECK_GREATER(run.report.substep_count, 2);
         CHECK_LESS(fabs(rig_show("hoist, 4 rad in one step", "work of the drum [J]", angle,
                                  run.report.ledger.obstacles)),
                    2 * angle * d * d);
@@ -249,7 +249,7 @@ static void drawn(void **state) {
             CHECK_INT(outcome, CPS_OUTCOME_STALLED);
         } else {
             CHECK_INT(outcome, CPS_OUTCOME_SOLVED);
-            CHECK_GREATER(run.report.part_count, 1);
+            CHECK_GREATER(run.report.substep_count, 1);
             /* N - 1 to N + 1 nodes turn it, by angles of order d: the law's error is of order
              * d^2 */
             const double ratio =
@@ -287,7 +287,7 @@ static void two_lines(int steps, double tension[2], int *parts) {
     for (int k = 0; k < steps; k++) {
         CHECK_INT(cps_evolution_step(evolution, &err), CPS_OK);
         CHECK_INT(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
-        *parts = cps_evolution_report(evolution).part_count;
+        *parts = cps_evolution_report(evolution).substep_count;
     }
     for (int i = 0; i < 2; i++)
         tension[i] = cps_evolution_line_report(evolution, i).end[CPS_END_B].tension;

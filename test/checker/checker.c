@@ -127,7 +127,7 @@ static void judge_ledger(Judge *judge, const Record *r, const Measures *m, doubl
     at_most(judge, "ledger: ends + obstacles - all else",
             fabs(entry[LEDGER_ENDS] + entry[LEDGER_OBSTACLES] - spent),
             COPY_TOLERANCE * sizes + NOTHING);
-    if (r->parts > 1) return;
+    if (r->substeps > 1) return;
     judge_unaccounted(judge, r, m);
     same(judge, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
     same(judge, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
@@ -187,7 +187,7 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
     same(judge, "largest_force", claim[CLAIM_LARGEST_FORCE], m->largest_force, force);
     same(judge, "tension_estimate", claim[CLAIM_TENSION_ESTIMATE], m->tension_estimate, force);
     // what friction dissipates is -F.u_T; w |u_T| differs from it by the law residual
-    if (r->parts == 1) same(judge, "dissipated", r->dissipated, m->slid + ends, energy + m->law);
+    if (r->substeps == 1) same(judge, "dissipated", r->dissipated, m->slid + ends, energy + m->law);
     same(judge, "friction_residual", claim[CLAIM_FRICTION_RESIDUAL], claimed_residual(r, m),
          force * (double)r->nodes);
     same(judge, "penetration", claim[CLAIM_PENETRATION], m->depth,
@@ -252,11 +252,11 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
     at_most(judge, "place of an element's contact against the nearest", m->share_error,
             COPY_TOLERANCE * (m->length + m->reach));
-    at_most(judge, "slide against the way from the reference", m->slide_error,
+    at_most(judge, "slip against the way from the reference", m->slip_error,
             COPY_TOLERANCE * (m->length + m->reach));
     at_most(judge, "quarters of a turn of an obstacle in one part", m->quarters, 1 + TURN_ROUNDING);
     at_most(judge, "quarters of a turn of an obstacle by the number of parts",
-            m->quarters / (r->share * r->parts), 1 + TURN_ROUNDING);
+            m->quarters / (r->share * r->substeps), 1 + TURN_ROUNDING);
     at_most(judge, "quarters of a turn that a node with friction went", m->gone_quarters,
             1 + GONE_ROUNDING);
     at_most(judge, "contact_gap against the distance", m->gap_error,
@@ -362,14 +362,14 @@ static Measures measure_where(const Source *source, const Record *r, size_t step
                                               : frozen);
     if (source->consistent || !source->follows || !source->has_static || step > 0) return m;
     Measures laid = measure(source, r, SIGHT_REACHED);
-    return laid.normal_error <= m.normal_error && laid.slide_error <= m.slide_error ? laid : m;
+    return laid.normal_error <= m.normal_error && laid.slip_error <= m.slip_error ? laid : m;
 }
 
 /* The sharpest bend, and whether the mesh is too coarse for it. Of a step in several parts the
  * sharpest may have been in an earlier one. */
 static void judge_bend(Judge *judge, const Record *r, const Measures *m) {
     const Bend *bend = &m->bend;
-    bool coarse = r->outcome == OUTCOME_COARSE, whole = r->parts == 1;
+    bool coarse = r->outcome == OUTCOME_COARSE, whole = r->substeps == 1;
     if (!coarse && bend->ratio > LOCKING_RATIO * (1 + BEND_TOLERANCE))
         find(judge, "certified, but friction at one contact holds tensions in the ratio %.6g",
              bend->ratio);
@@ -437,7 +437,7 @@ static void judge_record(const Source *source, const Record *r, const char *line
 /* The work of the ends needs the forces that they had at the end of the step before. */
 static void judge_work(const Record *r, const Record *before, const Source *source, size_t step,
                        Judge *judge) {
-    if (r->outcome != OUTCOME_SOLVED || r->parts > 1 || before->outcome > OUTCOME_TAUT) return;
+    if (r->outcome != OUTCOME_SOLVED || r->substeps > 1 || before->outcome > OUTCOME_TAUT) return;
     const Measures m = measure_where(source, r, step);
     if (m.missing) return;
     same(judge, "ledger_ends", r->ledger[LEDGER_ENDS], (double)ends_work(r, before),
@@ -447,7 +447,7 @@ static void judge_work(const Record *r, const Record *before, const Source *sour
 /* The weight before a step in one part is that after the one before, by the load of any node that
  * no end force acts on. */
 static void judge_weight(const Record *r, const Record *before, Judge *judge) {
-    if (!r->has_weight_before || r->parts != 1 || r->nodes < 3 || before->outcome > OUTCOME_TAUT)
+    if (!r->has_weight_before || r->substeps != 1 || r->nodes < 3 || before->outcome > OUTCOME_TAUT)
         return;
     const double share = (r->element_length[0] + r->element_length[1]) / 2;
     for (int k = 0; k < 3; k++)
@@ -557,7 +557,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         if (bad) break;
         judge_record(source, &record, line, step, log, report);
         Judge judge = {log, line, step, 0};
-        if (step > 0 && record.parts == 1 &&
+        if (step > 0 && record.substeps == 1 &&
             memcmp(record.reference, previous.position, record.nodes * sizeof(Vector)) != 0)
             find(&judge, "the reference is not the position of the step before");
         if (step > 0) judge_work(&record, &previous, source, step, &judge);
@@ -565,7 +565,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         // with frozen friction the reactions before a first step, or before the last part of one,
         // are not known
         bool statics = step == 0 && source->has_static && without_friction(&record);
-        if (!statics && (source->consistent || (step > 0 && record.parts == 1)))
+        if (!statics && (source->consistent || (step > 0 && record.substeps == 1)))
             judge_bounds(source, &record, source->consistent ? &record : &previous, &judge);
         report->refuted += judge.findings > 0;
         Record swap = previous;

@@ -45,7 +45,7 @@ static Real share(const Record *r, size_t j) {
 
 /* friction of the half element on obstacle k, with its normal n and the end's reaction */
 static void rub(const Source *source, const Record *r, size_t j, size_t next, size_t k,
-                const Real *n, Real reaction, const Real *slide, Real *out) {
+                const Real *n, Real reaction, const Real *slip, Real *out) {
     Real length = 0;
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
     for (size_t c = next; c < r->contacts * r->nodes; c += r->nodes) {
@@ -61,7 +61,7 @@ static void rub(const Source *source, const Record *r, size_t j, size_t next, si
         const Real per_length = share(r, j) / share(r, next) * zone / other;
         const Real of_bound =
             zone * surface_friction(&source->surface[k]) * reaction / r->friction_bound[c];
-        const bool pushes = dot(out, slide) > 0 && size(slide) > TOUCH * length;
+        const bool pushes = dot(out, slip) > 0 && size(slip) > TOUCH * length;
         for (int i = 0; i < 3; i++) out[i] *= pushes ? 0 : fminl(per_length, of_bound);
         return;
     }
@@ -78,21 +78,21 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
     for (int i = 0; i < 3; i++) end.force[i] -= others[i];
     if (none) return end;
     const Surface *surface = &source->surface[k];
-    Triple x, reference, carried, n, slide, own;
+    Triple x, reference, carried, n, slip, own;
     widen(r->position[j], x);
     widen(r->reference[j], reference);
     surface_normal(surface, x, n);
     surface_carry(surface, reference, (Real)r->share * r->turn[k], carried);
-    surface_way(surface, carried, x, slide);
+    surface_way(surface, carried, x, slip);
     surface_way(surface, reference, x, own);
     end.reaction = fmaxl(0, dot(n, end.force));
     const bool neighbour_held = (next == 0 && r->end_kind[0] == END_HELD) ||
                                 (next == r->elements && r->end_kind[1] == END_HELD);
     if (end.reaction > 0 && !neighbour_held)
-        rub(source, r, j, next, k, n, end.reaction, slide, end.friction);
+        rub(source, r, j, next, k, n, end.reaction, slip, end.friction);
     for (int i = 0; i < 3; i++) end.force[i] -= end.reaction * n[i] + end.friction[i];
-    end.slid = -dot(end.friction, slide);
-    end.carried = r->turn[k] != 0 ? dot(end.friction, own) - dot(end.friction, slide) : 0;
+    end.slid = -dot(end.friction, slip);
+    end.carried = r->turn[k] != 0 ? dot(end.friction, own) - dot(end.friction, slip) : 0;
     return end;
 }
 

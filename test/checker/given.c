@@ -279,7 +279,7 @@ static void compare_end(Compare *compare, const CpsLine *line, int e, const Impo
     // where a part of a step has no equilibrium, the file has the end on its way
     const bool ended = r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE ||
                        r->outcome == OUTCOME_SLIDES;
-    if (ended && (r->parts > 1 || r->share < 1)) return;
+    if (ended && (r->substeps > 1 || r->share < 1)) return;
     const double most = fmax(size(end->now.value), size(was->value));
     const bool held = r->end_kind[e] == END_HELD;
     const double *value = held ? r->held_position[e] : r->applied_force[e];
@@ -315,7 +315,7 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
         return;
     const double pull = size(compare->scene->gravity), weight = pull > 0 ? line->weight / pull : 0,
                  most = weight * fmax(size(g), size(was));
-    if (r->has_weight_before && r->parts == 1)
+    if (r->has_weight_before && r->substeps == 1)
         for (int k = 0; k < 3; k++)
             if (!(fabs(r->weight_before[k] - weight * was[k]) <= COPIED * most))
                 find(compare, "weight_before of %s, step %zu, is %.17g, in the scene %.17g",
@@ -356,7 +356,7 @@ static double coefficient(const Compare *compare, const Record *r, size_t j) {
  * several parts has the reference of the last of them. */
 static void compare_nodes(Compare *compare, const CpsLine *line, const Record *r) {
     const CpsStart *start = &line->start;
-    if (start->kind != CPS_START_NODES || r->parts != 1) return;
+    if (start->kind != CPS_START_NODES || r->substeps != 1) return;
     for (size_t j = 0; j < r->nodes; j++) {
         double place[3];
         for (int k = 0; k < 3; k++)

@@ -94,7 +94,7 @@ static const char *missing_variable(const Record *r) {
         {"load", r->load[0], 3 * n, -most, most},
         {"normal", r->normal[0], 3 * all, -most, most},
         {"friction_force", r->friction[0], 3 * all, -most, most},
-        {"slide", r->slide[0], 3 * all, -most, most},
+        {"slip", r->slip[0], 3 * all, -most, most},
         {"segment_force", r->segment_force[0], 3 * m, -most, most},
         {"tension", r->tension, m, -most, most},
         {"friction_bound", r->friction_bound, all, 0, most},
@@ -198,7 +198,7 @@ typedef struct Where {
 typedef struct Seat {
     const Surface *surface; /* NULL without any */
     Triple normal, plane;   /* of the contact, and of the plane in which friction acts */
-    Triple slide, own;      /* own: the node's way, not less that of an obstacle that turns */
+    Triple slip, own;       /* own: the node's way, not less that of an obstacle that turns */
     Real gap;               /* what contact_gap must be */
     Real axes[2][3];
     bool has_axes;
@@ -275,16 +275,16 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     if (where->reached && !where->frozen) {
         /* half round no way is shorter than all others; where no friction acts none is asked for */
         const bool half = surface_angle(seat.surface, carried, x) > 2 * QUARTER - HALF_ROUND;
-        if (!half || r->friction_bound[c] > 0) surface_way(seat.surface, carried, x, seat.slide);
+        if (!half || r->friction_bound[c] > 0) surface_way(seat.surface, carried, x, seat.slip);
     } else {
         Triple way = {x[0] - carried[0], x[1] - carried[1], x[2] - carried[2]};
         Real rise = dot(way, seat.plane);
-        for (int k = 0; k < 3; k++) seat.slide[k] = way[k] - rise * seat.plane[k];
+        for (int k = 0; k < 3; k++) seat.slip[k] = way[k] - rise * seat.plane[k];
     }
     seat.gap = where->reached ? surface_distance(seat.surface, x) - dot(seat.normal, u)
                               : fmaxl(0, surface_distance(seat.surface, reference));
     if (turn == 0)
-        for (int k = 0; k < 3; k++) seat.own[k] = seat.slide[k];
+        for (int k = 0; k < 3; k++) seat.own[k] = seat.slip[k];
     subtract(nodes[j < r->elements ? j + 1 : j], nodes[j > 0 ? j - 1 : j], along);
     seat.has_axes = surface_axes(seat.surface, seat.plane, along, seat.axes);
     return seat;
@@ -293,20 +293,20 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
 /* normal, way and gap on file against those recomputed, and depth below whatever obstacle */
 static void measure_seat(const Where *where, const Record *r, size_t j, size_t c, const Seat *seat,
                          Real margin, Measures *m) {
-    Triple n, slide, x;
+    Triple n, slip, x;
     widen(r->normal[c], n);
-    widen(r->slide[c], slide);
+    widen(r->slip[c], slip);
     widen(r->position[j], x);
     r->mu[c] = seat->surface
                    ? (r->factor ? r->factor[j] : 1) * (double)surface_friction(seat->surface)
                    : 0;
     for (int k = 0; k < 3; k++) {
         n[k] -= seat->normal[k];
-        slide[k] -= seat->slide[k];
+        slip[k] -= seat->slip[k];
     }
     bool round = seat->surface && seat->surface->kind != SURFACE_PLANE;
     raise_to(&m->normal_error, size(n) / (1 + (round ? where->reach / seat->surface->radius : 0)));
-    raise_to(&m->slide_error, size(slide));
+    raise_to(&m->slip_error, size(slip));
     if (c == j)
         for (size_t k = 0; k < where->source->surfaces; k++) {
             Real depth = -surface_distance(&where->source->surface[k], x);
@@ -347,26 +347,26 @@ static void measure_friction(const Record *r, size_t c, const Seat *seat, Measur
     if (seat->has_axes)
         for (int a = 0; a < 2; a++) {
             force[a] = dot(F, seat->axes[a]);
-            way[a] = dot(seat->slide, seat->axes[a]);
+            way[a] = dot(seat->slip, seat->axes[a]);
         }
     else { /* no direction: nothing but the size can be judged */
         if (surface->set) w *= surface->set->reach;
         surface = &none;
         force[0] = size(F);
-        way[0] = force[0] > 0 ? dot(seat->slide, F) / force[0] : 0;
+        way[0] = force[0] > 0 ? dot(seat->slip, F) / force[0] : 0;
     }
     Real gap = surface_gap(surface, w, force, way, &phi);
     add(&s->primal, phi);
     add(&s->scale, phi);
     add(&s->slid, phi);
     add(&s->signed_gap, phi);
-    add(&s->signed_gap, dot(F, seat->slide));
+    add(&s->signed_gap, dot(F, seat->slip));
     add(&s->gap, gap);
     add(&s->law, gap);
     if (surface->set) m->beyond += fmax(0, -(double)(phi + force[0] * way[0] + force[1] * way[1]));
     add(&s->bound_residual, fabsl(r->friction_bound[c] - (Real)r->mu[c] * r->reaction[c]));
-    add(&s->magnitude, phi + size(F) * size(seat->slide));
-    add(&s->carried, dot(F, seat->own) - dot(F, seat->slide));
+    add(&s->magnitude, phi + size(F) * size(seat->slip));
+    add(&s->carried, dot(F, seat->own) - dot(F, seat->slip));
     raise_to(&m->friction_excess, surface_excess(surface, w, force));
     raise_to(&m->friction_normal, fabsl(dot(F, seat->plane)));
     raise_to(&m->largest_force, size(F));
@@ -393,7 +393,7 @@ static void measure_contact(const Where *where, const Record *r, size_t j, size_
 
     for (int k = 0; k < 3; k++) pull[k] += F[k] + R * n[k];
     measure_friction(r, c, &seat, m, s);
-    Triple start = {x[0] - seat.slide[0], x[1] - seat.slide[1], x[2] - seat.slide[2]};
+    Triple start = {x[0] - seat.slip[0], x[1] - seat.slip[1], x[2] - seat.slip[2]};
     add(&s->dual, dot(F, start) + R * dot(n, reference));
     add(&s->magnitude, force * size(x) + R * size(reference));
     raise_to(&m->largest_force, R);
@@ -444,15 +444,15 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     // foot
     Surface within = *on;
     within.radius -= depth;
-    surface_way(&within, carried, x, seat.slide);
+    surface_way(&within, carried, x, seat.slip);
     if (where->frozen) { // straight, in the plane of the reference
-        for (int k = 0; k < 3; k++) seat.slide[k] = x[k] - carried[k];
-        const Real rise = dot(seat.slide, seat.plane);
-        for (int k = 0; k < 3; k++) seat.slide[k] -= rise * seat.plane[k];
+        for (int k = 0; k < 3; k++) seat.slip[k] = x[k] - carried[k];
+        const Real rise = dot(seat.slip, seat.plane);
+        for (int k = 0; k < 3; k++) seat.slip[k] -= rise * seat.plane[k];
     }
     surface_way(&within, reference, x, seat.own);
     if (turn == 0)
-        for (int k = 0; k < 3; k++) seat.own[k] = seat.slide[k];
+        for (int k = 0; k < 3; k++) seat.own[k] = seat.slip[k];
     seat.gap = surface_distance(on, x) + depth - dot(seat.normal, u);
     seat.has_axes = surface_axes(on, seat.plane, along, seat.axes);
     return seat;
@@ -472,7 +472,7 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     }
     const Surface *on = &where->source->surface[(size_t)r->obstacle[c]];
     const Real t = r->share_of[i], R = r->reaction[c], gap = r->gap[c];
-    Triple x, reference, along, a, b, n, F, slide, start;
+    Triple x, reference, along, a, b, n, F, slip, start;
     point_of(r->position, i, t, x);
     point_of(r->reference, i, t, reference);
     widen(r->position[i], a);
@@ -480,7 +480,7 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     subtract(r->position[i + 1], r->position[i], along);
     widen(r->normal[c], n);
     widen(r->friction[c], F);
-    widen(r->slide[c], slide);
+    widen(r->slip[c], slip);
     const Seat seat =
         element_seat(where, r, on, i, t, x, reference,
                      on->kind == SURFACE_PLANE ? 0 : surface_allowance(on, r->element_length[i]));
@@ -499,11 +499,11 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
         raise_to(&m->share_error, fabsl(facing - t) * size(along));
     for (int k = 0; k < 3; k++) {
         n[k] -= seat.normal[k];
-        slide[k] -= seat.slide[k];
-        start[k] = x[k] - seat.slide[k];
+        slip[k] -= seat.slip[k];
+        start[k] = x[k] - seat.slip[k];
     }
     raise_to(&m->normal_error, size(n) / (1 + (third ? 0 : where->reach / on->radius)));
-    raise_to(&m->slide_error, size(slide));
+    raise_to(&m->slip_error, size(slip));
     if (r->friction_bound[c] > 0 && !left)
         raise_to(&m->gone_quarters, surface_angle(on, reference, x) / QUARTER);
     if (isfinite(r->gap[c])) raise_to(&m->gap_error, fabsl(gap - seat.gap));

@@ -42,10 +42,10 @@ typedef struct Measures {
     double reach;   /* [m] largest coordinate or radius of anything */
     int unwatched;  /* contacts without a contact_gap that should have one; of the reference: or the
                        other way  round */
-    double gap_error;   /* [m] max |contact_gap - what it must be| */
-    double slide_error; /* [m] max |slide - way from the carried reference| */
-    double quarters;    /* of a turn by which an obstacle turns in the part that the arrays show, at
-                           most */
+    double gap_error;  /* [m] max |contact_gap - what it must be| */
+    double slip_error; /* [m] max |slide - way from the carried reference| */
+    double quarters;   /* of a turn by which an obstacle turns in the part that the arrays show, at
+                          most */
     double gone_quarters; /* of a turn by which a node with friction has gone round an obstacle in
                              it, at most */
     double share_error; /* [m] how far the point where an element touches is from the nearest on its

@@ -51,7 +51,7 @@ static bool contacts_of(const Source *source, const Record *r, double length, do
         if (!source->consistent && surface->kind != SURFACE_PLANE)
             return false; // friction keeps the plane of the reference
         friction[c] = !rubs ? 0 : source->consistent ? r->mu[c] : r->friction_bound[c];
-        const double way = length_of(r->slide[c]);
+        const double way = length_of(r->slip[c]);
         if (friction[c] > 0 && way > NONE * length && way < SOME * length) return false;
         contact[c] = friction[c] > 0 && way > NONE * length ? REST_SLIPS : REST_STICKS;
     }
@@ -85,7 +85,7 @@ static bool is_other(const Source *source, const Record *r, size_t element, doub
                                .position = (const double(*)[3])r->position,
                                .load = (const double(*)[3])r->load,
                                .normal = (const double(*)[3])r->normal,
-                               .slide = (const double(*)[3])r->slide,
+                               .slip = (const double(*)[3])r->slip,
                                .friction = friction,
                                .contact = contact,
                                .frozen = !source->consistent,

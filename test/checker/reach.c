@@ -123,7 +123,7 @@ const char *reach_contradiction(const Source *source, const Record *r, bool stat
     if (r->end_kind[0] != END_HELD || r->end_kind[1] != END_HELD) return "an end is free";
     if (source->touching_only && !statics)
         return "contact is that of the reference and keeps the line out of nothing";
-    if (r->parts != 1) return "it is of a part of a step";
+    if (r->substeps != 1) return "it is of a substep";
     const Seen seen = look(s, r);
     Real turn = fabsl(seen.angle), length = 0;
     int turns = 0;

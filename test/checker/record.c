@@ -404,7 +404,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     record->contacts = source->surfaces > 1 ? 2 : 1;
     size_t n = record->contacts * record->nodes + record->elements;
     Vector **vectors[] = {&record->reference,     &record->position, &record->load,
-                          &record->normal,        &record->friction, &record->slide,
+                          &record->normal,        &record->friction, &record->slip,
                           &record->segment_force, &record->motion};
     double **scalars[] = {&record->element_length, &record->gap,     &record->friction_bound,
                           &record->reaction,       &record->tension, &record->mu,
@@ -435,7 +435,7 @@ void record_destroy(Record *record) {
     free(record->friction_bound);
     free(record->reaction);
     free(record->tension);
-    free(record->slide);
+    free(record->slip);
     free(record->motion);
     free(record->share_of);
     free(record->turn);
@@ -463,7 +463,7 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     double outcome, iterations, parts, kind[2];
     int bad = read_step(source, line, "outcome", step, 0, 0, &outcome, log);
     bad |= read_step(source, line, "iterations", step, 0, 0, &iterations, log);
-    bad |= read_step(source, line, "parts", step, 0, 0, &parts, log);
+    bad |= read_step(source, line, "substeps", step, 0, 0, &parts, log);
     bad |= read_step(source, line, "share", step, 0, 0, &record->share, log);
     bad |= read_step(source, line, "end_kind", step, 2, 0, kind, log);
     bad |= read_step(source, line, "end_held_position", step, 2, 3, record->held_position[0], log);
@@ -494,7 +494,7 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     if (!(outcome >= 0 && outcome < OUTCOMES))
         return complain(log, "unknown outcome in line", line, 0);
     if (!(parts >= 1 && parts < 1e9))
-        return complain(log, "senseless number of parts in line", line, 0);
+        return complain(log, "senseless number of substeps in line", line, 0);
     if (!(record->share > 0 && record->share <= 1))
         return complain(log, "senseless share of a step in line", line, 0);
     if (!(fabs(iterations) < 1e9))
@@ -506,21 +506,20 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     }
     record->outcome = (int)outcome;
     record->iterations = (int)iterations;
-    record->parts = (int)parts;
+    record->substeps = (int)parts;
     return 0;
 }
 
 /* what belongs to the first contact of each node, or to the second */
 static int read_contact(const Source *source, const char *line, size_t step, bool second,
                         Record *record, FILE *log) {
-    static const char *const NAME[2][7] = {{"normal", "friction_force", "slide", "contact_gap",
+    static const char *const NAME[2][7] = {{"normal", "friction_force", "slip", "contact_gap",
                                             "friction_bound", "reaction", "obstacle"},
-                                           {"normal_second", "friction_force_second",
-                                            "slide_second", "contact_gap_second",
-                                            "friction_bound_second", "reaction_second",
-                                            "obstacle_second"}};
+                                           {"normal_second", "friction_force_second", "slip_second",
+                                            "contact_gap_second", "friction_bound_second",
+                                            "reaction_second", "obstacle_second"}};
     size_t n = record->nodes, from = second ? n : 0, known = record->contacts > 1 ? 7 : 6;
-    double *to[7] = {record->normal[from],   record->friction[from],        record->slide[from],
+    double *to[7] = {record->normal[from],   record->friction[from],        record->slip[from],
                      record->gap + from,     record->friction_bound + from, record->reaction + from,
                      record->obstacle + from};
     int bad = 0;
@@ -538,14 +537,18 @@ static int read_contact(const Source *source, const char *line, size_t step, boo
 static int read_elements(const Source *source, const char *line, size_t step, Record *record,
                          FILE *log) {
     static const char *const NAME[8] = {"element_normal",         "element_friction_force",
-                                        "element_slide",          "element_contact_gap",
+                                        "element_slip",           "element_contact_gap",
                                         "element_friction_bound", "element_reaction",
                                         "element_obstacle",       "element_share"};
     const size_t n = record->elements, from = record->contacts * record->nodes;
-    double *to[8] = {record->normal[from],          record->friction[from],
-                     record->slide[from],           record->gap + from,
-                     record->friction_bound + from, record->reaction + from,
-                     record->obstacle + from,       record->share_of};
+    double *to[8] = {record->normal[from],
+                     record->friction[from],
+                     record->slip[from],
+                     record->gap + from,
+                     record->friction_bound + from,
+                     record->reaction + from,
+                     record->obstacle + from,
+                     record->share_of};
     int bad = 0;
     for (size_t k = 0; k < source->surfaces; k++)
         record->has_elements |=

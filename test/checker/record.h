@@ -73,7 +73,7 @@ typedef struct Record {
                                the loads */
     Vector weight_before;
     Vector *motion;                          /* of a line that slides without end, else 0 */
-    Vector *normal, *friction, *slide;       /* (contacts, nodes) */
+    Vector *normal, *friction, *slip;        /* (contacts, nodes) */
     double *gap, *friction_bound, *reaction; /* the same */
     double *obstacle;  /* the same: its number, by the file; where there is one contact, 0 */
     double *share_of;  /* (elements) where on its way element i touches */
@@ -86,7 +86,7 @@ typedef struct Record {
     double *factor, *factor_noise;
     double *tension;
     int end_kind[2], outcome, iterations;
-    int parts;    /* that the step was taken in; the arrays are those of the last one, */
+    int substeps; /* that the step was taken in; the arrays are those of the last one, */
     double share; /* which is so much of the step */
     Vector held_position[2], applied_force[2]; /* what is imposed on an end; NaN: the other is */
     Vector end_force[2], end_friction_force[2], proof;

@@ -53,7 +53,7 @@ static size_t bind(const RestLine *line, Conic *set, size_t row, size_t c, const
         for (size_t a = 0; a < 3; a++) put(set, row + 1 + a, 0, f, axis[a], 0);
         return 4;
     }
-    const double *n = line->normal[c], *u = line->slide[c];
+    const double *n = line->normal[c], *u = line->slip[c];
     const Real normal[3] = {n[0], n[1], n[2]}, mu = line->friction[c];
     const bool slips = line->contact[c] == REST_SLIPS;
     Real size = sqrtl((Real)u[0] * u[0] + (Real)u[1] * u[1] + (Real)u[2] * u[2]), way[3];

@@ -23,9 +23,9 @@ typedef enum RestContact { REST_APART, REST_STICKS, REST_SLIPS } RestContact;
 typedef struct RestLine {
     size_t elements, contacts;
     const double *element_length, (*position)[3], (*load)[3];
-    const double (*normal)[3], (*slide)[3]; /* (contacts, nodes) */
-    const double *friction;     /* (contacts, nodes) mu, or the bound [N] where frozen */
-    const RestContact *contact; /* (contacts, nodes) */
+    const double (*normal)[3], (*slip)[3]; /* (contacts, nodes) */
+    const double *friction;                /* (contacts, nodes) mu, or the bound [N] where frozen */
+    const RestContact *contact;            /* (contacts, nodes) */
     bool frozen, held[2];
     double force; /* [N] of the size of the largest */
 } RestLine;

@@ -119,7 +119,7 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     n++;
     field[n++] = vectors("normal", NODES, NULL, 1);
     field[n++] = vectors("friction_force", NODES, line->friction, 0);
-    field[n++] = vectors("slide", NODES, again ? NULL : line->move, 0);
+    field[n++] = vectors("slip", NODES, again ? NULL : line->move, 0);
     field[n++] = vectors("segment_force", ELEMENTS, line->segment, 0);
     field[n++] = constant("contact_gap", NODES, 0, 0);
     field[n++] = constant("friction_bound", NODES, 4, 2);
@@ -128,7 +128,7 @@ static size_t describe(const SampleLine *line, int again, Field *field) {
     memcpy(field[n++].value, line->tension, sizeof line->tension);
     field[n++] = scalar("outcome", line->outcome);
     field[n++] = scalar("iterations", 1);
-    field[n++] = scalar("parts", 1);
+    field[n++] = scalar("substeps", 1);
     field[n++] = scalar("share", 1);
     n += imposed(&field[n], line->end_kind, (double[]){0, 0, 0, line->end_b, 0, 0});
     // the bed carries the half element at A, next to which nothing rubs
@@ -322,7 +322,7 @@ static const double CENTER[3] = {0.5, 0.75, 0.25};
 
 typedef struct Wound {
     double tension[ELEMENTS], length[ELEMENTS], place[3 * NODES], normal[3 * NODES],
-        chord[3 * ELEMENTS], slide[3 * NODES];
+        chord[3 * ELEMENTS], slip[3 * NODES];
 } Wound;
 
 /* direction at an angle from z towards x, the sense of a turn about y */
@@ -342,9 +342,9 @@ static Wound wind(void) {
     }
     for (int j = 0; j < NODES; j++) {
         spoke(j * DELTA, &w.normal[3 * j]);
-        spoke(j * DELTA + 1.57079632679489661923, &w.slide[3 * j]);
+        spoke(j * DELTA + 1.57079632679489661923, &w.slip[3 * j]);
         for (int k = 0; k < 3; k++) {
-            w.slide[3 * j + k] *= SLIP;
+            w.slip[3 * j + k] *= SLIP;
             w.place[3 * j + k] = CENTER[k] * (k != 1) + w.normal[3 * j + k];
         }
     }
@@ -359,7 +359,7 @@ static Field *of_nodes(Field *field, const char *name, const double *value) {
 
 /* contacts of elements, none of which touches anything */
 static size_t no_elements(Field *field) {
-    static const char *const NAME[] = {"element_normal", "element_friction_force", "element_slide"};
+    static const char *const NAME[] = {"element_normal", "element_friction_force", "element_slip"};
     static const struct {
         const char *name;
         double value;
@@ -384,7 +384,7 @@ static size_t describe_wound(const Wound *w, Field *field) {
     of_nodes(&field[n++], "reference", w->place);
     of_nodes(&field[n++], "position", w->place);
     of_nodes(&field[n++], "normal", w->normal);
-    of_nodes(&field[n++], "slide", w->slide);
+    of_nodes(&field[n++], "slip", w->slip);
     Field *load = of_nodes(&field[n++], "load", NULL),
           *friction = of_nodes(&field[n++], "friction_force", NULL);
     field[n] = (Field){"segment_force", ELEMENTS, 3, {0}};
@@ -407,7 +407,7 @@ static size_t describe_wound(const Wound *w, Field *field) {
         reaction->value[j] = (T[j] + T[j - 1]) * s;
         bound->value[j] = MU * reaction->value[j];
         for (int k = 0; k < 3; k++)
-            friction->value[3 * j + k] = -(T[j] - T[j - 1]) * c / SLIP * w->slide[3 * j + k];
+            friction->value[3 * j + k] = -(T[j] - T[j - 1]) * c / SLIP * w->slip[3 * j + k];
         work += SLIP * bound->value[j];
     }
     for (int k = 0; k < 3; k++) {
@@ -424,7 +424,7 @@ static size_t describe_wound(const Wound *w, Field *field) {
     scale += work + least_scale(largest, length); // nothing moves but the drum
     field[n++] = scalar("outcome", 0);
     field[n++] = scalar("iterations", 1);
-    field[n++] = scalar("parts", 1);
+    field[n++] = scalar("substeps", 1);
     field[n++] = scalar("share", 1);
     const double *place = w->place, *pull = &load->value[3 * ELEMENTS];
     n += imposed(&field[n], HELD_FREE,
@@ -542,7 +542,7 @@ static size_t describe_corner(int again, Field *field) {
     *normal = vectors("normal_second", NODES, NULL, 0);
     for (int j = 0; j < NODES; j++) normal->value[3 * j + 1] = 1;
     field[n++] = vectors("friction_force_second", NODES, SECOND, 0);
-    field[n++] = vectors("slide_second", NODES, again ? NULL : line.move, 0);
+    field[n++] = vectors("slip_second", NODES, again ? NULL : line.move, 0);
     field[n++] = constant("contact_gap_second", NODES, 0, 0);
     field[n++] = constant("friction_bound_second", NODES, 2, 1);
     field[n] = constant("reaction_second", NODES, 8, 4);
@@ -576,7 +576,7 @@ static size_t describe_post(Field *field) {
     of_nodes(&field[n++], "reference", PLACE);
     of_nodes(&field[n++], "position", PLACE);
     Field *normal = of_nodes(&field[n++], "normal", NULL);
-    of_nodes(&field[n++], "slide", NULL);
+    of_nodes(&field[n++], "slip", NULL);
     of_nodes(&field[n++], "friction_force", NULL);
     memcpy(&of_nodes(&field[n++], "load", NULL)->value[3 * ELEMENTS], PULL, sizeof PULL);
     field[n] = constant("contact_gap", NODES, 0, 0);
@@ -594,7 +594,7 @@ static size_t describe_post(Field *field) {
     memcpy(field[n++].value, TENSION, sizeof TENSION);
     field[n++] = scalar("outcome", 0);
     field[n++] = scalar("iterations", 1);
-    field[n++] = scalar("parts", 1);
+    field[n++] = scalar("substeps", 1);
     field[n++] = scalar("share", 1);
     n += imposed(&field[n], HELD_FREE, (double[]){PLACE[0], PLACE[1], 0, PULL[0], PULL[1], 0});
     field[n++] = (Field){"end_force", 2, 3, {-FORCE[0], -FORCE[1], 0, PULL[0], PULL[1], 0}};
@@ -655,7 +655,7 @@ int sample_write_corner(const char *path) {
     return status ? status : closed;
 }
 
-/* ---- the slide ---- */
+/* ---- a line that slides without end ---- */
 
 static const Bed DRUM = {.kind = 1, .axis = {0, 1, 0}, .radius = 1, .axial = 0.5, .lateral = 0.5};
 

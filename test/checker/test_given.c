@@ -68,7 +68,8 @@ static CpsStatus run(const char *text, const char *where, CpsSceneFile **read, i
          first = false) {
         status = cps_evolution_step(evolution, &err);
         if (!status) status = cps_results_append(results, evolution, &err);
-        if (!status && parts && first) *parts = cps_evolution_line_report(evolution, 0).part_count;
+        if (!status && parts && first)
+            *parts = cps_evolution_line_report(evolution, 0).substep_count;
     }
     if (!status) status = cps_results_finish(results, 0, &err);
     cps_results_destroy(results);

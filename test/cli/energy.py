@@ -79,12 +79,12 @@ def loops(capstan, directory):
         work, lost = (sum(step["ledger_J"][key] for step in steps) for key in ("ends", "dissipated"))
         assert abs(read_joule("at this end", text) - work) <= 6e-4 * abs(work), (tolerance, work, text)  # four digits
         assert abs(read_joule("dissipated by friction", text) - lost) <= 6e-4 * lost, (tolerance, lost)
-        cuts += any(step["parts"] > 1 for step in steps)
+        cuts += any(step["substeps"] > 1 for step in steps)
         last = [row for row in table.splitlines() if row.startswith("surge back 2/2")][0].split()
-        assert int(last[last.index("solved") + 1]) == steps[-1]["parts"], last
+        assert int(last[last.index("solved") + 1]) == steps[-1]["substeps"], last
         if tolerance:
             # whole and halves of every part were solved: more than one and a half times what was kept
-            assert all(step["iterations"] > 1.2 * 8 * step["parts"] for step in steps[1:]), steps
+            assert all(step["iterations"] > 1.2 * 8 * step["substeps"] for step in steps[1:]), steps
     assert cuts == 1
 
 
@@ -98,13 +98,13 @@ def branches(capstan, directory):
     steps, said, _ = run(capstan, directory, BRANCH.replace("HALVINGS", "1"))
     made = [step for step in steps if step["unaccounted_J"] > 0]
     assert made and "the energy does not close" in said, said
-    for step in (step for step in steps if step["parts"] == 1):
+    for step in (step for step in steps if step["substeps"] == 1):
         over = -step["ledger_J"]["imbalance"]
         assert (step["unaccounted_J"] > 0) == (over > 0.05 * exchanged(step["ledger_J"])), step
     steps, said, _ = run(capstan, directory, BRANCH.replace("HALVINGS", "10"))
     assert all(step["outcome"] == "solved" for step in steps)
     assert all(step["unaccounted_J"] == 0 for step in steps) and "does not close" not in said, said
-    assert any(step["parts"] > 1 for step in steps)
+    assert any(step["substeps"] > 1 for step in steps)
     for step in steps:
         assert -step["ledger_J"]["imbalance"] <= 0.05 * exchanged(step["ledger_J"]), step
 

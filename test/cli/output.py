@@ -16,7 +16,7 @@ lines:
 history:
   - {name: move, steps: %d, rope.B: {position: [8.2, 0, 0]}}
 """
-PER_STEP = ["reference", "position", "load", "normal", "contact_gap", "friction_bound", "friction_force", "reaction", "slide",
+PER_STEP = ["reference", "position", "load", "normal", "contact_gap", "friction_bound", "friction_force", "reaction", "slip",
             "segment_force", "tension", "state", "obstacle"]
 ALWAYS = ["arc_length", "element_length", "end_force", "end_tension", "gap", "dissipated", "outcome"]
 faults = []

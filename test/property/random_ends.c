@@ -92,7 +92,7 @@ static double left(const CpsLineView *view, const CpsLineReport *report) {
 }
 
 static bool says_so(const CpsLineReport *report) {
-    return !cps_outcome_is_certified(report->outcome) || report->snap_count > 0 ||
+    return !cps_outcome_is_certified(report->outcome) || report->jump_count > 0 ||
            report->unaccounted > 0 || report->slack > 0;
 }
 

@@ -203,8 +203,8 @@ static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, c
     const CpsLineReport report = cps_evolution_line_report(evolution, 0);
     const CpsStepReport step = cps_evolution_report(evolution);
     count->steps++;
-    count->parts += report.part_count;
-    count->cut += report.part_count > 1;
+    count->parts += report.substep_count;
+    count->cut += report.substep_count > 1;
     if (!cps_outcome_is_certified(report.outcome)) {
         count->refused++;
         printf("seed %llu, step %d: %s\n", (unsigned long long)seed, step.step_count - 1,

@@ -67,7 +67,7 @@ class Line:
             return None
         if step > 0:
             return self.get("position", step - 1)
-        return self.get("reference", 0) if self.one("parts", 0) == 1 else None
+        return self.get("reference", 0) if self.one("substeps", 0) == 1 else None
 
 
 def weight_at(line, j):
@@ -154,7 +154,7 @@ def energy_faults(line, step):
     bad, before, now, book = [], line.start(step), line.get("position", step), ledger(line, step)
     if before is None or not line.certified(step):
         return bad
-    force, parts = line.one("largest_force", step), line.one("parts", step)
+    force, parts = line.one("largest_force", step), line.one("substeps", step)
     extent = max(line.length, way(list(now[:3])*(len(now)//3), now))
     # places known to 1e-8 of the extent, what the certificate leaves, and a strain of 1e-12 by rounding of coordinates
     noise = 1e-8*parts*max(force, size(line.weight)*line.length)*extent + line.one("gap", step)
@@ -170,7 +170,7 @@ def energy_faults(line, step):
         if abs(held[1] - held[0] - book["elastic"]) > 1e-6*max(held) + noise:
             bad.append(f"elastic energy of the ledger {book['elastic']:.6g} J, by the tensions {held[1] - held[0]:.6g} J")
     made = -book["imbalance"]
-    if parts == 1 and made > 1.001*MADE*exchanged(line, step) + noise and not (line.one("unaccounted", step) > 0 or line.one("snaps", step) > 0):
+    if parts == 1 and made > 1.001*MADE*exchanged(line, step) + noise and not (line.one("unaccounted", step) > 0 or line.one("jumps", step) > 0):
         bad.append(f"{made:.6g} J are made beside {exchanged(line, step):.6g} J, and nothing is said")
     return bad
 
@@ -271,7 +271,7 @@ def exchange(scene):
 
 def says_so(line, step):
     """does the record say that it may be one of several, or not what the line does?"""
-    return not line.certified(step) or line.one("snaps", step) > 0 or line.one("unaccounted", step) > 0 or line.one("places_not_unique", step) > 0 \
+    return not line.certified(step) or line.one("jumps", step) > 0 or line.one("unaccounted", step) > 0 or line.one("places_not_unique", step) > 0 \
         or line.one("ledger_imbalance", step) > FREED*exchanged(line, step)
 
 
@@ -292,7 +292,7 @@ def parted(pair, tally):
             if one.final(step) or other.final(step):
                 break
             # strain that the certificates leave open: the file has that of the step's last part
-            left += sum(line.compliance*b*line.one("parts", step) for line in (one, other) for b in line.get("tension_bound", step) if math.isfinite(b))
+            left += sum(line.compliance*b*line.one("substeps", step) for line in (one, other) for b in line.get("tension_bound", step) if math.isfinite(b))
             here, there = one.get("position", step), other.get("position", step)
             apart = max(size(minus(point(here, j), point(there, one.elements - j))) for j in range(one.elements + 1))/one.length
             tally["compared"] += 1

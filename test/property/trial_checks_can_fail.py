@@ -34,7 +34,7 @@ def history():
     values = {"element_length": [[1, 1]], "position": place, "reference": [place[0], place[0], place[1]],
               "tension": [[10, 10]]*STEPS, "segment_force": [[10, 0, 0]*2]*STEPS, "end_kind": [[0, 0]]*STEPS,
               "end_held_position": [[0, 0, 0, 2*x, 0, 0] for x in half], "tension_bound": [[math.nan]]*STEPS}
-    single = {"outcome": [0]*STEPS, "parts": [1]*STEPS, "snaps": [0]*STEPS, "places_not_unique": [0]*STEPS, "unaccounted": [0]*STEPS,
+    single = {"outcome": [0]*STEPS, "substeps": [1]*STEPS, "jumps": [0]*STEPS, "places_not_unique": [0]*STEPS, "unaccounted": [0]*STEPS,
               "gap": [0]*STEPS, "largest_force": [10]*STEPS, "dissipated": [0]*STEPS, "primal": [0]*STEPS, "dual": [0]*STEPS,
               "ledger_ends": [0, fall, 0], "ledger_gravity": [0, fall, 0], "ledger_elastic": [0]*STEPS, "ledger_obstacles": [0]*STEPS,
               "ledger_imbalance": [0]*STEPS}

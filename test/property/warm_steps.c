@@ -108,7 +108,7 @@ static void compare_line(CpsEvolution *const run[3], int l, Tally *tally) {
         raise_to(&tally->end, largest(before.end[end].force, now.end[end].force, 3) / force);
     for (int c = 0; c < cold.contact_count * n; c++)
         tally->other_states += cold.state[c] != warm.state[c];
-    if (now.warm_count < now.part_count) return;
+    if (now.warm_count < now.substep_count) return;
     raise_to(&tally->lack[0], lack_of(&cold));
     raise_to(&tally->lack[1], lack_of(&warm));
     if (now.certificate.scale > 0)
@@ -132,7 +132,7 @@ static bool compare_step(CpsEvolution *const run[3], unsigned char *state, unsig
         if (cps_evolution_step(run[k], &err)) return false;
     const CpsStepReport cold = cps_evolution_report(run[0]), warm = cps_evolution_report(run[1]);
     tally->steps++;
-    tally->warm += warm.warm_count > 0 && warm.warm_count == warm.part_count;
+    tally->warm += warm.warm_count > 0 && warm.warm_count == warm.substep_count;
     tally->iterations[0] += cold.iteration_count;
     tally->iterations[1] += warm.iteration_count;
     tally->failed +=

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as tree
 
 STEP_KEYS = {"name", "outcome", "iterations", "energy", "tension_bound_rms_N", "tension_estimate_N",
              "force_residual_N", "largest_force_N", "law_residual_J", "contact_residual_N", "contact_residual_J",
-             "friction_residual_N", "element_push_N", "elongation_residual", "stretch_residual", "penetration_m", "element_penetration_m", "dissipated_J", "parts", "snaps", "jump_m", "unaccounted_J", "ledger_J",
+             "friction_residual_N", "element_push_N", "elongation_residual", "stretch_residual", "penetration_m", "element_penetration_m", "dissipated_J", "substeps", "jumps", "jump_m", "unaccounted_J", "ledger_J",
              "wall_s", "lines"}
 LINE_KEYS = {"outcome", "iterations", "places_not_unique", "grounded_m", "slipping_m", "slack_m", "dissipated_J", "tension_mesh_estimate_N", "A", "B"}
 POINT_DATA = {"tension_N", "contact_force_N", "friction_state", "displacement_m"}
@@ -57,7 +57,7 @@ def check_history(directory, summary):
     for row, step in zip(rows, summary["steps"]):
         assert len(row) == len(names)
         value = dict(zip(names, row))
-        assert float(value["gravity"]) == step["ledger_J"]["gravity"] and int(value["parts"]) == step["parts"]
+        assert float(value["gravity"]) == step["ledger_J"]["gravity"] and int(value["substeps"]) == step["substeps"]
         assert value["outcome"] == step["outcome"] and float(value["gap"]) == step["energy"]["gap_J"]
         assert not value["name"].startswith("="), "a formula"
         for name, line in step["lines"].items():

@@ -98,7 +98,7 @@ static void expect_same(const CpsEvolution *a, const CpsEvolution *b) {
         assert_memory_equal(x.state, y.state, (size_t)(x.contact_count * n));
         CHECK_INT((int)p.outcome, (int)q.outcome);
         CHECK_INT(p.iteration_count, q.iteration_count);
-        CHECK_INT(p.part_count, q.part_count);
+        CHECK_INT(p.substep_count, q.substep_count);
         same_numbers(&p.dissipated, &q.dissipated, 1);
         same_numbers(&p.certificate.gap, &q.certificate.gap, 1);
         same_numbers(&p.ledger.imbalance, &q.ledger.imbalance, 1);

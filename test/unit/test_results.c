@@ -241,8 +241,8 @@ static void netcdf_holds_the_last_step(void **state) {
             0}; /* on the bed z = 0: the horizontal displacement, its vertical part +0 */
         for (size_t k = 0; k < 3 * n; k++)
             slide[k] = k % 3 < 2 ? v.position[k] - v.reference[k] : 0;
-        assert_memory_equal(v.slide, slide, sizeof slide);
-        same_in_file(file, v.name, "slide", steps - 1, 3 * n, slide);
+        assert_memory_equal(v.slip, slide, sizeof slide);
+        same_in_file(file, v.name, "slip", steps - 1, 3 * n, slide);
         same_in_file(file, v.name, "gap", steps - 1, 1, &r.certificate.gap);
         same_in_file(file, v.name, "tension_bound", steps - 1, 1, &r.certificate.tension_bound);
         same_in_file(file, v.name, "dissipated", steps - 1, 1, &r.dissipated);
@@ -297,8 +297,8 @@ static void obstacles_are_written(void **state) {
                      (double[]){0, step >= 2 && step < 6 ? -0.75 : 0});
     for (int i = 0; i < LINES; i++) {
         const CpsLineView v = cps_evolution_line_view(evolution, i);
-        assert_non_null(v.slide);
-        same_in_file(file, v.name, "slide", 17, 3 * (size_t)(ELEMENTS + 1), v.slide);
+        assert_non_null(v.slip);
+        same_in_file(file, v.name, "slip", 17, 3 * (size_t)(ELEMENTS + 1), v.slip);
     }
     assert_int_equal(nc_close(file), NC_NOERR);
     cps_evolution_destroy(evolution);
@@ -362,7 +362,7 @@ static void both_contacts_are_written(void **state) {
                  {"contact_gap", N, v.gap},
                  {"friction_bound", N, v.friction_bound},
                  {"friction_force", 3 * N, v.friction_force},
-                 {"slide", 3 * N, v.slide},
+                 {"slip", 3 * N, v.slip},
                  {"reaction", N, v.reaction}};
     for (size_t k = 0; k < sizeof field / sizeof *field; k++) {
         char name[64];

@@ -31,8 +31,8 @@ const CpsiField cpsi_field[CPSI_FIELDS] = {
      VIEW(friction_force)},
     {"reaction", "reaction of the obstacle along its normal", "N", CPSI_PLACE_NODE, false, false,
      true, VIEW(reaction)},
-    {"slide", "slip on the obstacle in the step, tangential", "m", CPSI_PLACE_NODE, true, false,
-     true, VIEW(slide)},
+    {"slip", "slip on the obstacle in the step, tangential", "m", CPSI_PLACE_NODE, true, false,
+     true, VIEW(slip)},
     {"segment_force", "force of the B side of an element on its A side", "N", CPSI_PLACE_ELEMENT,
      true, false, false, VIEW(segment_force)},
     {"tension", "tension from the elongation", "N", CPSI_PLACE_ELEMENT, false, false, false,
@@ -51,9 +51,9 @@ const CpsiField cpsi_field[CPSI_FIELDS] = {
      true, false, false, VIEW(element_friction_force)},
     {"element_reaction", "reaction of the obstacle on the element, along its normal", "N",
      CPSI_PLACE_ELEMENT_CONTACT, false, false, false, VIEW(element_reaction)},
-    {"element_slide",
+    {"element_slip",
      "slip on the obstacle of the place where the element touches, in the step, tangential", "m",
-     CPSI_PLACE_ELEMENT_CONTACT, true, false, false, VIEW(element_slide)},
+     CPSI_PLACE_ELEMENT_CONTACT, true, false, false, VIEW(element_slip)},
     {"motion", "velocity that proves that the line slides without end, else 0", "1",
      CPSI_PLACE_NODE, true, false, false, VIEW(motion)},
 };
@@ -61,7 +61,10 @@ const CpsiField cpsi_field[CPSI_FIELDS] = {
 /* Names of earlier versions. */
 static const struct {
     const char *former, *name;
-} RENAMED[] = {{"friction", "friction_force"}, {"element_friction", "element_friction_force"}};
+} RENAMED[] = {{"friction", "friction_force"},
+               {"element_friction", "element_friction_force"},
+               {"slide", "slip"},
+               {"element_slide", "element_slip"}};
 enum { RENAMED_FIELDS = sizeof RENAMED / sizeof RENAMED[0] };
 
 static bool is_name(const char *given, size_t length, const char *name) {

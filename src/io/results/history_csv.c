@@ -57,7 +57,7 @@ enum {
 };
 
 static void write_heads(FILE *out, const CpsResults *results) {
-    fputs("step,name,outcome,iterations,parts,snaps,places_not_unique", out);
+    fputs("step,name,outcome,iterations,substeps,jumps,places_not_unique", out);
     cpsi_csv_names(out, STEP_COLUMN, STEP_COLUMNS, NULL);
     for (int l = 0; l < results->line_count; ++l)
         cpsi_csv_names(out, LINE_COLUMN, LINE_COLUMNS, results->line_name[l]);
@@ -74,7 +74,7 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
         fprintf(out, "%d,", row->report.step_count - 1);
         cpsi_write_csv(out, row->name);
         fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_name(row->report.outcome),
-                row->report.iteration_count, row->report.part_count, row->report.snap_count,
+                row->report.iteration_count, row->report.substep_count, row->report.jump_count,
                 (int)row->report.places);
         cpsi_csv_values(out, STEP_COLUMN, STEP_COLUMNS, &row->report);
         for (int l = 0; l < results->line_count; ++l)

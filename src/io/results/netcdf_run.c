@@ -70,7 +70,7 @@ static const Number NUMBER[] = {
      "depth of the deepest element inside a round obstacle, beyond what its chord may cut in", "m",
      CERTIFICATE(element_penetration)},
     {"dissipated", "energy dissipated by friction in the step", "J", REPORT(dissipated)},
-    {"share", "part of the step that the arrays show, the last one of a step that was cut", "1",
+    {"share", "share of the step that the last substep was, which the arrays show", "1",
      REPORT(share)},
     {"jump", "longest displacement of a node in a jump", "m", REPORT(jump)},
     {"bend_turn", "turn of the line at the contact where the mesh changes the law of friction most",
@@ -84,7 +84,7 @@ static const Number NUMBER[] = {
      REPORT(ledger.obstacles)},
     {"ledger_imbalance", "what the ledger does not close by", "J", REPORT(ledger.imbalance)},
     {"unaccounted",
-     "of that, more than 5 % of the energies of parts that could not be cut any more", "J",
+     "of that, more than 5 % of the energies of substeps that could not be halved any more", "J",
      REPORT(unaccounted)},
     {"proof_length", "infeasible: what is missing of the length, else 0", "m",
      REPORT(proof_length)},
@@ -127,7 +127,7 @@ typedef struct LineIds {
     int contacts;      /* of a node, as in the view */
     int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_held_position,
         end_applied_force, end_force, end_friction_force, end_tension, end_range[RANGES], outcome,
-        iterations, parts, snaps, places, proof, proof_obstacle, weight_before;
+        iterations, substeps, jumps, places, proof, proof_obstacle, weight_before;
     int field[FIELDS][CONTACTS];         /* unused where a view has no such array */
     int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
@@ -317,10 +317,10 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     ids->outcome = add_outcome(nc, view->name);
     ids->iterations = cpsi_netcdf_variable(&nc->file, view->name, "iterations", NC_INT, 1,
                                            &nc->step, "interior-point iterations", "1");
-    ids->parts = cpsi_netcdf_variable(&nc->file, view->name, "parts", NC_INT, 1, &nc->step,
-                                      "parts that the step was taken in", "1");
-    ids->snaps = cpsi_netcdf_variable(&nc->file, view->name, "snaps", NC_INT, 1, &nc->step,
-                                      "parts in which the line jumped", "1");
+    ids->substeps = cpsi_netcdf_variable(&nc->file, view->name, "substeps", NC_INT, 1, &nc->step,
+                                         "substeps that the step was taken in", "1");
+    ids->jumps = cpsi_netcdf_variable(&nc->file, view->name, "jumps", NC_INT, 1, &nc->step,
+                                      "substeps in which the line jumped", "1");
     ids->places = cpsi_netcdf_variable(
         &nc->file, view->name, "places_not_unique", NC_INT, 1, &nc->step,
         "do the forces leave a choice of places; 0: no, 1: the nearest is taken, 2: one of them",
@@ -410,8 +410,8 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
 
     cpsi_netcdf_int(&nc->file, ids->outcome, start, (int)report->outcome);
     cpsi_netcdf_int(&nc->file, ids->iterations, start, report->iteration_count);
-    cpsi_netcdf_int(&nc->file, ids->parts, start, report->part_count);
-    cpsi_netcdf_int(&nc->file, ids->snaps, start, report->snap_count);
+    cpsi_netcdf_int(&nc->file, ids->substeps, start, report->substep_count);
+    cpsi_netcdf_int(&nc->file, ids->jumps, start, report->jump_count);
     cpsi_netcdf_int(&nc->file, ids->places, start, (int)report->places);
     cpsi_netcdf_int(&nc->file, ids->proof_obstacle, start,
                     report->has_proof_obstacle ? report->proof_obstacle : CPS_NO_OBSTACLE);

@@ -134,7 +134,7 @@ static void write_certificate(FILE *out, const CpsResults *results, const CpsiRo
 /* the energy balance of a step */
 static void write_ledger(FILE *out, const CpsStepReport *report) {
     const CpsLedger *ledger = &report->ledger;
-    fprintf(out, "\"parts\": %d, \"snaps\": %d, ", report->part_count, report->snap_count);
+    fprintf(out, "\"substeps\": %d, \"jumps\": %d, ", report->substep_count, report->jump_count);
     write_number(out, "jump_m", report->jump, ", ");
     write_number(out, "unaccounted_J", report->unaccounted, ",\n      \"ledger_J\": {");
     write_number(out, "ends", ledger->ends, ", ");
