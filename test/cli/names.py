@@ -92,6 +92,8 @@ OPTIONS = [
     (["--tol=0.1"], "capstan run: option '--tol' is now '--path-tolerance'"),
     (["--fields", "position,friction"], "capstan run: --fields: 'friction' is now 'friction_force'"),
     (["--fields", "element_friction"], "capstan run: --fields: 'element_friction' is now 'element_friction_force'"),
+    (["--fields", "slide"], "capstan run: --fields: 'slide' is now 'slip'"),
+    (["--fields", "position,element_slide"], "capstan run: --fields: 'element_slide' is now 'element_slip'"),
 ]
 
 
