@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/io.h: read scenes, laws and driven systems from YAML.
- *     (library capstan-io; docs/formats.md) */
+/* capstan/io.h: read scenes, laws and driven systems from YAML (library capstan-io).
+ *
+ * The formats are described in docs/formats.md, docs/laws.md and docs/drive.md. What is read from a
+ * file belongs to the handle and is valid until that is destroyed. */
 #ifndef CAPSTAN_IO_H
 #define CAPSTAN_IO_H
 
@@ -15,71 +17,71 @@ extern "C" {
 
 /* ---- scenes ---- */
 
-/* A scene read from a file, with the memory it lives in. */
+/* A scene that was read from a file, with its memory. */
 typedef struct CpsSceneFile CpsSceneFile;
 
-/* Limits on what is read; all have generous defaults. */
+/* Limits on what is read. */
 typedef struct CpsReadLimits {
     uint32_t cookie;      /* of cps_read_limits_default(): limits made otherwise are refused */
     size_t max_bytes;     /* file size, default 64 MiB */
     int max_depth;        /* nesting of mappings and sequences, default 64 */
     int64_t max_elements; /* of all lines together, default 10 000 000 */
-    int64_t max_pairs;    /* elements of all lines times obstacles, default 100 000 000 */
+    int64_t max_pairs;    /* elements of all lines, times obstacles, default 100 000 000 */
     int64_t max_steps;    /* load steps of the history, default 1 000 000 */
 } CpsReadLimits;
 CPS_API CpsReadLimits cps_read_limits_default(void);
 
-/* Read a scene.
+/* Read a scene and check it by cps_scene_check.
  *
- *   path    a regular file; "-" reads standard input
- *   limits  NULL: defaults
- *   err     on bad input: file, line and column (from 1), what was found, what was expected
+ *   path    of a regular file, or "-" for standard input
+ *   limits  NULL: the defaults
+ *   out     a handle, which the caller destroys; NULL on failure
+ *   err     on bad input: file, line and column (from 1), what was found and what was expected
  *
- * Returns CPS_OK, CPS_ERR_INPUT, CPS_ERR_IO, CPS_ERR_LIMIT or CPS_ERR_MEMORY. The scene has also
- * passed cps_scene_check. */
+ * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_INPUT, CPS_ERR_IO, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_scene_read(const char *path, const CpsReadLimits *limits, CpsSceneFile **out,
                                  CpsError *err);
 CPS_API void cps_scene_file_destroy(CpsSceneFile *file);
 CPS_API const CpsScene *cps_scene_file_scene(const CpsSceneFile *file);
 
-/* Write the JSON schema (draft 2020-12) of scenes, from the same table of keys that the reader
- * uses. */
+/* Write the JSON schema (draft 2020-12) of scenes, from the table of keys of the reader. */
 CPS_API CpsStatus cps_scene_write_schema(FILE *out, CpsError *err);
 
-/* Text and numbers of JSON: text in quotes and made safe, as in summary.json, a number with as many
- * digits as bring it back, null where it is not finite. The calling thread's locale must have a
- * decimal point. */
+/* Write a text and a number as JSON. The text is quoted and escaped as in summary.json. The number
+ * has as many digits as are needed to read it back unchanged; it is null where it is not finite.
+ * The locale of the calling thread must have a decimal point. */
 CPS_API void cps_json_text(FILE *out, const char *text);
 CPS_API void cps_json_number(FILE *out, double x);
 
 /* Read up to `most` >= 1 numbers of at most 1e100 from a row of text.
  *
- *   separators  one of these characters stands between two numbers, with blanks beside it; where a
- *               blank is among them, blanks alone separate too
- *   value       (most)
- *   rest        what follows the last number that was read, without leading blanks; "" at the end
+ *   separators  one of these characters stands between two numbers, and blanks may stand beside it;
+ *               where a blank is among them, blanks alone separate as well
+ *   value       (most) out
+ *   rest        out: the text behind the last number read, without leading blanks
  *
- * Returns how many numbers were read. The calling thread's locale must have a decimal point. */
+ * Returns how many numbers were read. The locale of the calling thread must have a decimal point.
+ */
 CPS_API int cps_row_read(const char *text, const char *separators, int most, double *value,
                          const char **rest);
 
-/* The nearest of several candidates, for messages "did you mean ..?": begin with {.word = what was
- * found}. At most a third of a candidate's letters may be wrong; a candidate that begins with the
- * word, of two letters or more, counts as one wrong letter. */
+/* The most similar of several candidates, for messages "did you mean ..?". Begin with {.word = the
+ * word found}, and call cps_suggest for each candidate. At most a third of the letters of a
+ * candidate may differ; one that begins with the word, of two letters or more, counts as one letter
+ * that differs. */
 typedef struct CpsSuggestion {
-    const char *word, *best; /* best is NULL while no candidate is near enough */
-    int distance;            /* number of wrong letters of best */
+    const char *word, *best; /* best is NULL while no candidate is similar enough */
+    int distance;            /* number of letters by which best differs */
 } CpsSuggestion;
 CPS_API void cps_suggest(CpsSuggestion *suggestion, const char *candidate);
 
-/* Write one file that appears completely or not at all: it is written under another name beside
- * `path`, synced and renamed, so that after a failure the old file is still there. A device or pipe
- * is written directly.
+/* Write one file completely or not at all: it is written under another name beside `path`, synced
+ * and renamed, so that an old file remains after a failure. A device or pipe is written directly.
  *
- *   write   fills the open file; a status other than CPS_OK is returned, and nothing is left
+ *   write   writes to the open file; after a status other than CPS_OK nothing remains
  *   user    argument of `write`
  *
- * Returns CPS_OK, CPS_ERR_IO, CPS_ERR_MEMORY or CPS_ERR_ARGUMENT. */
+ * Returns CPS_OK, CPS_ERR_IO, CPS_ERR_MEMORY, CPS_ERR_ARGUMENT or the status of `write`. */
 typedef CpsStatus CpsFileWriter(void *user, FILE *out, CpsError *err);
 CPS_API CpsStatus cps_write_file(const char *path, CpsFileWriter *write, void *user, CpsError *err);
 
@@ -88,13 +90,12 @@ CPS_API CpsStatus cps_write_file(const char *path, CpsFileWriter *write, void *u
 /* A law read from a file. */
 typedef struct CpsLawFile CpsLawFile;
 
-/* Read a law. As cps_scene_read: `path` is a regular file, or "-" for standard input; of `limits`
- * (NULL: defaults) bytes and depth count; on bad input `err` has file, line and column.
+/* Read a law. Arguments and statuses are those of cps_scene_read; of the limits only bytes and
+ * depth apply.
  *
- * A set may have 32 components; sets that are not answered in closed form (intersections,
- * preimages, sums, ..) may have 300 components, points and rows all together: more is
- * CPS_ERR_LIMIT, so that no file takes longer than about a minute. Larger ones are made with
- * law.h. */
+ * A set may have 32 components. Sets whose queries have no closed form (intersections, preimages,
+ * sums, ..) may have 300 components, points and rows in all. More is CPS_ERR_LIMIT, so that no file
+ * takes longer than about a minute; larger ones are made with law.h. */
 CPS_API CpsStatus cps_law_read(const char *path, const CpsReadLimits *limits, CpsLawFile **out,
                                CpsError *err);
 CPS_API void cps_law_file_destroy(CpsLawFile *file); /* NULL is accepted */
@@ -108,16 +109,15 @@ CPS_API const CpsSet *cps_law_file_set(const CpsLawFile *file);
 CPS_API const CpsLoadedLaw *cps_law_file_loaded(const CpsLawFile *file); /* NULL without a load */
 CPS_API const CpsResistance *
 cps_law_file_resistance(const CpsLawFile *file); /* NULL for a friction law */
-/* Has the law a preimage? Then *composition is the weakest condition among them, found in *line of
- * the file. */
+/* Whether the law contains preimages. Then *composition is the weakest of their conditions, and
+ * *line is its line in the file. */
 CPS_API bool cps_law_file_composition(const CpsLawFile *file, CpsComposition *composition,
                                       int *line);
 
-/* Write the JSON schema (draft 2020-12) of law files, from the same table of words that the reader
- * uses. */
+/* Write the JSON schema (draft 2020-12) of law files, from the table of keys of the reader. */
 CPS_API CpsStatus cps_law_write_schema(FILE *out, CpsError *err);
 
-/* ---- driven systems: what a file holds is one of these ---- */
+/* ---- driven systems: a file contains one of these ---- */
 
 typedef enum CpsDriveKind {
     CPS_DRIVE_SYSTEM, /* laws on combinations of named parameters */
@@ -132,19 +132,19 @@ typedef struct CpsDriveSystem {
     int parameter_count;
     const char *const *parameter; /* (parameter_count) names */
     int driven_count;
-    const char *const *drive; /* (driven_count) what is driven, "roll - 0.3 omega" */
-    bool loaded;
+    const char *const *drive; /* (driven_count) the driven components as text, "roll - 0.3 omega" */
+    bool loaded;              /* a constant load acts */
     int velocity_count;
-    const double *velocity; /* (velocity_count, driven_count) asked in the file */
-    double map_radius;      /* pictures show |W_i| up to it */
+    const double *velocity; /* (velocity_count, driven_count) driving velocities of the file */
+    double map_radius;      /* largest |W_i| in pictures */
 } CpsDriveSystem;
 
 /* A motion imposed on a body: map x twist = velocity. */
 typedef struct CpsDrivePush {
     int row_count;
     double map[9], velocity[3];
-    bool at_point;
-    double point[2], point_velocity[2]; /* where it is pushed, and how: for pictures */
+    bool at_point;                      /* it is pushed at a point: */
+    double point[2], point_velocity[2]; /* [m], [m/s] the point and its velocity, for pictures */
 } CpsDrivePush;
 
 /* A path of the hitch or of the rope's far end. */
@@ -153,7 +153,7 @@ typedef struct CpsDriveTow {
     int point_count; /* 0: no path */
     const double
         *path;      /* (point_count, 2) [m] the first is where the hitch or end is at the start */
-    int step_count; /* equal ones along the path */
+    int step_count; /* equal steps along the path */
 } CpsDriveTow;
 
 typedef struct CpsDriveBody {
@@ -191,7 +191,7 @@ typedef struct CpsDriveSweep {
     int step_count;
 } CpsDriveSweep;
 
-/* Read-only; all owned by the file. Only the part of its kind is filled. */
+/* The contents of a file, owned by it. Only the member of its kind is filled. */
 typedef struct CpsDriveFile {
     const char *title; /* "" without */
     CpsDriveKind kind;
@@ -202,20 +202,19 @@ typedef struct CpsDriveFile {
     CpsDriveSweep sweep;
 } CpsDriveFile;
 
-/* Read a file. As cps_law_read: `path` is a regular file, or "-" for standard input; on bad input
- * `err` has file, line and column. A curve named in the file is looked for beside it. */
+/* Read a driven system, as cps_law_read reads a law. A curve that the file names must lie beside
+ * it. */
 CPS_API CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDriveFile **out,
                                  CpsError *err);
 CPS_API void cps_drive_file_destroy(CpsDriveFile *file); /* NULL is accepted */
 
-/* Write the JSON schema (draft 2020-12) of such files, from the same table of keys that the reader
- * uses. */
+/* Write the JSON schema (draft 2020-12) of driven systems, from the table of keys of the reader. */
 CPS_API CpsStatus cps_drive_write_schema(FILE *out, CpsError *err);
 
-/* `count` points evenly spaced along a path, its ends included.
+/* Place `count` >= 2 points at equal distances along a path, its ends included.
  *
  *   path   (points, space), points >= 2
- *   out    (count, space), written; nothing where a size is less than that, or a pointer NULL */
+ *   out    (count, space); not changed where a size is too small or a pointer is NULL */
 CPS_API void cps_drive_walk(int space, int points, const double *path, int count, double *out);
 
 #ifdef __cplusplus

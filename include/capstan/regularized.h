@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/regularized.h: the methods of S90 as they stand in the paper, applied to a step that
- * evolve.h has solved exactly.
+/* capstan/regularized.h: the methods of Souza de Cursi (1990), S90, as the paper gives them,
+ * applied to a step that evolve.h has solved exactly.
  *
- *   - The method of section 5 and annex 4: friction smoothed by delta, a vanishing stiffness 1/n, a
- *     penalty lambda for contact, finite differences of size h. There is one solve, and a study in
- *     which h, lambda, n and delta go to their limits in this order (theorems 9.1 and 9.2, result
- *     5.6), compared with the solution of P4.2.
+ *   - The method of section 5 and annex 4: friction regularised by delta, a vanishing stiffness
+ * 1/n, a penalty lambda for contact, finite differences of size h. It can be solved once, or as a
+ *     study in which h, lambda, n and delta go to their limits in this order (theorems 9.1 and 9.2,
+ *     result 5.6) and are compared with the solution of P4.2.
  *   - The consistent first-order problem P10.1 of annex 5. It may have no solution; then the report
  *     says which of its conditions fails.
  *
- * The step is a view of one line after cps_evolution_step: its reference, loads, normals, friction
- * bounds and ends are the problem, its configuration and tensions the answer to compare with. End A
- * must be held, the line elastic, the obstacle a plane with isotropic friction, and the step taken
- * in one part. */
+ * The step is a view of one line after cps_evolution_step. Its reference, loads, normals, friction
+ * bounds and ends define the problem; its configuration and tensions are the answer to compare
+ * with. End A must be held, the line elastic, the obstacles planes with isotropic friction
+ * (CpsLineView.one_plane), and the step taken as one substep. */
 #ifndef CAPSTAN_REGULARIZED_H
 #define CAPSTAN_REGULARIZED_H
 
@@ -27,48 +27,43 @@ extern "C" {
 /* P5.5 with its four parameters. The stiffness enters the energy as (1/2n) |x''|^2, so that (46)
  * holds as printed. */
 typedef struct CpsRegularizedParameters {
-    uint32_t cookie; /* of one of the three calls below; parameters made otherwise are refused */
-    int cell_count; /* N of (47)-(48), h = length/N; 0: the step's own elements, each with one slope
-                     * x'
-                     */
-    double penalty; /* [N/m2] lambda > 0: energy (lambda/2) (penetration)^2 per length */
-    double stiffness; /* [N m2] 1/n >= 0; 0: P5.1, with the relaxed tension and the penalty, and no
-                         condition on x'(0) */
+    uint32_t cookie;  /* of one of the three calls below; parameters made otherwise are refused */
+    int cell_count;   /* N of (47)-(48), h = length/N; 0: the elements of the step */
+    double penalty;   /* [N/m2] lambda > 0: energy (lambda/2) (penetration)^2 per length */
+    double stiffness; /* [N m2] 1/n >= 0; 0 is P5.1, without a condition on x'(0) */
     double delta;     /* [m] > 0: friction energy A sqrt(delta^2 + |u_T|^2) per length */
 } CpsRegularizedParameters;
-/* All 0: penalty and delta are still to be set. */
+/* All numbers are 0; penalty and delta have to be set. */
 CPS_API CpsRegularizedParameters cps_regularized_parameters_default(void);
 
-/* One solve: how it went, its energies, how far it is from the step's solution, and what its
- * parameters leave. */
+/* One solution: its convergence, its energies, its distance from the solution of the step, and the
+ * errors that its parameters cause. */
 typedef struct CpsRegularizedReport {
     bool converged;         /* the gradient is as small as asked, or as rounding allows */
-    int iteration_count;    /* Newton steps, those of the way there (see cps_regularized_solve)
-                               included */
-    int evaluation_count;   /* gradients */
-    double gradient;        /* [N] largest force left on a node */
-    double gradient_limit;  /* [N] what it was compared with */
-    double total;           /* [J] what is minimised: the five parts below */
-    double elastic;         /* [J] relaxed: only |x'| > 1 costs */
+    int iteration_count;    /* Newton steps, with those of coarser parameters on the way */
+    int evaluation_count;   /* evaluations of the gradient */
+    double gradient;        /* [N] largest force on a node that nothing balances */
+    double gradient_limit;  /* [N] the bound that it was compared with */
+    double total;           /* [J] the energy minimised: the sum of the next five */
+    double elastic;         /* [J] relaxed: of |x'| > 1 only */
     double potential;       /* [J] of the loads */
     double friction_energy; /* [J] j_delta */
     double bending;         /* [J] of the vanishing stiffness */
     double contact;         /* [J] of the penalty */
-    double relaxed;         /* [J] J** + j at the configuration found, without any of the four */
-    double energy_error;    /* [J] total less J** + j of the step's solution */
-    double tension_rms; /* [N] root mean square along the line of the difference of tensions (45) */
-    double tension_max; /* [N] largest */
+    double relaxed;      /* [J] J** + j at the configuration found, without the four parameters */
+    double energy_error; /* [J] total less J** + j of the solution of the step */
+    double tension_rms;  /* [N] rms difference of the tensions (45) along the line */
+    double tension_max;  /* [N] largest difference of the tensions */
     double position_max; /* [m] largest distance of a node; not small where slack leaves a choice */
-    double compression; /* [N] largest axial push, carried by the stiffness: a tension below zero */
-    double shortening;  /* [-] largest 1 - |x'|: strain below zero, free in J**, forbidden in Kin */
-    double penetration; /* [m] deepest node below what contact allows */
-    double creep; /* [m] largest |u_T| of a node whose friction force is below its bound by 1 % or
-                     more */
-    double
-        friction_excess; /* [N] largest force that a node needs beyond what friction and contact may
-                            give it when the line carries the tensions (45) and nothing else */
-    double
-        end_tension[2]; /* [N] at the ends A and B, of the same meaning as that of CpsEndReport */
+    double compression;  /* [N] largest compression, a negative tension carried by the stiffness */
+    double shortening;   /* [-] largest 1 - |x'|, which costs nothing in J** and is outside Kin */
+    double penetration;  /* [m] largest depth of a node below what contact allows */
+    /* [m] largest |u_T| of a node whose friction force is below its bound by 1 % or more */
+    double creep;
+    /* [N] largest force on a node beyond what friction and contact can bear, where the line carries
+     * the tensions (45) and nothing else */
+    double friction_excess;
+    double end_tension[2]; /* [N] at the ends A and B, with the meaning of CpsEndReport.tension */
 } CpsRegularizedReport;
 
 /* The configuration of the last solve; n = cell_count + 1 nodes, arrays (n, 3) node after node. */
@@ -82,7 +77,7 @@ typedef struct CpsRegularizedView {
 
 typedef struct CpsRegularized CpsRegularized;
 
-/* Copy what the method needs of a step.
+/* Copy the data of a step that the method needs; the caller destroys *out.
  *
  * Returns CPS_OK, CPS_ERR_ARGUMENT (end A is free, the line is inextensible, its obstacles are not
  * planes with isotropic friction, or nothing moves) or CPS_ERR_MEMORY. */
@@ -90,7 +85,7 @@ CPS_API CpsStatus cps_regularized_create(const CpsLineView *step, CpsRegularized
                                          CpsError *err);
 CPS_API void cps_regularized_destroy(CpsRegularized *classic); /* NULL is accepted */
 
-/* The step's solution that all is compared with. Views into the handle. */
+/* The solution of the step, with which all others are compared. Its arrays belong to the handle. */
 typedef struct CpsRegularizedStep {
     int element_count;
     double length, stiffness; /* [m], [N] K */
@@ -103,12 +98,12 @@ typedef struct CpsRegularizedStep {
 } CpsRegularizedStep;
 CPS_API CpsRegularizedStep cps_regularized_step(const CpsRegularized *classic);
 
-/* Where a study may begin: parameters coarse enough for the method to be easy, in proportion to the
- * step's own length, forces and elements. */
+/* Parameters with which a study may begin: coarse ones for which the problem is easy, in proportion
+ * to length, forces and elements of the step. */
 CPS_API CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *classic);
 
-/* Minimise by damped Newton steps, from the last solution on the same cells if there is one, else
- * from the reference by way of larger delta and stiffness and a smaller penalty.
+/* Minimise by damped Newton steps: from the last solution on the same cells if there is one,
+ * otherwise from the reference, first with larger delta and stiffness and a smaller penalty.
  *
  *   parameters      lambda and delta > 0, 1/n >= 0, cell_count 0 or 2..1000000
  *   max_iterations  Newton steps in all, >= 1
@@ -121,13 +116,13 @@ CPS_API CpsStatus cps_regularized_solve(CpsRegularized *classic,
                                         CpsError *err);
 CPS_API CpsRegularizedView cps_regularized_view(const CpsRegularized *classic);
 
-/* Parameters at which what they leave is small: those with which a study ends. */
+/* Parameters with which a study ends: fine ones, whose errors are small. */
 CPS_API CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *classic);
 
-/* The next step of a history of the regularised method by itself: loads, ends and normals of
- * `step`, but the reference is the last solution of `previous` on the step's own elements, and the
- * friction bound is `friction` times the push of the penalty there, mu R_R of section 2 d 2, times
- * the friction factor of the step's zones. Errors of one step go into the next.
+/* Begin the next step of a history of the regularised method alone. Loads, ends and normals are
+ * those of `step`. The reference is the last solution of `previous` on the elements of the step,
+ * and the friction bound is `friction` times the force of the penalty there (mu R_R of section 2 d
+ * 2), times the factor of the friction zones. The errors of one step enter the next.
  *
  *   step      of the exact history, on a plane obstacle or none
  *   friction  mu of the obstacle, >= 0
@@ -150,9 +145,9 @@ typedef enum CpsStudyStage {
 
 CPS_API const char *cps_study_stage_name(CpsStudyStage stage); /* "h", "lambda", "n", "delta" */
 
-/* One solve of a study. Rates are observed orders in the stage's parameter p (h, 1/lambda, 1/n,
- * delta): the exponent of v(p) = limit + C p^rate through this value and the two before it; NaN
- * where there are not two. */
+/* One solution of a study. A rate is the observed order in the parameter p of the stage (h,
+ * 1/lambda, 1/n, delta): the exponent of v(p) = limit + C p^rate through this value and the two
+ * before it, NaN for the first two. */
 typedef struct CpsStudyRow {
     CpsStudyStage stage;
     CpsRegularizedParameters parameters;
@@ -165,10 +160,10 @@ typedef struct CpsStudyRow {
 typedef struct CpsStudyOptions {
     uint32_t cookie;               /* of the two calls below; options made otherwise are refused */
     CpsRegularizedParameters from; /* cell_count: of the coarsest external approximation */
-    int value_count[CPS_STUDY_STAGE_COUNT]; /* solves per stage, 1..64 */
-    double factor[CPS_STUDY_STAGE_COUNT];   /* each value is the one before it divided by this, > 1;
-                                               h: 2 */
-    int max_iterations;                     /* per solve */
+    int value_count[CPS_STUDY_STAGE_COUNT]; /* solutions per stage, 1..64 */
+    /* > 1: each value of the parameter is the one before it divided by this; of h it is 2 */
+    double factor[CPS_STUDY_STAGE_COUNT];
+    int max_iterations; /* of each solution, >= 1 */
 } CpsStudyOptions;
 
 typedef struct CpsStudy CpsStudy;
@@ -176,24 +171,25 @@ typedef struct CpsStudy CpsStudy;
 /* From coarse parameters down to cps_regularized_fine. */
 CPS_API CpsStudyOptions cps_study_options_default(const CpsRegularized *classic);
 
-/* Down to parameters of one's own, by factors of 10 at most.
+/* From coarse parameters down to given ones, by factors of 10 at most.
  *
- *   to   as for cps_regularized_solve. cell_count: with which stage h ends, or a few more; 0: four
- * times the step's elements. A stiffness of 0 is that of the whole study */
+ *   to   as for cps_regularized_solve. Stage h ends with its cell_count or a few more, or with four
+ *        times the elements of the step where it is 0. A stiffness of 0 holds for the whole study
+ */
 CPS_API CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
                                              const CpsRegularizedParameters *to);
 
 /* Called after each solve; false ends the study there. */
 typedef bool CpsStudyProgress(void *user, const CpsStudyRow *row, int done, int of);
 
-/* Run the study. Stage h uses the external approximations (47)-(48); from then on the cells are the
- * step's own elements, of which the solution of P4.2 is known, so that what is left at the end is
- * due to lambda, n and delta alone.
+/* Run the study; the caller destroys *out. Stage h uses the external approximations (47)-(48). From
+ * then on the cells are the elements of the step, on which the solution of P4.2 is known, so that
+ * the final error is due to lambda, n and delta alone.
  *
  *   progress  may be NULL
  *
- * Returns CPS_OK, CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. Rows that did not converge say so and are
- * kept. */
+ * Returns CPS_OK, CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. Rows that did not converge are kept and
+ * say so. */
 CPS_API CpsStatus cps_study_run(CpsRegularized *classic, const CpsStudyOptions *options,
                                 CpsStudyProgress *progress, void *user, CpsStudy **out,
                                 CpsError *err);
@@ -206,9 +202,9 @@ CPS_API CpsRegularizedView cps_study_stage_end(const CpsStudy *study, CpsStudySt
 
 /* ---- the consistent first-order problem P10.1 ---- */
 
-/* What became of it. P10.1 minimises a convex quadratic energy plus friction over the displacements
- * u that contact allows and then asks the minimiser to shorten no slack part, (86): the strain
- * t_R.u' of all minimisers is the same, so the question has one answer. */
+/* The result. P10.1 minimises a convex quadratic energy plus friction over the displacements u that
+ * contact allows, and requires that the minimiser shorten no slack part, (86). The strain t_R.u' of
+ * all minimisers is the same, so that the result does not depend on which one is found. */
 #define CPS_FIRST_ORDER_VERDICT_LIST(X)                                                            \
     X(CPS_FIRST_ORDER_VERDICT_SOLVED, 0, "solved", "a solution of P10.1")                          \
     X(CPS_FIRST_ORDER_VERDICT_SHORTENS, 1, "shortens",                                             \
@@ -228,9 +224,9 @@ typedef enum CpsFirstOrderVerdict {
 #undef CPS_FIRST_ORDER_VERDICT_ENUM
 } CpsFirstOrderVerdict;
 
-/* Which nodes the obstacle keeps out. (77) asks u.n >= 0 on D(x_R), where the reference touches,
- * and nothing elsewhere; with `reached` contact the step itself asks n.u + psi(x_R) >= 0 of every
- * node, (16). The answers differ where a node comes down. */
+/* The nodes that the obstacle keeps out. (77) requires u.n >= 0 on D(x_R), where the reference is
+ * in contact, and nothing elsewhere. With `reached` contact the step itself requires n.u + psi(x_R)
+ * >= 0 of every node, (16). The answers differ where a node comes into contact. */
 typedef enum CpsFirstOrderContact {
     CPS_FIRST_ORDER_CONTACT_REFERENCE,
     CPS_FIRST_ORDER_CONTACT_REACHED

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/results.h: write results, studies and pictures.
- *     (library capstan-io; docs/results.md) */
+/* capstan/results.h: write results, studies and pictures (library capstan-io).
+ *
+ * docs/results.md describes the files. Files appear completely or not at all; a failure leaves
+ * those that were there before. Structs that the caller fills need to live during the call only. */
 #ifndef CAPSTAN_RESULTS_H
 #define CAPSTAN_RESULTS_H
 
@@ -24,23 +26,25 @@ typedef struct CpsResults CpsResults;
 typedef struct CpsResultsOptions {
     uint32_t cookie;  /* of cps_results_options_default(): options made otherwise are refused */
     bool no_paraview; /* no .vtp and .pvd files */
-    bool sync_at_end; /* files are synced at the end alone: what a power cut, not a kill, may take
-                         in between is the whole run's; result.nc cannot be read before */
-    /* of result.nc, per step: names of docs/results.md without the line's, separated by commas;
-     * "none": numbers alone; NULL: all, which is what the checker needs */
+    /* files are synced at the end only: a power cut, though not a kill, may lose the whole run, and
+     * result.nc cannot be read before the end */
+    bool sync_at_end;
+    /* arrays that result.nc has for every step: names of docs/results.md without that of the line,
+     * separated by commas. "none": numbers only; NULL: all arrays, which the checker needs */
     const char *fields;
 } CpsResultsOptions;
 CPS_API CpsResultsOptions cps_results_options_default(void); /* everything */
 
-/* Are there such fields?  Returns CPS_OK or CPS_ERR_ARGUMENT. */
+/* Whether the options are valid and name existing fields: CPS_OK or CPS_ERR_ARGUMENT. */
 CPS_API CpsStatus cps_results_check_options(const CpsResultsOptions *options, CpsError *err);
 
-/* Open `directory` (made if missing; one level) for the results of `evolution`. Nothing that was
- * there is touched until cps_results_finish, which renames each finished file into place. The file
- * .capstan in it lists what capstan has written there: a directory that is not empty and has none
- * is refused, and only listed files are ever replaced or removed.
+/* Open `directory`, which is created if missing (one level), for the results of `evolution`. Files
+ * that are there remain until cps_results_finish renames each finished file into place. The file
+ * .capstan in the directory lists what capstan has written there: a directory that is not empty and
+ * has no such file is refused, and only listed files are replaced or removed.
  *
  *   options  NULL: everything
+ *   out      a handle, which the caller destroys
  *
  * Returns CPS_OK, CPS_ERR_ARGUMENT (also for a field that there is not), CPS_ERR_IO or
  * CPS_ERR_MEMORY. */
@@ -48,36 +52,40 @@ CPS_API CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
                                    const CpsEvolution *evolution, const CpsResultsOptions *options,
                                    CpsResults **out, CpsError *err);
 
-/* May results be written to `directory`?  Asked before anything is computed. One that is not empty
- * and that capstan has not written to is refused, or with `force` taken over: what lies in it under
- * names of results counts as capstan's from then on and may be replaced. One that is missing will
- * be made. Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_IO or CPS_ERR_MEMORY. */
+/* Check before a computation whether results can be written to `directory`. A directory that is not
+ * empty and that capstan has not written to is refused; with `force` it is taken over, and files in
+ * it with names of results may be replaced from then on. A missing directory is created later.
+ * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_IO or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_results_prepare(const char *directory, bool force, CpsError *err);
 
-/* Are files in `directory` of two runs, because replacing them was interrupted?  Then the one that
- * is put in place last is missing, the summary of its set: `missing` is its name, else "". Writing
- * that set again replaces them all. Returns CPS_OK, also where there is no such directory,
- * CPS_ERR_ARGUMENT for NULL or an empty name, CPS_ERR_IO or CPS_ERR_MEMORY. */
+/* Find out whether the files in `directory` belong to two runs because their replacement was
+ * interrupted. Then the summary, which is renamed last, is missing: `missing` is its name,
+ * otherwise
+ * "". Writing the files once more replaces them all. Returns CPS_OK, also where there is no such
+ * directory, CPS_ERR_ARGUMENT for NULL or an empty name, CPS_ERR_IO or CPS_ERR_MEMORY. */
 enum { CPS_RESULT_NAME = 256 };
 CPS_API CpsStatus cps_results_missing(const char *directory, char missing[CPS_RESULT_NAME],
                                       CpsError *err);
 
-/* Append the step just taken (all lines). result.nc is synced. */
+/* Append the last step of all lines. result.nc is synced unless the options say otherwise. */
 CPS_API CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution,
                                      CpsError *err);
 
-/* Write what needs the whole history (summary, pictures), close and rename everything into place.
+/* Write what needs the whole history (summary, pictures), close all files and rename them into
+ * place.
+ *
  *   wall   [s] time of the whole run, for the summary
- * On failure the temporary files are removed and what was there before stays; or, where a file
- * could not be renamed after others were, the message says that the files are of two runs,
- * summary.json is missing, and the next run recognises it (cps_results_missing). */
+ *
+ * On failure temporary files are removed, and the files that were there before remain. Where a file
+ * could not be renamed after others were, the message says that the files belong to two runs, and
+ * summary.json is missing (cps_results_missing). */
 CPS_API CpsStatus cps_results_finish(CpsResults *results, double wall, CpsError *err);
 
-/* Close without keeping unfinished files; accepts NULL; needed after cps_results_finish too. */
+/* Free the handle, also after cps_results_finish; unfinished files are removed. Accepts NULL. */
 CPS_API void cps_results_destroy(CpsResults *results);
 
-/* A journal of the steps taken, `directory`/.journal: after a run has been killed, another one goes
- * on from it and ends with the same bits.
+/* A journal of the steps taken, the file .journal in a directory of results. After a run has been
+ * killed, another one continues from it and ends with the same bits.
  *
  *     cps_journal_open(directory, evolution, resume ? CPS_JOURNAL_RESUME : CPS_JOURNAL_NEW,
  *         &journal, &err);
@@ -107,32 +115,31 @@ typedef enum CpsJournalMode {
  * it is to be resumed and is of another scene, version or build. */
 CPS_API CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution,
                                    CpsJournalMode mode, CpsJournal **out, CpsError *err);
-/* Load the next step into the evolution: *found tells whether there was one. Where no whole record
- * follows, the journal ends. Returns CPS_OK, CPS_ERR_IO, CPS_ERR_MEMORY, or CPS_ERR_ARGUMENT where
+/* Load the next step into the evolution; *found says whether there was one. The journal ends where
+ * no complete record follows. Returns CPS_OK, CPS_ERR_IO, CPS_ERR_MEMORY, or CPS_ERR_ARGUMENT where
  * the record is no state of this evolution. */
 CPS_API CpsStatus cps_journal_next(CpsJournal *journal, CpsEvolution *evolution, bool *found,
                                    CpsError *err);
-/* Append the step just taken, which follows the last one of the journal; on return it is on the
- * disk. */
+/* Append the last step of the evolution, which must follow the last one of the journal. On return
+ * it is on the disk. */
 CPS_API CpsStatus cps_journal_append(CpsJournal *journal, const CpsEvolution *evolution,
                                      CpsError *err);
-/* From now on steps are given to the system and not waited for: a killed run loses none of them, a
- * power cut may take the last ones, which the next run takes again. cps_journal_sync waits for
- * all. */
+/* From now on do not wait until steps are on the disk: a killed run loses none of them, but a power
+ * cut may lose the last ones, which the next run takes again. cps_journal_sync waits for all. */
 CPS_API void cps_journal_sync_late(CpsJournal *journal);
 CPS_API CpsStatus cps_journal_sync(CpsJournal *journal, CpsError *err);
-/* Remove the file, once its run is finished; destroy the journal all the same. */
+/* Remove the file after its run has finished; the journal must still be destroyed. */
 CPS_API void cps_journal_remove(CpsJournal *journal);
-CPS_API void
-cps_journal_destroy(CpsJournal *journal); /* NULL is accepted; a journal without steps is removed */
+/* Free the journal; the file of one without steps is removed. Accepts NULL. */
+CPS_API void cps_journal_destroy(CpsJournal *journal);
 
-/* A running JSON summary, the object that `capstan run --json` prints. */
+/* Write a summary of the steps so far, the JSON object that `capstan run --json` prints. */
 CPS_API CpsStatus cps_results_write_summary(const CpsResults *results, double wall, FILE *out,
                                             CpsError *err);
 
 /* ---- studies of the method of 1990 ---- */
 
-/* What belongs together in one directory. */
+/* The results of a study, written into one directory. */
 typedef struct CpsStudyFiles {
     const char *title; /* of the pictures */
     const CpsRegularized *classic;
@@ -149,7 +156,7 @@ typedef struct CpsStudyFiles {
  * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_IO or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_study_write(const char *directory, const CpsStudyFiles *files, CpsError *err);
 
-/* Configurations that a method has gone through. */
+/* The configurations of a line by one method, step by step. */
 typedef struct CpsMethodHistory {
     const char *name;
     const double *position; /* (steps, points, 3) [m] */
@@ -165,7 +172,7 @@ CPS_API CpsStatus cps_methods_write(const char *directory, const char *title, in
                                     const CpsMethodHistory *method, int steps, int points,
                                     const char *const *step_name, CpsError *err);
 
-/* A step with its slack laid out in every way (evolve.h). */
+/* A step with its slack laid out in each of the ways of CpsCompletion (evolve.h). */
 typedef struct CpsCompletedLine {
     const char *title;
     const CpsLineView *view;
@@ -179,13 +186,14 @@ typedef struct CpsCompletedLine {
 CPS_API CpsStatus cps_completed_write(const char *directory, const CpsCompletedLine *line,
                                       CpsError *err);
 
-/* A history of the regularised method by itself. */
+/* The history of a line by the regularised method alone. */
 typedef struct CpsRegularizedLine {
     const char *name;
     int point_count;
     const double *position; /* (step_count, point_count, 3) [m]; step 0 is the start */
-    const CpsRegularizedParameters *parameters; /* (step_count); of the start: not used, as below */
-    /* (step_count) errors are against the exact step with frozen friction */
+    const CpsRegularizedParameters *parameters; /* (step_count); that of the start is not used */
+    /* (step_count) errors refer to the exact step with frozen friction; that of the start is not
+     * used */
     const CpsRegularizedReport *report;
 } CpsRegularizedLine;
 
@@ -209,7 +217,7 @@ CPS_API CpsStatus cps_regularized_summary(const CpsRegularizedRun *run, FILE *ou
 
 /* ---- pictures of laws ---- */
 
-/* What a picture shows. */
+/* The contents of a picture of a law. */
 typedef struct CpsLawPicture {
     const char *title;
     int axis[2]; /* components drawn to the right and up, from 0 */
@@ -237,7 +245,7 @@ CPS_API CpsStatus cps_resistance_draw(const CpsResistance *law, const CpsLawPict
 
 /* ---- pictures of driven systems ---- */
 
-/* Called between parts of long work. */
+/* Called repeatedly during a long computation, of which `done` of `all` parts are finished. */
 typedef void CpsDriveProgress(void *user, int done, int all);
 
 /* Of a system with two driven components and W from -map_radius to map_radius: the resistance G and

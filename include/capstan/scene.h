@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/scene.h: lines, obstacles and loads, and the history of what is done to them.
+/* capstan/scene.h: lines, obstacles and loads, and the history of their changes.
  *
- * Plain value structs, filled by the user, copied by the library. Start from cps_scene_default(),
- * cps_line_default(), ... : a struct made otherwise lacks its cookie and is refused. */
+ * These are plain structs that the caller fills and the library copies; the caller may free them,
+ * and all that they point to, after the call. Begin each one as cps_scene_default(),
+ * cps_line_default(), cps_obstacle_default() or cps_stage_default(): a struct without their cookie
+ * is refused. Ranges are checked by cps_scene_check, whose message names the member. S90 is Souza
+ * de Cursi (1990), M77 Moreau (1977). */
 #ifndef CAPSTAN_SCENE_H
 #define CAPSTAN_SCENE_H
 
@@ -13,13 +16,13 @@ extern "C" {
 #endif
 
 typedef enum CpsObstacleKind {
-    CPS_OBSTACLE_PLANE,    /* a plane: the side `normal` points to is free */
-    CPS_OBSTACLE_CYLINDER, /* a solid cylinder without ends: a bollard, a pipe, a drum */
+    CPS_OBSTACLE_PLANE,    /* a half-space; `normal` points to its free side */
+    CPS_OBSTACLE_CYLINDER, /* a solid cylinder of infinite length: a bollard, a pipe, a drum */
     CPS_OBSTACLE_SPHERE    /* a solid ball */
 } CpsObstacleKind;
 
-/* How two coefficients make a set of friction forces (M77 section 4: the force is normal to the
- * set's boundary against the sliding). */
+/* The set of friction forces F that two coefficients describe, at the reaction R. By M77 section 4
+ * the slip is opposite to an outward normal of the set at F. */
 typedef enum CpsFrictionShape {
     CPS_FRICTION_SHAPE_ELLIPSE, /* (F1/mu1)^2 + (F2/mu2)^2 <= R^2; the disc of Coulomb's law where
                              mu1 = mu2 */
@@ -31,32 +34,35 @@ typedef struct CpsObstacle {
     uint32_t cookie;
     const char *name;
     CpsObstacleKind kind; /* default plane */
-    double point[3];  /* [m] a point of the plane or of the cylinder's axis, the sphere's centre;
-                         default 0 0 0 */
-    double normal[3]; /* [-] plane: any non-zero length, default 0 0 1 */
-    double axis[3];   /* [-] of the cylinder, and of the turn of cylinder and sphere; any non-zero
-                         length, default 0 1 0 */
-    double radius;    /* [m] cylinder, sphere: > 0 */
-    double friction;  /* [-] coefficient mu >= 0, default 0; where two directions differ, that along
-                         the first one */
-    bool has_friction_lateral; /* default false: in all directions as along the first */
-    double friction_lateral;   /* [-] >= 0, with the flag: coefficient across the first direction */
+    /* [m] a point of the plane or of the cylinder's axis, or the centre of the sphere; default
+     * 0 0 0 */
+    double point[3];
+    double normal[3]; /* [-] of a plane, of any length but 0; default 0 0 1 */
+    /* [-] of a cylinder, and axis of rotation of cylinder and sphere; of any length but 0; default
+     * 0 1 0 */
+    double axis[3];
+    double radius; /* [m] of cylinder and sphere, > 0 */
+    /* [-] coefficient mu >= 0, default 0; where two directions differ, along the first one */
+    double friction;
+    bool has_friction_lateral; /* default false: the coefficient is the same in all directions */
+    double friction_lateral;   /* [-] >= 0, with the flag: across the first direction */
     CpsFrictionShape friction_shape; /* default ellipse */
-    /* default NULL; else any planar set of set.h, bounded and with 0 in it, of the friction forces
-     * on the line per unit normal force, along the first and second tangent: in place of the
-     * coefficients. The second tangent is normal x first. It need not be symmetric (a ratchet); the
-     * evolution keeps what it needs of it. In the line's own axes it turns with the line; `grain`
-     * fixes it in space */
+    /* In place of coefficients: the set of the friction forces on the line per unit normal force,
+     * a bounded set of R^2 that contains 0, with components along the first and second tangent; the
+     * second one is normal x first. It need not be symmetric (a ratchet). The evolution keeps what
+     * it needs of it. Default NULL. */
     const CpsSet *friction_set;
-    double grain[3]; /* [-] the first direction, its part in the tangent plane, fixed in space;
-                        default 0 0 0: along the line */
+    /* [-] the first direction is its part in the tangent plane, fixed in space; default 0 0 0: the
+     * direction of the line, with which it turns */
+    double grain[3];
 } CpsObstacle;
 
 typedef enum CpsEndKind {
-    CPS_END_KIND_HELD,    /* `value` is the imposed position [m]         (S90 (8), remark 2.3.4) */
-    CPS_END_KIND_FREE,    /* `value` is the force applied to the end [N] (S90 (9)) */
-    CPS_END_KIND_AT_START /* held where the start puts it, which must not be a static start; `value`
-                             is not read. Of lines alone, not of changes */
+    CPS_END_KIND_HELD, /* `value` is the imposed position [m] (S90 (8), remark 2.3.4) */
+    CPS_END_KIND_FREE, /* `value` is the force applied to the end [N] (S90 (9)) */
+    /* held where the start of the line places it, which must not be static; `value` is not read.
+     * For lines only, not for changes */
+    CPS_END_KIND_AT_START
 } CpsEndKind;
 
 typedef struct CpsEnd {
@@ -70,41 +76,40 @@ typedef enum CpsStartKind {
     CPS_START_STRAIGHT, /* from point[0] to point[1] */
     CPS_START_POLYLINE, /* along point[0..point_count-1] */
     CPS_START_ARC,      /* from point[0], around centre point[1], turning about axis */
-    CPS_START_STATIC,   /* by statics: the frictionless equilibrium under the ends given */
-    CPS_START_NODES /* any configuration: node i at point[i], with the forces of the reference if
-                       they are known */
+    CPS_START_STATIC,   /* the equilibrium without friction under the given ends */
+    CPS_START_NODES     /* node i at point[i], with the forces of the reference if known */
 } CpsStartKind;
 
-/* The first reference configuration. Nodes follow the shape by natural length, an elastic line
- * being stretched evenly over a shape longer than itself; a shape shorter than the line is refused
- * (use static).
+/* The first reference configuration. Nodes lie on the shape at their natural arc lengths. An
+ * elastic line is stretched evenly over a shape that is longer than itself; a shape that is shorter
+ * is refused (use a static start).
  *
- * Given nodes are any x_R of S90, also one that is slack: no element at more than twice its length,
- * or beyond it where the line is inextensible. With them go T_R and either R_R or A_R; of the
- * arrays that are NULL the first step knows what the places tell. */
+ * Given nodes may be any x_R of S90, also a slack one: no element may be longer than twice its
+ * natural length, or than that length where the line is inextensible. The tensions T_R and either
+ * the reactions R_R or the bounds A_R may be given too; arrays that are NULL are computed from the
+ * positions. */
 typedef struct CpsStart {
     CpsStartKind kind;
     int point_count;     /* straight, arc: 2; polyline: >= 2; static: 0; nodes: element_count + 1 */
     const double *point; /* (point_count, 3) [m] */
     double axis[3];      /* [-] arc: axis of the turn, right-hand rule, default 0 0 1 */
-    const double *tension; /* nodes: (element_count) [N] T_R >= 0; NULL: K (|x'| - 1)^+, and 0 of an
-                              inextensible line */
-    /* nodes: (element_count + 1) [N] R_R >= 0 of the obstacle that the node touches; NULL: S90
-     * section 2 d 2, -((T_R t)' + w).n where that is positive, with the force on a free end */
+    /* nodes: (element_count) [N] T_R >= 0. NULL: K (|x'| - 1)^+, and 0 for an inextensible line */
+    const double *tension;
+    /* nodes: (element_count + 1) [N] R_R >= 0 of the obstacle that the node touches. NULL: S90
+     * section 2 d 2, the positive part of -((T_R t)' + w).n, with the force on a free end */
     const double *reaction;
-    /* nodes: (element_count + 1) [N] A_R >= 0 in place of `reaction`, R_R = A_R/mu with the node's
-     * own coefficient; with frozen friction it is the bound of the first step */
+    /* nodes: (element_count + 1) [N] A_R >= 0 in place of `reaction`: R_R = A_R/mu with the
+     * coefficient at the node. With frozen friction it is the bound of the first step. */
     const double *friction_bound;
 } CpsStart;
 
-/* An interval of a line with another friction: chain and wire in one line, say. */
+/* An interval of a line in which friction differs, for instance chain and wire in one line. */
 typedef struct CpsFrictionZone {
     double from, to; /* [m] natural arc length from end A, 0 <= from < to <= length of the line */
-    double factor;   /* [-] >= 0, of the coefficients, or the friction set, of whatever obstacle it
-                        touches */
+    double factor;   /* [-] >= 0, multiplies the friction of every obstacle that it touches */
 } CpsFrictionZone;
 
-/* A tension-only line, node 0 at end A, node `element_count` at end B. */
+/* A line that carries tension only. Node 0 is end A, node `element_count` is end B. */
 typedef struct CpsLine {
     uint32_t cookie;
     const char *name;
@@ -114,29 +119,31 @@ typedef struct CpsLine {
     double weight;    /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
     double stiffness; /* [N] EA > 0; INFINITY: inextensible */
     int zone_count;   /* >= 0, default 0 */
-    /* (zone_count) in order from A to B, without overlap; the factor elsewhere is 1. A node's is
-     * the mean over the length that it stands for */
+    /* (zone_count) in order from A to B, without overlap; elsewhere the factor is 1. The factor at
+     * a node is the mean over the length that it stands for. */
     const CpsFrictionZone *zone;
     CpsStart start;
-    CpsEnd end[2]; /* default: A held where the start puts it, B free without force; a position
-                      must agree with the start */
+    /* Default: A is held where the start places it, B is free without a force. The position of a
+     * held end must be that of the start. */
+    CpsEnd end[2];
 } CpsLine;
 
-/* One end of one line gets a new imposed position or force. A free end given a position is grabbed
- * where it is and moved; a held end given a force is let go from the force it carries. */
+/* A new imposed position or force of one end of one line, reached in equal increments over the
+ * stage. A free end that gets a position is held where it is and moved from there; a held end that
+ * gets a force is released, and the force begins with that which it carried. */
 typedef struct CpsChange {
     int line; /* index in the scene */
     int end;  /* CPS_END_A or CPS_END_B */
     CpsEnd to;
 } CpsChange;
 
-/* A cylinder or sphere turns about its axis, and takes along what sticks to it. */
+/* A rotation of a cylinder or sphere about its axis; what sticks to it moves with it. */
 typedef struct CpsTurn {
     int obstacle; /* index in the scene */
-    double angle; /* [rad] by which it turns in this stage, right-hand rule */
+    double angle; /* [rad] of the rotation in this stage, by the right-hand rule */
 } CpsTurn;
 
-/* An entry of the history, reached in `step_count` equal load steps. */
+/* An entry of the history: changes that take place in `step_count` equal load steps. */
 typedef struct CpsStage {
     uint32_t cookie; /* of cps_stage_default(); a stage made otherwise is refused */
     const char *name;
@@ -146,21 +153,21 @@ typedef struct CpsStage {
     int turn_count;
     const CpsTurn *turn;
     bool gravity_changes; /* default false: gravity stays as it is */
-    double gravity[3]; /* [m/s2] else what the scene's becomes in the stage's steps; a line's weight
-                          goes with it: w per |g| of the scene */
+    /* [m/s2] with the flag: the gravity at the end of the stage. The weight of a line changes with
+     * it, in proportion to the scene's. */
+    double gravity[3];
 } CpsStage;
 
 typedef enum CpsFrictionPolicy {
-    CPS_FRICTION_POLICY_FROZEN, /* the bound A = mu R is that of the reference configuration   (S90
-                            section 2 d) */
-    CPS_FRICTION_POLICY_CONSISTENT /* the default, Coulomb's law: A = mu R with the reaction of the
-                               configuration reached */
+    /* the bound A = mu R has the reaction of the reference configuration (S90 section 2 d) */
+    CPS_FRICTION_POLICY_FROZEN,
+    /* the default, Coulomb's law: the bound has the reaction of the configuration reached */
+    CPS_FRICTION_POLICY_CONSISTENT
 } CpsFrictionPolicy;
 
 typedef enum CpsContactPolicy {
-    CPS_CONTACT_POLICY_REACHED,  /* no node ends below an obstacle: contact of the configuration
-                                    reached */
-    CPS_CONTACT_POLICY_REFERENCE /* only what touches at the reference is kept out, S90 (35) */
+    CPS_CONTACT_POLICY_REACHED,  /* the default: no node ends below an obstacle */
+    CPS_CONTACT_POLICY_REFERENCE /* only nodes that touch at the reference are kept out, S90 (35) */
 } CpsContactPolicy;
 
 typedef enum CpsLinearSystem {
@@ -169,25 +176,28 @@ typedef enum CpsLinearSystem {
 } CpsLinearSystem;
 
 typedef struct CpsSolverOptions {
-    double tolerance;   /* [-] certified when gap <= tolerance * scale, 1e-14..1e-2, default 1e-8 */
-    int max_iterations; /* of one solve of a line, 1..1000, default 60; 20 more for each doubling of
-                           its elements beyond 12 800 */
+    double tolerance; /* [-] certified when gap <= tolerance * scale, 1e-14..1e-2, default 1e-8 */
+    /* of one program of a line, 1..1000, default 60; 20 more for each doubling of its elements
+     * beyond 12 800 */
+    int max_iterations;
     CpsLinearSystem linear_system; /* default chain */
-    /* [-] a step is cut until two halves change displacements per length and tensions per largest
-     * force by no more, 1e-9..1; default 0: steps are as given */
+    /* [-] 1e-9..1: a step is halved until its halves change the displacements, per length of the
+     * line, and the tensions, per largest force, by no more than this; default 0: never for this
+     * reason */
     double path_tolerance;
-    int max_halvings; /* how often a step may be halved, for the path or because it does not
-                     converge, 0..30, default 10 */
-    bool cold; /* each step is solved from nothing; default false: first by Newton's method from
-                  the step before */
-    int thread_count; /* threads that share the lines of a step, 1..256, default 1, the caller's; of
-                         no use beyond the number of lines. The answers are the same bits. */
+    int max_halvings; /* how often a step may be halved, for any reason, 0..30, default 10 */
+    /* solve each step without using the one before; default false: a step is first solved by
+     * Newton's method from the one before */
+    bool cold;
+    /* threads that share the lines of a step, 1..256, default 1: that of the caller. More than
+     * there are lines are of no use. The answers are the same, bit for bit. */
+    int thread_count;
 } CpsSolverOptions;
 
 typedef struct CpsScene {
     uint32_t cookie;
     const char *title;  /* may be NULL */
-    double gravity[3];  /* [m/s2] default 0 0 -9.81; its direction is that of the lines' weight */
+    double gravity[3];  /* [m/s2] default 0 0 -9.81; the weight of the lines has its direction */
     int obstacle_count; /* >= 0 */
     const CpsObstacle *obstacle;
     int line_count; /* >= 1 */
@@ -204,9 +214,8 @@ CPS_API CpsLine cps_line_default(void);
 CPS_API CpsObstacle cps_obstacle_default(void);
 CPS_API CpsStage cps_stage_default(void); /* one step in which nothing changes; without a name */
 
-/* Check everything that can be known before solving.
- *
- *   err   may be NULL; err->message names the line, the value found and what was expected
+/* Check all that can be checked before solving. The message of an error names the line, the value
+ * found and what was expected; err->where is the path of the member.
  *
  * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err);
