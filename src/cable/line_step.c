@@ -201,7 +201,8 @@ static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
     return good;
 }
 
-/* Try the strategies that are of use, until one gives a certified answer. */
+/* Try the strategies that are of use, until one gives a certified answer; only one if the step is
+ * known to fail. */
 static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
                                  const CpsiStepOptions *options, CpsiGuess guess) {
     const size_t contacts = (size_t)cpsi_line_all_contacts(line);
@@ -229,7 +230,7 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
         tried[i] = true;
         if (!is_for_scattered(strategy)) first = i + 1;
         if (options->least && !strategy->least_motion) cpsi_places_as_found(line, program);
-        if (cps_outcome_is_certified(line->report.outcome)) return;
+        if (options->fails || cps_outcome_is_certified(line->report.outcome)) return;
     }
 }
 

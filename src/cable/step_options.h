@@ -10,6 +10,7 @@ typedef struct CpsiStepOptions {
     CpsFrictionPolicy friction_policy;
     CpsContactPolicy contact_policy;
     bool frictionless; /* an initial configuration is computed by statics */
+    bool fails;        /* the step is known to fail: one strategy shows where */
     /* scratch memory of the rule of least motion; NULL: the rule is not applied */
     CpsiLeastMotion *least;
 } CpsiStepOptions;

@@ -14,6 +14,7 @@
  * increment. A part of that size which does not converge is not divided further. Either the line
  * provably slides without end for the rest of the step; or it moves on as overdamped motion
  * (relaxation.h), which is reported as a jump too, and continues from where it comes to rest; or
+ * the whole rest is such a motion, and a part with hardly a change certifies where it ends; or
  * the rest of the step is taken in one part and reported as it is.
  *
  * The slip round an obstacle is known only where neither the obstacle turns nor a node moves round
@@ -63,6 +64,9 @@ static const int JUMPS = 8;
 static const int RELAXATIONS = 8;
 /* This share of the rest of a step is never taken so: the step has to end with an equilibrium. */
 static const double LAST_SHARE = 0.0625;
+/* Where all that has failed, no more than this share is left for that equilibrium: nothing moves by
+ * more than 1e-12 of what it does in the step, which is rounding beside positions known to 1e-9. */
+static const double HARDLY_ANY = 1e-12;
 
 /* Without a path tolerance parts are no longer divided after so many iterations times nodes spent
  * on parts that were not kept: about a second of one processor. The cost of an iteration beside
@@ -472,11 +476,47 @@ static bool end_in_slide(Advance *substeps, double from, double to) {
     return false;
 }
 
-/* Take the rest of a portion in one part, and keep it whatever its outcome. */
-static void accept_rest(Advance *substeps, double from, double to) {
+/* Take the rest of a portion in one part, and keep it whatever its outcome. If `tried`, the whole
+ * portion was too dear to be divided: it fails again, and not all strategies are tried. */
+static void accept_rest(Advance *substeps, double from, double to, bool tried) {
+    const CpsiStepOptions *all = substeps->options;
+    CpsiStepOptions options = *all;
+    options.fails = tried;
+    substeps->options = &options;
     Trial rest = {.first = accept(substeps, from, to, substeps->known)};
+    substeps->options = all;
     if (converged(&rest.first)) rest.open = open_energy(substeps, &rest.first, NULL);
     keep_part(substeps, &rest);
+}
+
+/* The next smaller part after one that was tried, which ended with the portion if it reached beyond
+ * what was `left` of it: the same part is not tried twice. */
+static double smaller_part(double part, double left) {
+    do part *= 0.5;
+    while (part >= left);
+    return part;
+}
+
+/* Take the rest of a portion as overdamped motion, and certify where the line comes to rest by a
+ * part in which hardly anything changes. False where that fails; then the line is restored. */
+static bool relax_rest(Advance *substeps, double from, double to) {
+    const double rest_from = to - HARDLY_ANY;
+    if (!(rest_from > from)) return false;
+    const Advance before = *substeps;
+    cpsi_substeps_save(substeps->line, substeps->scratch);
+    substeps->relaxed = 0;
+    if (relax(substeps, from, rest_from)) {
+        const Part rest = accept(substeps, rest_from, to, true);
+        if (converged(&rest)) {
+            add(substeps, &rest);
+            return true;
+        }
+    }
+    const int iterations = substeps->iterations;
+    *substeps = before;
+    substeps->iterations = iterations;
+    cpsi_substeps_restore(substeps->line, substeps->scratch);
+    return false;
 }
 
 /* Take a portion in parts, each halved up to `halvings` times. */
@@ -501,7 +541,7 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
             if (!trial.good && part == 1 && add_slide(substeps, from, portion.to, SLIDES_CLEARLY))
                 return;
             cpsi_substeps_restore(substeps->line, substeps->scratch);
-            part *= 0.5;
+            part = smaller_part(part, 1 - at);
             continue;
         }
         if (!trial.good) { /* it cannot be made smaller */
@@ -511,7 +551,8 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
                 at += jump;
                 continue;
             }
-            accept_rest(substeps, from, portion.to);
+            if (!relax_rest(substeps, from, portion.to))
+                accept_rest(substeps, from, portion.to, at == 0 && end == 1);
             return;
         }
         keep_part(substeps, &trial);
