@@ -31,6 +31,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->curvature, 3 * contacts);
         CPSI_PLACE(arena, line->obstacle_index, contacts);
         CPSI_PLACE(arena, line->active, contacts);
+        CPSI_PLACE(arena, line->at_bound, contacts);
         CPSI_PLACE(arena, line->node_reaction, n);
         CPSI_PLACE(arena, line->watched, 6 * n);
         cpsi_anderson_layout(&line->anderson, arena, line->n);

@@ -32,8 +32,10 @@ typedef struct CpsiLoadChange {
 enum { CPSI_NEWTON_PATIENCE = 4 };
 typedef struct CpsiNewtonRecord {
     int tried, solved; /* programs of the step: tried, and solved */
+    int failed;        /* those not solved, in a row */
     int failures;      /* steps in a row in which it was of no use, up to CPSI_NEWTON_PATIENCE */
     int pause;         /* steps that are next solved without it */
+    bool useful;       /* it was of use in a step of the history */
 } CpsiNewtonRecord;
 
 typedef struct CpsiLine {
@@ -97,8 +99,9 @@ typedef struct CpsiLine {
     double *beta; /* (n) share of element e, from node e to e + 1, at which it touches; NULL without
                      such contacts */
     double *node_reaction; /* (n) [N] sum of the reactions on the node and on its elements */
-    bool *active; /* (contacts, n) the constraint is active in the last solution: the reaction
-                     exceeds the distance, both in units of the program */
+    bool *active;   /* (contacts, n) the constraint is active in the last solution: the reaction
+                       exceeds the distance, both in units of the program */
+    bool *at_bound; /* (contacts, n) friction is at its bound in the last round (warm_step.h) */
     bool contact_everywhere;   /* contacts are detected everywhere, not only where the reference
                                   touches */
     bool keeps_reference_axes; /* friction is frozen with its bounds and axes at the reference while

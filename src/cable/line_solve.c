@@ -256,12 +256,15 @@ static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
     CpsiIpmReport newton = cpsi_warm_step_solve(line, program, scale, round->guess, max_iterations);
     line->report.iteration_count += newton.iterations;
     line->newton.tried++;
+    line->newton.failed++;
     if (newton.outcome != CPSI_IPM_SOLVED) return newton;
     cpsi_step_program_unpack(line, program, scale);
-    if (is_unique(line, program, round))
+    if (is_unique(line, program, round)) {
         line->newton.solved++;
-    else
+        line->newton.failed = 0;
+    } else {
         newton.outcome = CPSI_IPM_STALLED;
+    }
     return newton;
 }
 

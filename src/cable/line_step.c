@@ -211,8 +211,10 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
     if (guess != CPSI_GUESS_NONE) {
         if (solve_warm(line, program, options, guess)) return;
         again = true;
-        /* where Newton's method has solved no program, this was the first strategy */
-        if (line->newton.solved == 0) first = 1;
+        /* where Newton's method has solved no program, and moved no base, this was the first
+         * strategy */
+        if (line->newton.solved == 0 && (guess == CPSI_GUESS_REFERENCE || !line->has_local_axes))
+            first = 1;
         line->report.warm_count = 0;
     }
     for (;; again = true) {

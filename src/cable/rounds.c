@@ -15,6 +15,8 @@
  * many as this. */
 static const int MAX_CONVERGING_ROUNDS = 60;
 static const double AXES_CONVERGING = 1e-2;
+/* Newton's method is given up in a step after so many failures in a row. */
+enum { GIVEN_UP = 2 };
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
 static const double AXES_TOL = 1e-10;
 /* Below this angle [rad] the error after a round is linear in the error before it. */
@@ -137,6 +139,22 @@ static bool certify_last_round(CpsiLine *line, CpsiChainProgram *program,
     return cps_outcome_is_certified(line->report.outcome);
 }
 
+/* The guess of the round after the one that was posed so. */
+static CpsiGuess next_guess(const CpsiLine *line, const CpsiRound *posed,
+                            const CpsiIpmReport *ipm) {
+    const CpsiNewtonRecord *newton = &line->newton;
+    const bool given_up = posed->guess == CPSI_GUESS_NONE || newton->failed >= GIVEN_UP;
+    return given_up || !cpsi_line_is_clean(ipm) ? CPSI_GUESS_NONE : CPSI_GUESS_BASE;
+}
+
+/* Begin where the last move leads, as if a round had ended there. */
+static CpsiGuess predict_base(CpsiLine *line, const CpsiChainProgram *program, bool sides) {
+    double turned;
+    cpsi_warm_step_predict(line, program);
+    (void)cpsi_rounds_refresh_axes(line, sides, &turned);
+    return CPSI_GUESS_PREDICTED;
+}
+
 bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options, const CpsiStrategy *strategy,
                                CpsiBounds bounds) {
@@ -147,6 +165,9 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
     const bool sides = !options->frictionless; /* a line placed by statics may pass obstacles */
     bool arrived = true, scattered = line->has_local_axes;
     int since = 0;
+    if (posed.guess == CPSI_GUESS_EXTRAPOLATED && line->has_local_axes &&
+        !line->keeps_reference_axes)
+        posed.guess = predict_base(line, program, sides);
     for (int round = 0, most = strategy->rounds; round < most; round++) {
         if (line->has_local_axes && posed.bounds != CPSI_BOUNDS_TRIAL && strategy->acceleration)
             accelerate(line, sides, turned);
@@ -155,9 +176,7 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             cpsi_contact_update_geometry(line);
         }
         ipm = solve_round(line, program, options, &posed);
-        posed.guess = strategy->guess == CPSI_GUESS_NONE || !cpsi_line_is_clean(&ipm)
-                          ? CPSI_GUESS_NONE
-                          : CPSI_GUESS_BASE;
+        posed.guess = next_guess(line, &posed, &ipm);
         if (posed.bounds == CPSI_BOUNDS_COUPLED && !cpsi_line_is_clean(&ipm)) {
             posed.bounds = CPSI_BOUNDS_TRIAL;
             for (int c = 0; c < cpsi_line_all_contacts(line); c++)
@@ -168,11 +187,18 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             off = bound_mismatch(line);
             next_bounds(line, program, cpsi_line_unit_force(line, posed.bounds));
         }
+        if (posed.guess == CPSI_GUESS_BASE && line->has_local_axes) cpsi_warm_step_note_round(line);
         if (line->has_local_axes) arrived = cpsi_rounds_refresh_axes(line, sides, &turned);
         scattered &= turned > AXES_SCATTERED && isfinite(turned);
         if (cpsi_interrupt_seen(program->base.interrupt)) break;
         if (turned <= AXES_TOL && off <= BOUND_TOL && cpsi_line_is_clean(&ipm)) break;
-        if (turned <= AXES_CONVERGING && most < MAX_CONVERGING_ROUNDS) most = MAX_CONVERGING_ROUNDS;
+        /* a guess that led nowhere: the step is taken again without it */
+        if (strategy->guess != CPSI_GUESS_NONE && line->newton.failed >= GIVEN_UP &&
+            turned > AXES_CONVERGING)
+            break;
+        if (turned <= AXES_CONVERGING && most < MAX_CONVERGING_ROUNDS &&
+            (strategy->guess == CPSI_GUESS_NONE || line->newton.failed == 0))
+            most = MAX_CONVERGING_ROUNDS;
         if (turned < 0.5 * best) {
             best = turned;
             since = round;

@@ -15,6 +15,8 @@ static const double SAME_WAY = 0.5;
 static const double MOST_RATIO = 4;
 /* An extrapolated tension is at least this share of the last one. */
 static const double LEAST_TENSION = 0.5;
+/* Failures that are counted where the method has been of use before. */
+enum { USEFUL_PATIENCE = 3 };
 /* A force is at its bound up to rounding of the interior-point loop. */
 static const double AT_BOUND = 1e-9;
 
@@ -60,15 +62,28 @@ static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
     return aside <= SAME_WAY * SAME_WAY * size ? ratio : 0;
 }
 
+/* Does the method treat all contacts that the line has now? Not those of elements, second ones, and
+ * those with boxes and given sets. */
+static bool treats_contacts(const CpsiLine *line) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+        const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+        if (!obstacle || line->state[c] == CPS_NODE_STATE_FREE) continue;
+        if (c >= line->n || obstacle->has_set || obstacle->shape == CPS_FRICTION_SHAPE_BOX)
+            return false;
+    }
+    return true;
+}
+
 CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options) {
     const CpsiLoadChange now = change_of(line);
     const double ratio = ratio_of(line, &now);
     const bool settled = line->last_change.known;
-    line->newton.tried = line->newton.solved = 0;
+    line->newton.tried = line->newton.solved = line->newton.failed = 0;
     line->last_change = now;
     if (options->frictionless) line->last_change.known = false;
-    if (!settled || options->frictionless || options->solver.cold) return CPSI_GUESS_NONE;
+    if (!settled || options->frictionless || options->solver.cold || !treats_contacts(line))
+        return CPSI_GUESS_NONE;
     if (line->newton.pause > 0) {
         line->newton.pause--;
         return CPSI_GUESS_NONE;
@@ -85,6 +100,17 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
         tension[i] = fmax(t + ratio * (t - before), LEAST_TENSION * t);
     }
     return CPSI_GUESS_EXTRAPOLATED;
+}
+
+void cpsi_warm_step_predict(CpsiLine *line, const CpsiChainProgram *program) {
+    const double *shift = program->base.residual;
+    for (int i = 0; i < 3 * line->n; i++) line->position[i] = line->reference[i] + shift[i];
+    for (int end = 0; end < 2; end++)
+        if (line->end[end].kind == CPS_END_KIND_HELD)
+            memcpy(&line->position[end == CPS_END_A ? 0 : 3 * (line->n - 1)], line->end[end].value,
+                   sizeof line->end[end].value);
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++)
+        line->active[c] = line->state[c] != CPS_NODE_STATE_FREE && line->reaction[c] > 0;
 }
 
 /* Move the first guess of the program to `shift` from the base. */
@@ -113,16 +139,21 @@ static void place(const CpsiLine *line, CpsiChainProgram *program, const double 
     }
 }
 
+void cpsi_warm_step_note_round(CpsiLine *line) {
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+        double f[3], inside[3];
+        const double bound = line->friction_bound[c];
+        cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
+        memcpy(inside, f, sizeof f);
+        cpsi_friction_law_clip(&line->friction_law[c], bound, (1 - AT_BOUND) * bound, inside);
+        line->at_bound[c] = inside[0] != f[0] || inside[1] != f[1];
+    }
+}
+
 /* Did friction slip at contact c in the last step or round? */
 static bool slipped(const CpsiLine *line, int c, CpsiGuess guess) {
-    if (guess == CPSI_GUESS_REFERENCE) return false;
-    if (guess == CPSI_GUESS_EXTRAPOLATED) return line->state[c] == CPS_NODE_STATE_SLIP;
-    double f[3], inside[3];
-    const double bound = line->friction_bound[c];
-    cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
-    memcpy(inside, f, sizeof f);
-    cpsi_friction_law_clip(&line->friction_law[c], bound, (1 - AT_BOUND) * bound, inside);
-    return inside[0] != f[0] || inside[1] != f[1];
+    if (guess == CPSI_GUESS_BASE) return line->at_bound[c];
+    return guess != CPSI_GUESS_REFERENCE && line->state[c] == CPS_NODE_STATE_SLIP;
 }
 
 static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale,
@@ -144,16 +175,18 @@ CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
                                    const CpsiStepScale *scale, CpsiGuess guess,
                                    int max_iterations) {
     const bool extrapolated = guess == CPSI_GUESS_EXTRAPOLATED;
+    const bool predicted = guess == CPSI_GUESS_PREDICTED;
     place(line, program, extrapolated ? program->base.residual : NULL);
-    guess_pairs(line, program, scale, guess, extrapolated ? program->dt : NULL);
+    guess_pairs(line, program, scale, guess, extrapolated || predicted ? program->dt : NULL);
     return cpsi_chain_active_set(program, max_iterations);
 }
 
 void cpsi_warm_step_note(CpsiLine *line, bool certified) {
     CpsiNewtonRecord *record = &line->newton;
     if (certified && 2 * record->solved >= record->tried) {
+        record->useful = true;
         record->failures = 0;
-    } else if (record->failures < CPSI_NEWTON_PATIENCE) {
+    } else if (record->failures < (record->useful ? USEFUL_PATIENCE : CPSI_NEWTON_PATIENCE)) {
         record->failures++;
     }
     record->pause = record->failures > 1 ? (1 << record->failures) - 2 : 0;

@@ -16,6 +16,7 @@ typedef enum CpsiGuess {
     CPSI_GUESS_NONE,         /* the interior-point loop, from its own start */
     CPSI_GUESS_REFERENCE,    /* at rest at the reference */
     CPSI_GUESS_EXTRAPOLATED, /* the last move, from the reference */
+    CPSI_GUESS_PREDICTED,    /* the same, where the base has been moved there */
     CPSI_GUESS_BASE          /* the solution of the last round, where the base is */
 } CpsiGuess;
 
@@ -25,13 +26,21 @@ typedef enum CpsiGuess {
 CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options);
 
+/* Move the line to its extrapolated configuration, as if a round had ended there: the next one is
+ * posed on the tangent planes at this place. */
+void cpsi_warm_step_predict(CpsiLine *line, const CpsiChainProgram *program);
+
+/* After a round, in the axes with which it was solved: note where friction is at its bound, for the
+ * guess of the next round. */
+void cpsi_warm_step_note_round(CpsiLine *line);
+
 /* Solve the program of a round, which has been written, from a guess. The places are unique. */
 CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
                                    const CpsiStepScale *scale, CpsiGuess guess, int max_iterations);
 
 /* After a step that was solved from a guess: where Newton's method was of no use several times in a
- * row, the next 2, 6 or 14 steps are solved without it. It was of use if the step is certified and
- * half of its programs were solved so. */
+ * row, the next 2, 6 or 14 steps are solved without it, or 2 and 6 where it has been of use in the
+ * history. It was of use if the step is certified and half of its programs were solved so. */
 void cpsi_warm_step_note(CpsiLine *line, bool certified);
 
 #endif

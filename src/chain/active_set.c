@@ -26,7 +26,7 @@
 enum { MOST_STEPS = 30 };
 /* Nor do steps without progress pay, so many in which the residual has not fallen to this share of
  * the least one. */
-enum { PATIENCE = 20 };
+enum { PATIENCE = 12 };
 static const double PROGRESS = 0.9;
 /* Rounding in units of the last place: of an elongation or a balance, by a few operations; and of a
  * force between nodes at rest, by their coordinates and those of the reference. */

@@ -1,25 +1,39 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The active set of Newton's method (active_set.c): which of each pair holds, read from the sign of
  * what the other one leaves free. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "chain/newton.h"
 
+/* An element that may not go slack has this share of the largest force. */
+static const double LEAST_TENSION = 1e-3;
+
 /* elements ------------------------------------------------------------------------------------- */
+
+/* Element i would be slack between nodes that move: it keeps a little tension, so that they are
+ * held. Where that goes on there is no equilibrium with tension in it. */
+static void keep_taut(CpsiNewton *newton, int i) {
+    enum { MOST = 40 };
+    newton->taut[i] = true;
+    newton->program->segment.z[i][0] = LEAST_TENSION * newton->force;
+    newton->changed = true;
+    if (++newton->slackened > MOST) newton->lost = true;
+}
 
 /* Which elements are taut. */
 static void decide_elements(CpsiNewton *newton) {
     CpsiSegment *st = &newton->program->segment;
     for (int i = 1; i < newton->program->n; i++) {
-        const bool before = newton->taut[i];
+        const bool before = newton->taut[i], fixed = cpsi_newton_is_fixed(newton, i);
         bool now = before;
         if (before && st->z[i][0] < 0) now = false;
         if (!before && st->g[i] > newton->rounding) now = true;
         if (now != before) newton->changed = true;
         newton->taut[i] = now;
         if (!now) st->z[i][0] = 0;
-        const bool fixed = cpsi_newton_is_fixed(newton, i);
-        if (now ? fixed && st->compliance == 0 : !fixed) newton->lost = true;
+        if (!now && !fixed) keep_taut(newton, i);
+        if (now && fixed && st->compliance == 0) newton->lost = true;
     }
 }
 
@@ -139,28 +153,84 @@ static void decide_contacts(CpsiNewton *newton) {
 /* Let disc d slip in the direction of -f. */
 static void release(CpsiNewton *newton, int d, const double f[2]) {
     const double size = cpsi_newton_size(f);
-    newton->status[newton->program->disc.node[d]] &= (unsigned char)~CPSI_STICKS;
+    unsigned char *status = &newton->status[newton->program->disc.node[d]];
+    *status = (*status & (unsigned char)~CPSI_STICKS) | CPSI_RELEASED;
     for (int a = 0; a < 2; a++) newton->program->disc.w[d][1 + a] = f[a] / size;
     newton->changed = true;
 }
 
 /* The force on disc d, which sticks, exceeds its bound: the excess will be carried by what its
- * neighbours can still take, and those that cannot take it slip too. */
+ * neighbours can still take in its direction q, at most l with |f + l q| = A, and those that cannot
+ * take it slip too. */
 static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction *now) {
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
-    const double size = cpsi_newton_size(now->f);
+    const double size = cpsi_newton_size(now->f), q[2] = {now->f[0] / size, now->f[1] / size};
     for (int way = -1; way <= 1; way += 2) {
         double left = disc->weight[d] * (size - now->bound);
         for (int e = d + way; e >= 0 && e < disc->count; e += way) {
             const int j = disc->node[e];
             if (j != disc->node[e - way] + way || !(newton->status[j] & CPSI_STICKS)) break;
             const CpsiNodeFriction next = cpsi_newton_friction(program, e);
-            const double along = (next.f[0] * now->f[0] + next.f[1] * now->f[1]) / size;
-            left -= disc->weight[e] * (next.bound - along);
+            const double along = next.f[0] * q[0] + next.f[1] * q[1],
+                         across = next.f[1] * q[0] - next.f[0] * q[1],
+                         most = sqrt(fmax(0, next.bound * next.bound - across * across)) - along;
+            left -= disc->weight[e] * most;
             if (left <= 0) break;
-            release(newton, e, cpsi_newton_size(next.f) > 0 ? next.f : now->f);
+            const double to[2] = {next.f[0] + most * q[0], next.f[1] + most * q[1]};
+            release(newton, e, cpsi_newton_size(to) > 0 ? to : now->f);
         }
+    }
+}
+
+/* F.s of disc d: what slips is pushed by its friction where this is positive. */
+static double push(const CpsiNewton *newton, int d) {
+    const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
+    return now.s[0] * now.f[0] + now.s[1] * now.f[1];
+}
+
+/* Does disc d slip, on a node beside that of disc e? */
+static bool slips_beside(const CpsiNewton *newton, int d, int e) {
+    const CpsiFrictionDisc *disc = &newton->program->disc;
+    return d >= 0 && d < disc->count && abs(disc->node[d] - disc->node[e]) == 1 &&
+           cpsi_newton_rubs(newton, d) && !(newton->status[disc->node[d]] & CPSI_STICKS);
+}
+
+static void stop(CpsiNewton *newton, int d) {
+    unsigned char *status = &newton->status[newton->program->disc.node[d]];
+    *status = (*status & (unsigned char)~CPSI_RELEASED) | CPSI_STICKS | CPSI_STOPS;
+    newton->changed = true;
+}
+
+/* The discs `first` to `last`, on nodes side by side, slip and are pushed by their friction. They
+ * stop; but if they have just been released beside a piece that slips, it was too many of them, and
+ * the half beside it goes on. */
+static void stop_run(CpsiNewton *newton, int first, int last) {
+    const CpsiFrictionDisc *disc = &newton->program->disc;
+    int released = 0;
+    for (int d = first; d <= last; d++)
+        released += (newton->status[disc->node[d]] & CPSI_RELEASED) != 0;
+    const bool before = slips_beside(newton, first - 1, first),
+               after = slips_beside(newton, last + 1, last);
+    int from = first, to = last;
+    if (released > 1 && before != after) {
+        if (after) to = first + (released - 1) / 2;
+        if (before) from = last - (released - 1) / 2;
+    }
+    for (int d = from; d <= to; d++) stop(newton, d);
+}
+
+/* Discs that slip and are pushed by their friction stop. */
+static void stop_friction(CpsiNewton *newton) {
+    const CpsiFrictionDisc *disc = &newton->program->disc;
+    for (int d = 0, next; d < disc->count; d = next) {
+        next = d + 1;
+        if (!cpsi_newton_rubs(newton, d) || (newton->status[disc->node[d]] & CPSI_STICKS)) continue;
+        const double pushed = push(newton, d);
+        if (pushed < 0) newton->status[disc->node[d]] &= (unsigned char)~CPSI_RELEASED;
+        if (!(pushed > 0)) continue;
+        while (slips_beside(newton, next, next - 1) && push(newton, next) > 0) next++;
+        stop_run(newton, d, next - 1);
     }
 }
 
@@ -171,23 +241,20 @@ static void decide_friction(CpsiNewton *newton) {
     for (int d = 0; d < disc->count; d++) {
         if (!cpsi_newton_rubs(newton, d)) continue;
         unsigned char *status = &newton->status[disc->node[d]];
+        if (!(*status & CPSI_STICKS)) continue;
         const CpsiNodeFriction now = cpsi_newton_friction(program, d);
         if (*status & CPSI_STOPS) {
             *status &= (unsigned char)~CPSI_STOPS;
             stick(newton, d);
             newton->changed = true;
         }
-        if (*status & CPSI_STICKS) {
-            if (disc->weight[d] * (cpsi_newton_size(now.f) - now.bound) <=
-                newton->noise * newton->force)
-                continue;
-            release(newton, d, now.f);
-            release_neighbours(newton, d, &now);
-        } else if (now.s[0] * now.f[0] + now.s[1] * now.f[1] > 0) {
-            *status |= CPSI_STICKS | CPSI_STOPS;
-            newton->changed = true;
-        }
+        if (disc->weight[d] * (cpsi_newton_size(now.f) - now.bound) <=
+            newton->noise * newton->force)
+            continue;
+        release(newton, d, now.f);
+        release_neighbours(newton, d, &now);
     }
+    stop_friction(newton);
 }
 
 void cpsi_newton_decide(CpsiNewton *newton) {

@@ -13,8 +13,16 @@
 #define CPSI_LEAST_SLIP 1e-9
 
 /* Bits of a node's status: its contact is closed; friction may act; friction sticks; the node has
- * just landed, or stopped, and is not yet where that wants it. */
-enum { CPSI_CLOSED = 1, CPSI_RUBS = 2, CPSI_STICKS = 4, CPSI_LANDS = 8, CPSI_STOPS = 16 };
+ * just landed, or stopped, and is not yet where that wants it; it was released and has not yet
+ * slipped the way that it pulls. */
+enum {
+    CPSI_CLOSED = 1,
+    CPSI_RUBS = 2,
+    CPSI_STICKS = 4,
+    CPSI_LANDS = 8,
+    CPSI_STOPS = 16,
+    CPSI_RELEASED = 32
+};
 
 /* Of one solution. The bytes lie in an array of the interior-point loop that is not used here. */
 typedef struct CpsiNewton {
@@ -25,6 +33,7 @@ typedef struct CpsiNewton {
     double rounding;                  /* of an elongation, and of a force per largest force */
     double noise;                     /* the same of a force between nodes at rest */
     double force;                     /* the largest force */
+    int slackened;                    /* how often an element between nodes that move went slack */
     double strain_error, force_error; /* of the equations, at most */
     bool changed;                     /* the active set has changed */
     bool lost;                        /* there is something that this method does not treat */

@@ -164,6 +164,7 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     pass_load_change(tape, &line->last_change);
     PASS(tape, line->newton.failures);
     PASS(tape, line->newton.pause);
+    pass_flag(tape, &line->newton.useful);
     pass_line_report(tape, &line->report);
 }
 

@@ -212,6 +212,8 @@ static double largest(const CpsLineView *v) {
  * leaves, over the largest force times the length. A step is solved to a gap of 1e-13 of its
  * scale. */
 static const double ROUNDING = 1e-14;
+/* The interior point ends at this gap of the scale (CPSI_TARGET). */
+static const double LOOP_GAP = 1e-13;
 
 /* Where something touches an obstacle, the line's direction there, and the forces of the obstacle
  * on it. */
@@ -378,7 +380,14 @@ static void turns(RigRun *run, double *turn) {
  * law's sum, of all bounds together. */
 static void check(RigRun *run, const Audit *audit) {
     const double length = run->rig->line.length;
-    run->motion += run->report.certificate.tension_bound * run->view.compliance * length;
+    /* the certificate is that of the last substep; those before it may have the gap at
+     * which the interior point ends */
+    const double compliance = run->view.compliance * length,
+                 gap = LOOP_GAP * run->report.certificate.scale,
+                 before = compliance > 0 ? sqrt(2 * gap / compliance) : 0;
+    run->motion +=
+        (run->report.certificate.tension_bound + (run->report.substep_count - 1) * before) *
+        compliance;
     run->dissipated += run->report.dissipated;
     run->law += audit->law;
     const bool frictionless = run->rig->line.start.kind == CPS_START_STATIC && run->steps == 1;
