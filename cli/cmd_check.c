@@ -61,17 +61,34 @@ static void print_end(char letter, const CpsEnd *end) {
         printf("  end %c: held at (%g, %g, %g) m\n", letter, v[0], v[1], v[2]);
 }
 
+static void print_make(double weight, double stiffness) {
+    printf("weight %g N/m, ", weight);
+    if (isinf(stiffness))
+        printf("inextensible");
+    else
+        printf("stiffness %g N", stiffness);
+}
+
 static void print_line(const CpsLine *line) {
     static const char *const START[] = {"straight", "polyline", "arc", "static equilibrium",
                                         "from given nodes"};
-    printf("line %s: %g m, %d %selement%s, weight %g N/m, ", line->name, line->length,
-           line->element_count, line->element_length ? "graded " : "",
-           line->element_count == 1 ? "" : "s", line->weight);
-    if (isinf(line->stiffness))
-        printf("inextensible");
-    else
-        printf("stiffness %g N", line->stiffness);
-    printf(", start %s\n", START[line->start.kind]);
+    printf("line %s: %g m, %d %selement%s, ", line->name, line->length, line->element_count,
+           line->element_length ? "graded " : "", line->element_count == 1 ? "" : "s");
+    if (line->section_count == 0) {
+        print_make(line->weight, line->stiffness);
+        printf(", ");
+    }
+    printf("start %s\n", START[line->start.kind]);
+    double from = 0;
+    for (int k = 0; k < line->section_count; from += line->section[k++].length) {
+        const CpsSection *section = &line->section[k];
+        printf("  %s from %g m to %g m: ", section->type, from, from + section->length);
+        print_make(section->weight, section->stiffness);
+        putchar('\n');
+    }
+    for (int k = 0; k < line->point_weight_count; k++)
+        printf("  %s of %g N at %g m\n", line->point_weight[k].weight < 0 ? "buoy" : "clump",
+               fabs(line->point_weight[k].weight), line->point_weight[k].arc_length);
     for (int k = 0; k < line->zone_count; k++)
         printf("  friction from %g m to %g m: %g times\n", line->zone[k].from, line->zone[k].to,
                line->zone[k].factor);

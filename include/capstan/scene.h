@@ -109,6 +109,20 @@ typedef struct CpsFrictionZone {
     double factor;   /* [-] >= 0, multiplies the friction of every obstacle that it touches */
 } CpsFrictionZone;
 
+/* A stretch of a line of one make: chain, wire, fibre rope. */
+typedef struct CpsSection {
+    const char *type; /* name of its make; may be NULL */
+    double length;    /* [m] natural length > 0 */
+    double weight;    /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double stiffness; /* [N] EA > 0, INFINITY: inextensible; finite in all sections or in none */
+} CpsSection;
+
+/* A clump or a buoy at a node of a line. */
+typedef struct CpsPointWeight {
+    double arc_length; /* [m] natural, of a node between the ends */
+    double weight;     /* [N] along gravity (submerged weight); negative: a buoy lifts the line */
+} CpsPointWeight;
+
 /* A line that carries tension only. Node 0 is end A, node `element_count` is end B. */
 typedef struct CpsLine {
     uint32_t cookie;
@@ -118,7 +132,15 @@ typedef struct CpsLine {
     const double *element_length; /* (element_count) [m], their sum is `length`; NULL: all equal */
     double weight;    /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
     double stiffness; /* [N] EA > 0; INFINITY: inextensible */
-    int zone_count;   /* >= 0, default 0 */
+    /* (section_count) from A to B, each ending at a node; their lengths make up `length`. NULL, the
+     * default: the line is of one make, with the weight and stiffness above, which are not read
+     * otherwise. */
+    int section_count;
+    const CpsSection *section;
+    int point_weight_count;             /* >= 0, default 0 */
+    const CpsPointWeight *point_weight; /* (point_weight_count) in any order; several may be at one
+                                           node */
+    int zone_count;                     /* >= 0, default 0 */
     /* (zone_count) in order from A to B, without overlap; elsewhere the factor is 1. The factor at
      * a node is the mean over the length that it stands for. */
     const CpsFrictionZone *zone;

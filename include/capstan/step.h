@@ -231,33 +231,33 @@ typedef struct CpsStepReport {
 enum { CPS_NO_OBSTACLE = -1 };
 
 /* All arrays of one line after a step, or after its last substep. They belong to the evolution and
- * are valid until its next step. n = element_count + 1 nodes; forces act on the line.
- *
- * Arrays (n, 3) are stored node after node. A node has contact with up to `contact_count` obstacles
- * at once; in an array over contacts entry j is the first contact of node j, with its nearest
- * obstacle, and entry n + j its second. */
+ * are valid until its next step. n = element_count + 1 nodes; forces act on the line. Arrays (n,
+ * 3) are stored node after node. A node has contact with up to `contact_count` obstacles at once;
+ * in an array over contacts entry j is the first contact of node j, with its nearest obstacle, and
+ * entry n + j its second. */
 typedef struct CpsLineView {
     const char *name;
     int element_count;
     int contact_count; /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    /* every contact is with one and the same plane with isotropic friction, or there is no
-     * obstacle: regularized.h and the solutions of a step (evolve.h) need this */
-    bool one_plane;
+    bool one_plane;    /* all contacts are with one plane with isotropic friction, or there is no
+                          obstacle: regularized.h and the solutions of a step need this */
     const double *arc_length;     /* (n) [m] natural arc length of the nodes from end A */
     const double *element_length; /* (element_count) [m] */
-    double compliance;            /* [1/N] 1/EA; 0 of an inextensible line */
-    CpsEnd end[2];                /* what was imposed in this step */
-    const double *reference;      /* (n, 3) [m] x_R, where the step or its last substep began */
-    const double *position;       /* (n, 3) [m] */
-    const double *load;           /* (n, 3) [N] weight, and the force on a free end */
-    double weight_before[3];      /* [N/m] weight where the step, or its last substep, began */
-    const int *obstacle;          /* (contact_count, n) index in the scene, or CPS_NO_OBSTACLE */
+    double compliance;            /* [1/N] 1/EA, of sections the mean; 0 of an inextensible line */
+    bool uniform;                 /* without sections and point weights */
+    const double *compliance_factor; /* (element_count) [-] of `compliance`; 1 where uniform */
+    const double *weight_length; /* (n) [m] weight at a node over the mean one; 0 where uniform */
+    CpsEnd end[2];               /* what was imposed in this step */
+    const double *reference;     /* (n, 3) [m] x_R, where the step or its last substep began */
+    const double *position;      /* (n, 3) [m] */
+    const double *load;          /* (n, 3) [N] weight, and the force on a free end */
+    double weight_before[3];     /* [N/m] weight where the step, or its last substep, began */
+    const int *obstacle;         /* (contact_count, n) index in the scene, or CPS_NO_OBSTACLE */
     const double *normal; /* (contact_count, n, 3) [-] at `position`; 0 0 0 without obstacle */
-    /* (contact_count, n) [m] contact is n.u >= -gap for the displacement u from the reference;
-     * INFINITY where no contact is considered */
+    /* (contact_count, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact considered */
     const double *gap;
-    /* (contact_count, n) [N] w = A h, of the larger coefficient (of a friction set: the factor of
-     * the set); 0 where friction does not act */
+    /* (contact_count, n) [N] w = A h of the larger coefficient, or a set's factor; 0: no friction
+     */
     const double *friction_bound;
     const double *friction_factor; /* (n) [-] mean factor of the zones at a node; 1 without */
     const double *friction_force;  /* (contact_count, n, 3) [N] F, within the set that w bounds */

@@ -173,9 +173,8 @@ static void raise_to(double *largest, double value) { *largest = cpsi_max_nan(*l
 
 /* Elongation: the segments' part of P, D, gap, scale and tension errors. */
 static void add_segments(const CpsiLine *line, CpsCertificate *out) {
-    const double c = line->compliance;
     for (int e = 0; e + 1 < line->n; e++) {
-        const double l = line->element_length[e];
+        const double l = line->element_length[e], c = cpsi_line_compliance(line, e);
         const Vec3 dx =
             vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
         const Vec3 strain = vec3_scale(1 / l, dx), p = segment_force(line, e);
@@ -303,10 +302,10 @@ CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance) {
     add_nodes(line, &out);
     out.scale += load_scale(line, out.largest_force, tolerance);
     out.element_penetration = cpsi_line_pierces(line, &(int){0});
-    /* P - D >= sum (l c/2) (T - T*)^2, so rms(T - T*) <= sqrt(2 gap/(c L)); it says nothing beyond
-     * the tension itself */
+    /* P - D >= sum (l c/2) (T - T*)^2, so rms(T - T*) <= sqrt(2 gap/(c L)) with the least c; it
+     * says nothing beyond the tension itself */
     if (line->compliance > 0) {
-        const double bound = sqrt(2 * out.gap / (line->compliance * line->length));
+        const double bound = sqrt(2 * out.gap / (cpsi_line_least_compliance(line) * line->length));
         out.has_tension_bound = bound <= out.largest_force;
         if (out.has_tension_bound) out.tension_bound = bound;
     }

@@ -209,6 +209,8 @@ bool cpsi_line_slides_endlessly(CpsiLine *line, double margin) {
     if (line->end[CPS_END_A].kind != CPS_END_KIND_FREE ||
         line->end[CPS_END_B].kind != CPS_END_KIND_FREE)
         return false;
+    /* sections move along with the line, so that its weight beyond a place changes */
+    if (line->has_sections) return false;
     if (line->element_contacts > 0 && has_resting_element(line)) return false;
     return slides_towards(line, false, margin) || slides_towards(line, true, margin);
 }

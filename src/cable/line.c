@@ -14,6 +14,11 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->normal, 3 * contacts);
     CPSI_PLACE(arena, line->gap, contacts);
     if (line->has_zones) CPSI_PLACE(arena, line->friction_factor, n);
+    if (line->has_sections) {
+        CPSI_PLACE(arena, line->weight_factor, n);
+        CPSI_PLACE(arena, line->compliance_factor, n);
+        CPSI_PLACE(arena, line->weight_length, n);
+    }
     CPSI_PLACE(arena, line->friction_law, contacts);
     CPSI_PLACE(arena, line->friction_bound, contacts);
     CPSI_PLACE(arena, line->friction_force, 3 * contacts);
@@ -41,6 +46,13 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->tension_before, n);
     CPSI_PLACE(arena, line->reaction_before, contacts);
     if (line->has_local_axes) CPSI_PLACE(arena, line->obstacle_index_before, contacts);
+}
+
+double cpsi_line_least_compliance(const CpsiLine *line) {
+    double least = cpsi_line_compliance(line, 0);
+    for (int e = 1; line->compliance_factor && e + 1 < line->n; e++)
+        least = fmin(least, cpsi_line_compliance(line, e));
+    return least;
 }
 
 double cpsi_line_largest_displacement(const CpsiLine *line, const double *from) {
@@ -102,7 +114,7 @@ static Vec3 start_force(const CpsiLine *line, int e) {
         vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
     const double size = vec3_norm(dx), strain = size / line->element_length[e] - 1;
     if (!(line->compliance > 0) || !(strain > 0)) return vec3(0, 0, 0);
-    return vec3_scale(strain / (line->compliance * size), dx);
+    return vec3_scale(strain / (cpsi_line_compliance(line, e) * size), dx);
 }
 
 void cpsi_line_start_reaction(CpsiLine *line, double touch) {
@@ -113,7 +125,7 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
         if (!(gap <= touch)) continue;
-        Vec3 sum = vec3_scale(cpsi_line_share(line, j), vec3_load(line->weight));
+        Vec3 sum = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
         if (j > 0) sum = vec3_sub(sum, start_force(line, j - 1));
         if (j + 1 < line->n) sum = vec3_add(sum, start_force(line, j));
         const double reaction = -vec3_dot(sum, cpsi_obstacle_normal(&line->obstacle[on], x));

@@ -43,7 +43,7 @@ typedef struct CpsiLine {
     int n;                   /* nodes, elements + 1 */
     double length;           /* [m] natural */
     double compliance;       /* [1/N] 1/EA, 0: inextensible */
-    double weight[3];        /* [N/m] per natural length */
+    double weight[3];        /* [N/m] per natural length; of a line of sections its scale */
     double weight_before[3]; /* [N/m] at the beginning of the substep */
     int obstacle_count;
     const CpsiObstacle *obstacle; /* (obstacle_count) */
@@ -52,6 +52,7 @@ typedef struct CpsiLine {
                            or none; NULL: no obstacle has one */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
     bool has_zones;     /* friction differs along the line */
+    bool has_sections;  /* weight and compliance may, and there may be point masses */
     bool has_local_axes;    /* each contact has its own axes at its position: not on a single plane
                                with isotropic friction */
     int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
@@ -61,7 +62,12 @@ typedef struct CpsiLine {
     CpsEnd end[2];          /* imposed now */
     double *arc_length;     /* (n) [m] */
     double *element_length; /* (n - 1) [m] element e joins nodes e and e + 1 */
-    CpsEnd end_before[2];   /* imposed at the beginning of the substep */
+    /* of a line of sections or with point masses, else NULL */
+    double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
+    double *compliance_factor; /* (n - 1) compliance of element e over `compliance` */
+    double *weight_length; /* (n) [m] natural length of `weight` that the node carries, with that
+                              of its point masses; negative where a buoy lifts it */
+    CpsEnd end_before[2];  /* imposed at the beginning of the substep */
     /* in the last substep; known where position - reference is its move */
     CpsiLoadChange last_change;
     CpsiNewtonRecord newton;
@@ -125,7 +131,7 @@ typedef struct CpsiLine {
 } CpsiLine;
 
 /* Place the arrays of a line of line->n nodes in the arena; line->has_local_axes, line->contacts,
- * line->has_zones and line->compliance are set. */
+ * line->has_zones, line->has_sections and line->compliance are set. */
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 
 /* Fill the arc length from element_length. */
@@ -137,6 +143,32 @@ static inline double cpsi_line_share(const CpsiLine *line, int j) {
     const double after = j + 1 < line->n ? line->element_length[j] : 0;
     return 0.5 * (before + after);
 }
+
+/* [m] Natural length of line->weight that node j carries: its own, with what hangs on it. */
+static inline double cpsi_line_weight_length(const CpsiLine *line, int j) {
+    return line->weight_length ? line->weight_length[j] : cpsi_line_share(line, j);
+}
+
+/* [N/m] Weight per natural length of element e; and at node j, the mean of its two halves. */
+static inline Vec3 cpsi_line_weight(const CpsiLine *line, int e) {
+    const double factor = line->weight_factor ? line->weight_factor[e] : 1;
+    return vec3_scale(factor, vec3_load(line->weight));
+}
+static inline Vec3 cpsi_line_weight_at(const CpsiLine *line, int j) {
+    if (!line->weight_factor) return vec3_load(line->weight);
+    double sum = 0;
+    if (j > 0) sum += 0.5 * line->element_length[j - 1] * line->weight_factor[j - 1];
+    if (j + 1 < line->n) sum += 0.5 * line->element_length[j] * line->weight_factor[j];
+    return vec3_scale(sum / cpsi_line_share(line, j), vec3_load(line->weight));
+}
+
+/* [1/N] 1/EA of element e. */
+static inline double cpsi_line_compliance(const CpsiLine *line, int e) {
+    return line->compliance_factor ? line->compliance * line->compliance_factor[e]
+                                   : line->compliance;
+}
+/* [1/N] of the stiffest element. */
+double cpsi_line_least_compliance(const CpsiLine *line);
 
 /* The number of contacts of all nodes, and the node of one. */
 static inline int cpsi_line_contacts(const CpsiLine *line) { return line->contacts * line->n; }

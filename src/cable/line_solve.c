@@ -38,7 +38,7 @@ void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
                                options->frictionless);
     for (int j = 0; j < line->n; j++)
         for (int a = 0; a < 3; a++)
-            line->load[3 * j + a] = cpsi_line_share(line, j) * line->weight[a];
+            line->load[3 * j + a] = cpsi_line_weight_length(line, j) * line->weight[a];
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_KIND_FREE)
             for (int a = 0; a < 3; a++)
@@ -171,7 +171,8 @@ static double reference_tension(const CpsiLine *line) {
         for (int e = 0; e + 1 < line->n; e++) {
             const Vec3 dx = vec3_sub(vec3_load(&line->reference[3 * (e + 1)]),
                                      vec3_load(&line->reference[3 * e]));
-            most = fmax(most, (vec3_norm(dx) / line->element_length[e] - 1) / line->compliance);
+            most = fmax(most, (vec3_norm(dx) / line->element_length[e] - 1) /
+                                  cpsi_line_compliance(line, e));
         }
     return most;
 }

@@ -54,15 +54,16 @@ static void add_compliance(double m[9], Vec3 d, double along, double across) {
 
 /* Add element e of a span; false: its weight exceeds its tension. */
 static bool add_element(const CpsiLine *line, int e, Span *span) {
-    const Vec3 p = force_of(line, e), q = vec3_load(line->weight);
-    const double l = line->element_length[e], tension = vec3_norm(p);
+    const Vec3 p = force_of(line, e), q = cpsi_line_weight(line, e);
+    const double l = line->element_length[e], c = cpsi_line_compliance(line, e),
+                 tension = vec3_norm(p);
     if (!(tension > l * vec3_norm(q)) || !(tension > 0)) return false;
     const Vec3 t = vec3_scale(1 / tension, p);
     const double along = vec3_dot(q, t);
     const Vec3 across = vec3_axpy(-along, t, q);
     const Vec3 chord = vec3_axpy(2 * along, across, vec3_scale(vec3_dot(across, across), t));
     span->defect = vec3_axpy(l * l * l / (24 * tension * tension), chord, span->defect);
-    add_compliance(span->compliance, t, l * line->compliance, l * (1 / tension + line->compliance));
+    add_compliance(span->compliance, t, l * c, l * (1 / tension + c));
     return true;
 }
 
@@ -71,7 +72,7 @@ static bool add_element(const CpsiLine *line, int e, Span *span) {
 static void add_support(const CpsiLine *line, int j, int e, int inward, Span *span) {
     const int c = carrying_contact(line, j);
     if (cpsi_line_is_held(line, j) || c < 0) return;
-    const Vec3 n = vec3_load(&line->normal[3 * c]), q = vec3_load(line->weight),
+    const Vec3 n = vec3_load(&line->normal[3 * c]), q = cpsi_line_weight_at(line, j),
                p = force_of(line, e);
     const double normal_load = -vec3_dot(q, n), l = line->element_length[e];
     const Vec3 flat = vec3_axpy(-vec3_dot(p, n), n, p);
@@ -82,12 +83,14 @@ static void add_support(const CpsiLine *line, int j, int e, int inward, Span *sp
         span->defect = vec3_axpy(inward * normal_load / (2 * tight) * off * off, n, span->defect);
     }
     /* the sliding part beside the span stretches; if it reaches a free end it is drawn along */
-    double slides = 0;
+    double slides = 0; /* [m] of mean compliance */
     int k = j;
     for (int next; next = k + inward, next >= 0 && next < line->n; k = next) {
         const int at = carrying_contact(line, k);
         if (at < 0 || line->state[at] != CPS_NODE_STATE_SLIP) break;
-        slides += line->element_length[inward < 0 ? next : k];
+        const int beside = inward < 0 ? next : k;
+        slides += line->element_length[beside] *
+                  (line->compliance_factor ? line->compliance_factor[beside] : 1);
     }
     const int last = carrying_contact(line, k);
     const bool drawn = (k == 0 || k == line->n - 1) && !cpsi_line_is_held(line, k) && last >= 0 &&

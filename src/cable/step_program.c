@@ -268,6 +268,7 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program,
     CpsiSegment *st = &program->segment;
     const double *base = base_of(line);
     st->compliance = line->compliance * scale->force;
+    st->compliance_factor = line->compliance_factor;
     for (int i = 1; i < line->n; i++) {
         const double l = line->element_length[i - 1] * scale->longer;
         double dx[3], e[3], far[3], near[3];

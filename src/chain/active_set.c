@@ -50,7 +50,7 @@ static void measure(CpsiNewton *newton) {
             const double *s = st->s[i], tension = st->z[i][0];
             const double size = sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]), over = 1 / size;
             st->inverse_w[i] = over;
-            st->g[i] = size - 1 - st->compliance * tension;
+            st->g[i] = size - 1 - cpsi_segment_compliance(st, i) * tension;
             for (int a = 0; a < 3; a++) after[a] = tension * over * s[1 + a];
             if (tension > most) most = tension;
         }
@@ -117,7 +117,7 @@ static void finish(const CpsiNewton *newton) {
     const CpsiSegment *st = &program->segment;
     const CpsiUnilateral *unilateral = &program->unilateral;
     for (int i = 1; i < program->n; i++) {
-        st->s[i][0] = 1 + st->compliance * st->z[i][0];
+        st->s[i][0] = 1 + cpsi_segment_compliance(st, i) * st->z[i][0];
         for (int a = 1; a < 4; a++) st->z[i][a] = -st->z[i][0] * st->inverse_w[i] * st->s[i][a];
     }
     for (int k = 0; k < unilateral->count; k++) {

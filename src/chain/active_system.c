@@ -24,12 +24,12 @@ static void load_elements(CpsiNewton *newton) {
     CpsiMatrix *matrix = &program->matrix;
     for (int i = 1; i < program->n; i++) {
         const double l = st->length[i], over = st->inverse_w[i], tension = st->z[i][0];
-        const double share = 1 - st->compliance * tension * over;
+        const double c = cpsi_segment_compliance(st, i), share = 1 - c * tension * over;
         for (int a = 0; a < 3; a++) matrix->direction[3 * i + a] = st->s[i][1 + a] * over;
         if (newton->taut[i]) {
             if (!(share > 0)) newton->lost = true;
             matrix->stiffness[i] = tension * over / l;
-            matrix->compliance[i] = st->compliance * l / share;
+            matrix->compliance[i] = c * l / share;
             program->dt[i] = fabs(st->g[i]) <= newton->rounding && cpsi_newton_is_fixed(newton, i)
                                  ? 0
                                  : -st->g[i] * l / share;

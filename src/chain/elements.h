@@ -17,16 +17,23 @@
 /* Element i = 1..n-1 between nodes i-1 and i; index 0 is unused. */
 typedef struct CpsiSegment {
     double *length;    /* (n) l_i > 0, their sum is 1 */
-    double compliance; /* c >= 0, of every element */
-    double (*s)[4];    /* (n) (1 + d, e) */
-    double (*z)[4];    /* (n) (T, -p) */
-    double (*w)[4];    /* (n) Nesterov-Todd scaling */
-    double *g;         /* (n) and its factor */
-    double *inverse_w; /* (n) 1/|w1| */
-    double (*q)[4];    /* (n) right-hand side of the complementarity equation */
-    double (*ds)[4];   /* (n) direction */
-    double (*dz)[4];   /* (n) */
+    double compliance; /* c >= 0, of every element; of element i times compliance_factor[i - 1] */
+    const double *compliance_factor; /* (n - 1), all positive; NULL: 1 */
+    double (*s)[4];                  /* (n) (1 + d, e) */
+    double (*z)[4];                  /* (n) (T, -p) */
+    double (*w)[4];                  /* (n) Nesterov-Todd scaling */
+    double *g;                       /* (n) and its factor */
+    double *inverse_w;               /* (n) 1/|w1| */
+    double (*q)[4];                  /* (n) right-hand side of the complementarity equation */
+    double (*ds)[4];                 /* (n) direction */
+    double (*dz)[4];                 /* (n) */
 } CpsiSegment;
+
+/* c of element i. */
+static inline double cpsi_segment_compliance(const CpsiSegment *segment, int i) {
+    return segment->compliance_factor ? segment->compliance * segment->compliance_factor[i - 1]
+                                      : segment->compliance;
+}
 
 typedef struct CpsiFrictionDisc {
     int count;

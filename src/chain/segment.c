@@ -88,14 +88,14 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     const CpsiSegment *st = &program->segment;
     double *residual = base->residual;
     for (int i = 1; i < program->n; i++) {
-        const double *s = st->s[i], *z = st->z[i];
-        const double rho = fabs(1 + st->compliance * z[0] - s[0]);
+        const double *s = st->s[i], *z = st->z[i], c = cpsi_segment_compliance(st, i);
+        const double rho = fabs(1 + c * z[0] - s[0]);
         sums->weight += st->length[i];
         const double work = s[1] * z[1] + s[2] * z[2] + s[3] * z[3];
         sums->sz += st->length[i] * (s[0] * z[0] + work);
         sums->scale += st->length[i] * s[0] * z[0];
         sums->ray -= st->length[i] * (z[0] + work);
-        sums->ray_cost += st->length[i] * st->compliance * z[0] * z[0];
+        sums->ray_cost += st->length[i] * c * z[0] * z[0];
         sums->residual = cpsi_max_nan(sums->residual, rho);
         if (z[0] > sums->largest) sums->largest = z[0];
         /* the force p = -z1 pulls node i-1 towards i and node i back */
@@ -111,7 +111,7 @@ static void scale(CpsiProgram *base) {
     for (int i = 1; i < program->n; i++) {
         const CpsiSocScaling scaling = cpsi_soc_scaling(st->s[i], st->z[i], 4);
         const double g = scaling.g, l = st->length[i];
-        const Segment seg = segment(scaling.w, g, st->compliance, l);
+        const Segment seg = segment(scaling.w, g, cpsi_segment_compliance(st, i), l);
         const double in = 1 / sqrt(seg.omega);
         for (int a = 0; a < 4; a++) st->w[i][a] = scaling.w[a];
         st->g[i] = g;
@@ -134,7 +134,7 @@ static void load(CpsiProgram *base, double keep) {
     const CpsiSegment *st = &program->segment;
     double *f = base->du;
     for (int i = 1; i < program->n; i++) {
-        const double *w = st->w[i], *q = st->q[i], g = st->g[i], c = st->compliance;
+        const double *w = st->w[i], *q = st->q[i], g = st->g[i], c = cpsi_segment_compliance(st, i);
         const Segment seg = segment(w, g, c, st->length[i]);
         const double rho = keep * (1 + c * st->z[i][0] - st->s[i][0]);
         const double k = 2 * g * w[0] * (rho + c * q[0]) * seg.inverse_d;
@@ -151,7 +151,8 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     const double *du = base->du;
     for (int i = 1; i < program->n; i++) {
         const double *w = st->w[i], *q = st->q[i], *s = st->s[i], *z = st->z[i];
-        const double g = st->g[i], c = st->compliance, l = st->length[i], t = program->dt[i];
+        const double g = st->g[i], c = cpsi_segment_compliance(st, i), l = st->length[i],
+                     t = program->dt[i];
         double ds[4], dz[4];
         const Segment seg = segment(w, g, c, l);
         const double rho = keep * (1 + c * z[0] - s[0]);

@@ -203,6 +203,11 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
     hash_numbers(hash, (size_t)line->n - 1, line->tension);
     hash_numbers(hash, (size_t)line->n, line->reaction);
     if (line->friction_factor) hash_numbers(hash, (size_t)line->n, line->friction_factor);
+    if (line->has_sections) {
+        hash_numbers(hash, (size_t)line->n, line->weight_length);
+        hash_numbers(hash, (size_t)line->n - 1, line->weight_factor);
+        hash_numbers(hash, (size_t)line->n - 1, line->compliance_factor);
+    }
     for (int end = 0; end < 2; end++) {
         hash_bytes(hash, &line->end[end].kind, sizeof line->end[end].kind);
         hash_numbers(hash, 3, line->end[end].value);

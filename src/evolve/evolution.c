@@ -22,6 +22,7 @@
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
 #include "evolve/path_check.h"
+#include "evolve/sections.h"
 #include "evolve/start.h"
 #include "evolve/state.h"
 #include "evolve/statics.h"
@@ -97,7 +98,8 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->contacts = size.contacts;
         line->element_contacts = size.element_contacts;
         line->has_zones = scene->line[i].zone_count > 0;
-        line->compliance = isinf(scene->line[i].stiffness) ? 0 : 1 / scene->line[i].stiffness;
+        line->has_sections = cpsi_has_sections(&scene->line[i]);
+        line->compliance = cpsi_mean_compliance(&scene->line[i]);
         cpsi_line_layout(line, arena);
         if (line->n > size.nodes) size.nodes = line->n;
         if (line->compliance == 0 && line->n > size.inextensible_nodes)
@@ -159,13 +161,14 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     fill_obstacles(line, evolution);
     const Vec3 gravity = vec3_load(scene->gravity);
     const double size = vec3_norm(gravity);
-    vec3_store(line->weight, vec3_scale(size > 0 ? def->weight / size : 0, gravity));
+    vec3_store(line->weight, vec3_scale(size > 0 ? cpsi_mean_weight(def) / size : 0, gravity));
     memcpy(line->weight_before, line->weight, sizeof line->weight);
     for (int e = 0; e < def->element_count; e++)
         line->element_length[e] =
             def->element_length ? def->element_length[e] : def->length / def->element_count;
     cpsi_line_set_arc_length(line);
     fill_friction_factor(line, def);
+    if (line->has_sections) cpsi_sections_fill(line, def);
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->obstacle_index[c] = -1;
     cpsi_start_place(def, line->position);
@@ -195,7 +198,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     for (int i = 0; i < scene->line_count; i++) {
         fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
         const double pull = vec3_norm(vec3_load(scene->gravity));
-        evolution->mass[i] = pull > 0 ? scene->line[i].weight / pull : 0;
+        evolution->mass[i] = pull > 0 ? cpsi_mean_weight(&scene->line[i]) / pull : 0;
         evolution->move[i].angle = evolution->angle;
         evolution->is_static[i] = scene->line[i].start.kind == CPS_START_STATIC;
         evolution->has_static = evolution->has_static || evolution->is_static[i];

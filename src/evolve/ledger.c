@@ -21,19 +21,21 @@ static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
     const Vec3 origin = vec3_load(line->position);
     const Vec3 weight =
         vec3_scale(0.5, vec3_add(vec3_load(line->weight_before), vec3_load(line->weight)));
+    double carried = 0; /* [m] */
     *elastic = *gravity = 0;
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3 * j]);
         /* relative to the line's own end, so that a distant origin loses no digits; the term of the
          * end itself is added last */
-        *gravity -= cpsi_line_share(line, j) * vec3_dot(weight, vec3_sub(x, origin));
+        *gravity -= cpsi_line_weight_length(line, j) * vec3_dot(weight, vec3_sub(x, origin));
+        if (line->weight_length) carried += line->weight_length[j];
         if (j == 0 || !(line->compliance > 0)) continue;
         const double l = line->element_length[j - 1];
         const double strain =
             vec3_norm(vec3_sub(x, vec3_load(&line->position[3 * (j - 1)]))) / l - 1;
-        if (strain > 0) *elastic += l * strain * (strain / (2 * line->compliance));
+        if (strain > 0) *elastic += l * strain * (strain / (2 * cpsi_line_compliance(line, j - 1)));
     }
-    *gravity -= line->length * vec3_dot(weight, origin);
+    *gravity -= (line->weight_length ? carried : line->length) * vec3_dot(weight, origin);
 }
 
 CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], bool known) {

@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "base/vec3.h"
 #include "evolve/friction_zone.h"
+#include "evolve/sections.h"
 #include "geometry/obstacle.h"
 
 /* An inextensible element may be longer than its length by this, relative: coordinates written with
@@ -31,7 +32,7 @@ static double element_length(const CpsLine *line, int e) {
 /* ---- check ---- */
 
 static CpsStatus check_lengths(const CpsLine *line, CpsError *err) {
-    const bool elastic = isfinite(line->stiffness);
+    const bool elastic = cpsi_is_elastic(line);
     for (int e = 0; e < line->element_count; e++) {
         const Vec3 a = vec3_load(&line->start.point[3 * e]),
                    b = vec3_load(&line->start.point[3 * (e + 1)]);
@@ -150,14 +151,15 @@ static Vec3 force_of(const CpsiLine *line, const CpsLine *def, int e) {
     const Vec3 dx =
         vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
     const double size = vec3_norm(dx), strain = size / line->element_length[e] - 1;
-    const double elastic = line->compliance > 0 && strain > 0 ? strain / line->compliance : 0;
+    const double compliance = cpsi_line_compliance(line, e),
+                 elastic = compliance > 0 && strain > 0 ? strain / compliance : 0;
     const double tension = def->start.tension ? def->start.tension[e] : elastic;
     return size > 0 ? vec3_scale(tension / size, dx) : vec3(0, 0, 0);
 }
 
 /* The reaction that balances the loads and the line's forces on node j along the normal. */
 static double balance(const CpsiLine *line, const CpsLine *def, int j, Vec3 normal) {
-    Vec3 sum = vec3_scale(cpsi_line_share(line, j), vec3_load(line->weight));
+    Vec3 sum = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
     if (j > 0) sum = vec3_sub(sum, force_of(line, def, j - 1));
     if (j + 1 < line->n) sum = vec3_add(sum, force_of(line, def, j));
     for (int end = 0; end < 2; end++)

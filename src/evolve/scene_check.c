@@ -13,6 +13,7 @@
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
 #include "evolve/path_check.h"
+#include "evolve/sections.h"
 #include "evolve/start.h"
 #include "geometry/obstacle.h"
 
@@ -279,21 +280,8 @@ static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsEr
         return FAIL_AT("length", err, CPS_ERR_ARGUMENT,
                        "line '%s': length is %g m, expected a positive finite number", line->name,
                        line->length);
-    if (!not_negative(line->weight))
-        return FAIL_AT("weight", err, CPS_ERR_ARGUMENT,
-                       "line '%s': weight is %g N/m, expected a finite number >= 0", line->name,
-                       line->weight);
-    if (line->weight > 0 && !direction(scene->gravity))
-        return FAIL_AT("weight", err, CPS_ERR_ARGUMENT,
-                       "line '%s': weight is %g N/m, but gravity is zero and has no direction: "
-                       "give the scene a gravity",
-                       line->name, line->weight);
-    if (!positive(line->stiffness) && line->stiffness != INFINITY)
-        return FAIL_AT("stiffness", err, CPS_ERR_ARGUMENT,
-                       "line '%s': stiffness is %g N, expected a positive number, or infinity for "
-                       "an inextensible line",
-                       line->name, line->stiffness);
-    const CpsStatus status = check_elements(line, err);
+    CpsStatus status = check_elements(line, err);
+    if (status == CPS_OK) status = cpsi_sections_check(scene, line, err);
     return status ? status : check_zones(line, err);
 }
 
@@ -340,7 +328,7 @@ static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
 static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
     if (line->start.kind == CPS_START_NODES) return CPS_OK; /* may be slack */
     const double shape = cpsi_start_length(line), length = line->length;
-    const bool elastic = isfinite(line->stiffness);
+    const bool elastic = cpsi_is_elastic(line);
     const Vec3 first = line->start.point_count > 0 ? vec3_load(line->start.point) : vec3(0, 0, 0);
     const double tolerance = LENGTH_TOLERANCE + line->start.point_count *
                                                     cpsi_place_rounding(line->length, first) /

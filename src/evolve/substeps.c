@@ -255,7 +255,7 @@ static double rounding_energy(const CpsiLine *line) {
     for (int e = 0; e + 1 < line->n; e++)
         if (line->element_length[e] < shortest) shortest = line->element_length[e];
     const double strain = ROUNDED_STRAIN + 8 * DBL_EPSILON * reach / shortest;
-    return 0.5 * line->length * strain * (strain / line->compliance);
+    return 0.5 * line->length * strain * (strain / cpsi_line_least_compliance(line));
 }
 
 static Open open_energy(const Advance *substeps, const Part *first, const Part *second) {

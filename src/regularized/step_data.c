@@ -79,6 +79,11 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
                          "line '%s' is inextensible: the method of 1990 has no multiplier for "
                          "that; give it a stiffness much larger than its tension",
                          view->name);
+    if (!view->uniform)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "line '%s' has sections or point weights: the method of 1990 has one "
+                         "stiffness and one weight",
+                         view->name);
     if (!view->one_plane)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "line '%s': more than one obstacle, or one that is curved or has "

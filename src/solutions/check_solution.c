@@ -66,12 +66,18 @@ static bool held(const CpsLineView *step, int node) {
            (node == step->element_count && step->end[CPS_END_B].kind == CPS_END_KIND_HELD);
 }
 
+/* [1/N] of element i; a view that is not of an evolution may have no factors */
+static double compliance_of(const CpsLineView *step, int i) {
+    return step->compliance_factor ? step->compliance * step->compliance_factor[i]
+                                   : step->compliance;
+}
+
 /* S of docs/theory.md (5), for the step's own solution */
 static double scale_of(const CpsLineView *step, double tolerance) {
     double scale = 0, work = 0, moment = 0, loads = 0, largest = 0;
     for (int i = 0; i < step->element_count; ++i) {
         const double force = vec3_norm(cpsi_at(step->segment_force, i));
-        scale += step->element_length[i] * (force + step->compliance * force * force);
+        scale += step->element_length[i] * (force + compliance_of(step, i) * force * force);
         largest = cpsi_max_nan(largest, force);
     }
     for (int j = 0; j <= step->element_count; ++j) {
@@ -117,8 +123,8 @@ static void check_nodes(const CpsLineView *step, const double *position, Case *c
         const double l = step->element_length[i], arc = step->arc_length[i] + l / 2;
         const Vec3 e = vec3_scale(1 / l, vec3_sub(cpsi_at(position, i + 1), cpsi_at(position, i)));
         const double stretch = vec3_norm(e);
-        accept(&c->tension, l * segment_gap(step->compliance, e, cpsi_at(step->segment_force, i)),
-               arc);
+        accept(&c->tension,
+               l * segment_gap(compliance_of(step, i), e, cpsi_at(step->segment_force, i)), arc);
         accept(&c->shorter, fmax(0, 1 - stretch), arc);
         accept(&c->longer, step->compliance > 0 ? 0 : fmax(0, stretch - 1), arc);
     }

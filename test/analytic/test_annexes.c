@@ -134,13 +134,22 @@ static Record printed_11_3(const CpsLineView *view) {
                 .elements = ELEMENTS,
                 .contacts = 1,
                 .compliance = 1,
+                .least_compliance = 1,
+                .largest_compliance = 1,
                 .end_kind = {END_HELD, END_FREE},
                 .held_position = {{0, 0, 0}, {NAN, NAN, NAN}},
                 .applied_force = {{NAN, NAN, NAN}, {0, 0, 1}}};
     Vector **vector[] = {&r.reference, &r.position, &r.load,         &r.normal,
                          &r.friction,  &r.slip,     &r.segment_force};
-    double **scalar[] = {&r.element_length, &r.gap, &r.friction_bound, &r.reaction,
-                         &r.tension,        &r.mu,  &r.turn,           &r.obstacle};
+    double **scalar[] = {&r.element_compliance,
+                         &r.element_length,
+                         &r.gap,
+                         &r.friction_bound,
+                         &r.reaction,
+                         &r.tension,
+                         &r.mu,
+                         &r.turn,
+                         &r.obstacle};
     for (size_t k = 0; k < sizeof vector / sizeof *vector; k++)
         assert_non_null(*vector[k] = calloc(n, sizeof(Vector)));
     for (size_t k = 0; k < sizeof scalar / sizeof *scalar; k++)
@@ -156,6 +165,7 @@ static Record printed_11_3(const CpsLineView *view) {
     }
     for (size_t i = 0; i < ELEMENTS; i++) {
         r.element_length[i] = h;
+        r.element_compliance[i] = 1;
         r.segment_force[i][2] = r.tension[i] = view->arc_length[i] + h / 2;
     }
     return r;

@@ -93,7 +93,7 @@ static double strain_energy_of_rounding(const Record *r, const Measures *m) {
     double shortest = r->element_length[0];
     for (size_t i = 1; i < r->elements; i++) shortest = fmin(shortest, r->element_length[i]);
     double strain = 1e-12 + 4 * 2.3e-16 * 2 * m->reach / shortest;
-    return m->length * strain * strain / (2 * r->compliance);
+    return m->length * strain * strain / (2 * r->least_compliance);
 }
 
 /* A step in one part that makes energy, more than 5 % of what it dissipates and of the positive
@@ -206,7 +206,7 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
     same(judge, "law_residual", claim[CLAIM_LAW_RESIDUAL], m->law, energy + m->beyond);
     same(judge, "contact_residual", claim[CLAIM_CONTACT_RESIDUAL], m->contact, energy);
     // sqrt(2 gap / (c L)) of a gap known up to the floor
-    double noise = sqrt(2 * (energy + m->beyond + NOTHING) / (r->compliance * m->length));
+    double noise = sqrt(2 * (energy + m->beyond + NOTHING) / (r->least_compliance * m->length));
     if (r->compliance > 0 && isnan(claim[CLAIM_TENSION_BOUND])) {
         // no bound is claimed where it would exceed every force
         at_most(judge, "largest force, without a bound", m->largest_force,
@@ -225,8 +225,8 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     /* on curved ground elongations are those of the last round and as good as the certified gap
      * says: no element's share (d - c |p|)^2 l/(2 c) exceeds it */
     double tolerance = source->tolerance, element = m->length / (double)r->elements;
-    double strain =
-        PLACE_TOLERANCE + (source->follows ? sqrt(2 * r->compliance * m->gap / element) : 0);
+    double strain = PLACE_TOLERANCE +
+                    (source->follows ? sqrt(2 * r->largest_compliance * m->gap / element) : 0);
     double force = FORCE_TOLERANCE * m->largest_force + NOTHING,
            place = PLACE_TOLERANCE * m->length;
     at_most(judge, "sum of local gaps", m->gap,
@@ -449,7 +449,8 @@ static void judge_work(const Record *r, const Record *before, const Source *sour
 static void judge_weight(const Record *r, const Record *before, Judge *judge) {
     if (!r->has_weight_before || r->substeps != 1 || r->nodes < 3 || before->outcome > OUTCOME_TAUT)
         return;
-    const double share = (r->element_length[0] + r->element_length[1]) / 2;
+    const double share =
+        r->weight_length ? r->weight_length[1] : (r->element_length[0] + r->element_length[1]) / 2;
     for (int k = 0; k < 3; k++)
         if (!(fabs(share * r->weight_before[k] - before->load[1][k]) <=
               1e-14 * fabs(before->load[1][k]))) {

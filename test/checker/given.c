@@ -118,6 +118,96 @@ static void compare_run(Compare *compare) {
         compare_obstacle(compare, &scene->obstacle[k], &source->surface[k]);
 }
 
+/* The section of element i, whose middle lies at `middle`; NULL without sections. */
+static const CpsSection *section_at(const CpsLine *line, double middle) {
+    const CpsSection *section = line->section;
+    double end = 0;
+    for (int k = 0; k < line->section_count; k++) {
+        section = &line->section[k];
+        end += section->length;
+        if (middle < end) break;
+    }
+    return line->section_count > 0 ? section : NULL;
+}
+
+static double softness(const CpsLine *line, const CpsSection *section) {
+    const double stiffness = section ? section->stiffness : line->stiffness;
+    return isinf(stiffness) ? 0 : 1 / stiffness;
+}
+
+/* [N] What the nodes weigh in the scene, (nodes): half of their elements, and what hangs there; and
+ * the sum of the sizes of these terms. */
+static void node_weights(const CpsLine *line, const Record *r, double *weight, double *sizes) {
+    double arc = 0;
+    for (size_t j = 0; j < r->nodes; j++) weight[j] = sizes[j] = 0;
+    for (size_t i = 0; i < r->elements; i++) {
+        const double l = r->element_length[i];
+        const CpsSection *section = section_at(line, arc + l / 2);
+        const double half = l * (section ? section->weight : line->weight) / 2;
+        weight[i] += half;
+        weight[i + 1] += half;
+        arc += l;
+        for (int k = 0; k < line->point_weight_count; k++) {
+            const CpsPointWeight *point = &line->point_weight[k];
+            if (fabs(point->arc_length - arc) > 1e-8 * line->length) continue;
+            weight[i + 1] += point->weight;
+            sizes[i + 1] += fabs(point->weight);
+        }
+    }
+    for (size_t j = 0; j < r->nodes; j++) sizes[j] = fmax(sizes[j], fabs(weight[j]));
+}
+
+/* [N/m] All weights over the length, buoys as if they hung: the unit of the file's weights. */
+static double mean_weight(const CpsLine *line) {
+    double sum = line->section_count > 0 ? 0 : line->weight * line->length;
+    for (int k = 0; k < line->section_count; k++)
+        sum += line->section[k].weight * line->section[k].length;
+    for (int k = 0; k < line->point_weight_count; k++) sum += fabs(line->point_weight[k].weight);
+    return sum / line->length;
+}
+
+static void compare_weights(Compare *compare, const CpsLine *line, const Record *r) {
+    const double mean = mean_weight(line);
+    if (!(mean > 0)) return;
+    double *own = calloc(2 * r->nodes, sizeof *own), *sizes = own + r->nodes;
+    if (!own) {
+        find(compare, "no memory for the weights of %s", line->name);
+        return;
+    }
+    node_weights(line, r, own, sizes);
+    for (size_t j = 0; j < r->nodes; j++) {
+        if (fabs(r->weight_length[j] * mean - own[j]) <= COMPUTED * (sizes[j] + mean)) continue;
+        find(compare, "weight_length of %s at node %zu is %.17g m, in the scene %.17g m",
+             line->name, j, r->weight_length[j], own[j] / mean);
+        break;
+    }
+    free(own);
+}
+
+/* Stiffness along the line, and whether its weights differ. */
+static void compare_sections(Compare *compare, const CpsLine *line, const Record *r) {
+    double arc = 0, mean = 0;
+    for (size_t i = 0; i < r->elements; i++) {
+        const double l = r->element_length[i],
+                     given = softness(line, section_at(line, arc + l / 2));
+        mean += l * given / line->length;
+        arc += l;
+        if (fabs(r->element_compliance[i] - given) <= COMPUTED * given) continue;
+        find(compare, "compliance of %s: %.17g in element %zu, in the scene %.17g", line->name,
+             r->element_compliance[i], i, given);
+        return;
+    }
+    if (line->section_count == 0) mean = softness(line, NULL);
+    if (!(fabs(r->compliance - mean) <= (line->section_count > 0 ? COMPUTED * mean : 0)))
+        find(compare, "compliance of %s is %.17g, in the scene %.17g", line->name, r->compliance,
+             mean);
+    const bool uniform = line->section_count == 0 && line->point_weight_count == 0;
+    if (uniform != (r->weight_length == NULL))
+        find(compare, "sections or point weights of %s", line->name);
+    else if (!uniform)
+        compare_weights(compare, line, r);
+}
+
 static void compare_line(Compare *compare, const CpsLine *line, const Record *r) {
     if (r->elements != (size_t)line->element_count) {
         find(compare, "%zu elements of %s, in the scene %d", r->elements, line->name,
@@ -132,8 +222,7 @@ static void compare_line(Compare *compare, const CpsLine *line, const Record *r)
              r->element_length[i], given);
         return;
     }
-    same_number(compare, "compliance", line->name, r->compliance,
-                isinf(line->stiffness) ? 0 : 1 / line->stiffness);
+    compare_sections(compare, line, r);
     /* what zones do is in the mean factors, which the reader has made of those in the file */
     double at = 0;
     for (size_t j = 0; j < r->nodes; j++) {
@@ -313,19 +402,24 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
          r->outcome == OUTCOME_SLIDES) &&
         memcmp(g, was, sizeof g) != 0)
         return;
-    const double pull = size(compare->scene->gravity), weight = pull > 0 ? line->weight / pull : 0,
+    const double pull = size(compare->scene->gravity),
+                 weight = pull > 0 ? mean_weight(line) / pull : 0,
                  most = weight * fmax(size(g), size(was));
     if (r->has_weight_before && r->substeps == 1)
         for (int k = 0; k < 3; k++)
             if (!(fabs(r->weight_before[k] - weight * was[k]) <= COPIED * most))
                 find(compare, "weight_before of %s, step %zu, is %.17g, in the scene %.17g",
                      line->name, step, r->weight_before[k], weight * was[k]);
+    double *own = calloc(2 * r->nodes, sizeof *own), *sizes = own + r->nodes;
+    if (!own) {
+        find(compare, "no memory for the weights of %s", line->name);
+        return;
+    }
+    node_weights(line, r, own, sizes);
     for (size_t j = 0; j < r->nodes; j++) {
-        const double share = ((j > 0 ? r->element_length[j - 1] : 0) +
-                              (j < r->elements ? r->element_length[j] : 0)) /
-                             2;
-        double load[3], noise = share * most;
-        for (int k = 0; k < 3; k++) load[k] = share * weight * g[k];
+        const double here = pull > 0 ? own[j] / pull : 0;
+        double load[3], noise = pull > 0 ? sizes[j] / pull * fmax(size(g), size(was)) : 0;
+        for (int k = 0; k < 3; k++) load[k] = here * g[k];
         for (int e = 0; e < 2; e++) {
             if (r->end_kind[e] == END_HELD || j != (e ? r->elements : 0)) continue;
             for (int k = 0; k < 3; k++) load[k] += r->applied_force[e][k];
@@ -335,9 +429,11 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
             if (!(fabs(r->load[j][k] - load[k]) <= COPIED * noise)) {
                 find(compare, "load of %s at node %zu, step %zu, is %.17g, in the scene %.17g",
                      line->name, j, step, r->load[j][k], load[k]);
+                free(own);
                 return;
             }
     }
+    free(own);
 }
 
 /* The larger coefficient of whatever the node touches, by its obstacle in the file; of a given set

@@ -147,7 +147,7 @@ static bool held(const Record *r, size_t j) {
 }
 
 static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
-    Real l = r->element_length[i], c = r->compliance, T = r->tension[i];
+    Real l = r->element_length[i], c = r->element_compliance[i], T = r->tension[i];
     Triple p, e;
     widen(r->segment_force[i], p);
     subtract(r->position[i + 1], r->position[i], e);
@@ -536,9 +536,10 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
         if (j == (e ? r->elements : 0) && r->end_kind[e] == END_FREE)
             for (int k = 0; k < 3; k++) weight[k] -= r->applied_force[e][k];
     // where gravity changes the weight works with the mean of what it was and what it is
-    const Real share = ((j > 0 ? (Real)r->element_length[j - 1] : 0) +
-                        (j < r->elements ? (Real)r->element_length[j] : 0)) /
-                       2;
+    const Real half = ((j > 0 ? (Real)r->element_length[j - 1] : 0) +
+                       (j < r->elements ? (Real)r->element_length[j] : 0)) /
+                      2,
+               share = r->weight_length ? r->weight_length[j] : half;
     if (r->has_weight_before)
         for (int k = 0; k < 3; k++) weight[k] = (weight[k] + share * r->weight_before[k]) / 2;
     add(&s->gravity, -dot(weight, u));
@@ -700,6 +701,6 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     m.identity = (double)total(&identity);
     m.identity_noise = (double)(1024 * 0x1p-63L * total(&s.magnitude));
     m.bend = bend_of_record(source, r, sight == SIGHT_REACHED, m.largest_force);
-    m.tension_bound = r->compliance > 0 ? sqrt(2 * m.gap / (r->compliance * m.length)) : NAN;
+    m.tension_bound = r->compliance > 0 ? sqrt(2 * m.gap / (r->least_compliance * m.length)) : NAN;
     return m;
 }

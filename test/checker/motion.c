@@ -151,6 +151,7 @@ static bool has_power(const Record *r, size_t tail, size_t head, const Real *wei
 const char *motion_contradiction(const Source *source, const Record *r, double *power) {
     *power = INFINITY;
     if (r->end_kind[0] != END_FREE || r->end_kind[1] != END_FREE) return "an end is held";
+    if (r->weight_length) return "its weights move along with it";
     if (!source->consistent) return "friction is frozen, which holds whatever the tension";
     Real length = 0, fastest = 0, factor = r->factor ? 0 : 1;
     Triple weight = {0, 0, 0}, e, v, t;

@@ -394,6 +394,41 @@ static int read_zones(const Source *source, const char *line, Record *record, FI
     return bad;
 }
 
+/* What differs along a line of sections, or with weights at its nodes. The mean compliance is that
+ * of the elements, and what the nodes carry of mean weights is the line's length, but for what
+ * lifts: a point weight p counts as |p| in the mean. */
+static int read_sections(const Source *source, const char *line, Record *record, FILE *log) {
+    char name[2 * MAX_NAME];
+    int id;
+    for (size_t i = 0; i < record->elements; i++)
+        record->element_compliance[i] = record->compliance;
+    record->least_compliance = record->largest_compliance = record->compliance;
+    snprintf(name, sizeof name, "%s_weight_length", line);
+    if (nc_inq_varid(source->nc, name, &id) != NC_NOERR) return 0;
+    record->weight_length = calloc(record->nodes, sizeof(double));
+    if (!record->weight_length) return complain(log, "out of memory for line", line, 0);
+    if (read_static(source, line, "weight_length", record->nodes, record->weight_length, log) ||
+        read_static(source, line, "compliance_factor", record->elements, record->element_compliance,
+                    log))
+        return -1;
+    double mean = 0, length = 0, carried = 0;
+    for (size_t i = 0; i < record->elements; i++) {
+        double *c = &record->element_compliance[i];
+        if (!(*c > 0) || !isfinite(*c)) return complain(log, "senseless compliance of", line, 0);
+        mean += record->element_length[i] * *c;
+        length += record->element_length[i];
+        *c *= record->compliance;
+        if (i == 0 || *c < record->least_compliance) record->least_compliance = *c;
+        if (i == 0 || *c > record->largest_compliance) record->largest_compliance = *c;
+    }
+    for (size_t j = 0; j < record->nodes; j++) carried += record->weight_length[j];
+    if (!(fabs(mean - length) <= 1e-9 * length))
+        return complain(log, "compliance_factor has another mean than 1 in line", line, 0);
+    if (!(fabs(carried) <= length * (1 + 1e-9)))
+        return complain(log, "weight_length is more than the length of line", line, 0);
+    return 0;
+}
+
 int record_create(const Source *source, const char *line, Record *record, FILE *log) {
     *record = (Record){0};
     if (read_dimension(source, line, "node", &record->nodes, log)) return -1;
@@ -406,9 +441,9 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     Vector **vectors[] = {&record->reference,     &record->position, &record->load,
                           &record->normal,        &record->friction, &record->slip,
                           &record->segment_force, &record->motion};
-    double **scalars[] = {&record->element_length, &record->gap,     &record->friction_bound,
-                          &record->reaction,       &record->tension, &record->mu,
-                          &record->obstacle,       &record->share_of};
+    double **scalars[] = {&record->element_length, &record->gap,      &record->friction_bound,
+                          &record->reaction,       &record->tension,  &record->mu,
+                          &record->obstacle,       &record->share_of, &record->element_compliance};
     int missing = (record->turn = calloc(source->surfaces + 1, sizeof(double))) == NULL;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
         missing |= (*vectors[k] = calloc(n, sizeof(Vector))) == NULL;
@@ -420,6 +455,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (read_static(source, line, "element_length", record->elements, record->element_length, log))
         return -1;
     if (read_static(source, line, "compliance", 0, &record->compliance, log)) return -1;
+    if (read_sections(source, line, record, log)) return -1;
     return read_zones(source, line, record, log);
 }
 
@@ -431,6 +467,8 @@ void record_destroy(Record *record) {
     free(record->friction);
     free(record->segment_force);
     free(record->element_length);
+    free(record->element_compliance);
+    free(record->weight_length);
     free(record->gap);
     free(record->friction_bound);
     free(record->reaction);

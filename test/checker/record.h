@@ -66,8 +66,11 @@ typedef double Vector[3];
  * the second of node c - nodes; where elements have contacts, contact contacts nodes + i is that of
  * element i. */
 typedef struct Record {
-    size_t nodes, elements, contacts; /* contacts: 1 or 2 for each node */
-    double *element_length, compliance;
+    size_t nodes, elements, contacts;   /* contacts: 1 or 2 for each node */
+    double *element_length, compliance; /* of a line of sections the mean */
+    double *element_compliance, least_compliance, largest_compliance;
+    double
+        *weight_length; /* [m] of mean weight that the node carries; NULL: half of its elements */
     Vector *reference, *position, *load, *segment_force;
     bool has_weight_before; /* [N/m] per natural length, where the step began; else it is that of
                                the loads */

@@ -18,6 +18,7 @@
 static const char SCENE[] =
     "capstan: 1\n"
     "gravity: [0, 0, -10]\n"
+    "types: {stiff: {weight: 9, stiffness: 3000}, soft: {weight: 6, stiffness: 1000}}\n"
     "obstacles:\n"
     "  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}\n"
     "  drum: {cylinder: {point: [0, 30, 1], axis: [0, 1, 0], radius: 1}, friction: {axial: 0.3, "
@@ -39,6 +40,11 @@ static const char SCENE[] =
     "    weight: 8\n"
     "    stiffness: .inf\n"
     "    start: {straight: {from: [0, 5, 0], to: [4, 5, 0]}}\n"
+    "    ends: {A: held, B: free}\n"
+    "  made:\n"
+    "    sections: [{type: stiff, length: 2, elements: 2}, {type: soft, length: 2, elements: 2}]\n"
+    "    point_weights: [{at: 1, mass: 0.3}, {at: 3, weight: -1}]\n"
+    "    start: {straight: {from: [0, 10, 0], to: [4, 10, 0]}}\n"
     "    ends: {A: held, B: free}\n"
     "history:\n"
     "  - {name: pull, steps: 2, rope.B: {force: [30, 0, 0]}, wire.B: {force: [30, 0, 0]}}\n"
@@ -140,6 +146,13 @@ static const Falsified FALSIFIED[] = {
     {"element_length of rope", false, {{"rope_element_length", 1, 1.1}}},
     {"compliance of rope", false, {{"rope_compliance", 0, 0.0011}}},
     {"compliance of rope", true, {{"rope_compliance", 0, 0.001 * (1 + 1e-10)}}},
+    {"compliance of made", true, {{"made_compliance", 0, 7.5e-4}}},
+    {"compliance of made",
+     true,
+     {{"made_compliance_factor", 0, 0.6}, {"made_compliance_factor", 1, 0.4}}},
+    {"weight_length of made at node 1", false, {{"made_weight_length", 1, 1.4}}},
+    {"weight_length of made at node 2", true, {{"made_weight_length", 2, 0.8}}},
+    {"load of made at node 3, step 4", false, {{"made_load", 4 * 15 + 11, -6}}},
     {"friction_zones of rope", false, {{"rope_zone_factor", 0, 1.9}}},
     {"friction_zones of rope", false, {{"rope_zone_to", 0, 2.1}}},
     {"point of bed", true, {{"obstacle_point", 0, 1}}},

@@ -234,7 +234,7 @@ COMMANDS = [
     ("run sub", 4, "capstan: sub: is a directory, expected a file"),
     ("run l.yaml", 3, "capstan: l.yaml:2:1: found a law ('law'), which 'capstan law' takes; expected a scene"),
     ("run m.yaml", 3, "capstan: m.yaml:2:1: found a driven system ('planimeter'), which 'capstan drive' takes; expected a scene"),
-    ("run c.csv", 3, "capstan: c.csv:1:1: scene: found '1, 0 1, 1 0, 1', expected a mapping with capstan, title, gravity, obstacles,"),
+    ("run c.csv", 3, "capstan: c.csv:1:1: scene: found '1, 0 1, 1 0, 1', expected a mapping with capstan, title, gravity, water_density,"),
     ("check", 2, "capstan check: no file given: capstan check SCENE.yaml ('-' reads standard input)"),
     ("check none.yaml", 4, "capstan: none.yaml: cannot open: No such file or directory"),
     ("check l.yaml", 3, "capstan: l.yaml:2:1: found a law ('law'), which 'capstan law' takes; expected a scene"),

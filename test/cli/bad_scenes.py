@@ -32,6 +32,15 @@ INPUT, IO, LIMIT = 3, 4, 6
 START = "{straight: {from: [0, 0, 0], to: [10, 0, 0]}}"
 ENDS = "{A: held, B: free}"
 
+# a line in one piece, and made of sections
+PLAIN = "lines:\n  cable:\n    length: 10\n    elements: 4\n    mass: 1\n    stiffness: 1e6\n"
+
+
+def made(sections="[{type: chain, length: 4, elements: 2}, {type: wire, length: 6, elements: 3}]", chain="{mass: 1, stiffness: 1e6}",
+         wire="{weight: 5, stiffness: 2e6}", more="", water=""):
+    return f"{water}types:\n  chain: {chain}\n  wire: {wire}\nlines:\n  cable:\n    sections: {sections}\n{more}"
+
+
 # name, what is replaced in GOOD, by what, exit code, expected after "FILE:"
 CHANGES = [
     # keys
@@ -51,7 +60,7 @@ CHANGES = [
     ("key missing", "    length: 10\n", "", INPUT, "4:3: line 'cable': 'length' is missing: [m] unstretched length"),
     ("version missing", "capstan: 1\n", "", INPUT, "1:1: scene: 'capstan' is missing"),
     ("version of the future", "capstan: 1", "capstan: 2", INPUT, "1:1: 'capstan': found '2', expected a whole number: 1"),
-    ("neither mass nor weight", "    mass: 1\n", "", INPUT, "4:3: line 'cable': nothing given, expected exactly one of 'mass', 'weight'"),
+    ("neither mass nor weight", "    mass: 1\n", "", INPUT, "4:3: line 'cable': nothing given, expected exactly one of 'mass', 'weight', 'sections'"),
     ("mass and weight", "mass: 1", "mass: 1\n    weight: 10", INPUT, "4:3: line 'cable': too much given, expected exactly one of 'mass', 'weight'"),
     ("end missing", ENDS, "{A: held}", INPUT, "10:5: 'ends': 'B' is missing"),
     ("ends missing", "    ends: " + ENDS + "\n", "", INPUT, "4:3: line 'cable': 'ends' is missing"),
@@ -97,6 +106,31 @@ CHANGES = [
     ("negative element", "elements: 4", "elements: [12, -2]", INPUT, "6:20: 'elements': found '-2', expected a number in m, greater than 0"),
     ("zero elements in a pair", "elements: 4", "elements: [[0, 10]]", INPUT, "6:17: 'elements': found '0', expected a whole number, at least 1"),
     ("no elements", "elements: 4", "elements: []", INPUT, "6:5: 'elements': found a list of 0"),
+    # sections, types, clumps and buoys
+    ("sections and a length", PLAIN, made(more="    length: 10\n"), INPUT, "9:5: 'length': it does not go with 'sections': leave one of them out"),
+    ("sections and elements", PLAIN, made(more="    elements: 4\n"), INPUT, "9:5: 'elements': it does not go with 'sections'"),
+    ("sections and a stiffness", PLAIN, made(more="    stiffness: 1e6\n"), INPUT, "9:5: 'stiffness': it does not go with 'sections'"),
+    ("sections and a weight", PLAIN, made(more="    weight: 3\n"), INPUT, "7:3: line 'cable': too much given, expected exactly one of 'mass', 'weight', 'sections'"),
+    ("no section", PLAIN, made("[]"), INPUT, "8:5: 'sections': found a list of 0, expected a list"),
+    ("a section of no type", PLAIN, made("[{length: 10, elements: 2}]"), INPUT, "8:16: section: 'type' is missing: name of one of the scene's types"),
+    ("an unknown type", PLAIN, made("[{type: chian, length: 10, elements: 2}]"), INPUT, "8:17: 'type': found 'chian', expected the name of one of the 2 types"),
+    ("a section of no length", PLAIN, made("[{type: chain, length: 0, elements: 2}]"), INPUT, "8:30: 'length': found '0', expected a number in m, greater than 0"),
+    ("a section without elements", PLAIN, made("[{type: chain, length: 10}]"), INPUT, "8:16: section: nothing given, expected exactly one of 'elements', 'element_length'"),
+    ("a section of half an element", PLAIN, made("[{type: chain, length: 10, elements: 0.5}]"), INPUT, "8:42: 'elements': found '0.5', expected a whole number"),
+    ("far too short elements", PLAIN, made("[{type: chain, length: 10, element_length: 1e-9}]"), LIMIT, "7:3: elements: 10000000000 elements in all lines so far"),
+    ("a type that floats", PLAIN, made(chain="{mass: 1, diameter: 0.1, stiffness: 1e6}", water="water_density: 1000\n"), INPUT, "5:20: 'diameter': found 0.1 m, with which 1 kg/m float (-67.2376 N/m): expected a line that sinks"),
+    ("a line that floats", PLAIN, "water_density: 1025\n" + PLAIN.replace("mass: 1", "mass: 1\n    diameter: 0.5"), INPUT, "9:5: 'diameter': found 0.5 m, with which 1 kg/m float"),
+    ("a diameter beside a weight", PLAIN, made(wire="{weight: 5, diameter: 0.1, stiffness: 2e6}"), INPUT, "5:21: 'diameter': it goes with 'mass', which is not given"),
+    ("a type without stiffness", PLAIN, made(wire="{weight: 5}"), INPUT, "5:3: type 'wire': 'stiffness' is missing"),
+    ("an inextensible section", PLAIN, made(wire="{weight: 5, stiffness: .inf}"), INPUT, "8:55: line 'cable': sections: number 2 is inextensible or elastic, those before it are not"),
+    ("zones beside a type's friction", PLAIN, made(wire="{weight: 5, stiffness: 2e6, friction: 2}", more="    friction_zones: [{from: 0, to: 1, factor: 2}]\n"), INPUT, "9:5: 'friction_zones': they do not go with the type 'wire'"),
+    ("water of lead", PLAIN, made(water="water_density: -1\n"), INPUT, "3:1: 'water_density': found '-1', expected a number in kg/m3, at least 0"),
+    ("a clump between nodes", PLAIN, made(more="    point_weights: [{at: 5, mass: 1}]\n"), INPUT, "9:21: line 'cable': point_weights: number 1 is at 5 m, expected a node between the ends (the next one lies at 6 m)"),
+    ("a clump at an end", PLAIN, made(more="    point_weights: [{at: 2, mass: 1}, {at: 10, mass: 1}]\n"), INPUT, "9:39: line 'cable': point_weights: number 2 is at 10 m, expected a node between the ends"),
+    ("a clump beyond the end", PLAIN, made(more="    point_weights: [{at: 11, mass: 1}]\n"), INPUT, "9:21: line 'cable': point_weights: number 1 is at 11 m"),
+    ("a clump without a place", PLAIN, made(more="    point_weights: [{mass: 1}]\n"), INPUT, "9:21: point weight: 'at' is missing"),
+    ("a clump of nothing", PLAIN, made(more="    point_weights: [{at: 2}]\n"), INPUT, "9:21: point weight: nothing given, expected exactly one of 'mass', 'weight'"),
+    ("a buoy's volume beside a weight", PLAIN, made(more="    point_weights: [{at: 2, weight: -5, volume: 1}]\n"), INPUT, "9:41: 'volume': it goes with 'mass'"),
     # friction zones
     ("zones that are no list", "elements: 4", "friction_zones: {from: 0, to: 1, factor: 2}", INPUT, "6:5: 'friction_zones': found a mapping, expected a list"),
     ("a zone without factor", "elements: 4", "friction_zones: [{from: 0, to: 1}]", INPUT, "6:22: zone: 'factor' is missing: of the friction of whatever it touches"),

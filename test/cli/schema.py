@@ -21,7 +21,7 @@ import bad_laws  # noqa: E402
 
 # definitions that scenes share with laws
 OF_SETS = {"set", "contact"}
-EXAMPLES = ["souza-de-cursi-1990.yaml", "souza-de-cursi-1990-half-circle.yaml", "souza-de-cursi-1990-circle.yaml",
+EXAMPLES = ["chain-wire-chain.yaml", "souza-de-cursi-1990.yaml", "souza-de-cursi-1990-half-circle.yaml", "souza-de-cursi-1990-circle.yaml",
             "oc3-hywind-line.yaml", "grooved-slope.yaml", "rough-end.yaml"]
 
 
@@ -113,8 +113,13 @@ def check_validation(schema, folder):
         with open(os.path.join(folder, name)) as f:
             scene = yaml.safe_load(f)
         # PyYAML follows YAML 1.1, where 384.243e6 is a text
+        for made in [*scene["lines"].values(), *scene.get("types", {}).values()]:
+            if "stiffness" in made:
+                made["stiffness"] = float(made["stiffness"])
         for line in scene["lines"].values():
-            line["stiffness"] = float(line["stiffness"])
+            for point in line.get("point_weights", []):
+                if "weight" in point:
+                    point["weight"] = float(point["weight"])
         errors = [e.message for e in validator.iter_errors(scene)]
         assert not errors, (name, errors)
 
@@ -154,7 +159,7 @@ def main():
         documentation = f.read()
     schema = json.loads(output(capstan, "schema"))
     scenes = check_definitions(schema, documentation)
-    assert OF_SETS < set(scenes) and sum("patternProperties" in mapping for mapping in scenes.values()) == 3, scenes.keys()
+    assert OF_SETS < set(scenes) and sum("patternProperties" in mapping for mapping in scenes.values()) == 4, scenes.keys()
 
     folder = os.path.join(source, "examples")
     found = {os.path.basename(path) for path in glob.glob(os.path.join(folder, "*.yaml"))}

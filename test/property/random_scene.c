@@ -516,6 +516,22 @@ static void make_consistent(Maker *maker) {
     maker->out->scene.friction_policy = CPS_FRICTION_POLICY_CONSISTENT;
 }
 
+/* A scene of another class, whose lines are made of sections and carry weights. */
+static void make_sections(Maker *maker) {
+    switch (random_below(&maker->random, 6)) {
+    case 0: make_imposed(maker); break;
+    case 1: make_graded(maker); break;
+    case 2: make_several(maker); break;
+    case 3: make_hanging(maker); break;
+    case 4: random_scene_curved(SCENE_PIPE, maker); break;
+    default:
+        maker_common(maker, 0);
+        maker_any_stiffness(maker);
+        break;
+    }
+    random_scene_add_sections(maker);
+}
+
 void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
     *out = (RandomScene){0};
     Maker maker = {.random = {seed * 0x2545f4914f6cdd1du + (uint64_t)class_index}, .out = out};
@@ -548,6 +564,7 @@ void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
         out->expected = CPS_OUTCOME_TAUT;
         break;
     case SCENE_CONSISTENT: make_consistent(&maker); break;
+    case SCENE_SECTIONS: make_sections(&maker); break;
     case SCENE_CYLINDER:
     case SCENE_PIPE:
     case SCENE_SPHERE:

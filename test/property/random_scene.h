@@ -15,7 +15,9 @@ enum {
     SCENE_ELEMENTS = 60,
     SCENE_STAGES = 20,
     SCENE_EA_CLASSES = 12,
-    SCENE_OBSTACLES = 2
+    SCENE_OBSTACLES = 2,
+    SCENE_SECTIONS_MOST = 4,
+    SCENE_POINT_WEIGHTS_MOST = 3
 };
 
 /* What a class is about; ea_0 ... ea_11 come first: EA / T from 10^k to 10^(k + 1). */
@@ -50,7 +52,9 @@ enum {
       "winch") /* a drum with a load on one end and a hand on the other: nothing is held */        \
     X(SCENE_WILD, "wild_directions") /* any scene on a plane, along the line: steps so large that  \
                                       * its direction turns                                        \
-                                      */
+                                      */                                                           \
+    X(SCENE_SECTIONS, "sections")    /* any of common, imposed, graded, several, hanging or pipe,  \
+                                        with    sections, clumps and buoys */
 
 enum {
     SCENE_BEFORE_FIRST = SCENE_EA_CLASSES - 1,
@@ -71,6 +75,8 @@ typedef struct RandomScene {
     CpsStage stage[SCENE_STAGES];
     CpsChange change[SCENE_STAGES][2 * SCENE_LINES];
     CpsTurn turn[SCENE_STAGES][1];
+    CpsSection section[SCENE_LINES][SCENE_SECTIONS_MOST];
+    CpsPointWeight point_weight[SCENE_LINES][SCENE_POINT_WEIGHTS_MOST];
 } RandomScene;
 
 const char *random_scene_class_name(int class_index);

@@ -43,6 +43,9 @@ void maker_change(Maker *maker, int end, CpsEndKind kind, const double value[3])
 /* A line on a mostly flat bed, pulled about at its free end; returns the largest force. */
 double maker_common(Maker *maker, int elements);
 
+/* random_scene_sections.c: give the lines of a scene sections, clumps and buoys. */
+void random_scene_add_sections(Maker *maker);
+
 /* random_scene_curved.c: the classes on curved obstacles and with friction that has directions. */
 void random_scene_curved(int class_index, Maker *maker);
 

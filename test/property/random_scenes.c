@@ -125,6 +125,8 @@ static double share(int part, int whole) { return whole > 0 ? (double)part / who
 /* Is enough of a class certified, and nothing wrong? */
 static bool is_good(int class_index, const Tally *tally) {
     if (tally->wrong > 0) return false;
+    if (class_index == SCENE_SECTIONS)
+        return share(tally->confirmed, tally->records) >= CURVED_SHARE;
     if (class_index >= SCENE_WINCH) return share(tally->confirmed, tally->records) >= WILD_SHARE;
     if (class_index >= SCENE_CYLINDER)
         return share(tally->confirmed, tally->records) >= CURVED_SHARE;

@@ -33,6 +33,14 @@ static const char SCENE[] =
     "  bow: {length: 3, elements: 4, mass: 1, stiffness: 1000,"
     " start: {arc: {from: [0, -9, 0], centre: [0, -8, 0], axis: [0, 0, 1]}},"
     " ends: {A: held, B: held}}\n"
+    "  made: {sections: [{type: hawser, length: 4, elements: 2}, {type: wire, length: 6,"
+    " element_length: 1.5}], point_weights: [{at: 4, weight: 3}, {at: 2, mass: 5, volume: 0.003}],"
+    " start: {straight: {from: [0, 200, 0], to: [0, 210, 0]}}, ends: {A: held, B: free}}\n"
+    "  wet: {length: 3, elements: 3, mass: 4, diameter: 0.04, stiffness: 2000,"
+    " start: {straight: {from: [0, 300, 0], to: [3, 300, 0]}}, ends: {A: held, B: free}}\n"
+    "types: {hawser: {mass: 7, diameter: 0.05, stiffness: 3000}, wire: {weight: 4, stiffness: 3000,"
+    " friction: 0.5}}\n"
+    "water_density: 900\n"
     "friction_policy: consistent\n"
     "contact_policy: reached\n"
     "solver: {tolerance: 1e-8, max_iterations: 60, path_tolerance: 0.1, halvings: 3,"
@@ -71,6 +79,16 @@ static const struct Change {
     {"mass", "mass: 2", "mass: 2.5"},
     {"weight", "weight: 3", "weight: 3.5"},
     {"stiffness", "mass: 1, stiffness: 1000", "mass: 1, stiffness: .inf"},
+    {"water_density", "water_density: 900", "water_density: 950"},
+    {"types", "types: {hawser: {mass: 7", "types: {hawser: {mass: 8"},
+    {"sections", "{type: hawser, length: 4, elements: 2}, {type: wire, length: 6,",
+     "{type: hawser, length: 4, elements: 2}, {type: hawser, length: 6,"},
+    {"type", "{type: wire, length: 6", "{type: hawser, length: 6"},
+    {"element_length", "element_length: 1.5", "element_length: 1.4"},
+    {"point_weights", "{at: 4, weight: 3}, ", ""},
+    {"at", "{at: 4, weight: 3}", "{at: 2, weight: 3}"},
+    {"volume", "volume: 0.003", "volume: 0.004"},
+    {"diameter", "mass: 4, diameter: 0.04", "mass: 4, diameter: 0.03"},
     {"friction_zones", "[{from: 2, to: 5, factor: 2}]", "[]"},
     {"from", "{from: 2, to", "{from: 0.2, to"},
     {"to", "to: 5, factor", "to: 9, factor"},

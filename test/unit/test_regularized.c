@@ -58,6 +58,7 @@ static void make_step(Step *s) {
                             .arc_length = s->arc,
                             .element_length = s->width,
                             .one_plane = true,
+                            .uniform = true,
                             .compliance = 0.05,
                             .end = {{CPS_END_KIND_HELD, {0}}, {CPS_END_KIND_FREE, {0.1, 0.2, 0.3}}},
                             .reference = s->reference,

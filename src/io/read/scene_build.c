@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "io/base/read_file.h"
 #include "io/read/node_file.h"
+#include "io/read/section_build.h"
 #include "io/read/set_build.h"
 
 typedef struct Build {
@@ -19,6 +20,7 @@ typedef struct Build {
     CpsLine *line;
     CpsiSetBuild set; /* of friction sets */
     double elements;  /* number of elements of the lines so far */
+    CpsiMaterials materials;
     /* (lines) [m] position at which each end is held after the preceding entry; NaN: not held, or
      * not known */
     double (*held)[2][3];
@@ -57,6 +59,7 @@ static CpsStatus count_elements(Build *b, const CpsiLineValues *values, CpsLine 
     const CpsiYaml *list = values->elements, *given = cpsi_yaml_child(values->node, "elements");
     double count = isnan(values->count) ? line->element_count : values->count;
     if (list) count = 0;
+    if (values->sections.count > 0) count = cpsi_section_elements(&values->sections);
     for (const CpsiYaml *item = list ? list->child : NULL; item; item = item->next) {
         double each = 1;
         if (item->child) cpsi_yaml_number(item->child->text, &each);
@@ -70,7 +73,7 @@ static CpsStatus count_elements(Build *b, const CpsiLineValues *values, CpsLine 
 
 static CpsStatus build_elements(Build *b, const CpsiLineValues *values, CpsLine *line) {
     const CpsStatus status = count_elements(b, values, line);
-    if (status != CPS_OK || !values->elements) return status;
+    if (status != CPS_OK || values->sections.count > 0 || !values->elements) return status;
     double *length = CPSI_POOL_TAKE(b->pool, line->element_count, double);
     if (!length) return cpsi_document_no_memory(b->d);
     line->element_length = length;
@@ -100,6 +103,7 @@ static CpsStatus read_nodes(const Build *b, const CpsiStartValues *start, CpsiNo
 static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const CpsiNodeFile *file,
                                CpsLine *line) {
     const CpsiYaml *given = cpsi_yaml_child(values->node, "elements");
+    if (!given) given = values->sections.node;
     const double *arc = file->arc_length;
     if (!given) {
         b->elements += file->nodes - 1 - line->element_count;
@@ -110,7 +114,7 @@ static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const Cps
     if (given && line->element_count != file->nodes - 1)
         return cpsi_document_fail(
             b->d, CPS_ERR_INPUT, given,
-            "'elements': found %d, expected %d, one less than nodes are given, or none",
+            "'%s': found %d, expected %d, one less than nodes are given, or none", given->key,
             line->element_count, file->nodes - 1);
     if (!arc) return CPS_OK;
     double *length = CPSI_POOL_TAKE(b->pool, line->element_count, double), worst = 0;
@@ -124,11 +128,10 @@ static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const Cps
     if (!given) line->element_length = length;
     /* tolerance for abscissae written with 9 digits */
     if (!given || worst <= 1e-9 * line->length) return CPS_OK;
-    return cpsi_document_fail(
-        b->d, CPS_ERR_INPUT, given,
-        "'elements': natural lengths differ by %g m from those of arc_length in "
-        "the file of nodes: leave one of the two out",
-        worst);
+    return cpsi_document_fail(b->d, CPS_ERR_INPUT, given,
+                              "'%s': natural lengths differ by %g m from those of arc_length in "
+                              "the file of nodes: leave one of the two out",
+                              given->key, worst);
 }
 
 static CpsStatus build_nodes(Build *b, const CpsiLineValues *values, CpsLine *line) {
@@ -209,14 +212,16 @@ static CpsStatus build_zones(const Build *b, const CpsiList *zones, CpsLine *lin
 
 static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *line,
                             double held[2][3]) {
-    const double *g = b->scene->gravity;
     *line = values->line;
     line->name = copy_text(b, values->node->key);
     if (!line->name) return cpsi_document_no_memory(b->d);
-    if (!isnan(values->mass))
-        line->weight = values->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    CpsStatus status = build_elements(b, values, line);
+    CpsStatus status = cpsi_line_weight_build(&b->materials, values, line);
+    if (status == CPS_OK) status = build_elements(b, values, line);
     if (status == CPS_OK) status = build_zones(b, &values->zones, line);
+    if (status == CPS_OK && values->sections.count > 0)
+        status = cpsi_sections_build(&b->materials, values, line);
+    if (status == CPS_OK)
+        status = cpsi_point_weights_build(&b->materials, &values->point_weights, line);
     if (status == CPS_OK)
         status = values->start.nodes ? build_nodes(b, values, line)
                                      : build_start(b, &values->start, &line->start);
@@ -362,6 +367,12 @@ CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values,
                            CpsScene *scene) {
     Build b = {.d = d, .pool = pool, .scene = scene, .set = {.d = d}};
     *scene = values->scene;
+    const double *g = scene->gravity;
+    b.materials = (CpsiMaterials){.d = d,
+                                  .pool = pool,
+                                  .types = &values->types,
+                                  .gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]),
+                                  .water = values->water};
     if (scene->title) scene->title = copy_text(&b, scene->title);
     if (values->scene.title && !scene->title) return cpsi_document_no_memory(d);
     CpsStatus status = build_obstacles(&b, &values->obstacles);

@@ -131,7 +131,8 @@ typedef struct LineIds {
     int field[FIELDS][CONTACTS];         /* unused where a view has no such array */
     int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
-    int zone[ZONES]; /* unused without zones */
+    int zone[ZONES];                      /* unused without zones */
+    int compliance_factor, weight_length; /* unused where the line is uniform */
 } LineIds;
 
 struct CpsiNetcdf {
@@ -270,6 +271,15 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     for (int f = 0; f < FIELDS; ++f) define_field(nc, ids, view, f);
     ids->compliance = cpsi_netcdf_variable(&nc->file, view->name, "compliance", NC_DOUBLE, 0, NULL,
                                            "1/EA, 0: inextensible", "N-1");
+    if (!view->uniform) {
+        ids->compliance_factor =
+            cpsi_netcdf_variable(&nc->file, view->name, "compliance_factor", NC_DOUBLE, 1,
+                                 &ids->element,
+                                 "1/EA of the element over the compliance, which is the mean", "1");
+        ids->weight_length = cpsi_netcdf_variable(
+            &nc->file, view->name, "weight_length", NC_DOUBLE, 1, &ids->node,
+            "natural length of mean weight that the node carries, negative: it is lifted", "m");
+    }
     const int on_nodes[] = {nc->step, ids->node}, on_ends[] = {nc->step, nc->end, nc->xyz};
     for (int c = 0; c < ids->contacts; ++c) {
         if (nc->wanted & CPSI_WANTED_STATE) {
@@ -429,6 +439,15 @@ static void write_zones(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line)
         }
 }
 
+/* What differs along a line of sections, or with point weights. */
+static void write_sections(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view) {
+    const size_t first = 0, elements = (size_t)view->element_count, nodes = elements + 1;
+    if (view->uniform) return;
+    cpsi_netcdf_doubles(&nc->file, ids->compliance_factor, &first, &elements,
+                        view->compliance_factor);
+    cpsi_netcdf_doubles(&nc->file, ids->weight_length, &first, &nodes, view->weight_length);
+}
+
 /* all definitions, then the fields that never change */
 static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
                   const CpsEvolution *evolution, const char *names) {
@@ -453,6 +472,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         write_fields(nc, &nc->line[i], &view, true);
         write_zones(nc, &nc->line[i], &scene->line[i]);
+        write_sections(nc, &nc->line[i], &view);
         if (nc->file.status == NC_NOERR)
             cpsi_netcdf_keep(&nc->file,
                              nc->file.library.put_var_double(nc->file.id, nc->line[i].compliance,

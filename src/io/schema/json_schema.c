@@ -12,6 +12,22 @@
 #include "io/schema/scene_keys.h"
 #include "io/schema/set_keys.h"
 
+/* Of a required key exactly one of it and that which it stands for; of another, not both. */
+static void write_replacements(FILE *out, const CpsiMapping *mapping) {
+    int written = 0;
+    for (int i = 0; i < mapping->count; i++) {
+        const CpsiKey *key = &mapping->key[i];
+        if (!key->unless) continue;
+        fputs(written++ ? ",\n        " : ",\n      \"allOf\": [", out);
+        fprintf(out,
+                key->need == CPSI_REQUIRED
+                    ? "{\"oneOf\": [{\"required\": [\"%s\"]}, {\"required\": [\"%s\"]}]}"
+                    : "{\"not\": {\"required\": [\"%s\", \"%s\"]}}",
+                key->name, key->unless);
+    }
+    if (written) fputc(']', out);
+}
+
 static void write_mapping(FILE *out, const CpsiMapping *mapping);
 
 static const char *definition(const CpsiMapping *mapping) {
@@ -186,7 +202,7 @@ static void write_needs(FILE *out, const CpsiMapping *mapping, CpsiNeed need) {
     int written = 0;
     for (int i = 0; i < mapping->count; i++) {
         const CpsiKey *key = &mapping->key[i];
-        if (key->need != need) continue;
+        if (key->need != need || (all && key->unless)) continue;
         if (written++)
             fputs(", ", out);
         else
@@ -216,6 +232,7 @@ static void write_mapping(FILE *out, const CpsiMapping *mapping) {
     write_needs(out, mapping, CPSI_REQUIRED);
     write_needs(out, mapping, CPSI_ONE_OF);
     write_companions(out, mapping);
+    write_replacements(out, mapping);
     if (mapping->also) fprintf(out, ",\n      %s", mapping->also);
 }
 

@@ -237,7 +237,12 @@ CpsStatus cpsi_key_needs(const char *file, const CpsiYaml *node, const char *wha
     for (int i = 0; i < mapping->count; i++) {
         const CpsiKey *key = &mapping->key[i];
         const CpsiYaml *value = cpsi_yaml_child(node, key->name);
-        if (key->need == CPSI_REQUIRED && !value)
+        const bool replaced = key->unless && cpsi_yaml_child(node, key->unless);
+        if (value && replaced)
+            return cpsi_fail_at(err, CPS_ERR_INPUT, file, value->line, value->column,
+                                "'%s': it does not go with '%s': leave one of them out", key->name,
+                                key->unless);
+        if (key->need == CPSI_REQUIRED && !value && !replaced)
             return cpsi_fail_at(err, CPS_ERR_INPUT, file, node->line, node->column,
                                 "%s: '%s' is missing: %s%s%s%s", what, key->name,
                                 key->unit ? "[" : "", key->unit ? key->unit : "",

@@ -63,8 +63,10 @@ typedef struct CpsiKey {
     const struct CpsiMapping *inside; /* mapping of a value that is a mapping, list or expression */
     const struct CpsiKey *other;      /* another form that the value may have; NULL: none */
     const char *with;                 /* another key that must be given with this one; NULL: none */
-    const char *unit;                 /* NULL: none */
-    const char *fallback;             /* default as JSON; NULL: none */
+    const char *unless;   /* another key in place of which this one stands: never both, and where
+                             neither is given a required one is missing; NULL: none */
+    const char *unit;     /* NULL: none */
+    const char *fallback; /* default as JSON; NULL: none */
     const char *help;
 
     /* What earlier versions called it, so that their files are refused by name; NULL: nothing. */

@@ -133,19 +133,82 @@ static const CpsiKey ZONE_KEYS[] = {
 };
 static const CpsiMapping ZONE = {"zone", KEYS(ZONE_KEYS), INTO(Zone)};
 
+static const CpsiKey SECTION_KEYS[] = {
+    {"type", REQUIRED, TEXT(Section, type, 0), .help = "name of one of the scene's types"},
+    {"length", REQUIRED, NUMBER(Section, length), POSITIVE, .unit = "m",
+     .help = "unstretched length of the section"},
+    {"elements", ONE_OF, COUNT(Section, count), 1, CPSI_LARGEST, false,
+     .help = "number of equal elements"},
+    {"element_length", ONE_OF, NUMBER(Section, element_length), POSITIVE, .unit = "m",
+     .help = "length that its equal elements shall not exceed"},
+};
+
+static void begin_section(void *values) {
+    CpsiSectionValues *section = values;
+    section->count = section->element_length = NAN;
+}
+
+static const CpsiMapping SECTION = {"section", KEYS(SECTION_KEYS), INTO(Section),
+                                    .begin = begin_section};
+
+static const CpsiKey POINT_WEIGHT_KEYS[] = {
+    {"at", REQUIRED, NUMBER(PointWeight, at), POSITIVE, .unit = "m",
+     .help = "unstretched length from end A, where an element ends"},
+    {"mass", ONE_OF, NUMBER(PointWeight, mass), NOT_NEGATIVE, .unit = "kg",
+     .help = "mass; its weight is mass times gravity, less that of the water it displaces"},
+    {"weight", ONE_OF, NUMBER(PointWeight, weight), ANY, .unit = "N",
+     .help = "weight (in water: the submerged one), instead of mass; negative: a buoy"},
+    {"volume", OPTIONAL, NUMBER(PointWeight, volume), NOT_NEGATIVE, .unit = "m3", .with = "mass",
+     .fallback = "0", .help = "of the water it displaces"},
+};
+
+static void begin_point_weight(void *values) { ((CpsiPointWeightValues *)values)->mass = NAN; }
+
+static const CpsiMapping POINT_WEIGHT = {"point weight", KEYS(POINT_WEIGHT_KEYS), INTO(PointWeight),
+                                         .definition = "point_weight", .begin = begin_point_weight};
+
+static const CpsiKey TYPE_KEYS[] = {
+    {"mass", ONE_OF, NUMBER(Type, mass), NOT_NEGATIVE, .unit = "kg/m",
+     .help = "mass per unstretched length; its weight is mass times gravity, less that of the "
+             "water that its diameter displaces"},
+    {"weight", ONE_OF, NUMBER(Type, weight), NOT_NEGATIVE, .unit = "N/m",
+     .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
+    {"diameter", OPTIONAL, NUMBER(Type, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
+     .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
+    {"stiffness", REQUIRED, NUMBER(Type, stiffness), 0, INFINITY, true, .unit = "N",
+     .help = "axial stiffness EA; .inf for an inextensible type"},
+    {"friction", OPTIONAL, NUMBER(Type, friction), NOT_NEGATIVE, .fallback = "1",
+     .help = "factor of the friction of whatever it touches"},
+};
+
+static void begin_type(void *values) {
+    CpsiTypeValues *type = values;
+    type->mass = NAN;
+    type->friction = 1;
+}
+
+static const CpsiMapping TYPE = {"type", KEYS(TYPE_KEYS), INTO(Type), .begin = begin_type};
+
 static const CpsiKey LINE_KEYS[] = {
-    {"length", REQUIRED, NUMBER(Line, line.length), POSITIVE, .unit = "m",
+    {"length", REQUIRED, NUMBER(Line, line.length), POSITIVE, .unless = "sections", .unit = "m",
      .help = "unstretched length"},
-    {"elements", OPTIONAL, COUNT(Line, count), 1, CPSI_LARGEST, false,
+    {"elements", OPTIONAL, COUNT(Line, count), 1, CPSI_LARGEST, false, .unless = "sections",
      .other = &(const CpsiKey){.type = ELEMENTS(Line, elements), POSITIVE}, .fallback = "100",
      .help = "number of equal elements; or from A to B a list of element lengths [m] and of "
              "pairs [count, length]: count equal elements that are length [m] long together"},
     {"mass", ONE_OF, NUMBER(Line, mass), NOT_NEGATIVE, .unit = "kg/m",
-     .help = "mass per unstretched length; the weight is mass times gravity"},
+     .help = "mass per unstretched length; the weight is mass times gravity, less that of the "
+             "water that the diameter displaces"},
     {"weight", ONE_OF, NUMBER(Line, line.weight), NOT_NEGATIVE, .unit = "N/m",
      .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
-    {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unit = "N",
-     .help = "axial stiffness EA; .inf for an inextensible line"},
+    {"sections", ONE_OF, LIST(Line, sections, 1), .inside = &SECTION,
+     .help = "stretches of different types, in order from A to B"},
+    {"diameter", OPTIONAL, NUMBER(Line, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
+     .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
+    {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unless = "sections",
+     .unit = "N", .help = "axial stiffness EA; .inf for an inextensible line"},
+    {"point_weights", OPTIONAL, LIST(Line, point_weights, 0), .inside = &POINT_WEIGHT,
+     .fallback = "[]", .help = "clumps and buoys between the ends"},
     {"friction_zones", OPTIONAL, LIST(Line, zones, 0), .inside = &ZONE, .fallback = "[]",
      .help = "intervals of arc length with another friction, in order from A to B, without "
              "overlap"},
@@ -229,6 +292,11 @@ static const CpsiKey SCENE_KEYS[] = {
     {"gravity", OPTIONAL, POINT(Scene, scene.gravity, 3), ANY, .unit = "m/s2",
      .fallback = "[0, 0, -9.81]",
      .help = "acceleration of gravity; its direction is that of the lines' weight"},
+    {"water_density", OPTIONAL, NUMBER(Scene, water), NOT_NEGATIVE, .unit = "kg/m3",
+     .fallback = "0",
+     .help = "of the water around everything that is given by its mass: 1025 in the sea, 0 in air"},
+    {"types", OPTIONAL, NAMED(Scene, types), .inside = &TYPE, .fallback = "{}",
+     .help = "what sections of lines are made of, by name"},
     {"obstacles", OPTIONAL, NAMED(Scene, obstacles), .inside = &OBSTACLE, .fallback = "{}",
      .help = "what the lines lie on, by name; each node rests on the nearest one, or on the two "
              "nearest"},

@@ -11,6 +11,8 @@ typedef struct CpsiSceneValues {
     const CpsiYaml *node;
     int version;
     CpsScene scene;     /* without its lists */
+    double water;       /* [kg/m3] 0: in air */
+    CpsiList types;     /* CpsiTypeValues */
     CpsiList obstacles; /* CpsiObstacleValues */
     CpsiList lines;     /* CpsiLineValues */
     CpsiList history;   /* CpsiStageValues */
@@ -26,6 +28,24 @@ typedef struct CpsiZoneValues {
     const CpsiYaml *node;
     CpsFrictionZone zone;
 } CpsiZoneValues;
+
+/* What a metre of line weighs: `mass`, in water with its `diameter`, or `weight`; NaN: not given.
+ */
+typedef struct CpsiTypeValues {
+    const CpsiYaml *node; /* the key is the name */
+    double mass, diameter, weight, stiffness, friction;
+} CpsiTypeValues;
+
+typedef struct CpsiSectionValues {
+    const CpsiYaml *node;
+    const char *type;
+    double length, count, element_length; /* count and element_length: NaN: not given */
+} CpsiSectionValues;
+
+typedef struct CpsiPointWeightValues {
+    const CpsiYaml *node;
+    double at, mass, volume, weight; /* mass: NaN: not given */
+} CpsiPointWeightValues;
 
 typedef struct CpsiStraightValues {
     const CpsiYaml *node;
@@ -58,9 +78,11 @@ typedef struct CpsiEndValues {
 typedef struct CpsiLineValues {
     const CpsiYaml *node; /* the key is the name */
     CpsLine line;
-    double mass, count;       /* count: number of elements; NaN: not given */
-    const CpsiYaml *elements; /* a list of them */
-    CpsiList zones;           /* CpsiZoneValues */
+    double mass, count, diameter; /* count: number of elements; NaN: not given */
+    CpsiList sections;            /* CpsiSectionValues */
+    CpsiList point_weights;       /* CpsiPointWeightValues */
+    const CpsiYaml *elements;     /* a list of them */
+    CpsiList zones;               /* CpsiZoneValues */
     CpsiStartValues start;
     CpsiEndValues end[2];
 } CpsiLineValues;

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sections and point weights (sections.h). */
+#include "evolve/sections.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "base/status.h"
+
+/* A section ends, and a weight hangs, at a node that is so near, per length of the line. */
+static const double AT_NODE = 1e-9;
+/* Numbers between these are usable: their squares neither overflow nor vanish. */
+static const double LARGEST = 1e100, SMALLEST = 1e-100;
+
+static double element_length(const CpsLine *def, int e) {
+    return def->element_length ? def->element_length[e] : def->length / def->element_count;
+}
+
+bool cpsi_has_sections(const CpsLine *def) {
+    return def->section_count > 0 || def->point_weight_count > 0;
+}
+
+bool cpsi_is_elastic(const CpsLine *def) {
+    return isfinite(def->section_count > 0 ? def->section[0].stiffness : def->stiffness);
+}
+
+static double compliance_of(double stiffness) { return isinf(stiffness) ? 0 : 1 / stiffness; }
+
+double cpsi_mean_compliance(const CpsLine *def) {
+    if (def->section_count == 0) return compliance_of(def->stiffness);
+    double sum = 0;
+    for (int k = 0; k < def->section_count; k++)
+        sum += def->section[k].length * compliance_of(def->section[k].stiffness);
+    return sum / def->length;
+}
+
+double cpsi_mean_weight(const CpsLine *def) {
+    if (!cpsi_has_sections(def)) return def->weight;
+    double sum = def->section_count > 0 ? 0 : def->length * def->weight;
+    for (int k = 0; k < def->section_count; k++)
+        sum += def->section[k].length * def->section[k].weight;
+    for (int k = 0; k < def->point_weight_count; k++) sum += fabs(def->point_weight[k].weight);
+    return sum / def->length;
+}
+
+/* ---- check ---- */
+
+static CpsStatus fail(CpsError *err, const char *key, int index, const CpsLine *def,
+                      const char *found) {
+    char place[64];
+    if (index < 0)
+        return cpsi_fail_inside(err,
+                                cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': %s %s", def->name, key,
+                                          found),
+                                "%s", key);
+    snprintf(place, sizeof place, "%s[%d]", key, index + 1);
+    return cpsi_fail_inside(err,
+                            cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': %s: number %d %s",
+                                      def->name, key, index + 1, found),
+                            "%s", place);
+}
+
+static bool is_weight(double weight) { return weight >= 0 && weight <= LARGEST; }
+static bool is_stiffness(double stiffness) {
+    return (stiffness >= SMALLEST && stiffness <= LARGEST) || stiffness == INFINITY;
+}
+
+/* Move on to the node at `at` [m] or the first one behind it; *arc is that of node *node. Is it
+ * there? */
+static bool find_node(const CpsLine *def, double at, int *node, double *arc) {
+    const double near = AT_NODE * def->length;
+    while (*node < def->element_count && *arc < at - near) *arc += element_length(def, (*node)++);
+    return fabs(*arc - at) <= near;
+}
+
+static CpsStatus check_section(const CpsLine *def, int k, CpsError *err) {
+    const CpsSection *section = &def->section[k];
+    char found[160];
+    if (!(section->length >= SMALLEST && section->length <= LARGEST)) {
+        snprintf(found, sizeof found, "is %g m long, expected a positive finite number",
+                 section->length);
+        return fail(err, "sections", k, def, found);
+    }
+    if (!is_weight(section->weight)) {
+        snprintf(found, sizeof found, "has the weight %g N/m, expected a finite number >= 0",
+                 section->weight);
+        return fail(err, "sections", k, def, found);
+    }
+    if (!is_stiffness(section->stiffness)) {
+        snprintf(found, sizeof found,
+                 "has the stiffness %g N, expected a positive number, or "
+                 "infinity where all sections are inextensible",
+                 section->stiffness);
+        return fail(err, "sections", k, def, found);
+    }
+    if (isfinite(section->stiffness) != cpsi_is_elastic(def))
+        return fail(err, "sections", k, def,
+                    "is inextensible or elastic, those before it are not: give all sections a "
+                    "finite stiffness, or none");
+    return CPS_OK;
+}
+
+static CpsStatus check_sections(const CpsLine *def, CpsError *err) {
+    double at = 0, arc = 0;
+    int node = 0;
+    char found[200];
+    for (int k = 0; k < def->section_count; k++) {
+        const CpsStatus status = check_section(def, k, err);
+        if (status != CPS_OK) return status;
+        const int first = node;
+        at += def->section[k].length;
+        if (find_node(def, at, &node, &arc) && node > first) continue;
+        snprintf(found, sizeof found,
+                 "ends at %.12g m, where no node is (the next one lies at "
+                 "%.12g m): let elements end there",
+                 at, arc);
+        return fail(err, "sections", k, def, found);
+    }
+    if (def->section_count == 0 || fabs(at - def->length) <= AT_NODE * def->length) return CPS_OK;
+    snprintf(found, sizeof found, "are %.12g m long together, but length is %.12g m", at,
+             def->length);
+    return fail(err, "sections", -1, def, found);
+}
+
+static CpsStatus check_point_weights(const CpsLine *def, CpsError *err) {
+    char found[200];
+    for (int k = 0; k < def->point_weight_count; k++) {
+        const CpsPointWeight *point = &def->point_weight[k];
+        if (!(fabs(point->weight) <= LARGEST)) {
+            snprintf(found, sizeof found, "weighs %g N, expected a finite number", point->weight);
+            return fail(err, "point_weights", k, def, found);
+        }
+        double arc = 0;
+        int node = 0;
+        if (find_node(def, point->arc_length, &node, &arc) && node > 0 && node < def->element_count)
+            continue;
+        snprintf(found, sizeof found,
+                 "is at %.12g m, expected a node between the ends (the next "
+                 "one lies at %.12g m): let elements end there",
+                 point->arc_length, arc);
+        return fail(err, "point_weights", k, def, found);
+    }
+    return CPS_OK;
+}
+
+CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsError *err) {
+    char found[160];
+    if (def->section_count < 0 || (def->section_count > 0 && !def->section))
+        return fail(err, "sections", -1, def, "are a negative number, or NULL");
+    if (def->point_weight_count < 0 || (def->point_weight_count > 0 && !def->point_weight))
+        return fail(err, "point_weights", -1, def, "are a negative number, or NULL");
+    if (def->section_count == 0 && !is_weight(def->weight)) {
+        snprintf(found, sizeof found, "is %g N/m, expected a finite number >= 0", def->weight);
+        return fail(err, "weight", -1, def, found);
+    }
+    if (def->section_count == 0 && !is_stiffness(def->stiffness)) {
+        snprintf(found, sizeof found,
+                 "is %g N, expected a positive number, or infinity for an "
+                 "inextensible line",
+                 def->stiffness);
+        return fail(err, "stiffness", -1, def, found);
+    }
+    CpsStatus status = check_sections(def, err);
+    if (status == CPS_OK) status = check_point_weights(def, err);
+    if (status != CPS_OK) return status;
+    const double weight = cpsi_mean_weight(def);
+    if (!(weight > 0) || vec3_norm(vec3_load(scene->gravity)) >= SMALLEST) return CPS_OK;
+    snprintf(found, sizeof found,
+             "is %g N/m, but gravity is zero and has no direction: give the "
+             "scene a gravity",
+             weight);
+    return fail(err, "weight", -1, def, found);
+}
+
+/* ---- fill ---- */
+
+void cpsi_sections_fill(CpsiLine *line, const CpsLine *def) {
+    const double weight = cpsi_mean_weight(def);
+    double end = def->section_count > 0 ? def->section[0].length : INFINITY;
+    for (int e = 0, k = 0; e + 1 < line->n; e++) {
+        const double middle = line->arc_length[e] + 0.5 * line->element_length[e];
+        while (middle > end && k + 1 < def->section_count) end += def->section[++k].length;
+        const double own = def->section_count > 0 ? def->section[k].weight : def->weight;
+        line->weight_factor[e] = weight > 0 ? own / weight : 1;
+        line->compliance_factor[e] =
+            def->section_count > 0 && line->compliance > 0
+                ? compliance_of(def->section[k].stiffness) / line->compliance
+                : 1;
+    }
+    for (int j = 0; j < line->n; j++) {
+        double sum = 0;
+        if (j > 0) sum += 0.5 * line->element_length[j - 1] * line->weight_factor[j - 1];
+        if (j + 1 < line->n) sum += 0.5 * line->element_length[j] * line->weight_factor[j];
+        line->weight_length[j] = sum;
+    }
+    if (!(weight > 0)) return;
+    for (int k = 0; k < def->point_weight_count; k++) {
+        double arc = 0;
+        int node = 0;
+        find_node(def, def->point_weight[k].arc_length, &node, &arc);
+        line->weight_length[node] += def->point_weight[k].weight / weight;
+    }
+}

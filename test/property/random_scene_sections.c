@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Random scenes whose lines have sections, clumps and buoys. */
+#include <math.h>
+
+#include "random_scene_maker.h"
+
+static double element_length(const CpsLine *line, int e) {
+    return line->element_length ? line->element_length[e] : line->length / line->element_count;
+}
+
+/* One to four sections, which end at random nodes: lighter or heavier, softer or stiffer by up to a
+ * factor of ten, a fifth of them without weight. An inextensible line stays so. */
+static void add_sections(Maker *maker, CpsLine *line, CpsSection *section) {
+    Random *random = &maker->random;
+    int most = 1 + random_below(random, SCENE_SECTIONS_MOST), count = 0, first = 0;
+    if (most > line->element_count) most = line->element_count;
+    for (int k = 0; k < most; k++) {
+        const int left = most - k - 1, space = line->element_count - first - left;
+        const int last = k + 1 < most ? first + 1 + random_below(random, space) : first + space;
+        CpsSection *own = &section[count++];
+        *own = (CpsSection){.type = k % 2 ? "wire" : "chain"};
+        for (int e = first; e < last; e++) own->length += element_length(line, e);
+        own->weight = random_chance(random, 0.2) ? 0 : line->weight * random_decades(random, -1, 1);
+        own->stiffness = line->stiffness * random_decades(random, -1, 1);
+        first = last;
+    }
+    line->section = section;
+    line->section_count = count;
+}
+
+/* Up to three weights at random nodes between the ends, of up to a third of the line's own; four in
+ * ten are buoys. */
+static void add_point_weights(Maker *maker, CpsLine *line, CpsPointWeight *point) {
+    Random *random = &maker->random;
+    const int count =
+        line->element_count > 1 ? random_below(random, SCENE_POINT_WEIGHTS_MOST + 1) : 0;
+    for (int k = 0; k < count; k++) {
+        const int node = 1 + random_below(random, line->element_count - 1);
+        point[k] = (CpsPointWeight){0};
+        for (int e = 0; e < node; e++) point[k].arc_length += element_length(line, e);
+        point[k].weight = line->weight * line->length * random_decades(random, -3, -0.5) *
+                          (random_chance(random, 0.4) ? -1 : 1);
+    }
+    line->point_weight = point;
+    line->point_weight_count = count;
+}
+
+void random_scene_add_sections(Maker *maker) {
+    RandomScene *out = maker->out;
+    for (int i = 0; i < out->scene.line_count; i++) {
+        CpsLine *line = &out->line[i];
+        if (!random_chance(&maker->random, 0.2)) add_sections(maker, line, out->section[i]);
+        add_point_weights(maker, line, out->point_weight[i]);
+    }
+}
