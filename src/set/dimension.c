@@ -121,21 +121,24 @@ static CpsStatus search_all(Search *search, double *rays, CpsSetOutcome *outcome
     return status;
 }
 
-/* Whether some coordinate is unbounded. */
-static CpsStatus check_bounded(const CpsSet *set, double *w, bool *bounded, CpsError *err) {
+/* Whether some coordinate is unbounded; where that is not answered, facts have no answer. */
+static CpsStatus check_bounded(const CpsSet *set, double *w, CpsSetFacts *facts, CpsError *err) {
     CpsStatus status = CPS_OK;
     memset(w, 0, (size_t)set->n * sizeof *w);
-    for (int i = 0; !status && *bounded && i < set->n; i++) {
+    for (int i = 0; !status && facts->bounded && i < set->n; i++) {
         CpsSetAnswer answer = {.outcome = CPS_SET_OUTCOME_ANSWERED};
         for (int sign = -1; !status && sign <= 1; sign += 2) {
             w[i] = sign;
             status = cpsi_support(set, w, NULL, &answer, err);
             if (answer.outcome == CPS_SET_OUTCOME_UNBOUNDED ||
                 answer.outcome == CPS_SET_OUTCOME_NOT_ATTAINED)
-                *bounded = false;
+                facts->bounded = false;
+            else if (answer.outcome != CPS_SET_OUTCOME_ANSWERED)
+                facts->outcome = answer.outcome;
         }
         w[i] = 0;
     }
+    if (facts->outcome != CPS_SET_OUTCOME_ANSWERED) facts->dimension = -1;
     return status;
 }
 
@@ -242,7 +245,7 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
         facts->exact = search.exact;
         facts->dimension = search.dimension;
         facts->bounded = search.bounded;
-        if (facts->bounded) status = check_bounded(set, work, &facts->bounded, err);
+        if (facts->bounded) status = check_bounded(set, work, facts, err);
         if (!status && search.points == 0) {
             status = any_point(set, search.sum, err);
             search.points = 1;
@@ -252,7 +255,7 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
         if (basis) memcpy(basis, search.basis, n * n * sizeof *basis);
         if (!status && cpsi_set_has_user(set))
             facts->outcome = CPS_SET_OUTCOME_NOT_AVAILABLE;
-        else if (!status)
+        else if (!status && facts->outcome == CPS_SET_OUTCOME_ANSWERED)
             status = place_zero(set, search.sum, search.basis, work, search.plus, facts, err);
     }
     free(scratch);

@@ -180,17 +180,22 @@ static CpsStatus face_of_parts(const CpsSet *set, const double *w, double slack,
         if (set->kind == CPSI_SET_HULL) {
             status = cpsi_support(set->part[k], w, NULL, &one, err);
             const double size = cpsi_set_size(set);
-            if (status || one.outcome == CPS_SET_OUTCOME_EMPTY ||
+            if (status || one.outcome == CPS_SET_OUTCOME_EMPTY) continue;
+            if (one.outcome == CPS_SET_OUTCOME_ANSWERED &&
                 one.value + one.gap < value - slack * size - 1e-12 * fabs(value))
                 continue;
         }
-        status = face_of(set->part[k], w + at, slack, &face[count], &one, err);
+        /* a user's function may have failed meanwhile */
+        if (one.outcome == CPS_SET_OUTCOME_ANSWERED)
+            status = face_of(set->part[k], w + at, slack, &face[count], &one, err);
         answer->tolerance = fmax(answer->tolerance, one.tolerance);
         answer->exact &= one.exact;
         answer->outcome = one.outcome;
         if (!status && one.outcome == CPS_SET_OUTCOME_ANSWERED) count++;
         if (set->kind == CPSI_SET_PRODUCT) at += set->part[k]->n;
     }
+    if (count == 0 && answer->outcome == CPS_SET_OUTCOME_ANSWERED)
+        answer->outcome = CPS_SET_OUTCOME_INACCURATE; /* ... or have answered otherwise */
     const CpsSet *const *parts = (const CpsSet *const *)face;
     if (!status && answer->outcome == CPS_SET_OUTCOME_ANSWERED) {
         if (count == 1)

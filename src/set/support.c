@@ -388,11 +388,18 @@ CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, C
 static CpsStatus conic_project(const CpsSet *set, const double *p, const double *lower,
                                double *nearest, CpsSetAnswer *answer, CpsError *err) {
     const int n = set->n;
+    CpsiScratch scratch;
+    double *c = cpsi_scratch_take(&scratch, (size_t)n + 1);
+    if (!c) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a projection");
+    for (int i = 0; i <= n; i++) c[i] = i == n;
     Ask ask;
     CpsStatus status =
         support_new(set, (CpsiCount){.unknowns = (size_t)n + 1, .rows = (size_t)n + 1, .cones = 1},
                     &ask, err);
-    if (status) return status;
+    if (status) {
+        cpsi_scratch_give(&scratch);
+        return status;
+    }
     const size_t w = (size_t)ask.conic->width;
     double *rows = cpsi_conic_rows_cone(ask.conic, n + 1);
     rows[n] = 1; /* the unknown r follows x */
@@ -406,14 +413,8 @@ static CpsStatus conic_project(const CpsSet *set, const double *p, const double 
         ask.x[(size_t)i * w + (size_t)i] = 1;
     }
     ask.t[w - 1] = 1;
-    CpsiScratch scratch;
-    double *c = cpsi_scratch_take(&scratch, (size_t)n + 1);
     CpsiSolution solution = {.outcome = CPS_SET_OUTCOME_INACCURATE};
-    for (int i = 0; c && i <= n; i++) c[i] = i == n;
-    if (!c)
-        status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a projection");
-    else
-        status = support_solve(&ask, set, n + 1, c, &solution, err);
+    status = support_solve(&ask, set, n + 1, c, &solution, err);
     if (!status) {
         *answer = (CpsSetAnswer){.outcome = solution.outcome,
                                  .value = fmax(solution.value, 0),

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Memory runs out in every question to random sets, laws and resistances, once at each place of the
  * library that asks for it: the call says so or answers by another way, and everything allocated is
- * given back. Allocations are counted by wrapping them at link time. */
+ * given back. Allocations are counted by wrapping them at link time, and so are small arrays, which
+ * are on the stack where they are as small as here. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -13,6 +14,14 @@
 #include "../property/random_expression.h"
 #include "capstan/law.h"
 #include "refuse.h"
+#include "set/set.h"
+
+double *__real_cpsi_scratch_take(CpsiScratch *scratch, size_t count);
+double *__wrap_cpsi_scratch_take(CpsiScratch *scratch, size_t count);
+double *__wrap_cpsi_scratch_take(CpsiScratch *scratch, size_t count) {
+    scratch->many = NULL;
+    return refuse() ? NULL : __real_cpsi_scratch_take(scratch, count);
+}
 
 /* What is asked: two sets, a law and a resistance made of the first, a direction and points inside
  * and anywhere. */
@@ -27,8 +36,8 @@ typedef struct Case {
 enum { ROOM = 64, QUESTIONS = 26, RESISTANCES = 5 };
 
 /* Let go of what an operation gave. */
-static CpsStatus made(CpsStatus status, CpsSet *set) {
-    if (status == CPS_OK) cps_set_release(set);
+static CpsStatus made(CpsStatus status, CpsSet **set) {
+    if (status == CPS_OK) cps_set_release(*set);
     return status;
 }
 
@@ -36,15 +45,15 @@ static CpsStatus operate(const Case *c, int question) {
     const CpsSet *both[] = {c->set, c->other};
     CpsSet *out = NULL;
     switch (question) {
-    case 0: return made(cps_set_sum(2, both, &out, &err), out);
-    case 1: return made(cps_set_hull(2, both, &out, &err), out);
-    case 2: return made(cps_set_intersection(2, both, &out, &err), out);
-    case 3: return made(cps_set_product(2, both, &out, &err), out);
-    case 4: return made(cps_set_polar(c->set, &out, &err), out);
-    case 5: return made(cps_set_image(c->n, c->map, c->set, &out, &err), out);
-    case 6: return made(cps_set_preimage(c->n, c->map, c->point, c->set, &out, &err), out);
-    case 7: return made(cps_set_translate(c->point, c->set, &out, &err), out);
-    default: return made(cps_set_scale(-2, c->set, &out, &err), out);
+    case 0: return made(cps_set_sum(2, both, &out, &err), &out);
+    case 1: return made(cps_set_hull(2, both, &out, &err), &out);
+    case 2: return made(cps_set_intersection(2, both, &out, &err), &out);
+    case 3: return made(cps_set_product(2, both, &out, &err), &out);
+    case 4: return made(cps_set_polar(c->set, &out, &err), &out);
+    case 5: return made(cps_set_image(c->n, c->map, c->set, &out, &err), &out);
+    case 6: return made(cps_set_preimage(c->n, c->map, c->point, c->set, &out, &err), &out);
+    case 7: return made(cps_set_translate(c->point, c->set, &out, &err), &out);
+    default: return made(cps_set_scale(-2, c->set, &out, &err), &out);
     }
 }
 
@@ -65,10 +74,10 @@ static CpsStatus ask_set(const Case *c, int question) {
     case 11: return cps_set_contains(c->set, c->point, x, &answer, &err);
     case 12: return cps_set_project(c->set, c->point, NULL, x, &answer, &err);
     case 13: return cps_set_gauge(c->set, c->point, &answer, &err);
-    case 14: return made(cps_set_face(c->set, c->direction, 0, &out, &answer, &err), out);
+    case 14: return made(cps_set_face(c->set, c->direction, 0, &out, &answer, &err), &out);
     case 15:
         status = cps_set_support(c->set, c->direction, x, &answer, &err);
-        return status ? status : made(cps_set_normal_cone(c->set, x, 0, &out, &answer, &err), out);
+        return status ? status : made(cps_set_normal_cone(c->set, x, 0, &out, &answer, &err), &out);
     case 16: return cps_set_facts(c->set, 0, &facts, x, x + MAX_SPACE, &err);
     case 17: return cps_set_vertices(c->set, 0.1, ROOM, x, &count, &answer, &err);
     case 18: return cps_set_rays(c->set, 0, ROOM, x, &count, &answer, &err);
@@ -78,8 +87,8 @@ static CpsStatus ask_set(const Case *c, int question) {
         cps_set_conic_free(&conic);
         return status;
     case 21: return cps_set_dissipation(c->set, c->direction, x, &answer, &err);
-    case 22: return made(cps_set_forces(c->set, c->direction, 0, &out, &answer, &err), out);
-    case 23: return made(cps_set_velocities(c->set, c->inside, 0, &out, &answer, &err), out);
+    case 22: return made(cps_set_forces(c->set, c->direction, 0, &out, &answer, &err), &out);
+    case 23: return made(cps_set_velocities(c->set, c->inside, 0, &out, &answer, &err), &out);
     case 24: return cps_set_residual(c->set, c->point, c->direction, 1, &residual, &err);
     default: return cps_set_residual(c->set, c->inside, c->direction, 1, &residual, &err);
     }
@@ -94,10 +103,10 @@ static CpsStatus ask_resistance(const Case *c, int question) {
     case 0: return cps_resistance_value(c->resistance, c->direction, &value, NULL, &err);
     case 1:
         return made(cps_resistance_forces(c->resistance, c->direction, 0, &out, &answer, &err),
-                    out);
+                    &out);
     case 2: return cps_resistance_conjugate(c->resistance, c->point, velocity, &answer, &err);
     case 3:
-        return made(cps_resistance_velocities(c->resistance, c->point, &out, &answer, &err), out);
+        return made(cps_resistance_velocities(c->resistance, c->point, &out, &answer, &err), &out);
     default:
         return cps_resistance_residual(c->resistance, c->point, c->direction, &gap, &distance,
                                        &err);
