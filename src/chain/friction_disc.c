@@ -17,9 +17,9 @@
  * almost zero along it.
  *
  * There are two kinds of bound. With a fixed A (the frozen friction of S90), dA = 0 and the problem
- * is convex. With a coupled bound A = mu R, where R is the dual of the unilateral contact, dA = mu
+ * is convex. With a coupled bound A = f R, where R is the dual of the unilateral contact, dA = f
  * dR and dR = q_R - (R/s)(n.du + rho), which is known once du is. This is Coulomb's law itself,
- * which is not the minimum of an energy: it adds c w1 mu R/s times n to the node's block on the
+ * which is not the minimum of an energy: it adds c w1 f R/s times n to the node's block on the
  * right, rows x, y in the column z for n = z, and nothing on the left. */
 #include <stdbool.h>
 
@@ -27,7 +27,7 @@
 #include "chain/elements.h"
 #include "ipm/cone.h"
 
-/* Where bounds are coupled: the direction of the bound mu R of disc k, without the part that is
+/* Where bounds are coupled: the direction of the bound f R of disc k, without the part that is
  * linear in n.du, and (bound_direction) all of it. */
 static inline double bound_load(const CpsiChainProgram *program, int k, double keep) {
     const int i = program->disc.unilateral[k];

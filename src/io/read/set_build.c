@@ -29,7 +29,7 @@ static CpsStatus weigh(CpsiSetBuild *b, const CpsiYaml *node, int components, in
     return CPS_OK;
 }
 
-/* Number of points or rows of a word. */
+/* Number of points or rows of a word, as they are written: no word makes more of its own. */
 static int items_of(const CpsiKey *word, const CpsiSetValues *values) {
     if (word->type == CPSI_EXPRESSION || word->type == CPSI_EXPRESSIONS) return 0;
     return values->rows.rows > 0 ? values->rows.rows : 1;
