@@ -21,11 +21,6 @@ void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
 /* Move the base back to the reference, where rounds begin (lines with local axes). */
 void cpsi_contact_reset(CpsiLine *line);
 
-/* Detect the contacts at `base` (lines with local axes): the nearest obstacles. A contact with the
- * same obstacle as before keeps its data, as the first or the second of its node. `keep_active`: an
- * active contact stays with its obstacle even if others are as near. */
-void cpsi_contact_detect(CpsiLine *line, bool keep_active);
-
 /* Axes, curvature, normal, slip, gap and friction law of the present contacts at `base` (lines with
  * local axes). */
 void cpsi_contact_update_geometry(CpsiLine *line);

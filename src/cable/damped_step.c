@@ -8,6 +8,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/contact_detection.h"
 #include "cable/line_solve.h"
 #include "cable/report.h"
 #include "cable/rounds.h"

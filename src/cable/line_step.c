@@ -30,6 +30,7 @@
 #include "cable/bend.h"
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/contact_detection.h"
 #include "cable/endless_slide.h"
 #include "cable/existence.h"
 #include "cable/line_solve.h"

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cable/contact.h"
+#include "cable/contact_detection.h"
 #include "cable/friction_law.h"
 #include "cable/line_solve.h"
 #include "cable/obstacle_side.h"
