@@ -117,7 +117,12 @@ static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
         const bool solved = line.outcome == CPS_OUTCOME_SOLVED || line.outcome == CPS_OUTCOME_TAUT;
         print_error(table, solved && certificate->has_tension_bound, certificate->tension_bound);
         print_error(table, solved && line.has_tension_mesh, line.tension_mesh);
-        fprintf(table, " %10.4g %10.4g %10.4g\n", line.grounded, line.slipping, line.slack);
+        fprintf(table, " %10.4g ", line.grounded);
+        if (line.has_slipping)
+            fprintf(table, "%10.4g", line.slipping);
+        else
+            fprintf(table, "%10s", "-");
+        fprintf(table, " %10.4g\n", line.slack);
         for (int e = 0; e < 2; ++e)
             print_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
         const CpsLineView view = cps_evolution_line_view(evolution, i);

@@ -198,7 +198,10 @@ typedef enum CpsLinearSystem {
 } CpsLinearSystem;
 
 typedef struct CpsSolverOptions {
-    double tolerance; /* [-] certified when gap <= tolerance * scale, 1e-14..1e-2, default 1e-8 */
+    /* [-] certified when gap <= tolerance * scale, 1e-14..1e-2, default 1e-8. Above 1e-8, steps of
+     * an elastic line on a plane without directions of friction are solved to a hundredth of it,
+     * and nodes in contact are CPS_NODE_STATE_UNRESOLVED unless the step is warm. */
+    double tolerance;
     /* of one program of a line, 1..1000, default 60; 20 more for each doubling of its elements
      * beyond 12 800 */
     int max_iterations;

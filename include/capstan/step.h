@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/step.h: what a load step reports: its outcome, the certificate of its answer, the forces
- * at the ends of a line, where the energy went, and the arrays of a line.
- *
- * Everything here is filled by the library (evolve.h) and read by the caller. Quantities are in SI
- * units, vectors in the axes of the scene. S90 is Souza de Cursi (1990), "theory" docs/theory.md.
+ * at the ends of a line, where the energy went, and the arrays of a line. The library (evolve.h)
+ * fills everything here for the caller. Quantities are in SI units, vectors in the axes of the
+ * scene. S90 is Souza de Cursi (1990), "theory" docs/theory.md.
  *
  * A load step is taken as one or more substeps: it is divided where it does not converge, where it
  * depends on the path (`path_tolerance`), and where an obstacle turns far (theory 2.9). */
@@ -81,7 +80,8 @@ typedef struct CpsCertificate {
 typedef enum CpsNodeState {
     CPS_NODE_STATE_FREE = 0,
     CPS_NODE_STATE_STICK = 1,
-    CPS_NODE_STATE_SLIP = 2
+    CPS_NODE_STATE_SLIP = 2,
+    CPS_NODE_STATE_UNRESOLVED = 3 /* in contact; at rest or not (CpsSolverOptions.tolerance) */
 } CpsNodeState;
 
 /* What is known of the tensions that hold an inextensible line: they need not be unique. */
@@ -179,15 +179,15 @@ typedef struct CpsLineReport {
      * also the energy that they lost, jumps excepted. 0 unless it exceeds 5 % of what such a
      * substep dissipates and works. */
     double unaccounted;
-    CpsEndReport end[2];       /* of ends A and B */
-    double grounded;           /* [m] natural length in contact with a reaction */
-    double slipping;           /* [m] natural length that slid on the obstacle in this step */
-    double slack;              /* [m] natural length without tension */
-    bool has_tension_mesh;     /* tension_mesh is known; otherwise it is 0 */
-    double tension_mesh;       /* [N] estimated error of the tension due to the mesh */
-    bool has_pierced_obstacle; /* pierced_obstacle is known */
-    int pierced_obstacle;      /* obstacle of the certificate's element_penetration */
-    CpsBend bend;              /* the sharpest of the substeps */
+    CpsEndReport end[2]; /* of ends A and B */
+    double grounded;     /* [m] natural length in contact with a reaction */
+    double slipping;     /* [m] natural length that slid on the obstacle in this step */
+    double slack;        /* [m] natural length without tension */
+    bool has_slipping, has_tension_mesh; /* slipping, tension_mesh is known; otherwise it is 0 */
+    double tension_mesh;                 /* [N] estimated error of the tension due to the mesh */
+    bool has_pierced_obstacle;           /* pierced_obstacle is known */
+    int pierced_obstacle;                /* obstacle of the certificate's element_penetration */
+    CpsBend bend;                        /* the sharpest of the substeps */
     /* The proof that there is no equilibrium, else 0 0 0. Infeasible: unit vector in which the
      * shortest path to end B leaves end A; where it is straight, a constant force along it is the
      * proof. Unbounded: the rigid direction in which the energy falls. Slides: the velocity of the

@@ -107,6 +107,7 @@ typedef struct CpsiLine {
     double *node_reaction; /* (n) [N] sum of the reactions on the node and on its elements */
     bool *active;   /* (contacts, n) the constraint is active in the last solution: the reaction
                        exceeds the distance, both in units of the program */
+    bool is_rough;  /* the program was solved to a hundredth of the tolerance only */
     bool *at_bound; /* (contacts, n) friction is at its bound in the last round (warm_step.h) */
     bool contact_everywhere;   /* contacts are detected everywhere, not only where the reference
                                   touches */

@@ -30,6 +30,8 @@ static const double TAUT_SLACK = 1e-9;
 /* Accuracy of positions relative to the length, and largest elongation of an inextensible
  * element. */
 static const double POSITION_TOL = CPSI_TOUCH;
+/* A rough solution is found to this share of the tolerance. */
+static const double ROUGH = 0.01;
 /* A reaction of an open contact below this share of the unit of force is rounding. */
 static const double LEAST_REACTION = 1e-12;
 
@@ -273,6 +275,7 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                               const CpsiStepOptions *options, const CpsiRound *round) {
     const bool taut = cpsi_line_is_taut(line);
     const double force = cpsi_line_unit_force(line, round->bounds);
+    line->is_rough = false;
     if (!(force > 0) && round->least && rests_unloaded(line, program, options, round))
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
     CpsiStepScale scale = {.force = force > 0 ? force : 1,
@@ -287,14 +290,17 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
         if (newton.outcome == CPSI_IPM_SOLVED) return newton;
     }
     line->report.warm_count = 0; /* the step is not warm */
+    line->is_rough = round->may_be_rough && options->solver.tolerance > CPSI_RESOLVING;
+    const bool refined = round->centering && !line->is_rough;
     cpsi_step_program_fill(line, program, &scale);
     double loads = 0;
     for (int i = 0; i < 3 * line->n; i++) loads += fabs(program->base.load[i]);
-    const CpsiIpmOptions ipm_options = {.target = CPSI_TARGET,
+    const CpsiIpmOptions ipm_options = {.target = line->is_rough ? ROUGH * options->solver.tolerance
+                                                                 : CPSI_TARGET,
                                         .scale = loads > 0 ? loads : 1,
                                         .max_iterations = most_iterations(line, options),
-                                        .centering_steps = round->centering ? CENTERING_STEPS : 0,
-                                        .sharpenings = round->centering ? REFINEMENT_STEPS : 0};
+                                        .centering_steps = refined ? CENTERING_STEPS : 0,
+                                        .sharpenings = refined ? REFINEMENT_STEPS : 0};
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     scale.force = force;
     cpsi_step_program_unpack(line, program, &scale);
@@ -306,7 +312,7 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
     if (taut)
         straighten(line);
     else if (round->least && !round->reaction_stiffness && !(round->drag > 0) &&
-             cpsi_line_is_clean(&ipm))
+             (line->is_rough || cpsi_line_is_clean(&ipm)))
         line->report.iteration_count +=
             cpsi_least_motion(line, round->least, program, round->bounds,
                               most_iterations(line, options));

@@ -19,6 +19,9 @@
 /* The interior point is driven to this relative gap: the limit of the arithmetic, well below any
  * admissible tolerance. */
 #define CPSI_TARGET 1e-13
+/* Up to this tolerance every program is solved to CPSI_TARGET and refined, so that nodes that stick
+ * are told from nodes that slip: the default tolerance. */
+#define CPSI_RESOLVING 1e-8
 
 /* Set the data of a step: contacts at the reference, and the loads: weight, half of each element to
  * each of its nodes, and the forces at free ends. */
@@ -42,6 +45,7 @@ typedef struct CpsiRound {
     bool reaction_stiffness; /* reactions turn with their normals */
     bool centering;          /* the loop ends with steps to the centre */
     double drag;             /* [-] (step_program.h) */
+    bool may_be_rough;       /* the loop may stop at a hundredth of the tolerance */
     CpsiGuess guess;         /* from which Newton's method starts before the interior point */
     CpsiLeastMotion *least;  /* scratch memory of the rule of least motion, NULL: not applied */
 } CpsiRound;

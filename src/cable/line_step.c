@@ -127,8 +127,9 @@ static unsigned conditions(const CpsiLine *line, const CpsiStepOptions *options)
 /* Solve one program on the planes of the reference. */
 static CpsiIpmReport solve_program(CpsiLine *line, CpsiChainProgram *program,
                                    const CpsiStepOptions *options, const CpsiStrategy *strategy,
-                                   bool coupled) {
+                                   bool coupled, bool may_be_rough) {
     const CpsiRound round = {.bounds = coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED,
+                             .may_be_rough = may_be_rough,
                              .guess = strategy->guess,
                              .centering = strategy->centering,
                              .least = strategy->least_motion ? options->least : NULL};
@@ -154,7 +155,11 @@ static bool solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
         return false;
     }
     if (in_rounds) return cpsi_tangent_plane_rounds(line, program, options, strategy, bounds);
-    const CpsiIpmReport ipm = solve_program(line, program, options, strategy, coupled);
+    /* positions of inextensible lines are found to rounding, as are bounds on curved obstacles */
+    const bool may_be_rough = !line->has_local_axes && line->compliance > 0;
+    CpsiIpmReport ipm = solve_program(line, program, options, strategy, coupled, may_be_rough);
+    if (line->is_rough && cps_outcome_is_certified(line->report.outcome)) return false;
+    if (line->is_rough) ipm = solve_program(line, program, options, strategy, coupled, false);
     if (coupled && !cpsi_line_is_clean(&ipm))
         (void)cpsi_tangent_plane_rounds(line, program, options, strategy, CPSI_BOUNDS_TRIAL);
     return false;
@@ -311,7 +316,7 @@ static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
 /* Report the ends of the line where they are before the step, which is where they stay if there is
  * no equilibrium. */
 static void report_initial_ends(CpsiLine *line) {
-    line->report = (CpsLineReport){0};
+    line->report = (CpsLineReport){.has_slipping = true};
     for (int end = 0; end < 2; end++) {
         memcpy(line->report.end[end].position,
                &line->position[end == CPS_END_A ? 0 : 3 * (line->n - 1)], 3 * sizeof(double));

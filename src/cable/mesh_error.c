@@ -143,6 +143,8 @@ static double bend_error(const CpsiLine *line, int j) {
 
 bool cpsi_mesh_error(const CpsiLine *line, double *error) {
     *error = 0;
+    for (int c = 0; c < cpsi_line_contacts(line); c++)
+        if (line->state[c] == CPS_NODE_STATE_UNRESOLVED) return false;
     double worst = 0, bends = 0, largest = 0;
     for (int e = 0; e + 1 < line->n; e++) largest = fmax(largest, vec3_norm(force_of(line, e)));
     for (int j = 0; j < line->n; j++) bends += bend_error(line, j);

@@ -40,7 +40,7 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
         const int c = program->unilateral.contact[k];
         if (line->reaction[c] >
             density * cpsi_line_contact_share(line, c) * program->unilateral.s[k])
-            line->state[c] = CPS_NODE_STATE_STICK;
+            line->state[c] = line->is_rough ? CPS_NODE_STATE_UNRESOLVED : CPS_NODE_STATE_STICK;
     }
     for (int k = 0; k < program->disc.count; k++) {
         const int c = program->disc.contact[k];
@@ -186,6 +186,7 @@ static bool has_slid(const CpsiLine *line, int c) {
 }
 
 void cpsi_line_report_lengths(CpsiLine *line) {
+    line->report.has_slipping = true;
     for (int j = 0; j < line->n; j++) {
         double part = 0;
         bool slips = false;
@@ -193,8 +194,10 @@ void cpsi_line_report_lengths(CpsiLine *line) {
             if (line->state[c] == CPS_NODE_STATE_FREE) continue;
             part = fmax(part, grounded_part(line, c));
             slips = slips || has_slid(line, c);
+            if (line->state[c] == CPS_NODE_STATE_UNRESOLVED) line->report.has_slipping = false;
         }
         line->report.grounded += part * cpsi_line_share(line, j);
         if (slips) line->report.slipping += part * cpsi_line_share(line, j);
     }
+    if (!line->report.has_slipping) line->report.slipping = 0;
 }

@@ -71,7 +71,7 @@ bool cpsi_line_stands_still(CpsiLine *line, const CpsiStepOptions *options,
         !(c->gap <= fmax(GAP_GROWTH * before->certificate.gap, CPSI_TARGET * c->scale)))
         return false;
     for (int i = 0; i < cpsi_line_all_contacts(line); i++)
-        if (line->state[i] == CPS_NODE_STATE_SLIP) line->state[i] = CPS_NODE_STATE_STICK;
+        if (line->state[i] != CPS_NODE_STATE_FREE) line->state[i] = CPS_NODE_STATE_STICK;
     line->report.slack = before->slack;
     line->report.places =
         before->places == CPS_PLACES_UNIQUE ? CPS_PLACES_UNIQUE : CPS_PLACES_NEAREST;

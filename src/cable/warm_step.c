@@ -19,6 +19,8 @@ static const double LEAST_TENSION = 0.5;
 enum { USEFUL_PATIENCE = 3 };
 /* A force is at its bound up to rounding of the interior-point loop. */
 static const double AT_BOUND = 1e-9;
+/* ... and of one that stopped at the tolerance. */
+static const double ROUGHLY = 1e-2;
 
 /* The increments of the loads in the substep. */
 static CpsiLoadChange change_of(const CpsiLine *line) {
@@ -139,21 +141,27 @@ static void place(const CpsiLine *line, CpsiChainProgram *program, const double 
     }
 }
 
+/* Is the friction of contact c at its bound, up to a share of it? */
+static bool is_at_bound(const CpsiLine *line, int c, double share) {
+    double f[3], inside[3];
+    const double bound = line->friction_bound[c];
+    cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
+    memcpy(inside, f, sizeof f);
+    cpsi_friction_law_clip(&line->friction_law[c], bound, (1 - share) * bound, inside);
+    return inside[0] != f[0] || inside[1] != f[1];
+}
+
 void cpsi_warm_step_note_round(CpsiLine *line) {
-    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-        double f[3], inside[3];
-        const double bound = line->friction_bound[c];
-        cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
-        memcpy(inside, f, sizeof f);
-        cpsi_friction_law_clip(&line->friction_law[c], bound, (1 - AT_BOUND) * bound, inside);
-        line->at_bound[c] = inside[0] != f[0] || inside[1] != f[1];
-    }
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++)
+        line->at_bound[c] = is_at_bound(line, c, AT_BOUND);
 }
 
 /* Did friction slip at contact c in the last step or round? */
 static bool slipped(const CpsiLine *line, int c, CpsiGuess guess) {
     if (guess == CPSI_GUESS_BASE) return line->at_bound[c];
-    return guess != CPSI_GUESS_REFERENCE && line->state[c] == CPS_NODE_STATE_SLIP;
+    if (guess == CPSI_GUESS_REFERENCE) return false;
+    return line->state[c] == CPS_NODE_STATE_UNRESOLVED ? is_at_bound(line, c, ROUGHLY)
+                                                       : line->state[c] == CPS_NODE_STATE_SLIP;
 }
 
 static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale,

@@ -112,6 +112,7 @@ static void pass_line_report(Tape *tape, CpsLineReport *report) {
     PASS(tape, report->grounded);
     PASS(tape, report->slipping);
     PASS(tape, report->slack);
+    pass_flag(tape, &report->has_slipping);
     pass_flag(tape, &report->has_tension_mesh);
     PASS(tape, report->tension_mesh);
     pass_flag(tape, &report->has_pierced_obstacle);

@@ -79,7 +79,7 @@ static bool is_line_report(const CpsLineReport *report, int obstacles) {
 static bool are_contacts(const CpsiLine *line) {
     const int contacts = cpsi_line_all_contacts(line);
     for (int c = 0; c < contacts; c++)
-        if (line->state[c] > CPS_NODE_STATE_SLIP ||
+        if (line->state[c] > CPS_NODE_STATE_UNRESOLVED ||
             (line->obstacle_index &&
              !within(line->obstacle_index[c], -1, line->obstacle_count - 1)))
             return false;

@@ -29,7 +29,7 @@ typedef struct CpsiRow {
 } CpsiRow;
 
 /* A state in addition to CpsNodeState: no contact, but friction. */
-enum { CPSI_SHAPE_IN_AIR = 3 };
+enum { CPSI_SHAPE_IN_AIR = 4 };
 
 /* A line at one step, reduced to a number of points that a picture can show. */
 typedef struct CpsiShape {

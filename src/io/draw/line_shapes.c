@@ -108,7 +108,7 @@ static void draw_states(const Pen *pen, const CpsiShape *shape) {
         const unsigned char state = shape->state[first];
         /* a band extends half way to its neighbours; up to the next point is accurate enough */
         const int to = last + 1 < shape->points ? last + 1 : last;
-        if (state != CPS_NODE_STATE_FREE && to > first)
+        if (state != CPS_NODE_STATE_FREE && state != CPS_NODE_STATE_UNRESOLVED && to > first)
             draw_polyline(pen, shape->position, first, to, band_colour(state), 11, "");
         first = last + 1;
     }

@@ -41,7 +41,7 @@ static const CpsiColumn LINE_COLUMN[] = {
     END_COLUMNS("A", CPS_END_A),
     END_COLUMNS("B", CPS_END_B),
     {"grounded", "m", LINE(grounded)},
-    {"slipping", "m", LINE(slipping)},
+    {"slipping", "m", LINE_IF(has_slipping, slipping)},
     {"slack", "m", LINE(slack)},
     {"dissipated", "J", LINE(dissipated)},
     {"bend", "rad", LINE(bend.turn)},

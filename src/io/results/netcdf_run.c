@@ -285,7 +285,8 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
         if (nc->wanted & CPSI_WANTED_STATE) {
             ids->state[c] = add_contact(nc, view->name, "state", c, NC_BYTE, 2, on_nodes,
                                         "rest on the obstacle", "1");
-            cpsi_netcdf_flags(&nc->file, ids->state[c], NC_BYTE, 3, NULL, "free stick slip");
+            cpsi_netcdf_flags(&nc->file, ids->state[c], NC_BYTE, 4, NULL,
+                              "free stick slip unresolved");
         }
         if (ids->contacts < 2 || !(nc->wanted & CPSI_WANTED_OBSTACLE)) continue;
         ids->obstacle[c] = add_contact(nc, view->name, "obstacle", c, NC_INT, 2, on_nodes,
@@ -299,7 +300,8 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_STATE)) {
         ids->element_state = cpsi_netcdf_variable(&nc->file, view->name, "element_state", NC_BYTE,
                                                   2, on_elements, "rest of the element on it", "1");
-        cpsi_netcdf_flags(&nc->file, ids->element_state, NC_BYTE, 3, NULL, "free stick slip");
+        cpsi_netcdf_flags(&nc->file, ids->element_state, NC_BYTE, 4, NULL,
+                          "free stick slip unresolved");
     }
     ids->end_kind = cpsi_netcdf_variable(&nc->file, view->name, "end_kind", NC_BYTE, 2, on_ends,
                                          "what is imposed at A and B", "1");

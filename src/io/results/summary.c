@@ -91,7 +91,7 @@ static void write_line(FILE *out, const char *name, const CpsLineReport *report,
     fprintf(out, "\"iterations\": %d, \"places_not_unique\": %d,\n          ",
             report->iteration_count, (int)report->places);
     write_number(out, "grounded_m", report->grounded, ", ");
-    write_number(out, "slipping_m", report->slipping, ", ");
+    write_number(out, "slipping_m", report->has_slipping ? report->slipping : NAN, ", ");
     write_number(out, "slack_m", report->slack, ", ");
     write_number(out, "dissipated_J", report->dissipated, ",\n          ");
     write_number(out, "tension_mesh_estimate_N",

@@ -233,7 +233,7 @@ static const CpsiKey SOLVER_KEYS[] = {
     {"tolerance", OPTIONAL, NUMBER(Scene, scene.solver.tolerance), 1e-14, 1e-2, false,
      .fallback = "1e-8",
      .help = "a step is certified when its duality gap is at most this times the scale of its "
-             "energies"},
+             "energies; above 1e-8 it need not be resolved which nodes slip"},
     {"max_iterations", OPTIONAL, INTEGER(Scene, scene.solver.max_iterations), 1, 1000, false,
      .fallback = "60",
      .help = "of one solve of a line; 20 more for each doubling of its elements beyond 12 800"},
