@@ -238,11 +238,11 @@ void cpsi_chain_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int s
 
 void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts,
                                bool points, const CpsiConicSet *largest, const CpsiLinsysOps *ops) {
-    static const CpsiKind *const kinds[] = {&cpsi_segment, &cpsi_drag, &cpsi_unilateral,
-                                            &cpsi_friction_disc, &cpsi_friction_conic};
-    const int all = sizeof kinds / sizeof *kinds, places = points ? 2 * n : n,
+    const int places = points ? 2 * n : n,
               stops = (contacts > 1 ? contacts * n : n) + (points ? n : 0);
-    *program = (CpsiChainProgram){.base = {.kind = kinds, .kind_count = largest ? all : all - 1}};
+    *program = (CpsiChainProgram){
+        .base = {.kind = cpsi_chain_kinds(),
+                 .kind_count = largest ? CPSI_CHAIN_KINDS : CPSI_KIND_FRICTION_CONIC}};
     if (largest) cpsi_friction_conic_layout(&program->conic, arena, places, stops, largest);
     if (contacts > 0) layout_own(program, arena, n, contacts, points);
     cpsi_chain_layout(program, arena, n, stops, contacts > 0 ? 2 * stops : n, contacts > 1, points,

@@ -63,6 +63,8 @@ typedef struct CpsiUnilateral {
     double (*curvature)[6]; /* (count) R0 times the curvature of the surface, xx, xy, yy, xz, yz,
                                zz: the force R n gains that times u; with `normal` */
     double *s, *z;          /* (count) distance, reaction */
+    /* (count) dz also serves between the passes `load` and `direct`: there it is the direction
+     * without the part that is linear in n.du */
     double *q, *ds, *dz;
 } CpsiUnilateral;
 
@@ -199,9 +201,24 @@ void cpsi_friction_conic_turn_back(CpsiFrictionConic *conic, double *du);
  * R. */
 void cpsi_friction_conic_predict_bounds(CpsiFrictionConic *conic, const CpsiUnilateral *unilateral);
 
+/* The kinds of a chain; those with loops over lanes once for each width (ipm/width.h). */
+extern const CpsiKind cpsi_segment_128, cpsi_segment_256, cpsi_segment_512;
+extern const CpsiKind cpsi_unilateral_128, cpsi_unilateral_256, cpsi_unilateral_512;
+extern const CpsiKind cpsi_friction_disc_128, cpsi_friction_disc_256, cpsi_friction_disc_512;
+extern const CpsiKind cpsi_drag, cpsi_friction_conic;
+
 /* In this order: friction discs and conics read what the same pass has computed for their
  * unilateral contact. */
-extern const CpsiKind cpsi_segment, cpsi_drag, cpsi_unilateral, cpsi_friction_disc,
-    cpsi_friction_conic;
+enum {
+    CPSI_KIND_SEGMENT,
+    CPSI_KIND_DRAG,
+    CPSI_KIND_UNILATERAL,
+    CPSI_KIND_FRICTION_DISC,
+    CPSI_KIND_FRICTION_CONIC,
+    CPSI_CHAIN_KINDS
+};
+
+/* The kinds for the width of this processor (CPSI_CHAIN_KINDS). */
+const CpsiKind *const *cpsi_chain_kinds(void);
 
 #endif

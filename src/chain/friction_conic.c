@@ -410,10 +410,7 @@ static void load(CpsiProgram *base, double keep) {
         const Element e = element(conic, k);
         const int i = conic->unilateral[k];
         double da = conic->shift[k], *image = conic->scratch, *rest = image + e.spread;
-        if (program->bounds_coupled)
-            da += conic->friction[k] *
-                  (unilateral->q[i] - unilateral->z[i] / unilateral->s[i] * keep *
-                                          cpsi_unilateral_residual(program, i));
+        if (program->bounds_coupled) da += conic->friction[k] * unilateral->dz[i];
         direction(&e, da, keep, NULL, image, rest);
         add_to_node(conic, k, da, e.dv, base->du);
     }

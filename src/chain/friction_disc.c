@@ -22,22 +22,15 @@
  * which is not the minimum of an energy: it adds c w1 f R/s times n to the node's block on the
  * right, rows x, y in the column z for n = z, and nothing on the left. */
 #include <stdbool.h>
+#include <string.h>
 
-#include "base/larger.h"
 #include "chain/elements.h"
 #include "ipm/cone.h"
+#include "ipm/lanes.h"
+#include "ipm/width.h"
 
-/* Where bounds are coupled: the direction of the bound f R of disc k, without the part that is
- * linear in n.du, and (bound_direction) all of it. */
-static inline double bound_load(const CpsiChainProgram *program, int k, double keep) {
-    const int i = program->disc.unilateral[k];
-    if (!program->bounds_coupled) return 0;
-    const CpsiUnilateral *unilateral = &program->unilateral;
-    return program->disc.friction[k] *
-           (unilateral->q[i] -
-            unilateral->z[i] / unilateral->s[i] * keep * cpsi_unilateral_residual(program, i));
-}
-
+/* The direction of the bound f R of disc k: before the solution, without the part that is linear
+ * in n.du, and after it all of it. */
 static inline double bound_direction(const CpsiChainProgram *program, int k) {
     const int i = program->disc.unilateral[k];
     return !program->bounds_coupled ? 0 : program->disc.friction[k] * program->unilateral.dz[i];
@@ -110,29 +103,77 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     }
 }
 
+/* What the passes read and write of eight discs. */
+typedef struct Lanes {
+    CpsiLane s[3], z[3], weight, w[3], g, q[3], ds[3], dz[3];
+    CpsiLane du[2], bound; /* B du; the direction of the bound */
+    CpsiLane stiffness, block[3],
+        across; /* M = stiffness x block (xx, xy, yy); c w1 = -across w1 */
+    CpsiLane force[2];
+} Lanes;
+
+static inline void load_pairs(const CpsiFrictionDisc *disc, int k, int count, Lanes *x) {
+    cpsi_lanes_load(3, x->s, disc->s[k], count);
+    cpsi_lanes_load(3, x->z, disc->z[k], count);
+}
+
+static inline void load_scaled(const CpsiChainProgram *program, int k, int count, Lanes *x) {
+    const CpsiFrictionDisc *disc = &program->disc;
+    cpsi_lanes_load(3, x->w, disc->w[k], count);
+    cpsi_lanes_load(3, x->q, disc->q[k], count);
+    CPSI_FOR_LANES(l) x->bound[l] = bound_direction(program, k + (l < count ? l : count - 1));
+}
+
+/* The three numbers of lane l. */
+#define THREE(x, l) \
+    { (x)[0][l], (x)[1][l], (x)[2][l] }
+
+CPSI_LANES_FUNCTION void scale_lanes(Lanes *restrict x) {
+    CPSI_FOR_LANES(l) {
+        const double s[3] = THREE(x->s, l), z[3] = THREE(x->z, l);
+        const CpsiSocScaling scaling = cpsi_soc_scaling(s, z, 3);
+        const double *w = scaling.w;
+        const double share = 1 / (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
+        x->stiffness[l] = x->weight[l] * scaling.g * share;
+        x->block[0][l] = 1 + 2 * w[2] * w[2];
+        x->block[1][l] = -2 * w[1] * w[2];
+        x->block[2][l] = 1 + 2 * w[1] * w[1];
+        x->across[l] = -2 * share * w[0];
+        for (int a = 0; a < 3; a++) x->w[a][l] = w[a];
+        x->g[l] = scaling.g;
+    }
+}
+
+/* Add disc k, in lane l, to the matrix. */
+static inline void add_to_matrix(CpsiChainProgram *program, int k, const Lanes *x, int l) {
+    const CpsiFrictionDisc *disc = &program->disc;
+    double *diagonal = &program->matrix.diagonal[6 * disc->node[k]];
+    const double m[3] = THREE(x->block, l);
+    if (disc->map)
+        cpsi_add_mapped(diagonal, x->stiffness[l], disc->map[k], m);
+    else
+        for (int a = 0; a < 3; a++) diagonal[a] += x->stiffness[l] * m[a];
+    if (!program->bounds_coupled) return;
+    const double *b = disc->map ? disc->map[k] : PLAIN;
+    double across[3];
+    for (int a = 0; a < 3; a++)
+        across[a] = x->across[l] * (b[a] * x->w[1][l] + b[3 + a] * x->w[2][l]);
+    cpsi_unilateral_couple_bound(program, disc->unilateral[k], x->weight[l], disc->friction[k],
+                                 across);
+}
+
 static void scale(CpsiProgram *base) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiFrictionDisc *disc = &program->disc;
-    for (int k = 0; k < disc->count; k++) {
-        const CpsiSocScaling scaling = cpsi_soc_scaling(disc->s[k], disc->z[k], 3);
-        const double *w = scaling.w, g = scaling.g, weight = disc->weight[k];
-        const double share = 1 / (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
-        const int node = disc->node[k], i = disc->unilateral[k];
-        double *diagonal = &program->matrix.diagonal[6 * node];
-        const double m[3] = {1 + 2 * w[2] * w[2], -2 * w[1] * w[2], 1 + 2 * w[1] * w[1]};
-        if (disc->map)
-            cpsi_add_mapped(diagonal, weight * g * share, disc->map[k], m);
-        else
-            for (int a = 0; a < 3; a++) diagonal[a] += weight * g * share * m[a];
-        if (program->bounds_coupled) {
-            const double *b = disc->map ? disc->map[k] : PLAIN;
-            double across[3];
-            for (int a = 0; a < 3; a++)
-                across[a] = -2 * share * w[0] * (b[a] * w[1] + b[3 + a] * w[2]);
-            cpsi_unilateral_couple_bound(program, i, weight, disc->friction[k], across);
-        }
-        for (int a = 0; a < 3; a++) disc->w[k][a] = w[a];
-        disc->g[k] = g;
+    Lanes x;
+    for (int k = 0; k < disc->count; k += CPSI_LANES) {
+        const int count = cpsi_lanes_count(disc->count - k);
+        load_pairs(disc, k, count, &x);
+        cpsi_lanes_load(1, &x.weight, &disc->weight[k], count);
+        scale_lanes(&x);
+        cpsi_lanes_store(3, disc->w[k], x.w, count);
+        cpsi_lanes_store(1, &disc->g[k], &x.g, count);
+        for (int l = 0; l < count; l++) add_to_matrix(program, k + l, &x, l);
     }
 }
 
@@ -142,50 +183,117 @@ static void predict(CpsiProgram *base) {
         for (int a = 0; a < 3; a++) disc->q[k][a] = -disc->z[k][a];
 }
 
-static void load(CpsiProgram *base, double keep) {
-    const CpsiChainProgram *program = cpsi_chain(base);
-    const CpsiFrictionDisc *disc = &program->disc;
-    for (int k = 0; k < disc->count; k++) {
-        const double *w = disc->w[k], *q = disc->q[k];
-        const double pull = 2 * w[0] * (q[0] - bound_load(program, k, keep)) /
-                            (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
-        const double force[2] = {q[1] + pull * w[1], q[2] + pull * w[2]};
-        add_to_node(disc, k, force, &base->du[3 * disc->node[k]]);
+/* Q, the force of the right-hand side. */
+CPSI_LANES_FUNCTION void load_lanes(Lanes *restrict x) {
+    CPSI_FOR_LANES(l) {
+        const double w[3] = THREE(x->w, l), q[3] = THREE(x->q, l);
+        const double pull = 2 * w[0] * (q[0] - x->bound[l]) / (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
+        for (int a = 0; a < 2; a++) x->force[a][l] = q[1 + a] + pull * w[1 + a];
     }
 }
 
-static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
-    CpsiChainProgram *program = cpsi_chain(base);
-    (void)keep; /* the direction of the unilateral element, already known, contains it */
-    CpsiFrictionDisc *disc = &program->disc;
-    for (int k = 0; k < disc->count; k++) {
-        const double *w = disc->w[k], *q = disc->q[k], *z = disc->z[k];
-        double du[2];
-        slide(disc, k, &base->du[3 * disc->node[k]], false, du);
-        const double g = disc->g[k], share = 1 / (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
-        double ds[3], dz[3];
-        dz[0] = bound_direction(program, k);
+static void load(CpsiProgram *base, double keep) {
+    const CpsiChainProgram *program = cpsi_chain(base);
+    const CpsiFrictionDisc *disc = &program->disc;
+    (void)keep; /* the direction of the unilateral element, computed before, contains it */
+    Lanes x;
+    for (int k = 0; k < disc->count; k += CPSI_LANES) {
+        const int count = cpsi_lanes_count(disc->count - k);
+        load_scaled(program, k, count, &x);
+        load_lanes(&x);
+        for (int l = 0; l < count; l++) {
+            const double force[2] = {x.force[0][l], x.force[1][l]};
+            add_to_node(disc, k + l, force, &base->du[3 * disc->node[k + l]]);
+        }
+    }
+}
+
+/* The directions ds, dz or, of a predictor, its second-order term in q; `inverse` becomes the
+ * largest 1/alpha. */
+CPSI_LANES_PART void direct_lanes(Lanes *restrict x, const bool predictor,
+                                  double *restrict inverse) {
+    CPSI_FOR_LANES(l) {
+        const double w[3] = THREE(x->w, l), z[3] = THREE(x->z, l), g = x->g[l];
+        const double du[2] = {x->du[0][l], x->du[1][l]}, bound = x->bound[l];
+        double q[3] = THREE(x->q, l), ds[3], dz[3];
+        const double share = 1 / (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
         const double wu = w[1] * du[0] + w[2] * du[1],
-                     pull = 2 * share * (w[0] * (q[0] - dz[0]) + g * wu);
-        ds[0] = share * ((q[0] - dz[0]) / g + 2 * w[0] * wu);
+                     pull = 2 * share * (w[0] * (q[0] - bound) + g * wu);
+        dz[0] = bound;
+        ds[0] = share * ((q[0] - bound) / g + 2 * w[0] * wu);
         for (int a = 0; a < 2; a++) {
             ds[1 + a] = du[a];
             dz[1 + a] = q[1 + a] - g * du[a] + pull * w[1 + a];
         }
-        if (!predictor)
-            for (int a = 0; a < 3; a++) {
-                disc->ds[k][a] = ds[a];
-                disc->dz[k][a] = dz[a];
-            }
-        const double step = cpsi_soc_step(disc->q[k], predictor, w, g, z, ds, dz, 3);
-        sums->inverse_step = cpsi_max_nan(sums->inverse_step, step);
+        const double step = cpsi_soc_step(q, predictor, w, g, z, ds, dz, 3);
+        inverse[l] = cpsi_max_nan(inverse[l], step);
+        for (int a = 0; a < 3; a++) {
+            if (predictor) x->q[a][l] = q[a];
+            if (!predictor) x->ds[a][l] = ds[a];
+            if (!predictor) x->dz[a][l] = dz[a];
+        }
+    }
+}
+
+CPSI_LANES_FUNCTION void predictor_lanes(Lanes *restrict x, double *restrict inverse) {
+    direct_lanes(x, true, inverse);
+}
+
+CPSI_LANES_FUNCTION void direction_lanes(Lanes *restrict x, double *restrict inverse) {
+    direct_lanes(x, false, inverse);
+}
+
+static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    (void)keep; /* as in load */
+    CpsiFrictionDisc *disc = &program->disc;
+    CpsiLane inverse = {0};
+    Lanes x;
+    for (int k = 0; k < disc->count; k += CPSI_LANES) {
+        const int count = cpsi_lanes_count(disc->count - k);
+        load_scaled(program, k, count, &x);
+        cpsi_lanes_load(3, x.z, disc->z[k], count);
+        cpsi_lanes_load(1, &x.g, &disc->g[k], count);
+        CPSI_FOR_LANES(l) {
+            const int at = k + (l < count ? l : count - 1);
+            double du[2];
+            slide(disc, at, &base->du[3 * disc->node[at]], false, du);
+            for (int a = 0; a < 2; a++) x.du[a][l] = du[a];
+        }
+        if (predictor) {
+            predictor_lanes(&x, inverse);
+            cpsi_lanes_store(3, disc->q[k], x.q, count);
+        } else {
+            direction_lanes(&x, inverse);
+            cpsi_lanes_store(3, disc->ds[k], x.ds, count);
+            cpsi_lanes_store(3, disc->dz[k], x.dz, count);
+        }
+    }
+    sums->inverse_step = cpsi_lanes_largest(sums->inverse_step, inverse);
+}
+
+CPSI_LANES_FUNCTION void aim_lanes(Lanes *restrict x, double target) {
+    CPSI_FOR_LANES(l) {
+        const double s[3] = THREE(x->s, l), z[3] = THREE(x->z, l);
+        double q[3] = THREE(x->q, l);
+        cpsi_soc_correct(q, s, z, target, 3);
+        for (int a = 0; a < 3; a++) x->q[a][l] = q[a];
     }
 }
 
 static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
-    for (int k = 0; k < disc->count; k++)
-        cpsi_soc_correct(disc->q[k], disc->s[k], disc->z[k], target, second_order, 3);
+    Lanes x;
+    for (int k = 0; k < disc->count; k += CPSI_LANES) {
+        const int count = cpsi_lanes_count(disc->count - k);
+        load_pairs(disc, k, count, &x);
+        if (second_order)
+            cpsi_lanes_load(3, x.q, disc->q[k], count);
+        else
+            memset(x.q, 0, sizeof x.q);
+        aim_lanes(&x, target);
+        cpsi_lanes_store(3, disc->q[k], x.q, count);
+    }
 }
 
 static void advance(CpsiProgram *base, double alpha) {
@@ -194,4 +302,5 @@ static void advance(CpsiProgram *base, double alpha) {
                       disc->dz[0]);
 }
 
-const CpsiKind cpsi_friction_disc = {start, measure, scale, predict, load, direct, aim, advance};
+const CpsiKind CPSI_WIDE(cpsi_friction_disc) = {start, measure, scale, predict,
+                                                load,  direct,  aim,   advance};

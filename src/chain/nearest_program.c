@@ -42,10 +42,14 @@ static const CpsiKind spring = {.measure = measure, .scale = scale};
 void cpsi_nearest_program_layout(CpsiNearestProgram *program, CpsiArena *arena, int n, int halves,
                                  const CpsiLinsysOps *ops) {
     /* the spring comes last: it clears the residuals of axes that are not free */
-    static const CpsiKind *const kinds[] = {&cpsi_segment, &cpsi_unilateral, &spring};
+    const CpsiKind *const *kinds = cpsi_chain_kinds();
+    program->kind[0] = kinds[CPSI_KIND_SEGMENT];
+    program->kind[1] = kinds[CPSI_KIND_UNILATERAL];
+    program->kind[2] = &spring;
     CpsiChainProgram *chain = &program->chain;
     *chain =
-        (CpsiChainProgram){.base = {.kind = kinds, .kind_count = sizeof kinds / sizeof *kinds}};
+        (CpsiChainProgram){.base = {.kind = program->kind,
+                                    .kind_count = sizeof program->kind / sizeof *program->kind}};
     CPSI_PLACE(arena, program->weight, n);
     CPSI_PLACE(arena, program->freedom, n);
     CPSI_PLACE(arena, chain->node_frames.frame, 9 * (size_t)n);

@@ -21,9 +21,10 @@ typedef struct CpsiNearestProgram {
     /* first member, so that its kinds can cast to it; its unilateral contacts are the half-spaces
      */
     CpsiChainProgram chain;
-    double *weight; /* (n) h_j */
-    int *freedom;   /* (n) free axes of the node, 1..3 */
-    double size;    /* V */
+    double *weight;          /* (n) h_j */
+    int *freedom;            /* (n) free axes of the node, 1..3 */
+    double size;             /* V */
+    const CpsiKind *kind[3]; /* of its elements */
 } CpsiNearestProgram;
 
 /* Place a program for at most n nodes and `halves` half-spaces in the arena. */

@@ -17,10 +17,13 @@
  * 1/(k - g), from which dT is recovered without cancellation: 2 g w0 w1.de/D = w0 t/(|w1| (1 - c
  * g)). On the central path c g = c T/(1 + c T) < 1; off it, where strains are of order one, c g may
  * exceed 1 and a become negative, which the linear system allows. */
-#include "base/larger.h"
+#include <string.h>
+
 #include "chain/elements.h"
 #include "chain/frame.h"
 #include "ipm/cone.h"
+#include "ipm/lanes.h"
+#include "ipm/width.h"
 
 /* 1 - c g is kept this far from 0, so that a stays finite: the step is inexact by as much. */
 static const double LEAST_STIFFENING = 1e-13;
@@ -104,21 +107,69 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     }
 }
 
+/* What the passes read and write of eight segments. */
+typedef struct Lanes {
+    CpsiLane s[4], z[4], length, c, w[4], g, inverse_w, q[4], ds[4], dz[4];
+    CpsiLane t, difference[3];                    /* dt; du_i - du_i-1 in the common axes */
+    CpsiLane stiffness, compliance, direction[3]; /* of the matrix */
+    CpsiLane force[3];
+} Lanes;
+
+static inline void load_pairs(const CpsiSegment *st, int i, int count, Lanes *x) {
+    cpsi_lanes_load(4, x->s, st->s[i], count);
+    cpsi_lanes_load(4, x->z, st->z[i], count);
+}
+
+static inline void load_elements(const CpsiSegment *st, int i, int count, Lanes *x) {
+    cpsi_lanes_load(1, &x->length, &st->length[i], count);
+    CPSI_FOR_LANES(l) x->c[l] = cpsi_segment_compliance(st, i + (l < count ? l : count - 1));
+}
+
+static inline void load_scaled(const CpsiSegment *st, int i, int count, Lanes *x) {
+    load_pairs(st, i, count, x);
+    load_elements(st, i, count, x);
+    cpsi_lanes_load(4, x->w, st->w[i], count);
+    cpsi_lanes_load(1, &x->g, &st->g[i], count);
+    cpsi_lanes_load(1, &x->inverse_w, &st->inverse_w[i], count);
+    cpsi_lanes_load(4, x->q, st->q[i], count);
+}
+
+/* The four numbers of lane l. */
+#define FOUR(x, l) \
+    { (x)[0][l], (x)[1][l], (x)[2][l], (x)[3][l] }
+
+CPSI_LANES_FUNCTION void scale_lanes(Lanes *restrict x) {
+    CPSI_FOR_LANES(l) {
+        const double s[4] = FOUR(x->s, l), z[4] = FOUR(x->z, l), length = x->length[l], c = x->c[l];
+        const CpsiSocScaling scaling = cpsi_soc_scaling(s, z, 4);
+        const double g = scaling.g;
+        const Segment seg = segment(scaling.w, g, c, length);
+        const double in = 1 / sqrt(seg.omega);
+        for (int a = 0; a < 4; a++) x->w[a][l] = scaling.w[a];
+        x->g[l] = g;
+        x->inverse_w[l] = in;
+        x->stiffness[l] = g * seg.inverse_length;
+        x->compliance[l] = length * seg.d / (2 * seg.omega * g * seg.stiffening);
+        for (int a = 0; a < 3; a++) x->direction[a][l] = in * scaling.w[1 + a];
+    }
+}
+
 static void scale(CpsiProgram *base) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiSegment *st = &program->segment;
     CpsiMatrix *matrix = &program->matrix;
-    for (int i = 1; i < program->n; i++) {
-        const CpsiSocScaling scaling = cpsi_soc_scaling(st->s[i], st->z[i], 4);
-        const double g = scaling.g, l = st->length[i];
-        const Segment seg = segment(scaling.w, g, cpsi_segment_compliance(st, i), l);
-        const double in = 1 / sqrt(seg.omega);
-        for (int a = 0; a < 4; a++) st->w[i][a] = scaling.w[a];
-        st->g[i] = g;
-        st->inverse_w[i] = in;
-        matrix->stiffness[i] = g * seg.inverse_length;
-        matrix->compliance[i] = l * seg.d / (2 * seg.omega * g * seg.stiffening);
-        for (int a = 0; a < 3; a++) matrix->direction[3 * i + a] = in * scaling.w[1 + a];
+    Lanes x;
+    for (int i = 1; i < program->n; i += CPSI_LANES) {
+        const int count = cpsi_lanes_count(program->n - i);
+        load_pairs(st, i, count, &x);
+        load_elements(st, i, count, &x);
+        scale_lanes(&x);
+        cpsi_lanes_store(4, st->w[i], x.w, count);
+        cpsi_lanes_store(1, &st->g[i], &x.g, count);
+        cpsi_lanes_store(1, &st->inverse_w[i], &x.inverse_w, count);
+        cpsi_lanes_store(1, &matrix->stiffness[i], &x.stiffness, count);
+        cpsi_lanes_store(1, &matrix->compliance[i], &x.compliance, count);
+        cpsi_lanes_store(3, &matrix->direction[3 * i], x.direction, count);
     }
 }
 
@@ -129,62 +180,139 @@ static void predict(CpsiProgram *base) {
         for (int a = 0; a < 4; a++) st->q[i][a] = -st->z[i][a];
 }
 
+/* Q, the force of the right-hand side. */
+CPSI_LANES_FUNCTION void load_lanes(Lanes *restrict x, double keep) {
+    CPSI_FOR_LANES(l) {
+        const double w[4] = FOUR(x->w, l), g = x->g[l], c = x->c[l];
+        const Segment seg = segment(w, g, c, x->length[l]);
+        const double rho = keep * (1 + c * x->z[0][l] - x->s[0][l]);
+        const double k = 2 * g * w[0] * (rho + c * x->q[0][l]) * seg.inverse_d;
+        for (int a = 0; a < 3; a++) x->force[a][l] = x->q[1 + a][l] + k * w[1 + a];
+    }
+}
+
 static void load(CpsiProgram *base, double keep) {
     CpsiChainProgram *program = cpsi_chain(base);
     const CpsiSegment *st = &program->segment;
-    double *f = base->du;
-    for (int i = 1; i < program->n; i++) {
-        const double *w = st->w[i], *q = st->q[i], g = st->g[i], c = cpsi_segment_compliance(st, i);
-        const Segment seg = segment(w, g, c, st->length[i]);
-        const double rho = keep * (1 + c * st->z[i][0] - st->s[i][0]);
-        const double k = 2 * g * w[0] * (rho + c * q[0]) * seg.inverse_d;
-        double force[3];
-        for (int a = 0; a < 3; a++) force[a] = q[1 + a] + k * w[1 + a];
-        add_force(program, f, i - 1, -1, force);
-        add_force(program, f, i, 1, force);
+    Lanes x;
+    for (int i = 1; i < program->n; i += CPSI_LANES) {
+        const int count = cpsi_lanes_count(program->n - i);
+        load_scaled(st, i, count, &x);
+        load_lanes(&x, keep);
+        for (int l = 0; l < count; l++) {
+            const double force[3] = {x.force[0][l], x.force[1][l], x.force[2][l]};
+            add_force(program, base->du, i + l - 1, -1, force);
+            add_force(program, base->du, i + l, 1, force);
+        }
     }
+}
+
+/* du_i - du_i-1 of `count` segments from i on. */
+static inline void load_difference(const CpsiChainProgram *program, int i, int count, Lanes *x) {
+    const double *du = program->base.du;
+    CpsiLane far[3], near[3];
+    if (!program->frame) {
+        cpsi_lanes_load(3, far, &du[3 * i], count);
+        cpsi_lanes_load(3, near, &du[3 * (i - 1)], count);
+    } else {
+        CPSI_FOR_LANES(l) {
+            const int j = i + (l < count ? l : count - 1);
+            double one[3], two[3];
+            const double *to = common(program, du, j, one), *from = common(program, du, j - 1, two);
+            for (int a = 0; a < 3; a++) {
+                far[a][l] = to[a];
+                near[a][l] = from[a];
+            }
+        }
+    }
+    for (int a = 0; a < 3; a++) CPSI_FOR_LANES(l) x->difference[a][l] = far[a][l] - near[a][l];
+}
+
+/* The directions ds, dz or, of a predictor, its second-order term in q; `inverse` becomes the
+ * largest 1/alpha. */
+CPSI_LANES_PART void direct_lanes(Lanes *restrict x, double keep, const bool predictor,
+                                  double *restrict inverse) {
+    CPSI_FOR_LANES(l) {
+        const double w[4] = FOUR(x->w, l), z[4] = FOUR(x->z, l), g = x->g[l], in = x->inverse_w[l];
+        double q[4] = FOUR(x->q, l), ds[4], dz[4];
+        const double c = x->c[l];
+        const Segment seg = segment(w, g, c, x->length[l]);
+        const double rho = keep * (1 + c * z[0] - x->s[0][l]), t = x->t[l];
+        const double k = 2 * g * w[0] * (rho + c * q[0]) * seg.inverse_d;
+        double along = 0; /* w1.de */
+        for (int a = 0; a < 3; a++) {
+            const double de = x->difference[a][l] * seg.inverse_length;
+            ds[1 + a] = de;
+            dz[1 + a] = q[1 + a] + k * w[1 + a] - g * de - in * w[1 + a] * t;
+            along += w[1 + a] * de;
+        }
+        const double stiff = in * t * seg.inverse_stiffening, soft = 2 * g * along * seg.inverse_d,
+                     pull = seg.stiffening > STIFF ? stiff : soft;
+        dz[0] = (q[0] - g * (1 + 2 * seg.omega) * rho) * seg.inverse_d + w[0] * pull;
+        ds[0] = c * dz[0] + rho;
+        const double step = cpsi_soc_step(q, predictor, w, g, z, ds, dz, 4);
+        inverse[l] = cpsi_max_nan(inverse[l], step);
+        for (int a = 0; a < 4; a++) {
+            if (predictor) x->q[a][l] = q[a];
+            if (!predictor) x->ds[a][l] = ds[a];
+            if (!predictor) x->dz[a][l] = dz[a];
+        }
+    }
+}
+
+CPSI_LANES_FUNCTION void predictor_lanes(Lanes *restrict x, double keep, double *restrict inverse) {
+    direct_lanes(x, keep, true, inverse);
+}
+
+CPSI_LANES_FUNCTION void direction_lanes(Lanes *restrict x, double keep, double *restrict inverse) {
+    direct_lanes(x, keep, false, inverse);
 }
 
 static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiSegment *st = &program->segment;
-    const double *du = base->du;
-    for (int i = 1; i < program->n; i++) {
-        const double *w = st->w[i], *q = st->q[i], *s = st->s[i], *z = st->z[i];
-        const double g = st->g[i], c = cpsi_segment_compliance(st, i), l = st->length[i],
-                     t = program->dt[i];
-        double ds[4], dz[4];
-        const Segment seg = segment(w, g, c, l);
-        const double rho = keep * (1 + c * z[0] - s[0]);
-        const double k = 2 * g * w[0] * (rho + c * q[0]) * seg.inverse_d, in = st->inverse_w[i];
-        /* elongation and force */
-        double along = 0, far[3], near[3]; /* w1.de */
-        const double *du1 = common(program, du, i, far), *du0 = common(program, du, i - 1, near);
-        for (int a = 0; a < 3; a++) {
-            const double de = (du1[a] - du0[a]) * seg.inverse_length;
-            ds[1 + a] = de;
-            dz[1 + a] = q[1 + a] + k * w[1 + a] - g * de - in * w[1 + a] * t;
-            along += w[1 + a] * de;
+    CpsiLane inverse = {0};
+    Lanes x;
+    for (int i = 1; i < program->n; i += CPSI_LANES) {
+        const int count = cpsi_lanes_count(program->n - i);
+        load_scaled(st, i, count, &x);
+        cpsi_lanes_load(1, &x.t, &program->dt[i], count);
+        load_difference(program, i, count, &x);
+        if (predictor) {
+            predictor_lanes(&x, keep, inverse);
+            cpsi_lanes_store(4, st->q[i], x.q, count);
+        } else {
+            direction_lanes(&x, keep, inverse);
+            cpsi_lanes_store(4, st->ds[i], x.ds, count);
+            cpsi_lanes_store(4, st->dz[i], x.dz, count);
         }
-        const double pull = seg.stiffening > STIFF ? in * t * seg.inverse_stiffening
-                                                   : 2 * g * along * seg.inverse_d;
-        dz[0] = (q[0] - g * (1 + 2 * seg.omega) * rho) * seg.inverse_d + w[0] * pull;
-        ds[0] = c * dz[0] + rho;
-        if (!predictor)
-            for (int a = 0; a < 4; a++) {
-                st->ds[i][a] = ds[a];
-                st->dz[i][a] = dz[a];
-            }
-        const double step = cpsi_soc_step(st->q[i], predictor, w, g, z, ds, dz, 4);
-        sums->inverse_step = cpsi_max_nan(sums->inverse_step, step);
+    }
+    sums->inverse_step = cpsi_lanes_largest(sums->inverse_step, inverse);
+}
+
+CPSI_LANES_FUNCTION void aim_lanes(Lanes *restrict x, double target) {
+    CPSI_FOR_LANES(l) {
+        const double s[4] = FOUR(x->s, l), z[4] = FOUR(x->z, l);
+        double q[4] = FOUR(x->q, l);
+        cpsi_soc_correct(q, s, z, target, 4);
+        for (int a = 0; a < 4; a++) x->q[a][l] = q[a];
     }
 }
 
 static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiSegment *st = &program->segment;
-    for (int i = 1; i < program->n; i++)
-        cpsi_soc_correct(st->q[i], st->s[i], st->z[i], target, second_order, 4);
+    Lanes x;
+    for (int i = 1; i < program->n; i += CPSI_LANES) {
+        const int count = cpsi_lanes_count(program->n - i);
+        load_pairs(st, i, count, &x);
+        if (second_order)
+            cpsi_lanes_load(4, x.q, st->q[i], count);
+        else
+            memset(x.q, 0, sizeof x.q);
+        aim_lanes(&x, target);
+        cpsi_lanes_store(4, st->q[i], x.q, count);
+    }
 }
 
 static void advance(CpsiProgram *base, double alpha) {
@@ -194,4 +322,5 @@ static void advance(CpsiProgram *base, double alpha) {
                       st->dz[1]);
 }
 
-const CpsiKind cpsi_segment = {start, measure, scale, predict, load, direct, aim, advance};
+const CpsiKind CPSI_WIDE(cpsi_segment) = {start, measure, scale, predict,
+                                          load,  direct,  aim,   advance};

@@ -8,10 +8,13 @@
  * (z/s) n n^T: for a first contact in its entry zz, for a second contact as a second direction
  * (chain_system.h), or in all its entries where the matrix has no second directions. */
 #include <math.h>
+#include <string.h>
 
 #include "base/larger.h"
 #include "chain/elements.h"
 #include "ipm/cone.h"
+#include "ipm/lanes.h"
+#include "ipm/width.h"
 
 static void start(CpsiProgram *base, double mu, double margin) {
     CpsiChainProgram *program = cpsi_chain(base);
@@ -87,48 +90,104 @@ static void predict(CpsiProgram *base) {
     for (int k = 0; k < unilateral->count; k++) unilateral->q[k] = -unilateral->z[k];
 }
 
+/* What the passes read and write of eight contacts. */
+typedef struct Lanes {
+    CpsiLane s, z, q, ds, dz, weight;
+    CpsiLane rho, rise;      /* the share of the residual that is to be removed; n.du */
+    CpsiLane second, change; /* 1 for a second contact, else 0; w (z/s) n.du */
+} Lanes;
+
+static inline void load_pairs(const CpsiChainProgram *program, int k, int count, double keep,
+                              Lanes *x) {
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    cpsi_lanes_load(1, &x->s, &unilateral->s[k], count);
+    cpsi_lanes_load(1, &x->z, &unilateral->z[k], count);
+    cpsi_lanes_load(1, &x->q, &unilateral->q[k], count);
+    CPSI_FOR_LANES(l)
+    x->rho[l] = keep * cpsi_unilateral_residual(program, k + (l < count ? l : count - 1));
+}
+
+CPSI_LANES_FUNCTION void load_lanes(Lanes *restrict x, double keep) {
+    CPSI_FOR_LANES(l) x->dz[l] = x->q[l] - x->z[l] / x->s[l] * keep * x->rho[l];
+}
+
+/* dz becomes the direction without the part that is linear in n.du, which friction needs as
+ * well. */
 static void load(CpsiProgram *base, double keep) {
     CpsiChainProgram *program = cpsi_chain(base);
     const CpsiUnilateral *unilateral = &program->unilateral;
-    for (int k = 0; k < unilateral->count; k++)
-        add_to_node(unilateral, k,
-                    unilateral->weight[k] *
-                        (unilateral->q[k] - unilateral->z[k] / unilateral->s[k] * keep *
-                                                cpsi_unilateral_residual(program, k)),
-                    base->du);
+    Lanes x;
+    for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
+        const int count = cpsi_lanes_count(unilateral->count - k);
+        load_pairs(program, k, count, 1, &x);
+        load_lanes(&x, keep);
+        cpsi_lanes_store(1, &unilateral->dz[k], &x.dz, count);
+        for (int l = 0; l < count; l++)
+            add_to_node(unilateral, k + l, unilateral->weight[k + l] * x.dz[l], base->du);
+    }
+}
+
+/* The direction of R, and of s, where the linear system gives n.du; and where it gives w (z/s)
+ * n.du, as n is oblique to the axes of du and n.du has too few digits. */
+CPSI_LANES_FUNCTION void direct_lanes(Lanes *restrict x, double *restrict inverse) {
+    CPSI_FOR_LANES(l) {
+        const double s = x->s[l], z = x->z[l], q = x->q[l], stiffness = z / s;
+        const double ds = x->rise[l] + x->rho[l], dz = q - stiffness * ds;
+        const double other_dz = q - x->change[l] / x->weight[l] - stiffness * x->rho[l],
+                     other_ds = (q - other_dz) * (s / z);
+        const double other = z > s ? x->second[l] : 0;
+        x->ds[l] = other > 0 ? other_ds : ds;
+        x->dz[l] = other > 0 ? other_dz : dz;
+        x->q[l] = x->ds[l] * x->dz[l] / s; /* the second-order term of a predictor */
+        const double step_s = -x->ds[l] / s, step_z = -x->dz[l] / z;
+        inverse[l] = cpsi_max_nan(inverse[l], cpsi_max_nan(step_s, step_z));
+    }
 }
 
 static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiUnilateral *unilateral = &program->unilateral;
-    for (int k = 0; k < unilateral->count; k++) {
-        const double s = unilateral->s[k], z = unilateral->z[k];
-        const double rho = keep * cpsi_unilateral_residual(program, k);
-        double ds = cpsi_unilateral_rise(unilateral, k, base->du) + rho,
-               dz = unilateral->q[k] - z / s * ds;
-        /* n is oblique to the axes of du: n.du has too few digits */
-        if (program->matrix.second && unilateral->second[k] && z > s) {
-            dz = unilateral->q[k] -
-                 program->node_frames.second_reaction_change[unilateral->node[k]] /
-                     unilateral->weight[k] -
-                 z / s * rho;
-            ds = (unilateral->q[k] - dz) * (s / z);
+    CpsiLane inverse = {0};
+    Lanes x = {.second = {0}};
+    for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
+        const int count = cpsi_lanes_count(unilateral->count - k);
+        load_pairs(program, k, count, keep, &x);
+        cpsi_lanes_load(1, &x.weight, &unilateral->weight[k], count);
+        CPSI_FOR_LANES(l) {
+            const int at = k + (l < count ? l : count - 1);
+            x.rise[l] = cpsi_unilateral_rise(unilateral, at, base->du);
+            const bool second = program->matrix.second && unilateral->second[at];
+            x.second[l] = second;
+            if (second)
+                x.change[l] = program->node_frames.second_reaction_change[unilateral->node[at]];
         }
-        const double step_s = -ds / s, step_z = -dz / z, step = cpsi_max_nan(step_s, step_z);
-        unilateral->ds[k] = ds;
-        unilateral->dz[k] = dz;
-        if (predictor) unilateral->q[k] = ds * dz / s;
-        sums->inverse_step = cpsi_max_nan(sums->inverse_step, step);
+        direct_lanes(&x, inverse);
+        cpsi_lanes_store(1, &unilateral->ds[k], &x.ds, count);
+        cpsi_lanes_store(1, &unilateral->dz[k], &x.dz, count);
+        if (predictor) cpsi_lanes_store(1, &unilateral->q[k], &x.q, count);
     }
+    sums->inverse_step = cpsi_lanes_largest(sums->inverse_step, inverse);
+}
+
+CPSI_LANES_FUNCTION void aim_lanes(Lanes *restrict x, double target) {
+    CPSI_FOR_LANES(l) x->q[l] = -x->z[l] + target / x->s[l] - x->q[l];
 }
 
 /* q with s o z -> target e, less the second-order term that stands in q, or without it. */
 static void aim(CpsiProgram *base, double target, bool second_order) {
-    CpsiChainProgram *program = cpsi_chain(base);
-    CpsiUnilateral *unilateral = &program->unilateral;
-    for (int k = 0; k < unilateral->count; k++)
-        unilateral->q[k] =
-            -unilateral->z[k] + target / unilateral->s[k] - (second_order ? unilateral->q[k] : 0);
+    CpsiUnilateral *unilateral = &cpsi_chain(base)->unilateral;
+    Lanes x;
+    for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
+        const int count = cpsi_lanes_count(unilateral->count - k);
+        cpsi_lanes_load(1, &x.s, &unilateral->s[k], count);
+        cpsi_lanes_load(1, &x.z, &unilateral->z[k], count);
+        if (second_order)
+            cpsi_lanes_load(1, &x.q, &unilateral->q[k], count);
+        else
+            memset(x.q, 0, sizeof x.q);
+        aim_lanes(&x, target);
+        cpsi_lanes_store(1, &unilateral->q[k], &x.q, count);
+    }
 }
 
 static void advance(CpsiProgram *base, double alpha) {
@@ -138,4 +197,5 @@ static void advance(CpsiProgram *base, double alpha) {
                       unilateral->z, unilateral->dz);
 }
 
-const CpsiKind cpsi_unilateral = {start, measure, scale, predict, load, direct, aim, advance};
+const CpsiKind CPSI_WIDE(cpsi_unilateral) = {start, measure, scale, predict,
+                                             load,  direct,  aim,   advance};

@@ -120,10 +120,12 @@ static inline double cpsi_soc_inverse_step(const double *x, const double *d, con
         b -= x[i] * d[i];
     }
     const double c = cpsi_soc_det(x, n), disc = b * b - a * c;
-    const double inverse = (sqrt(disc < 0 ? 0 : disc) - b) * (1 / c);
-    /* written so that NaN gives NaN */
-    if (disc <= 0 && b >= 0) return 0;
-    return inverse <= 0 ? 0 : inverse;
+    /* disc, but at least 0, without a choice: compilers branch around a root of 0 */
+    const double positive = 0.5 * (disc + fabs(disc));
+    const double inverse = (sqrt(positive) - b) * (1 / c);
+    /* written so that NaN gives NaN, and with one comparison per choice (lanes.h) */
+    const double least = inverse <= 0 ? 0 : inverse, away = b >= 0 ? 0 : least;
+    return disc <= 0 ? away : least;
 }
 
 /* out = W^-1 (x \ (ds o dz)), the second-order term of a predictor: x = W z, ds = g W^-1 (direction
@@ -152,13 +154,12 @@ static inline double cpsi_soc_step(double *q, bool predictor, const double *w, d
     return cpsi_max_nan(step_s, step_z);
 }
 
-/* q with s o z -> target e, less the second-order term that q contains, or without it. */
+/* q with s o z -> target e, less the second-order term that q contains, or 0. */
 static inline void cpsi_soc_correct(double *q, const double *s, const double *z, double target,
-                                    bool second_order, const int n) {
-    const double inverse = cpsi_soc_aim(target, s, z) / cpsi_soc_det(s, n),
-                 keep = second_order ? 1 : 0;
-    q[0] = -z[0] + inverse * s[0] - keep * q[0];
-    for (int a = 1; a < n; a++) q[a] = -z[a] - inverse * s[a] - keep * q[a];
+                                    const int n) {
+    const double inverse = cpsi_soc_aim(target, s, z) / cpsi_soc_det(s, n);
+    q[0] = -z[0] + inverse * s[0] - q[0];
+    for (int a = 1; a < n; a++) q[a] = -z[a] - inverse * s[a] - q[a];
 }
 
 #endif

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The kinds of element of a chain, for each width of the processor's registers (ipm/width.h). */
+#include "chain/elements.h"
+#include "ipm/width.h"
+
+#define KINDS(width)                                                                \
+    {                                                                               \
+        [CPSI_KIND_SEGMENT] = &cpsi_segment_##width, [CPSI_KIND_DRAG] = &cpsi_drag, \
+        [CPSI_KIND_UNILATERAL] = &cpsi_unilateral_##width,                          \
+        [CPSI_KIND_FRICTION_DISC] = &cpsi_friction_disc_##width,                    \
+        [CPSI_KIND_FRICTION_CONIC] = &cpsi_friction_conic                           \
+    }
+
+const CpsiKind *const *cpsi_chain_kinds(void) {
+#ifdef CPSI_HAS_WIDTHS
+    static const CpsiKind *const kinds[CPSI_WIDTHS][CPSI_CHAIN_KINDS] = {
+        [CPSI_WIDTH_128] = KINDS(128),
+        [CPSI_WIDTH_256] = KINDS(256),
+        [CPSI_WIDTH_512] = KINDS(512)};
+    return kinds[cpsi_width()];
+#else
+    static const CpsiKind *const kinds[CPSI_CHAIN_KINDS] = KINDS(128);
+    return kinds;
+#endif
+}

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Each step of a random scene has the same bits at every width of registers that the processor has
+ * (ipm/width.h).
+ *     usage: random_widths [--scenes N] [--seed S]
+ *
+ * Random scenes of all classes (random_scene.h); the number of elements varies, so that the last
+ * lanes are filled to any number. With one width alone there is nothing to compare: exit status
+ * 77. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ipm/width.h"
+#include "random_scene.h"
+#include "splitmix.h"
+
+static const char *const BITS[CPSI_WIDTHS] = {"128", "256", "512"};
+
+static void use_width(CpsiWidth width) {
+    setenv("CAPSTAN_WIDTH", BITS[width], 1);
+    if (cpsi_width() == width) return;
+    fprintf(stderr, "CAPSTAN_WIDTH=%s is not heard\n", BITS[width]);
+    exit(1);
+}
+
+static CpsEvolution *make(const CpsScene *scene, CpsiWidth width) {
+    CpsScene copy = *scene;
+    CpsEvolution *evolution = NULL;
+    CpsError err;
+    copy.solver.max_halvings = 1; /* what is not certified is compared as well, and soon */
+    use_width(width);
+    if (cps_evolution_create(&copy, &evolution, &err) == CPS_OK) return evolution;
+    fprintf(stderr, "%s\n", err.message);
+    exit(1);
+}
+
+static bool same(const double *a, const double *b, int count) {
+    return memcmp(a, b, (size_t)count * sizeof *a) == 0;
+}
+
+static bool same_line(const CpsEvolution *one, const CpsEvolution *other, int line) {
+    const CpsLineView a = cps_evolution_line_view(one, line),
+                      b = cps_evolution_line_view(other, line);
+    const int elements = a.element_count, nodes = elements + 1, contacts = a.contact_count * nodes;
+    const CpsStepReport report = cps_evolution_report(one),
+                        other_report = cps_evolution_report(other);
+    return report.iteration_count == other_report.iteration_count &&
+           same(&report.certificate.gap, &other_report.certificate.gap, 1) &&
+           same(a.position, b.position, 3 * nodes) && same(a.tension, b.tension, elements) &&
+           same(a.segment_force, b.segment_force, 3 * elements) &&
+           same(a.reaction, b.reaction, contacts) &&
+           same(a.friction_force, b.friction_force, 3 * contacts);
+}
+
+static bool same_lines(const CpsEvolution *one, const CpsEvolution *other, int count) {
+    bool all = true;
+    for (int i = 0; i < count; i++) all = all && same_line(one, other, i);
+    return all;
+}
+
+/* The number of steps, all of which must be the same. */
+static int compare(const CpsScene *scene, int widths, const char *class_name, uint64_t seed,
+                   int *failures) {
+    CpsEvolution *evolution[CPSI_WIDTHS];
+    for (int k = 0; k < widths; k++) evolution[k] = make(scene, (CpsiWidth)k);
+    const int before = *failures;
+    int steps = 0;
+    while (cps_evolution_remaining_count(evolution[0]) > 0 && *failures == before) {
+        CpsStatus status[CPSI_WIDTHS] = {CPS_OK};
+        for (int k = 0; k < widths; k++) status[k] = cps_evolution_step(evolution[k], NULL);
+        for (int k = 1; k < widths; k++)
+            if (status[k] != status[0] ||
+                !same_lines(evolution[0], evolution[k], scene->line_count)) {
+                ++*failures;
+                fprintf(stderr, "class %s, seed %llu: other bits at %s\n", class_name,
+                        (unsigned long long)seed, BITS[k]);
+            }
+        if (status[0] != CPS_OK) break; /* a grab through an obstacle */
+        steps++;
+    }
+    for (int k = 0; k < widths; k++) cps_evolution_destroy(evolution[k]);
+    return steps;
+}
+
+int main(int argc, char **argv) {
+    static RandomScene random;
+    int scenes = 200, valid = 0, steps = 0, failures = 0;
+    uint64_t seed = 1;
+    for (int i = 1; i + 1 < argc; i += 2) {
+        if (!strcmp(argv[i], "--scenes")) scenes = atoi(argv[i + 1]);
+        if (!strcmp(argv[i], "--seed")) seed = strtoull(argv[i + 1], NULL, 10);
+    }
+    unsetenv("CAPSTAN_WIDTH");
+    const int widths = (int)cpsi_width() + 1;
+    if (widths == 1) {
+        printf("this processor, or this build, has one width alone\n");
+        return 77;
+    }
+    for (int k = 0; k < scenes; k++) {
+        const int class_index = k % SCENE_CLASSES;
+        uint64_t state = seed + (uint64_t)k;
+        random_scene_make(class_index, seed + (uint64_t)k, &random);
+        if (!random.line[0].element_length)
+            random.line[0].element_count = 8 + (int)splitmix(&state, 0, 24);
+        if (cps_scene_check(&random.scene, NULL) != CPS_OK) continue;
+        valid++;
+        steps += compare(&random.scene, widths, random_scene_class_name(class_index),
+                         seed + (uint64_t)k, &failures);
+    }
+    printf("%d of %d scenes valid, %d steps, %d widths, %d failures\n", valid, scenes, steps,
+           widths, failures);
+    /* most scenes must be valid, or nothing is tested */
+    return failures > 0 || 2 * valid < scenes;
+}
