@@ -260,6 +260,32 @@ static void define_zones(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
                                             &zone, ZONE[i].long_name, ZONE[i].units);
 }
 
+/* What differs along a line of sections, or with point weights. */
+static void define_sections(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
+    if (view->uniform) return;
+    ids->compliance_factor =
+        cpsi_netcdf_variable(&nc->file, view->name, "compliance_factor", NC_DOUBLE, 1,
+                             &ids->element,
+                             "1/EA of the element over the compliance, which is the mean", "1");
+    ids->weight_length = cpsi_netcdf_variable(
+        &nc->file, view->name, "weight_length", NC_DOUBLE, 1, &ids->node,
+        "natural length of mean weight that the node carries, negative: it is lifted", "m");
+}
+
+static void define_element_contacts(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
+    const int on_elements[] = {nc->step, ids->element};
+    if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_OBSTACLE))
+        ids->element_obstacle = cpsi_netcdf_variable(
+            &nc->file, view->name, "element_obstacle", NC_INT, 2, on_elements,
+            "place of the obstacle that an element touches in the scene, -1: none", "1");
+    if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_STATE)) {
+        ids->element_state = cpsi_netcdf_variable(&nc->file, view->name, "element_state", NC_BYTE,
+                                                  2, on_elements, "rest of the element on it", "1");
+        cpsi_netcdf_flags(&nc->file, ids->element_state, NC_BYTE, 4, NULL,
+                          "free stick slip unresolved");
+    }
+}
+
 static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     char name[NC_MAX_NAME + 1];
     snprintf(name, sizeof name, "%.200s_node", view->name);
@@ -271,15 +297,7 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     for (int f = 0; f < FIELDS; ++f) define_field(nc, ids, view, f);
     ids->compliance = cpsi_netcdf_variable(&nc->file, view->name, "compliance", NC_DOUBLE, 0, NULL,
                                            "1/EA, 0: inextensible", "N-1");
-    if (!view->uniform) {
-        ids->compliance_factor =
-            cpsi_netcdf_variable(&nc->file, view->name, "compliance_factor", NC_DOUBLE, 1,
-                                 &ids->element,
-                                 "1/EA of the element over the compliance, which is the mean", "1");
-        ids->weight_length = cpsi_netcdf_variable(
-            &nc->file, view->name, "weight_length", NC_DOUBLE, 1, &ids->node,
-            "natural length of mean weight that the node carries, negative: it is lifted", "m");
-    }
+    define_sections(nc, ids, view);
     const int on_nodes[] = {nc->step, ids->node}, on_ends[] = {nc->step, nc->end, nc->xyz};
     for (int c = 0; c < ids->contacts; ++c) {
         if (nc->wanted & CPSI_WANTED_STATE) {
@@ -292,17 +310,7 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
         ids->obstacle[c] = add_contact(nc, view->name, "obstacle", c, NC_INT, 2, on_nodes,
                                        "place of the obstacle in the scene", "1");
     }
-    const int on_elements[] = {nc->step, ids->element};
-    if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_OBSTACLE))
-        ids->element_obstacle = cpsi_netcdf_variable(
-            &nc->file, view->name, "element_obstacle", NC_INT, 2, on_elements,
-            "place of the obstacle that an element touches in the scene, -1: none", "1");
-    if (view->has_element_contacts && (nc->wanted & CPSI_WANTED_STATE)) {
-        ids->element_state = cpsi_netcdf_variable(&nc->file, view->name, "element_state", NC_BYTE,
-                                                  2, on_elements, "rest of the element on it", "1");
-        cpsi_netcdf_flags(&nc->file, ids->element_state, NC_BYTE, 4, NULL,
-                          "free stick slip unresolved");
-    }
+    define_element_contacts(nc, ids, view);
     ids->end_kind = cpsi_netcdf_variable(&nc->file, view->name, "end_kind", NC_BYTE, 2, on_ends,
                                          "what is imposed at A and B", "1");
     cpsi_netcdf_flags(&nc->file, ids->end_kind, NC_BYTE, 2, NULL, "held free");
