@@ -82,7 +82,9 @@ static void print_line(const CpsLine *line) {
     double from = 0;
     for (int k = 0; k < line->section_count; from += line->section[k++].length) {
         const CpsSection *section = &line->section[k];
-        printf("  %s from %g m to %g m: ", section->type, from, from + section->length);
+        printf("  ");
+        cli_print_text(stdout, section->type, INT_MAX, false);
+        printf(" from %g m to %g m: ", from, from + section->length);
         print_make(section->weight, section->stiffness);
         putchar('\n');
     }

@@ -23,7 +23,7 @@
 #include "run/warnings.h"
 #include "signals.h"
 
-enum { NAME_WIDTH = 18, LINE_WIDTH = 10, MAX_THREADS = 256 };
+enum { NAME_WIDTH = 18, LINE_WIDTH = 10 };
 
 /* A range narrower than this, relative to the largest force, is printed as one value. */
 static const double RANGE_SHOWN = 1e-5;
@@ -355,12 +355,12 @@ static bool read_threads(const char *text, int *threads) {
     char *end = NULL;
     errno = 0;
     const long count = strtol(text, &end, 10);
-    if (end != text && *end == '\0' && errno == 0 && count >= 1 && count <= MAX_THREADS) {
+    if (end != text && *end == '\0' && errno == 0 && count >= 1 && count <= CPS_MAX_THREADS) {
         *threads = (int)count;
         return true;
     }
     cli_printf(stderr, "capstan run: --threads '%.40s': expected a whole number, 1 to %d\n", text,
-               (int)MAX_THREADS);
+               (int)CPS_MAX_THREADS);
     return false;
 }
 

@@ -138,8 +138,8 @@ typedef struct CpsLine {
     int section_count;
     const CpsSection *section;
     int point_weight_count;             /* >= 0, default 0 */
-    const CpsPointWeight *point_weight; /* (point_weight_count) in any order; several may be at one
-                                           node */
+    const CpsPointWeight *point_weight; /* (point_weight_count) in order from A to B; several may be
+                                           at one node */
     int zone_count;                     /* >= 0, default 0 */
     /* (zone_count) in order from A to B, without overlap; elsewhere the factor is 1. The factor at
      * a node is the mean over the length that it stands for. */
@@ -197,6 +197,8 @@ typedef enum CpsLinearSystem {
     CPS_LINEAR_SYSTEM_DENSE  /* the same matrix in full: small lines and tests only */
 } CpsLinearSystem;
 
+enum { CPS_MAX_THREADS = 256 };
+
 typedef struct CpsSolverOptions {
     /* [-] certified when gap <= tolerance * scale, 1e-14..1e-2, default 1e-8. Above 1e-8, steps of
      * an elastic line on a plane without directions of friction are solved to a hundredth of it,
@@ -214,8 +216,8 @@ typedef struct CpsSolverOptions {
     /* solve each step without using the one before; default false: a step is first solved by
      * Newton's method from the one before */
     bool cold;
-    /* threads that share the lines of a step, 1..256, default 1: that of the caller. More than
-     * there are lines are of no use. The answers are the same, bit for bit. */
+    /* threads that share the lines of a step, 1..CPS_MAX_THREADS, default 1: that of the caller.
+     * More than there are lines are of no use. The answers are the same, bit for bit. */
     int thread_count;
 } CpsSolverOptions;
 

@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "base/vec3.h"
 #include "evolve/friction_zone.h"
+#include "evolve/ranges.h"
 #include "evolve/sections.h"
 #include "geometry/obstacle.h"
 
@@ -22,12 +23,6 @@ static const double MAX_STRAIN = 1;
  * counts as zero, per largest force. A certified step leaves products of reaction and distance of
  * about 1e-13 in these units, so that where R exceeds NOTHING the distance is less than TOUCH. */
 static const double TOUCH = 1e-7, NOTHING = 1e-6;
-/* Larger numbers, whose squares and products would overflow, count as infinite. */
-static const double LARGEST = 1e100;
-
-static double element_length(const CpsLine *line, int e) {
-    return line->element_length ? line->element_length[e] : line->length / line->element_count;
-}
 
 /* ---- check ---- */
 
@@ -36,7 +31,7 @@ static CpsStatus check_lengths(const CpsLine *line, CpsError *err) {
     for (int e = 0; e < line->element_count; e++) {
         const Vec3 a = vec3_load(&line->start.point[3 * e]),
                    b = vec3_load(&line->start.point[3 * (e + 1)]);
-        const double l = element_length(line, e), found = vec3_norm(vec3_sub(b, a));
+        const double l = cpsi_element_length(line, e), found = vec3_norm(vec3_sub(b, a));
         if (found <= l * (elastic ? 1 + MAX_STRAIN : 1 + LENGTH_TOLERANCE)) continue;
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "line '%s': start: nodes %d and %d are %.10g m apart, the element between "
@@ -52,7 +47,7 @@ static CpsStatus check_forces(const CpsLine *line, const double *force, int coun
                               const char *where, CpsError *err) {
     if (force)
         for (int i = 0; i < count; i++)
-            if (!(force[i] >= 0 && force[i] <= LARGEST))
+            if (!cpsi_is_not_negative(force[i]))
                 return cpsi_fail(
                     err, CPS_ERR_ARGUMENT,
                     "line '%s': start: the %s %s %d is %g N, expected a finite number >= 0",
@@ -75,8 +70,8 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
     if (force) {
         for (int j = 0; j <= line->element_count; j++) largest = fmax(largest, force[j]);
         for (int j = 0; j <= line->element_count; j++) {
-            const double before = j > 0 ? element_length(line, j - 1) : 0,
-                         after = j < line->element_count ? element_length(line, j) : 0;
+            const double before = j > 0 ? cpsi_element_length(line, j - 1) : 0,
+                         after = j < line->element_count ? cpsi_element_length(line, j) : 0;
             at += before;
             const double factor =
                 cpsi_zone_factor(line, &first, at - 0.5 * before, 0.5 * (before + after));
@@ -121,7 +116,7 @@ CpsStatus cpsi_node_start_check(const CpsScene *scene, const CpsLine *line, CpsE
                          line->name, start->point ? start->point_count : 0,
                          line->element_count + 1);
     for (int i = 0; i < 3 * start->point_count; i++)
-        if (!(fabs(start->point[i]) <= LARGEST))
+        if (!cpsi_is_usable(start->point[i]))
             return cpsi_fail(
                 err, CPS_ERR_ARGUMENT,
                 "line '%s': start: a coordinate of node %d is %g m, expected a finite number",

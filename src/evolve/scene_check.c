@@ -13,6 +13,7 @@
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
 #include "evolve/path_check.h"
+#include "evolve/ranges.h"
 #include "evolve/sections.h"
 #include "evolve/start.h"
 #include "geometry/obstacle.h"
@@ -37,13 +38,7 @@ static const double PLACE_TOLERANCE = 1e-9;
  * lengths written with 10 digits pass. */
 static const double SUM_TOLERANCE = 1e-9;
 /* Limits given by the memory of a large machine (1 kB per element) and by the size of results. */
-enum {
-    MAX_ELEMENTS = 10000000,
-    MAX_STEPS = 1000000,
-    MAX_LINES = 10000,
-    MAX_OBSTACLES = 1000,
-    MAX_THREADS = 256
-};
+enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000, MAX_OBSTACLES = 1000 };
 
 /* [rad] Limit of a turn in one stage, which takes a substep for every quarter of a turn: 10 000
  * turns. */
@@ -91,20 +86,6 @@ CpsStage cps_stage_default(void) { return (CpsStage){.cookie = STAGE_COOKIE, .st
 /* Fails at a key of the object that is being checked; arguments as for cpsi_fail. */
 #define FAIL_AT(key, err, ...) cpsi_fail_inside(err, cpsi_fail(err, __VA_ARGS__), "%s", key)
 
-/* Numbers whose squares and products would overflow count as infinite; lengths whose squares would
- * underflow count as zero. */
-static const double LARGEST = 1e100, SMALLEST = 1e-100;
-
-static bool is_usable(double x) { return fabs(x) <= LARGEST; }
-static bool are_usable(const double x[3]) {
-    return is_usable(x[0]) && is_usable(x[1]) && is_usable(x[2]);
-}
-static bool positive(double x) { return x >= SMALLEST && x <= LARGEST; }
-static bool not_negative(double x) { return x >= 0 && x <= LARGEST; }
-static bool direction(const double x[3]) {
-    return are_usable(x) && vec3_norm(vec3_load(x)) >= SMALLEST;
-}
-
 static const char *end_letter(int end) { return end == CPS_END_A ? "A" : "B"; }
 
 /* Names are file and column names elsewhere: a letter, then letters, digits, _ and -, 64 in all. */
@@ -129,7 +110,7 @@ static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
                          (int)o->kind);
     const bool plane = o->kind == CPS_OBSTACLE_PLANE, ball = o->kind == CPS_OBSTACLE_SPHERE;
     const char *what = plane ? "plane point" : ball ? "sphere centre" : "cylinder point";
-    if (!are_usable(o->point))
+    if (!cpsi_are_usable(o->point))
         return FAIL_AT(plane  ? "plane.point"
                        : ball ? "sphere.centre"
                               : "cylinder.point",
@@ -137,7 +118,7 @@ static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
                        "obstacle '%s': %s is (%g, %g, %g) m, expected finite numbers", o->name,
                        what, o->point[0], o->point[1], o->point[2]);
     const double *d = plane ? o->normal : o->axis;
-    if (!direction(d))
+    if (!cpsi_is_direction(d))
         return FAIL_AT(
             plane  ? "plane.normal"
             : ball ? "sphere.axis"
@@ -145,7 +126,7 @@ static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
             err, CPS_ERR_ARGUMENT,
             "obstacle '%s': %s is (%g, %g, %g), expected a direction: finite numbers, not all 0",
             o->name, plane ? "plane normal" : "axis", d[0], d[1], d[2]);
-    if (!plane && !positive(o->radius))
+    if (!plane && !cpsi_is_positive(o->radius))
         return FAIL_AT(ball ? "sphere.radius" : "cylinder.radius", err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': radius is %g m, expected a positive finite number", o->name,
                        o->radius);
@@ -153,11 +134,11 @@ static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
 }
 
 static CpsStatus check_friction_keys(const CpsObstacle *o, CpsError *err) {
-    if (!not_negative(o->friction))
+    if (!cpsi_is_not_negative(o->friction))
         return FAIL_AT("friction", err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': friction is %g, expected a finite number >= 0", o->name,
                        o->friction);
-    if (o->has_friction_lateral && !not_negative(o->friction_lateral))
+    if (o->has_friction_lateral && !cpsi_is_not_negative(o->friction_lateral))
         return FAIL_AT("friction.lateral", err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': friction: lateral is %g, expected a finite number >= 0",
                        o->name, o->friction_lateral);
@@ -171,7 +152,7 @@ static CpsStatus check_friction_keys(const CpsObstacle *o, CpsError *err) {
                        "obstacle '%s': friction: unknown shape %d", o->name,
                        (int)o->friction_shape);
     const double *g = o->grain;
-    if (!are_usable(g) || ((g[0] != 0 || g[1] != 0 || g[2] != 0) && !direction(g)))
+    if (!cpsi_are_usable(g) || ((g[0] != 0 || g[1] != 0 || g[2] != 0) && !cpsi_is_direction(g)))
         return FAIL_AT("friction.grain", err, CPS_ERR_ARGUMENT,
                        "obstacle '%s': friction: grain is (%g, %g, %g), expected a direction: "
                        "finite numbers, or all 0 for the line's own",
@@ -234,7 +215,7 @@ static CpsStatus check_elements(const CpsLine *line, CpsError *err) {
     if (!line->element_length) return CPS_OK;
     double sum = 0;
     for (int i = 0; i < line->element_count; i++) {
-        if (!positive(line->element_length[i]))
+        if (!cpsi_is_positive(line->element_length[i]))
             return FAIL_AT(
                 "elements", err, CPS_ERR_ARGUMENT,
                 "line '%s': elements: number %d is %g m long, expected a positive finite number",
@@ -265,7 +246,7 @@ static CpsStatus check_zones(const CpsLine *line, CpsError *err) {
                 "line '%s': friction zones: number %d goes from %g m to %g m, expected one that "
                 "begins at %g m or after and ends within the line's length %g m",
                 line->name, k + 1, zone->from, zone->to, behind, line->length);
-        if (!not_negative(zone->factor))
+        if (!cpsi_is_not_negative(zone->factor))
             return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                            "line '%s': friction zones: number %d has the factor %g, expected a "
                            "finite number >= 0",
@@ -276,7 +257,7 @@ static CpsStatus check_zones(const CpsLine *line, CpsError *err) {
 }
 
 static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsError *err) {
-    if (!positive(line->length))
+    if (!cpsi_is_positive(line->length))
         return FAIL_AT("length", err, CPS_ERR_ARGUMENT,
                        "line '%s': length is %g m, expected a positive finite number", line->name,
                        line->length);
@@ -298,19 +279,19 @@ static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
                        "line '%s': start has %d points, expected %s", line->name,
                        start->point ? start->point_count : 0, polyline ? "at least 2" : "2");
     for (int i = 0; i < start->point_count; i++)
-        if (!are_usable(&start->point[3 * i]))
+        if (!cpsi_are_usable(&start->point[3 * i]))
             return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
                            "line '%s': start: point %d is (%g, %g, %g) m, expected finite numbers",
                            line->name, i + 1, start->point[3 * i], start->point[3 * i + 1],
                            start->point[3 * i + 2]);
     if (start->kind != CPS_START_ARC) return CPS_OK;
-    if (!direction(start->axis))
+    if (!cpsi_is_direction(start->axis))
         return FAIL_AT("start.arc.axis", err, CPS_ERR_ARGUMENT,
                        "line '%s': start: arc axis is (%g, %g, %g), expected a direction: finite "
                        "numbers, not all 0",
                        line->name, start->axis[0], start->axis[1], start->axis[2]);
     const double radius = cpsi_start_arc(line).radius;
-    if (!positive(radius))
+    if (!cpsi_is_positive(radius))
         return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
                        "line '%s': start: the arc's first point lies on its axis", line->name);
     for (int i = 0; i < line->element_count; i++) {
@@ -398,7 +379,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
                        "line '%s': ends: end %s has the unknown kind %d", line->name, letter,
                        (int)e->kind);
     if (e->kind == CPS_END_KIND_FREE) {
-        if (are_usable(v)) return CPS_OK;
+        if (cpsi_are_usable(v)) return CPS_OK;
         return FAIL_AT(
             place, err, CPS_ERR_ARGUMENT,
             "line '%s': ends: the force on end %s is (%g, %g, %g) N, expected finite numbers",
@@ -418,7 +399,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
             "it at [x, y, z]",
             line->name, letter);
     }
-    if (!are_usable(v))
+    if (!cpsi_are_usable(v))
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                        "line '%s': ends: end %s is at (%g, %g, %g) m, expected finite numbers",
                        line->name, letter, v[0], v[1], v[2]);
@@ -494,7 +475,7 @@ static CpsStatus check_change(const CpsScene *scene, int stage, int index, CpsEr
     if (change->to.kind != CPS_END_KIND_HELD && change->to.kind != CPS_END_KIND_FREE)
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s has the unknown kind %d",
                        stage + 1, line->name, letter, (int)change->to.kind);
-    if (!are_usable(v))
+    if (!cpsi_are_usable(v))
         return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                        "stage %d: %s.%s gets (%g, %g, %g), expected finite numbers", stage + 1,
                        line->name, letter, v[0], v[1], v[2]);
@@ -526,7 +507,7 @@ static CpsStatus check_turns(const CpsScene *scene, int index, CpsError *err) {
             return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                            "stage %d: obstacle '%s' is a plane: only a cylinder or a sphere turns",
                            index + 1, obstacle->name);
-        if (!is_usable(turn->angle))
+        if (!cpsi_is_usable(turn->angle))
             return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                            "stage %d: obstacle '%s' turns by %g, expected a finite angle",
                            index + 1, obstacle->name, turn->angle);
@@ -561,7 +542,7 @@ static CpsStatus check_stage(const CpsScene *scene, int k, int64_t *steps, CpsEr
     if (stage->change_count < 0 || (stage->change_count > 0 && !stage->change))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d changes, expected 0 or more",
                          k + 1, stage->change_count);
-    if (stage->gravity_changes && !are_usable(stage->gravity))
+    if (stage->gravity_changes && !cpsi_are_usable(stage->gravity))
         return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
                        "stage %d: gravity is (%g, %g, %g) m/s2, expected finite numbers", k + 1,
                        stage->gravity[0], stage->gravity[1], stage->gravity[2]);
@@ -599,10 +580,10 @@ static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
     if (solver->max_halvings < 0 || solver->max_halvings > 30)
         return FAIL_AT("solver.halvings", err, CPS_ERR_ARGUMENT,
                        "solver: halvings is %d, expected 0 to 30", solver->max_halvings);
-    if (solver->thread_count < 1 || solver->thread_count > MAX_THREADS)
+    if (solver->thread_count < 1 || solver->thread_count > CPS_MAX_THREADS)
         return FAIL_AT("solver.thread_count", err, CPS_ERR_ARGUMENT,
                        "solver: thread_count is %d, expected 1 to %d", solver->thread_count,
-                       (int)MAX_THREADS);
+                       (int)CPS_MAX_THREADS);
     if (solver->linear_system != CPS_LINEAR_SYSTEM_CHAIN &&
         solver->linear_system != CPS_LINEAR_SYSTEM_DENSE)
         return FAIL_AT("solver.linear_system", err, CPS_ERR_ARGUMENT,
@@ -616,7 +597,7 @@ static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
         scene->contact_policy != CPS_CONTACT_POLICY_REFERENCE)
         return FAIL_AT("contact_policy", err, CPS_ERR_ARGUMENT, "contact_policy: unknown value %d",
                        (int)scene->contact_policy);
-    if (!are_usable(scene->gravity))
+    if (!cpsi_are_usable(scene->gravity))
         return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
                        "gravity: is (%g, %g, %g) m/s2, expected finite numbers", scene->gravity[0],
                        scene->gravity[1], scene->gravity[2]);

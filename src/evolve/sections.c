@@ -6,15 +6,10 @@
 #include <stdio.h>
 
 #include "base/status.h"
+#include "evolve/ranges.h"
 
 /* A section ends, and a weight hangs, at a node that is so near, per length of the line. */
 static const double AT_NODE = 1e-9;
-/* Numbers between these are usable: their squares neither overflow nor vanish. */
-static const double LARGEST = 1e100, SMALLEST = 1e-100;
-
-static double element_length(const CpsLine *def, int e) {
-    return def->element_length ? def->element_length[e] : def->length / def->element_count;
-}
 
 bool cpsi_has_sections(const CpsLine *def) {
     return def->section_count > 0 || def->point_weight_count > 0;
@@ -60,28 +55,33 @@ static CpsStatus fail(CpsError *err, const char *key, int index, const CpsLine *
                             "%s", place);
 }
 
-static bool is_weight(double weight) { return weight >= 0 && weight <= LARGEST; }
 static bool is_stiffness(double stiffness) {
-    return (stiffness >= SMALLEST && stiffness <= LARGEST) || stiffness == INFINITY;
+    return cpsi_is_positive(stiffness) || stiffness == INFINITY;
 }
 
-/* Move on to the node at `at` [m] or the first one behind it; *arc is that of node *node. Is it
- * there? */
-static bool find_node(const CpsLine *def, double at, int *node, double *arc) {
+/* A node of the line, and its arc length [m]. */
+typedef struct Walk {
+    int node;
+    double arc;
+} Walk;
+
+/* Move on to the node at `at` [m] or the first one behind it. Is it there? */
+static bool walk_to(const CpsLine *def, double at, Walk *walk) {
     const double near = AT_NODE * def->length;
-    while (*node < def->element_count && *arc < at - near) *arc += element_length(def, (*node)++);
-    return fabs(*arc - at) <= near;
+    while (walk->node < def->element_count && walk->arc < at - near)
+        walk->arc += cpsi_element_length(def, walk->node++);
+    return fabs(walk->arc - at) <= near;
 }
 
 static CpsStatus check_section(const CpsLine *def, int k, CpsError *err) {
     const CpsSection *section = &def->section[k];
     char found[160];
-    if (!(section->length >= SMALLEST && section->length <= LARGEST)) {
+    if (!cpsi_is_positive(section->length)) {
         snprintf(found, sizeof found, "is %g m long, expected a positive finite number",
                  section->length);
         return fail(err, "sections", k, def, found);
     }
-    if (!is_weight(section->weight)) {
+    if (!cpsi_is_not_negative(section->weight)) {
         snprintf(found, sizeof found, "has the weight %g N/m, expected a finite number >= 0",
                  section->weight);
         return fail(err, "sections", k, def, found);
@@ -101,19 +101,19 @@ static CpsStatus check_section(const CpsLine *def, int k, CpsError *err) {
 }
 
 static CpsStatus check_sections(const CpsLine *def, CpsError *err) {
-    double at = 0, arc = 0;
-    int node = 0;
+    double at = 0;
+    Walk walk = {0};
     char found[200];
     for (int k = 0; k < def->section_count; k++) {
         const CpsStatus status = check_section(def, k, err);
         if (status != CPS_OK) return status;
-        const int first = node;
+        const int first = walk.node;
         at += def->section[k].length;
-        if (find_node(def, at, &node, &arc) && node > first) continue;
+        if (walk_to(def, at, &walk) && walk.node > first) continue;
         snprintf(found, sizeof found,
                  "ends at %.12g m, where no node is (the next one lies at "
                  "%.12g m): let elements end there",
-                 at, arc);
+                 at, walk.arc);
         return fail(err, "sections", k, def, found);
     }
     if (def->section_count == 0 || fabs(at - def->length) <= AT_NODE * def->length) return CPS_OK;
@@ -123,21 +123,27 @@ static CpsStatus check_sections(const CpsLine *def, CpsError *err) {
 }
 
 static CpsStatus check_point_weights(const CpsLine *def, CpsError *err) {
+    Walk walk = {0};
     char found[200];
     for (int k = 0; k < def->point_weight_count; k++) {
         const CpsPointWeight *point = &def->point_weight[k];
-        if (!(fabs(point->weight) <= LARGEST)) {
+        if (!cpsi_is_usable(point->weight)) {
             snprintf(found, sizeof found, "weighs %g N, expected a finite number", point->weight);
             return fail(err, "point_weights", k, def, found);
         }
-        double arc = 0;
-        int node = 0;
-        if (find_node(def, point->arc_length, &node, &arc) && node > 0 && node < def->element_count)
+        if (k > 0 && point->arc_length < point[-1].arc_length) {
+            snprintf(found, sizeof found,
+                     "is at %.12g m, the one before it at %.12g m: give them in order from A to B",
+                     point->arc_length, point[-1].arc_length);
+            return fail(err, "point_weights", k, def, found);
+        }
+        if (walk_to(def, point->arc_length, &walk) && walk.node > 0 &&
+            walk.node < def->element_count)
             continue;
         snprintf(found, sizeof found,
-                 "is at %.12g m, expected a node between the ends (the next "
-                 "one lies at %.12g m): let elements end there",
-                 point->arc_length, arc);
+                 "is at %.12g m, expected a node between the ends (the next one lies at %.12g m): "
+                 "let elements end there",
+                 point->arc_length, walk.arc);
         return fail(err, "point_weights", k, def, found);
     }
     return CPS_OK;
@@ -149,7 +155,7 @@ CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsErro
         return fail(err, "sections", -1, def, "are a negative number, or NULL");
     if (def->point_weight_count < 0 || (def->point_weight_count > 0 && !def->point_weight))
         return fail(err, "point_weights", -1, def, "are a negative number, or NULL");
-    if (def->section_count == 0 && !is_weight(def->weight)) {
+    if (def->section_count == 0 && !cpsi_is_not_negative(def->weight)) {
         snprintf(found, sizeof found, "is %g N/m, expected a finite number >= 0", def->weight);
         return fail(err, "weight", -1, def, found);
     }
@@ -164,7 +170,7 @@ CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsErro
     if (status == CPS_OK) status = check_point_weights(def, err);
     if (status != CPS_OK) return status;
     const double weight = cpsi_mean_weight(def);
-    if (!(weight > 0) || vec3_norm(vec3_load(scene->gravity)) >= SMALLEST) return CPS_OK;
+    if (!(weight > 0) || cpsi_is_direction(scene->gravity)) return CPS_OK;
     snprintf(found, sizeof found,
              "is %g N/m, but gravity is zero and has no direction: give the "
              "scene a gravity",
@@ -194,10 +200,9 @@ void cpsi_sections_fill(CpsiLine *line, const CpsLine *def) {
         line->weight_length[j] = sum;
     }
     if (!(weight > 0)) return;
+    Walk walk = {0};
     for (int k = 0; k < def->point_weight_count; k++) {
-        double arc = 0;
-        int node = 0;
-        find_node(def, def->point_weight[k].arc_length, &node, &arc);
-        line->weight_length[node] += def->point_weight[k].weight / weight;
+        walk_to(def, def->point_weight[k].arc_length, &walk);
+        line->weight_length[walk.node] += def->point_weight[k].weight / weight;
     }
 }

@@ -2,11 +2,9 @@
 /* The nodes of a line along its start shape (see start.h). */
 #include "evolve/start.h"
 
-static Vec3 shape_point(const CpsLine *line, int i) { return vec3_load(&line->start.point[3 * i]); }
+#include "evolve/ranges.h"
 
-static double element_length(const CpsLine *line, int i) {
-    return line->element_length ? line->element_length[i] : line->length / line->element_count;
-}
+static Vec3 shape_point(const CpsLine *line, int i) { return vec3_load(&line->start.point[3 * i]); }
 
 double cpsi_start_length(const CpsLine *line) {
     if (line->start.kind == CPS_START_ARC || line->start.kind == CPS_START_STATIC)
@@ -78,7 +76,7 @@ static Vec3 arc_point(const CpsiArc *arc, double angle) {
 /* On to the next node. Equal elements: by a product, so that the abscissa does not drift. */
 static void go_on(CpsiStartWalk *walk) {
     const CpsLine *line = walk->line;
-    const double l = element_length(line, walk->node);
+    const double l = cpsi_element_length(line, walk->node);
     if (line->start.kind == CPS_START_ARC) walk->angle += 2 * asin(l / (2 * walk->arc.radius));
     walk->node++;
     walk->natural =

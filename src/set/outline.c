@@ -212,7 +212,7 @@ CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, C
     const size_t n = (size_t)set->n;
     *walk = (CpsiWalk){.outcome = CPS_SET_OUTCOME_INACCURATE};
     *facts = (CpsSetFacts){.outcome = CPS_SET_OUTCOME_INACCURATE};
-    *scratch = malloc((n * n + 3 * n) * sizeof **scratch);
+    *scratch = calloc(n * n + 3 * n, sizeof **scratch);
     if (!*scratch) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the outline of a set");
     double *centre = *scratch, *basis = centre + n;
     *walk = (CpsiWalk){.set = set,

@@ -380,14 +380,14 @@ static void turns(RigRun *run, double *turn) {
  * law's sum, of all bounds together. */
 static void check(RigRun *run, const Audit *audit) {
     const double length = run->rig->line.length;
-    /* the certificate is that of the last substep; those before it may have the gap at
-     * which the interior point ends */
+    /* the certificate is that of the last substep; of those before it, the ones not found by
+     * Newton's method may have the gap at which the interior point ends */
+    const int cold = run->report.substep_count - run->report.warm_count,
+              hidden = cold < run->report.substep_count ? cold : cold - 1;
     const double compliance = run->view.compliance * length,
                  gap = LOOP_GAP * run->report.certificate.scale,
                  before = compliance > 0 ? sqrt(2 * gap / compliance) : 0;
-    run->motion +=
-        (run->report.certificate.tension_bound + (run->report.substep_count - 1) * before) *
-        compliance;
+    run->motion += (run->report.certificate.tension_bound + hidden * before) * compliance;
     run->dissipated += run->report.dissipated;
     run->law += audit->law;
     const bool frictionless = run->rig->line.start.kind == CPS_START_STATIC && run->steps == 1;

@@ -128,6 +128,7 @@ CHANGES = [
     ("a clump between nodes", PLAIN, made(more="    point_weights: [{at: 5, mass: 1}]\n"), INPUT, "9:21: line 'cable': point_weights: number 1 is at 5 m, expected a node between the ends (the next one lies at 6 m)"),
     ("a clump at an end", PLAIN, made(more="    point_weights: [{at: 2, mass: 1}, {at: 10, mass: 1}]\n"), INPUT, "9:39: line 'cable': point_weights: number 2 is at 10 m, expected a node between the ends"),
     ("a clump beyond the end", PLAIN, made(more="    point_weights: [{at: 11, mass: 1}]\n"), INPUT, "9:21: line 'cable': point_weights: number 1 is at 11 m"),
+    ("a clump behind the next", PLAIN, made(more="    point_weights: [{at: 6, mass: 1}, {at: 2, mass: 1}]\n"), INPUT, "9:39: line 'cable': point_weights: number 2 is at 2 m, the one before it at 6 m: give them in order from A to B"),
     ("a clump without a place", PLAIN, made(more="    point_weights: [{mass: 1}]\n"), INPUT, "9:21: point weight: 'at' is missing"),
     ("a clump of nothing", PLAIN, made(more="    point_weights: [{at: 2}]\n"), INPUT, "9:21: point weight: nothing given, expected exactly one of 'mass', 'weight'"),
     ("a buoy's volume beside a weight", PLAIN, made(more="    point_weights: [{at: 2, weight: -5, volume: 1}]\n"), INPUT, "9:41: 'volume': it goes with 'mass'"),

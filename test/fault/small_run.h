@@ -4,18 +4,11 @@
 #define CAPSTAN_TEST_FAULT_SMALL_RUN_H
 
 #include "capstan/results.h"
+#include "straight_rope.h"
 
 /* A rope of 6 m, straight between two points. */
 static inline CpsLine small_rope(int elements, const double point[6]) {
-    CpsLine line = cps_line_default();
-    line.name = "rope";
-    line.length = 6;
-    line.element_count = elements;
-    line.weight = 10;
-    line.stiffness = 1e4;
-    line.start =
-        (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point, .axis = {0, 0, 1}};
-    return line;
+    return straight_rope(point, 6, elements, 10, 1e4);
 }
 
 /* Write the results of that run with `elements` elements into `directory`; whatever fails is

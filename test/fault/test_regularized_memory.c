@@ -8,6 +8,7 @@
 #include "capstan/regularized.h"
 #include "check.h"
 #include "refuse.h"
+#include "straight_rope.h"
 
 /* everything about one step; the first failure ends it */
 static CpsStatus questions(const CpsLineView *view) {
@@ -42,13 +43,7 @@ static void every_allocation_may_fail(void **state) {
     CpsObstacle bed = cps_obstacle_default();
     bed.name = "bed";
     bed.friction = 0.3;
-    CpsLine line = cps_line_default();
-    line.name = "line";
-    line.length = 1;
-    line.element_count = 8;
-    line.weight = 1;
-    line.stiffness = 1;
-    line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point};
+    const CpsLine line = straight_rope(point, 1, 8, 1, 1);
     const CpsChange change = {.end = CPS_END_B,
                               .to = {.kind = CPS_END_KIND_FREE, .value = {0.5, 0, 0}}};
     const CpsStage stage = {.cookie = cps_stage_default().cookie,

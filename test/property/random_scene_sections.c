@@ -28,14 +28,15 @@ static void add_sections(Maker *maker, CpsLine *line, CpsSection *section) {
     line->section_count = count;
 }
 
-/* Up to three weights at random nodes between the ends, of up to a third of the line's own; four in
- * ten are buoys. */
+/* Up to three weights at random nodes between the ends, from A to B, of up to a third of the line's
+ * own; four in ten are buoys. */
 static void add_point_weights(Maker *maker, CpsLine *line, CpsPointWeight *point) {
     Random *random = &maker->random;
     const int count =
         line->element_count > 1 ? random_below(random, SCENE_POINT_WEIGHTS_MOST + 1) : 0;
+    int node = 1;
     for (int k = 0; k < count; k++) {
-        const int node = 1 + random_below(random, line->element_count - 1);
+        node += random_below(random, line->element_count - node);
         point[k] = (CpsPointWeight){0};
         for (int e = 0; e < node; e++) point[k].arc_length += element_length(line, e);
         point[k].weight = line->weight * line->length * random_decades(random, -3, -0.5) *

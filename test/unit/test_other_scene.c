@@ -34,7 +34,7 @@ static const char SCENE[] =
     " start: {arc: {from: [0, -9, 0], centre: [0, -8, 0], axis: [0, 0, 1]}},"
     " ends: {A: held, B: held}}\n"
     "  made: {sections: [{type: hawser, length: 4, elements: 2}, {type: wire, length: 6,"
-    " element_length: 1.5}], point_weights: [{at: 4, weight: 3}, {at: 2, mass: 5, volume: 0.003}],"
+    " element_length: 1.5}], point_weights: [{at: 2, mass: 5, volume: 0.003}, {at: 4, weight: 3}],"
     " start: {straight: {from: [0, 200, 0], to: [0, 210, 0]}}, ends: {A: held, B: free}}\n"
     "  wet: {length: 3, elements: 3, mass: 4, diameter: 0.04, stiffness: 2000,"
     " start: {straight: {from: [0, 300, 0], to: [3, 300, 0]}}, ends: {A: held, B: free}}\n"
@@ -85,7 +85,7 @@ static const struct Change {
      "{type: hawser, length: 4, elements: 2}, {type: hawser, length: 6,"},
     {"type", "{type: wire, length: 6", "{type: hawser, length: 6"},
     {"element_length", "element_length: 1.5", "element_length: 1.4"},
-    {"point_weights", "{at: 4, weight: 3}, ", ""},
+    {"point_weights", ", {at: 4, weight: 3}", ""},
     {"at", "{at: 4, weight: 3}", "{at: 2, weight: 3}"},
     {"volume", "volume: 0.003", "volume: 0.004"},
     {"diameter", "mass: 4, diameter: 0.04", "mass: 4, diameter: 0.03"},

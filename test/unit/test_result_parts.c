@@ -14,6 +14,7 @@
 
 #include "capstan/results.h"
 #include "io/results/netcdf_file.h"
+#include "straight_rope.h"
 
 /* The library of this file has no functions: each call of one would end the test. */
 static void nothing_after_a_failure(void **state) {
@@ -133,14 +134,7 @@ static void long_lines(void **state) {
     CpsObstacle bed = cps_obstacle_default();
     bed.name = "bed";
     bed.friction = 0.3;
-    CpsLine line = cps_line_default();
-    line.name = "rope";
-    line.length = 25;
-    line.element_count = ELEMENTS;
-    line.weight = 10;
-    line.stiffness = 1e5;
-    line.start =
-        (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point, .axis = {0, 0, 1}};
+    const CpsLine line = straight_rope(point, 25, ELEMENTS, 10, 1e5);
     CpsScene scene = cps_scene_default();
     scene.title = "long";
     scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;

@@ -6,6 +6,7 @@
 
 #include "capstan/evolve.h"
 #include "check.h"
+#include "straight_rope.h"
 
 enum { ELEMENTS = 60, STEPS = 4 };
 
@@ -19,8 +20,8 @@ typedef struct Run {
 static Run pull(double tolerance, bool cold) {
     CpsScene scene = cps_scene_default();
     CpsObstacle bed = cps_obstacle_default();
-    CpsLine line = cps_line_default();
     const double point[6] = {0, 0, 0, 30, 0, 0};
+    CpsLine line = straight_rope(point, 30, ELEMENTS, 12, 5e4);
     const CpsChange change = {.end = CPS_END_B,
                               .to = {.kind = CPS_END_KIND_HELD, .value = {29.9, 1.5, 0}}};
     CpsStage stage = cps_stage_default();
@@ -30,13 +31,6 @@ static Run pull(double tolerance, bool cold) {
     stage.change = &change;
     bed.name = "bed";
     bed.friction = 0.4;
-    line.name = "rope";
-    line.length = 30;
-    line.element_count = ELEMENTS;
-    line.weight = 12;
-    line.stiffness = 5e4;
-    line.start =
-        (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = point, .axis = {0, 1, 0}};
     for (int end = 0; end < 2; end++) line.end[end].kind = CPS_END_KIND_AT_START;
     scene.obstacle_count = scene.line_count = scene.stage_count = 1;
     scene.obstacle = &bed;

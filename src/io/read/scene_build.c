@@ -370,12 +370,12 @@ CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values,
     const double *g = scene->gravity;
     b.materials = (CpsiMaterials){.d = d,
                                   .pool = pool,
-                                  .types = &values->types,
                                   .gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]),
                                   .water = values->water};
     if (scene->title) scene->title = copy_text(&b, scene->title);
     if (values->scene.title && !scene->title) return cpsi_document_no_memory(d);
-    CpsStatus status = build_obstacles(&b, &values->obstacles);
+    CpsStatus status = cpsi_materials_sort(&b.materials, &values->types);
+    if (status == CPS_OK) status = build_obstacles(&b, &values->obstacles);
     if (status == CPS_OK) status = build_lines(&b, &values->lines);
     return status ? status : build_history(&b, &values->history);
 }

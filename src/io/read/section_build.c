@@ -3,6 +3,7 @@
 #include "io/read/section_build.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/math.h"
@@ -41,10 +42,32 @@ double cpsi_section_elements(const CpsiList *sections) {
     return count;
 }
 
+static int by_name(const void *a, const void *b) {
+    const CpsiTypeValues *const *left = a, *const *right = b;
+    return strcmp((*left)->node->key, (*right)->node->key);
+}
+
+CpsStatus cpsi_materials_sort(CpsiMaterials *m, const CpsiList *types) {
+    const CpsiTypeValues *type = types->item, **sorted;
+    if (types->count == 0) return CPS_OK;
+    m->type = sorted = CPSI_POOL_TAKE(m->pool, types->count, const CpsiTypeValues *);
+    if (!sorted) return cpsi_document_no_memory(m->d);
+    m->type_count = types->count;
+    for (int k = 0; k < types->count; k++) sorted[k] = &type[k];
+    qsort(sorted, (size_t)types->count, sizeof *sorted, by_name);
+    return CPS_OK;
+}
+
 static const CpsiTypeValues *find_type(const CpsiMaterials *m, const char *name) {
-    const CpsiTypeValues *type = m->types->item;
-    for (int k = 0; k < m->types->count; k++)
-        if (strcmp(type[k].node->key, name) == 0) return &type[k];
+    int low = 0;
+    for (int high = m->type_count; low < high;) {
+        const int middle = low + (high - low) / 2, order = strcmp(m->type[middle]->node->key, name);
+        if (order == 0) return m->type[middle];
+        if (order < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
     return NULL;
 }
 
@@ -55,7 +78,7 @@ static CpsStatus build_section(const CpsiMaterials *m, const CpsiSectionValues *
         return cpsi_document_fail(m->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "type"),
                                   "'type': found '%.64s', expected the name of one of the %d types "
                                   "of the scene",
-                                  values->type, m->types->count);
+                                  values->type, m->type_count);
     *section = (CpsSection){.type = cpsi_pool_text(m->pool, values->type, strlen(values->type)),
                             .length = values->length,
                             .weight = (*type)->weight,
@@ -67,7 +90,8 @@ static CpsStatus build_section(const CpsiMaterials *m, const CpsiSectionValues *
 
 /* The zone of a section whose type has a friction of its own. */
 static CpsStatus add_zone(const CpsiMaterials *m, const CpsiLineValues *values,
-                          const CpsiTypeValues *type, double from, double to, CpsLine *line) {
+                          const CpsiTypeValues *type, double from, double to, CpsFrictionZone *zone,
+                          CpsLine *line) {
     if (type->friction == 1) return CPS_OK;
     if (values->zones.count > 0)
         return cpsi_document_fail(m->d, CPS_ERR_INPUT,
@@ -75,7 +99,6 @@ static CpsStatus add_zone(const CpsiMaterials *m, const CpsiLineValues *values,
                                   "'friction_zones': they do not go with the type '%.64s', which "
                                   "has a friction of its own",
                                   type->node->key);
-    CpsFrictionZone *zone = (CpsFrictionZone *)(uintptr_t)line->zone; /* of this file's making */
     zone[line->zone_count++] = (CpsFrictionZone){from, to, type->friction};
     return CPS_OK;
 }
@@ -97,7 +120,7 @@ CpsStatus cpsi_sections_build(const CpsiMaterials *m, const CpsiLineValues *valu
         const double start = line->length, elements = count_of(&from[k]);
         CpsStatus status = build_section(m, &from[k], &type, &section[k]);
         line->length += from[k].length;
-        if (status == CPS_OK) status = add_zone(m, values, type, start, line->length, line);
+        if (status == CPS_OK) status = add_zone(m, values, type, start, line->length, zone, line);
         if (status != CPS_OK) return status;
         for (int i = 0; i < (int)elements; i++) *length++ = from[k].length / elements;
     }

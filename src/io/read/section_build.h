@@ -12,10 +12,14 @@
 typedef struct CpsiMaterials {
     const CpsiDocument *d;
     CpsiPool *pool;
-    const CpsiList *types; /* CpsiTypeValues */
-    double gravity;        /* [m/s2] its size */
-    double water;          /* [kg/m3] */
+    const CpsiTypeValues **type; /* (type_count) by name */
+    int type_count;
+    double gravity; /* [m/s2] its size */
+    double water;   /* [kg/m3] */
 } CpsiMaterials;
+
+/* Sort the scene's types by name. */
+CpsStatus cpsi_materials_sort(CpsiMaterials *materials, const CpsiList *types);
 
 /* [N/m] The weight per length of a line without sections. */
 CpsStatus cpsi_line_weight_build(const CpsiMaterials *materials, const CpsiLineValues *values,

@@ -208,7 +208,7 @@ static const CpsiKey LINE_KEYS[] = {
     {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unless = "sections",
      .unit = "N", .help = "axial stiffness EA; .inf for an inextensible line"},
     {"point_weights", OPTIONAL, LIST(Line, point_weights, 0), .inside = &POINT_WEIGHT,
-     .fallback = "[]", .help = "clumps and buoys between the ends"},
+     .fallback = "[]", .help = "clumps and buoys between the ends, in order from A to B"},
     {"friction_zones", OPTIONAL, LIST(Line, zones, 0), .inside = &ZONE, .fallback = "[]",
      .help = "intervals of arc length with another friction, in order from A to B, without "
              "overlap"},
