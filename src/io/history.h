@@ -11,7 +11,7 @@
 #include <stdbool.h>
 
 #include "capstan/results.h"
-#include "io/base/write_directory.h"
+#include "io/base/directory/write_directory.h"
 
 typedef struct CpsiNetcdf CpsiNetcdf;
 

@@ -105,7 +105,7 @@ def read(*path):
 def former_names(root):
     """all earlier names in the tables, as pairs with the names that they have now"""
     pairs = set()
-    for path in glob.glob(os.path.join(root, "src", "io", "schema", "*_keys.c")):
+    for path in glob.glob(os.path.join(root, "src", "io", "schema", "tables", "*_keys.c")):
         for row in re.split(r"\n {4,8}\{(?=\")", read(path)):
             now = re.match(r'"(\w+)"', row)
             for former in " ".join(re.findall(r'\.formerly = "([^"]*)"', row)).split():

@@ -10,9 +10,9 @@
 #include <cmocka.h>
 
 #include "capstan/results.h"
-#include "io/base/directory_marker.h"
-#include "io/base/file_set.h"
-#include "io/base/write_directory.h"
+#include "io/base/directory/directory_marker.h"
+#include "io/base/directory/file_set.h"
+#include "io/base/directory/write_directory.h"
 #include "refuse_files.h"
 
 static const char OUT[] = "directory-parts";

@@ -16,7 +16,7 @@
 #include <cmocka.h>
 
 #include "capstan/io.h"
-#include "io/base/pool.h"
+#include "io/base/yaml/pool.h"
 
 void *__real_cpsi_pool_take(CpsiPool *pool, size_t count, size_t size);
 void *__wrap_cpsi_pool_take(CpsiPool *pool, size_t count, size_t size);

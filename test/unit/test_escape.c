@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "capstan/io.h"
-#include "io/base/escape.h"
+#include "io/base/text/escape.h"
 
 typedef void Writer(FILE *out, const char *text);
 

@@ -12,7 +12,7 @@
 
 #include "capstan/evolve.h"
 #include "capstan/io.h"
-#include "io/schema/scene_keys.h"
+#include "io/schema/tables/scene_keys.h"
 
 static const char SCENE[] =
     "capstan: 1\n"

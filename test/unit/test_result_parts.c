@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "capstan/results.h"
-#include "io/results/netcdf_file.h"
+#include "io/results/netcdf/netcdf_file.h"
 #include "straight_rope.h"
 
 /* The library of this file has no functions: each call of one would end the test. */

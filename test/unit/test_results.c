@@ -17,7 +17,7 @@
 #include <cmocka.h>
 
 #include "capstan/results.h"
-#include "io/base/escape.h"
+#include "io/base/text/escape.h"
 
 /* every kind of character that some format takes for its own */
 #define HOSTILE "=1+1 </title><script>\"'&\\ \x01\x1b[31m \xC2\x9B \xFF\xC3 \xE2\x98\xA0"

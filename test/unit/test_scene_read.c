@@ -11,7 +11,7 @@
 #include "check.h"
 
 #include "capstan/io.h"
-#include "io/base/yaml.h"
+#include "io/base/yaml/yaml.h"
 
 #define HEAD     "capstan: 1\nlines:\n  cable:\n    length: 10\n    stiffness: .inf\n    mass: 2\n"
 #define STRAIGHT "    start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}}\n"

@@ -13,9 +13,9 @@
 #include <cmocka.h>
 
 #include "capstan/base.h"
-#include "io/base/pool.h"
-#include "io/base/yaml.h"
-#include "io/base/yaml_lines.h"
+#include "io/base/yaml/pool.h"
+#include "io/base/yaml/yaml.h"
+#include "io/base/yaml/yaml_lines.h"
 
 static void numbers(void **state) {
     (void)state;

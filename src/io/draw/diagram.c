@@ -6,7 +6,7 @@
 
 #include "base/math.h"
 #include "base/status.h"
-#include "io/base/numbers.h"
+#include "io/base/text/numbers.h"
 
 void cpsi_frame_equal(CpsiFrame *f) {
     const double sx = (f->x[1] - f->x[0]) / f->width, sy = (f->y[1] - f->y[0]) / f->height;

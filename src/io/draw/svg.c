@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/math.h"
-#include "io/base/escape.h"
+#include "io/base/text/escape.h"
 
 enum { MAX_TICKS = 30, BAR_STOPS = 16 };
 

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "io/base/numbers.h"
-#include "io/base/read_file.h"
+#include "io/base/file/read_file.h"
+#include "io/base/text/numbers.h"
 #include "io/schema/keys.h"
 
 /* marks limits that were initialised by their default function */

@@ -4,7 +4,7 @@
 #define CAPSTAN_SRC_IO_READ_DOCUMENT_H
 
 #include "capstan/io.h"
-#include "io/base/yaml.h"
+#include "io/base/yaml/yaml.h"
 #include "io/schema/file_kind.h"
 
 /* A file that is being read. */

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/schema/set_keys.h"
+#include "io/schema/tables/set_keys.h"
 
 /* A value that is being read: its row, and its name in messages. */
 typedef struct Value {

@@ -3,7 +3,7 @@
 #ifndef CAPSTAN_SRC_IO_SCHEMA_FILE_KIND_H
 #define CAPSTAN_SRC_IO_SCHEMA_FILE_KIND_H
 
-#include "io/base/yaml.h"
+#include "io/base/yaml/yaml.h"
 
 typedef enum CpsiFileKind { CPSI_FILE_SCENE, CPSI_FILE_LAW, CPSI_FILE_DRIVE } CpsiFileKind;
 

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "io/base/yaml.h"
+#include "io/base/yaml/yaml.h"
 
 /* The form of a value, and the type stored at its offset. */
 typedef enum CpsiValue {

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Definitions shared by the pictures: dimensions of the sheet, the direction of view, and one
+ * function per kind of picture. */
+#ifndef CAPSTAN_SRC_IO_DRAW_RUN_RUN_PICTURE_H
+#define CAPSTAN_SRC_IO_DRAW_RUN_RUN_PICTURE_H
+
+#include "base/vec3.h"
+#include "io/draw/svg.h"
+#include "io/history.h"
+
+/* In pixels. */
+enum { CPSI_SHEET_WIDTH = 960, CPSI_FRAME_LEFT = 84, CPSI_FRAME_WIDTH = 740, CPSI_FRAME_TOP = 72 };
+
+/* A parallel projection of the scene onto paper. */
+typedef struct CpsiView {
+    bool plan;
+    Vec3 right, up, toward; /* unit vectors: along the paper, and from it to the eye */
+    char x_label[80], y_label[80];
+    double x[2], y[2]; /* ranges of everything drawn */
+    double cut;        /* coordinate along `toward` at which an elevation intersects planes */
+    bool true_scale;   /* heights are not exaggerated, since a round obstacle is visible */
+} CpsiView;
+
+CpsiView cpsi_view_plan(const CpsResults *results);
+CpsiView cpsi_view_elevation(const CpsResults *results);
+
+/* The obstacles, under everything else, turned as after a step, or for all steps (-1). */
+void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
+                            int step, FILE *out);
+
+/* Whether the silhouette is a circle: that of a ball, or of a cylinder seen from its end. */
+bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);
+
+/* One step: lines coloured by tension, with sticking and slipping parts. All steps: curves coloured
+ * by step. */
+void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
+                       const CpsiSnapshot *snapshot, FILE *out);
+void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *out);
+
+/* Tension along the lines, all steps. */
+void cpsi_picture_tension(const CpsResults *results, FILE *out);
+
+/* All pictures of a run, as files of its directory. */
+CpsStatus cpsi_pictures_write(CpsResults *results, CpsError *err);
+
+/* Force over displacement of every held end that moves along a closed cycle: loop-NAME.svg. */
+CpsStatus cpsi_pictures_loops(CpsResults *results, CpsError *err);
+
+#endif

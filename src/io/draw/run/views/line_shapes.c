@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Plan views and elevations: the shapes of the lines.
+ *
+ * One step: colour is tension, a pale band under the line shows sticking and slipping, grey is the
+ * initial configuration of the step. All steps: colour is the step. Plan views keep both scales
+ * equal; elevations may exaggerate heights by a round factor that is printed. */
+#include <math.h>
+#include <string.h>
+
+#include "io/draw/run/run_picture.h"
+#include "io/draw/run/steps.h"
+
+enum {
+    MAX_FRAME_HEIGHT = 520,
+    MIN_PLAN_HEIGHT = 220,
+    LOW_HEIGHT = 210,
+    COLOUR_LEVELS = 48,
+    NAMED_LINES = 6
+};
+
+static const char COLOUR_STICK[] = "#9ad9c8", COLOUR_SLIP[] = "#ffb59b", COLOUR_AIR[] = "#d3b8f0",
+                  COLOUR_START[] = "#c4c4c4";
+
+/* largest of 1, 2, 5, 10, ... that is at most x */
+static double round_down(double x) {
+    const double power = pow(10, floor(log10(x))), lead = x / power;
+    return power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+}
+
+/* Place the view's ranges on the sheet; returns the exaggeration of heights. */
+static double fit(const CpsiView *view, CpsiFrame *frame) {
+    *frame = (CpsiFrame){.left = CPSI_FRAME_LEFT,
+                         .top = CPSI_FRAME_TOP,
+                         .width = CPSI_FRAME_WIDTH,
+                         .x = {view->x[0], view->x[1]},
+                         .y = {view->y[0], view->y[1]}};
+    cpsi_range_pad(frame->x, 0.05);
+    const double height = view->y[1] - view->y[0];
+    double dx = frame->x[1] - frame->x[0];
+    double factor = 1, scale = frame->width / dx; /* pixels per metre along x */
+
+    /* heights: a round exaggeration where they would hardly be visible, none where they are only
+     * rounding */
+    const double natural = height * scale;
+    if (!view->plan && !view->true_scale && natural > 1e-5 * frame->width && natural < LOW_HEIGHT)
+        factor = round_down(LOW_HEIGHT / natural);
+    const double most = 0.8 * MAX_FRAME_HEIGHT;
+    if (natural * factor > most) scale *= most / (natural * factor);
+
+    /* both ranges centred, filling the frame */
+    frame->height = fmin(MAX_FRAME_HEIGHT, fmax(MIN_PLAN_HEIGHT, natural * factor * 1.3));
+    dx = frame->width / scale;
+    const double dy = frame->height / (scale * factor);
+    const double mid_x = 0.5 * (frame->x[0] + frame->x[1]),
+                 mid_y = 0.5 * (frame->y[0] + frame->y[1]);
+    if (isfinite(dx) && isfinite(mid_x)) {
+        frame->x[0] = mid_x - 0.5 * dx;
+        frame->x[1] = mid_x + 0.5 * dx;
+    }
+    if (isfinite(dy) && isfinite(mid_y)) {
+        frame->y[0] = mid_y - 0.5 * dy;
+        frame->y[1] = mid_y + 0.5 * dy;
+    }
+    return factor;
+}
+
+typedef struct Pen {
+    const CpsiView *view;
+    const CpsiFrame *frame;
+    FILE *out;
+} Pen;
+
+static void draw_point(const Pen *pen, const double position[3]) {
+    const Vec3 place = vec3_load(position);
+    fprintf(pen->out, "%.1f,%.1f ", cpsi_frame_x(pen->frame, vec3_dot(pen->view->right, place)),
+            cpsi_frame_y(pen->frame, vec3_dot(pen->view->up, place)));
+}
+
+/* points first..last of an array (points, 3) */
+static void draw_polyline(const Pen *pen, const double *position, int first, int last,
+                          const char *colour, double width, const char *more) {
+    fprintf(pen->out,
+            "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" stroke-linejoin=\"round\" "
+            "%s points=\"",
+            colour, width, more);
+    for (int i = first; i <= last; ++i) draw_point(pen, position + 3 * (size_t)i);
+    fputs("\"/>\n", pen->out);
+}
+
+static const char *band_colour(unsigned char state) {
+    return state == CPSI_SHAPE_IN_AIR     ? COLOUR_AIR
+           : state == CPS_NODE_STATE_SLIP ? COLOUR_SLIP
+                                          : COLOUR_STICK;
+}
+
+static bool rubs_in_air(const CpsResults *results, const CpsiSnapshot *snapshot) {
+    for (int l = 0; l < results->line_count; ++l)
+        if (memchr(snapshot->shape[l].state, CPSI_SHAPE_IN_AIR, (size_t)snapshot->shape[l].points))
+            return true;
+    return false;
+}
+
+/* runs of equal state as pale bands */
+static void draw_states(const Pen *pen, const CpsiShape *shape) {
+    for (int first = 0; first < shape->points;) {
+        int last = first;
+        while (last + 1 < shape->points && shape->state[last + 1] == shape->state[first]) ++last;
+        const unsigned char state = shape->state[first];
+        /* a band extends half way to its neighbours; up to the next point is accurate enough */
+        const int to = last + 1 < shape->points ? last + 1 : last;
+        if (state != CPS_NODE_STATE_FREE && state != CPS_NODE_STATE_UNRESOLVED && to > first)
+            draw_polyline(pen, shape->position, first, to, band_colour(state), 11, "");
+        first = last + 1;
+    }
+}
+
+static int level_of(double tension, const double range[2]) {
+    const double t = (tension - range[0]) / (range[1] - range[0]);
+    return t >= 0 ? (int)fmin(COLOUR_LEVELS - 1, t * COLOUR_LEVELS) : 0;
+}
+
+/* runs of nearly equal tension as one polyline each */
+static void draw_tension(const Pen *pen, const CpsiShape *shape, const double range[2]) {
+    for (int first = 0; first + 1 < shape->points;) {
+        const int level = level_of(shape->tension[first], range);
+        int last = first + 1;
+        while (last + 1 < shape->points && level_of(shape->tension[last], range) == level) ++last;
+        draw_polyline(pen, shape->position, first, last,
+                      cpsi_colour(CPSI_SCALE_TENSION, (level + 0.5) / COLOUR_LEVELS).hex, 3.4,
+                      "stroke-linecap=\"round\"");
+        first = last;
+    }
+}
+
+static void draw_end(const Pen *pen, const double position[3], bool held, const char *name) {
+    const Vec3 place = vec3_load(position);
+    const double x = cpsi_frame_x(pen->frame, vec3_dot(pen->view->right, place));
+    const double y = cpsi_frame_y(pen->frame, vec3_dot(pen->view->up, place));
+    fprintf(pen->out,
+            "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\" stroke=\"#222\" "
+            "stroke-width=\"1.4\"/>",
+            x, y, held ? "#222" : "#fff");
+    /* on the side where there is space */
+    const bool left = x > pen->frame->left + 0.8 * pen->frame->width;
+    cpsi_svg_text(pen->out, left ? x - 7 : x + 7, y - 8, left ? CPSI_END : CPSI_START,
+                  "font-size=\"11\" paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"",
+                  name);
+}
+
+static void draw_ends(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot) {
+    const CpsiRow *row = &results->row[snapshot->step];
+    for (int l = 0; l < results->line_count; ++l) {
+        const CpsiShape *shape = &snapshot->shape[l];
+        const bool named = results->line_count > 1 && results->line_count <= NAMED_LINES;
+        for (int e = 0; e < 2; ++e) {
+            char name[64] = "";
+            if (results->line_count <= NAMED_LINES)
+                snprintf(name, sizeof name, "%.40s%s%s", named ? results->line_name[l] : "",
+                         named ? "." : "", e ? "B" : "A");
+            draw_end(pen, shape->position + (e ? 3 * (size_t)(shape->points - 1) : 0),
+                     row->line[l].held[e], name);
+        }
+    }
+}
+
+static void draw_step_legend(const CpsResults *results, bool air, double y, FILE *out) {
+    char mark[160];
+    double x = CPSI_FRAME_LEFT;
+    snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"2\"/>",
+             COLOUR_START);
+    cpsi_legend(out, &x, y, mark, "start of the step");
+    if (results->obstacle_count > 0) {
+        snprintf(mark, sizeof mark,
+                 "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_STICK);
+        cpsi_legend(out, &x, y, mark, "sticks");
+        snprintf(mark, sizeof mark,
+                 "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_SLIP);
+        cpsi_legend(out, &x, y, mark, "slips");
+        if (air) {
+            snprintf(mark, sizeof mark,
+                     "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"11\"/>", COLOUR_AIR);
+            cpsi_legend(out, &x, y, mark, "friction in the air");
+        }
+        snprintf(mark, sizeof mark,
+                 "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"3.4\"/>",
+                 cpsi_colour(CPSI_SCALE_TENSION, 0.5).hex);
+        cpsi_legend(out, &x, y, mark, "off the obstacle");
+    }
+    cpsi_legend(out, &x, y, "<circle r=\"4.5\" fill=\"#222\" stroke=\"#222\"/>", "held end");
+    cpsi_legend(out, &x, y,
+                "<circle r=\"4.5\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"1.4\"/>",
+                "free end");
+}
+
+/* Initial configuration of a step. Before a line is statically placed it has none: the solver's
+ * first guess is not shown. */
+static const double *start_of(const CpsResults *results, const CpsiSnapshot *snapshot, int line) {
+    return snapshot->step == 0 && results->begins_static ? snapshot->shape[line].position
+                                                         : snapshot->shape[line].reference;
+}
+
+/* axes, obstacles, subtitle: the beginning of both kinds of sheet; step as for
+ * cpsi_picture_obstacles */
+static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFrame *frame, int step,
+                        const char *what, FILE *out) {
+    char subtitle[300], label[256], more[64] = "";
+    const double factor = fit(view, frame);
+    if (factor > 1) snprintf(more, sizeof more, ", heights \xC3\x97 %.8g", factor);
+    snprintf(subtitle, sizeof subtitle, "%s%s%s", view->plan ? "Plan view" : "Elevation", more,
+             what);
+    cpsi_svg_begin(out, CPSI_SHEET_WIDTH, frame->top + frame->height + 88,
+                   *results->title ? results->title : "capstan", subtitle);
+    cpsi_frame_begin(out, frame, 0);
+    fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#fdfdfd\"/>\n",
+            frame->left, frame->top, frame->width, frame->height);
+    cpsi_picture_obstacles(results, view, frame, step, out);
+    cpsi_frame_end(out);
+    snprintf(label, sizeof label, "%s%s", view->y_label, more);
+    cpsi_frame_axes(out, frame, view->x_label, label);
+}
+
+void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
+                       const CpsiSnapshot *snapshot, FILE *out) {
+    const CpsiRow *row = &results->row[snapshot->step];
+    char what[160], label[32];
+    CpsiFrame frame;
+    snprintf(what, sizeof what, "  \xC2\xB7  step %d of %d: %.*s  \xC2\xB7  %s", snapshot->step + 1,
+             results->planned_steps, 80, row->name, cps_outcome_name(row->report.outcome));
+    begin_sheet(results, view, &frame, snapshot->step, what, out);
+
+    double range[2];
+    cpsi_tension_range(results, range);
+    const Pen pen = {view, &frame, out};
+    cpsi_frame_begin(out, &frame, 1);
+    for (int l = 0; l < results->line_count; ++l)
+        draw_polyline(&pen, start_of(results, snapshot, l), 0, snapshot->shape[l].points - 1,
+                      COLOUR_START, 2, "");
+    for (int l = 0; l < results->line_count; ++l) draw_states(&pen, &snapshot->shape[l]);
+    for (int l = 0; l < results->line_count; ++l) draw_tension(&pen, &snapshot->shape[l], range);
+    cpsi_frame_end(out);
+    draw_ends(&pen, results, snapshot);
+
+    const CpsiUnit unit = cpsi_unit("N", range[1]);
+    snprintf(label, sizeof label, "tension (%s)", unit.name);
+    cpsi_frame_bar(out, &frame, CPSI_SCALE_TENSION, range[0] * unit.factor, range[1] * unit.factor,
+                   label);
+    draw_step_legend(results, rubs_in_air(results, snapshot), frame.top + frame.height + 68, out);
+    cpsi_svg_finish(out);
+}
+
+void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *out) {
+    char note[64], what[80], mark[160];
+    CpsiFrame frame;
+    cpsi_step_note(results, note, sizeof note);
+    snprintf(what, sizeof what, "  \xC2\xB7  %s", note);
+    begin_sheet(results, view, &frame, -1, what, out);
+
+    const Pen pen = {view, &frame, out};
+    cpsi_frame_begin(out, &frame, 1);
+    for (int l = 0; l < results->line_count; ++l)
+        draw_polyline(&pen, start_of(results, &results->snapshot[0], l), 0,
+                      results->snapshot[0].shape[l].points - 1, COLOUR_START, 3, "");
+    for (int s = 0; s < results->snapshot_count; ++s)
+        for (int l = 0; l < results->line_count; ++l)
+            draw_polyline(&pen, results->snapshot[s].shape[l].position, 0,
+                          results->snapshot[s].shape[l].points - 1,
+                          cpsi_step_colour(results, s).hex, cpsi_step_width(results, s), "");
+    cpsi_frame_end(out);
+    cpsi_step_list(results, &frame, out);
+    double x = CPSI_FRAME_LEFT;
+    snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"3\"/>",
+             COLOUR_START);
+    cpsi_legend(out, &x, frame.top + frame.height + 68, mark, "where the first step started");
+    cpsi_svg_finish(out);
+}

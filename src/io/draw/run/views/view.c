@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The directions of view of the pictures: plan views against gravity; elevations across the
+ * direction in which the lines spread most, along a slope, which is then a straight line, or along
+ * the axis of a cylinder, which is then a circle. All pictures of a run have the same ones, so that
+ * steps can be compared. */
+#include <math.h>
+
+#include "io/draw/run/run_picture.h"
+
+/* A widest direction this close to an axis is replaced by the axis: pictures of moorings then show
+ * plain x or y. */
+static const double SNAP_COSINE = 0.985; /* 10 degrees */
+
+/* A plane with a smaller slope is drawn as level: the slope is not visible in a picture. */
+static const double LEVEL = 1e-3;
+
+/* A cylinder counts as horizontal when its axis is at least this long as seen from above: at most
+ * 25 degrees from the horizontal. */
+static const double HORIZONTAL = 0.9;
+
+/* Silhouettes up to this many times as wide as the lines are shown whole ... */
+static const double MOST_ROUND = 2;
+/* ... if they are no farther away than this share of the lines' spread. */
+static const double NEAR = 0.5;
+
+static Vec3 unit(Vec3 a) { return vec3_scale(1 / vec3_norm(a), a); }
+
+/* against gravity; z without gravity */
+static Vec3 upward(const CpsResults *results) {
+    const Vec3 gravity = vec3_load(results->gravity);
+    return vec3_norm(gravity) > 0 ? unit(vec3_scale(-1, gravity)) : vec3(0, 0, 1);
+}
+
+/* the horizontal part of x, or of y where x is vertical */
+static Vec3 horizontal_x(Vec3 up) {
+    const Vec3 axis = fabs(up.x) < 0.9 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    return unit(vec3_axpy(-vec3_dot(axis, up), up, axis));
+}
+
+static void label_axis(char *out, size_t size, Vec3 a, const char *otherwise) {
+    static const char *const NAME[] = {"x (m)", "y (m)", "z (m)"};
+    const double component[] = {a.x, a.y, a.z};
+    for (int i = 0; i < 3; ++i) {
+        if (component[i] > 1 - 1e-12) {
+            snprintf(out, size, "%s", NAME[i]);
+            return;
+        }
+    }
+    snprintf(out, size, "%s (%.2f, %.2f, %.2f) (m)", otherwise, a.x + 0.0, a.y + 0.0, a.z + 0.0);
+}
+
+/* Distance of a range from c - r .. c + r. */
+static double apart(const double range[2], double c, double r) {
+    return fmax(0, fmax(range[0] - (c + r), (c - r) - range[1]));
+}
+
+/* include round silhouettes, unless the lines would be too small beside them */
+static void include_round(const CpsResults *results, CpsiView *view) {
+    const double spread = hypot(view->x[1] - view->x[0], view->y[1] - view->y[0]);
+    for (int k = 0; k < results->obstacle_count; ++k) {
+        const CpsObstacle *obstacle = &results->obstacle[k];
+        if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
+        view->true_scale = true;
+        const Vec3 centre = vec3_load(obstacle->point);
+        const double x = vec3_dot(view->right, centre), y = vec3_dot(view->up, centre),
+                     r = obstacle->radius;
+        const double away = hypot(apart(view->x, x, r), apart(view->y, y, r));
+        if (!cpsi_obstacle_is_circle(obstacle, view) || r > MOST_ROUND * spread ||
+            away > NEAR * spread)
+            continue;
+        cpsi_range_include(view->x, x - r);
+        cpsi_range_include(view->x, x + r);
+        cpsi_range_include(view->y, y - r);
+        cpsi_range_include(view->y, y + r);
+    }
+}
+
+/* ranges over all snapshots, of the configurations and of the initial ones of their steps */
+static void measure(const CpsResults *results, CpsiView *view) {
+    view->x[0] = view->y[0] = INFINITY;
+    view->x[1] = view->y[1] = -INFINITY;
+    double sum = 0, count = 0;
+    for (int s = 0; s < results->snapshot_count; ++s) {
+        for (int l = 0; l < results->line_count; ++l) {
+            const CpsiShape *shape = &results->snapshot[s].shape[l];
+            for (size_t i = 0; i < (size_t)shape->points; ++i) {
+                const Vec3 place = vec3_load(shape->position + 3 * i),
+                           start = vec3_load(shape->reference + 3 * i);
+                cpsi_range_include(view->x, vec3_dot(view->right, place));
+                cpsi_range_include(view->x, vec3_dot(view->right, start));
+                cpsi_range_include(view->y, vec3_dot(view->up, place));
+                cpsi_range_include(view->y, vec3_dot(view->up, start));
+                sum += vec3_dot(view->toward, place);
+                count += 1;
+            }
+        }
+    }
+    view->cut = sum / count;
+    include_round(results, view);
+}
+
+CpsiView cpsi_view_plan(const CpsResults *results) {
+    CpsiView view = {.plan = true, .toward = upward(results)};
+    view.right = horizontal_x(view.toward);
+    view.up = vec3_cross(view.toward, view.right);
+    label_axis(view.x_label, sizeof view.x_label, view.right, "along");
+    label_axis(view.y_label, sizeof view.y_label, view.up, "along");
+    measure(results, &view);
+    return view;
+}
+
+/* angle of the widest spread in the plane (right, up): the main axis of the second moments of all
+ * points */
+static double widest_angle(const CpsResults *results, Vec3 right, Vec3 up) {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+    const Vec3 origin = vec3_load(results->snapshot[0].shape[0].position);
+    for (int s = 0; s < results->snapshot_count; ++s) {
+        for (int l = 0; l < results->line_count; ++l) {
+            const CpsiShape *shape = &results->snapshot[s].shape[l];
+            for (size_t i = 0; i < (size_t)shape->points; ++i) {
+                const Vec3 place = vec3_sub(vec3_load(shape->position + 3 * i), origin);
+                const double a = vec3_dot(right, place), b = vec3_dot(up, place);
+                n += 1;
+                x += a;
+                y += b;
+                xx += a * a;
+                xy += a * b;
+                yy += b * b;
+            }
+        }
+    }
+    return 0.5 * atan2(2 * (xy - x * y / n), (xx - x * x / n) - (yy - y * y / n));
+}
+
+/* the direction of a slope, across a horizontal cylinder, or of the widest spread, as an angle from
+ * east */
+static double elevation_angle(const CpsResults *results, Vec3 east, Vec3 north) {
+    for (int k = 0; k < results->obstacle_count; ++k) {
+        const CpsObstacle *obstacle = &results->obstacle[k];
+        if (obstacle->kind == CPS_OBSTACLE_SPHERE) continue;
+        const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE;
+        const Vec3 d = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));
+        const double e = vec3_dot(d, east), n = vec3_dot(d, north), x = plane ? e : n,
+                     y = plane ? n : -e;
+        if (hypot(x, y) > (plane ? LEVEL : HORIZONTAL)) return x < 0 ? atan2(-y, -x) : atan2(y, x);
+    }
+    return widest_angle(results, east, north);
+}
+
+CpsiView cpsi_view_elevation(const CpsResults *results) {
+    CpsiView view = {.up = upward(results)};
+    const Vec3 east = horizontal_x(view.up), north = vec3_cross(view.up, east);
+    const double angle = elevation_angle(results, east, north);
+    const double c = cos(angle), s = sin(angle);
+    view.right = vec3_axpy(c, east, vec3_scale(s, north));
+    if (c > SNAP_COSINE) view.right = east;
+    if (fabs(s) > SNAP_COSINE) view.right = north;
+    view.toward = vec3_cross(view.right, view.up);
+    label_axis(view.x_label, sizeof view.x_label, view.right, "distance along");
+    label_axis(view.y_label, sizeof view.y_label, view.up, "height along");
+    measure(results, &view);
+    return view;
+}

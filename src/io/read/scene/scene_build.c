@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* From the values of a scene file to the scene's structs (see scene_build.h). Defaults are those of
+ * cps_scene_default() and similar functions, with which reading begins. */
+#include "io/read/scene/scene_build.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/math.h"
+#include "io/base/file/read_file.h"
+#include "io/read/law/set_build.h"
+#include "io/read/scene/node_file.h"
+#include "io/read/scene/section_build.h"
+
+typedef struct Build {
+    const CpsiDocument *d;
+    CpsiPool *pool; /* memory of the scene */
+    CpsScene *scene;
+    CpsLine *line;
+    CpsiSetBuild set; /* of friction sets */
+    double elements;  /* number of elements of the lines so far */
+    CpsiMaterials materials;
+    /* (lines) [m] position at which each end is held after the preceding entry; NaN: not held, or
+     * not known */
+    double (*held)[2][3];
+} Build;
+
+static const char *copy_text(const Build *b, const char *text) {
+    return cpsi_pool_text(b->pool, text, strlen(text));
+}
+
+static void copy_vector(double out[3], const double x[3]) { memcpy(out, x, 3 * sizeof *out); }
+
+/* ---- elements ---- */
+
+/* Check that the elements of the lines so far are within the limits, and so is their number times
+ * that of the obstacles, with which computing times increase. */
+static CpsStatus check_size(const Build *b, const CpsiYaml *place) {
+    const double most = fmin((double)b->d->limits->max_elements, 1e9);
+    const double pairs = b->elements * b->scene->obstacle_count;
+    if (!(b->elements <= most))
+        return cpsi_document_fail(b->d, CPS_ERR_LIMIT, place,
+                                  "elements: %.15g elements in all lines so far, the limit is "
+                                  "%.15g: use fewer, longer elements",
+                                  b->elements, most);
+    if (!(pairs <= (double)b->d->limits->max_pairs))
+        return cpsi_document_fail(b->d, CPS_ERR_LIMIT, place,
+                                  "elements: %.15g elements in all lines so far beside %d "
+                                  "obstacles, %.15g pairs, the limit is %lld: use fewer, longer "
+                                  "elements",
+                                  b->elements, b->scene->obstacle_count, pairs,
+                                  (long long)b->d->limits->max_pairs);
+    return CPS_OK;
+}
+
+/* Count the elements and check the limits before memory is allocated for them. */
+static CpsStatus count_elements(Build *b, const CpsiLineValues *values, CpsLine *line) {
+    const CpsiYaml *list = values->elements, *given = cpsi_yaml_child(values->node, "elements");
+    double count = isnan(values->count) ? line->element_count : values->count;
+    if (list) count = 0;
+    if (values->sections.count > 0) count = cpsi_section_elements(&values->sections);
+    for (const CpsiYaml *item = list ? list->child : NULL; item; item = item->next) {
+        double each = 1;
+        if (item->child) cpsi_yaml_number(item->child->text, &each);
+        count += each;
+    }
+    b->elements += count;
+    const CpsStatus status = check_size(b, given ? given : values->node);
+    if (status == CPS_OK) line->element_count = (int)count;
+    return status;
+}
+
+static CpsStatus build_elements(Build *b, const CpsiLineValues *values, CpsLine *line) {
+    const CpsStatus status = count_elements(b, values, line);
+    if (status != CPS_OK || values->sections.count > 0 || !values->elements) return status;
+    double *length = CPSI_POOL_TAKE(b->pool, line->element_count, double);
+    if (!length) return cpsi_document_no_memory(b->d);
+    line->element_length = length;
+    for (const CpsiYaml *item = values->elements->child; item; item = item->next) {
+        double count = 1, whole = 0;
+        if (item->child) cpsi_yaml_number(item->child->text, &count);
+        cpsi_yaml_number(item->child ? item->child->next->text : item->text, &whole);
+        for (int i = 0; i < (int)count; i++) *length++ = whole / (int)count;
+    }
+    return CPS_OK;
+}
+
+/* ---- a start from nodes ---- */
+
+static CpsStatus read_nodes(const Build *b, const CpsiStartValues *start, CpsiNodeFile *file) {
+    if (!cpsi_is_beside(start->nodes))
+        return cpsi_document_fail(
+            b->d, CPS_ERR_INPUT, cpsi_yaml_child(start->node, "nodes"),
+            "'nodes': found '%.64s', expected the name of a file beside this one, without '/'",
+            start->nodes);
+    const char *path = cpsi_path_beside(b->pool, b->d->name, start->nodes);
+    if (!path) return cpsi_document_no_memory(b->d);
+    return cpsi_node_file_read(path, b->d->limits->max_bytes, b->pool, file, b->d->err);
+}
+
+/* The elements of the file where the scene gives none; otherwise both must have the same. */
+static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const CpsiNodeFile *file,
+                               CpsLine *line) {
+    const CpsiYaml *given = cpsi_yaml_child(values->node, "elements");
+    if (!given) given = values->sections.node;
+    const double *arc = file->arc_length;
+    if (!given) {
+        b->elements += file->nodes - 1 - line->element_count;
+        line->element_count = file->nodes - 1;
+    }
+    const CpsStatus status = check_size(b, values->node);
+    if (status != CPS_OK) return status;
+    if (given && line->element_count != file->nodes - 1)
+        return cpsi_document_fail(
+            b->d, CPS_ERR_INPUT, given,
+            "'%s': found %d, expected %d, one less than nodes are given, or none", given->key,
+            line->element_count, file->nodes - 1);
+    if (!arc) return CPS_OK;
+    double *length = CPSI_POOL_TAKE(b->pool, line->element_count, double), worst = 0;
+    if (!length) return cpsi_document_no_memory(b->d);
+    for (int e = 0; e < line->element_count; e++) {
+        const double here =
+            line->element_length ? line->element_length[e] : line->length / line->element_count;
+        length[e] = arc[e + 1] - arc[e];
+        worst = fmax(worst, fabs(length[e] - here));
+    }
+    if (!given) line->element_length = length;
+    /* tolerance for abscissae written with 9 digits */
+    if (!given || worst <= 1e-9 * line->length) return CPS_OK;
+    return cpsi_document_fail(b->d, CPS_ERR_INPUT, given,
+                              "'%s': natural lengths differ by %g m from those of arc_length in "
+                              "the file of nodes: leave one of the two out",
+                              given->key, worst);
+}
+
+static CpsStatus build_nodes(Build *b, const CpsiLineValues *values, CpsLine *line) {
+    CpsiNodeFile file = {0};
+    CpsStatus status = read_nodes(b, &values->start, &file);
+    if (status == CPS_OK) status = read_elements(b, values, &file, line);
+    line->start = (CpsStart){.kind = CPS_START_NODES,
+                             .point_count = file.nodes,
+                             .point = file.position,
+                             .tension = file.tension,
+                             .reaction = file.reaction,
+                             .friction_bound = file.friction_bound};
+    return status;
+}
+
+/* ---- lines ---- */
+
+static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsStart *start) {
+    const CpsiStraightValues *straight = &values->straight;
+    const CpsiArcValues *arc = &values->arc;
+    const CpsiRows *polyline = &values->polyline;
+    if (!values->node) {
+        start->kind = CPS_START_STATIC;
+        return CPS_OK;
+    }
+    start->kind = straight->node   ? CPS_START_STRAIGHT
+                  : polyline->node ? CPS_START_POLYLINE
+                                   : CPS_START_ARC;
+    start->point_count = polyline->node ? polyline->rows : 2;
+    double *point = CPSI_POOL_TAKE(b->pool, start->point_count, double[3]);
+    if (!point) return cpsi_document_no_memory(b->d);
+    start->point = point;
+    if (polyline->node) {
+        memcpy(point, polyline->x, (size_t)polyline->rows * sizeof(double[3]));
+    } else if (straight->node) {
+        copy_vector(point, straight->from);
+        copy_vector(point + 3, straight->to);
+    } else {
+        copy_vector(point, arc->from);
+        copy_vector(point + 3, arc->centre);
+        copy_vector(start->axis, arc->axis);
+    }
+    return CPS_OK;
+}
+
+/* `held`: at its initial position, `free`: without force; or at a given position, or with a given
+ * force. */
+static CpsEnd build_end(const CpsiEndValues *values) {
+    const bool is_free = values->word == CPSI_END_FREE;
+    if (!is_free && !values->node) return (CpsEnd){.kind = CPS_END_KIND_AT_START};
+    CpsEnd end = {.kind = is_free ? CPS_END_KIND_FREE : CPS_END_KIND_HELD};
+    copy_vector(end.value, values->value);
+    return end;
+}
+
+/* Initial position of a held end. NaN of a free one, and for the end of an arc, which only the
+ * start itself knows. */
+static void first_position(const CpsLine *line, int end, double out[3]) {
+    const CpsStart *start = &line->start;
+    const CpsEnd *e = &line->end[end];
+    const bool known = start->point && (end == CPS_END_A || start->kind != CPS_START_ARC);
+    out[0] = NAN;
+    if (e->kind == CPS_END_KIND_HELD) copy_vector(out, e->value);
+    if (e->kind == CPS_END_KIND_AT_START && known)
+        copy_vector(out, start->point + 3 * (end == CPS_END_A ? 0 : start->point_count - 1));
+}
+
+static CpsStatus build_zones(const Build *b, const CpsiList *zones, CpsLine *line) {
+    const CpsiZoneValues *values = zones->item;
+    if (zones->count == 0) return CPS_OK;
+    CpsFrictionZone *zone = CPSI_POOL_TAKE(b->pool, zones->count, CpsFrictionZone);
+    if (!zone) return cpsi_document_no_memory(b->d);
+    for (int k = 0; k < zones->count; k++) zone[k] = values[k].zone;
+    line->zone = zone;
+    line->zone_count = zones->count;
+    return CPS_OK;
+}
+
+static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *line,
+                            double held[2][3]) {
+    *line = values->line;
+    line->name = copy_text(b, values->node->key);
+    if (!line->name) return cpsi_document_no_memory(b->d);
+    CpsStatus status = cpsi_line_weight_build(&b->materials, values, line);
+    if (status == CPS_OK) status = build_elements(b, values, line);
+    if (status == CPS_OK) status = build_zones(b, &values->zones, line);
+    if (status == CPS_OK && values->sections.count > 0)
+        status = cpsi_sections_build(&b->materials, values, line);
+    if (status == CPS_OK)
+        status = cpsi_point_weights_build(&b->materials, &values->point_weights, line);
+    if (status == CPS_OK)
+        status = values->start.nodes ? build_nodes(b, values, line)
+                                     : build_start(b, &values->start, &line->start);
+    if (status != CPS_OK) return status;
+    for (int end = 0; end < 2; end++) {
+        line->end[end] = build_end(&values->end[end]);
+        first_position(line, end, held[end]);
+    }
+    return CPS_OK;
+}
+
+static CpsStatus build_lines(Build *b, const CpsiList *lines) {
+    const CpsiLineValues *values = lines->item;
+    b->line = CPSI_POOL_TAKE(b->pool, lines->count, CpsLine);
+    b->held = CPSI_POOL_TAKE(b->pool, lines->count, double[2][3]);
+    if (!b->line || !b->held) return cpsi_document_no_memory(b->d);
+    b->scene->line = b->line;
+    b->scene->line_count = lines->count;
+    CpsStatus status = CPS_OK;
+    for (int i = 0; i < lines->count && status == CPS_OK; i++)
+        status = build_line(b, &values[i], &b->line[i], b->held[i]);
+    return status;
+}
+
+/* ---- obstacles ---- */
+
+static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsObstacle *obstacle) {
+    CpsSet *set = NULL;
+    *obstacle = values->obstacle;
+    obstacle->has_friction_lateral = !isnan(obstacle->friction_lateral);
+    if (!obstacle->has_friction_lateral) obstacle->friction_lateral = 0;
+    obstacle->name = copy_text(b, values->node->key);
+    if (!obstacle->name) return cpsi_document_no_memory(b->d);
+    const CpsStatus status = values->set ? cpsi_build_set(&b->set, values->set, &set) : CPS_OK;
+    obstacle->friction_set = set;
+    return status;
+}
+
+static CpsStatus build_obstacles(Build *b, const CpsiList *obstacles) {
+    const CpsiObstacleValues *values = obstacles->item;
+    if (obstacles->count == 0) return CPS_OK;
+    CpsObstacle *obstacle = CPSI_POOL_TAKE(b->pool, obstacles->count, CpsObstacle);
+    if (!obstacle) return cpsi_document_no_memory(b->d);
+    b->scene->obstacle = obstacle;
+    b->scene->obstacle_count = obstacles->count;
+    CpsStatus status = CPS_OK;
+    for (int i = 0; i < obstacles->count && status == CPS_OK; i++)
+        status = build_obstacle(b, &values[i], &obstacle[i]);
+    return status;
+}
+
+/* ---- history ---- */
+
+/* Whether this is the name before the last dot of NAME.WHAT. */
+static bool is_owner(const char *name, const char *key) {
+    const size_t n = (size_t)(strrchr(key, '.') - key);
+    return strncmp(name, key, n) == 0 && !name[n];
+}
+
+/* The index of the line of LINE.END; the reader has checked that it exists. */
+static int find_line(const Build *b, const char *key) {
+    int i = 0;
+    while (i + 1 < b->scene->line_count && !is_owner(b->line[i].name, key)) i++;
+    return i;
+}
+
+/* The index of the obstacle of OBSTACLE.turn, likewise. */
+static int find_obstacle(const Build *b, const char *key) {
+    int i = 0;
+    while (i + 1 < b->scene->obstacle_count && !is_owner(b->scene->obstacle[i].name, key)) i++;
+    return i;
+}
+
+static CpsStatus build_change(const Build *b, const CpsiChangeValues *values, CpsChange *change) {
+    const char *key = values->node->key;
+    const bool move = values->kind == CPSI_CHANGE_MOVE, force = values->kind == CPSI_CHANGE_FORCE;
+    change->line = find_line(b, key);
+    change->end = key[strlen(key) - 1] == 'A' ? CPS_END_A : CPS_END_B;
+    change->to.kind = force ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
+    double *held = b->held[change->line][change->end];
+    if (move && isnan(held[0]))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
+                                  "'%s': found a move, but the end's position before it is not "
+                                  "known (it is free, or held at "
+                                  "the end of an arc): give a position instead",
+                                  key);
+    for (int i = 0; i < 3; i++) {
+        change->to.value[i] = values->value[i];
+        if (move) change->to.value[i] += held[i];
+        held[i] = force ? NAN : change->to.value[i];
+    }
+    return CPS_OK;
+}
+
+static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int index,
+                             CpsStage *stage) {
+    const CpsiChangeValues *changes = values->changes.item;
+    const CpsiNumberItem *turns = values->turns.item;
+    char number[32];
+    snprintf(number, sizeof number, "entry %d", index + 1);
+    *stage = values->stage;
+    stage->name = copy_text(b, stage->name ? stage->name : number);
+    stage->gravity_changes = !isnan(stage->gravity[0]);
+    if (!stage->gravity_changes) stage->gravity[0] = 0;
+
+    CpsChange *change = CPSI_POOL_TAKE(b->pool, values->changes.count, CpsChange);
+    CpsTurn *turn = CPSI_POOL_TAKE(b->pool, values->turns.count, CpsTurn);
+    if (!stage->name || !change || !turn) return cpsi_document_no_memory(b->d);
+    stage->change = change;
+    stage->change_count = values->changes.count;
+    stage->turn = turn;
+    stage->turn_count = values->turns.count;
+    for (int k = 0; k < stage->turn_count; k++)
+        turn[k] = (CpsTurn){.obstacle = find_obstacle(b, turns[k].node->key),
+                            .angle = turns[k].number * CPSI_DEGREE};
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < stage->change_count && status == CPS_OK; k++)
+        status = build_change(b, &changes[k], &change[k]);
+    return status;
+}
+
+static CpsStatus build_history(const Build *b, const CpsiList *history) {
+    const CpsiStageValues *values = history->item;
+    if (history->count == 0) return CPS_OK;
+    CpsStage *stage = CPSI_POOL_TAKE(b->pool, history->count, CpsStage);
+    if (!stage) return cpsi_document_no_memory(b->d);
+    b->scene->stage = stage;
+    b->scene->stage_count = history->count;
+    int64_t steps = 0;
+    for (int i = 0; i < history->count; i++) {
+        const CpsStatus status = build_stage(b, &values[i], i, &stage[i]);
+        if (status != CPS_OK) return status;
+        steps += stage[i].step_count;
+        if (steps > b->d->limits->max_steps)
+            return cpsi_document_fail(b->d, CPS_ERR_LIMIT, values[i].node,
+                                      "history: %lld load steps so far, the limit is %lld",
+                                      (long long)steps, (long long)b->d->limits->max_steps);
+    }
+    return CPS_OK;
+}
+
+CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values, CpsiPool *pool,
+                           CpsScene *scene) {
+    Build b = {.d = d, .pool = pool, .scene = scene, .set = {.d = d}};
+    *scene = values->scene;
+    const double *g = scene->gravity;
+    b.materials = (CpsiMaterials){.d = d,
+                                  .pool = pool,
+                                  .gravity = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]),
+                                  .water = values->water};
+    if (scene->title) scene->title = copy_text(&b, scene->title);
+    if (values->scene.title && !scene->title) return cpsi_document_no_memory(d);
+    CpsStatus status = cpsi_materials_sort(&b.materials, &values->types);
+    if (status == CPS_OK) status = build_obstacles(&b, &values->obstacles);
+    if (status == CPS_OK) status = build_lines(&b, &values->lines);
+    return status ? status : build_history(&b, &values->history);
+}

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Read a scene file: bytes -> tree (yaml.h) -> values by the table of keys (key_reader.h) ->
+ * structs (scene_build.h) -> cps_scene_check. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "capstan/io.h"
+#include "io/read/document.h"
+#include "io/read/key_reader.h"
+#include "io/read/scene/scene_build.h"
+
+struct CpsSceneFile {
+    CpsScene scene;
+    /* memory of everything that the scene refers to, except the friction sets, which are
+     * retained */
+    CpsiPool pool;
+};
+
+void cps_scene_file_destroy(CpsSceneFile *file) {
+    if (!file) return;
+    for (int k = 0; k < file->scene.obstacle_count; k++)
+        cps_set_release((CpsSet *)file->scene.obstacle[k].friction_set);
+    cpsi_pool_free(&file->pool);
+    free(file);
+}
+
+const CpsScene *cps_scene_file_scene(const CpsSceneFile *file) {
+    return file ? &file->scene : NULL;
+}
+
+static CpsStatus check(const CpsiDocument *d, const CpsScene *scene) {
+    CpsError found;
+    const CpsStatus status = cps_scene_check(scene, &found);
+    if (status == CPS_OK) return CPS_OK;
+    const CpsStatus input = status == CPS_ERR_ARGUMENT ? CPS_ERR_INPUT : status;
+    cpsi_document_fail(d, input, cpsi_yaml_at(d->root, found.where), "%s", found.message);
+    return cpsi_fail_inside(d->err, input, "%s", found.where);
+}
+
+static CpsStatus build(const CpsiDocument *d, void *out) {
+    CpsSceneFile *file = out;
+    CpsiSceneValues values = {.node = NULL};
+    CpsStatus status =
+        cpsi_read_mapping(d, d->root, &cpsi_scene_file, cpsi_scene_file.name, &values);
+    if (status == CPS_OK) status = cpsi_scene_build(d, &values, &file->pool, &file->scene);
+    return status ? status : check(d, &file->scene);
+}
+
+CpsStatus cps_scene_read(const char *path, const CpsReadLimits *limits, CpsSceneFile **out,
+                         CpsError *err) {
+    if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
+    *out = NULL;
+    CpsiPool tree = {0};
+    CpsSceneFile *file = calloc(1, sizeof *file);
+    if (!file) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    const CpsStatus status =
+        cpsi_document_read(path, limits, CPSI_FILE_SCENE, &tree, build, file, err);
+    cpsi_pool_free(&tree);
+    if (status == CPS_OK)
+        *out = file;
+    else
+        cps_scene_file_destroy(file);
+    return status;
+}

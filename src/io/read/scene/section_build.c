@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sections and weights (section_build.h). */
+#include "io/read/scene/section_build.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/math.h"
+
+/* A type's weight in water: that of its mass less that of the water that it displaces. `place` is
+ * the mapping that gives the mass. */
+static CpsStatus submerged(const CpsiMaterials *m, const CpsiYaml *place, double mass,
+                           double diameter, double *weight) {
+    *weight = (mass - m->water * 0.25 * CPSI_PI * diameter * diameter) * m->gravity;
+    if (*weight >= 0) return CPS_OK;
+    return cpsi_document_fail(m->d, CPS_ERR_INPUT, cpsi_yaml_child(place, "diameter"),
+                              "'diameter': found %g m, with which %g kg/m float (%g N/m): expected "
+                              "a line that sinks; give buoys as 'point_weights'",
+                              diameter, mass, *weight);
+}
+
+CpsStatus cpsi_line_weight_build(const CpsiMaterials *m, const CpsiLineValues *values,
+                                 CpsLine *line) {
+    if (isnan(values->mass)) return CPS_OK;
+    return submerged(m, values->node, values->mass, values->diameter, &line->weight);
+}
+
+/* ---- sections ---- */
+
+static double count_of(const CpsiSectionValues *section) {
+    /* lengths that are a whole number of elements to rounding get that number */
+    return isnan(section->count)
+               ? fmax(1, ceil(section->length / section->element_length * (1 - 1e-12)))
+               : section->count;
+}
+
+double cpsi_section_elements(const CpsiList *sections) {
+    const CpsiSectionValues *section = sections->item;
+    double count = 0;
+    for (int k = 0; k < sections->count; k++) count += count_of(&section[k]);
+    return count;
+}
+
+static int by_name(const void *a, const void *b) {
+    const CpsiTypeValues *const *left = a, *const *right = b;
+    return strcmp((*left)->node->key, (*right)->node->key);
+}
+
+CpsStatus cpsi_materials_sort(CpsiMaterials *m, const CpsiList *types) {
+    const CpsiTypeValues *type = types->item, **sorted;
+    if (types->count == 0) return CPS_OK;
+    m->type = sorted = CPSI_POOL_TAKE(m->pool, types->count, const CpsiTypeValues *);
+    if (!sorted) return cpsi_document_no_memory(m->d);
+    m->type_count = types->count;
+    for (int k = 0; k < types->count; k++) sorted[k] = &type[k];
+    qsort(sorted, (size_t)types->count, sizeof *sorted, by_name);
+    return CPS_OK;
+}
+
+static const CpsiTypeValues *find_type(const CpsiMaterials *m, const char *name) {
+    int low = 0;
+    for (int high = m->type_count; low < high;) {
+        const int middle = low + (high - low) / 2, order = strcmp(m->type[middle]->node->key, name);
+        if (order == 0) return m->type[middle];
+        if (order < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return NULL;
+}
+
+static CpsStatus build_section(const CpsiMaterials *m, const CpsiSectionValues *values,
+                               const CpsiTypeValues **type, CpsSection *section) {
+    *type = find_type(m, values->type);
+    if (!*type)
+        return cpsi_document_fail(m->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "type"),
+                                  "'type': found '%.64s', expected the name of one of the %d types "
+                                  "of the scene",
+                                  values->type, m->type_count);
+    *section = (CpsSection){.type = cpsi_pool_text(m->pool, values->type, strlen(values->type)),
+                            .length = values->length,
+                            .weight = (*type)->weight,
+                            .stiffness = (*type)->stiffness};
+    if (!section->type) return cpsi_document_no_memory(m->d);
+    if (isnan((*type)->mass)) return CPS_OK;
+    return submerged(m, (*type)->node, (*type)->mass, (*type)->diameter, &section->weight);
+}
+
+/* The zone of a section whose type has a friction of its own. */
+static CpsStatus add_zone(const CpsiMaterials *m, const CpsiLineValues *values,
+                          const CpsiTypeValues *type, double from, double to, CpsFrictionZone *zone,
+                          CpsLine *line) {
+    if (type->friction == 1) return CPS_OK;
+    if (values->zones.count > 0)
+        return cpsi_document_fail(m->d, CPS_ERR_INPUT,
+                                  cpsi_yaml_child(values->node, "friction_zones"),
+                                  "'friction_zones': they do not go with the type '%.64s', which "
+                                  "has a friction of its own",
+                                  type->node->key);
+    zone[line->zone_count++] = (CpsFrictionZone){from, to, type->friction};
+    return CPS_OK;
+}
+
+CpsStatus cpsi_sections_build(const CpsiMaterials *m, const CpsiLineValues *values, CpsLine *line) {
+    const CpsiSectionValues *from = values->sections.item;
+    const int count = values->sections.count;
+    CpsSection *section = CPSI_POOL_TAKE(m->pool, count, CpsSection);
+    CpsFrictionZone *zone = CPSI_POOL_TAKE(m->pool, count, CpsFrictionZone);
+    double *length = CPSI_POOL_TAKE(m->pool, line->element_count, double);
+    if (!section || !zone || !length) return cpsi_document_no_memory(m->d);
+    line->section = section;
+    line->section_count = count;
+    line->element_length = length;
+    line->length = 0;
+    if (values->zones.count == 0) line->zone = zone;
+    for (int k = 0; k < count; k++) {
+        const CpsiTypeValues *type;
+        const double start = line->length, elements = count_of(&from[k]);
+        CpsStatus status = build_section(m, &from[k], &type, &section[k]);
+        line->length += from[k].length;
+        if (status == CPS_OK) status = add_zone(m, values, type, start, line->length, zone, line);
+        if (status != CPS_OK) return status;
+        for (int i = 0; i < (int)elements; i++) *length++ = from[k].length / elements;
+    }
+    return CPS_OK;
+}
+
+/* ---- point weights ---- */
+
+CpsStatus cpsi_point_weights_build(const CpsiMaterials *m, const CpsiList *points, CpsLine *line) {
+    const CpsiPointWeightValues *values = points->item;
+    if (points->count == 0) return CPS_OK;
+    CpsPointWeight *point = CPSI_POOL_TAKE(m->pool, points->count, CpsPointWeight);
+    if (!point) return cpsi_document_no_memory(m->d);
+    for (int k = 0; k < points->count; k++) {
+        const double mass = values[k].mass - m->water * values[k].volume;
+        point[k] = (CpsPointWeight){.arc_length = values[k].at,
+                                    .weight = isnan(values[k].mass) ? values[k].weight
+                                                                    : mass * m->gravity};
+    }
+    line->point_weight = point;
+    line->point_weight_count = points->count;
+    return CPS_OK;
+}

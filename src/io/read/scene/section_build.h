@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Types of lines, sections, point weights, and weights in water: from the values of a scene file to
+ * a line. */
+#ifndef CAPSTAN_SRC_IO_READ_SCENE_SECTION_BUILD_H
+#define CAPSTAN_SRC_IO_READ_SCENE_SECTION_BUILD_H
+
+#include "io/base/yaml/pool.h"
+#include "io/read/document.h"
+#include "io/schema/tables/scene_keys.h"
+
+/* What lines are made of and lie in. */
+typedef struct CpsiMaterials {
+    const CpsiDocument *d;
+    CpsiPool *pool;
+    const CpsiTypeValues **type; /* (type_count) by name */
+    int type_count;
+    double gravity; /* [m/s2] its size */
+    double water;   /* [kg/m3] */
+} CpsiMaterials;
+
+/* Sort the scene's types by name. */
+CpsStatus cpsi_materials_sort(CpsiMaterials *materials, const CpsiList *types);
+
+/* [N/m] The weight per length of a line without sections. */
+CpsStatus cpsi_line_weight_build(const CpsiMaterials *materials, const CpsiLineValues *values,
+                                 CpsLine *line);
+
+/* The number of elements of all sections. */
+double cpsi_section_elements(const CpsiList *sections);
+
+/* Sections, with length and elements of the line, line->element_count of them, and friction zones
+ * where types have a friction of their own. */
+CpsStatus cpsi_sections_build(const CpsiMaterials *materials, const CpsiLineValues *values,
+                              CpsLine *line);
+
+CpsStatus cpsi_point_weights_build(const CpsiMaterials *materials, const CpsiList *points,
+                                   CpsLine *line);
+
+#endif

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Obstacles in result.nc (see netcdf_obstacles.h). */
+#include "io/results/netcdf/netcdf_obstacles.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { XYZ = 3, TANGENTS = 2 };
+
+/* Numbers of an obstacle. Their names differ from the names of all fields of a line, whatever its
+ * name. */
+typedef enum ObstacleField {
+    OBSTACLE_KIND,
+    OBSTACLE_POINT,
+    OBSTACLE_AXIS,
+    OBSTACLE_RADIUS,
+    OBSTACLE_AXIAL,
+    OBSTACLE_LATERAL,
+    OBSTACLE_SHAPE,
+    OBSTACLE_GRAIN
+} ObstacleField;
+
+static const struct {
+    const char *name, *long_name, *units;
+    bool vector;
+} OBSTACLE[CPSI_OBSTACLE_FIELDS] = {
+    {"obstacle_kind", "kind of surface", "1", false},
+    {"obstacle_point", "point of the plane or of the cylinder's axis, centre of the sphere", "m",
+     true},
+    {"obstacle_axis", "normal of the plane, axis of cylinder and sphere, of any length", "1", true},
+    {"obstacle_radius", "radius, 0 for a plane", "m", false},
+    {"obstacle_friction_axial", "friction coefficient along the line or the grain", "1", false},
+    {"obstacle_friction_lateral", "friction coefficient across it", "1", false},
+    {"obstacle_friction_shape", "how the two make a set of forces, or that a set is given instead",
+     "1", false},
+    {"obstacle_friction_grain", "axial direction, 0: that of the line", "1", true},
+};
+
+/* Friction sets {origin + P v : A v + b in K}, padded with zeros to the largest. */
+typedef enum SetField { SET_ORIGIN, SET_MAP, SET_CONE, SET_ROWS, SET_OFFSET } SetField;
+
+static const struct {
+    const char *name, *long_name;
+} SET[CPSI_SET_FIELDS] = {
+    {"obstacle_friction_set_origin", "friction set: {origin + P v : A v + b in K}"},
+    {"obstacle_friction_set_map", "P"},
+    {"obstacle_friction_set_cone",
+     "rows of the cone of K that begins in this row, 1: half-line, 0: none begins"},
+    {"obstacle_friction_set_rows", "A"},
+    {"obstacle_friction_set_offset", "b"},
+};
+
+/* The conic form of the friction sets; false when there is none. */
+static bool form_sets(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o, const CpsScene *scene) {
+    bool found = false;
+    o->set = calloc((size_t)scene->obstacle_count + 1, sizeof *o->set);
+    if (!o->set) cpsi_netcdf_keep(file, NC_ENOMEM);
+    for (int k = 0; k < scene->obstacle_count && file->status == NC_NOERR; ++k) {
+        if (!scene->obstacle[k].friction_set) continue;
+        found = true;
+        if (cps_set_conic(scene->obstacle[k].friction_set, &o->set[k], NULL) != CPS_OK)
+            cpsi_netcdf_keep(file, NC_ENOMEM);
+    }
+    return found && file->status == NC_NOERR;
+}
+
+static void define_sets(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o, const CpsScene *scene) {
+    if (!form_sets(file, o, scene)) return;
+    o->set_unknowns = o->set_rows = 1; /* a dimension of no length would be an unlimited one */
+    for (int k = 0; k < scene->obstacle_count; ++k) {
+        const size_t unknowns = (size_t)o->set[k].unknown_count, rows = (size_t)o->set[k].row_count;
+        if (unknowns > o->set_unknowns) o->set_unknowns = unknowns;
+        if (rows > o->set_rows) o->set_rows = rows;
+    }
+    const int tangent = cpsi_netcdf_dimension(file, "tangent", TANGENTS);
+    const int unknown = cpsi_netcdf_dimension(file, "set_unknown", o->set_unknowns);
+    const int row = cpsi_netcdf_dimension(file, "set_row", o->set_rows);
+    const int shape[CPSI_SET_FIELDS][3] = {{o->dimension, tangent},
+                                           {o->dimension, tangent, unknown},
+                                           {o->dimension, row},
+                                           {o->dimension, row, unknown},
+                                           {o->dimension, row}};
+    for (int f = 0; f < CPSI_SET_FIELDS; ++f)
+        o->set_field[f] = cpsi_netcdf_variable(file, "", SET[f].name, NC_DOUBLE,
+                                               2 + (f == SET_MAP || f == SET_ROWS), shape[f],
+                                               SET[f].long_name, "1");
+}
+
+/* Obstacles: their names as an attribute like those of the lines, their numbers as variables. */
+void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o,
+                                  const CpsScene *scene, int step, int xyz) {
+    size_t size = 1;
+    for (int k = 0; k < scene->obstacle_count; ++k) size += strlen(scene->obstacle[k].name) + 1;
+    char *names = calloc(size, 1), *next = names;
+    if (!names) cpsi_netcdf_keep(file, NC_ENOMEM);
+    if (names)
+        for (int k = 0; k < scene->obstacle_count; ++k)
+            next += snprintf(next, size - (size_t)(next - names), "%s%s", k ? " " : "",
+                             scene->obstacle[k].name);
+    cpsi_netcdf_text(file, NC_GLOBAL, "obstacles", names ? names : "");
+    free(names);
+    o->count = scene->obstacle_count;
+    if (scene->obstacle_count == 0) return; /* a dimension of no length would be an unlimited one */
+    o->dimension = cpsi_netcdf_dimension(file, "obstacle", (size_t)scene->obstacle_count);
+    const int shape[] = {o->dimension, xyz}, turned[] = {step, o->dimension};
+    for (int f = 0; f < CPSI_OBSTACLE_FIELDS; ++f)
+        o->field[f] =
+            cpsi_netcdf_variable(file, "", OBSTACLE[f].name, NC_DOUBLE, 1 + OBSTACLE[f].vector,
+                                 shape, OBSTACLE[f].long_name, OBSTACLE[f].units);
+    cpsi_netcdf_flags(file, o->field[OBSTACLE_KIND], NC_DOUBLE, 3, NULL, "plane cylinder sphere");
+    cpsi_netcdf_flags(file, o->field[OBSTACLE_SHAPE], NC_DOUBLE, 3, NULL, "ellipse box set");
+    o->turn = cpsi_netcdf_variable(file, "", "obstacle_turn", NC_DOUBLE, 2, turned,
+                                   "angle turned about its axis in the step", "rad");
+    define_sets(file, o, scene);
+}
+
+void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *o) {
+    for (int k = 0; o->set && k < o->count; ++k) cps_set_conic_free(&o->set[k]);
+    free(o->set);
+    o->set = NULL;
+}
+
+static void write_fields(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
+                         const CpsScene *scene, const double origin[XYZ]) {
+    for (size_t k = 0; k < (size_t)scene->obstacle_count; ++k) {
+        const CpsObstacle *o = &scene->obstacle[k];
+        const bool plane = o->kind == CPS_OBSTACLE_PLANE;
+        const double kind = o->kind, radius = plane ? 0 : o->radius,
+                     shape = o->friction_set ? 2 : o->friction_shape;
+        const double lateral = o->has_friction_lateral ? o->friction_lateral : o->friction;
+        const double point[XYZ] = {o->point[0] - origin[0], o->point[1] - origin[1],
+                                   o->point[2] - origin[2]};
+        const double *value[CPSI_OBSTACLE_FIELDS] = {
+            &kind,  point,   plane ? o->normal : o->axis, &radius, &o->friction, &lateral,
+            &shape, o->grain};
+        const size_t start[] = {k, 0}, count[] = {1, XYZ};
+        for (int f = 0; f < CPSI_OBSTACLE_FIELDS; ++f)
+            cpsi_netcdf_doubles(file, obstacles->field[f], start, count, value[f]);
+    }
+}
+
+/* A matrix of obstacle k, padded with zeros; columns 0: a vector. */
+static void write_padded(CpsiNetcdfFile *file, int variable, size_t k, const size_t padded[2],
+                         int rows, int columns, const double *value) {
+    const size_t start[] = {k, 0, 0}, count[] = {1, padded[0], padded[1]};
+    const size_t width = padded[1], each = columns > 0 ? (size_t)columns : 1;
+    double *all = calloc(padded[0] * width, sizeof *all);
+    if (!all) cpsi_netcdf_keep(file, NC_ENOMEM);
+    for (size_t i = 0; all && i < (size_t)rows; ++i)
+        memcpy(&all[i * width], &value[i * each], each * sizeof *all);
+    if (all) cpsi_netcdf_doubles(file, variable, start, count, all);
+    free(all);
+}
+
+static void write_sets(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *o) {
+    const size_t rows = o->set_rows, unknowns = o->set_unknowns;
+    if (rows == 0) return;
+    for (size_t k = 0; k < (size_t)o->count && file->status == NC_NOERR; ++k) {
+        const CpsSetConic *set = &o->set[k];
+        double *cone = calloc(rows, sizeof *cone), *next = cone;
+        if (!cone) cpsi_netcdf_keep(file, NC_ENOMEM);
+        if (cone)
+            for (int c = 0; c < set->cone_count; next += set->dim[c++]) *next = set->dim[c];
+        write_padded(file, o->set_field[SET_ORIGIN], k, (size_t[]){TANGENTS, 1}, set->space, 0,
+                     set->origin);
+        write_padded(file, o->set_field[SET_MAP], k, (size_t[]){TANGENTS, unknowns}, set->space,
+                     set->unknown_count, set->p);
+        if (cone)
+            write_padded(file, o->set_field[SET_CONE], k, (size_t[]){rows, 1}, set->row_count, 0,
+                         cone);
+        write_padded(file, o->set_field[SET_ROWS], k, (size_t[]){rows, unknowns}, set->row_count,
+                     set->unknown_count, set->a);
+        write_padded(file, o->set_field[SET_OFFSET], k, (size_t[]){rows, 1}, set->row_count, 0,
+                     set->b);
+        free(cone);
+    }
+}
+
+void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
+                                 const CpsScene *scene, const double origin[XYZ]) {
+    write_fields(file, obstacles, scene, origin);
+    write_sets(file, obstacles);
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The obstacles of a scene in result.nc: their numbers, friction sets and turns. */
+#ifndef CAPSTAN_SRC_IO_RESULTS_NETCDF_NETCDF_OBSTACLES_H
+#define CAPSTAN_SRC_IO_RESULTS_NETCDF_NETCDF_OBSTACLES_H
+
+#include "capstan/scene.h"
+#include "capstan/set.h"
+#include "io/results/netcdf/netcdf_file.h"
+
+enum { CPSI_OBSTACLE_FIELDS = 8, CPSI_SET_FIELDS = 5 };
+
+typedef struct CpsiNetcdfObstacles {
+    int count;
+    int dimension, turn, field[CPSI_OBSTACLE_FIELDS]; /* unused without obstacles */
+    int set_field[CPSI_SET_FIELDS];                   /* unused without sets, */
+    size_t set_rows, set_unknowns;                    /* where these are 0 */
+    /* (count) while the file begins; zeroed where an obstacle has none */
+    CpsSetConic *set;
+} CpsiNetcdfObstacles;
+
+/* Define the variables; `step` and `xyz` are dimensions. */
+void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *out,
+                                  const CpsScene *scene, int step, int xyz);
+/* Write everything that does not change, relative to the origin of the lines' coordinates. */
+void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
+                                 const CpsScene *scene, const double origin[3]);
+/* Free the conic forms of the sets. */
+void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
+
+#endif

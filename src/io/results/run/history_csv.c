@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The history as CSV (RFC 4180): a row of names, a row of units, a row per step. The columns are
+ * two tables, one for the step and one for each line; a value without meaning is an empty cell. */
+#include "io/base/text/columns.h"
+#include "io/base/text/escape.h"
+#include "io/results/writers.h"
+
+#define STEP(member)          CPSI_MEMBER(CpsStepReport, member)
+#define LINE(member)          CPSI_MEMBER(CpsLineReport, member)
+#define LINE_IF(flag, member) CPSI_MEMBER_IF(CpsLineReport, flag, member)
+
+static const CpsiColumn STEP_COLUMN[] = {
+    {"primal", "J", STEP(certificate.primal)},
+    {"dual", "J", STEP(certificate.dual)},
+    {"gap", "J", STEP(certificate.gap)},
+    {"scale", "J", STEP(certificate.scale)},
+    {"force_residual", "N", STEP(certificate.force_residual)},
+    {"largest_force", "N", STEP(certificate.largest_force)},
+    {"dissipated", "J", STEP(dissipated)},
+    {"jump", "m", STEP(jump)},
+    {"ends", "J", STEP(ledger.ends)},
+    {"obstacles", "J", STEP(ledger.obstacles)},
+    {"elastic", "J", STEP(ledger.elastic)},
+    {"gravity", "J", STEP(ledger.gravity)},
+    {"imbalance", "J", STEP(ledger.imbalance)},
+    {"unaccounted", "J", STEP(unaccounted)},
+    {"wall", "s", STEP(wall)},
+};
+
+#define RANGE_COLUMN(letter, e, which) \
+    { letter ".tension_" #which, "N", LINE_IF(end[e].range.has_values, end[e].range.which) }
+#define END_COLUMNS(letter, e)                                                                    \
+    {letter ".x", "m", LINE(end[e].position[0])}, {letter ".y", "m", LINE(end[e].position[1])},   \
+        {letter ".z", "m", LINE(end[e].position[2])}, {letter ".fx", "N", LINE(end[e].force[0])}, \
+        {letter ".fy", "N", LINE(end[e].force[1])}, {letter ".fz", "N", LINE(end[e].force[2])},   \
+        {letter ".tension", "N", LINE(end[e].tension)}, RANGE_COLUMN(letter, e, least),           \
+        RANGE_COLUMN(letter, e, least_bound), RANGE_COLUMN(letter, e, greatest),                  \
+        RANGE_COLUMN(letter, e, greatest_bound)
+
+static const CpsiColumn LINE_COLUMN[] = {
+    END_COLUMNS("A", CPS_END_A),
+    END_COLUMNS("B", CPS_END_B),
+    {"grounded", "m", LINE(grounded)},
+    {"slipping", "m", LINE_IF(has_slipping, slipping)},
+    {"slack", "m", LINE(slack)},
+    {"dissipated", "J", LINE(dissipated)},
+    {"bend", "rad", LINE(bend.turn)},
+    {"bend_ratio", "1", LINE(bend.ratio)},
+    {"bend_coulomb", "1", LINE(bend.coulomb)},
+    {"tension_bound_rms", "N", LINE_IF(certificate.has_tension_bound, certificate.tension_bound)},
+    {"tension_mesh_estimate", "N", LINE_IF(has_tension_mesh, tension_mesh)},
+};
+
+enum {
+    STEP_COLUMNS = sizeof STEP_COLUMN / sizeof STEP_COLUMN[0],
+    LINE_COLUMNS = sizeof LINE_COLUMN / sizeof LINE_COLUMN[0]
+};
+
+static void write_heads(FILE *out, const CpsResults *results) {
+    fputs("step,name,outcome,iterations,substeps,jumps,places_not_unique", out);
+    cpsi_csv_names(out, STEP_COLUMN, STEP_COLUMNS, NULL);
+    for (int l = 0; l < results->line_count; ++l)
+        cpsi_csv_names(out, LINE_COLUMN, LINE_COLUMNS, results->line_name[l]);
+    fputs("\n1,,,1,1,1,1", out);
+    cpsi_csv_units(out, STEP_COLUMN, STEP_COLUMNS);
+    for (int l = 0; l < results->line_count; ++l) cpsi_csv_units(out, LINE_COLUMN, LINE_COLUMNS);
+    fputs("\n", out);
+}
+
+void cpsi_history_write(const CpsResults *results, FILE *out) {
+    write_heads(out, results);
+    for (int r = 0; r < results->row_count; ++r) {
+        const CpsiRow *row = &results->row[r];
+        fprintf(out, "%d,", row->report.step_count - 1);
+        cpsi_write_csv(out, row->name);
+        fprintf(out, ",%s,%d,%d,%d,%d", cps_outcome_name(row->report.outcome),
+                row->report.iteration_count, row->report.substep_count, row->report.jump_count,
+                (int)row->report.places);
+        cpsi_csv_values(out, STEP_COLUMN, STEP_COLUMNS, &row->report);
+        for (int l = 0; l < results->line_count; ++l)
+            cpsi_csv_values(out, LINE_COLUMN, LINE_COLUMNS, &row->line[l].report);
+        fputs("\n", out);
+    }
+}

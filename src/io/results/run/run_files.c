@@ -1,0 +1,336 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A directory of results: open, append each step, finish. The writers are beside this file, the
+ * pictures in ../draw; this file owns the memory, and determines the order of the files and what
+ * happens when one of them fails. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "base/vec3.h"
+#include "io/draw/run/run_picture.h"
+#include "io/results/fields.h"
+#include "io/results/writers.h"
+
+static CpsStatus fail_memory(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while keeping the history of the results");
+}
+
+static char *copy_text(const char *text) { return strdup(text ? text : ""); }
+
+/* stages in terms of steps; a static start is a step before the first stage */
+static bool copy_stages(CpsResults *results, const CpsScene *scene) {
+    if (scene->stage_count == 0) return true;
+    results->stage = calloc((size_t)scene->stage_count, sizeof *results->stage);
+    if (!results->stage) return false;
+    int64_t first = results->planned_steps;
+    for (int i = 0; i < scene->stage_count; ++i) first -= scene->stage[i].step_count;
+    for (int i = 0; i < scene->stage_count; ++i) {
+        CpsiStage *stage = &results->stage[results->stage_count++];
+        stage->name = copy_text(scene->stage[i].name);
+        stage->first = (int)first;
+        first += scene->stage[i].step_count;
+        stage->last = (int)first - 1;
+        stage->turn = calloc((size_t)scene->obstacle_count + 1, sizeof *stage->turn);
+        if (!stage->name || !stage->turn) return false;
+        for (int k = 0; k < scene->stage[i].turn_count; ++k)
+            stage->turn[scene->stage[i].turn[k].obstacle] =
+                scene->stage[i].turn[k].angle / scene->stage[i].step_count;
+    }
+    return true;
+}
+
+static bool copy_obstacles(CpsResults *results, const CpsScene *scene) {
+    if (scene->obstacle_count == 0) return true;
+    results->obstacle = calloc((size_t)scene->obstacle_count, sizeof *results->obstacle);
+    if (!results->obstacle) return false;
+    results->obstacle_count = scene->obstacle_count;
+    for (int k = 0; k < scene->obstacle_count; ++k) {
+        results->obstacle[k] = scene->obstacle[k];
+        results->obstacle[k].name = NULL; /* owned by the scene */
+        results->obstacle[k].friction_set = NULL;
+        for (int a = 0; a < 3; ++a) results->obstacle[k].point[a] -= results->origin[a];
+    }
+    return true;
+}
+
+static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvolution *evolution) {
+    results->planned_steps = cps_evolution_step_count(evolution);
+    results->title = copy_text(scene->title);
+    memcpy(results->gravity, scene->gravity, sizeof results->gravity);
+    memcpy(results->origin, cps_evolution_line_view(evolution, 0).origin, sizeof results->origin);
+    const size_t lines = (size_t)cps_evolution_line_count(evolution);
+    results->line_name = calloc(lines, sizeof *results->line_name);
+    results->line_length = calloc(lines, sizeof *results->line_length);
+    results->line_elements = calloc(lines, sizeof *results->line_elements);
+    if (!results->title || !results->line_name || !results->line_length || !results->line_elements)
+        return false;
+    if (!copy_obstacles(results, scene)) return false;
+    for (size_t i = 0; i < lines; ++i) {
+        const CpsLineView view = cps_evolution_line_view(evolution, (int)i);
+        results->line_length[i] = view.arc_length[view.element_count];
+        results->line_elements[i] = view.element_count;
+        results->line_name[i] = copy_text(view.name);
+        results->begins_static |= scene->line[i].start.kind == CPS_START_STATIC;
+        results->line_count = (int)i + 1;
+        if (!results->line_name[i]) return false;
+    }
+    return copy_stages(results, scene);
+}
+
+static CpsStatus open_files(CpsResults *results, const char *directory, const CpsScene *scene,
+                            const CpsEvolution *evolution, const CpsResultsOptions *options,
+                            CpsError *err) {
+    CpsStatus status = cpsi_directory_open(directory, &results->directory, err);
+    if (status) return status;
+    if (options->sync_at_end) cpsi_directory_sync_late(results->directory);
+    char *path = NULL;
+    status = cpsi_directory_reserve(results->directory, "result.nc", &path, err);
+    if (!status) status = cpsi_netcdf_open(path, scene, evolution, options, &results->netcdf, err);
+    free(path);
+    return status;
+}
+
+CpsStatus cps_results_prepare(const char *directory, bool force, CpsError *err) {
+    if (!directory || !*directory)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory is NULL or empty");
+    return cpsi_directory_prepare(directory, force, err);
+}
+
+CpsStatus cps_results_missing(const char *directory, char missing[CPS_RESULT_NAME], CpsError *err) {
+    if (missing) missing[0] = '\0';
+    if (!directory || !*directory || !missing)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory and missing are both needed");
+    return cpsi_directory_missing(directory, missing, err);
+}
+
+/* marks options that were initialised by their default function */
+static const uint32_t OPTIONS_COOKIE = 0x5245534c;
+
+CpsResultsOptions cps_results_options_default(void) {
+    return (CpsResultsOptions){.cookie = OPTIONS_COOKIE};
+}
+
+CpsStatus cps_results_check_options(const CpsResultsOptions *options, CpsError *err) {
+    unsigned wanted;
+    if (!options) return CPS_OK;
+    if (options->cookie != OPTIONS_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the options were not made by cps_results_options_default()");
+    return cpsi_fields_choose(options->fields, &wanted, err);
+}
+
+CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
+                           const CpsEvolution *evolution, const CpsResultsOptions *options,
+                           CpsResults **out, CpsError *err) {
+    const CpsResultsOptions all = cps_results_options_default();
+    if (!options) options = &all;
+    if (!out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "out is NULL; give the address of a CpsResults pointer");
+    *out = NULL;
+    if (!directory || !*directory || !scene || !evolution)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "directory, scene and evolution are all needed to open results");
+    CpsStatus status = cps_results_check_options(options, err);
+    if (status) return status;
+
+    CpsResults *results = calloc(1, sizeof *results);
+    if (!results) return fail_memory(err);
+    results->paraview = !options->no_paraview;
+    results->locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (!results->locale || !copy_scene(results, scene, evolution)) status = fail_memory(err);
+    if (!status) status = open_files(results, directory, scene, evolution, options, err);
+    if (status) {
+        cps_results_destroy(results);
+        return status;
+    }
+    *out = results;
+    return CPS_OK;
+}
+
+/* Largest reaction of an obstacle on a node that does not touch it [N], which complementarity
+ * excludes. For a held end the support takes the force; its reaction is only a part of that and is
+ * left out. */
+static double open_reaction(const CpsLineView *view) {
+    const double touch = CPS_TOUCH * view->arc_length[view->element_count];
+    double worst = 0;
+    const int first = view->end[CPS_END_A].kind == CPS_END_KIND_HELD;
+    const int last = view->element_count - (view->end[CPS_END_B].kind == CPS_END_KIND_HELD);
+    for (int j = first; j <= last; ++j) {
+        const Vec3 moved = vec3_sub(vec3_load(view->position + 3 * (size_t)j),
+                                    vec3_load(view->reference + 3 * (size_t)j));
+        for (int i = 0; i < view->contact_count; ++i) {
+            const size_t c = (size_t)j + (size_t)i * ((size_t)view->element_count + 1);
+            const double distance = vec3_dot(vec3_load(view->normal + 3 * c), moved) + view->gap[c];
+            /* written so that a NaN is kept */
+            if (!(distance <= touch) && !(view->reaction[c] <= worst)) worst = view->reaction[c];
+        }
+    }
+    return worst;
+}
+
+static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
+    if (results->row_count == results->row_capacity) {
+        const size_t capacity = results->row_capacity ? 2 * (size_t)results->row_capacity : 64;
+        CpsiRow *grown = realloc(results->row, capacity * sizeof *grown);
+        if (!grown) return false;
+        results->row = grown;
+        results->row_capacity = (int)capacity;
+    }
+    CpsiRow row = {.report = cps_evolution_report(evolution)};
+    row.name = copy_text(row.report.name);
+    row.report.name = row.name;
+    row.line = calloc((size_t)results->line_count, sizeof *row.line);
+    if (!row.name || !row.line) {
+        free(row.name);
+        free(row.line);
+        return false;
+    }
+    for (int i = 0; i < results->line_count; ++i) {
+        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        CpsiLineRow *line = &row.line[i];
+        line->report = cps_evolution_line_report(evolution, i);
+        line->open_reaction = open_reaction(&view);
+        for (int e = 0; e < 2; ++e) line->held[e] = view.end[e].kind == CPS_END_KIND_HELD;
+        if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
+    }
+    results->row[results->row_count++] = row;
+    return true;
+}
+
+static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
+    if (!append_row(results, evolution) || !cpsi_snapshot_append(results, evolution))
+        return fail_memory(err);
+    double *turn = calloc((size_t)results->obstacle_count + 1, sizeof *turn);
+    if (!turn) return fail_memory(err);
+    for (int k = 0; k < results->obstacle_count; ++k)
+        turn[k] = cpsi_results_turn(results, results->row_count - 1, k);
+    const CpsStatus status = cpsi_netcdf_append(results->netcdf, evolution, turn, err);
+    free(turn);
+    return status || !results->paraview ? status : cpsi_paraview_step(results, evolution, err);
+}
+
+/* Whether the lines are those for which the results were opened. */
+static bool has_these_lines(const CpsResults *results, const CpsEvolution *evolution) {
+    if (cps_evolution_line_count(evolution) != results->line_count) return false;
+    for (int i = 0; i < results->line_count; ++i)
+        if (cps_evolution_line_view(evolution, i).element_count != results->line_elements[i])
+            return false;
+    return true;
+}
+
+static CpsStatus refuse_failed(CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                     "these results have failed or are finished; destroy them and open new ones");
+}
+
+CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
+    if (!results || !evolution)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "results and evolution are both needed");
+    if (results->failed) return refuse_failed(err);
+    if (!has_these_lines(results, evolution))
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "the evolution has other lines than the one that these results were opened for");
+    const CpsStepReport report = cps_evolution_report(evolution);
+    if (report.step_count != results->row_count + 1)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "step %d follows step %d of the results; append every step once",
+                         report.step_count - 1, results->row_count - 1);
+    const locale_t before = uselocale(results->locale);
+    const CpsStatus status = append(results, evolution, err);
+    uselocale(before);
+    results->failed = status != CPS_OK;
+    return status;
+}
+
+/* one text file of the directory, written by a function */
+static CpsStatus write_history(CpsResults *results, CpsError *err) {
+    FILE *out = NULL;
+    const CpsStatus status = cpsi_directory_create(results->directory, "history.csv", &out, err);
+    if (status) return status;
+    cpsi_history_write(results, out);
+    return cpsi_directory_close_file(results->directory, out, err);
+}
+
+static CpsStatus write_summary(CpsResults *results, double wall, CpsError *err) {
+    FILE *out = NULL;
+    const CpsStatus status = cpsi_directory_create(results->directory, "summary.json", &out, err);
+    if (status) return status;
+    const CpsStatus listed = cpsi_summary_file(results, wall, out, err);
+    const CpsStatus closed =
+        cpsi_directory_close_file(results->directory, out, listed ? NULL : err);
+    return listed ? listed : closed;
+}
+
+/* Names of files of which an earlier run may have written more than this one. The marker knows no
+ * other names that begin so (directory_marker.h). */
+static bool is_step_or_loop(const char *name) {
+    return strcmp(name, "obstacles.vtp") == 0 || strcmp(name, "result.pvd") == 0 ||
+           strncmp(name, "loop-", 5) == 0 || strncmp(name, "step-", 5) == 0;
+}
+
+static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
+    CpsiNetcdf *netcdf = results->netcdf;
+    results->netcdf = NULL;
+    CpsStatus status = cpsi_netcdf_close(netcdf, err);
+    if (!status) status = cpsi_directory_sync(results->directory, "result.nc", err);
+    if (!status && results->paraview) status = cpsi_paraview_list(results, err);
+    if (!status && results->paraview) status = cpsi_paraview_obstacles(results, err);
+    if (!status) status = cpsi_pictures_write(results, err);
+    if (!status) status = write_history(results, err);
+    /* last: when there is a new summary, all files that it lists are in place */
+    if (!status) status = write_summary(results, wall, err);
+    return status ? status : cpsi_directory_commit(results->directory, is_step_or_loop, err);
+}
+
+CpsStatus cps_results_finish(CpsResults *results, double wall, CpsError *err) {
+    if (!results) return cpsi_fail(err, CPS_ERR_ARGUMENT, "results is NULL; open them first");
+    if (results->failed) return refuse_failed(err);
+    const locale_t before = uselocale(results->locale);
+    const CpsStatus status = finish(results, wall, err);
+    uselocale(before);
+    results->failed = true; /* nothing can be added to finished results */
+    cpsi_directory_destroy(results->directory);
+    results->directory = NULL;
+    return status;
+}
+
+CpsStatus cps_results_write_summary(const CpsResults *results, double wall, FILE *out,
+                                    CpsError *err) {
+    if (!results || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "results and out are both needed");
+    const locale_t before = uselocale(results->locale);
+    cpsi_summary_write(results, wall, out);
+    uselocale(before);
+    if (fflush(out) != 0 || ferror(out))
+        return cpsi_fail(err, CPS_ERR_IO, "the summary could not be written");
+    return CPS_OK;
+}
+
+void cps_results_destroy(CpsResults *results) {
+    if (!results) return;
+    cpsi_netcdf_close(results->netcdf, NULL);
+    cpsi_directory_destroy(results->directory);
+    for (int i = 0; i < results->row_count; ++i) {
+        free(results->row[i].name);
+        free(results->row[i].line);
+    }
+    for (int i = 0; i < results->snapshot_count; ++i) cpsi_snapshot_free(&results->snapshot[i]);
+    for (int i = 0; i < results->stage_count; ++i) {
+        free(results->stage[i].name);
+        free(results->stage[i].turn);
+    }
+    for (int i = 0; i < results->line_count; ++i) free(results->line_name[i]);
+    free(results->row);
+    free(results->snapshot);
+    free(results->stage);
+    free(results->line_name);
+    free(results->line_length);
+    free(results->line_elements);
+    free(results->obstacle);
+    free(results->title);
+    if (results->locale) freelocale(results->locale);
+    free(results);
+}

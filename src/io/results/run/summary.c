@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The summary as one JSON object (RFC 8259), printed by `capstan run --json` and written to
+ * summary.json. Keys are stable and contain their units; a number without meaning is null.
+ * docs/results.md lists them. */
+#include <math.h>
+
+#include "io/base/directory/file_list.h"
+#include "io/base/text/escape.h"
+#include "io/results/writers.h"
+
+static void write_key(FILE *out, const char *key) {
+    cpsi_write_json_string(out, key);
+    fputs(": ", out);
+}
+
+static void write_number(FILE *out, const char *key, double x, const char *after) {
+    write_key(out, key);
+    cpsi_write_json_number(out, x);
+    fputs(after, out);
+}
+
+static void write_string(FILE *out, const char *key, const char *text, const char *after) {
+    write_key(out, key);
+    cpsi_write_json_string(out, text);
+    fputs(after, out);
+}
+
+static void write_vector(FILE *out, const char *key, const double x[3], const char *after) {
+    write_key(out, key);
+    for (int i = 0; i < 3; ++i) {
+        fputs(i ? ", " : "[", out);
+        cpsi_write_json_number(out, x[i]);
+    }
+    fprintf(out, "]%s", after);
+}
+
+/* smallest and largest possible tension of the element at an end; null where unbounded or not
+ * known, as `kind` says */
+static void write_range(FILE *out, const CpsTensionRange *range) {
+    fputs(", \n            \"tension_range_N\": {", out);
+    write_string(out, "kind", cps_range_name(range->kind), ", ");
+    write_number(out, "least", range->has_values ? range->least : NAN, ", ");
+    write_number(out, "least_bound", range->has_values ? range->least_bound : NAN, ", ");
+    write_number(out, "greatest", range->has_values ? range->greatest : NAN, ", ");
+    write_number(out, "greatest_bound", range->has_values ? range->greatest_bound : NAN, "}}");
+}
+
+static void write_end(FILE *out, const char *key, const CpsEndReport *end, const char *after) {
+    fputs("          ", out);
+    write_key(out, key);
+    fputc('{', out);
+    write_vector(out, "position_m", end->position, ", ");
+    write_vector(out, "force_N", end->force, ", ");
+    write_number(out, "tension_N", end->tension, "");
+    write_range(out, &end->range);
+    fputs(after, out);
+}
+
+/* the proof that there is no solution, in the units of its kind */
+static void write_proof(FILE *out, const CpsLineReport *report) {
+    if (!cps_outcome_is_final(report->outcome)) return;
+    fputs("          \"proof\": {", out);
+    write_vector(out, "direction", report->proof, ", ");
+    if (report->has_proof_obstacle) fprintf(out, "\"obstacle\": %d, ", report->proof_obstacle);
+    if (report->coulomb > 0) write_number(out, "coulomb_N", report->coulomb, ", ");
+    if (report->outcome == CPS_OUTCOME_INFEASIBLE)
+        write_number(out, "excess_m", report->proof_length, "},\n");
+    else
+        write_number(out, report->outcome == CPS_OUTCOME_SLIDES ? "power_N" : "fall_N",
+                     report->proof_force, "},\n");
+}
+
+/* the sharpest bend round an obstacle, where there is one */
+static void write_bend(FILE *out, const CpsBend *bend) {
+    if (!(bend->turn > 0)) return;
+    fputs("          \"bend\": {", out);
+    write_number(out, "turn_rad", bend->turn, ", ");
+    write_number(out, "friction", bend->friction, ", ");
+    write_number(out, "ratio", bend->ratio, ", ");
+    write_number(out, "coulomb", bend->coulomb, ", ");
+    write_number(out, "at_m", bend->arc_length, ", ");
+    write_number(out, "element_m", bend->element, "},\n");
+}
+
+static void write_line(FILE *out, const char *name, const CpsLineReport *report,
+                       const char *after) {
+    fputs("        ", out);
+    write_key(out, name);
+    fputs("{\n          ", out);
+    write_string(out, "outcome", cps_outcome_name(report->outcome), ", ");
+    fprintf(out, "\"iterations\": %d, \"places_not_unique\": %d,\n          ",
+            report->iteration_count, (int)report->places);
+    write_number(out, "grounded_m", report->grounded, ", ");
+    write_number(out, "slipping_m", report->has_slipping ? report->slipping : NAN, ", ");
+    write_number(out, "slack_m", report->slack, ", ");
+    write_number(out, "dissipated_J", report->dissipated, ",\n          ");
+    write_number(out, "tension_mesh_estimate_N",
+                 report->has_tension_mesh ? report->tension_mesh : NAN, ",\n");
+    write_proof(out, report);
+    write_bend(out, &report->bend);
+    write_end(out, "A", &report->end[CPS_END_A], ",\n");
+    write_end(out, "B", &report->end[CPS_END_B], "\n        }");
+    fputs(after, out);
+}
+
+static void write_certificate(FILE *out, const CpsResults *results, const CpsiRow *row) {
+    const CpsCertificate *c = &row->report.certificate;
+    fputs("      \"energy\": {", out);
+    write_number(out, "primal_J", c->primal, ", ");
+    write_number(out, "dual_J", c->dual, ", ");
+    write_number(out, "gap_J", c->gap, ", ");
+    write_number(out, "scale_J", c->scale, "},\n      \"tension_bound_rms_N\": {");
+    for (int i = 0; i < results->line_count; ++i) {
+        const CpsCertificate *of = &row->line[i].report.certificate;
+        write_number(out, results->line_name[i], of->has_tension_bound ? of->tension_bound : NAN,
+                     i + 1 < results->line_count ? ", " : "");
+    }
+    fputs("},\n      ", out);
+    write_number(out, "tension_estimate_N", c->tension_estimate, ",\n      ");
+    write_number(out, "force_residual_N", c->force_residual, ", ");
+    write_number(out, "largest_force_N", c->largest_force, ",\n      ");
+    write_number(out, "law_residual_J", c->law_residual, ", ");
+    write_number(out, "contact_residual_N", row->open_reaction, ", ");
+    write_number(out, "contact_residual_J", c->contact_residual, ",\n      ");
+    write_number(out, "friction_residual_N", c->friction_residual, ", ");
+    write_number(out, "element_push_N", c->element_push, ", ");
+    write_number(out, "elongation_residual", c->elongation_residual, ", ");
+    write_number(out, "stretch_residual", c->stretch_residual, ", ");
+    write_number(out, "penetration_m", c->penetration, ", ");
+    write_number(out, "element_penetration_m", c->element_penetration, ", ");
+    write_number(out, "dissipated_J", row->report.dissipated, ",\n      ");
+}
+
+/* the energy balance of a step */
+static void write_ledger(FILE *out, const CpsStepReport *report) {
+    const CpsLedger *ledger = &report->ledger;
+    fprintf(out, "\"substeps\": %d, \"jumps\": %d, ", report->substep_count, report->jump_count);
+    write_number(out, "jump_m", report->jump, ", ");
+    write_number(out, "unaccounted_J", report->unaccounted, ",\n      \"ledger_J\": {");
+    write_number(out, "ends", ledger->ends, ", ");
+    write_number(out, "obstacles", ledger->obstacles, ", ");
+    write_number(out, "elastic", ledger->elastic, ", ");
+    write_number(out, "gravity", ledger->gravity, ", ");
+    write_number(out, "dissipated", ledger->dissipated, ", ");
+    write_number(out, "imbalance", ledger->imbalance, "},\n      ");
+}
+
+static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row) {
+    fputs("    {\n      ", out);
+    write_string(out, "name", row->name, ", ");
+    write_string(out, "outcome", cps_outcome_name(row->report.outcome), ", ");
+    fprintf(out, "\"iterations\": %d,\n", row->report.iteration_count);
+    write_certificate(out, results, row);
+    write_ledger(out, &row->report);
+    write_number(out, "wall_s", row->report.wall, ",\n      \"lines\": {\n");
+    for (int i = 0; i < results->line_count; ++i)
+        write_line(out, results->line_name[i], &row->line[i].report,
+                   i + 1 < results->line_count ? ",\n" : "\n");
+    fputs("      }\n    }", out);
+}
+
+static void write_run(const CpsResults *results, double wall, FILE *out) {
+    fputs("{\n  ", out);
+    write_string(out, "capstan", cps_version(), ",\n  ");
+    write_string(out, "title", results->title, ",\n  ");
+    const double *o = results->origin; /* written where it is not 0 */
+    if (o[0] != 0 || o[1] != 0 || o[2] != 0) write_vector(out, "origin_m", o, ",\n  ");
+    write_string(out, "outcome", cps_outcome_name(cpsi_results_outcome(results)), ",\n  ");
+    write_number(out, "wall_s", wall, ",\n  \"steps\": [");
+    for (int i = 0; i < results->row_count; ++i) {
+        fputs(i ? ",\n" : "\n", out);
+        write_step(out, results, &results->row[i]);
+    }
+    fputs(results->row_count ? "\n  ]" : "]", out);
+}
+
+void cpsi_summary_write(const CpsResults *results, double wall, FILE *out) {
+    write_run(results, wall, out);
+    fputs("\n}\n", out);
+}
+
+CpsStatus cpsi_summary_file(const CpsResults *results, double wall, FILE *out, CpsError *err) {
+    write_run(results, wall, out);
+    fputs(",\n", out);
+    const CpsStatus status = cpsi_result_list_add(results->directory, out, err);
+    fputs("}\n", out);
+    return status;
+}

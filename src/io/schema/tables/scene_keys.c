@@ -1,0 +1,322 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The table of a scene file's keys (see scene_keys.h). */
+#include "io/schema/tables/scene_keys.h"
+
+#include "io/schema/rows.h"
+#include "io/schema/tables/set_keys.h"
+
+/* ---- obstacles ---- */
+
+static const CpsiKey PLANE_KEYS[] = {
+    {"point", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
+     .fallback = "[0, 0, 0]", .help = "a point of the plane"},
+    {"normal", OPTIONAL, POINT(Obstacle, obstacle.normal, 3), ANY, .fallback = "[0, 0, 1]",
+     .help = "points to the side where lines may be; of any length but zero"},
+};
+static const CpsiMapping PLANE = {"plane", KEYS(PLANE_KEYS)};
+
+static const CpsiKey CYLINDER_KEYS[] = {
+    {"point", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
+     .fallback = "[0, 0, 0]", .help = "a point of the axis"},
+    {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
+     .help = "direction of the axis, of any length but zero; a turn follows it by the "
+             "right-hand rule"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of the cylinder"},
+};
+static const CpsiMapping CYLINDER = {"cylinder", KEYS(CYLINDER_KEYS)};
+
+static const CpsiKey SPHERE_KEYS[] = {
+    {"centre", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m", .formerly = "center",
+     .fallback = "[0, 0, 0]", .help = "centre of the ball"},
+    {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
+     .help = "what the ball turns about, through its centre; of any length but zero"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of the ball"},
+};
+static const CpsiMapping SPHERE = {"sphere", KEYS(SPHERE_KEYS)};
+
+static const CpsiKey FRICTION_KEYS[] = {
+    {"axial", ONE_OF, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
+     .help = "coefficient along the line, or along the grain"},
+    {"set", ONE_OF, EXPRESSION(Obstacle, set), .inside = &cpsi_set_words,
+     .help = "friction forces on the line per unit of normal force, along the line or the grain "
+             "and across it to its left: any bounded set of the plane with 0 in it, in the "
+             "words of law files"},
+    {"lateral", OPTIONAL, NUMBER(Obstacle, obstacle.friction_lateral), NOT_NEGATIVE,
+     .with = "axial", .help = "coefficient across it; by default the axial one"},
+    {"shape", OPTIONAL, WORD(Obstacle, obstacle.friction_shape), .words = "ellipse box",
+     .with = "axial", .fallback = "\"ellipse\"",
+     .help = "ellipse: one law for both directions; box: two independent laws"},
+    {"grain", OPTIONAL, POINT(Obstacle, obstacle.grain, 3), ANY, .fallback = "[0, 0, 0]",
+     .help = "direction of the axial coefficient or of the set's first component, fixed in "
+             "space, as far as it lies in the surface; [0, 0, 0]: that of the line"},
+};
+static const CpsiMapping FRICTION = {"friction", KEYS(FRICTION_KEYS)};
+
+static const CpsiKey OBSTACLE_KEYS[] = {
+    {"plane", ONE_OF, AROUND, .inside = &PLANE, .help = "a plane; lines stay on one side of it"},
+    {"cylinder", ONE_OF, AROUND, .inside = &CYLINDER,
+     .help = "a solid cylinder without ends (bollard, pipe, drum); lines stay outside"},
+    {"sphere", ONE_OF, AROUND, .inside = &SPHERE, .help = "a solid ball; lines stay outside"},
+    {"friction", OPTIONAL, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
+     .other = &(const CpsiKey){.type = CPSI_MAPPING, .inside = &FRICTION}, .fallback = "0",
+     .help = "Coulomb friction coefficient; or one along the line or the grain and another "
+             "across it, or a set of forces"},
+};
+
+static void begin_obstacle(void *values) {
+    CpsObstacle *obstacle = &((CpsiObstacleValues *)values)->obstacle;
+    *obstacle = cps_obstacle_default();
+    obstacle->friction_lateral = NAN; /* not given */
+}
+
+static const CpsiMapping OBSTACLE = {"obstacle", KEYS(OBSTACLE_KEYS), INTO(Obstacle),
+                                     .begin = begin_obstacle, WHICH(Obstacle, obstacle.kind)};
+
+/* ---- lines ---- */
+
+static const CpsiKey STRAIGHT_KEYS[] = {
+    {"from", REQUIRED, POINT(Straight, from, 3), ANY, .unit = "m", .help = "where end A starts"},
+    {"to", REQUIRED, POINT(Straight, to, 3), ANY, .unit = "m", .help = "where end B starts"},
+};
+static const CpsiMapping STRAIGHT = {"straight", KEYS(STRAIGHT_KEYS), INTO(Straight)};
+
+static const CpsiKey ARC_KEYS[] = {
+    {"from", REQUIRED, POINT(Arc, from, 3), ANY, .unit = "m", .help = "where end A starts"},
+    {"centre", REQUIRED, POINT(Arc, centre, 3), ANY, .unit = "m", .formerly = "center",
+     .help = "a point on the circle's axis"},
+    {"axis", OPTIONAL, POINT(Arc, axis, 3), ANY, .fallback = "[0, 0, 1]",
+     .help = "direction of the axis; the line turns about it by the right-hand rule"},
+};
+
+static void begin_arc(void *values) { ((CpsiArcValues *)values)->axis[2] = 1; }
+
+static const CpsiMapping ARC = {"arc", KEYS(ARC_KEYS), INTO(Arc), .begin = begin_arc};
+
+static const CpsiKey START_KEYS[] = {
+    {"straight", ONE_OF, MAPPING(Start, straight), .inside = &STRAIGHT, .help = "a straight line"},
+    {"polyline", ONE_OF, ROWS(Start, polyline, 3), 2, INFINITY, false, .unit = "m",
+     .help = "straight pieces between these points"},
+    {"arc", ONE_OF, MAPPING(Start, arc), .inside = &ARC,
+     .help = "as much of a circle as the line is long, at most one turn; free of stress"},
+    {"nodes", ONE_OF, TEXT(Start, nodes, 0),
+     .help = "any configuration: a CSV file beside this one with the nodes' places and, where "
+             "they are known, natural lengths and forces"},
+};
+static const CpsiMapping START = {"start", KEYS(START_KEYS), INTO(Start)};
+
+static const CpsiKey END_KEYS[] = {
+    {"held", ONE_OF, POINT(End, value, 3), ANY, .unit = "m", .formerly = "fixed",
+     .help = "held at this position, which must be that of the start shape"},
+    {"force", ONE_OF, POINT(End, value, 3), ANY, .unit = "N",
+     .help = "free, pulled with this force"},
+};
+static const CpsiMapping END = {"end", KEYS(END_KEYS), INTO(End), WHICH(End, word)};
+
+static const CpsiKey ENDS_KEYS[] = {
+    {"A", REQUIRED, WORD(Line, end[0].word), .words = "held free", .former_words = "fixed free",
+     .other = &(const CpsiKey){.type = MAPPING(Line, end[0]), .inside = &END},
+     .help = "the first end; held: where the start puts it; free: without force"},
+    {"B", REQUIRED, WORD(Line, end[1].word), .words = "held free", .former_words = "fixed free",
+     .other = &(const CpsiKey){.type = MAPPING(Line, end[1]), .inside = &END},
+     .help = "the last end, likewise"},
+};
+static const CpsiMapping ENDS = {"ends", KEYS(ENDS_KEYS)};
+
+static const CpsiKey ZONE_KEYS[] = {
+    {"from", REQUIRED, NUMBER(Zone, zone.from), NOT_NEGATIVE, .unit = "m",
+     .help = "unstretched length from end A at which the stretch begins"},
+    {"to", REQUIRED, NUMBER(Zone, zone.to), POSITIVE, .unit = "m", .help = "where it ends"},
+    {"factor", REQUIRED, NUMBER(Zone, zone.factor), NOT_NEGATIVE,
+     .help = "of the friction of whatever it touches; 1 elsewhere"},
+};
+static const CpsiMapping ZONE = {"zone", KEYS(ZONE_KEYS), INTO(Zone)};
+
+static const CpsiKey SECTION_KEYS[] = {
+    {"type", REQUIRED, TEXT(Section, type, 0), .help = "name of one of the scene's types"},
+    {"length", REQUIRED, NUMBER(Section, length), POSITIVE, .unit = "m",
+     .help = "unstretched length of the section"},
+    {"elements", ONE_OF, COUNT(Section, count), 1, CPSI_LARGEST, false,
+     .help = "number of equal elements"},
+    {"element_length", ONE_OF, NUMBER(Section, element_length), POSITIVE, .unit = "m",
+     .help = "length that its equal elements shall not exceed"},
+};
+
+static void begin_section(void *values) {
+    CpsiSectionValues *section = values;
+    section->count = section->element_length = NAN;
+}
+
+static const CpsiMapping SECTION = {"section", KEYS(SECTION_KEYS), INTO(Section),
+                                    .begin = begin_section};
+
+static const CpsiKey POINT_WEIGHT_KEYS[] = {
+    {"at", REQUIRED, NUMBER(PointWeight, at), POSITIVE, .unit = "m",
+     .help = "unstretched length from end A, where an element ends"},
+    {"mass", ONE_OF, NUMBER(PointWeight, mass), NOT_NEGATIVE, .unit = "kg",
+     .help = "mass; its weight is mass times gravity, less that of the water it displaces"},
+    {"weight", ONE_OF, NUMBER(PointWeight, weight), ANY, .unit = "N",
+     .help = "weight (in water: the submerged one), instead of mass; negative: a buoy"},
+    {"volume", OPTIONAL, NUMBER(PointWeight, volume), NOT_NEGATIVE, .unit = "m3", .with = "mass",
+     .fallback = "0", .help = "of the water it displaces"},
+};
+
+static void begin_point_weight(void *values) { ((CpsiPointWeightValues *)values)->mass = NAN; }
+
+static const CpsiMapping POINT_WEIGHT = {"point weight", KEYS(POINT_WEIGHT_KEYS), INTO(PointWeight),
+                                         .definition = "point_weight", .begin = begin_point_weight};
+
+static const CpsiKey TYPE_KEYS[] = {
+    {"mass", ONE_OF, NUMBER(Type, mass), NOT_NEGATIVE, .unit = "kg/m",
+     .help = "mass per unstretched length; its weight is mass times gravity, less that of the "
+             "water that its diameter displaces"},
+    {"weight", ONE_OF, NUMBER(Type, weight), NOT_NEGATIVE, .unit = "N/m",
+     .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
+    {"diameter", OPTIONAL, NUMBER(Type, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
+     .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
+    {"stiffness", REQUIRED, NUMBER(Type, stiffness), 0, INFINITY, true, .unit = "N",
+     .help = "axial stiffness EA; .inf for an inextensible type"},
+    {"friction", OPTIONAL, NUMBER(Type, friction), NOT_NEGATIVE, .fallback = "1",
+     .help = "factor of the friction of whatever it touches"},
+};
+
+static void begin_type(void *values) {
+    CpsiTypeValues *type = values;
+    type->mass = NAN;
+    type->friction = 1;
+}
+
+static const CpsiMapping TYPE = {"type", KEYS(TYPE_KEYS), INTO(Type), .begin = begin_type};
+
+static const CpsiKey LINE_KEYS[] = {
+    {"length", REQUIRED, NUMBER(Line, line.length), POSITIVE, .unless = "sections", .unit = "m",
+     .help = "unstretched length"},
+    {"elements", OPTIONAL, COUNT(Line, count), 1, CPSI_LARGEST, false, .unless = "sections",
+     .other = &(const CpsiKey){.type = ELEMENTS(Line, elements), POSITIVE}, .fallback = "100",
+     .help = "number of equal elements; or from A to B a list of element lengths [m] and of "
+             "pairs [count, length]: count equal elements that are length [m] long together"},
+    {"mass", ONE_OF, NUMBER(Line, mass), NOT_NEGATIVE, .unit = "kg/m",
+     .help = "mass per unstretched length; the weight is mass times gravity, less that of the "
+             "water that the diameter displaces"},
+    {"weight", ONE_OF, NUMBER(Line, line.weight), NOT_NEGATIVE, .unit = "N/m",
+     .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
+    {"sections", ONE_OF, LIST(Line, sections, 1), .inside = &SECTION,
+     .help = "stretches of different types, in order from A to B"},
+    {"diameter", OPTIONAL, NUMBER(Line, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
+     .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
+    {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unless = "sections",
+     .unit = "N", .help = "axial stiffness EA; .inf for an inextensible line"},
+    {"point_weights", OPTIONAL, LIST(Line, point_weights, 0), .inside = &POINT_WEIGHT,
+     .fallback = "[]", .help = "clumps and buoys between the ends, in order from A to B"},
+    {"friction_zones", OPTIONAL, LIST(Line, zones, 0), .inside = &ZONE, .fallback = "[]",
+     .help = "intervals of arc length with another friction, in order from A to B, without "
+             "overlap"},
+    {"start", REQUIRED, WORD(Line, start.word), .words = "static", .former_words = "laid",
+     .other = &(const CpsiKey){.type = MAPPING(Line, start), .inside = &START},
+     .help = "shape the line starts from, as long as the line (an elastic one may be "
+             "stretched); static: the equilibrium without friction, found first"},
+    {"ends", REQUIRED, AROUND, .inside = &ENDS, .help = "what holds or pulls the two ends"},
+};
+
+static void begin_line(void *values) {
+    CpsiLineValues *line = values;
+    line->line = cps_line_default();
+    line->mass = line->count = NAN;
+}
+
+static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};
+
+/* ---- the scene ---- */
+
+static const CpsiKey SOLVER_KEYS[] = {
+    {"tolerance", OPTIONAL, NUMBER(Scene, scene.solver.tolerance), 1e-14, 1e-2, false,
+     .fallback = "1e-8",
+     .help = "a step is certified when its duality gap is at most this times the scale of its "
+             "energies; above 1e-8 it need not be resolved which nodes slip"},
+    {"max_iterations", OPTIONAL, INTEGER(Scene, scene.solver.max_iterations), 1, 1000, false,
+     .fallback = "60",
+     .help = "of one solve of a line; 20 more for each doubling of its elements beyond 12 800"},
+    {"path_tolerance", OPTIONAL, NUMBER(Scene, scene.solver.path_tolerance), 0, 1, false,
+     .fallback = "0",
+     .help = "a step is cut until two halves change displacements per length and tensions per "
+             "largest force by no more; 0: steps as given"},
+    {"halvings", OPTIONAL, INTEGER(Scene, scene.solver.max_halvings), 0, 30, false,
+     .fallback = "10",
+     .help = "how often a step may be halved, for the path or because it does not converge"},
+    {"linear_system", OPTIONAL, WORD(Scene, scene.solver.linear_system), .words = "chain dense",
+     .fallback = "\"chain\"", .help = "dense: for comparison on small lines"},
+};
+static const CpsiMapping SOLVER = {"solver", KEYS(SOLVER_KEYS)};
+
+static const CpsiKey CHANGE_KEYS[] = {
+    {"position", ONE_OF, POINT(Change, value, 3), ANY, .unit = "m",
+     .help = "move the end to this position; a free end is grabbed where it is"},
+    {"move", ONE_OF, POINT(Change, value, 3), ANY, .unit = "m",
+     .help = "move the end by this much from where the entry before has put it"},
+    {"force", ONE_OF, POINT(Change, value, 3), ANY, .unit = "N",
+     .help = "pull with this force; a held end is let go, from the force it carries"},
+};
+static const CpsiMapping CHANGE = {"change", KEYS(CHANGE_KEYS), INTO(Change), WHICH(Change, kind)};
+
+static const CpsiKey STAGE_KEYS[] = {
+    {"name", OPTIONAL, TEXT(Stage, stage.name, 0),
+     .help = "name of the entry in the results; by default its number"},
+    {"steps", OPTIONAL, INTEGER(Stage, stage.step_count), 1, 1e6, false, .fallback = "1",
+     .help = "go there in so many equal load steps"},
+    {"gravity", OPTIONAL, POINT(Stage, stage.gravity, 3), ANY, .unit = "m/s2",
+     .help = "what gravity becomes in this entry, evenly over its steps; the weight of all "
+             "lines goes with it"},
+    {"LINE.END", OPTIONAL, OWNED(Stage, changes), .owner = "lines", .after = "A B",
+     .inside = &CHANGE,
+     .help = "what happens to an end of a line, as in cable.B; all other ends stay as they are"},
+    {"OBSTACLE.turn", OPTIONAL, OWNED_NUMBERS(Stage, turns), ANY, .owner = "obstacles",
+     .after = "turn", .unit = "degrees",
+     .help = "turn a cylinder or ball by so much in this entry, as in drum.turn, by the "
+             "right-hand rule about its axis"},
+};
+
+static void begin_stage(void *values) {
+    CpsStage *stage = &((CpsiStageValues *)values)->stage;
+    *stage = cps_stage_default();
+    stage->gravity[0] = NAN; /* not given */
+}
+
+static const CpsiMapping STAGE = {"entry", KEYS(STAGE_KEYS), INTO(Stage), .begin = begin_stage};
+
+static const CpsiKey SCENE_KEYS[] = {
+    {"capstan", REQUIRED, INTEGER(Scene, version), 1, 1, false,
+     .help = "version of this file format"},
+    {"title", OPTIONAL, TEXT(Scene, scene.title, 0),
+     .help = "what the scene shows; printed with the results"},
+    {"gravity", OPTIONAL, POINT(Scene, scene.gravity, 3), ANY, .unit = "m/s2",
+     .fallback = "[0, 0, -9.81]",
+     .help = "acceleration of gravity; its direction is that of the lines' weight"},
+    {"water_density", OPTIONAL, NUMBER(Scene, water), NOT_NEGATIVE, .unit = "kg/m3",
+     .fallback = "0",
+     .help = "of the water around everything that is given by its mass: 1025 in the sea, 0 in air"},
+    {"types", OPTIONAL, NAMED(Scene, types), .inside = &TYPE, .fallback = "{}",
+     .help = "what sections of lines are made of, by name"},
+    {"obstacles", OPTIONAL, NAMED(Scene, obstacles), .inside = &OBSTACLE, .fallback = "{}",
+     .help = "what the lines lie on, by name; each node rests on the nearest one, or on the two "
+             "nearest"},
+    {"lines", REQUIRED, NAMED(Scene, lines), .inside = &LINE,
+     .help = "the lines by name; they do not touch one another"},
+    {"friction_policy", OPTIONAL, WORD(Scene, scene.friction_policy), .words = "frozen consistent",
+     .formerly = "friction", .fallback = "\"consistent\"",
+     .help = "frozen: the friction bound of a step is taken from the configuration the step "
+             "starts from; consistent: it is mu times the reaction in the configuration "
+             "reached, for nodes that land in the step as well"},
+    {"contact_policy", OPTIONAL, WORD(Scene, scene.contact_policy), .words = "reached reference",
+     .formerly = "contact", .former_words = "gained strict", .fallback = "\"reached\"",
+     .help = "reached: no node ends a step below the obstacle; reference: only nodes that touch "
+             "it in the configuration the step starts from are kept out"},
+    {"solver", OPTIONAL, AROUND, .inside = &SOLVER, .fallback = "{}",
+     .help = "how steps are solved"},
+    {"history", OPTIONAL, LIST(Scene, history, 0), .inside = &STAGE, .fallback = "[]",
+     .help = "what happens to the lines' ends and to obstacles that turn, in turn"},
+};
+
+static void begin_scene(void *values) { ((CpsiSceneValues *)values)->scene = cps_scene_default(); }
+
+const CpsiMapping cpsi_scene_file = {"scene", KEYS(SCENE_KEYS), INTO(Scene), .begin = begin_scene};

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The structs into which a scene file is read (scene_keys.c has the table of its keys): the scene's
+ * own structs where they can hold the values directly, and others that scene_build.c converts. */
+#ifndef CAPSTAN_SRC_IO_SCHEMA_TABLES_SCENE_KEYS_H
+#define CAPSTAN_SRC_IO_SCHEMA_TABLES_SCENE_KEYS_H
+
+#include "capstan/scene.h"
+#include "io/schema/keys.h"
+
+typedef struct CpsiSceneValues {
+    const CpsiYaml *node;
+    int version;
+    CpsScene scene;     /* without its lists */
+    double water;       /* [kg/m3] 0: in air */
+    CpsiList types;     /* CpsiTypeValues */
+    CpsiList obstacles; /* CpsiObstacleValues */
+    CpsiList lines;     /* CpsiLineValues */
+    CpsiList history;   /* CpsiStageValues */
+} CpsiSceneValues;
+
+typedef struct CpsiObstacleValues {
+    const CpsiYaml *node; /* the key is the name */
+    CpsObstacle obstacle;
+    const CpsiYaml *set; /* set of friction forces */
+} CpsiObstacleValues;
+
+typedef struct CpsiZoneValues {
+    const CpsiYaml *node;
+    CpsFrictionZone zone;
+} CpsiZoneValues;
+
+/* What a metre of line weighs: `mass`, in water with its `diameter`, or `weight`; NaN: not given.
+ */
+typedef struct CpsiTypeValues {
+    const CpsiYaml *node; /* the key is the name */
+    double mass, diameter, weight, stiffness, friction;
+} CpsiTypeValues;
+
+typedef struct CpsiSectionValues {
+    const CpsiYaml *node;
+    const char *type;
+    double length, count, element_length; /* count and element_length: NaN: not given */
+} CpsiSectionValues;
+
+typedef struct CpsiPointWeightValues {
+    const CpsiYaml *node;
+    double at, mass, volume, weight; /* mass: NaN: not given */
+} CpsiPointWeightValues;
+
+typedef struct CpsiStraightValues {
+    const CpsiYaml *node;
+    double from[3], to[3];
+} CpsiStraightValues;
+
+typedef struct CpsiArcValues {
+    const CpsiYaml *node;
+    double from[3], centre[3], axis[3];
+} CpsiArcValues;
+
+typedef struct CpsiStartValues {
+    const CpsiYaml *node; /* NULL: a word */
+    int word;             /* that of `static` */
+    CpsiStraightValues straight;
+    CpsiRows polyline;
+    CpsiArcValues arc;
+    const char *nodes; /* name of a file */
+} CpsiStartValues;
+
+/* An end of a line: `held` or `free` as a word, or with its position or force. */
+typedef enum CpsiEndWord { CPSI_END_HELD, CPSI_END_FREE } CpsiEndWord;
+
+typedef struct CpsiEndValues {
+    const CpsiYaml *node; /* NULL: a word */
+    int word;             /* CpsiEndWord, in either form */
+    double value[3];
+} CpsiEndValues;
+
+typedef struct CpsiLineValues {
+    const CpsiYaml *node; /* the key is the name */
+    CpsLine line;
+    double mass, count, diameter; /* count: number of elements; NaN: not given */
+    CpsiList sections;            /* CpsiSectionValues */
+    CpsiList point_weights;       /* CpsiPointWeightValues */
+    const CpsiYaml *elements;     /* a list of them */
+    CpsiList zones;               /* CpsiZoneValues */
+    CpsiStartValues start;
+    CpsiEndValues end[2];
+} CpsiLineValues;
+
+/* Kinds of changes at an end of a line. */
+typedef enum CpsiChangeKind {
+    CPSI_CHANGE_POSITION,
+    CPSI_CHANGE_MOVE,
+    CPSI_CHANGE_FORCE
+} CpsiChangeKind;
+
+typedef struct CpsiChangeValues {
+    const CpsiYaml *node; /* the key is LINE.END */
+    int kind;             /* CpsiChangeKind */
+    double value[3];
+} CpsiChangeValues;
+
+typedef struct CpsiStageValues {
+    const CpsiYaml *node;
+    CpsStage stage;   /* gravity is NaN where not given */
+    CpsiList changes; /* CpsiChangeValues */
+    CpsiList turns;   /* CpsiNumberItem, with the key OBSTACLE.turn */
+} CpsiStageValues;
+
+extern const CpsiMapping cpsi_scene_file;
+
+#endif
