@@ -68,10 +68,10 @@ def random_systems(program):
 
 
 def wheels(program):
-    """Strengths of the brake over the ground, sizes, and the least component of W beside the other, of random_extremes."""
-    beta = [float(b) for b in program.constant("random_extremes.c", r"BETA\[\] = \{([^}]*)\}").split(",")]
-    size = program.constant("random_extremes.c", r"\* ?pow\(10, digit\((\d)\)\), speed")
-    least = int(program.constant("random_extremes.c", r"-below\((\d+)\)\)\)")) - 1
+    """Strengths of the brake over the ground, sizes, and the least component of W beside the other, of extreme_motions.c."""
+    beta = [float(b) for b in program.constant("extreme_motions.c", r"BETA\[\] = \{([^}]*)\}").split(",")]
+    size = program.constant("extreme_motions.c", r"\* ?pow\(10, digit\((\d)\)\), speed")
+    least = int(program.constant("extreme_motions.c", r"-below\((\d+)\)\)\)")) - 1
     return [short(min(beta)), short(max(beta)), f"1e-{size}", f"1e{size}", f"1e-{least}"]
 
 
@@ -89,7 +89,7 @@ SENTENCES = [
     ("Of the {} of every run, with {} motions, each one was certified with a gap of at most {} of its power scale; of {} sets of all solutions {} had", random_systems),
     ("sizes differ by up to {}.", lambda p: short(10 ** (2 * int(p.constant("random_systems.c", r"\.size = pow\(10, uniform\(-(\d), "))))),
     ("wheels whose brake is from {} to {} times as strong as the ground or just as strong along the drive, in sizes from {} to {} and at W with components down to {} of the others", wheels),
-    ("must be right to {} of the drive", lambda p: p.constant("random_extremes.c", r"4e-5 ?\* ?speed, (\S+?) ?\* ?speed")),
-    ("the tolerance of their sets, {} of the largest", lambda p: p.constant("random_extremes.c", r"allowed = (\S+?) ?\* ?fmax\(wheel")),
+    ("must be right to {} of the drive", lambda p: p.constant("extreme_motions.c", r"4e-5 ?\* ?speed, (\S+?) ?\* ?speed")),
+    ("the tolerance of their sets, {} of the largest", lambda p: p.constant("extreme_motions.c", r"allowed = (\S+?) ?\* ?fmax\(wheel")),
 ]
 GIVEN = ["at an angle of 60 degrees"]

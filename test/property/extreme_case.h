@@ -4,9 +4,6 @@
 #ifndef CAPSTAN_TEST_EXTREME_CASE_H
 #define CAPSTAN_TEST_EXTREME_CASE_H
 
-#include <math.h>
-#include <stdio.h>
-
 #include "capstan/law.h"
 #include "random_case.h"
 
@@ -16,86 +13,51 @@ enum { CLASSES = 11, MOST = 4 };
  * a factor for cones made of normals that are known to 1e-7. */
 static const double CLOSE = 1e-6;
 
-static int failures, failed[CLASSES];
-static int class_of_case;
+extern int failures, failed[CLASSES], class_of_case;
 
-static void fail(const char *what, double got, double expected) {
-    fprintf(stderr, "seed %llu, class %d: %s: %.15g, expected %.15g\n", (unsigned long long)seed,
-            class_of_case, what, got, expected);
-    failed[class_of_case] = 1;
-}
+void fail(const char *what, double got, double expected);
 
-static void near(const char *what, double got, double expected, double allowed) {
-    if (!(fabs(got - expected) <= allowed)) fail(what, got, expected);
-}
+void near(const char *what, double got, double expected, double allowed);
 
 /* Wide enough for every enumeration, with a sign or without. */
-static void same(const char *what, long long got, long long expected) {
-    if (got != expected) fail(what, (double)got, (double)expected);
-}
+void same(const char *what, long long got, long long expected);
 
-static double dot(int n, const double *a, const double *b) {
-    double sum = 0;
-    for (int i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
+double dot(int n, const double *a, const double *b);
 
-/* ---- a cone of velocities against the generators that it should have ---- */
-
-/* Distance of d from the cone, for unit d. */
-static double away(const CpsSet *cone, int n, const double *d) {
-    double nearest[MOST];
-    CpsSetAnswer answer;
-    need(cps_set_project(cone, d, NULL, nearest, &answer, &err), "project");
-    (void)n;
-    return answer.outcome == CPS_SET_OUTCOME_ANSWERED ? answer.value : INFINITY;
-}
-
-/* -normals (count, n), lines both ways: all of them lie in the cone; it has the dimension; and what
- * is a generator's opposite, but in no cone of these normals, does not lie in it. `outside` (n): a
- * direction that is not in it, or NULL. */
-static void compare_cone(const CpsSet *law, int n, const double *force, int count,
-                         const double *normals, int dimension, const double *outside) {
-    CpsSet *cone = NULL;
-    CpsSetAnswer answer;
-    CpsSetFacts facts;
-    need(cps_set_velocities(law, force, 0, &cone, &answer, &err), "velocities");
-    same("outcome of velocities", answer.outcome, CPS_SET_OUTCOME_ANSWERED);
-    if (!cone) return;
-    need(cps_set_facts(cone, 0, &facts, NULL, NULL, &err), "facts");
-    same("dimension of the cone", facts.dimension, dimension);
-    for (int k = 0; k < count; k++) {
-        double d[MOST], size = sqrt(dot(n, &normals[k * n], &normals[k * n]));
-        for (int i = 0; i < n; i++) d[i] = -normals[k * n + i] / size;
-        near("a velocity left out", away(cone, n, d), 0, CLOSE);
-    }
-    if (outside && !(away(cone, n, outside) > 10 * CLOSE))
-        fail("a velocity too many", away(cone, n, outside), 1);
-    cps_set_release(cone);
-}
-
-/* ---- vectors and laws ---- */
+/* The cone of velocities at a force, against the generators that it should have: -normals (count,
+ * n), lines both ways. All of them lie in the cone; it has the dimension; and what is a generator's
+ * opposite, but in no cone of these normals, does not lie in it. `outside` (n): a direction that is
+ * not in it, or NULL. */
+void compare_cone(const CpsSet *law, int n, const double *force, int count, const double *normals,
+                  int dimension, const double *outside);
 
 /* A unit vector of n components whose entries are Pythagorean. */
-static void unit_vector(int n, double *u) {
-    static const double TWO[][2] = {{1, 0},        {0.6, 0.8},     {-0.8, 0.6},
-                                    {0.28, -0.96}, {-0.96, -0.28}, {5.0 / 13, 12.0 / 13}};
-    const double *a = TWO[below(6)], *b = TWO[below(6)];
-    u[0] = a[0];
-    u[1] = a[1];
-    if (n == 3) {
-        u[0] = a[0];
-        u[1] = a[1] * b[0];
-        u[2] = a[1] * b[1];
-    }
-}
+void unit_vector(int n, double *u);
 
 /* The friction law of a set, which it takes over. */
-static CpsLaw *law_of(CpsSet *set) {
-    CpsLaw *law = NULL;
-    need(cps_law_friction(set, &law, &err), "law");
-    cps_set_release(set);
-    return law;
-}
+CpsLaw *law_of(CpsSet *set);
+
+/* ---- the classes ---- */
+
+/* extreme_hulls.c */
+void try_polygon(void);
+void try_solid(void);
+
+/* extreme_cones.c */
+void try_lines(void);
+void try_cone(void);
+
+/* extreme_sets.c */
+void try_touching(void);
+void try_unbounded(void);
+void try_polar(void);
+
+/* extreme_motions.c */
+void try_flat(void);
+void try_limit(void);
+void try_wheel(void);
+
+/* extreme_table.c */
+void try_table(void);
 
 #endif

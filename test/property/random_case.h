@@ -12,7 +12,7 @@
 #include "splitmix.h"
 
 /* The stream, and the number of the case that messages give. */
-static uint64_t state, seed;
+extern uint64_t state, seed;
 
 static inline double uniform(double low, double high) { return splitmix(&state, low, high); }
 
@@ -21,7 +21,7 @@ static inline int below(int bound) { return (int)uniform(0, bound); }
 /* from -most to most */
 static inline int digit(int most) { return below(2 * most + 1) - most; }
 
-static CpsError err;
+extern CpsError err;
 
 static inline void need(CpsStatus status, const char *call) {
     if (status == CPS_OK) return;
