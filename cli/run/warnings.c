@@ -190,7 +190,7 @@ static void print_figures(int kind, double value, double of) {
                 value, of);
     else if (kind == WARNING_PLACES)
         fprintf(stderr, "its forces leave a choice of places: %s",
-                value > CPS_PLACES_NEAREST
+                (CpsPlaces)value > CPS_PLACES_NEAREST
                     ? "one of them is taken, which says nothing of the others"
                     : "the nearest to where the step began is taken");
     else if (kind == WARNING_JUMPED)

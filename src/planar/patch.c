@@ -222,11 +222,11 @@ static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
     enum { AROUND = 24 };
     for (int i = 0; i < AROUND; i++)
         for (int j = 0; j < CPSI_GAUSS; j++) {
-            const double t = 0.5 * (1 + CPSI_GAUSS_NODE[j]), x = 2 * CPSI_PI * i / AROUND;
+            const double t = 0.5 * (1 + CPSI_GAUSS_NODE[j]), x = 2 * CPSI_PI * i / (double)AROUND;
             const double r[2] = {patch->size * t * cos(x), patch->size * t * sin(x)};
             const double pressure = 1 + patch->tilt[0] * r[0] + patch->tilt[1] * r[1];
-            add_point(patch->strength * CPSI_GAUSS_WEIGHT[j] * t / AROUND * pressure, r, velocity,
-                      w, friction);
+            add_point(patch->strength * CPSI_GAUSS_WEIGHT[j] * t / (double)AROUND * pressure, r,
+                      velocity, w, friction);
         }
 }
 

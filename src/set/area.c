@@ -160,7 +160,7 @@ static void make_round(CpsiWalk *walk) {
     for (int round = 0; round < ROUNDS && going(walk); round++) {
         double most = 0, least = INFINITY, chord[2] = {1, 0}, x[2], y[2], width[2];
         for (int k = 0; k < LOOKS; k++) {
-            const double theta = k * CPSI_PI / LOOKS,
+            const double theta = k * CPSI_PI / (double)LOOKS,
                          across = cpsi_walk_visit(walk, theta, x) +
                                   cpsi_walk_visit(walk, theta + CPSI_PI, y);
             least = fmin(least, across);

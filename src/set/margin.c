@@ -60,8 +60,8 @@ static CpsStatus planar_margin(const CpsSet *set, const double *p, CpsSetAnswer 
     int count = 0, worst = 0;
     *found = true;
     for (; *found && count < STARTS; count++) {
-        sector[count] = (Sector){.from = first + count * TURN / STARTS,
-                                 .to = first + (count + 1) * TURN / STARTS};
+        sector[count] = (Sector){.from = first + count * TURN / (double)STARTS,
+                                 .to = first + (count + 1) * TURN / (double)STARTS};
         *found = look(set, p, sector[count].from, sector[count].x, &most, &asked, &status, err);
     }
     if (*found)

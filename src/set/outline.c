@@ -199,10 +199,11 @@ void cpsi_walk_round(CpsiWalk *walk) {
     enum { STARTS = 8 };
     double x[STARTS + 1][2];
     const double first = 0.1234567;
-    for (int k = 0; k < STARTS; k++) cpsi_walk_visit(walk, first + k * TURN / STARTS, x[k]);
+    for (int k = 0; k < STARTS; k++) cpsi_walk_visit(walk, first + k * TURN / (double)STARTS, x[k]);
     memcpy(x[STARTS], x[0], sizeof x[0]);
     for (int k = 0; k < STARTS; k++)
-        divide(walk, first + k * TURN / STARTS, x[k], first + (k + 1) * TURN / STARTS, x[k + 1]);
+        divide(walk, first + k * TURN / (double)STARTS, x[k],
+               first + (k + 1) * TURN / (double)STARTS, x[k + 1]);
 }
 
 /* ---- public functions ---- */
@@ -377,7 +378,7 @@ static CpsStatus bounding_ray(const PlanarCone *cone, double middle, int sign, d
     const int n = cone->set->n;
     *turned = 0.5 * TURN;
     for (int k = 1; k <= PROBES; k++) {
-        const double t = 0.5 * TURN * k / PROBES;
+        const double t = 0.5 * TURN * k / (double)PROBES;
         double distance = 0;
         const CpsStatus status = probe(cone, middle + sign * t, &distance, answer, err);
         if (status || answer->outcome != CPS_SET_OUTCOME_ANSWERED) return status;

@@ -6,7 +6,8 @@
  *     curve               the file that a planimeter names
  *     judge rows          a table to judge; rows that are asked of a law on standard input
  *     state journal       edits (place, 4 bytes) of a saved state and of a journal, whose checksums
- *                         are mended: what a checksum finds is no test
+ *                         are mended: what a checksum finds is no test; the states are those of
+ *                         warm steps, and of a line of sections among others
  *
  * An input below 1 MiB that takes more than 2 s is a finding. It is the reader alone that is run,
  * with what it checks; of the states that it accepts one in 8192 takes a step as well. Files are in
@@ -138,22 +139,31 @@ static void read_curve(const uint8_t *data, size_t size) {
 
 /* tables --------------------------------------------------------------------------------------- */
 
-/* A run of two steps that the tables and states are about. */
+/* A history that the tables and states are about: a line of sections with a clump, an inextensible
+ * one, and one round a post. */
 static const CpsScene *small_scene(void) {
     static const char TEXT[] =
-        "capstan: 1\nobstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}, post: "
-        "{cylinder: {point: [1, 1, 0], axis: [0, 0, 1], radius: 0.5}, friction: 0.1}}\nlines:\n  "
-        "rope: {length: 2, elements: 4, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, "
-        "0], to: [2, 0, 0]}}, ends: {A: held, B: free}}\n  wire: {length: 1, elements: 2, weight: "
-        "1, stiffness: .inf, start: {straight: {from: [0, -1, 0], to: [1, -1, 0]}}, ends: {A: "
-        "held, B: held}}\nhistory: [{name: a, steps: 2, rope.B: {force: [1, 0.5, 0]}}, {name: b, "
-        "wire.B: {position: [0.9, -1, 0]}}]\n";
+        "capstan: 1\ntypes: {chain: {weight: 1, stiffness: 100}, wire: {weight: 0.5, stiffness: "
+        "200, friction: 0.3}}\nobstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}, "
+        "post: {cylinder: {point: [1, 1, 0], axis: [0, 0, 1], radius: 0.5}, friction: "
+        "0.1}}\nlines:\n  rope: {sections: [{type: chain, length: 1, elements: 2}, {type: wire, "
+        "length: 1, elements: 2}], point_weights: [{at: 1, weight: 0.5}], start: {straight: "
+        "{from: [0, 0, 0], to: [2, 0, 0]}}, ends: {A: held, B: free}}\n  wire: {length: 1, "
+        "elements: 2, weight: 1, stiffness: .inf, start: {straight: {from: [0, -1, 0], to: [1, "
+        "-1, 0]}}, ends: {A: held, B: held}}\n  turn: {length: 1.6, elements: 6, weight: 0.1, "
+        "stiffness: 1e3, start: {straight: {from: [0.2, 0.48, 0.5], to: [1.8, 0.48, 0.5]}}, "
+        "ends: {A: held, B: {force: [2, 1, 0]}}}\nhistory: [{name: a, steps: 4, rope.B: {force: "
+        "[1, 0.5, 0]}, turn.B: {force: [3, 1.5, 0]}}, {name: b, steps: 2, wire.B: {position: "
+        "[0.9, -1, 0]}, rope.B: {force: [2, 1, 0]}, turn.B: {force: [3.5, 2, 0]}}]\n";
     static CpsSceneFile *file;
     if (!file)
         must(cps_scene_read(file_of((const uint8_t *)TEXT, sizeof TEXT - 1), NULL, &file, NULL) ==
              CPS_OK);
     return cps_scene_file_scene(file);
 }
+
+/* The steps WARM - 1 and WARM are warm, of the lines 0 and 2. */
+enum { WARM = 3 };
 
 static CpsEvolution *evolution_at(int steps) {
     CpsEvolution *evolution = NULL;
@@ -250,7 +260,9 @@ static void read_state(const uint8_t *data, size_t size) {
     static unsigned char *good, *bytes;
     static size_t room;
     if (!saved) {
-        saved = evolution_at(2);
+        saved = evolution_at(WARM);
+        must(cps_evolution_line_report(saved, 0).warm_count > 0 &&
+             cps_evolution_line_report(saved, 2).warm_count > 0);
         loaded = evolution_at(0);
         room = cps_evolution_state_size(saved);
         good = malloc(room);
@@ -266,7 +278,7 @@ static void read_state(const uint8_t *data, size_t size) {
     if (status == CPS_OK) go_on(loaded, steps_on(data, size));
 }
 
-enum { JOURNAL_HEAD = 104, RECORD_HEAD = 16, RECORDS = 3 };
+enum { JOURNAL_HEAD = 104, RECORD_HEAD = 16, RECORDS = WARM };
 
 /* What a journal is edited from, and an evolution that is put back to its start each time. */
 typedef struct Journaled {

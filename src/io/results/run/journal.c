@@ -42,7 +42,8 @@ typedef struct Head {
     uint64_t checksum; /* of all the above */
 } Head;
 
-static const char MAGIC[8] = "capstnJ2", PROGRAM[] = CAPSTAN_COMMIT " " CAPSTAN_BUILD;
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'n', 'J', '2'},
+                  PROGRAM[] = CAPSTAN_COMMIT " " CAPSTAN_BUILD;
 
 typedef struct Record {
     uint64_t step, checksum; /* the checksum is that of the number and of the state */
