@@ -40,8 +40,9 @@ CPS_API void cps_evolution_destroy(CpsEvolution *evolution);
  * saving it, or to NULL, does nothing. Where there is no such line, or no evolution, the outcome of
  * the report is CPS_OUTCOME_STALLED and the view has no elements and no arrays. */
 
-/* Number of load steps in all (a start computed by statics is the first), and still to do.
- * 0 remain after an infeasible or unbounded step: nothing can follow it. */
+/* Number of load steps in all (a start computed by statics is the first; with the moves taken),
+ * and of those of the history still to do. 0 remain after an infeasible or unbounded step: nothing
+ * can follow it. */
 CPS_API int cps_evolution_step_count(const CpsEvolution *evolution);
 CPS_API int cps_evolution_remaining_count(const CpsEvolution *evolution);
 
@@ -60,6 +61,36 @@ CPS_API CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err);
 CPS_API CpsStatus cps_evolution_interrupt(CpsEvolution *evolution, bool (*asked)(void *user),
                                           void *user, CpsError *err);
 
+/* ---- moves that are decided as one goes ----
+ *
+ * A program that is coupled to another one, a robot or a planner knows its next target only when it
+ * gets there. A move is a load step that the history of the scene does not hold: it changes ends,
+ * obstacles and gravity as a stage of one step does, and it is certified alike. Moves may follow
+ * each other, and stages of the history; a scene needs no history.
+ *
+ *     CpsChange change = {.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {x, y, z}}};
+ *     CpsStage move = cps_stage_default();
+ *     move.change_count = 1;
+ *     move.change = &change;
+ *     cps_evolution_move(evolution, &move, &err);
+ *     CpsLineReport report = cps_evolution_line_report(evolution, 0);
+ *     if (report.end[CPS_END_B].tension > limit) cps_evolution_take_back(evolution, &err); */
+
+/* Take a load step to the targets of `move`, which is checked as a stage is and may lack a name;
+ * its step_count is 1. The outcome is in the report. After an infeasible or unbounded move the
+ * report and the views show it, and whatever comes next begins where the lines were before it.
+ *
+ * Returns CPS_ERR_ARGUMENT or CPS_ERR_LIMIT for a move that the check refuses, where a held end
+ * would go through an obstacle on its straight path, before a static start has been taken, within
+ * a stage of several steps, and after a history that ended early; CPS_ERR_MEMORY when there is no
+ * memory for the state before the first move; later moves allocate nothing. Nothing has changed
+ * then, but that an infeasible or unbounded move is taken back. CPS_ERR_INTERRUPTED: see above. */
+CPS_API CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsError *err);
+
+/* Take the last move back: the evolution is, bit for bit, what it was before it. Returns
+ * CPS_ERR_ARGUMENT where the last step was no move, or has been taken back. */
+CPS_API CpsStatus cps_evolution_take_back(CpsEvolution *evolution, CpsError *err);
+
 /* The state between two steps as bytes, for going on later: the steps that follow a load give the
  * same bits as if they had followed the save. The bytes are the same in every run: no address, no
  * padding, but the time that the last step took.
@@ -67,10 +98,11 @@ CPS_API CpsStatus cps_evolution_interrupt(CpsEvolution *evolution, bool (*asked)
  *   state  (cps_evolution_state_size) bytes, written; of the same program and the same kind of
  *          machine
  *
- * cps_evolution_load takes a state saved from an evolution of the same scene; what it says is
- * checked against its ranges, as a scene is. Returns CPS_OK, CPS_ERR_MEMORY, or CPS_ERR_ARGUMENT
- * when the state is of another scene, of other settings, not whole or none that steps can leave;
- * the evolution is untouched then. */
+ * cps_evolution_load takes a state saved from an evolution of the same scene, or of one that
+ * differs only in stages which had not begun; what it says is checked against its ranges, as a
+ * scene is. After an infeasible or unbounded move the state before it is saved. Returns CPS_OK,
+ * CPS_ERR_MEMORY, or CPS_ERR_ARGUMENT when the state is of another scene, of other settings, not
+ * whole or none that steps can leave; the evolution is untouched then. */
 CPS_API size_t cps_evolution_state_size(const CpsEvolution *evolution);
 CPS_API void cps_evolution_save(const CpsEvolution *evolution, void *state);
 CPS_API CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t size,

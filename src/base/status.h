@@ -16,4 +16,7 @@ CPS_API __attribute__((format(printf, 3, 4))) CpsStatus cpsi_fail(CpsError *err,
 CPS_API __attribute__((format(printf, 3, 4))) CpsStatus
 cpsi_fail_inside(CpsError *err, CpsStatus status, const char *format, ...);
 
+/* Fail at a key of the object that is being checked; arguments as for cpsi_fail. */
+#define CPSI_FAIL_AT(key, err, ...) cpsi_fail_inside(err, cpsi_fail(err, __VA_ARGS__), "%s", key)
+
 #endif

@@ -18,11 +18,13 @@
 typedef struct Head {
     char magic[8];
     uint64_t size, fingerprint;
+    uint64_t history; /* hash of all stages: a journal compares it */
+    uint64_t past;    /* hash of the stages that have begun */
 } Head;
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', 'n', '6'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', 'n', '7'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -176,14 +178,17 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     PASS(tape, evolution->done);
     PASS(tape, evolution->current);
     PASS(tape, evolution->part);
-    for (int k = 0; k < evolution->stage_count; k++)
-        for (int i = 0; i < evolution->stage[k].change_count; i++)
-            pass_end(tape, &evolution->stage[k].change[i].from);
+    PASS(tape, evolution->move_count);
+    PASS(tape, evolution->gravity);
+    PASS(tape, evolution->gravity_from);
+    for (int i = 0; i < 2 * evolution->line_count; i++) pass_end(tape, &evolution->from[i]);
     for (int i = 0; i < evolution->line_count; i++) pass_line(tape, &evolution->line[i]);
     return tape->at;
 }
 
 /* FNV-1a, 64 bits. */
+static const uint64_t HASH_START = 14695981039346656037u;
+
 static void hash_bytes(uint64_t *hash, const void *data, size_t size) {
     const unsigned char *byte = data;
     for (size_t i = 0; i < size; i++) *hash = (*hash ^ byte[i]) * 1099511628211u;
@@ -218,10 +223,11 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
 static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     hash_bytes(hash, stage->name, strlen(stage->name) + 1);
     hash_bytes(hash, &stage->steps, sizeof stage->steps);
-    hash_numbers(hash, 3, stage->from);
-    hash_numbers(hash, 3, stage->to);
+    const int gravity_changes = stage->gravity_changes;
+    hash_bytes(hash, &gravity_changes, sizeof gravity_changes);
+    hash_numbers(hash, 3, stage->gravity);
     for (int i = 0; i < stage->change_count; i++) {
-        const CpsiChange *change = &stage->change[i];
+        const CpsChange *change = &stage->change[i];
         const int what[3] = {change->line, change->end, (int)change->to.kind};
         hash_bytes(hash, what, sizeof what);
         hash_numbers(hash, 3, change->to.value);
@@ -254,10 +260,9 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
 }
 
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
-    uint64_t hash = 14695981039346656037u;
+    uint64_t hash = HASH_START;
     const CpsSolverOptions *solver = &evolution->options.solver;
     const int what[] = {evolution->line_count,
-                        evolution->stage_count,
                         evolution->obstacle_count,
                         (int)evolution->options.friction_policy,
                         (int)evolution->options.contact_policy,
@@ -268,12 +273,24 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     hash_bytes(&hash, what, sizeof what);
     hash_numbers(&hash, 2, (const double[2]){solver->tolerance, solver->path_tolerance});
     hash_numbers(&hash, 3, evolution->origin);
+    hash_numbers(&hash, 3, evolution->gravity);
     for (int i = 0; i < evolution->line_count; i++) hash_line(&hash, &evolution->line[i]);
     CpsiFrictionSet **set = evolution->workspace[0].friction.set;
     for (int k = 0; k < evolution->obstacle_count; k++)
         hash_obstacle(&hash, &evolution->obstacle[k], set ? set[k] : NULL);
-    for (int k = 0; k < evolution->stage_count; k++) hash_stage(&hash, &evolution->stage[k]);
     return hash;
+}
+
+/* A hash of the first `count` stages. */
+static uint64_t hash_history(const CpsEvolution *evolution, int count) {
+    uint64_t hash = HASH_START;
+    for (int k = 0; k < count; k++) hash_stage(&hash, &evolution->stage[k]);
+    return hash;
+}
+
+/* ... and of those that have begun. */
+static uint64_t hash_past(const CpsEvolution *evolution) {
+    return hash_history(evolution, evolution->current + (evolution->part > 0 ? 1 : 0));
 }
 
 size_t cps_evolution_state_size(const CpsEvolution *evolution) {
@@ -282,14 +299,23 @@ size_t cps_evolution_state_size(const CpsEvolution *evolution) {
     return pass_state(&tape, (CpsEvolution *)(uintptr_t)evolution); /* counts only */
 }
 
-void cps_evolution_save(const CpsEvolution *evolution, void *state) {
-    if (!evolution || !state) return;
+void cpsi_evolution_keep(const CpsEvolution *evolution, void *state) {
     Head head = {.size = cps_evolution_state_size(evolution),
-                 .fingerprint = evolution->fingerprint};
+                 .fingerprint = evolution->fingerprint,
+                 .history = hash_history(evolution, evolution->stage_count),
+                 .past = hash_past(evolution)};
     memcpy(head.magic, MAGIC, sizeof MAGIC);
     memcpy(state, &head, sizeof head);
     Tape tape = {.out = state};
     pass_state(&tape, (CpsEvolution *)(uintptr_t)evolution); /* only read */
+}
+
+void cps_evolution_save(const CpsEvolution *evolution, void *state) {
+    if (!evolution || !state) return;
+    if (cpsi_move_failed(evolution))
+        memcpy(state, evolution->before, cps_evolution_state_size(evolution));
+    else
+        cpsi_evolution_keep(evolution, state);
 }
 
 void cpsi_evolution_restore(CpsEvolution *evolution, const void *state) {
@@ -317,11 +343,21 @@ CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t 
     /* a state is accepted only after its check, which needs it in place */
     unsigned char *before = malloc(size);
     if (!before) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while loading a state");
-    cps_evolution_save(evolution, before);
+    cpsi_evolution_keep(evolution, before);
+    const bool ended = evolution->ended;
     cpsi_evolution_restore(evolution, state);
     const char *fault = cpsi_state_fault(evolution);
-    if (fault) cpsi_evolution_restore(evolution, before);
+    const bool other_past = !fault && hash_past(evolution) != head.past;
+    if (fault || other_past) {
+        cpsi_evolution_restore(evolution, before);
+        evolution->ended = ended;
+    } else {
+        evolution->is_kept = false;
+    }
     free(before);
-    return fault ? cpsi_fail(err, CPS_ERR_ARGUMENT, "the saved state is damaged: %s", fault)
-                 : CPS_OK;
+    if (fault) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the saved state is damaged: %s", fault);
+    return other_past ? cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                  "the saved state is of another scene than this one: it has taken "
+                                  "other stages")
+                      : CPS_OK;
 }

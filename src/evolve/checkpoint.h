@@ -6,10 +6,13 @@
 
 #include "evolve/state.h"
 
-/* A hash of the constant data of an evolution, which in all likelihood differs between scenes. */
+/* A hash of the constant data of an evolution but its history, which in all likelihood differs
+ * between scenes. */
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution);
 
-/* Restore a state that this evolution itself has saved. */
+/* Save the state as it is, also after a move that found no equilibrium; and restore a state that
+ * this evolution itself has saved. */
+void cpsi_evolution_keep(const CpsEvolution *evolution, void *state);
 void cpsi_evolution_restore(CpsEvolution *evolution, const void *state);
 
 #endif

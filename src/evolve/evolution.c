@@ -1,430 +1,32 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The history of a scene: load steps in sequence, each line solved on its own.
+/* The history of a scene: load steps in sequence, each line solved on its own; and moves beside it.
  *
- * A stage of n steps takes each end that it changes from where it is (position, or force carried)
- * to the stage's value in n equal parts. The lines do not act on each other, so a step is one
- * program per line and the report adds them up. */
+ * The lines do not act on each other, so a step is one program per line and the report adds them
+ * up. */
 #define _POSIX_C_SOURCE 200809L
 #include "capstan/evolve.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "base/larger.h"
 #include "base/status.h"
 #include "cable/tension_field.h"
 #include "evolve/checkpoint.h"
-#include "evolve/friction_zone.h"
 #include "evolve/ledger.h"
-#include "evolve/node_start.h"
-#include "evolve/origin.h"
-#include "evolve/path_check.h"
-#include "evolve/sections.h"
-#include "evolve/start.h"
-#include "evolve/state.h"
+#include "evolve/stage_check.h"
+#include "evolve/stages.h"
 #include "evolve/statics.h"
 #include "evolve/view.h"
 
-/* create --------------------------------------------------------------------------------------- */
-
-static char *copy_name(CpsiArena *arena, const char *name) {
-    const size_t size = strlen(name) + 1;
-    char *copy = cpsi_arena_take(arena, size, 1);
-    if (copy) memcpy(copy, name, size);
-    return copy;
-}
-
-/* Do contacts need axes of their own? Not on one plane with isotropic friction. */
-static bool scene_needs_local_axes(const CpsScene *scene) {
-    if (scene->obstacle_count != 1) return scene->obstacle_count > 1;
-    const CpsiObstacle only = cpsi_obstacle(scene->obstacle);
-    return cpsi_obstacle_needs_local_axes(&only);
-}
-
-/* Do elements have contacts, beside the nodes? With round obstacles they do, and where a node may
- * need a third contact; contact of the reference is that of S90, where only nodes touch. */
-static bool scene_has_element_contacts(const CpsScene *scene) {
-    bool round = false;
-    for (int k = 0; k < scene->obstacle_count; k++)
-        round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
-    return (round || scene->obstacle_count > 2) &&
-           scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
-}
-
-/* More threads than lines would have nothing to do. */
-static int workspace_count(const CpsScene *scene) {
-    const int threads = scene->solver.thread_count;
-    return threads < scene->line_count ? threads : scene->line_count;
-}
-
-/* Everything an evolution holds, in one block (base/arena.h); called once to measure the size and
- * once to place the arrays. */
-static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiConicSet *largest) {
-    CpsEvolution measured = {0};
-    CpsiLine any = {0};
-    CpsiEvolutionStage none = {0};
-    CpsEvolution *placed = cpsi_arena_take(arena, 1, sizeof *placed),
-                 *evolution = placed ? placed : &measured;
-    const bool real = placed != NULL;
-    CPSI_PLACE(arena, evolution->line, scene->line_count);
-    CPSI_PLACE(arena, evolution->is_static, scene->line_count);
-    CPSI_PLACE(arena, evolution->mass, scene->line_count);
-    CPSI_PLACE(arena, evolution->stage, scene->stage_count + 1);
-    CPSI_PLACE(arena, evolution->obstacle, scene->obstacle_count + 1);
-    CPSI_PLACE(arena, evolution->obstacle_name, scene->obstacle_count + 1);
-    for (int k = 0; k < scene->obstacle_count; k++) {
-        const char *name = copy_name(arena, scene->obstacle[k].name);
-        if (real) evolution->obstacle_name[k] = name;
-    }
-    CPSI_PLACE(arena, evolution->angle, scene->obstacle_count + 1);
-    CPSI_PLACE(arena, evolution->move, scene->line_count);
-    CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
-                              .contacts = scene->obstacle_count > 1 ? 2 : 1,
-                              .element_contacts = scene_has_element_contacts(scene) ? 1 : 0,
-                              .has_local_axes = scene_needs_local_axes(scene),
-                              .has_path_tolerance = scene->solver.path_tolerance > 0,
-                              .largest = largest,
-                              .ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE
-                                         ? &cpsi_linsys_dense
-                                         : &cpsi_linsys_chain};
-    for (int i = 0; i < scene->line_count; i++) {
-        CpsiLine *line = real ? &evolution->line[i] : &any;
-        line->name = copy_name(arena, scene->line[i].name);
-        line->n = scene->line[i].element_count + 1;
-        line->has_local_axes = size.has_local_axes;
-        line->contacts = size.contacts;
-        line->element_contacts = size.element_contacts;
-        line->has_zones = scene->line[i].zone_count > 0;
-        line->has_sections = cpsi_has_sections(&scene->line[i]);
-        line->compliance = cpsi_mean_compliance(&scene->line[i]);
-        cpsi_line_layout(line, arena);
-        if (line->n > size.nodes) size.nodes = line->n;
-        if (line->compliance == 0 && line->n > size.inextensible_nodes)
-            size.inextensible_nodes = line->n;
-    }
-    for (int i = 0; i < scene->stage_count; i++) {
-        CpsiEvolutionStage *stage = real ? &evolution->stage[i] : &none;
-        stage->name = copy_name(arena, scene->stage[i].name);
-        CPSI_PLACE(arena, stage->change, scene->stage[i].change_count);
-        CPSI_PLACE(arena, stage->turn, scene->stage[i].turn_count);
-    }
-    cpsi_view_layout(&evolution->fill, arena, size.nodes);
-    if (real) cpsi_view_fill(&evolution->fill, size.nodes);
-    evolution->workspace_count = workspace_count(scene);
-    CPSI_PLACE(arena, evolution->workspace, evolution->workspace_count);
-    CpsiWorkspace nothing = {0};
-    for (int i = 0; i < evolution->workspace_count; i++)
-        cpsi_workspace_layout(real ? &evolution->workspace[i] : &nothing, arena, &size);
-    return placed;
-}
-
-/* The obstacles of a line, and its axes: those of the one plane, else of the world. */
-static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
-    static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1};
-    line->obstacle_count = evolution->obstacle_count;
-    line->obstacle = evolution->obstacle;
-    cpsi_workspace_attach(&evolution->workspace[0], line);
-    const bool own = line->has_local_axes || line->obstacle_count == 0;
-    const CpsiPlane plane = own ? cpsi_plane(origin, up) : line->obstacle[0].frame;
-    for (int i = 0; i < 3; i++) vec3_store(&line->common_axes[3 * i], plane.axis[i]);
-}
-
-/* The mean factor of the zones over the length that each node stands for. */
-static void fill_friction_factor(CpsiLine *line, const CpsLine *def) {
-    if (!line->has_zones) return;
-    int first = 0;
-    for (int j = 0; j < line->n; j++) {
-        const double low =
-            j > 0 ? line->arc_length[j] - 0.5 * line->element_length[j - 1] : line->arc_length[j];
-        line->friction_factor[j] = cpsi_zone_factor(def, &first, low, cpsi_line_share(line, j));
-    }
-}
-
-/* Move the first guess of statics to the free side of the obstacles. */
-static void move_to_free_side(CpsiLine *line) {
-    for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3 * j]);
-        double gap;
-        const int on = cpsi_line_nearest(line, x, &gap);
-        if (gap < 0)
-            vec3_store(&line->position[3 * j],
-                       vec3_axpy(-gap, cpsi_obstacle_normal(&line->obstacle[on], x), x));
-    }
-}
-
-static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsScene *scene,
-                      const CpsLine *def) {
-    line->length = def->length;
-    fill_obstacles(line, evolution);
-    const Vec3 gravity = vec3_load(scene->gravity);
-    const double size = vec3_norm(gravity);
-    vec3_store(line->weight, vec3_scale(size > 0 ? cpsi_mean_weight(def) / size : 0, gravity));
-    memcpy(line->weight_before, line->weight, sizeof line->weight);
-    for (int e = 0; e < def->element_count; e++)
-        line->element_length[e] =
-            def->element_length ? def->element_length[e] : def->length / def->element_count;
-    cpsi_line_set_arc_length(line);
-    fill_friction_factor(line, def);
-    if (line->has_sections) cpsi_sections_fill(line, def);
-    if (line->has_local_axes)
-        for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->obstacle_index[c] = -1;
-    cpsi_start_place(def, line->position);
-    for (int end = 0; end < 2; end++) {
-        line->end[end] = def->end[end];
-        if (def->end[end].kind == CPS_END_KIND_FREE) continue;
-        line->end[end].kind = CPS_END_KIND_HELD;
-        cpsi_start_end(def, end, line->end[end].value);
-    }
-    switch (def->start.kind) {
-    case CPS_START_STATIC: move_to_free_side(line); break;
-    case CPS_START_NODES: cpsi_node_start(line, def); break;
-    default: cpsi_line_start_reaction(line, CPS_TOUCH * line->length);
-    }
-    memcpy(line->reference, line->position, 3 * (size_t)line->n * sizeof *line->reference);
-}
-
-static void fill(CpsEvolution *evolution, const CpsScene *scene) {
-    evolution->options = (CpsiStepOptions){.solver = scene->solver,
-                                           .friction_policy = scene->friction_policy,
-                                           .contact_policy = scene->contact_policy};
-    evolution->obstacle_count = scene->obstacle_count;
-    for (int k = 0; k < scene->obstacle_count; k++)
-        evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
-    evolution->line_count = scene->line_count;
-    evolution->stage_count = scene->stage_count;
-    for (int i = 0; i < scene->line_count; i++) {
-        fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
-        const double pull = vec3_norm(vec3_load(scene->gravity));
-        evolution->mass[i] = pull > 0 ? cpsi_mean_weight(&scene->line[i]) / pull : 0;
-        evolution->move[i].angle = evolution->angle;
-        evolution->is_static[i] = scene->line[i].start.kind == CPS_START_STATIC;
-        evolution->has_static = evolution->has_static || evolution->is_static[i];
-    }
-    for (int i = 0; i < scene->stage_count; i++) {
-        const CpsStage *from = &scene->stage[i];
-        CpsiEvolutionStage *stage = &evolution->stage[i];
-        stage->steps = from->step_count;
-        stage->change_count = from->change_count;
-        for (int k = 0; k < from->change_count; k++)
-            stage->change[k] = (CpsiChange){.line = from->change[k].line,
-                                            .end = from->change[k].end,
-                                            .to = from->change[k].to};
-        memcpy(stage->from, i > 0 ? evolution->stage[i - 1].to : scene->gravity,
-               sizeof stage->from);
-        memcpy(stage->to, from->gravity_changes ? from->gravity : stage->from, sizeof stage->to);
-        stage->turn_count = from->turn_count;
-        for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
-        evolution->step_count += from->step_count;
-    }
-    if (evolution->has_static) evolution->step_count++;
-    if (evolution->step_count == 0) {
-        /* no history: one step to the equilibrium under the initial ends */
-        const double *g = scene->gravity;
-        evolution->stage[0] = (CpsiEvolutionStage){.name = "equilibrium",
-                                                   .steps = 1,
-                                                   .from = {g[0], g[1], g[2]},
-                                                   .to = {g[0], g[1], g[2]}};
-        evolution->stage_count = evolution->step_count = 1;
-    }
-    for (int i = 0; i < evolution->workspace_count; i++)
-        cpsi_workspace_connect(&evolution->workspace[i]);
-    evolution->report = (CpsStepReport){.name = evolution->step_name};
-    evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
-}
-
-/* Give each workspace its friction sets and start the threads. `first` are the sets of the first
- * one, which the evolution owns from now on. */
-static CpsStatus equip(CpsEvolution *evolution, const CpsScene *scene, CpsiFrictionSets first,
-                       CpsError *err) {
-    CpsiConicSet sizes;
-    CpsStatus status = CPS_OK;
-    evolution->workspace[0].friction = first;
-    for (int i = 1; i < evolution->workspace_count && status == CPS_OK; i++)
-        status = cpsi_friction_sets_make(scene, &evolution->workspace[i].friction, &sizes, err);
-    if (status != CPS_OK || evolution->workspace_count == 1) return status;
-    evolution->workers = cpsi_workers_create(evolution->workspace_count);
-    if (evolution->workers) return CPS_OK;
-    return cpsi_fail(err, CPS_ERR_MEMORY, "the system does not give %d threads: ask for fewer",
-                     evolution->workspace_count);
-}
-
-/* Place the evolution of a scene whose positions are relative to its origin. */
-static CpsStatus place(const CpsiLocalScene *local, const CpsiConicSet *largest, CpsEvolution **out,
-                       CpsError *err) {
-    CpsiArena arena = {0};
-    layout(&arena, &local->scene, largest);
-    const size_t bytes = arena.used;
-    if (!cpsi_arena_allocate(&arena))
-        return cpsi_fail(err, CPS_ERR_MEMORY, "%.3g MB for the scene's lines are not to be had",
-                         (double)bytes * 1e-6);
-    *out = layout(&arena, &local->scene, largest);
-    (*out)->arena = arena;
-    memcpy((*out)->origin, local->origin, sizeof local->origin);
-    return CPS_OK;
-}
-
-CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err) {
-    if (!out)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the handle");
-    *out = NULL;
-    CpsiFrictionSets sets = {0};
-    CpsiConicSet sizes;
-    CpsiLocalScene local;
-    CpsEvolution *evolution = NULL;
-    CpsStatus status = cps_scene_check(scene, err);
-    if (status == CPS_OK) status = cpsi_friction_sets_make(scene, &sets, &sizes, err);
-    if (status != CPS_OK) return status;
-    status = cpsi_local_scene(scene, &local, err);
-    if (status == CPS_OK) {
-        status = place(&local, sets.set ? &sizes : NULL, &evolution, err);
-        if (status == CPS_OK) {
-            status = equip(evolution, scene, sets, err);
-            sets = (CpsiFrictionSets){0};
-            if (status == CPS_OK) fill(evolution, &local.scene);
-        }
-        cpsi_local_scene_free(&local);
-    }
-    cpsi_friction_sets_free(&sets);
-    if (status == CPS_OK)
-        *out = evolution;
-    else
-        cps_evolution_destroy(evolution);
-    return status;
-}
-
-void cps_evolution_destroy(CpsEvolution *evolution) {
-    if (!evolution) return;
-    cpsi_workers_destroy(evolution->workers);
-    for (int i = 0; i < evolution->workspace_count; i++)
-        cpsi_friction_sets_free(&evolution->workspace[i].friction);
-    free(evolution->before);
-    CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
-    cpsi_arena_free(&arena);
-}
-
-/* step ----------------------------------------------------------------------------------------- */
-
 int cps_evolution_step_count(const CpsEvolution *evolution) {
-    return evolution ? evolution->step_count : 0;
+    return evolution ? evolution->step_count + evolution->move_count : 0;
 }
 
 int cps_evolution_remaining_count(const CpsEvolution *evolution) {
     return !evolution || evolution->ended ? 0 : evolution->step_count - evolution->done;
-}
-
-/* The initial value of a change of an end: its position if it is to be held, its force if it is to
- * be released. */
-static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
-    CpsEnd now = {.kind = kind};
-    if (kind == line->end[end].kind) return line->end[end];
-    const double *x = &line->position[3 * (end == CPS_END_A ? 0 : line->n - 1)];
-    memcpy(now.value, kind == CPS_END_KIND_HELD ? x : line->report.end[end].force,
-           sizeof now.value);
-    return now;
-}
-
-/* An end at `part` of the `steps` of its stage. */
-static CpsEnd end_at(const CpsiChange *change, int part, int steps) {
-    CpsEnd end = change->to;
-    const double share = (double)part / steps;
-    if (part < steps)
-        for (int a = 0; a < 3; a++)
-            end.value[a] =
-                change->from.value[a] + share * (change->to.value[a] - change->from.value[a]);
-    return end;
-}
-
-/* A free end is held from where it is. Only now can it be checked whether its straight path from
- * there leads through an obstacle. */
-static CpsStatus check_grabs(const CpsEvolution *evolution, CpsError *err) {
-    const CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
-    if (evolution->part == 0)
-        for (int i = 0; i < stage->change_count; i++) {
-            const CpsiChange *change = &stage->change[i];
-            const CpsiLine *line = &evolution->line[change->line];
-            if (change->to.kind != CPS_END_KIND_HELD ||
-                line->end[change->end].kind == CPS_END_KIND_HELD)
-                continue;
-            const CpsEnd from = end_now(line, change->end, CPS_END_KIND_HELD);
-            const double *a = from.value, *b = change->to.value, *o = evolution->origin;
-            /* rounding of the data, which are coordinates of the scene */
-            const double rounding =
-                cpsi_place_rounding(line->length, vec3_add(vec3_load(o), vec3_load(b)));
-            for (int k = 0; k < evolution->obstacle_count; k++) {
-                const double depth =
-                    cpsi_path_depth(&evolution->obstacle[k], vec3_load(a), vec3_load(b),
-                                    CPSI_PATH_TOUCH * line->length + rounding);
-                if (depth > 0)
-                    return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                                     "stage '%.64s': %s.%s is grabbed at (%g, %g, %g) m and goes "
-                                     "straight to (%g, %g, %g) m, through obstacle "
-                                     "'%s', up to %g m deep: add way points around it",
-                                     stage->name, line->name, change->end == CPS_END_A ? "A" : "B",
-                                     o[0] + a[0], o[1] + a[1], o[2] + a[2], o[0] + b[0],
-                                     o[1] + b[1], o[2] + b[2], evolution->obstacle_name[k], depth);
-            }
-        }
-    return CPS_OK;
-}
-
-/* [N/m] The weight of line i after `part` steps of a stage. */
-static void weight_at(const CpsEvolution *evolution, const CpsiEvolutionStage *stage, int i,
-                      int part, double weight[3]) {
-    const double share = (double)part / stage->steps;
-    for (int a = 0; a < 3; a++) {
-        const double gravity = part < stage->steps
-                                   ? stage->from[a] + share * (stage->to[a] - stage->from[a])
-                                   : stage->to[a];
-        weight[a] = evolution->mass[i] * gravity;
-    }
-}
-
-/* Set the change of each line in the next load step, and the name of the step. */
-static void plan_step(CpsEvolution *evolution) {
-    CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
-    for (int i = 0; i < evolution->line_count; i++)
-        for (int end = 0; end < 2; end++)
-            evolution->move[i].from[end] = evolution->move[i].to[end] = evolution->line[i].end[end];
-    for (int i = 0; i < evolution->line_count; i++) {
-        weight_at(evolution, stage, i, evolution->part, evolution->move[i].weight_from);
-        weight_at(evolution, stage, i, evolution->part + 1, evolution->move[i].weight_to);
-    }
-    for (int k = 0; k < stage->change_count; k++) {
-        CpsiChange *change = &stage->change[k];
-        if (evolution->part == 0)
-            change->from = end_now(&evolution->line[change->line], change->end, change->to.kind);
-        CpsiMove *move = &evolution->move[change->line];
-        move->from[change->end] =
-            evolution->part == 0 ? change->from : end_at(change, evolution->part, stage->steps);
-        move->to[change->end] = end_at(change, evolution->part + 1, stage->steps);
-    }
-    for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
-    for (int k = 0; k < stage->turn_count; k++)
-        evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
-    if (stage->steps == 1)
-        snprintf(evolution->step_name, CPSI_STEP_NAME, "%s", stage->name);
-    else
-        snprintf(evolution->step_name, CPSI_STEP_NAME, "%.64s %d/%d", stage->name,
-                 evolution->part + 1, stage->steps);
-    if (++evolution->part == stage->steps) {
-        evolution->part = 0;
-        evolution->current++;
-    }
-}
-
-/* Before the first step, where lines start by statics: loads that do not change. */
-static void plan_statics(CpsEvolution *evolution) {
-    snprintf(evolution->step_name, CPSI_STEP_NAME, "static");
-    for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
-    for (int i = 0; i < evolution->line_count; i++) {
-        const CpsiLine *line = &evolution->line[i];
-        CpsiMove *move = &evolution->move[i];
-        for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
-        for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
-    }
 }
 
 /* The ranges of the tensions at the ends, after the last step of a stage and after statics. */
@@ -453,7 +55,7 @@ static void step_line(void *data, int workspace_index, int i) {
         cpsi_line_place_statically(line, &workspace->program, &placing, &workspace->scratch);
     } else {
         cpsi_line_substeps(line, &workspace->program, &options, &evolution->move[i],
-                           &workspace->scratch, evolution->done > 0);
+                           &workspace->scratch, evolution->done + evolution->move_count > 0);
     }
     if (evolution->part == 0) find_range(line, &options);
 }
@@ -522,37 +124,112 @@ CpsStatus cps_evolution_interrupt(CpsEvolution *evolution, bool (*asked)(void *u
     return CPS_OK;
 }
 
+static void return_to_kept(CpsEvolution *evolution) {
+    cpsi_evolution_restore(evolution, evolution->before);
+    evolution->is_kept = false;
+}
+
+/* Take a step of a stage, of the move where `is_move`; of no stage where lines are placed by
+ * statics. */
+static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, bool is_move,
+                           CpsError *err) {
+    const double begin = seconds();
+    const CpsiInterrupt *interrupt = &evolution->workspace[0].interrupt;
+    if (interrupt->asked || is_move) cpsi_evolution_keep(evolution, evolution->before);
+    set_interrupt(evolution, (CpsiInterrupt){.asked = interrupt->asked, .user = interrupt->user});
+    if (stage)
+        cpsi_stage_plan(evolution, stage, is_move ? 0 : evolution->part);
+    else
+        cpsi_stage_plan_statics(evolution);
+    if (stage && !is_move && ++evolution->part == stage->steps) {
+        evolution->part = 0;
+        evolution->current++;
+    }
+    cpsi_workers_run(evolution->workers, step_line, evolution, evolution->line_count);
+    evolution->is_kept = is_move;
+    if (was_interrupted(evolution)) {
+        return_to_kept(evolution);
+        return cpsi_fail(err, CPS_ERR_INTERRUPTED,
+                         "the load step was interrupted, and is not taken");
+    }
+    if (is_move)
+        evolution->move_count++;
+    else
+        evolution->done++;
+    evolution->report = (CpsStepReport){.name = evolution->step_name,
+                                        .step_count = evolution->done + evolution->move_count,
+                                        .certificate.has_tension_bound = true};
+    for (int i = 0; i < evolution->line_count; i++)
+        add_report(&evolution->report, &evolution->line[i].report);
+    for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i]);
+    evolution->ended = !is_move && cps_outcome_is_final(evolution->report.outcome);
+    evolution->report.wall = seconds() - begin;
+    return CPS_OK;
+}
+
 CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
     if (!evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution is NULL");
     if (cps_evolution_remaining_count(evolution) == 0)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "no load step remains: ask cps_evolution_remaining_count first");
-    const double begin = seconds();
-    const bool statics = evolution->has_static && evolution->done == 0;
-    const CpsStatus status = statics ? CPS_OK : check_grabs(evolution, err);
-    if (status) return status;
-    const CpsiInterrupt *interrupt = &evolution->workspace[0].interrupt;
-    if (interrupt->asked) cps_evolution_save(evolution, evolution->before);
-    set_interrupt(evolution, (CpsiInterrupt){.asked = interrupt->asked, .user = interrupt->user});
-    if (statics)
-        plan_statics(evolution);
-    else
-        plan_step(evolution);
-    cpsi_workers_run(evolution->workers, step_line, evolution, evolution->line_count);
-    if (was_interrupted(evolution)) {
-        cpsi_evolution_restore(evolution, evolution->before);
-        return cpsi_fail(err, CPS_ERR_INTERRUPTED,
-                         "the load step was interrupted, and is not taken");
+    if (cpsi_move_failed(evolution)) return_to_kept(evolution);
+    if (evolution->has_static && evolution->done == 0)
+        return take_step(evolution, NULL, false, err);
+    const CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
+    if (evolution->part == 0) {
+        char what[96];
+        snprintf(what, sizeof what, "stage '%.64s'", stage->name);
+        const CpsStatus status =
+            cpsi_stage_check_paths(evolution, stage, evolution->move_count > 0, what, err);
+        if (status) return cpsi_fail_inside(err, status, "history[%d]", evolution->current + 1);
     }
-    evolution->report = (CpsStepReport){.name = evolution->step_name,
-                                        .step_count = evolution->done + 1,
-                                        .certificate.has_tension_bound = true};
-    for (int i = 0; i < evolution->line_count; i++)
-        add_report(&evolution->report, &evolution->line[i].report);
-    evolution->done++;
-    for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i]);
-    evolution->ended = cps_outcome_is_final(evolution->report.outcome);
-    evolution->report.wall = seconds() - begin;
+    return take_step(evolution, stage, false, err);
+}
+
+/* Whether a move may be taken now, and memory for the state before it. */
+static CpsStatus prepare_move(CpsEvolution *evolution, CpsError *err) {
+    if (evolution->ended)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the history ended in a step without an equilibrium: no move follows it");
+    if (evolution->has_static && evolution->done == 0)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the lines are not placed yet: their static start is the first step");
+    if (evolution->part > 0)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "stage '%.64s' of the history is under way: take its other %d steps first",
+                         evolution->stage[evolution->current].name,
+                         evolution->stage[evolution->current].steps - evolution->part);
+    if (!evolution->before) evolution->before = malloc(cps_evolution_state_size(evolution));
+    return evolution->before
+               ? CPS_OK
+               : cpsi_fail(err, CPS_ERR_MEMORY, "out of memory for the state before a move");
+}
+
+CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsError *err) {
+    if (!evolution || !move)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution and move are both needed");
+    const CpsScene scene = cpsi_stage_scene(evolution);
+    char what[96];
+    snprintf(what, sizeof what, "move '%.64s'", move->name ? move->name : "");
+    CpsStatus status = cpsi_stage_check(&scene, move, what, err);
+    if (status == CPS_OK && move->step_count != 1)
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: steps is %d: a move is one step", what,
+                           move->step_count);
+    if (status == CPS_OK) status = prepare_move(evolution, err);
+    if (status != CPS_OK) return status;
+    if (cpsi_move_failed(evolution)) return_to_kept(evolution);
+    cpsi_stage_fill(&evolution->live, move, evolution->origin);
+    evolution->live.name = move->name ? move->name : "move";
+    status = cpsi_stage_check_paths(evolution, &evolution->live, true, what, err);
+    return status == CPS_OK ? take_step(evolution, &evolution->live, true, err) : status;
+}
+
+CpsStatus cps_evolution_take_back(CpsEvolution *evolution, CpsError *err) {
+    if (!evolution) return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution is NULL");
+    if (!evolution->is_kept)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the last step was no move: there is nothing to take back");
+    return_to_kept(evolution);
     return CPS_OK;
 }
 

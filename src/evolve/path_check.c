@@ -2,12 +2,19 @@
 /* Check of the paths of held ends against the obstacles (path_check.h). */
 #include "evolve/path_check.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
 #include "evolve/origin.h"
+#include "evolve/ranges.h"
 #include "evolve/start.h"
+#include "geometry/obstacle.h"
+
+/* Depth below the surface that still counts as touching, per length of the line. */
+static const double PATH_TOUCH = 1e-9;
 
 /* Positions of both ends of a line; NaN while an end is free, as its position is then not known
  * before the scene is solved. */
@@ -15,29 +22,33 @@ typedef struct Places {
     double end[2][3];
 } Places;
 
-double cpsi_path_depth(const CpsiObstacle *obstacle, Vec3 from, Vec3 to, double touch) {
+/* [m] Depth of the straight path in the obstacle, if it exceeds `touch` and the depth of its first
+ * point; else 0. */
+static double path_depth(const CpsiObstacle *obstacle, Vec3 from, Vec3 to, double touch) {
     const double depth = cpsi_obstacle_depth(obstacle, from, to);
     return depth > fmax(touch, -cpsi_obstacle_gap(obstacle, from)) ? depth : 0;
 }
 
-static CpsStatus check_path(const CpsScene *scene, int stage, const CpsChange *change,
-                            const double *from, CpsError *err) {
+CpsStatus cpsi_path_check_change(const CpsScene *scene, const CpsChange *change,
+                                 const double from[3], bool grabbed, const char *what,
+                                 CpsError *err) {
     const CpsLine *line = &scene->line[change->line];
     const double *to = change->to.value;
     for (int k = 0; k < scene->obstacle_count; k++) {
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
         const double touch =
-            CPSI_PATH_TOUCH * line->length + cpsi_place_rounding(line->length, vec3_load(to));
-        const double depth = cpsi_path_depth(&obstacle, vec3_load(from), vec3_load(to), touch);
+            PATH_TOUCH * line->length + cpsi_place_rounding(line->length, vec3_load(to));
+        const double depth = path_depth(&obstacle, vec3_load(from), vec3_load(to), touch);
         if (!(depth > 0)) continue;
-        const char *end = change->end == CPS_END_A ? "A" : "B";
-        cpsi_fail(err, CPS_ERR_ARGUMENT,
-                  "stage %d: %s.%s goes straight from (%g, %g, %g) m to (%g, %g, %g) m, through "
-                  "obstacle '%s', up to %g m deep: add way points around it",
-                  stage + 1, line->name, end, from[0], from[1], from[2], to[0], to[1], to[2],
-                  scene->obstacle[k].name, depth);
-        return cpsi_fail_inside(err, CPS_ERR_ARGUMENT, "history[%d].%s.%s", stage + 1, line->name,
-                                end);
+        const char *end = cpsi_end_letter(change->end);
+        cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "%s: %s.%s %s (%g, %g, %g) m %s (%g, %g, %g) m, through obstacle '%s', up to %g m "
+            "deep: add way points around it",
+            what, line->name, end, grabbed ? "is grabbed at" : "goes straight from", from[0],
+            from[1], from[2], grabbed ? "and goes straight to" : "to", to[0], to[1], to[2],
+            scene->obstacle[k].name, depth);
+        return cpsi_fail_inside(err, CPS_ERR_ARGUMENT, "%s.%s", line->name, end);
     }
     return CPS_OK;
 }
@@ -60,7 +71,12 @@ CpsStatus cpsi_path_check(const CpsScene *scene, CpsError *err) {
             const CpsChange *change = &stage->change[i];
             double *at = place[change->line].end[change->end];
             const bool held = change->to.kind == CPS_END_KIND_HELD;
-            if (held && !isnan(at[0])) status = check_path(scene, k, change, at, err);
+            if (held && !isnan(at[0])) {
+                char what[32];
+                snprintf(what, sizeof what, "stage %d", k + 1);
+                status = cpsi_path_check_change(scene, change, at, false, what, err);
+                cpsi_fail_inside(err, status, "history[%d]", k + 1);
+            }
             memcpy(at, change->to.value, sizeof place->end[0]);
             if (!held) at[0] = NAN;
         }

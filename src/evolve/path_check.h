@@ -3,17 +3,22 @@
 #ifndef CAPSTAN_SRC_EVOLVE_PATH_CHECK_H
 #define CAPSTAN_SRC_EVOLVE_PATH_CHECK_H
 
-#include "base/vec3.h"
+#include <stdbool.h>
+
 #include "capstan/scene.h"
-#include "geometry/obstacle.h"
 
-/* Depth below the surface that still counts as touching, per length of the line. */
-#define CPSI_PATH_TOUCH 1e-9
-
-/* [m] Depth of the straight path in the obstacle, if it exceeds `touch` and the depth of its first
- * point (a free end may lie below the surface with contact of the reference or frozen friction);
- * else 0. */
-double cpsi_path_depth(const CpsiObstacle *obstacle, Vec3 from, Vec3 to, double touch);
+/* Check the straight path on which a change takes a held end, or a free end that it grabs, from
+ * where it is. A free end may lie below the surface with contact of the reference or frozen
+ * friction; then its path may be as deep.
+ *
+ *   scene   its obstacles, and the names and lengths of its lines
+ *   from    [m] in the coordinates of the scene
+ *   what    the subject of the message: "stage 3"
+ *
+ * Returns CPS_OK or CPS_ERR_ARGUMENT. */
+CpsStatus cpsi_path_check_change(const CpsScene *scene, const CpsChange *change,
+                                 const double from[3], bool grabbed, const char *what,
+                                 CpsError *err);
 
 /* Check the changes of a history whose initial points are known before anything is solved: those of
  * ends that are already held. The scene has passed all other checks. Returns CPS_OK,

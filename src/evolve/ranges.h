@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The numbers that a scene may have, and the length of an element of its lines. */
+/* The numbers that a scene may have, the length of an element of its lines and the letter of an
+ * end. */
 #ifndef CAPSTAN_SRC_EVOLVE_RANGES_H
 #define CAPSTAN_SRC_EVOLVE_RANGES_H
 
@@ -30,5 +31,7 @@ static inline bool cpsi_is_direction(const double x[3]) {
 static inline double cpsi_element_length(const CpsLine *line, int e) {
     return line->element_length ? line->element_length[e] : line->length / line->element_count;
 }
+
+static inline const char *cpsi_end_letter(int end) { return end == CPS_END_A ? "A" : "B"; }
 
 #endif

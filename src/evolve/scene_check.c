@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/math.h"
 #include "base/status.h"
 #include "base/vec3.h"
 #include "cable/friction_set.h"
@@ -13,17 +12,14 @@
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
 #include "evolve/path_check.h"
+#include "evolve/places.h"
 #include "evolve/ranges.h"
 #include "evolve/sections.h"
+#include "evolve/stage_check.h"
 #include "evolve/start.h"
 #include "geometry/obstacle.h"
 
-enum {
-    SCENE_COOKIE = 0x5ce9e501,
-    LINE_COOKIE = 0x11e00e02,
-    OBSTACLE_COOKIE = 0x0b57ac03,
-    STAGE_COOKIE = 0x57a9e004
-};
+enum { SCENE_COOKIE = 0x5ce9e501, LINE_COOKIE = 0x11e00e02, OBSTACLE_COOKIE = 0x0b57ac03 };
 
 /* A start shape must be as long as the line to this relative accuracy: lengths written with 9
  * digits pass. */
@@ -31,18 +27,11 @@ static const double LENGTH_TOLERANCE = 1e-8;
 /* An elastic line may start stretched, but not beyond this strain, which is taken for an error of
  * input. */
 static const double MAX_START_STRAIN = 1.0;
-/* Permitted distance of a held end from the end of the initial shape, or below the obstacle, per
- * length of the line. */
-static const double PLACE_TOLERANCE = 1e-9;
 /* Permitted relative difference between the sum of the elements' lengths and the line's length:
  * lengths written with 10 digits pass. */
 static const double SUM_TOLERANCE = 1e-9;
 /* Limits given by the memory of a large machine (1 kB per element) and by the size of results. */
 enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000, MAX_OBSTACLES = 1000 };
-
-/* [rad] Limit of a turn in one stage, which takes a substep for every quarter of a turn: 10 000
- * turns. */
-static const double MAX_TURN = 2e4 * CPSI_PI, DEGREES = 180 / CPSI_PI;
 
 CpsScene cps_scene_default(void) {
     return (CpsScene){
@@ -76,17 +65,10 @@ CpsObstacle cps_obstacle_default(void) {
     };
 }
 
-CpsStage cps_stage_default(void) { return (CpsStage){.cookie = STAGE_COOKIE, .step_count = 1}; }
-
 /* ---- the check ----
  *
  * A message begins with the object and its key. The error also contains the path of the key as
  * data: a check names the key, and its caller the enclosing object: "length" in "lines.cable". */
-
-/* Fails at a key of the object that is being checked; arguments as for cpsi_fail. */
-#define FAIL_AT(key, err, ...) cpsi_fail_inside(err, cpsi_fail(err, __VA_ARGS__), "%s", key)
-
-static const char *end_letter(int end) { return end == CPS_END_A ? "A" : "B"; }
 
 /* Names are file and column names elsewhere: a letter, then letters, digits, _ and -, 64 in all. */
 static bool name_is_valid(const char *name) {
@@ -111,15 +93,15 @@ static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
     const bool plane = o->kind == CPS_OBSTACLE_PLANE, ball = o->kind == CPS_OBSTACLE_SPHERE;
     const char *what = plane ? "plane point" : ball ? "sphere centre" : "cylinder point";
     if (!cpsi_are_usable(o->point))
-        return FAIL_AT(plane  ? "plane.point"
-                       : ball ? "sphere.centre"
-                              : "cylinder.point",
-                       err, CPS_ERR_ARGUMENT,
-                       "obstacle '%s': %s is (%g, %g, %g) m, expected finite numbers", o->name,
-                       what, o->point[0], o->point[1], o->point[2]);
+        return CPSI_FAIL_AT(plane  ? "plane.point"
+                            : ball ? "sphere.centre"
+                                   : "cylinder.point",
+                            err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': %s is (%g, %g, %g) m, expected finite numbers", o->name,
+                            what, o->point[0], o->point[1], o->point[2]);
     const double *d = plane ? o->normal : o->axis;
     if (!cpsi_is_direction(d))
-        return FAIL_AT(
+        return CPSI_FAIL_AT(
             plane  ? "plane.normal"
             : ball ? "sphere.axis"
                    : "cylinder.axis",
@@ -127,36 +109,37 @@ static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
             "obstacle '%s': %s is (%g, %g, %g), expected a direction: finite numbers, not all 0",
             o->name, plane ? "plane normal" : "axis", d[0], d[1], d[2]);
     if (!plane && !cpsi_is_positive(o->radius))
-        return FAIL_AT(ball ? "sphere.radius" : "cylinder.radius", err, CPS_ERR_ARGUMENT,
-                       "obstacle '%s': radius is %g m, expected a positive finite number", o->name,
-                       o->radius);
+        return CPSI_FAIL_AT(ball ? "sphere.radius" : "cylinder.radius", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': radius is %g m, expected a positive finite number",
+                            o->name, o->radius);
     return CPS_OK;
 }
 
 static CpsStatus check_friction_keys(const CpsObstacle *o, CpsError *err) {
     if (!cpsi_is_not_negative(o->friction))
-        return FAIL_AT("friction", err, CPS_ERR_ARGUMENT,
-                       "obstacle '%s': friction is %g, expected a finite number >= 0", o->name,
-                       o->friction);
+        return CPSI_FAIL_AT("friction", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': friction is %g, expected a finite number >= 0", o->name,
+                            o->friction);
     if (o->has_friction_lateral && !cpsi_is_not_negative(o->friction_lateral))
-        return FAIL_AT("friction.lateral", err, CPS_ERR_ARGUMENT,
-                       "obstacle '%s': friction: lateral is %g, expected a finite number >= 0",
-                       o->name, o->friction_lateral);
+        return CPSI_FAIL_AT("friction.lateral", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': friction: lateral is %g, expected a finite number >= 0",
+                            o->name, o->friction_lateral);
     if (!o->has_friction_lateral && o->friction_lateral != 0)
-        return FAIL_AT("friction.lateral", err, CPS_ERR_ARGUMENT,
-                       "obstacle '%s': friction: lateral is %g, but has_friction_lateral is false",
-                       o->name, o->friction_lateral);
+        return CPSI_FAIL_AT(
+            "friction.lateral", err, CPS_ERR_ARGUMENT,
+            "obstacle '%s': friction: lateral is %g, but has_friction_lateral is false", o->name,
+            o->friction_lateral);
     if (o->friction_shape != CPS_FRICTION_SHAPE_ELLIPSE &&
         o->friction_shape != CPS_FRICTION_SHAPE_BOX)
-        return FAIL_AT("friction.shape", err, CPS_ERR_ARGUMENT,
-                       "obstacle '%s': friction: unknown shape %d", o->name,
-                       (int)o->friction_shape);
+        return CPSI_FAIL_AT("friction.shape", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': friction: unknown shape %d", o->name,
+                            (int)o->friction_shape);
     const double *g = o->grain;
     if (!cpsi_are_usable(g) || ((g[0] != 0 || g[1] != 0 || g[2] != 0) && !cpsi_is_direction(g)))
-        return FAIL_AT("friction.grain", err, CPS_ERR_ARGUMENT,
-                       "obstacle '%s': friction: grain is (%g, %g, %g), expected a direction: "
-                       "finite numbers, or all 0 for the line's own",
-                       o->name, g[0], g[1], g[2]);
+        return CPSI_FAIL_AT("friction.grain", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': friction: grain is (%g, %g, %g), expected a direction: "
+                            "finite numbers, or all 0 for the line's own",
+                            o->name, g[0], g[1], g[2]);
     if (!o->friction_set) return CPS_OK;
     return cpsi_fail_inside(err, cpsi_friction_set_check(o->friction_set, o->name, err),
                             "friction.set");
@@ -164,13 +147,14 @@ static CpsStatus check_friction_keys(const CpsObstacle *o, CpsError *err) {
 
 static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
     if (scene->obstacle_count < 0 || scene->obstacle_count > MAX_OBSTACLES)
-        return FAIL_AT("obstacles", err, CPS_ERR_ARGUMENT, "obstacles: found %d, expected 0 to %d",
-                       scene->obstacle_count, (int)MAX_OBSTACLES);
+        return CPSI_FAIL_AT("obstacles", err, CPS_ERR_ARGUMENT,
+                            "obstacles: found %d, expected 0 to %d", scene->obstacle_count,
+                            (int)MAX_OBSTACLES);
     for (int k = 0; k < scene->obstacle_count; k++) {
         const CpsObstacle *o = scene->obstacle ? &scene->obstacle[k] : NULL;
         if (!o || o->cookie != OBSTACLE_COOKIE)
-            return FAIL_AT("obstacles", err, CPS_ERR_ARGUMENT,
-                           "obstacle %d: not made by cps_obstacle_default()", k + 1);
+            return CPSI_FAIL_AT("obstacles", err, CPS_ERR_ARGUMENT,
+                                "obstacle %d: not made by cps_obstacle_default()", k + 1);
         CpsStatus status = check_name("obstacle", k, o->name, err);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "obstacles[%d]", k + 1);
         for (int i = 0; i < k && status == CPS_OK; i++)
@@ -188,69 +172,52 @@ static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
 /* So many nodes are held against an obstacle together: it is prepared for them once. */
 enum { NODES_AT_ONCE = 256 };
 
-/* [m] distance of a point above the nearest obstacle and its name; INFINITY without one. */
-static double height(const CpsScene *scene, Vec3 x, const char **name) {
-    double least = INFINITY;
-    for (int k = 0; k < scene->obstacle_count; k++) {
-        const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
-        const double gap = cpsi_obstacle_gap(&obstacle, x);
-        if (gap < least) {
-            least = gap;
-            *name = scene->obstacle[k].name;
-        }
-    }
-    return least;
-}
-
-/* [m] Tolerance for a position of a line. */
-static double place_tolerance(const CpsLine *line, Vec3 x) {
-    return PLACE_TOLERANCE * line->length + cpsi_place_rounding(line->length, x);
-}
-
 static CpsStatus check_elements(const CpsLine *line, CpsError *err) {
     if (line->element_count < 1)
-        return FAIL_AT("elements", err, CPS_ERR_ARGUMENT,
-                       "line '%s': elements is %d, expected at least 1", line->name,
-                       line->element_count);
+        return CPSI_FAIL_AT("elements", err, CPS_ERR_ARGUMENT,
+                            "line '%s': elements is %d, expected at least 1", line->name,
+                            line->element_count);
     if (!line->element_length) return CPS_OK;
     double sum = 0;
     for (int i = 0; i < line->element_count; i++) {
         if (!cpsi_is_positive(line->element_length[i]))
-            return FAIL_AT(
+            return CPSI_FAIL_AT(
                 "elements", err, CPS_ERR_ARGUMENT,
                 "line '%s': elements: number %d is %g m long, expected a positive finite number",
                 line->name, i + 1, line->element_length[i]);
         sum += line->element_length[i];
     }
     if (!(fabs(sum - line->length) <= SUM_TOLERANCE * line->length))
-        return FAIL_AT("elements", err, CPS_ERR_ARGUMENT,
-                       "line '%s': elements are %.12g m long together, but length is %.12g m: make "
-                       "them agree to 9 digits",
-                       line->name, sum, line->length);
+        return CPSI_FAIL_AT(
+            "elements", err, CPS_ERR_ARGUMENT,
+            "line '%s': elements are %.12g m long together, but length is %.12g m: make "
+            "them agree to 9 digits",
+            line->name, sum, line->length);
     return CPS_OK;
 }
 
 static CpsStatus check_zones(const CpsLine *line, CpsError *err) {
     if (line->zone_count < 0 || (line->zone_count > 0 && !line->zone))
-        return FAIL_AT("friction_zones", err, CPS_ERR_ARGUMENT,
-                       "line '%s': friction zones: found %d, expected 0 or more", line->name,
-                       line->zone ? line->zone_count : 0);
+        return CPSI_FAIL_AT("friction_zones", err, CPS_ERR_ARGUMENT,
+                            "line '%s': friction zones: found %d, expected 0 or more", line->name,
+                            line->zone ? line->zone_count : 0);
     double behind = 0;
     for (int k = 0; k < line->zone_count; k++) {
         const CpsFrictionZone *zone = &line->zone[k];
         char place[32];
         snprintf(place, sizeof place, "friction_zones[%d]", k + 1);
         if (!(zone->from >= behind && zone->from < zone->to && zone->to <= line->length))
-            return FAIL_AT(
+            return CPSI_FAIL_AT(
                 place, err, CPS_ERR_ARGUMENT,
                 "line '%s': friction zones: number %d goes from %g m to %g m, expected one that "
                 "begins at %g m or after and ends within the line's length %g m",
                 line->name, k + 1, zone->from, zone->to, behind, line->length);
         if (!cpsi_is_not_negative(zone->factor))
-            return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                           "line '%s': friction zones: number %d has the factor %g, expected a "
-                           "finite number >= 0",
-                           line->name, k + 1, zone->factor);
+            return CPSI_FAIL_AT(
+                place, err, CPS_ERR_ARGUMENT,
+                "line '%s': friction zones: number %d has the factor %g, expected a "
+                "finite number >= 0",
+                line->name, k + 1, zone->factor);
         behind = zone->to;
     }
     return CPS_OK;
@@ -258,9 +225,9 @@ static CpsStatus check_zones(const CpsLine *line, CpsError *err) {
 
 static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     if (!cpsi_is_positive(line->length))
-        return FAIL_AT("length", err, CPS_ERR_ARGUMENT,
-                       "line '%s': length is %g m, expected a positive finite number", line->name,
-                       line->length);
+        return CPSI_FAIL_AT("length", err, CPS_ERR_ARGUMENT,
+                            "line '%s': length is %g m, expected a positive finite number",
+                            line->name, line->length);
     CpsStatus status = check_elements(line, err);
     if (status == CPS_OK) status = cpsi_sections_check(scene, line, err);
     return status ? status : check_zones(line, err);
@@ -270,38 +237,40 @@ static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsEr
 static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
     const CpsStart *start = &line->start;
     if (start->kind < CPS_START_STRAIGHT || start->kind > CPS_START_NODES)
-        return FAIL_AT("start", err, CPS_ERR_ARGUMENT, "line '%s': start has the unknown kind %d",
-                       line->name, (int)start->kind);
+        return CPSI_FAIL_AT("start", err, CPS_ERR_ARGUMENT,
+                            "line '%s': start has the unknown kind %d", line->name,
+                            (int)start->kind);
     if (start->kind == CPS_START_STATIC || start->kind == CPS_START_NODES) return CPS_OK;
     const bool polyline = start->kind == CPS_START_POLYLINE;
     if (!start->point || (polyline ? start->point_count < 2 : start->point_count != 2))
-        return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                       "line '%s': start has %d points, expected %s", line->name,
-                       start->point ? start->point_count : 0, polyline ? "at least 2" : "2");
+        return CPSI_FAIL_AT("start", err, CPS_ERR_ARGUMENT,
+                            "line '%s': start has %d points, expected %s", line->name,
+                            start->point ? start->point_count : 0, polyline ? "at least 2" : "2");
     for (int i = 0; i < start->point_count; i++)
         if (!cpsi_are_usable(&start->point[3 * i]))
-            return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                           "line '%s': start: point %d is (%g, %g, %g) m, expected finite numbers",
-                           line->name, i + 1, start->point[3 * i], start->point[3 * i + 1],
-                           start->point[3 * i + 2]);
+            return CPSI_FAIL_AT(
+                "start", err, CPS_ERR_ARGUMENT,
+                "line '%s': start: point %d is (%g, %g, %g) m, expected finite numbers", line->name,
+                i + 1, start->point[3 * i], start->point[3 * i + 1], start->point[3 * i + 2]);
     if (start->kind != CPS_START_ARC) return CPS_OK;
     if (!cpsi_is_direction(start->axis))
-        return FAIL_AT("start.arc.axis", err, CPS_ERR_ARGUMENT,
-                       "line '%s': start: arc axis is (%g, %g, %g), expected a direction: finite "
-                       "numbers, not all 0",
-                       line->name, start->axis[0], start->axis[1], start->axis[2]);
+        return CPSI_FAIL_AT(
+            "start.arc.axis", err, CPS_ERR_ARGUMENT,
+            "line '%s': start: arc axis is (%g, %g, %g), expected a direction: finite "
+            "numbers, not all 0",
+            line->name, start->axis[0], start->axis[1], start->axis[2]);
     const double radius = cpsi_start_arc(line).radius;
     if (!cpsi_is_positive(radius))
-        return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                       "line '%s': start: the arc's first point lies on its axis", line->name);
+        return CPSI_FAIL_AT("start", err, CPS_ERR_ARGUMENT,
+                            "line '%s': start: the arc's first point lies on its axis", line->name);
     for (int i = 0; i < line->element_count; i++) {
         const double l =
             line->element_length ? line->element_length[i] : line->length / line->element_count;
         if (l > 2 * radius)
-            return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                           "line '%s': start: an element is %g m long, longer than the arc's "
-                           "diameter %g m: use more elements",
-                           line->name, l, 2 * radius);
+            return CPSI_FAIL_AT("start", err, CPS_ERR_ARGUMENT,
+                                "line '%s': start: an element is %g m long, longer than the arc's "
+                                "diameter %g m: use more elements",
+                                line->name, l, 2 * radius);
     }
     return CPS_OK;
 }
@@ -315,20 +284,22 @@ static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
                                                     cpsi_place_rounding(line->length, first) /
                                                     length;
     if (!(shape >= length * (1 - tolerance)))
-        return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                       "line '%s': start is %.10g m long, shorter than the line's length %.10g m: "
-                       "lengthen the shape, or use 'static'",
-                       line->name, shape, length);
+        return CPSI_FAIL_AT(
+            "start", err, CPS_ERR_ARGUMENT,
+            "line '%s': start is %.10g m long, shorter than the line's length %.10g m: "
+            "lengthen the shape, or use 'static'",
+            line->name, shape, length);
     if (!elastic && !(shape <= length * (1 + tolerance)))
-        return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                       "line '%s': start is %.10g m long, longer than the inextensible line's "
-                       "length %.10g m: shorten it",
-                       line->name, shape, length);
+        return CPSI_FAIL_AT("start", err, CPS_ERR_ARGUMENT,
+                            "line '%s': start is %.10g m long, longer than the inextensible line's "
+                            "length %.10g m: shorten it",
+                            line->name, shape, length);
     if (elastic && !(shape <= length * (1 + MAX_START_STRAIN)))
-        return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                       "line '%s': start is %.10g m long, more than twice the line's length %.10g "
-                       "m: shorten it",
-                       line->name, shape, length);
+        return CPSI_FAIL_AT(
+            "start", err, CPS_ERR_ARGUMENT,
+            "line '%s': start is %.10g m long, more than twice the line's length %.10g "
+            "m: shorten it",
+            line->name, shape, length);
     return CPS_OK;
 }
 
@@ -336,7 +307,7 @@ static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
 static int first_below(const CpsScene *scene, const CpsLine *line, int count, const Vec3 *x) {
     double least[NODES_AT_ONCE];
     int first = count;
-    for (int i = 0; i < count; i++) least[i] = -place_tolerance(line, x[i]);
+    for (int i = 0; i < count; i++) least[i] = -cpsi_place_tolerance(line, x[i]);
     for (int k = 0; k < scene->obstacle_count; k++) {
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
         for (int i = 0; i < first; i++)
@@ -361,26 +332,27 @@ static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, 
         const int low = first_below(scene, line, count, x);
         if (low == count) continue;
         const char *name = "";
-        const double above = height(scene, x[low], &name);
-        return FAIL_AT("start", err, CPS_ERR_ARGUMENT,
-                       "line '%s': start: node %d lies %g m below obstacle '%s': lift the shape, "
-                       "or turn the normal",
-                       line->name, first + low, -above, name);
+        const double above = cpsi_scene_height(scene, x[low], &name);
+        return CPSI_FAIL_AT(
+            "start", err, CPS_ERR_ARGUMENT,
+            "line '%s': start: node %d lies %g m below obstacle '%s': lift the shape, "
+            "or turn the normal",
+            line->name, first + low, -above, name);
     }
     return CPS_OK;
 }
 
 static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, CpsError *err) {
     const CpsEnd *e = &line->end[end];
-    const char *letter = end_letter(end), *place = end == CPS_END_A ? "ends.A" : "ends.B";
+    const char *letter = cpsi_end_letter(end), *place = end == CPS_END_A ? "ends.A" : "ends.B";
     const double *v = e->value;
     if (e->kind < CPS_END_KIND_HELD || e->kind > CPS_END_KIND_AT_START)
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                       "line '%s': ends: end %s has the unknown kind %d", line->name, letter,
-                       (int)e->kind);
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "line '%s': ends: end %s has the unknown kind %d", line->name, letter,
+                            (int)e->kind);
     if (e->kind == CPS_END_KIND_FREE) {
         if (cpsi_are_usable(v)) return CPS_OK;
-        return FAIL_AT(
+        return CPSI_FAIL_AT(
             place, err, CPS_ERR_ARGUMENT,
             "line '%s': ends: the force on end %s is (%g, %g, %g) N, expected finite numbers",
             line->name, letter, v[0], v[1], v[2]);
@@ -388,27 +360,28 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
     const bool is_static = line->start.kind == CPS_START_STATIC;
     if (e->kind == CPS_END_KIND_AT_START) {
         if (v[0] != 0 || v[1] != 0 || v[2] != 0)
-            return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                           "line '%s': ends: end %s is held where the start puts it, but has a "
-                           "position: its kind is then CPS_END_KIND_HELD",
-                           line->name, letter);
+            return CPSI_FAIL_AT(
+                place, err, CPS_ERR_ARGUMENT,
+                "line '%s': ends: end %s is held where the start puts it, but has a "
+                "position: its kind is then CPS_END_KIND_HELD",
+                line->name, letter);
         if (!is_static) return CPS_OK;
-        return FAIL_AT(
+        return CPSI_FAIL_AT(
             place, err, CPS_ERR_ARGUMENT,
             "line '%s': ends: end %s has no position, and a static start gives none: fix "
             "it at [x, y, z]",
             line->name, letter);
     }
     if (!cpsi_are_usable(v))
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                       "line '%s': ends: end %s is at (%g, %g, %g) m, expected finite numbers",
-                       line->name, letter, v[0], v[1], v[2]);
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "line '%s': ends: end %s is at (%g, %g, %g) m, expected finite numbers",
+                            line->name, letter, v[0], v[1], v[2]);
     const char *name = "";
-    const double above = height(scene, vec3_load(v), &name);
-    if (!(above >= -place_tolerance(line, vec3_load(v))))
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                       "line '%s': ends: end %s is %g m below obstacle '%s'", line->name, letter,
-                       -above, name);
+    const double above = cpsi_scene_height(scene, vec3_load(v), &name);
+    if (!(above >= -cpsi_place_tolerance(line, vec3_load(v))))
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "line '%s': ends: end %s is %g m below obstacle '%s'", line->name,
+                            letter, -above, name);
     if (is_static) return CPS_OK;
 
     /* the end of the initial shape: compute it as if no position were given */
@@ -417,8 +390,8 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
     double start[3];
     cpsi_start_end(&open, end, start);
     const double off = vec3_norm(vec3_sub(vec3_load(start), vec3_load(v)));
-    if (!(off <= place_tolerance(line, vec3_load(v))))
-        return FAIL_AT(
+    if (!(off <= cpsi_place_tolerance(line, vec3_load(v))))
+        return CPSI_FAIL_AT(
             place, err, CPS_ERR_ARGUMENT,
             "line '%s': ends: end %s is held at (%.10g, %.10g, %.10g) m, but the start puts it at "
             "(%.10g, %.10g, %.10g) m, %g m away: make them agree, or give no position",
@@ -429,8 +402,8 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
 static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
     const CpsLine *line = &scene->line[index];
     if (line->cookie != LINE_COOKIE)
-        return FAIL_AT("lines", err, CPS_ERR_ARGUMENT, "line %d: not made by cps_line_default()",
-                       index + 1);
+        return CPSI_FAIL_AT("lines", err, CPS_ERR_ARGUMENT,
+                            "line %d: not made by cps_line_default()", index + 1);
     CpsStatus status = check_name("line", index, line->name, err);
     if (status != CPS_OK) return cpsi_fail_inside(err, status, "lines[%d]", index + 1);
     for (int i = 0; i < index && status == CPS_OK; i++)
@@ -447,118 +420,29 @@ static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
     for (int end = 0; end < 2 && status == CPS_OK; end++) status = check_end(scene, line, end, err);
     if (status == CPS_OK && line->start.kind == CPS_START_STATIC &&
         line->end[0].kind == CPS_END_KIND_FREE && line->end[1].kind == CPS_END_KIND_FREE)
-        status = FAIL_AT("ends", err, CPS_ERR_ARGUMENT,
-                         "line '%s': ends: both are free, but a static start needs a held one",
-                         line->name);
+        status = CPSI_FAIL_AT("ends", err, CPS_ERR_ARGUMENT,
+                              "line '%s': ends: both are free, but a static start needs a held one",
+                              line->name);
     return cpsi_fail_inside(err, status, "lines.%s", line->name);
-}
-
-static CpsStatus check_change(const CpsScene *scene, int stage, int index, CpsError *err) {
-    const CpsChange *change = &scene->stage[stage].change[index];
-    if (change->line < 0 || change->line >= scene->line_count ||
-        (change->end != CPS_END_A && change->end != CPS_END_B))
-        return cpsi_fail(
-            err, CPS_ERR_ARGUMENT,
-            "stage %d: change %d names line %d, end %d: there are %d lines, ends are 0 and 1",
-            stage + 1, index + 1, change->line, change->end, scene->line_count);
-    const CpsLine *line = &scene->line[change->line];
-    const char *letter = end_letter(change->end);
-    char place[80];
-    snprintf(place, sizeof place, "%s.%s", line->name, letter);
-    for (int i = 0; i < index; i++) {
-        const CpsChange *other = &scene->stage[stage].change[i];
-        if (other->line == change->line && other->end == change->end)
-            return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s is changed twice",
-                           stage + 1, line->name, letter);
-    }
-    const double *v = change->to.value;
-    if (change->to.kind != CPS_END_KIND_HELD && change->to.kind != CPS_END_KIND_FREE)
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT, "stage %d: %s.%s has the unknown kind %d",
-                       stage + 1, line->name, letter, (int)change->to.kind);
-    if (!cpsi_are_usable(v))
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                       "stage %d: %s.%s gets (%g, %g, %g), expected finite numbers", stage + 1,
-                       line->name, letter, v[0], v[1], v[2]);
-    const char *name = "";
-    const double above =
-        change->to.kind == CPS_END_KIND_HELD ? height(scene, vec3_load(v), &name) : INFINITY;
-    if (!(above >= -place_tolerance(line, vec3_load(v))))
-        return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                       "stage %d: %s.%s is moved to %g m below obstacle '%s'", stage + 1,
-                       line->name, letter, -above, name);
-    return CPS_OK;
-}
-
-static CpsStatus check_turns(const CpsScene *scene, int index, CpsError *err) {
-    const CpsStage *stage = &scene->stage[index];
-    if (stage->turn_count < 0 || (stage->turn_count > 0 && !stage->turn))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d turns, expected 0 or more",
-                         index + 1, stage->turn_count);
-    for (int i = 0; i < stage->turn_count; i++) {
-        const CpsTurn *turn = &stage->turn[i];
-        if (turn->obstacle < 0 || turn->obstacle >= scene->obstacle_count)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "stage %d: turn %d names obstacle %d: there are %d", index + 1, i + 1,
-                             turn->obstacle, scene->obstacle_count);
-        const CpsObstacle *obstacle = &scene->obstacle[turn->obstacle];
-        char place[80];
-        snprintf(place, sizeof place, "%s.turn", obstacle->name);
-        if (obstacle->kind == CPS_OBSTACLE_PLANE)
-            return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                           "stage %d: obstacle '%s' is a plane: only a cylinder or a sphere turns",
-                           index + 1, obstacle->name);
-        if (!cpsi_is_usable(turn->angle))
-            return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                           "stage %d: obstacle '%s' turns by %g, expected a finite angle",
-                           index + 1, obstacle->name, turn->angle);
-        if (fabs(turn->angle) > MAX_TURN)
-            return FAIL_AT(place, err, CPS_ERR_LIMIT,
-                           "stage %d: obstacle '%s' turns by %g degrees, the limit is %g",
-                           index + 1, obstacle->name, turn->angle * DEGREES, MAX_TURN * DEGREES);
-        for (int k = 0; k < i; k++)
-            if (stage->turn[k].obstacle == turn->obstacle)
-                return FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                               "stage %d: obstacle '%s' is turned twice", index + 1,
-                               obstacle->name);
-    }
-    return CPS_OK;
-}
-
-/* An entry of the history; `steps` counts those of all so far. */
-static CpsStatus check_stage(const CpsScene *scene, int k, int64_t *steps, CpsError *err) {
-    const CpsStage *stage = &scene->stage[k];
-    if (stage->cookie != STAGE_COOKIE)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: not made by cps_stage_default()", k + 1);
-    if (!stage->name || !stage->name[0])
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: it has no name", k + 1);
-    if (stage->step_count < 1)
-        return FAIL_AT("steps", err, CPS_ERR_ARGUMENT, "stage %d: steps is %d, expected at least 1",
-                       k + 1, stage->step_count);
-    *steps += stage->step_count;
-    if (*steps > MAX_STEPS)
-        return FAIL_AT("steps", err, CPS_ERR_LIMIT,
-                       "stage %d: steps of the history exceed %lld in all, the limit", k + 1,
-                       (long long)MAX_STEPS);
-    if (stage->change_count < 0 || (stage->change_count > 0 && !stage->change))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "stage %d: found %d changes, expected 0 or more",
-                         k + 1, stage->change_count);
-    if (stage->gravity_changes && !cpsi_are_usable(stage->gravity))
-        return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
-                       "stage %d: gravity is (%g, %g, %g) m/s2, expected finite numbers", k + 1,
-                       stage->gravity[0], stage->gravity[1], stage->gravity[2]);
-    CpsStatus status = check_turns(scene, k, err);
-    for (int i = 0; i < stage->change_count && status == CPS_OK; i++)
-        status = check_change(scene, k, i, err);
-    return status;
 }
 
 static CpsStatus check_history(const CpsScene *scene, CpsError *err) {
     if (scene->stage_count < 0 || (scene->stage_count > 0 && !scene->stage))
-        return FAIL_AT("history", err, CPS_ERR_ARGUMENT,
-                       "history: found %d stages, expected 0 or more", scene->stage_count);
+        return CPSI_FAIL_AT("history", err, CPS_ERR_ARGUMENT,
+                            "history: found %d stages, expected 0 or more", scene->stage_count);
     int64_t steps = 0;
     for (int k = 0; k < scene->stage_count; k++) {
-        const CpsStatus status = check_stage(scene, k, &steps, err);
+        const CpsStage *stage = &scene->stage[k];
+        char what[32];
+        snprintf(what, sizeof what, "stage %d", k + 1);
+        CpsStatus status = cpsi_stage_check(scene, stage, what, err);
+        steps += stage->step_count;
+        if (status == CPS_OK && (!stage->name || !stage->name[0]))
+            status = cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: it has no name", what);
+        if (status == CPS_OK && steps > MAX_STEPS)
+            status = CPSI_FAIL_AT("steps", err, CPS_ERR_LIMIT,
+                                  "%s: steps of the history exceed %lld in all, the limit", what,
+                                  (long long)MAX_STEPS);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "history[%d]", k + 1);
     }
     return CPS_OK;
@@ -567,40 +451,41 @@ static CpsStatus check_history(const CpsScene *scene, CpsError *err) {
 static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
     const CpsSolverOptions *solver = &scene->solver;
     if (!(solver->tolerance >= 1e-14 && solver->tolerance <= 1e-2))
-        return FAIL_AT("solver.tolerance", err, CPS_ERR_ARGUMENT,
-                       "solver: tolerance is %g, expected 1e-14 to 1e-2", solver->tolerance);
+        return CPSI_FAIL_AT("solver.tolerance", err, CPS_ERR_ARGUMENT,
+                            "solver: tolerance is %g, expected 1e-14 to 1e-2", solver->tolerance);
     if (solver->max_iterations < 1 || solver->max_iterations > 1000)
-        return FAIL_AT("solver.max_iterations", err, CPS_ERR_ARGUMENT,
-                       "solver: max_iterations is %d, expected 1 to 1000", solver->max_iterations);
+        return CPSI_FAIL_AT("solver.max_iterations", err, CPS_ERR_ARGUMENT,
+                            "solver: max_iterations is %d, expected 1 to 1000",
+                            solver->max_iterations);
     if (!(solver->path_tolerance == 0 ||
           (solver->path_tolerance >= 1e-9 && solver->path_tolerance <= 1)))
-        return FAIL_AT("solver.path_tolerance", err, CPS_ERR_ARGUMENT,
-                       "solver: path_tolerance is %g, expected 0 or 1e-9 to 1",
-                       solver->path_tolerance);
+        return CPSI_FAIL_AT("solver.path_tolerance", err, CPS_ERR_ARGUMENT,
+                            "solver: path_tolerance is %g, expected 0 or 1e-9 to 1",
+                            solver->path_tolerance);
     if (solver->max_halvings < 0 || solver->max_halvings > 30)
-        return FAIL_AT("solver.halvings", err, CPS_ERR_ARGUMENT,
-                       "solver: halvings is %d, expected 0 to 30", solver->max_halvings);
+        return CPSI_FAIL_AT("solver.halvings", err, CPS_ERR_ARGUMENT,
+                            "solver: halvings is %d, expected 0 to 30", solver->max_halvings);
     if (solver->thread_count < 1 || solver->thread_count > CPS_MAX_THREADS)
-        return FAIL_AT("solver.thread_count", err, CPS_ERR_ARGUMENT,
-                       "solver: thread_count is %d, expected 1 to %d", solver->thread_count,
-                       (int)CPS_MAX_THREADS);
+        return CPSI_FAIL_AT("solver.thread_count", err, CPS_ERR_ARGUMENT,
+                            "solver: thread_count is %d, expected 1 to %d", solver->thread_count,
+                            (int)CPS_MAX_THREADS);
     if (solver->linear_system != CPS_LINEAR_SYSTEM_CHAIN &&
         solver->linear_system != CPS_LINEAR_SYSTEM_DENSE)
-        return FAIL_AT("solver.linear_system", err, CPS_ERR_ARGUMENT,
-                       "solver: linear_system has the unknown value %d",
-                       (int)solver->linear_system);
+        return CPSI_FAIL_AT("solver.linear_system", err, CPS_ERR_ARGUMENT,
+                            "solver: linear_system has the unknown value %d",
+                            (int)solver->linear_system);
     if (scene->friction_policy != CPS_FRICTION_POLICY_FROZEN &&
         scene->friction_policy != CPS_FRICTION_POLICY_CONSISTENT)
-        return FAIL_AT("friction_policy", err, CPS_ERR_ARGUMENT,
-                       "friction_policy: unknown value %d", (int)scene->friction_policy);
+        return CPSI_FAIL_AT("friction_policy", err, CPS_ERR_ARGUMENT,
+                            "friction_policy: unknown value %d", (int)scene->friction_policy);
     if (scene->contact_policy != CPS_CONTACT_POLICY_REACHED &&
         scene->contact_policy != CPS_CONTACT_POLICY_REFERENCE)
-        return FAIL_AT("contact_policy", err, CPS_ERR_ARGUMENT, "contact_policy: unknown value %d",
-                       (int)scene->contact_policy);
+        return CPSI_FAIL_AT("contact_policy", err, CPS_ERR_ARGUMENT,
+                            "contact_policy: unknown value %d", (int)scene->contact_policy);
     if (!cpsi_are_usable(scene->gravity))
-        return FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
-                       "gravity: is (%g, %g, %g) m/s2, expected finite numbers", scene->gravity[0],
-                       scene->gravity[1], scene->gravity[2]);
+        return CPSI_FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
+                            "gravity: is (%g, %g, %g) m/s2, expected finite numbers",
+                            scene->gravity[0], scene->gravity[1], scene->gravity[2]);
     return CPS_OK;
 }
 
@@ -611,18 +496,18 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
     if (status == CPS_OK) status = check_obstacles(scene, err);
     if (status != CPS_OK) return status;
     if (scene->line_count < 1 || !scene->line)
-        return FAIL_AT("lines", err, CPS_ERR_ARGUMENT, "lines: found %d, expected at least one",
-                       scene->line_count);
+        return CPSI_FAIL_AT("lines", err, CPS_ERR_ARGUMENT,
+                            "lines: found %d, expected at least one", scene->line_count);
     if (scene->line_count > MAX_LINES)
-        return FAIL_AT("lines", err, CPS_ERR_LIMIT, "lines: found %d, the limit is %d",
-                       scene->line_count, (int)MAX_LINES);
+        return CPSI_FAIL_AT("lines", err, CPS_ERR_LIMIT, "lines: found %d, the limit is %d",
+                            scene->line_count, (int)MAX_LINES);
     int64_t elements = 0;
     for (int i = 0; i < scene->line_count; i++) {
         elements += scene->line[i].element_count > 0 ? scene->line[i].element_count : 0;
         if (elements > MAX_ELEMENTS)
-            return FAIL_AT("lines", err, CPS_ERR_LIMIT,
-                           "lines: %lld elements or more together, the limit is %lld",
-                           (long long)elements, (long long)MAX_ELEMENTS);
+            return CPSI_FAIL_AT("lines", err, CPS_ERR_LIMIT,
+                                "lines: %lld elements or more together, the limit is %lld",
+                                (long long)elements, (long long)MAX_ELEMENTS);
     }
     for (int i = 0; i < scene->line_count; i++) {
         status = check_line(scene, i, err);

@@ -9,18 +9,14 @@
 
 enum { CPSI_STEP_NAME = 96 };
 
-/* The change of one end in one stage. */
-typedef struct CpsiChange {
-    int line, end;
-    CpsEnd from, to; /* `from` is found when the stage begins */
-} CpsiChange;
-
+/* A stage; positions are relative to the origin. */
 typedef struct CpsiEvolutionStage {
     const char *name;
     int steps, change_count, turn_count;
-    CpsiChange *change;
+    CpsChange *change;
     CpsTurn *turn;
-    double from[3], to[3]; /* [m/s2] gravity before the stage and after it */
+    bool gravity_changes;
+    double gravity[3]; /* [m/s2] at its end, with the flag */
 } CpsiEvolutionStage;
 
 /* Arrays of equal entries for what a line does not have; shared by all lines, whose largest number
@@ -39,26 +35,39 @@ struct CpsEvolution {
     CpsiStepOptions options;
     int line_count, stage_count, step_count;
     int obstacle_count;
-    CpsiObstacle *obstacle;     /* (obstacle_count) */
-    const char **obstacle_name; /* (obstacle_count) */
-    double *angle;              /* (obstacle_count) [rad] by which each turns in the step */
-    CpsiMove *move;             /* (line_count) the change of each line in the step */
-    CpsiLine *line;             /* (line_count) */
-    CpsiEvolutionStage *stage;  /* (stage_count) */
-    bool has_static;            /* the first step places lines by statics */
-    bool *is_static;            /* (line_count) */
+    CpsiObstacle *obstacle;    /* (obstacle_count) */
+    double *angle;             /* (obstacle_count) [rad] by which each turns in the step */
+    CpsiMove *move;            /* (line_count) the change of each line in the step */
+    CpsiLine *line;            /* (line_count) */
+    CpsiEvolutionStage *stage; /* (stage_count) */
+    CpsiEvolutionStage live;   /* of a move that the history does not hold */
+    /* what stages are checked against, in the coordinates of the scene */
+    CpsObstacle *given_obstacle; /* (obstacle_count) without their sets of friction forces */
+    CpsLine *given_line;         /* (line_count) names and lengths only */
+    CpsEnd *from; /* (line_count, 2) where an end was when the stage that changes it began */
+    double gravity[3], gravity_from[3]; /* [m/s2] now, and when the stage under way began */
+    bool has_static;                    /* the first step places lines by statics */
+    bool *is_static;                    /* (line_count) */
     double *
         mass; /* (line_count) [kg/m] weight per gravity; 0 where there is no gravity at the start */
-    int done; /* steps taken */
+    int done; /* steps of the history taken */
+    int move_count;    /* moves taken beside the history */
     int current, part; /* the next stage, and how many of its steps have been taken */
     bool ended;        /* an infeasible or unbounded step ends the history */
+    bool is_kept;      /* `before` is the state before the last step, which was a move */
     int workspace_count;
     CpsiWorkspace *workspace; /* (workspace_count) one for each thread */
     CpsiWorkers *workers;     /* the threads; NULL where there is only the caller's */
-    void *before;             /* the state before a step, where one may be interrupted; else NULL */
-    CpsiViewFill fill;        /* what views show where a line lacks an array */
-    double origin[3];         /* [m] all positions are relative to it */
-    uint64_t fingerprint;     /* of all constant data: identifies the scene */
+    void *before;         /* the state before a step that may be interrupted or taken back; NULL:
+                             none was asked for */
+    CpsiViewFill fill;    /* what views show where a line lacks an array */
+    double origin[3];     /* [m] all positions are relative to it */
+    uint64_t fingerprint; /* of all constant data but the history: identifies the scene */
 };
+
+/* The last move found no equilibrium: its report is shown, and what follows begins before it. */
+static inline bool cpsi_move_failed(const CpsEvolution *evolution) {
+    return evolution->is_kept && cps_outcome_is_final(evolution->report.outcome);
+}
 
 #endif

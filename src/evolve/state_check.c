@@ -6,6 +6,7 @@
  * in reports. */
 #include "evolve/state_check.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -47,7 +48,9 @@ static bool is_place_in_history(const CpsEvolution *evolution) {
 
 static bool is_step_report(const CpsEvolution *evolution) {
     const CpsStepReport *report = &evolution->report;
-    return report->step_count == evolution->done && is_outcome(report->outcome) &&
+    return evolution->move_count >= 0 && evolution->move_count <= INT_MAX - evolution->done &&
+           report->step_count == evolution->done + evolution->move_count &&
+           is_outcome(report->outcome) &&
            within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
            report->iteration_count >= 0 && report->substep_count >= 0 && report->warm_count >= 0 &&
            report->jump_count >= 0 &&
@@ -115,9 +118,10 @@ const char *cpsi_state_fault(const CpsEvolution *evolution) {
     if (!is_place_in_history(evolution))
         return "it stands at a step that the history does not have";
     if (!is_step_report(evolution)) return "its report is none of a step";
-    for (int k = 0; k < evolution->stage_count; k++)
-        for (int i = 0; i < evolution->stage[k].change_count; i++)
-            if (!is_end(&evolution->stage[k].change[i].from)) return "an end comes from nowhere";
+    for (int i = 0; i < 2 * evolution->line_count; i++)
+        if (!is_end(&evolution->from[i])) return "an end comes from nowhere";
+    if (!all_finite(evolution->gravity, 3) || !all_finite(evolution->gravity_from, 3))
+        return "its gravity is not finite";
     for (int i = 0; i < evolution->line_count; i++) {
         const CpsiLine *line = &evolution->line[i];
         for (int end = 0; end < 2; end++)

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "random_scene.h"
+#include "same_line.h"
 #include "splitmix.h"
 
 enum { MANY = 7, SHORT = 16 };
@@ -70,10 +71,7 @@ static CpsEvolution *make(const CpsScene *scene, int threads) {
 
 /* The state without the time that the step took. */
 static unsigned char *state_of(const CpsEvolution *evolution, size_t *size) {
-    *size = cps_evolution_state_size(evolution);
-    unsigned char *state = malloc(*size);
-    if (!state) exit(1);
-    cps_evolution_save(evolution, state);
+    unsigned char *state = saved_state(evolution, size);
     const double wall = cps_evolution_report(evolution).wall;
     for (size_t i = 0; i + sizeof wall <= *size; i++)
         if (memcmp(state + i, &wall, sizeof wall) == 0) memset(state + i, 0, sizeof wall);
@@ -87,22 +85,6 @@ static bool same_state(const CpsEvolution *one, const CpsEvolution *other) {
     free(a);
     free(b);
     return same;
-}
-
-static bool same(const double *a, const double *b, int count) {
-    return memcmp(a, b, (size_t)count * sizeof *a) == 0;
-}
-
-/* Line i of one evolution and line j of the other. */
-static bool same_line(const CpsEvolution *one, int i, const CpsEvolution *other, int j) {
-    const CpsLineView a = cps_evolution_line_view(one, i), b = cps_evolution_line_view(other, j);
-    const int elements = a.element_count, nodes = elements + 1, contacts = a.contact_count * nodes;
-    return cps_evolution_line_report(one, i).iteration_count ==
-               cps_evolution_line_report(other, j).iteration_count &&
-           same(a.position, b.position, 3 * nodes) && same(a.tension, b.tension, elements) &&
-           same(a.segment_force, b.segment_force, 3 * elements) &&
-           same(a.reaction, b.reaction, contacts) &&
-           same(a.friction_force, b.friction_force, 3 * contacts);
 }
 
 typedef struct Tally {

@@ -102,6 +102,33 @@ static void stepping_allocates_nothing(void **unused) {
     step_all(INFINITY);
 }
 
+/* Moves: only the first one takes memory, for the state before it. */
+static void moving_allocates_once(void **unused) {
+    (void)unused;
+    const CpsLine line = rope();
+    const CpsObstacle bed = rough();
+    CpsScene s = scene(&bed, &line);
+    s.stage_count = 0;
+    CpsStage move = cps_stage_default();
+    move.change_count = 1;
+    move.change = &pull;
+    CpsEvolution *evolution;
+    assert_int_equal(cps_evolution_create(&s, &evolution, NULL), CPS_OK);
+    fail_at = allocations;
+    CHECK_INT(cps_evolution_move(evolution, &move, NULL), CPS_ERR_MEMORY);
+    fail_at = -1;
+    CHECK_INT(cps_evolution_report(evolution).step_count, 0);
+    assert_int_equal(cps_evolution_move(evolution, &move, NULL), CPS_OK);
+    const int before = allocations;
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(cps_evolution_move(evolution, &move, NULL), CPS_OK);
+        assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
+        if (i == 1) assert_int_equal(cps_evolution_take_back(evolution, NULL), CPS_OK);
+    }
+    CHECK_INT(allocations, before);
+    cps_evolution_destroy(evolution);
+}
+
 static void every_failing_allocation_is_survived(void **unused) {
     (void)unused;
     const CpsLine line = rope();
@@ -182,6 +209,7 @@ static void friction_sets_and_zones_take_no_more(void **unused) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stepping_allocates_nothing),
+        cmocka_unit_test(moving_allocates_once),
         cmocka_unit_test(every_failing_allocation_is_survived),
         cmocka_unit_test(friction_sets_and_zones_take_no_more),
     };

@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Creating and destroying an evolution: everything that it holds lies in one block. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "capstan/evolve.h"
+#include "evolve/checkpoint.h"
+#include "evolve/friction_zone.h"
+#include "evolve/node_start.h"
+#include "evolve/origin.h"
+#include "evolve/sections.h"
+#include "evolve/stages.h"
+#include "evolve/start.h"
+#include "evolve/view.h"
+
+static char *copy_name(CpsiArena *arena, const char *name) {
+    const size_t size = strlen(name) + 1;
+    char *copy = cpsi_arena_take(arena, size, 1);
+    if (copy) memcpy(copy, name, size);
+    return copy;
+}
+
+/* Do contacts need axes of their own? Not on one plane with isotropic friction. */
+static bool scene_needs_local_axes(const CpsScene *scene) {
+    if (scene->obstacle_count != 1) return scene->obstacle_count > 1;
+    const CpsiObstacle only = cpsi_obstacle(scene->obstacle);
+    return cpsi_obstacle_needs_local_axes(&only);
+}
+
+/* Do elements have contacts, beside the nodes? With round obstacles they do, and where a node may
+ * need a third contact; contact of the reference is that of S90, where only nodes touch. */
+static bool scene_has_element_contacts(const CpsScene *scene) {
+    bool round = false;
+    for (int k = 0; k < scene->obstacle_count; k++)
+        round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
+    return (round || scene->obstacle_count > 2) &&
+           scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
+}
+
+/* More threads than lines would have nothing to do. */
+static int workspace_count(const CpsScene *scene) {
+    const int threads = scene->solver.thread_count;
+    return threads < scene->line_count ? threads : scene->line_count;
+}
+
+/* What stages are checked against. */
+static void layout_given(CpsEvolution *evolution, CpsiArena *arena, const CpsScene *scene,
+                         bool real) {
+    CPSI_PLACE(arena, evolution->given_obstacle, scene->obstacle_count + 1);
+    CPSI_PLACE(arena, evolution->given_line, scene->line_count);
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const char *name = copy_name(arena, scene->obstacle[k].name);
+        if (real) evolution->given_obstacle[k].name = name;
+    }
+}
+
+/* Everything an evolution holds, in one block (base/arena.h); called once to measure the size and
+ * once to place the arrays. */
+static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiConicSet *largest) {
+    CpsEvolution measured = {0};
+    CpsiLine any = {0};
+    CpsiEvolutionStage none = {0};
+    CpsEvolution *placed = cpsi_arena_take(arena, 1, sizeof *placed),
+                 *evolution = placed ? placed : &measured;
+    const bool real = placed != NULL;
+    CPSI_PLACE(arena, evolution->line, scene->line_count);
+    CPSI_PLACE(arena, evolution->is_static, scene->line_count);
+    CPSI_PLACE(arena, evolution->mass, scene->line_count);
+    CPSI_PLACE(arena, evolution->stage, scene->stage_count + 1);
+    CPSI_PLACE(arena, evolution->obstacle, scene->obstacle_count + 1);
+    CPSI_PLACE(arena, evolution->angle, scene->obstacle_count + 1);
+    CPSI_PLACE(arena, evolution->move, scene->line_count);
+    CPSI_PLACE(arena, evolution->from, 2 * scene->line_count);
+    layout_given(evolution, arena, scene, real);
+    CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
+                              .contacts = scene->obstacle_count > 1 ? 2 : 1,
+                              .element_contacts = scene_has_element_contacts(scene) ? 1 : 0,
+                              .has_local_axes = scene_needs_local_axes(scene),
+                              .has_path_tolerance = scene->solver.path_tolerance > 0,
+                              .largest = largest,
+                              .ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE
+                                         ? &cpsi_linsys_dense
+                                         : &cpsi_linsys_chain};
+    for (int i = 0; i < scene->line_count; i++) {
+        CpsiLine *line = real ? &evolution->line[i] : &any;
+        line->name = copy_name(arena, scene->line[i].name);
+        line->n = scene->line[i].element_count + 1;
+        line->has_local_axes = size.has_local_axes;
+        line->contacts = size.contacts;
+        line->element_contacts = size.element_contacts;
+        line->has_zones = scene->line[i].zone_count > 0;
+        line->has_sections = cpsi_has_sections(&scene->line[i]);
+        line->compliance = cpsi_mean_compliance(&scene->line[i]);
+        cpsi_line_layout(line, arena);
+        if (line->n > size.nodes) size.nodes = line->n;
+        if (line->compliance == 0 && line->n > size.inextensible_nodes)
+            size.inextensible_nodes = line->n;
+    }
+    for (int i = 0; i < scene->stage_count; i++) {
+        CpsiEvolutionStage *stage = real ? &evolution->stage[i] : &none;
+        stage->name = copy_name(arena, scene->stage[i].name);
+        cpsi_stage_layout(stage, arena, scene->stage[i].change_count, scene->stage[i].turn_count);
+    }
+    cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->obstacle_count);
+    cpsi_view_layout(&evolution->fill, arena, size.nodes);
+    if (real) cpsi_view_fill(&evolution->fill, size.nodes);
+    evolution->workspace_count = workspace_count(scene);
+    CPSI_PLACE(arena, evolution->workspace, evolution->workspace_count);
+    CpsiWorkspace nothing = {0};
+    for (int i = 0; i < evolution->workspace_count; i++)
+        cpsi_workspace_layout(real ? &evolution->workspace[i] : &nothing, arena, &size);
+    return placed;
+}
+
+/* The obstacles of a line, and its axes: those of the one plane, else of the world. */
+static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
+    static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1};
+    line->obstacle_count = evolution->obstacle_count;
+    line->obstacle = evolution->obstacle;
+    cpsi_workspace_attach(&evolution->workspace[0], line);
+    const bool own = line->has_local_axes || line->obstacle_count == 0;
+    const CpsiPlane plane = own ? cpsi_plane(origin, up) : line->obstacle[0].frame;
+    for (int i = 0; i < 3; i++) vec3_store(&line->common_axes[3 * i], plane.axis[i]);
+}
+
+/* The mean factor of the zones over the length that each node stands for. */
+static void fill_friction_factor(CpsiLine *line, const CpsLine *def) {
+    if (!line->has_zones) return;
+    int first = 0;
+    for (int j = 0; j < line->n; j++) {
+        const double low =
+            j > 0 ? line->arc_length[j] - 0.5 * line->element_length[j - 1] : line->arc_length[j];
+        line->friction_factor[j] = cpsi_zone_factor(def, &first, low, cpsi_line_share(line, j));
+    }
+}
+
+/* Move the first guess of statics to the free side of the obstacles. */
+static void move_to_free_side(CpsiLine *line) {
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 x = vec3_load(&line->position[3 * j]);
+        double gap;
+        const int on = cpsi_line_nearest(line, x, &gap);
+        if (gap < 0)
+            vec3_store(&line->position[3 * j],
+                       vec3_axpy(-gap, cpsi_obstacle_normal(&line->obstacle[on], x), x));
+    }
+}
+
+static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsScene *scene,
+                      const CpsLine *def) {
+    line->length = def->length;
+    fill_obstacles(line, evolution);
+    const Vec3 gravity = vec3_load(scene->gravity);
+    const double size = vec3_norm(gravity);
+    vec3_store(line->weight, vec3_scale(size > 0 ? cpsi_mean_weight(def) / size : 0, gravity));
+    memcpy(line->weight_before, line->weight, sizeof line->weight);
+    for (int e = 0; e < def->element_count; e++)
+        line->element_length[e] =
+            def->element_length ? def->element_length[e] : def->length / def->element_count;
+    cpsi_line_set_arc_length(line);
+    fill_friction_factor(line, def);
+    if (line->has_sections) cpsi_sections_fill(line, def);
+    if (line->has_local_axes)
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->obstacle_index[c] = -1;
+    cpsi_start_place(def, line->position);
+    for (int end = 0; end < 2; end++) {
+        line->end[end] = def->end[end];
+        if (def->end[end].kind == CPS_END_KIND_FREE) continue;
+        line->end[end].kind = CPS_END_KIND_HELD;
+        cpsi_start_end(def, end, line->end[end].value);
+    }
+    switch (def->start.kind) {
+    case CPS_START_STATIC: move_to_free_side(line); break;
+    case CPS_START_NODES: cpsi_node_start(line, def); break;
+    default: cpsi_line_start_reaction(line, CPS_TOUCH * line->length);
+    }
+    memcpy(line->reference, line->position, 3 * (size_t)line->n * sizeof *line->reference);
+}
+
+static void fill(CpsEvolution *evolution, const CpsScene *scene) {
+    evolution->options = (CpsiStepOptions){.solver = scene->solver,
+                                           .friction_policy = scene->friction_policy,
+                                           .contact_policy = scene->contact_policy};
+    evolution->obstacle_count = scene->obstacle_count;
+    for (int k = 0; k < scene->obstacle_count; k++)
+        evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
+    evolution->line_count = scene->line_count;
+    evolution->stage_count = scene->stage_count;
+    for (int i = 0; i < scene->line_count; i++) {
+        fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
+        const double pull = vec3_norm(vec3_load(scene->gravity));
+        evolution->mass[i] = pull > 0 ? cpsi_mean_weight(&scene->line[i]) / pull : 0;
+        evolution->move[i].angle = evolution->angle;
+        evolution->is_static[i] = scene->line[i].start.kind == CPS_START_STATIC;
+        evolution->has_static = evolution->has_static || evolution->is_static[i];
+    }
+    for (int i = 0; i < scene->stage_count; i++) {
+        cpsi_stage_fill(&evolution->stage[i], &scene->stage[i], (const double[3]){0, 0, 0});
+        evolution->step_count += scene->stage[i].step_count;
+    }
+    memcpy(evolution->gravity, scene->gravity, sizeof evolution->gravity);
+    if (evolution->has_static) evolution->step_count++;
+    if (evolution->step_count == 0) {
+        /* no history: one step to the equilibrium under the initial ends */
+        evolution->stage[0] = (CpsiEvolutionStage){.name = "equilibrium", .steps = 1};
+        evolution->stage_count = evolution->step_count = 1;
+    }
+    for (int i = 0; i < evolution->workspace_count; i++)
+        cpsi_workspace_connect(&evolution->workspace[i]);
+    evolution->report = (CpsStepReport){.name = evolution->step_name};
+    evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
+}
+
+/* Keep what stages are checked against. */
+static void fill_given(CpsEvolution *evolution, const CpsScene *scene) {
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        CpsObstacle *given = &evolution->given_obstacle[k];
+        const char *name = given->name;
+        *given = scene->obstacle[k];
+        given->name = name;
+        given->friction_set = NULL;
+    }
+    for (int i = 0; i < scene->line_count; i++)
+        evolution->given_line[i] =
+            (CpsLine){.name = evolution->line[i].name, .length = scene->line[i].length};
+}
+
+/* Give each workspace its friction sets and start the threads. `first` are the sets of the first
+ * one, which the evolution owns from now on. */
+static CpsStatus equip(CpsEvolution *evolution, const CpsScene *scene, CpsiFrictionSets first,
+                       CpsError *err) {
+    CpsiConicSet sizes;
+    CpsStatus status = CPS_OK;
+    evolution->workspace[0].friction = first;
+    for (int i = 1; i < evolution->workspace_count && status == CPS_OK; i++)
+        status = cpsi_friction_sets_make(scene, &evolution->workspace[i].friction, &sizes, err);
+    if (status != CPS_OK || evolution->workspace_count == 1) return status;
+    evolution->workers = cpsi_workers_create(evolution->workspace_count);
+    if (evolution->workers) return CPS_OK;
+    return cpsi_fail(err, CPS_ERR_MEMORY, "the system does not give %d threads: ask for fewer",
+                     evolution->workspace_count);
+}
+
+/* Place the evolution of a scene whose positions are relative to its origin. */
+static CpsStatus place(const CpsiLocalScene *local, const CpsiConicSet *largest, CpsEvolution **out,
+                       CpsError *err) {
+    CpsiArena arena = {0};
+    layout(&arena, &local->scene, largest);
+    const size_t bytes = arena.used;
+    if (!cpsi_arena_allocate(&arena))
+        return cpsi_fail(err, CPS_ERR_MEMORY, "%.3g MB for the scene's lines are not to be had",
+                         (double)bytes * 1e-6);
+    *out = layout(&arena, &local->scene, largest);
+    (*out)->arena = arena;
+    memcpy((*out)->origin, local->origin, sizeof local->origin);
+    return CPS_OK;
+}
+
+CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err) {
+    if (!out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the handle");
+    *out = NULL;
+    CpsiFrictionSets sets = {0};
+    CpsiConicSet sizes;
+    CpsiLocalScene local;
+    CpsEvolution *evolution = NULL;
+    CpsStatus status = cps_scene_check(scene, err);
+    if (status == CPS_OK) status = cpsi_friction_sets_make(scene, &sets, &sizes, err);
+    if (status != CPS_OK) return status;
+    status = cpsi_local_scene(scene, &local, err);
+    if (status == CPS_OK) {
+        status = place(&local, sets.set ? &sizes : NULL, &evolution, err);
+        if (status == CPS_OK) {
+            status = equip(evolution, scene, sets, err);
+            sets = (CpsiFrictionSets){0};
+            if (status == CPS_OK) {
+                fill_given(evolution, scene);
+                fill(evolution, &local.scene);
+            }
+        }
+        cpsi_local_scene_free(&local);
+    }
+    cpsi_friction_sets_free(&sets);
+    if (status == CPS_OK)
+        *out = evolution;
+    else
+        cps_evolution_destroy(evolution);
+    return status;
+}
+
+void cps_evolution_destroy(CpsEvolution *evolution) {
+    if (!evolution) return;
+    cpsi_workers_destroy(evolution->workers);
+    for (int i = 0; i < evolution->workspace_count; i++)
+        cpsi_friction_sets_free(&evolution->workspace[i].friction);
+    free(evolution->before);
+    CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
+    cpsi_arena_free(&arena);
+}

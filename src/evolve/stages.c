@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a load step imposes (stages.h). */
+#include "evolve/stages.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "evolve/path_check.h"
+
+void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int turns) {
+    CPSI_PLACE(arena, stage->change, changes);
+    CPSI_PLACE(arena, stage->turn, turns);
+}
+
+void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const double origin[3]) {
+    stage->steps = from->step_count;
+    stage->change_count = from->change_count;
+    for (int k = 0; k < from->change_count; k++) {
+        CpsChange *change = &stage->change[k];
+        *change = from->change[k];
+        if (change->to.kind == CPS_END_KIND_HELD)
+            for (int a = 0; a < 3; a++) change->to.value[a] -= origin[a];
+    }
+    stage->turn_count = from->turn_count;
+    for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
+    stage->gravity_changes = from->gravity_changes;
+    memcpy(stage->gravity, from->gravity, sizeof stage->gravity);
+}
+
+/* The initial value of a change of an end: its position if it is to be held, its force if it is to
+ * be released. */
+static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
+    CpsEnd now = {.kind = kind};
+    if (kind == line->end[end].kind) return line->end[end];
+    const double *x = &line->position[3 * (end == CPS_END_A ? 0 : line->n - 1)];
+    memcpy(now.value, kind == CPS_END_KIND_HELD ? x : line->report.end[end].force,
+           sizeof now.value);
+    return now;
+}
+
+CpsScene cpsi_stage_scene(const CpsEvolution *evolution) {
+    return (CpsScene){.obstacle_count = evolution->obstacle_count,
+                      .obstacle = evolution->given_obstacle,
+                      .line_count = evolution->line_count,
+                      .line = evolution->given_line};
+}
+
+CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                                 bool all, const char *what, CpsError *err) {
+    const CpsScene scene = cpsi_stage_scene(evolution);
+    for (int i = 0; i < stage->change_count; i++) {
+        CpsChange change = stage->change[i];
+        const CpsiLine *line = &evolution->line[change.line];
+        const bool grabbed = line->end[change.end].kind == CPS_END_KIND_FREE;
+        if (change.to.kind != CPS_END_KIND_HELD || !(grabbed || all)) continue;
+        CpsEnd from = end_now(line, change.end, CPS_END_KIND_HELD);
+        for (int a = 0; a < 3; a++) {
+            from.value[a] += evolution->origin[a];
+            change.to.value[a] += evolution->origin[a];
+        }
+        const CpsStatus status =
+            cpsi_path_check_change(&scene, &change, from.value, grabbed, what, err);
+        if (status) return status;
+    }
+    return CPS_OK;
+}
+
+/* A value at `part` of the `steps` of its stage. */
+static void value_at(const double from[3], const double to[3], int part, int steps, double at[3]) {
+    const double share = (double)part / steps;
+    for (int a = 0; a < 3; a++) at[a] = part < steps ? from[a] + share * (to[a] - from[a]) : to[a];
+}
+
+/* An end of a line at `part` of a stage. */
+static CpsEnd end_at(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                     const CpsChange *change, int part) {
+    const CpsEnd *from = &evolution->from[2 * change->line + change->end];
+    if (part == 0) return *from;
+    CpsEnd end = change->to;
+    value_at(from->value, change->to.value, part, stage->steps, end.value);
+    return end;
+}
+
+/* [N/m] The weights of the lines at `part` of a stage. */
+static void plan_weights(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+    const double *from = evolution->gravity_from,
+                 *to = stage->gravity_changes ? stage->gravity : from;
+    double before[3], after[3];
+    value_at(from, to, part, stage->steps, before);
+    value_at(from, to, part + 1, stage->steps, after);
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int a = 0; a < 3; a++) {
+            evolution->move[i].weight_from[a] = evolution->mass[i] * before[a];
+            evolution->move[i].weight_to[a] = evolution->mass[i] * after[a];
+        }
+    memcpy(evolution->gravity, after, sizeof after);
+}
+
+void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+    if (part == 0) memcpy(evolution->gravity_from, evolution->gravity, sizeof evolution->gravity);
+    plan_weights(evolution, stage, part);
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++)
+            evolution->move[i].from[end] = evolution->move[i].to[end] = evolution->line[i].end[end];
+    for (int k = 0; k < stage->change_count; k++) {
+        const CpsChange *change = &stage->change[k];
+        if (part == 0)
+            evolution->from[2 * change->line + change->end] =
+                end_now(&evolution->line[change->line], change->end, change->to.kind);
+        CpsiMove *move = &evolution->move[change->line];
+        move->from[change->end] = end_at(evolution, stage, change, part);
+        move->to[change->end] = end_at(evolution, stage, change, part + 1);
+    }
+    for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
+    for (int k = 0; k < stage->turn_count; k++)
+        evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
+    if (stage->steps == 1)
+        snprintf(evolution->step_name, CPSI_STEP_NAME, "%s", stage->name);
+    else
+        snprintf(evolution->step_name, CPSI_STEP_NAME, "%.64s %d/%d", stage->name, part + 1,
+                 stage->steps);
+}
+
+void cpsi_stage_plan_statics(CpsEvolution *evolution) {
+    snprintf(evolution->step_name, CPSI_STEP_NAME, "static");
+    for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
+    for (int i = 0; i < evolution->line_count; i++) {
+        const CpsiLine *line = &evolution->line[i];
+        CpsiMove *move = &evolution->move[i];
+        for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
+        for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
+    }
+}
