@@ -428,7 +428,8 @@ static bool print_elimination(DriveRun *run, const CpsSet *set, CpsComposition c
 static int draw_reduced(DriveRun *run, const CpsSet *set, const QueryList *velocity,
                         const QueryList *force) {
     const CliOptions *options = run->options;
-    CpsLawPicture picture = {.title = run->file->title,
+    CpsLawPicture picture = {.cookie = cps_law_picture_default().cookie,
+                             .title = run->file->title,
                              .velocity_count = velocity->count,
                              .velocity = velocity->row,
                              .force_count = force->count,

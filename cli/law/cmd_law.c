@@ -282,7 +282,8 @@ static int check_picture(const LawRun *run, const CliOptions *options) {
 
 static int draw(LawRun *run, const CliOptions *options, const QueryList *velocity,
                 const QueryList *force) {
-    CpsLawPicture picture = {.title = cps_law_file_title(run->file),
+    CpsLawPicture picture = {.cookie = cps_law_picture_default().cookie,
+                             .title = cps_law_file_title(run->file),
                              .velocity_count = velocity->count,
                              .velocity = velocity->row,
                              .force_count = force->count,

@@ -37,13 +37,14 @@ bool regularized_options_given(const CliOptions *options) {
 }
 
 CpsRegularizedParameters regularized_options_apply(const RegularizedOptions *given,
-                                                   const CpsRegularized *classic) {
-    CpsRegularizedParameters p = cps_regularized_fine(classic);
+                                                   const CpsRegularized *regularized) {
+    CpsRegularizedParameters p = cps_regularized_fine(regularized);
     if (!isnan(given->penalty)) p.penalty = given->penalty;
     if (!isnan(given->stiffness)) p.stiffness = given->stiffness;
     if (!isnan(given->delta)) p.delta = given->delta;
     if (!isnan(given->h))
         p.cell_count =
-            (int)fmin(1e6, fmax(2, ceil(cps_regularized_step(classic).length / given->h - 1e-9)));
+            (int)fmin(1e6,
+                      fmax(2, ceil(cps_regularized_step(regularized).length / given->h - 1e-9)));
     return p;
 }

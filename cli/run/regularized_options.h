@@ -18,6 +18,6 @@ bool regularized_options_read(const CliOptions *options, const char *command,
 bool regularized_options_given(const CliOptions *options);
 /* The default parameters of the method, with those given replaced. */
 CpsRegularizedParameters regularized_options_apply(const RegularizedOptions *given,
-                                                   const CpsRegularized *classic);
+                                                   const CpsRegularized *regularized);
 
 #endif

@@ -225,7 +225,8 @@ static int write_results(const History *h, double wall, const char *directory,
                                            .parameters = t->parameters,
                                            .report = t->report};
         }
-        const CpsRegularizedRun run = {.title = h->scene->title ? h->scene->title : "capstan",
+        const CpsRegularizedRun run = {.cookie = cps_regularized_run_default().cookie,
+                                       .title = h->scene->title ? h->scene->title : "capstan",
                                        .step_count = h->done,
                                        .line_count = h->lines,
                                        .step_name = name,

@@ -119,8 +119,8 @@ typedef struct StudyPrinter {
     bool converged; /* whether every solution so far has converged */
 } StudyPrinter;
 
-static void print_rate(double rate) {
-    if (isfinite(rate))
+static void print_rate(bool known, double rate) {
+    if (known)
         printf(" %5.2f", rate);
     else
         printf(" %5s", "-");
@@ -133,9 +133,9 @@ static void print_row(const CpsStudyRow *row, const CpsRegularizedStep *step) {
     printf("%-6s %9.3g %9.2g %9.2g %9.2g %5d %11.3e", cps_study_stage_name(row->stage),
            step->length / cells, p->penalty, p->stiffness, p->delta, r->iteration_count,
            r->energy_error);
-    print_rate(row->rate_energy);
+    print_rate(row->has_rate_energy, row->rate_energy);
     printf(" %10.2e", r->tension_rms);
-    print_rate(row->rate_tension);
+    print_rate(row->has_rate_tension, row->rate_tension);
     printf(" %9.1e %9.1e %9.1e %9.1e%s\n", r->compression, r->penetration, r->creep,
            r->friction_excess, r->converged ? "" : "  not converged");
 }
@@ -228,29 +228,33 @@ static void tell(const CpsStudy *study, const CpsFirstOrder *const *first_order,
 static int study_step(const CpsLineView *view, const char *title, const char *directory,
                       const CliOptions *options) {
     CpsError err;
-    CpsRegularized *classic = NULL;
+    CpsRegularized *regularized = NULL;
     CpsStudy *study = NULL;
     CpsFirstOrder *first_order[2] = {NULL, NULL};
     StudyPrinter printer = {.converged = true};
     RegularizedOptions given;
     if (!regularized_options_read(options, "study", &given)) return EXIT_USAGE;
-    CpsStatus status = cps_regularized_create(view, &classic, &err);
+    CpsStatus status = cps_regularized_create(view, &regularized, &err);
     if (status == CPS_OK) {
-        const CpsRegularizedParameters to = regularized_options_apply(&given, classic);
-        const CpsStudyOptions how = cps_study_options_to(classic, &to);
-        printer.step = cps_regularized_step(classic);
+        const CpsRegularizedParameters to = regularized_options_apply(&given, regularized);
+        const CpsStudyOptions how = cps_study_options_to(regularized, &to);
+        printer.step = cps_regularized_step(regularized);
         printer.progress = progress_begin(1, options->quiet);
-        status = cps_study_run(classic, &how, on_row, &printer, &study, &err);
+        status = cps_study_run(regularized, &how, on_row, &printer, &study, &err);
         progress_end(&printer.progress);
     }
     if (status == CPS_OK)
-        status = cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_REFERENCE, &first_order[0],
-                                       &err);
+        status = cps_first_order_solve(regularized, CPS_FIRST_ORDER_CONTACT_REFERENCE,
+                                       &first_order[0], &err);
     if (status == CPS_OK)
-        status =
-            cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_REACHED, &first_order[1], &err);
+        status = cps_first_order_solve(regularized, CPS_FIRST_ORDER_CONTACT_REACHED,
+                                       &first_order[1], &err);
     if (status == CPS_OK) {
-        const CpsStudyFiles files = {title, classic, study, first_order[0]};
+        CpsStudyFiles files = cps_study_files_default();
+        files.title = title;
+        files.regularized = regularized;
+        files.study = study;
+        files.first_order = first_order[0];
         status = cps_study_write(directory, &files, &err);
     }
     if (status == CPS_OK && !options->quiet)
@@ -264,7 +268,7 @@ static int study_step(const CpsLineView *view, const char *title, const char *di
         fputs("capstan study: --complete and --judge take inextensible lines too\n", stderr);
     for (int k = 0; k < 2; ++k) cps_first_order_destroy(first_order[k]);
     cps_study_destroy(study);
-    cps_regularized_destroy(classic);
+    cps_regularized_destroy(regularized);
     return code;
 }
 

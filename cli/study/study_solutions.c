@@ -236,7 +236,10 @@ int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance,
     CpsError err;
     CpsSlackReport slack[CPS_COMPLETION_COUNT];
     CpsJudgementReport report = {0};
-    CpsCompletedLine line = {.title = title, .view = view, .chosen = how};
+    CpsCompletedLine line = {.cookie = cps_completed_line_default().cookie,
+                             .title = title,
+                             .view = view,
+                             .chosen = how};
     double *all =
         malloc(3 * CPS_COMPLETION_COUNT * ((size_t)view->element_count + 1) * sizeof *all);
     if (!all) return out_of_memory();

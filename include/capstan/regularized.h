@@ -83,7 +83,7 @@ typedef struct CpsRegularized CpsRegularized;
  * planes with isotropic friction, or nothing moves) or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_regularized_create(const CpsLineView *step, CpsRegularized **out,
                                          CpsError *err);
-CPS_API void cps_regularized_destroy(CpsRegularized *classic); /* NULL is accepted */
+CPS_API void cps_regularized_destroy(CpsRegularized *regularized); /* NULL is accepted */
 
 /* The solution of the step, with which all others are compared. Its arrays belong to the handle. */
 typedef struct CpsRegularizedStep {
@@ -96,11 +96,11 @@ typedef struct CpsRegularizedStep {
     const double *position;   /* (element_count + 1, 3) [m] */
     const double *tension;    /* (element_count) [N] */
 } CpsRegularizedStep;
-CPS_API CpsRegularizedStep cps_regularized_step(const CpsRegularized *classic);
+CPS_API CpsRegularizedStep cps_regularized_step(const CpsRegularized *regularized);
 
 /* Parameters with which a study may begin: coarse ones for which the problem is easy, in proportion
  * to length, forces and elements of the step. */
-CPS_API CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *classic);
+CPS_API CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *regularized);
 
 /* Minimise by damped Newton steps: from the last solution on the same cells if there is one,
  * otherwise from the reference, first with larger delta and stiffness and a smaller penalty.
@@ -110,14 +110,14 @@ CPS_API CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *cl
  *
  * Returns CPS_OK also when not converged (the report says so), CPS_ERR_ARGUMENT or
  * CPS_ERR_MEMORY. */
-CPS_API CpsStatus cps_regularized_solve(CpsRegularized *classic,
+CPS_API CpsStatus cps_regularized_solve(CpsRegularized *regularized,
                                         const CpsRegularizedParameters *parameters,
                                         int max_iterations, CpsRegularizedReport *report,
                                         CpsError *err);
-CPS_API CpsRegularizedView cps_regularized_view(const CpsRegularized *classic);
+CPS_API CpsRegularizedView cps_regularized_view(const CpsRegularized *regularized);
 
 /* Parameters with which a study ends: fine ones, whose errors are small. */
-CPS_API CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *classic);
+CPS_API CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *regularized);
 
 /* Begin the next step of a history of the regularised method alone. Loads, ends and normals are
  * those of `step`. The reference is the last solution of `previous` on the elements of the step,
@@ -147,11 +147,12 @@ CPS_API const char *cps_study_stage_name(CpsStudyStage stage); /* "h", "lambda",
 
 /* One solution of a study. A rate is the observed order in the parameter p of the stage (h,
  * 1/lambda, 1/n, delta): the exponent of v(p) = limit + C p^rate through this value and the two
- * before it, NaN for the first two. */
+ * before it. Where there is none, as for the first two, its flag is false and it is 0. */
 typedef struct CpsStudyRow {
     CpsStudyStage stage;
     CpsRegularizedParameters parameters;
     CpsRegularizedReport report;
+    bool has_rate_energy, has_rate_tension;
     double rate_energy;  /* [-] of the total energy */
     double rate_tension; /* [-] of the tension field, by the rms of its changes */
     double wall;         /* [s] */
@@ -169,14 +170,14 @@ typedef struct CpsStudyOptions {
 typedef struct CpsStudy CpsStudy;
 
 /* From coarse parameters down to cps_regularized_fine. */
-CPS_API CpsStudyOptions cps_study_options_default(const CpsRegularized *classic);
+CPS_API CpsStudyOptions cps_study_options_default(const CpsRegularized *regularized);
 
 /* From coarse parameters down to given ones, by factors of 10 at most.
  *
  *   to   as for cps_regularized_solve. Stage h ends with its cell_count or a few more, or with four
  *        times the elements of the step where it is 0. A stiffness of 0 holds for the whole study
  */
-CPS_API CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
+CPS_API CpsStudyOptions cps_study_options_to(const CpsRegularized *regularized,
                                              const CpsRegularizedParameters *to);
 
 /* Called after each solve; false ends the study there. */
@@ -190,7 +191,7 @@ typedef bool CpsStudyProgress(void *user, const CpsStudyRow *row, int done, int 
  *
  * Returns CPS_OK, CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. Rows that did not converge are kept and
  * say so. */
-CPS_API CpsStatus cps_study_run(CpsRegularized *classic, const CpsStudyOptions *options,
+CPS_API CpsStatus cps_study_run(CpsRegularized *regularized, const CpsStudyOptions *options,
                                 CpsStudyProgress *progress, void *user, CpsStudy **out,
                                 CpsError *err);
 CPS_API void cps_study_destroy(CpsStudy *study); /* NULL is accepted */
@@ -271,8 +272,9 @@ typedef struct CpsFirstOrder CpsFirstOrder;
  *   contact  CPS_FIRST_ORDER_CONTACT_REFERENCE is the paper's, (77)
  *
  * Returns CPS_OK whatever the verdict, CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. */
-CPS_API CpsStatus cps_first_order_solve(const CpsRegularized *classic, CpsFirstOrderContact contact,
-                                        CpsFirstOrder **out, CpsError *err);
+CPS_API CpsStatus cps_first_order_solve(const CpsRegularized *regularized,
+                                        CpsFirstOrderContact contact, CpsFirstOrder **out,
+                                        CpsError *err);
 CPS_API void cps_first_order_destroy(CpsFirstOrder *solution); /* NULL is accepted */
 CPS_API CpsFirstOrderReport cps_first_order_report(const CpsFirstOrder *solution);
 CPS_API CpsFirstOrderView cps_first_order_view(const CpsFirstOrder *solution);

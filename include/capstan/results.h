@@ -141,11 +141,13 @@ CPS_API CpsStatus cps_results_write_summary(const CpsResults *results, double wa
 
 /* The results of a study, written into one directory. */
 typedef struct CpsStudyFiles {
+    uint32_t cookie;   /* of cps_study_files_default(); files made otherwise are refused */
     const char *title; /* of the pictures */
-    const CpsRegularized *classic;
+    const CpsRegularized *regularized;
     const CpsStudy *study;
     const CpsFirstOrder *first_order;
 } CpsStudyFiles;
+CPS_API CpsStudyFiles cps_study_files_default(void);
 
 /* Write study.csv, study.svg (tensions and errors on the way to the limits), first-order.csv and
  * first-order.svg (P10.1 beside P2.1), relaxed.svg (J and J** of S90 remark 4.6.1), and study.json,
@@ -174,11 +176,13 @@ CPS_API CpsStatus cps_methods_write(const char *directory, const char *title, in
 
 /* A step with its slack laid out in each of the ways of CpsCompletion (evolve.h). */
 typedef struct CpsCompletedLine {
+    uint32_t cookie; /* of cps_completed_line_default(); a line made otherwise is refused */
     const char *title;
     const CpsLineView *view;
     const double *position[CPS_COMPLETION_COUNT]; /* (element_count + 1, 3) [m] each */
     CpsCompletion chosen;
 } CpsCompletedLine;
+CPS_API CpsCompletedLine cps_completed_line_default(void);
 
 /* Write completed.csv (the chosen one, a row per node), completed.svg (the longest loose part in
  * plan: as found, and laid out in each way) and completed.json (the list) into `directory`, as
@@ -198,6 +202,7 @@ typedef struct CpsRegularizedLine {
 } CpsRegularizedLine;
 
 typedef struct CpsRegularizedRun {
+    uint32_t cookie; /* of cps_regularized_run_default(); a run made otherwise is refused */
     const char *title;
     int step_count, line_count;
     const char *const *step_name;
@@ -205,6 +210,7 @@ typedef struct CpsRegularizedRun {
     bool complete; /* no step of the history is missing */
     double wall;   /* [s] */
 } CpsRegularizedRun;
+CPS_API CpsRegularizedRun cps_regularized_run_default(void);
 
 /* Write history.csv (a row per step and line: parameters, energies, what the parameters leave,
  * ends), summary.json, and line-1.svg, line-2.svg, .. (plan and elevation of all steps of a line)
@@ -219,6 +225,7 @@ CPS_API CpsStatus cps_regularized_summary(const CpsRegularizedRun *run, FILE *ou
 
 /* The contents of a picture of a law. */
 typedef struct CpsLawPicture {
+    uint32_t cookie; /* of cps_law_picture_default(); a picture made otherwise is refused */
     const char *title;
     int axis[2]; /* components drawn to the right and up, from 0 */
     int velocity_count;
@@ -226,6 +233,7 @@ typedef struct CpsLawPicture {
     int force_count;
     const double *force; /* (force_count x n) drawn with their velocities */
 } CpsLawPicture;
+CPS_API CpsLawPicture cps_law_picture_default(void); /* axes 0 and 1 */
 
 /* Draw a set of forces as SVG: a planar one with the normal cones at its corners; of more
  * dimensions the section through 0 along two axes and, dashed, the shadow on them (alone where the

@@ -277,9 +277,9 @@ typedef struct CpsSetConic {
     const double *a, *b;      /* (rows x unknowns), (rows) */
     void *owner;              /* of the library */
 } CpsSetConic;
-/* The caller frees it by cps_set_conic_free, which accepts a zeroed one. */
+/* The caller clears it by cps_set_conic_clear, which accepts a zeroed one. */
 CPS_API CpsStatus cps_set_conic(const CpsSet *set, CpsSetConic *conic, CpsError *err);
-CPS_API void cps_set_conic_free(CpsSetConic *conic);
+CPS_API void cps_set_conic_clear(CpsSetConic *conic);
 
 #ifdef __cplusplus
 }

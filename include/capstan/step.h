@@ -102,8 +102,9 @@ typedef enum CpsRange {
 #undef CPS_RANGE_ENUM
 } CpsRange;
 
-/* The name of a kind of range ("bounded"); never NULL. */
+/* The name of a kind of range ("bounded") and its sentence; never NULL. */
 CPS_API const char *cps_range_name(CpsRange range);
+CPS_API const char *cps_range_text(CpsRange range);
 
 /* Least and greatest tension (theory 4a) of the element at an end, among all forces that are in
  * equilibrium and obey the laws at the positions and slips found. The first value of each pair is
@@ -256,8 +257,7 @@ typedef struct CpsLineView {
     const double *normal; /* (contact_count, n, 3) [-] at `position`; 0 0 0 without obstacle */
     /* (contact_count, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact considered */
     const double *gap;
-    /* (contact_count, n) [N] w = A h of the larger coefficient, or a set's factor; 0: no friction
-     */
+    /* (contact_count, n) [N] w = A h of the larger coefficient, or a set's factor; 0: smooth */
     const double *friction_bound;
     const double *friction_factor; /* (n) [-] mean factor of the zones at a node; 1 without */
     const double *friction_force;  /* (contact_count, n, 3) [N] F, within the set that w bounds */

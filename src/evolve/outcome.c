@@ -39,3 +39,4 @@ CpsOutcome cps_outcome_worse(CpsOutcome a, CpsOutcome b) { return badness(b) > b
 static const CpsiWords RANGE[] = {CPS_RANGE_LIST(CPSI_WORDS_WITH_KEY)};
 
 const char *cps_range_name(CpsRange range) { return CPSI_WORDS(RANGE, range).name; }
+const char *cps_range_text(CpsRange range) { return CPSI_WORDS(RANGE, range).text; }

@@ -12,10 +12,10 @@
 static const double TOUCH = 1e-9;
 
 /* Friction on place j. */
-static Vec3 friction(const CpsRegularized *classic, int j) {
-    const CpsiCells *c = &classic->cells;
-    const double delta = classic->f.parameters.delta;
-    const Vec3 u = vec3_sub(cpsi_at(classic->f.place, j), cpsi_at(c->reference, j)),
+static Vec3 friction(const CpsRegularized *regularized, int j) {
+    const CpsiCells *c = &regularized->cells;
+    const double delta = regularized->f.parameters.delta;
+    const Vec3 u = vec3_sub(cpsi_at(regularized->f.place, j), cpsi_at(c->reference, j)),
                n = cpsi_at(c->normal, j);
     const Vec3 slid = vec3_axpy(-vec3_dot(u, n), n, u);
     return vec3_scale(-c->bound[j] / sqrt(delta * delta + vec3_dot(slid, slid)), slid);
@@ -29,34 +29,34 @@ static double height(const CpsiCells *c, const double *place, int j, int next) {
 
 /* The force of the support on the held place j [N]. *up is its component along the normal where j
  * lies on the obstacle and is pressed against it, else 0. */
-static Vec3 support(const CpsRegularized *classic, int j, double *up) {
-    const CpsiCells *c = &classic->cells;
+static Vec3 support(const CpsRegularized *regularized, int j, double *up) {
+    const CpsiCells *c = &regularized->cells;
     const int next = j == 0 ? 1 : j - 1;
-    const double *place = classic->f.place;
+    const double *place = regularized->f.place;
     const Vec3 dx = vec3_sub(cpsi_at(place, next), cpsi_at(place, j));
-    const double size = vec3_norm(dx), tension = classic->tension[j == 0 ? 0 : j - 1];
+    const double size = vec3_norm(dx), tension = regularized->tension[j == 0 ? 0 : j - 1];
     const Vec3 pull = vec3_scale(size > 0 ? tension / size : 0, dx);
     const Vec3 force = vec3_scale(-1, vec3_add(pull, cpsi_at(c->load, j)));
     const double across = vec3_dot(force, cpsi_at(c->normal, next));
-    *up = across > 0 && height(c, place, j, next) <= TOUCH * classic->step.length ? across : 0;
+    *up = across > 0 && height(c, place, j, next) <= TOUCH * regularized->step.length ? across : 0;
     return force;
 }
 
-double cpsi_end_push(const CpsRegularized *classic, int end) {
+double cpsi_end_push(const CpsRegularized *regularized, int end) {
     double up;
-    support(classic, end == CPS_END_A ? 0 : classic->cells.cells, &up);
+    support(regularized, end == CPS_END_A ? 0 : regularized->cells.cells, &up);
     return up;
 }
 
-double cpsi_end_tension(const CpsRegularized *classic, int end) {
-    const CpsiCells *c = &classic->cells;
-    if (end == CPS_END_B && !classic->step.held)
-        return vec3_norm(vec3_load(classic->step.end_force));
+double cpsi_end_tension(const CpsRegularized *regularized, int end) {
+    const CpsiCells *c = &regularized->cells;
+    if (end == CPS_END_B && !regularized->step.held)
+        return vec3_norm(vec3_load(regularized->step.end_force));
     const int j = end == CPS_END_A ? 0 : c->cells, next = end == CPS_END_A ? 1 : j - 1;
     double up;
-    const Vec3 force = support(classic, j, &up);
+    const Vec3 force = support(regularized, j, &up);
     if (!(up > 0)) return vec3_norm(force);
     const Vec3 half = vec3_scale(cpsi_zone_ratio(c, j, next) * c->share[j] / c->share[next],
-                                 friction(classic, next));
+                                 friction(regularized, next));
     return vec3_norm(vec3_sub(vec3_axpy(-up, cpsi_at(c->normal, next), force), half));
 }

@@ -239,16 +239,16 @@ static void finish(CpsFirstOrder *s) {
     judge_end(s);
 }
 
-CpsStatus cps_first_order_solve(const CpsRegularized *classic, CpsFirstOrderContact contact,
+CpsStatus cps_first_order_solve(const CpsRegularized *regularized, CpsFirstOrderContact contact,
                                 CpsFirstOrder **out, CpsError *err) {
-    if (!classic || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic or out is NULL");
+    if (!regularized || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "regularized or out is NULL");
     *out = NULL;
     if (contact != CPS_FIRST_ORDER_CONTACT_REFERENCE && contact != CPS_FIRST_ORDER_CONTACT_REACHED)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "contact: found %d, expected reference or reached",
                          (int)contact);
     CpsFirstOrder *s = calloc(1, sizeof *s);
     if (!s) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const CpsiStep *step = &classic->step;
+    const CpsiStep *step = &regularized->step;
     layout(s, step->own.cells, &s->arena);
     if (!cpsi_arena_allocate(&s->arena)) {
         free(s);

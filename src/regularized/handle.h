@@ -16,9 +16,9 @@ struct CpsRegularized {
 
 /* [N] Reaction of the obstacle on the half element beside a held end of the last solution; 0 for an
  * end in the air. */
-double cpsi_end_push(const CpsRegularized *classic, int end);
+double cpsi_end_push(const CpsRegularized *regularized, int end);
 
 /* [N] Tension of the last solution at an end, as in CpsEndReport. */
-double cpsi_end_tension(const CpsRegularized *classic, int end);
+double cpsi_end_tension(const CpsRegularized *regularized, int end);
 
 #endif

@@ -18,27 +18,27 @@ static const double CONTINUATION_FACTOR = 30;
 CpsStatus cps_regularized_create(const CpsLineView *step, CpsRegularized **out, CpsError *err) {
     if (!step || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "step or out is NULL");
     *out = NULL;
-    CpsRegularized *classic = calloc(1, sizeof *classic);
-    if (!classic) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const CpsStatus status = cpsi_step_copy(step, &classic->step, err);
-    classic->asked = -1;
+    CpsRegularized *regularized = calloc(1, sizeof *regularized);
+    if (!regularized) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
+    const CpsStatus status = cpsi_step_copy(step, &regularized->step, err);
+    regularized->asked = -1;
     if (status == CPS_OK)
-        *out = classic;
+        *out = regularized;
     else
-        free(classic);
+        free(regularized);
     return status;
 }
 
-void cps_regularized_destroy(CpsRegularized *classic) {
-    if (!classic) return;
-    cpsi_arena_free(&classic->step.arena);
-    cpsi_arena_free(&classic->arena);
-    free(classic);
+void cps_regularized_destroy(CpsRegularized *regularized) {
+    if (!regularized) return;
+    cpsi_arena_free(&regularized->step.arena);
+    cpsi_arena_free(&regularized->arena);
+    free(regularized);
 }
 
-CpsRegularizedStep cps_regularized_step(const CpsRegularized *classic) {
-    if (!classic) return (CpsRegularizedStep){0};
-    const CpsiStep *step = &classic->step;
+CpsRegularizedStep cps_regularized_step(const CpsRegularized *regularized) {
+    if (!regularized) return (CpsRegularizedStep){0};
+    const CpsiStep *step = &regularized->step;
     return (CpsRegularizedStep){.element_count = step->own.cells,
                                 .length = step->length,
                                 .stiffness = 1 / step->compliance,
@@ -56,9 +56,9 @@ CpsRegularizedParameters cps_regularized_parameters_default(void) {
     return (CpsRegularizedParameters){.cookie = PARAMETERS_COOKIE};
 }
 
-CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *classic) {
-    if (!classic) return (CpsRegularizedParameters){0};
-    const CpsiStep *step = &classic->step;
+CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *regularized) {
+    if (!regularized) return (CpsRegularizedParameters){0};
+    const CpsiStep *step = &regularized->step;
     double load = 0;
     for (int k = 0; k < 3 * (step->own.cells + 1); ++k) load += fabs(step->own.load[k]);
     const double per_length = fmax(load, 1e-3 * step->force) / step->length;
@@ -74,10 +74,10 @@ CpsRegularizedParameters cps_regularized_coarse(const CpsRegularized *classic) {
 /* A corner of the line, for instance at the clamped end, is bent within an element of length w by a
  * force of (1/n)/w^2. With more than 800 elements 1/n must therefore decrease as w^2, otherwise its
  * effect would grow with the mesh. */
-CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *classic) {
-    if (!classic) return (CpsRegularizedParameters){0};
-    const CpsiStep *step = &classic->step;
-    CpsRegularizedParameters fine = cps_regularized_coarse(classic);
+CpsRegularizedParameters cps_regularized_fine(const CpsRegularized *regularized) {
+    if (!regularized) return (CpsRegularizedParameters){0};
+    const CpsiStep *step = &regularized->step;
+    CpsRegularizedParameters fine = cps_regularized_coarse(regularized);
     double shortest = step->length;
     for (int i = 0; i < step->own.cells; ++i) shortest = fmin(shortest, step->own.width[i]);
     const double finer = 800 * shortest / step->length;
@@ -190,31 +190,32 @@ static CpsStatus check(const CpsRegularizedParameters *p, int max_iterations, Cp
     return CPS_OK;
 }
 
-CpsStatus cps_regularized_solve(CpsRegularized *classic, const CpsRegularizedParameters *parameters,
-                                int max_iterations, CpsRegularizedReport *report, CpsError *err) {
-    if (!classic || !parameters || !report)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic, parameters or report is NULL");
+CpsStatus cps_regularized_solve(CpsRegularized *regularized,
+                                const CpsRegularizedParameters *parameters, int max_iterations,
+                                CpsRegularizedReport *report, CpsError *err) {
+    if (!regularized || !parameters || !report)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "regularized, parameters or report is NULL");
     CpsStatus status = check(parameters, max_iterations, err);
-    const bool again = classic->asked == parameters->cell_count;
+    const bool again = regularized->asked == parameters->cell_count;
     const CpsRegularizedParameters from =
-        again ? classic->f.parameters : cps_regularized_coarse(classic);
-    if (status == CPS_OK) status = prepare(classic, parameters->cell_count, err);
+        again ? regularized->f.parameters : cps_regularized_coarse(regularized);
+    if (status == CPS_OK) status = prepare(regularized, parameters->cell_count, err);
     if (status != CPS_OK) return status;
     *report = (CpsRegularizedReport){0};
-    follow(classic, from, parameters, max_iterations, report);
-    cpsi_regularized_store(&classic->f, classic->unknown);
-    cpsi_regularized_measure(&classic->f, report);
-    for (int i = 0; i < classic->cells.cells; ++i)
-        classic->tension[i] = cpsi_regularized_tension(&classic->f, i);
-    for (int end = 0; end < 2; ++end) report->end_tension[end] = cpsi_end_tension(classic, end);
+    follow(regularized, from, parameters, max_iterations, report);
+    cpsi_regularized_store(&regularized->f, regularized->unknown);
+    cpsi_regularized_measure(&regularized->f, report);
+    for (int i = 0; i < regularized->cells.cells; ++i)
+        regularized->tension[i] = cpsi_regularized_tension(&regularized->f, i);
+    for (int end = 0; end < 2; ++end) report->end_tension[end] = cpsi_end_tension(regularized, end);
     return CPS_OK;
 }
 
-CpsRegularizedView cps_regularized_view(const CpsRegularized *classic) {
-    if (!classic || classic->asked < 0) return (CpsRegularizedView){0};
-    return (CpsRegularizedView){.cell_count = classic->cells.cells,
-                                .arc_length = classic->cells.arc,
-                                .position = classic->f.place,
-                                .tension = classic->tension,
-                                .exact = classic->cells.tension};
+CpsRegularizedView cps_regularized_view(const CpsRegularized *regularized) {
+    if (!regularized || regularized->asked < 0) return (CpsRegularizedView){0};
+    return (CpsRegularizedView){.cell_count = regularized->cells.cells,
+                                .arc_length = regularized->cells.arc,
+                                .position = regularized->f.place,
+                                .tension = regularized->tension,
+                                .exact = regularized->cells.tension};
 }

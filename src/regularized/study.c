@@ -58,16 +58,16 @@ static int divisions(double ratio, double *factor) {
 
 enum { OPTIONS_COOKIE = 0x57d01a12 };
 
-CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
+CpsStudyOptions cps_study_options_to(const CpsRegularized *regularized,
                                      const CpsRegularizedParameters *to) {
-    if (!classic || !to) return (CpsStudyOptions){0};
+    if (!regularized || !to) return (CpsStudyOptions){0};
     CpsStudyOptions options = {.cookie = OPTIONS_COOKIE,
-                               .from = cps_regularized_coarse(classic),
+                               .from = cps_regularized_coarse(regularized),
                                .factor = {2, 10, 10, 10},
                                .max_iterations = NEWTON_LIMIT};
     CpsRegularizedParameters *from = &options.from;
     const int last =
-        to->cell_count > 0 ? to->cell_count : 4 * cps_regularized_step(classic).element_count;
+        to->cell_count > 0 ? to->cell_count : 4 * cps_regularized_step(regularized).element_count;
     int cells = from->cell_count;
     for (options.value_count[CPS_STUDY_STAGE_H] = 1;
          cells < last && options.value_count[CPS_STUDY_STAGE_H] < MAX_HALVINGS; cells *= 2)
@@ -101,17 +101,19 @@ CpsStudyOptions cps_study_options_to(const CpsRegularized *classic,
     return options;
 }
 
-CpsStudyOptions cps_study_options_default(const CpsRegularized *classic) {
-    if (!classic) return (CpsStudyOptions){0};
-    const CpsRegularizedParameters fine = cps_regularized_fine(classic);
-    return cps_study_options_to(classic, &fine);
+CpsStudyOptions cps_study_options_default(const CpsRegularized *regularized) {
+    if (!regularized) return (CpsStudyOptions){0};
+    const CpsRegularizedParameters fine = cps_regularized_fine(regularized);
+    return cps_study_options_to(regularized, &fine);
 }
 
 /* ---- rates ---- */
 
-/* NaN where the changes have different signs, since there is no order of convergence then */
-static double rate_of(double change_before, double change, double factor) {
-    return change_before / change > 0 ? log(change_before / change) / log(factor) : NAN;
+/* false where the changes have different signs, since there is no order of convergence then */
+static bool rate_of(double change_before, double change, double factor, double *rate) {
+    const double found = log(change_before / change) / log(factor);
+    *rate = isfinite(found) ? found : 0;
+    return isfinite(found);
 }
 
 static double rms_between(int count, const double *a, const double *b) {
@@ -136,15 +138,16 @@ static void begin_stage(Trail *trail, CpsStudyStage stage, const CpsRegularizedS
                               : (step->arc_length[i] + step->arc_length[i + 1]) / 2;
 }
 
-static void sample(const CpsRegularized *classic, const Trail *trail, double *tension) {
-    const CpsRegularizedView view = cps_regularized_view(classic);
+static void sample(const CpsRegularized *regularized, const Trail *trail, double *tension) {
+    const CpsRegularizedView view = cps_regularized_view(regularized);
     for (int i = 0; i < trail->samples; ++i)
         tension[i] =
             cpsi_between_middles(view.cell_count, view.arc_length, view.tension, trail->place[i]);
 }
 
 /* add the newest solution and compute the rates of its row */
-static void follow(Trail *trail, const CpsRegularized *classic, double factor, CpsStudyRow *row) {
+static void follow(Trail *trail, const CpsRegularized *regularized, double factor,
+                   CpsStudyRow *row) {
     double *oldest = trail->tension[2];
     trail->tension[2] = trail->tension[1];
     trail->tension[1] = trail->tension[0];
@@ -152,15 +155,15 @@ static void follow(Trail *trail, const CpsRegularized *classic, double factor, C
     trail->energy[2] = trail->energy[1];
     trail->energy[1] = trail->energy[0];
     trail->energy[0] = row->report.total;
-    sample(classic, trail, trail->tension[0]);
+    sample(regularized, trail, trail->tension[0]);
     trail->change_before = trail->change;
     trail->change = rms_between(trail->samples, trail->tension[0], trail->tension[1]);
     ++trail->count;
-    row->rate_energy = row->rate_tension = NAN;
     if (trail->count < 3) return;
-    row->rate_energy =
-        rate_of(trail->energy[2] - trail->energy[1], trail->energy[1] - trail->energy[0], factor);
-    row->rate_tension = rate_of(trail->change_before, trail->change, factor);
+    row->has_rate_energy = rate_of(trail->energy[2] - trail->energy[1],
+                                   trail->energy[1] - trail->energy[0], factor, &row->rate_energy);
+    row->has_rate_tension =
+        rate_of(trail->change_before, trail->change, factor, &row->rate_tension);
 }
 
 /* ---- the run ---- */
@@ -214,10 +217,10 @@ static void advance(CpsStudyStage stage, const CpsStudyOptions *options, int k,
     }
 }
 
-static CpsStatus run_stages(CpsRegularized *classic, const CpsStudyOptions *options,
+static CpsStatus run_stages(CpsRegularized *regularized, const CpsStudyOptions *options,
                             CpsStudyProgress *progress, void *user, Trail *trail, CpsStudy *study,
                             CpsError *err) {
-    const CpsRegularizedStep step = cps_regularized_step(classic);
+    const CpsRegularizedStep step = cps_regularized_step(regularized);
     CpsRegularizedParameters p = options->from;
     for (CpsStudyStage stage = CPS_STUDY_STAGE_H; stage < CPS_STUDY_STAGE_COUNT; ++stage) {
         begin_stage(trail, stage, &step, options->from.cell_count);
@@ -227,14 +230,14 @@ static CpsStatus run_stages(CpsRegularized *classic, const CpsStudyOptions *opti
             *row = (CpsStudyRow){.stage = stage, .parameters = p};
             const double begun = seconds();
             const CpsStatus status =
-                cps_regularized_solve(classic, &p, options->max_iterations, &row->report, err);
+                cps_regularized_solve(regularized, &p, options->max_iterations, &row->report, err);
             if (status != CPS_OK) return status;
             row->wall = seconds() - begun;
-            follow(trail, classic, options->factor[stage], row);
+            follow(trail, regularized, options->factor[stage], row);
             ++study->rows;
             if (progress && !progress(user, row, study->rows, study->capacity)) return CPS_OK;
         }
-        const CpsRegularizedView view = cps_regularized_view(classic);
+        const CpsRegularizedView view = cps_regularized_view(regularized);
         const CpsStatus status = keep(&study->end[stage], &view, err);
         if (status != CPS_OK) return status;
     }
@@ -265,15 +268,15 @@ static CpsStatus check(const CpsStudyOptions *options, CpsError *err) {
     return CPS_OK;
 }
 
-CpsStatus cps_study_run(CpsRegularized *classic, const CpsStudyOptions *options,
+CpsStatus cps_study_run(CpsRegularized *regularized, const CpsStudyOptions *options,
                         CpsStudyProgress *progress, void *user, CpsStudy **out, CpsError *err) {
-    if (!classic || !options || !out)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "classic, options or out is NULL");
+    if (!regularized || !options || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "regularized, options or out is NULL");
     *out = NULL;
     CpsStatus status = check(options, err);
     if (status != CPS_OK) return status;
     CpsStudy *study = calloc(1, sizeof *study);
-    const int elements = cps_regularized_step(classic).element_count;
+    const int elements = cps_regularized_step(regularized).element_count;
     const size_t samples =
         (size_t)(elements > options->from.cell_count ? elements : options->from.cell_count);
     double *trails = calloc(4 * samples, sizeof *trails);
@@ -286,7 +289,7 @@ CpsStatus cps_study_run(CpsRegularized *classic, const CpsStudyOptions *options,
     } else {
         Trail trail = {.place = trails,
                        .tension = {trails + samples, trails + 2 * samples, trails + 3 * samples}};
-        status = run_stages(classic, options, progress, user, &trail, study, err);
+        status = run_stages(regularized, options, progress, user, &trail, study, err);
     }
     free(trails);
     if (status == CPS_OK)

@@ -53,7 +53,7 @@ CpsStatus cps_set_friction_cone(int n, double friction, CpsSet **out, CpsError *
     return cpsi_set_from_conic_form(form, out, err);
 }
 
-void cps_set_conic_free(CpsSetConic *conic) {
+void cps_set_conic_clear(CpsSetConic *conic) {
     if (!conic) return;
     cpsi_conic_form_free(conic->owner);
     *conic = (CpsSetConic){0};

@@ -401,7 +401,7 @@ static void the_form_is_the_set(void **state) {
             farthest = fmax(farthest, (double)conic_distance(conic, (Real[2]){point[0], point[1]}));
         }
         conic_free(conic);
-        cps_set_conic_free(&form);
+        cps_set_conic_clear(&form);
         assert_null(form.a);
         cps_scene_file_destroy(file);
     }
@@ -424,8 +424,8 @@ static void what_has_no_form_says_so(void **state) {
     must(cps_set_conic(point[0], &form, &err), &err);
     CHECK_INT(form.outcome, CPS_SET_OUTCOME_ANSWERED);
     CHECK_INT(form.unknown_count, 0);
-    cps_set_conic_free(&form);
-    cps_set_conic_free(&form);
+    cps_set_conic_clear(&form);
+    cps_set_conic_clear(&form);
     CHECK_INT(cps_set_conic(NULL, &form, &err), CPS_ERR_ARGUMENT);
     CHECK_INT(cps_set_conic(strip, NULL, &err), CPS_ERR_ARGUMENT);
     for (int k = 0; k < 2; k++) cps_set_release(point[k]);

@@ -12,16 +12,16 @@
 enum { ELEMENTS = 200 };
 
 static CpsRegularized *open_regularized(const CpsLineView *view) {
-    CpsRegularized *classic;
+    CpsRegularized *regularized;
     CpsError err = {0};
-    if (cps_regularized_create(view, &classic, &err) != CPS_OK) fail_msg("%s", err.message);
-    return classic;
+    if (cps_regularized_create(view, &regularized, &err) != CPS_OK) fail_msg("%s", err.message);
+    return regularized;
 }
 
-static CpsRegularizedReport solve(CpsRegularized *classic, CpsRegularizedParameters p) {
+static CpsRegularizedReport solve(CpsRegularized *regularized, CpsRegularizedParameters p) {
     CpsRegularizedReport report;
     CpsError err = {0};
-    if (cps_regularized_solve(classic, &p, 2000, &report, &err) != CPS_OK)
+    if (cps_regularized_solve(regularized, &p, 2000, &report, &err) != CPS_OK)
         fail_msg("%s", err.message);
     assert_true(report.converged);
     return report;
@@ -54,11 +54,11 @@ static void study_of_example_5_7(void **state) {
     example_5_7(&c);
     Run run = case_open(&c);
     CpsLineView view = case_step(&run);
-    CpsRegularized *classic = open_regularized(&view);
-    CpsStudyOptions options = cps_study_options_default(classic);
+    CpsRegularized *regularized = open_regularized(&view);
+    CpsStudyOptions options = cps_study_options_default(regularized);
     CpsStudy *study;
     CpsError err = {0};
-    assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_OK);
+    assert_int_equal(cps_study_run(regularized, &options, NULL, NULL, &study, &err), CPS_OK);
     for (int i = 0; i < cps_study_row_count(study); i++)
         assert_true(cps_study_row(study, i).report.converged);
 
@@ -104,7 +104,7 @@ static void study_of_example_5_7(void **state) {
     // bending forces (1/n)/h^2 are gone
     CHECK_LESS(last.compression, 1e-9);
     cps_study_destroy(study);
-    cps_regularized_destroy(classic);
+    cps_regularized_destroy(regularized);
     case_close(&run);
 }
 
@@ -161,21 +161,21 @@ static void without_friction(void **state) {
     case_force(&c, 1, 0.4, 0, 0.3);
     Run run = case_open(&c);
     CpsLineView view = case_step(&run);
-    CpsRegularized *classic = open_regularized(&view);
+    CpsRegularized *regularized = open_regularized(&view);
     CpsRegularizedParameters p = {.cookie = cps_regularized_parameters_default().cookie,
                                   .penalty = 1e7,
                                   .stiffness = 1e-11,
                                   .delta = 1};
-    CpsRegularizedReport wide = solve(classic, p);
+    CpsRegularizedReport wide = solve(regularized, p);
     p.delta = 1e-6;
-    CpsRegularizedReport narrow = solve(classic, p);
+    CpsRegularizedReport narrow = solve(regularized, p);
     CHECK_NEAR(wide.friction_energy, 0, 0);
     CHECK_NEAR(wide.total, narrow.total, 1e-12);
     // the penalty alone is seen: at most w^2 l/(2 lambda) = 5e-8 J, and a clamped end of 1/(n h) =
     // 2e-9 J
     CHECK_BETWEEN(show("no friction, regularised", "J** [J]", 0, wide.energy_error), -5.2e-8, 3e-9);
     CHECK_LESS(wide.tension_max, 1e-5);
-    cps_regularized_destroy(classic);
+    cps_regularized_destroy(regularized);
     case_close(&run);
 }
 
@@ -185,7 +185,7 @@ typedef struct Annex {
     Case c;
     Run run;
     CpsLineView view;
-    CpsRegularized *classic;
+    CpsRegularized *regularized;
     CpsFirstOrder *first_order;
     CpsFirstOrderReport report;
 } Annex;
@@ -199,9 +199,9 @@ static void open_annex(Annex *t, double fx, double fy, double fz) {
     case_force(&t->c, 1, fx, fy, fz);
     t->run = case_open(&t->c);
     t->view = case_step(&t->run);
-    t->classic = open_regularized(&t->view);
+    t->regularized = open_regularized(&t->view);
     CpsError err = {0};
-    assert_int_equal(cps_first_order_solve(t->classic, CPS_FIRST_ORDER_CONTACT_REFERENCE,
+    assert_int_equal(cps_first_order_solve(t->regularized, CPS_FIRST_ORDER_CONTACT_REFERENCE,
                                            &t->first_order, &err),
                      CPS_OK);
     t->report = cps_first_order_report(t->first_order);
@@ -209,7 +209,7 @@ static void open_annex(Annex *t, double fx, double fy, double fz) {
 
 static void close_annex(Annex *t) {
     cps_first_order_destroy(t->first_order);
-    cps_regularized_destroy(t->classic);
+    cps_regularized_destroy(t->regularized);
     case_close(&t->run);
 }
 
@@ -309,14 +309,14 @@ static void p10_1_with_either_contact(void **state) {
     Run run = case_open(&c);
     case_step(&run);
     CpsLineView view = case_step(&run);
-    CpsRegularized *classic = open_regularized(&view);
+    CpsRegularized *regularized = open_regularized(&view);
     double lowest[2] = {0, 0};
     for (int reached = 0; reached < 2; reached++) {
         CpsFirstOrder *solution;
         CpsError err = {0};
         const CpsFirstOrderContact contact =
             reached ? CPS_FIRST_ORDER_CONTACT_REACHED : CPS_FIRST_ORDER_CONTACT_REFERENCE;
-        assert_int_equal(cps_first_order_solve(classic, contact, &solution, &err), CPS_OK);
+        assert_int_equal(cps_first_order_solve(regularized, contact, &solution, &err), CPS_OK);
         assert_int_equal(cps_first_order_report(solution).contact, contact);
         assert_int_equal(cps_first_order_report(solution).verdict, CPS_FIRST_ORDER_VERDICT_SOLVED);
         const CpsFirstOrderView u = cps_first_order_view(solution);
@@ -327,7 +327,7 @@ static void p10_1_with_either_contact(void **state) {
     }
     CHECK_LESS(show("P10.1, (77)", "lowest node [m]", -0.01, lowest[0]), 0);
     CHECK_BETWEEN(lowest[1], -1e-6, 0);
-    cps_regularized_destroy(classic);
+    cps_regularized_destroy(regularized);
     case_close(&run);
 }
 
@@ -349,9 +349,9 @@ static void p10_1_is_the_first_order(void **state) {
         t.run = case_open(&t.c);
         case_step(&t.run);
         t.view = case_step(&t.run);
-        t.classic = open_regularized(&t.view);
+        t.regularized = open_regularized(&t.view);
         CpsError err = {0};
-        assert_int_equal(cps_first_order_solve(t.classic, CPS_FIRST_ORDER_CONTACT_REFERENCE,
+        assert_int_equal(cps_first_order_solve(t.regularized, CPS_FIRST_ORDER_CONTACT_REFERENCE,
                                                &t.first_order, &err),
                          CPS_OK);
         t.report = cps_first_order_report(t.first_order);

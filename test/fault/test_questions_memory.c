@@ -84,7 +84,7 @@ static CpsStatus ask_set(const Case *c, int question) {
     case 19: return cps_set_measure(c->set, &measure, &err);
     case 20:
         status = cps_set_conic(c->set, &conic, &err);
-        cps_set_conic_free(&conic);
+        cps_set_conic_clear(&conic);
         return status;
     case 21: return cps_set_dissipation(c->set, c->direction, x, &answer, &err);
     case 22: return made(cps_set_forces(c->set, c->direction, 0, &out, &answer, &err), &out);

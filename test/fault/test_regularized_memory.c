@@ -12,20 +12,20 @@
 
 /* everything about one step; the first failure ends it */
 static CpsStatus questions(const CpsLineView *view) {
-    CpsRegularized *classic = NULL, *next = NULL;
+    CpsRegularized *regularized = NULL, *next = NULL;
     CpsStudy *study = NULL;
     CpsFirstOrder *first_order = NULL;
     CpsRegularizedReport report;
-    CpsStatus status = cps_regularized_create(view, &classic, NULL);
+    CpsStatus status = cps_regularized_create(view, &regularized, NULL);
     if (status == CPS_OK) {
-        CpsStudyOptions options = cps_study_options_default(classic);
+        CpsStudyOptions options = cps_study_options_default(regularized);
         for (int s = 0; s < CPS_STUDY_STAGE_COUNT; s++) options.value_count[s] = 2;
-        status = cps_study_run(classic, &options, NULL, NULL, &study, NULL);
+        status = cps_study_run(regularized, &options, NULL, NULL, &study, NULL);
     }
     if (status == CPS_OK)
-        status =
-            cps_first_order_solve(classic, CPS_FIRST_ORDER_CONTACT_REFERENCE, &first_order, NULL);
-    if (status == CPS_OK) status = cps_regularized_next(view, 0.3, classic, &next, NULL);
+        status = cps_first_order_solve(regularized, CPS_FIRST_ORDER_CONTACT_REFERENCE, &first_order,
+                                       NULL);
+    if (status == CPS_OK) status = cps_regularized_next(view, 0.3, regularized, &next, NULL);
     if (status == CPS_OK) {
         const CpsRegularizedParameters coarse = cps_regularized_coarse(next);
         status = cps_regularized_solve(next, &coarse, 100, &report, NULL);
@@ -33,7 +33,7 @@ static CpsStatus questions(const CpsLineView *view) {
     cps_first_order_destroy(first_order);
     cps_study_destroy(study);
     cps_regularized_destroy(next);
-    cps_regularized_destroy(classic);
+    cps_regularized_destroy(regularized);
     return status;
 }
 

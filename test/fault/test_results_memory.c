@@ -119,8 +119,12 @@ static void a_summary_without_a_locale(void **state) {
                                      .position = POSITION,
                                      .parameters = &parameters,
                                      .report = &report};
-    const CpsRegularizedRun run = {
-        .title = "", .step_count = 1, .line_count = 1, .step_name = NAME, .line = &line};
+    const CpsRegularizedRun run = {.cookie = cps_regularized_run_default().cookie,
+                                   .title = "",
+                                   .step_count = 1,
+                                   .line_count = 1,
+                                   .step_name = NAME,
+                                   .line = &line};
     char text[1000] = "";
     CpsError err;
     FILE *out = fmemopen(text, sizeof text - 1, "w");

@@ -46,6 +46,7 @@ static void names_of_nothing(void **state) {
     GIVES(cps_outcome_name((CpsOutcome)NEVER) != NULL &&
           cps_outcome_text((CpsOutcome)NEVER) != NULL);
     GIVES(cps_range_name((CpsRange)NEVER) != NULL);
+    GIVES(cps_range_text((CpsRange)NEVER) != NULL);
     GIVES(!cps_outcome_is_certified((CpsOutcome)NEVER) && !cps_outcome_is_final((CpsOutcome)NEVER));
     GIVES(cps_judgement_name((CpsJudgement)NEVER) != NULL &&
           cps_judgement_text((CpsJudgement)NEVER) != NULL);
@@ -193,7 +194,7 @@ static void questions_to_sets(void **state) {
     REFUSED(cps_set_measure(disc, NULL, &err));
     REFUSED(cps_set_conic(NULL, &conic, &err));
     REFUSED(cps_set_conic(disc, NULL, &err));
-    RUNS(cps_set_conic_free(NULL));
+    RUNS(cps_set_conic_clear(NULL));
 }
 
 static void laws(void **state) {
@@ -516,7 +517,7 @@ static void ropes_and_sweeps(void **state) {
 
 static void studies(void **state) {
     (void)state;
-    CpsRegularized *classic = NULL;
+    CpsRegularized *regularized = NULL;
     CpsStudy *study = NULL;
     CpsFirstOrder *first_order = NULL;
     CpsRegularizedParameters parameters = {0};
@@ -528,8 +529,8 @@ static void studies(void **state) {
         0}; /* as cps_evolution_line_view gives of a line that there is not */
     const CpsLineView *const view[] = {NULL, &nothing};
     for (i = 0; i < 2; ++i) {
-        REFUSED(cps_regularized_create(view[i], &classic, &err));
-        REFUSED(cps_regularized_next(view[i], 0.5, NULL, &classic, &err));
+        REFUSED(cps_regularized_create(view[i], &regularized, &err));
+        REFUSED(cps_regularized_next(view[i], 0.5, NULL, &regularized, &err));
         REFUSED(cps_solution_judge(view[i], ONE, 1e-8, &judged, &err));
         GIVES(cps_solution_slack(view[i], 2, part) == 0);
         REFUSED(cps_solution_complete(view[i], CPS_COMPLETION_MEANDER, number, NULL, &err));

@@ -82,12 +82,16 @@ static void results(void **state) {
 
 static void studies(void **state) {
     (void)state;
-    const CpsStudyFiles files = {.title = "nothing of it"};
+    const CpsStudyFiles files = {.cookie = cps_study_files_default().cookie,
+                                 .title = "nothing of it"};
     const CpsMethodHistory method = {"one", ONE}, empty = {NULL, NULL};
     const char *const names[2] = {"a", NULL}, *const unnamed[1] = {NULL};
     const CpsLineView nothing = {0};
-    const CpsCompletedLine line = {.title = "nothing of it", .view = &nothing};
-    CpsRegularizedRun run = {.title = "nothing of it",
+    const CpsCompletedLine line = {.cookie = cps_completed_line_default().cookie,
+                                   .title = "nothing of it",
+                                   .view = &nothing};
+    CpsRegularizedRun run = {.cookie = cps_regularized_run_default().cookie,
+                             .title = "nothing of it",
                              .step_count = 1,
                              .line_count = 1,
                              .step_name = names};
@@ -137,8 +141,13 @@ static void one_thing_missing(void **state) {
                                      .position = ONE,
                                      .parameters = &parameters,
                                      .report = &report};
-    const CpsRegularizedRun run = {
-        .title = "", .step_count = 1, .line_count = 1, .step_name = names, .line = &line};
+    const CpsRegularizedRun run = {.cookie = cps_regularized_run_default().cookie,
+                                   .title = "",
+                                   .step_count = 1,
+                                   .line_count = 1,
+                                   .step_name = names,
+                                   .line = &line};
+    WITHOUT(CpsRegularizedRun, run, cookie, cps_regularized_write(DIRECTORY, &given_, &err));
     WITHOUT(CpsRegularizedRun, run, title, cps_regularized_write(DIRECTORY, &given_, &err));
     WITHOUT(CpsRegularizedRun, run, step_count, cps_regularized_write(DIRECTORY, &given_, &err));
     WITHOUT(CpsRegularizedRun, run, line_count, cps_regularized_write(DIRECTORY, &given_, &err));
@@ -165,10 +174,12 @@ static void one_thing_missing(void **state) {
 
     /* pointers that are refused or handed on, and never looked into */
     const CpsLineView view = {0};
-    const CpsCompletedLine completed = {.title = "",
+    const CpsCompletedLine completed = {.cookie = cps_completed_line_default().cookie,
+                                        .title = "",
                                         .view = &view,
                                         .position = {ONE, ONE, ONE},
                                         .chosen = 0};
+    WITHOUT(CpsCompletedLine, completed, cookie, cps_completed_write(DIRECTORY, &given_, &err));
     WITHOUT(CpsCompletedLine, completed, title, cps_completed_write(DIRECTORY, &given_, &err));
     WITHOUT(CpsCompletedLine, completed, view, cps_completed_write(DIRECTORY, &given_, &err));
     for (i = 0; i < CPS_COMPLETION_COUNT; i++)
@@ -181,12 +192,14 @@ static void one_thing_missing(void **state) {
     REFUSED(cps_methods_write(DIRECTORY, "", 1, &placeless, 1, 2, names, &err));
     REFUSED(cps_methods_write(DIRECTORY, "", 1, &nameless, 1, 2, names, &err));
     REFUSED(cps_methods_write(DIRECTORY, "", 1, &whole, 1, 2, unnamed, &err));
-    const CpsStudyFiles files = {.title = "",
-                                 .classic = (const void *)ONE,
+    const CpsStudyFiles files = {.cookie = cps_study_files_default().cookie,
+                                 .title = "",
+                                 .regularized = (const void *)ONE,
                                  .study = (const void *)ONE,
                                  .first_order = (const void *)ONE};
+    WITHOUT(CpsStudyFiles, files, cookie, cps_study_write(DIRECTORY, &given_, &err));
     WITHOUT(CpsStudyFiles, files, title, cps_study_write(DIRECTORY, &given_, &err));
-    WITHOUT(CpsStudyFiles, files, classic, cps_study_write(DIRECTORY, &given_, &err));
+    WITHOUT(CpsStudyFiles, files, regularized, cps_study_write(DIRECTORY, &given_, &err));
     WITHOUT(CpsStudyFiles, files, study, cps_study_write(DIRECTORY, &given_, &err));
     WITHOUT(CpsStudyFiles, files, first_order, cps_study_write(DIRECTORY, &given_, &err));
 }
@@ -196,9 +209,15 @@ static void laws(void **state) {
     CpsLawFile *file = NULL;
     CpsComposition composition;
     int line;
-    const CpsLawPicture picture = {.title = "", .axis = {0, 1}},
-                        axes = {.title = "", .axis = {0, 7}}, untitled = {.axis = {0, 1}},
-                        missing = {.title = "",
+    const CpsLawPicture picture = {.cookie = cps_law_picture_default().cookie,
+                                   .title = "",
+                                   .axis = {0, 1}},
+                        axes = {.cookie = cps_law_picture_default().cookie,
+                                .title = "",
+                                .axis = {0, 7}},
+                        untitled = {.cookie = cps_law_picture_default().cookie, .axis = {0, 1}},
+                        missing = {.cookie = cps_law_picture_default().cookie,
+                                   .title = "",
                                    .axis = {0, 1},
                                    .velocity_count = 2,
                                    .force_count = 2};
@@ -214,6 +233,8 @@ static void laws(void **state) {
     GIVES(cps_law_file_loaded(NULL) == NULL && cps_law_file_resistance(NULL) == NULL);
     GIVES(!cps_law_file_composition(NULL, &composition, &line));
     REFUSED(cps_law_write_schema(NULL, &err));
+    const CpsLawPicture bare = {.title = "", .axis = {0, 1}};
+    REFUSED(cps_law_draw(disc, &bare, out, &err));
     REFUSED(cps_law_draw(NULL, &picture, out, &err));
     REFUSED(cps_law_draw(disc, NULL, out, &err));
     REFUSED(cps_law_draw(disc, &picture, NULL, &err));

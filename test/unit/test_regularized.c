@@ -374,29 +374,29 @@ static void refusals(void **state) {
     Step step;
     make_step(&step);
     CpsError err = {0};
-    CpsRegularized *classic = (CpsRegularized *)&step;
+    CpsRegularized *regularized = (CpsRegularized *)&step;
     step.view.end[CPS_END_A].kind = CPS_END_KIND_FREE;
-    assert_int_equal(cps_regularized_create(&step.view, &classic, &err), CPS_ERR_ARGUMENT);
-    assert_null(classic);
+    assert_int_equal(cps_regularized_create(&step.view, &regularized, &err), CPS_ERR_ARGUMENT);
+    assert_null(regularized);
     assert_non_null(strstr(err.message, "hold end A"));
     make_step(&step);
     step.view.compliance = 0;
-    assert_int_equal(cps_regularized_create(&step.view, &classic, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_regularized_create(&step.view, &regularized, &err), CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "inextensible"));
     make_step(&step);
     step.view.one_plane = false;
-    assert_int_equal(cps_regularized_create(&step.view, &classic, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_regularized_create(&step.view, &regularized, &err), CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "tangent plane"));
     make_step(&step);
     memset(step.load, 0, sizeof step.load);
     memset(step.tension, 0, sizeof step.tension);
-    assert_int_equal(cps_regularized_create(&step.view, &classic, &err), CPS_ERR_ARGUMENT);
-    assert_int_equal(cps_regularized_create(NULL, &classic, NULL), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_regularized_create(&step.view, &regularized, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_regularized_create(NULL, &regularized, NULL), CPS_ERR_ARGUMENT);
 
     make_step(&step);
-    assert_int_equal(cps_regularized_create(&step.view, &classic, &err), CPS_OK);
+    assert_int_equal(cps_regularized_create(&step.view, &regularized, &err), CPS_OK);
     CpsRegularizedReport report;
-    const CpsRegularizedParameters good = cps_regularized_coarse(classic);
+    const CpsRegularizedParameters good = cps_regularized_coarse(regularized);
     CpsRegularizedParameters bad[] = {good, good, good, good, good};
     bad[0].cell_count = 1;
     bad[1].penalty = 0;
@@ -404,37 +404,40 @@ static void refusals(void **state) {
     bad[3].delta = -1;
     bad[4].delta = INFINITY;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        assert_int_equal(cps_regularized_solve(classic, &bad[i], 100, &report, &err),
+        assert_int_equal(cps_regularized_solve(regularized, &bad[i], 100, &report, &err),
                          CPS_ERR_ARGUMENT);
-    assert_int_equal(cps_regularized_solve(classic, &good, 0, &report, &err), CPS_ERR_ARGUMENT);
-    assert_int_equal(cps_regularized_view(classic).cell_count, 0);
+    assert_int_equal(cps_regularized_solve(regularized, &good, 0, &report, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_regularized_view(regularized).cell_count, 0);
 
-    CpsRegularized *next = classic;
-    assert_int_equal(cps_regularized_next(&step.view, 0.5, classic, &next, &err),
+    CpsRegularized *next = regularized;
+    assert_int_equal(cps_regularized_next(&step.view, 0.5, regularized, &next, &err),
                      CPS_ERR_ARGUMENT); /* nothing solved yet */
     assert_null(next);
-    assert_int_equal(cps_regularized_next(&step.view, NAN, classic, &next, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_regularized_next(&step.view, NAN, regularized, &next, &err),
+                     CPS_ERR_ARGUMENT);
 
     CpsStudy *study = NULL;
     CpsRegularizedParameters bare = good;
     bare.cookie = 0;
     CpsRegularizedReport none_of_it;
-    assert_int_equal(cps_regularized_solve(classic, &bare, 10, &none_of_it, &err),
+    assert_int_equal(cps_regularized_solve(regularized, &bare, 10, &none_of_it, &err),
                      CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "_default()"));
-    CpsStudyOptions options = cps_study_options_default(classic);
+    CpsStudyOptions options = cps_study_options_default(regularized);
     options.cookie = 0;
-    assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_study_run(regularized, &options, NULL, NULL, &study, &err),
+                     CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "_default()"));
-    options = cps_study_options_default(classic);
+    options = cps_study_options_default(regularized);
     options.factor[CPS_STUDY_STAGE_N] = 1;
-    assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_study_run(regularized, &options, NULL, NULL, &study, &err),
+                     CPS_ERR_ARGUMENT);
     assert_null(study);
     assert_non_null(strstr(err.message, "stage n"));
-    options = cps_study_options_default(classic);
+    options = cps_study_options_default(regularized);
     options.value_count[CPS_STUDY_STAGE_H] = options.value_count[CPS_STUDY_STAGE_LAMBDA] =
         options.value_count[CPS_STUDY_STAGE_N] = options.value_count[CPS_STUDY_STAGE_DELTA] = 1;
-    assert_int_equal(cps_study_run(classic, &options, NULL, NULL, &study, &err), CPS_OK);
+    assert_int_equal(cps_study_run(regularized, &options, NULL, NULL, &study, &err), CPS_OK);
     assert_true(cps_study_row(study, cps_study_row_count(study) - 1).parameters.penalty > 0);
     const CpsStudyRow last = cps_study_row(study, cps_study_row_count(study) - 1);
     assert_true(last.report.end_tension[CPS_END_B] >= 0);
@@ -443,7 +446,8 @@ static void refusals(void **state) {
         assert_true(cps_study_row(study, absent).parameters.penalty == 0);
         assert_int_equal(cps_study_stage_end(study, (CpsStudyStage)absent).cell_count, 0);
         CpsFirstOrder *none = NULL;
-        assert_int_equal(cps_first_order_solve(classic, (CpsFirstOrderContact)absent, &none, &err),
+        assert_int_equal(cps_first_order_solve(regularized, (CpsFirstOrderContact)absent, &none,
+                                               &err),
                          CPS_ERR_ARGUMENT);
         assert_null(none);
     }
@@ -451,7 +455,7 @@ static void refusals(void **state) {
     cps_study_destroy(NULL);
     cps_first_order_destroy(NULL);
     cps_regularized_destroy(NULL);
-    cps_regularized_destroy(classic);
+    cps_regularized_destroy(regularized);
 }
 
 /* An iteration limit is reported, not hidden; a second call goes on from there. */
@@ -460,19 +464,19 @@ static void limit_is_reported(void **state) {
     Step step;
     make_step(&step);
     CpsError err = {0};
-    CpsRegularized *classic;
+    CpsRegularized *regularized;
     CpsRegularizedReport report;
-    assert_int_equal(cps_regularized_create(&step.view, &classic, &err), CPS_OK);
-    CpsRegularizedParameters p = cps_regularized_coarse(classic);
+    assert_int_equal(cps_regularized_create(&step.view, &regularized, &err), CPS_OK);
+    CpsRegularizedParameters p = cps_regularized_coarse(regularized);
     p.cell_count = 0;
     p.delta *= 1e-4;
-    assert_int_equal(cps_regularized_solve(classic, &p, 1, &report, &err), CPS_OK);
+    assert_int_equal(cps_regularized_solve(regularized, &p, 1, &report, &err), CPS_OK);
     assert_false(report.converged);
     CHECK_GREATER(report.gradient, report.gradient_limit);
     CHECK_FINITE(report.total);
-    assert_int_equal(cps_regularized_solve(classic, &p, 1000, &report, &err), CPS_OK);
+    assert_int_equal(cps_regularized_solve(regularized, &p, 1000, &report, &err), CPS_OK);
     assert_true(report.converged);
-    cps_regularized_destroy(classic);
+    cps_regularized_destroy(regularized);
 }
 
 int main(void) {

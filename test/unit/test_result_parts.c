@@ -67,7 +67,8 @@ static char *summary_of(const CpsRegularizedReport report[LINES][STEPS], bool co
                                        .position = POSITION,
                                        .parameters = PARAMETERS,
                                        .report = report[i]};
-    const CpsRegularizedRun run = {.title = "some have not converged",
+    const CpsRegularizedRun run = {.cookie = cps_regularized_run_default().cookie,
+                                   .title = "some have not converged",
                                    .step_count = STEPS,
                                    .line_count = LINES,
                                    .step_name = NAME,

@@ -276,6 +276,28 @@ static CpsStatus draw(void *what, FILE *out, CpsError *err) {
     return g->n == 1 ? draw_graph(g) : draw_speeds(g);
 }
 
+/* marks a picture that was initialised by its default function */
+static const uint32_t PICTURE_COOKIE = 0x50494354;
+
+CpsLawPicture cps_law_picture_default(void) {
+    return (CpsLawPicture){.cookie = PICTURE_COOKIE, .axis = {0, 1}};
+}
+
+CpsStatus cpsi_law_picture_check(const CpsLawPicture *picture, int n, CpsError *err) {
+    const int *axis = picture->axis;
+    if (picture->cookie != PICTURE_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the picture was not made by cps_law_picture_default()");
+    if ((picture->velocity_count > 0 && !picture->velocity) ||
+        (picture->force_count > 0 && !picture->force))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "velocities or forces are counted, and NULL");
+    if (n > 1 && (axis[0] < 0 || axis[1] < 0 || axis[0] >= n || axis[1] >= n || axis[0] == axis[1]))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "axes %d and %d are not two different components from 0 to %d", axis[0],
+                         axis[1], n - 1);
+    return CPS_OK;
+}
+
 CpsStatus cpsi_law_graph(const CpsSet *set, const CpsResistance *resistance,
                          const CpsLawPicture *picture, FILE *out, CpsError *err) {
     Graph g = {.set = set,
@@ -298,10 +320,6 @@ CpsStatus cps_resistance_draw(const CpsResistance *law, const CpsLawPicture *pic
                               CpsError *err) {
     if (!law || !picture || !out)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "law, picture or out is NULL");
-    const int n = cps_resistance_space(law), *axis = picture->axis;
-    if (n > 1 && (axis[0] < 0 || axis[1] < 0 || axis[0] >= n || axis[1] >= n || axis[0] == axis[1]))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "axes %d and %d are not two different components from 0 to %d", axis[0],
-                         axis[1], n - 1);
-    return cpsi_law_graph(NULL, law, picture, out, err);
+    const CpsStatus status = cpsi_law_picture_check(picture, cps_resistance_space(law), err);
+    return status ? status : cpsi_law_graph(NULL, law, picture, out, err);
 }

@@ -6,6 +6,10 @@
 
 #include "capstan/results.h"
 
+/* Whether a picture of a law of n components was made by cps_law_picture_default(), has what it
+ * counts, and different axes. */
+CpsStatus cpsi_law_picture_check(const CpsLawPicture *picture, int n, CpsError *err);
+
 /* Either a friction law or a resistance law. */
 CpsStatus cpsi_law_graph(const CpsSet *set, const CpsResistance *resistance,
                          const CpsLawPicture *picture, FILE *out, CpsError *err);

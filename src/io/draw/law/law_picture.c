@@ -540,19 +540,13 @@ static CpsStatus draw(Sheet *s) {
 CpsStatus cps_law_draw(const CpsSet *set, const CpsLawPicture *picture, FILE *out, CpsError *err) {
     if (!set || !picture || !out)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "set, picture or out is NULL");
-    if ((picture->velocity_count > 0 && !picture->velocity) ||
-        (picture->force_count > 0 && !picture->force))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "velocities or forces are counted, and NULL");
     const int n = cps_set_space(set), *axis = picture->axis;
+    CpsStatus status = cpsi_law_picture_check(picture, n, err);
+    if (status) return status;
     if (n == 1) return cpsi_law_graph(set, NULL, picture, out, err);
-    if (axis[0] < 0 || axis[1] < 0 || axis[0] >= n || axis[1] >= n || axis[0] == axis[1])
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "axes %d and %d are not two different components from 0 to %d", axis[0],
-                         axis[1], n - 1);
     Sheet s = {.out = out, .err = err, .picture = picture, .set = set, .n = n, .in_space = n > 2};
     s.shadow_map = calloc(2 * (size_t)n, sizeof *s.shadow_map);
     const locale_t numbers = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    CpsStatus status;
     if (s.shadow_map && numbers) {
         s.shadow_map[axis[0]] = s.shadow_map[n + axis[1]] = 1;
         const locale_t before = uselocale(numbers);

@@ -24,16 +24,16 @@ static const char *const STEP_STYLE = "stroke=\"#1b6ca8\" stroke-width=\"2\"";
 typedef double Along(const CpsStudyFiles *files, int element);
 
 static double step_strain(const CpsStudyFiles *files, int i) {
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     return step.tension[i] / step.stiffness;
 }
 
 static double step_tension(const CpsStudyFiles *files, int i) {
-    return cps_regularized_step(files->classic).tension[i];
+    return cps_regularized_step(files->regularized).tension[i];
 }
 
 static Vec3 tangent(const CpsStudyFiles *files, int i) {
-    const double *x = cps_regularized_step(files->classic).reference + 3 * (size_t)i;
+    const double *x = cps_regularized_step(files->regularized).reference + 3 * (size_t)i;
     const Vec3 d = vec3_sub(vec3_load(x + 3), vec3_load(x));
     const double length = vec3_norm(d);
     return length > 0 ? vec3_scale(1 / length, d) : d;
@@ -46,7 +46,7 @@ static double linear_tension(const CpsStudyFiles *files, int i) {
 
 /* strain of the reference, limited to what P10.1 can represent, and its change */
 static double linear_strain(const CpsStudyFiles *files, int i) {
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     const double *x = step.reference + 3 * (size_t)i;
     const double reference = vec3_norm(vec3_sub(vec3_load(x + 3), vec3_load(x))) /
                                  (step.arc_length[i + 1] - step.arc_length[i]) -
@@ -56,7 +56,7 @@ static double linear_strain(const CpsStudyFiles *files, int i) {
 
 static void draw_curve(const CpsStudyFiles *files, const CpsiFrame *frame, Along *value,
                        double factor, const char *style, FILE *out) {
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     fprintf(out, "<polyline fill=\"none\" %s points=\"", style);
     for (int i = 0; i < step.element_count; ++i)
         fprintf(out, "%.1f,%.1f ",
@@ -67,7 +67,7 @@ static void draw_curve(const CpsStudyFiles *files, const CpsiFrame *frame, Along
 
 static void draw_pair(const CpsStudyFiles *files, int panel, Along *linear, Along *exact,
                       const char *base, FILE *out) {
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     double range[2] = {0, 0};
     for (int i = 0; i < step.element_count; ++i) {
         cpsi_range_include(range, linear(files, i));
@@ -111,7 +111,7 @@ static double along_reference(const CpsRegularizedStep *step, Vec3 x) {
 typedef enum Configuration { EXACT, LINEAR, REFERENCE } Configuration;
 
 static double node_along(const CpsStudyFiles *files, Configuration of, int j) {
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     const size_t k = 3 * (size_t)j;
     Vec3 x = vec3_load((of == EXACT ? step.position : step.reference) + k);
     if (of == LINEAR)
@@ -121,7 +121,7 @@ static double node_along(const CpsStudyFiles *files, Configuration of, int j) {
 
 static void draw_places(const CpsStudyFiles *files, int panel, bool linear, FILE *out) {
     static const char REFERENCE_STYLE[] = "stroke=\"#bbb\" stroke-width=\"5\"";
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     const Configuration shown[] = {REFERENCE, EXACT, LINEAR};
     const char *const style[] = {REFERENCE_STYLE, STEP_STYLE, FIRST_ORDER_STYLE};
     const int count = linear ? 3 : 2;
@@ -203,7 +203,7 @@ static void draw_energy(const CpsiFrame *frame, double stiffness, bool relaxed, 
 }
 
 void cpsi_picture_relaxed(const CpsStudyFiles *files, FILE *out) {
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     double largest = 0;
     for (int i = 0; i < step.element_count; ++i) largest = fmax(largest, step.tension[i]);
     if (!(largest > 0)) largest = step.force;

@@ -38,7 +38,7 @@ static void draw_tension(FILE *out, const CpsiFrame *frame, int cells, const dou
 }
 
 static void draw_tensions(const CpsStudyFiles *files, FILE *out) {
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     double range[2] = {0, 0};
     for (int i = 0; i < step.element_count; ++i) cpsi_range_include(range, step.tension[i]);
     for (int s = 0; s < CPS_STUDY_STAGE_COUNT; ++s) {
@@ -130,7 +130,7 @@ static void draw_stages(FILE *out, const CpsiFrame *frame, const CpsStudy *study
 }
 
 static void draw_errors(const CpsStudyFiles *files, FILE *out) {
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     const int rows = cps_study_row_count(files->study);
     double range[2] = {INFINITY, -INFINITY};
     for (int i = 0; i < rows; ++i)

@@ -116,7 +116,7 @@ void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o,
 }
 
 void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *o) {
-    for (int k = 0; o->set && k < o->count; ++k) cps_set_conic_free(&o->set[k]);
+    for (int k = 0; o->set && k < o->count; ++k) cps_set_conic_clear(&o->set[k]);
     free(o->set);
     o->set = NULL;
 }

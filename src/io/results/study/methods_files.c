@@ -134,7 +134,17 @@ static void completed_picture(const void *what, FILE *out) {
     cpsi_picture_methods(&m, out);
 }
 
+/* marks a line that was initialised by its default function */
+static const uint32_t LINE_COOKIE = 0x434f4d50;
+
+CpsCompletedLine cps_completed_line_default(void) {
+    return (CpsCompletedLine){.cookie = LINE_COOKIE};
+}
+
 CpsStatus cps_completed_write(const char *directory, const CpsCompletedLine *line, CpsError *err) {
+    if (line && line->cookie != LINE_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the line was not made by cps_completed_line_default()");
     if (!directory || !line || !line->title || !line->view ||
         (unsigned)line->chosen >= CPS_COMPLETION_COUNT)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,

@@ -161,7 +161,17 @@ static void portrait(const void *what, FILE *out) {
 
 /* ---- the whole set ---- */
 
+/* marks a run that was initialised by its default function */
+static const uint32_t RUN_COOKIE = 0x52454755;
+
+CpsRegularizedRun cps_regularized_run_default(void) {
+    return (CpsRegularizedRun){.cookie = RUN_COOKIE};
+}
+
 static CpsStatus check(const CpsRegularizedRun *run, CpsError *err) {
+    if (run && run->cookie != RUN_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the run was not made by cps_regularized_run_default()");
     if (!run || !run->title || !run->step_name || !run->line)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "run, its title, step_name or line is NULL");
     if (run->step_count < 1 || run->line_count < 1)

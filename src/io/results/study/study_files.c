@@ -25,10 +25,10 @@ static const CpsiColumn COLUMN[] = {
     {"contact", "J", ROW(report.contact)},
     {"relaxed", "J", ROW(report.relaxed)},
     {"energy_error", "J", ROW(report.energy_error)},
-    {"energy_rate", "-", ROW(rate_energy)},
+    {"energy_rate", "-", CPSI_MEMBER_IF(CpsStudyRow, has_rate_energy, rate_energy)},
     {"tension_rms_error", "N", ROW(report.tension_rms)},
     {"tension_max_error", "N", ROW(report.tension_max)},
-    {"tension_rate", "-", ROW(rate_tension)},
+    {"tension_rate", "-", CPSI_MEMBER_IF(CpsStudyRow, has_rate_tension, rate_tension)},
     {"position_max_error", "m", ROW(report.position_max)},
     {"compression", "N", ROW(report.compression)},
     {"shortening", "-", ROW(report.shortening)},
@@ -40,7 +40,7 @@ enum { COLUMNS = sizeof COLUMN / sizeof COLUMN[0] };
 
 static void study_table(const void *what, FILE *out) {
     const CpsStudyFiles *files = what;
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     fputs("stage,cells,h,converged,iterations,gradients", out);
     cpsi_csv_names(out, COLUMN, COLUMNS, NULL);
     fputs("\n,,m,,,", out);
@@ -63,7 +63,7 @@ static void study_table(const void *what, FILE *out) {
  * end */
 static void first_order_table(const void *what, FILE *out) {
     const CpsStudyFiles *files = what;
-    const CpsRegularizedStep step = cps_regularized_step(files->classic);
+    const CpsRegularizedStep step = cps_regularized_step(files->regularized);
     const CpsFirstOrderView view = cps_first_order_view(files->first_order);
     fputs(
         "arc_length,reference.x,reference.y,reference.z,P2.1.x,P2.1.y,P2.1.z,u.x,u.y,u.z,friction_"
@@ -93,8 +93,16 @@ static void first_order_picture(const void *files, FILE *out) {
 }
 static void relaxed_picture(const void *files, FILE *out) { cpsi_picture_relaxed(files, out); }
 
+/* marks files that were initialised by their default function */
+static const uint32_t FILES_COOKIE = 0x46494c45;
+
+CpsStudyFiles cps_study_files_default(void) { return (CpsStudyFiles){.cookie = FILES_COOKIE}; }
+
 CpsStatus cps_study_write(const char *directory, const CpsStudyFiles *files, CpsError *err) {
-    if (!directory || !files || !files->title || !files->classic || !files->study ||
+    if (files && files->cookie != FILES_COOKIE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "the files were not made by cps_study_files_default()");
+    if (!directory || !files || !files->title || !files->regularized || !files->study ||
         !files->first_order)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "directory, files, or one of what files has, is NULL");
