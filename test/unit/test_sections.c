@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sections and point weights through the C interface: what is refused, with the place and the
+ * reason, and what a line of them weighs and how it stretches. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "check.h"
+
+#include "capstan/evolve.h"
+
+enum { ELEMENTS = 6, SECTIONS = 3, POINTS = 2 };
+
+/* A line of 12 m with a node each 2 m, held at both ends; the parts are the caller's to change. */
+typedef struct Parts {
+    double point[6];
+    CpsSection section[SECTIONS];
+    CpsPointWeight weight[POINTS];
+    CpsLine line;
+    CpsScene scene;
+} Parts;
+
+static void make(Parts *p) {
+    *p = (Parts){.point = {0, 0, 0, 12, 0, 0},
+                 .section = {{"a", 4, 50, 1e5}, {"b", 2, 20, 4e5}, {"c", 6, 0, 2e5}},
+                 .weight = {{2, 30}, {8, -10}}};
+    p->line = cps_line_default();
+    p->line.name = "rope";
+    p->line.length = 12;
+    p->line.element_count = ELEMENTS;
+    p->line.section_count = SECTIONS;
+    p->line.section = p->section;
+    p->line.point_weight_count = POINTS;
+    p->line.point_weight = p->weight;
+    p->line.start.point_count = 2;
+    p->line.start.point = p->point;
+    p->line.end[0].kind = p->line.end[1].kind = CPS_END_KIND_HELD;
+    memcpy(p->line.end[1].value, p->point + 3, 3 * sizeof *p->point);
+    p->scene = cps_scene_default();
+    p->scene.line_count = 1;
+    p->scene.line = &p->line;
+}
+
+static void refused(const Parts *p, const char *fragment) {
+    CpsError err = {0};
+    CpsEvolution *evolution = NULL;
+    const CpsStatus status = cps_evolution_create(&p->scene, &evolution, &err);
+    if (status != CPS_ERR_ARGUMENT || evolution || !strstr(err.message, fragment))
+        fail_msg("expected a refusal with '%s', found status %d: %s", fragment, (int)status,
+                 err.message);
+}
+
+static void wrong_sections_are_refused(void **state) {
+    (void)state;
+    static const double LENGTH[] = {0, -2, NAN, INFINITY}, WEIGHT[] = {-1, NAN, INFINITY},
+                        STIFFNESS[] = {0, -1, NAN, -INFINITY};
+    Parts p;
+    for (int k = 0; k < SECTIONS; k++) {
+        char number[40];
+        snprintf(number, sizeof number, "sections: number %d", k + 1);
+        for (int i = 0; i < 4; i++) {
+            make(&p);
+            p.section[k].length = LENGTH[i];
+            refused(&p, "m long, expected a positive finite number");
+            refused(&p, number);
+            make(&p);
+            p.section[k].stiffness = STIFFNESS[i];
+            refused(&p, "N, expected a positive number, or infinity");
+            refused(&p, number);
+        }
+        for (int i = 0; i < 3; i++) {
+            make(&p);
+            p.section[k].weight = WEIGHT[i];
+            refused(&p, "N/m, expected a finite number >= 0");
+            refused(&p, number);
+        }
+        make(&p);
+        p.section[k].stiffness = INFINITY;
+        refused(&p, "is inextensible or elastic, those before it are not");
+    }
+    make(&p);
+    p.section[0].length = 3; /* no node there */
+    refused(&p, "sections: number 1 ends at 3 m, where no node is (the next one lies at 4 m)");
+    make(&p);
+    p.section[1].length = 1e-9; /* ends at the node at which it begins */
+    refused(&p, "sections: number 2 ends at");
+    make(&p);
+    p.section[2].length = 8; /* beyond the end */
+    refused(&p, "sections: number 3 ends at 14 m");
+    make(&p);
+    p.line.section_count = 2;
+    refused(&p, "sections are 6 m long together, but length is 12 m");
+    make(&p);
+    p.line.section_count = -1;
+    refused(&p, "sections are a negative number, or NULL");
+    make(&p);
+    p.line.section = NULL;
+    refused(&p, "sections are a negative number, or NULL");
+}
+
+static void wrong_point_weights_are_refused(void **state) {
+    (void)state;
+    static const double WEIGHT[] = {NAN, INFINITY, -INFINITY},
+                        PLACE[] = {0, -2, 3, 12, 14, NAN, INFINITY};
+    Parts p;
+    for (int k = 0; k < POINTS; k++) {
+        for (int i = 0; i < 3; i++) {
+            make(&p);
+            p.weight[k].weight = WEIGHT[i];
+            refused(&p, "N, expected a finite number");
+        }
+        for (int i = 0; i < 7; i++) {
+            make(&p);
+            p.weight[k].arc_length = PLACE[i];
+            refused(&p, "point_weights: number");
+        }
+    }
+    make(&p);
+    p.weight[0].arc_length = 8;
+    p.weight[1].arc_length = 2;
+    refused(&p, "give them in order from A to B");
+    make(&p);
+    p.line.point_weight_count = -1;
+    refused(&p, "point_weights are a negative number, or NULL");
+    make(&p);
+    p.line.point_weight = NULL;
+    refused(&p, "point_weights are a negative number, or NULL");
+    make(&p);
+    memset(p.scene.gravity, 0, sizeof p.scene.gravity);
+    refused(&p, "gravity is zero and has no direction");
+}
+
+/* The weights of the nodes [N], half of their elements each and what hangs there, over the mean
+ * weight; and the compliance of the elements [1/N]. */
+static void expect_line(const Parts *p, double mean, const double weight[ELEMENTS + 1],
+                        const double compliance[ELEMENTS]) {
+    CpsEvolution *evolution = NULL;
+    CpsError err;
+    if (cps_evolution_create(&p->scene, &evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+    const CpsLineView view = cps_evolution_line_view(evolution, 0);
+    for (int j = 0; j <= ELEMENTS; j++)
+        CHECK_NEAR(mean * view.weight_length[j], weight[j], 1e-12 * 200); /* rounding of sums */
+    for (int e = 0; e < ELEMENTS; e++)
+        CHECK_NEAR(view.compliance * view.compliance_factor[e], compliance[e], 1e-12 * 1e-5);
+    assert_false(view.uniform);
+    cps_evolution_destroy(evolution);
+}
+
+static void each_node_carries_its_own(void **state) {
+    (void)state;
+    Parts p;
+    make(&p);
+    /* elements of 100, 100, 40, 0, 0, 0 N; 30 N at node 1, -10 N at node 4 */
+    expect_line(&p, (4 * 50 + 2 * 20 + 30 + 10) / 12.0, (double[]){50, 130, 70, 20, -10, 0, 0},
+                (double[]){1e-5, 1e-5, 0.25e-5, 0.5e-5, 0.5e-5, 0.5e-5});
+    p.line.point_weight_count = 0;
+    expect_line(&p, (4 * 50 + 2 * 20) / 12.0, (double[]){50, 100, 70, 20, 0, 0, 0},
+                (double[]){1e-5, 1e-5, 0.25e-5, 0.5e-5, 0.5e-5, 0.5e-5});
+    /* weights on a line of one piece, with a weight of its own and without */
+    make(&p);
+    p.line.section_count = 0;
+    p.line.stiffness = 1e5;
+    static const double ALIKE[] = {1e-5, 1e-5, 1e-5, 1e-5, 1e-5, 1e-5};
+    for (int own = 0; own < 2; own++) {
+        const double w = p.line.weight = 5 * own;
+        expect_line(&p, w + (30 + 10) / 12.0,
+                    (double[]){w, 2 * w + 30, 2 * w, 2 * w, 2 * w - 10, 2 * w, w}, ALIKE);
+    }
+    /* nothing weighs anything; two weights at one node add up */
+    p.weight[0].weight = p.weight[1].weight = 0;
+    p.line.weight = 0;
+    expect_line(&p, 0, (double[ELEMENTS + 1]){0}, ALIKE);
+    p.weight[0] = (CpsPointWeight){8, 7};
+    p.weight[1] = (CpsPointWeight){8, 4};
+    expect_line(&p, (7 + 4) / 12.0, (double[]){0, 0, 0, 0, 11, 0, 0}, ALIKE);
+    /* inextensible sections */
+    make(&p);
+    for (int k = 0; k < SECTIONS; k++) p.section[k].stiffness = INFINITY;
+    expect_line(&p, (4 * 50 + 2 * 20 + 30 + 10) / 12.0, (double[]){50, 130, 70, 20, -10, 0, 0},
+                (double[ELEMENTS]){0});
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_sections_are_refused),
+                                       cmocka_unit_test(wrong_point_weights_are_refused),
+                                       cmocka_unit_test(each_node_carries_its_own)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
