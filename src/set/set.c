@@ -164,10 +164,25 @@ __attribute__((format(printf, 2, 3))) static void put(Text *text, const char *fo
     if (wrote > 0) text->length += (size_t)wrote;
 }
 
-/* numbers separated by blanks, at most eight of them */
+/* Of numbers, and of rows of them, this many are written; ".." stands for the others. */
+enum { MOST_WRITTEN = 8 };
+
+/* numbers separated by blanks */
 static void write_numbers(Text *text, size_t count, const double *numbers) {
-    for (size_t i = 0; i < count && i < 8; i++) put(text, "%s%.9g", i ? " " : "", numbers[i]);
-    if (count > 8) put(text, " ..");
+    for (size_t i = 0; i < count && i < MOST_WRITTEN; i++)
+        put(text, "%s%.9g", i ? " " : "", numbers[i]);
+    if (count > MOST_WRITTEN) put(text, " ..");
+}
+
+/* rows of n numbers separated by semicolons, each with its bound where there are bounds */
+static void write_rows(Text *text, size_t n, size_t count, const double *numbers,
+                       const double *bound) {
+    for (size_t k = 0; k < count && k < MOST_WRITTEN; k++) {
+        put(text, "%s", k ? "; " : "");
+        write_numbers(text, n, &numbers[k * n]);
+        if (bound) put(text, " <= %.9g", bound[k]);
+    }
+    if (count > MOST_WRITTEN) put(text, "; ..");
 }
 
 static void write_set(Text *text, const CpsSet *set) {
@@ -204,24 +219,14 @@ static void write_set(Text *text, const CpsSet *set) {
         write_numbers(text, n * n, set->b);
         break;
     case CPSI_SET_BOX:
-        for (size_t i = 0; i < n && i < 8; i++)
+        for (size_t i = 0; i < n && i < MOST_WRITTEN; i++)
             put(text, "%s%.9g .. %.9g", i ? ", " : "", set->a[i], set->b[i]);
+        if (n > MOST_WRITTEN) put(text, ", ..");
         break;
     case CPSI_SET_POINTS:
     case CPSI_SET_RAYS:
-    case CPSI_SET_SUBSPACE:
-        for (size_t k = 0; k < count && k < 8; k++) {
-            put(text, "%s", k ? "; " : "");
-            write_numbers(text, n, &set->a[k * n]);
-        }
-        break;
-    case CPSI_SET_INEQUALITIES:
-        for (size_t k = 0; k < count && k < 8; k++) {
-            put(text, "%s", k ? "; " : "");
-            write_numbers(text, n, &set->a[k * n]);
-            put(text, " <= %.9g", set->b[k]);
-        }
-        break;
+    case CPSI_SET_SUBSPACE: write_rows(text, n, count, set->a, NULL); break;
+    case CPSI_SET_INEQUALITIES: write_rows(text, n, count, set->a, set->b); break;
     case CPSI_SET_CONIC:
         put(text, "%zu; %d unknowns, %d cones", n, set->form->unknowns, set->form->cones);
         break;
