@@ -246,7 +246,8 @@ static void go_on(CpsEvolution *evolution, bool step) {
         for (int j = 0; j < 3 * (view.element_count + 1); ++j) sum += view.position[j];
         if (view.obstacle)
             for (int c = 0; c < view.contact_count * (view.element_count + 1); ++c)
-                must(view.obstacle[c] < of->obstacle_count && view.state[c] <= 2);
+                must(view.obstacle[c] < of->obstacle_count &&
+                     view.state[c] <= CPS_NODE_STATE_UNRESOLVED);
     }
     must(isfinite(sum) || isinf(sum));
     if (step && cps_evolution_remaining_count(evolution) > 0)
