@@ -438,8 +438,8 @@ CpsStatus cps_set_rays(const CpsSet *set, double tolerance, int capacity, double
     if (!set || !count || !answer || (!rays && capacity > 0) || capacity < 0)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "set, count, answer or rays is NULL, or capacity is negative");
-    if (!(tolerance >= 0))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected >= 0", tolerance);
+    if (!(tolerance >= 0) || tolerance > 0.5)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "tolerance is %g, expected 0 to 0.5", tolerance);
     const size_t n = (size_t)set->n;
     *count = 0;
     *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};

@@ -29,6 +29,16 @@ static void scenes(void **state) {
           err.message[0]);
     GIVES(cps_scene_read(THIS_FILE, &negative, &file, &err) != CPS_OK && file == NULL &&
           err.message[0]);
+    const CpsReadLimits sound = cps_read_limits_default();
+    for (i = 0; i < 5; ++i) {
+        CpsReadLimits limits = sound;
+        if (i == 0) limits.max_bytes = 0;
+        if (i == 1) limits.max_depth = 0;
+        if (i == 2) limits.max_elements = 0;
+        if (i == 3) limits.max_pairs = 0;
+        if (i == 4) limits.max_steps = 0;
+        REFUSED(cps_scene_read(THIS_FILE, &limits, &file, &err));
+    }
     RUNS(cps_scene_file_destroy(NULL));
     GIVES(cps_scene_file_scene(NULL) == NULL);
     REFUSED(cps_scene_write_schema(NULL, &err));
@@ -209,20 +219,19 @@ static void laws(void **state) {
     CpsLawFile *file = NULL;
     CpsComposition composition;
     int line;
-    const CpsLawPicture picture = {.cookie = cps_law_picture_default().cookie,
-                                   .title = "",
-                                   .axis = {0, 1}},
-                        axes = {.cookie = cps_law_picture_default().cookie,
-                                .title = "",
-                                .axis = {0, 7}},
-                        untitled = {.cookie = cps_law_picture_default().cookie, .axis = {0, 1}},
-                        missing = {.cookie = cps_law_picture_default().cookie,
-                                   .title = "",
-                                   .axis = {0, 1},
-                                   .velocity_count = 2,
-                                   .force_count = 2};
+    enum { AXES = 5 };
+    static const int AXIS[AXES][2] = {{0, 7}, {7, 0}, {-1, 0}, {0, -1}, {1, 1}};
+    CpsLawPicture axes = cps_law_picture_default();
+    CpsLawPicture picture = axes, missing = axes, forces = axes;
+    const CpsLawPicture untitled = axes;
+    picture.title = missing.title = "";
+    missing.velocity_count = missing.force_count = forces.force_count = 2;
     CpsSet *disc = NULL;
+    CpsLaw *law = NULL;
+    CpsResistance *resistance = NULL;
     SOUND(cps_set_ball(2, NULL, 1, &disc, &err));
+    SOUND(cps_law_friction(disc, &law, &err));
+    SOUND(cps_resistance_dry(law, &resistance, &err));
     FILE *out = tmpfile();
     assert_non_null(out);
     REFUSED(cps_law_read(NULL, NULL, &file, &err));
@@ -238,10 +247,23 @@ static void laws(void **state) {
     REFUSED(cps_law_draw(NULL, &picture, out, &err));
     REFUSED(cps_law_draw(disc, NULL, out, &err));
     REFUSED(cps_law_draw(disc, &picture, NULL, &err));
-    REFUSED(cps_law_draw(disc, &axes, out, &err));
+    REFUSED(cps_resistance_draw(NULL, &picture, out, &err));
+    REFUSED(cps_resistance_draw(resistance, NULL, out, &err));
+    REFUSED(cps_resistance_draw(resistance, &picture, NULL, &err));
+    for (i = 0; i < AXES; ++i) {
+        memcpy(axes.axis, AXIS[i], sizeof axes.axis);
+        REFUSED(cps_law_draw(disc, &axes, out, &err));
+        REFUSED(cps_resistance_draw(resistance, &axes, out, &err));
+    }
     REFUSED(cps_law_draw(disc, &missing, out, &err));
+    REFUSED(cps_law_draw(disc, &forces, out, &err));
+    REFUSED(cps_resistance_draw(resistance, &missing, out, &err));
+    REFUSED(cps_resistance_draw(resistance, &forces, out, &err));
     GIVES(cps_law_draw(disc, &untitled, out, &err) == CPS_OK || err.message[0]);
+    GIVES(cps_resistance_draw(resistance, &untitled, out, &err) == CPS_OK || err.message[0]);
     fclose(out);
+    cps_resistance_release(resistance);
+    cps_law_release(law);
     cps_set_release(disc);
 }
 
