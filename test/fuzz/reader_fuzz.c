@@ -254,7 +254,8 @@ static void go_on(CpsEvolution *evolution, bool step) {
         (void)cps_evolution_step(evolution, NULL);
 }
 
-enum { STATE_HEAD = 24 }; /* magic, size and fingerprint, which are compared */
+/* magic, size, fingerprint and the hashes of the history and its past, which are compared */
+enum { STATE_HEAD = 40 };
 
 static void read_state(const uint8_t *data, size_t size) {
     static CpsEvolution *saved, *loaded;

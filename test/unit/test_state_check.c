@@ -33,7 +33,8 @@ static const char SCENE[] =
     "history: [{name: a, steps: 5, made.B: {force: [1, 0.5, 0]}, turn.B: {force: [3, 1.5, 0]},"
     " sag.B: {position: [2.1, -5, 1]}}]\n";
 
-enum { HEAD = 24 /* magic, size, fingerprint: compared before anything is read */, STEPS = 4 };
+/* magic, size, fingerprint and the hashes of the history and of its past, which are compared */
+enum { HEAD = 40, STEPS = 4 };
 
 typedef struct Saved {
     CpsEvolution *evolution, *other; /* at STEPS, which is never changed, and the one that loads */
@@ -123,6 +124,7 @@ static const char *const REASON[] = {
     "it stands at a step that the history does not have",
     "its report is none of a step",
     "an end comes from nowhere",
+    "its gravity is not finite",
     "an end is neither held nor free, or at no place",
     "the report of a line is none",
     "a contact is with an obstacle that there is not, or in no state",
@@ -217,6 +219,10 @@ static void what_is_no_state_is_refused(void **state) {
     memcpy(s->changed, s->good, s->size);
     s->changed[8]++; /* the size that the state itself names */
     CHECK_INT(cps_evolution_load(s->other, s->changed, s->size, &err), CPS_ERR_ARGUMENT);
+    memcpy(s->changed, s->good, s->size);
+    s->changed[HEAD - 1] ^= 1; /* the stages that it has taken */
+    CHECK_INT(cps_evolution_load(s->other, s->changed, s->size, &err), CPS_ERR_ARGUMENT);
+    assert_non_null(strstr(err.message, "other stages"));
     cps_evolution_save(s->other, s->now);
     assert_memory_equal(s->now, s->kept, s->size);
 }
