@@ -61,12 +61,13 @@ static void print_end(char letter, const CpsEnd *end) {
         printf("  end %c: held at (%g, %g, %g) m\n", letter, v[0], v[1], v[2]);
 }
 
-static void print_make(double weight, double stiffness) {
+static void print_make(double weight, double stiffness, bool breaks, double breaking_load) {
     printf("weight %g N/m, ", weight);
     if (isinf(stiffness))
         printf("inextensible");
     else
         printf("stiffness %g N", stiffness);
+    if (breaks) printf(", breaks at %g N", breaking_load);
 }
 
 static void print_line(const CpsLine *line) {
@@ -75,7 +76,7 @@ static void print_line(const CpsLine *line) {
     printf("line %s: %g m, %d %selement%s, ", line->name, line->length, line->element_count,
            line->element_length ? "graded " : "", line->element_count == 1 ? "" : "s");
     if (line->section_count == 0) {
-        print_make(line->weight, line->stiffness);
+        print_make(line->weight, line->stiffness, line->has_breaking_load, line->breaking_load);
         printf(", ");
     }
     printf("start %s\n", START[line->start.kind]);
@@ -85,7 +86,8 @@ static void print_line(const CpsLine *line) {
         printf("  ");
         cli_print_text(stdout, section->type, INT_MAX, false);
         printf(" from %g m to %g m: ", from, from + section->length);
-        print_make(section->weight, section->stiffness);
+        print_make(section->weight, section->stiffness, section->has_breaking_load,
+                   section->breaking_load);
         putchar('\n');
     }
     for (int k = 0; k < line->point_weight_count; k++)

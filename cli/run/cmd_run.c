@@ -195,6 +195,35 @@ static CpsResultsOptions wanted_results(const CliOptions *options) {
     return wanted;
 }
 
+/* The largest utilisation of all lines and steps. */
+typedef struct Utilisation {
+    bool known;
+    double value, arc_length;
+    char step[96], line[96];
+} Utilisation;
+
+static void note_utilisation(Utilisation *most, const CpsEvolution *evolution) {
+    const char *step = cps_evolution_report(evolution).name;
+    for (int i = 0; i < cps_evolution_line_count(evolution); i++) {
+        const CpsLineReport line = cps_evolution_line_report(evolution, i);
+        if (!line.has_utilisation || (most->known && !(line.utilisation > most->value))) continue;
+        *most = (Utilisation){.known = true,
+                              .value = line.utilisation,
+                              .arc_length = line.utilisation_arc_length};
+        snprintf(most->step, sizeof most->step, "%s", step);
+        snprintf(most->line, sizeof most->line, "%s", cps_evolution_line_view(evolution, i).name);
+    }
+}
+
+static void print_utilisation(const Utilisation *most) {
+    if (!most->known) return;
+    printf("\nutilisation  %.3g of the breaking load at most: step ", most->value);
+    cli_print_text(stdout, most->step, 80, false);
+    fputs(", line ", stdout);
+    cli_print_text(stdout, most->line, 80, false);
+    printf(", at %.6g m\n", most->arc_length);
+}
+
 /* A run: its scene, its results and its output. */
 typedef struct Run {
     const CpsScene *scene;
@@ -203,6 +232,7 @@ typedef struct Run {
     CpsJournal *journal;
     Progress progress;
     Warnings warnings;
+    Utilisation most;
     FILE *table, *verdicts;
     CpsOutcome worst;
     bool refused; /* a step could not begin; the steps before it are kept */
@@ -215,6 +245,7 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     const CpsStepReport report = cps_evolution_report(run->evolution);
     progress_step(&run->progress, report.step_count, report.name);
     warnings_note_step(&run->warnings, run->scene, run->evolution);
+    note_utilisation(&run->most, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
     if (cli_is_shown(run->scene, steps, report.step_count - 1) ||
         report.outcome != CPS_OUTCOME_SOLVED || cli_interrupted())
@@ -337,6 +368,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     if (whole && !status && !options->json && !options->quiet) {
         fwrite(text, 1, size, stdout);
         if (length > 0) printf("\n%s", said);
+        print_utilisation(&run.most);
         print_where(directory, run.evolution, !options->no_paraview);
     }
     const int code = status              ? cli_report(&err)

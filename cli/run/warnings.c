@@ -133,6 +133,9 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
         if (scene->friction_policy == CPS_FRICTION_POLICY_FROZEN &&
             residual > WARN_BOUND * bounds && bounds > 0)
             note(warnings, WARNING_BOUND, residual, bounds, step, view.name);
+        if (line.has_utilisation && line.utilisation > 1)
+            note(warnings, WARNING_BROKEN, line.utilisation, line.utilisation_arc_length, step,
+                 view.name);
         const CpsBend *bend = &line.bend;
         if (bend->turn > 0 && bend->ratio > (1 + WARN_BEND) * bend->coulomb) {
             if (bend->ratio / bend->coulomb > warnings->kind[WARNING_BEND].value) {
@@ -183,6 +186,8 @@ static void print_figures(int kind, double value, double of) {
                 "obstacle, and an equilibrium without it is no solution of this step; "
                 "'friction_policy: consistent' has none there",
                 value, of);
+    else if (kind == WARNING_BROKEN)
+        fprintf(stderr, "the tension is %.3g times the breaking load, at %.6g m", value, of);
     else if (kind == WARNING_SLACK)
         fprintf(stderr,
                 "slack over %.4g m of %.4g m: where a line has no tension its place and what "

@@ -2,7 +2,8 @@
 /* Warnings about a step even if it is solved and certified: with frozen friction or contact of the
  * reference the effects of S90 annex 6; where most of a line is slack; where the forces do not
  * determine the positions; energy created or released; coordinates with too few digits; meshes too
- * coarse for the bends. And, whatever the outcome, where a line penetrates an obstacle. */
+ * coarse for the bends; tensions above a breaking load. And, whatever the outcome, where a line
+ * penetrates an obstacle. */
 #ifndef CAPSTAN_CLI_RUN_WARNINGS_H
 #define CAPSTAN_CLI_RUN_WARNINGS_H
 
@@ -20,6 +21,7 @@ enum {
     WARNING_ROUNDED,
     WARNING_PIERCED,
     WARNING_BEND,
+    WARNING_BROKEN,
     WARNINGS
 };
 

@@ -115,6 +115,8 @@ typedef struct CpsSection {
     double length;    /* [m] natural length > 0 */
     double weight;    /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
     double stiffness; /* [N] EA > 0, INFINITY: inextensible; finite in all sections or in none */
+    bool has_breaking_load; /* default false */
+    double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
 } CpsSection;
 
 /* A clump or a buoy at a node of a line. */
@@ -130,11 +132,13 @@ typedef struct CpsLine {
     double length;                /* [m] natural length > 0 */
     int element_count;            /* >= 1 */
     const double *element_length; /* (element_count) [m], their sum is `length`; NULL: all equal */
-    double weight;    /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
-    double stiffness; /* [N] EA > 0; INFINITY: inextensible */
+    double weight;          /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double stiffness;       /* [N] EA > 0; INFINITY: inextensible */
+    bool has_breaking_load; /* default false */
+    double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
     /* (section_count) from A to B, each ending at a node; their lengths make up `length`. NULL, the
-     * default: the line is of one make, with the weight and stiffness above, which are not read
-     * otherwise. */
+     * default: the line is of one make, with the weight, stiffness and breaking load above, which
+     * are not read otherwise. */
     int section_count;
     const CpsSection *section;
     int point_weight_count;             /* >= 0, default 0 */

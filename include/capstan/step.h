@@ -45,7 +45,7 @@ CPS_API const char *cps_outcome_name(CpsOutcome outcome);
 CPS_API const char *cps_outcome_text(CpsOutcome outcome);
 /* Whether the answer of a step with this outcome is certified. */
 CPS_API bool cps_outcome_is_certified(CpsOutcome outcome);
-/* Whether there is no equilibrium, with a proof in the report. Nothing can follow such a step. */
+/* Whether there is no equilibrium, with a proof in the report. It is the last step of a history. */
 CPS_API bool cps_outcome_is_final(CpsOutcome outcome);
 /* The worse of two outcomes, in the order from solved to infeasible. */
 CPS_API CpsOutcome cps_outcome_worse(CpsOutcome a, CpsOutcome b);
@@ -63,15 +63,13 @@ typedef struct CpsCertificate {
     double largest_force;    /* [N] largest force in the line or on it */
     double law_residual;     /* [J] sum of phi(u) + <u, F> over the contacts */
     double contact_residual; /* [J] sum of R (n.u + gap) over the contacts */
-    /* [N] sum of |A - mu R| with the bounds A used and the reactions R found: the error of a frozen
-     * bound; rounding alone with consistent friction */
+    /* [N] sum of |A - mu R|: the error of frozen bounds A; with consistent friction rounding */
     double friction_residual;
     double element_push;        /* [N] largest compressive part of an element's force */
     double elongation_residual; /* [-] largest |x'| - (1 + c |p|) of an elastic element */
     double stretch_residual;    /* [-] largest |x'| - 1 of an inextensible element */
     double penetration;         /* [m] depth of the deepest node below its obstacle, >= 0 */
-    /* [m] depth of the deepest element inside a round obstacle, beyond min(l^2/(4 R), R/4) for the
-     * natural length l of the element and the radius R; >= 0 */
+    /* [m] >= 0, depth of an element of length l in a round obstacle beyond min(l^2/(4 R), R/4) */
     double element_penetration;
     bool has_tension_bound; /* not inextensible, nor a bound above the tension; else it is 0 */
 } CpsCertificate;
@@ -140,8 +138,7 @@ typedef struct CpsEndReport {
 /* The contact at which the mesh changes the law of friction most. A node on a cylinder or sphere,
  * at which the line turns by the angle d, holds tensions up to the ratio k = (1 + mu tan(d/2))/(1 -
  * mu tan(d/2)), where a smooth line holds exp(mu d). From mu tan(d/2) = 0.9 on, the step is not
- * certified (mesh_too_coarse). All members are 0 where the line turns round nothing with
- * friction. */
+ * certified (mesh_too_coarse). All are 0 where the line turns round nothing with friction. */
 typedef struct CpsBend {
     double turn;       /* [rad] d, towards the obstacle */
     double friction;   /* [-] mu along the line, the larger of both directions of slip */
@@ -186,9 +183,12 @@ typedef struct CpsLineReport {
     double slack;        /* [m] natural length without tension */
     bool has_slipping, has_tension_mesh; /* slipping, tension_mesh is known; otherwise it is 0 */
     double tension_mesh;                 /* [N] estimated error of the tension due to the mesh */
-    bool has_pierced_obstacle;           /* pierced_obstacle is known */
-    int pierced_obstacle;                /* obstacle of the certificate's element_penetration */
-    CpsBend bend;                        /* the sharpest of the substeps */
+    bool has_utilisation; /* of a line with a breaking load; otherwise the next two are 0 */
+    double utilisation;   /* [-] largest tension over it, of elements and ends */
+    double utilisation_arc_length; /* [m] where that is */
+    bool has_pierced_obstacle;     /* pierced_obstacle is known */
+    int pierced_obstacle;          /* obstacle of the certificate's element_penetration */
+    CpsBend bend;                  /* the sharpest of the substeps */
     /* The proof that there is no equilibrium, else 0 0 0. Infeasible: unit vector in which the
      * shortest path to end B leaves end A; where it is straight, a constant force along it is the
      * proof. Unbounded: the rigid direction in which the energy falls. Slides: the velocity of the
@@ -209,8 +209,7 @@ typedef struct CpsLineReport {
 
 /* The report on one step of all lines. */
 typedef struct CpsStepReport {
-    /* "static", the name of a stage, or "name k/n" within a stage of n steps; owned by the
-     * evolution, valid until its next step */
+    /* "static", that of a stage or move, or "name k/n" in a stage of n steps; until the next one */
     const char *name;
     int step_count;      /* steps taken so far, this one included; 0 before the first one */
     CpsOutcome outcome;  /* the worst of the lines */
@@ -231,23 +230,24 @@ typedef struct CpsStepReport {
 /* The index of an obstacle where there is none. */
 enum { CPS_NO_OBSTACLE = -1 };
 
-/* All arrays of one line after a step, or after its last substep. They belong to the evolution and
- * are valid until its next step. n = element_count + 1 nodes; forces act on the line. Arrays (n,
- * 3) are stored node after node. A node has contact with up to `contact_count` obstacles at once;
- * in an array over contacts entry j is the first contact of node j, with its nearest obstacle, and
- * entry n + j its second. */
+/* All arrays of one line after a step or its last substep, until the evolution's next step. n =
+ * element_count + 1 nodes; forces act on the line. Arrays (n, 3) are stored node after node. A node
+ * has contact with up to `contact_count` obstacles at once; in an array over contacts entry j is
+ * the first contact of node j, with its nearest obstacle, and entry n + j its second. */
 typedef struct CpsLineView {
     const char *name;
     int element_count;
     int contact_count; /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    bool one_plane;    /* all contacts are with one plane with isotropic friction, or there is no
-                          obstacle: regularized.h and the solutions of a step need this */
+    bool one_plane;    /* contacts are with one plane with isotropic friction only, or with none:
+                          regularized.h and the solutions of a step need this */
     const double *arc_length;     /* (n) [m] natural arc length of the nodes from end A */
     const double *element_length; /* (element_count) [m] */
     double compliance;            /* [1/N] 1/EA, of sections the mean; 0 of an inextensible line */
     bool uniform;                 /* without sections and point weights */
     const double *compliance_factor; /* (element_count) [-] of `compliance`; 1 where uniform */
     const double *weight_length; /* (n) [m] weight at a node over the mean one; 0 where uniform */
+    bool has_breaking_load;      /* of some element at least */
+    const double *breaking_load; /* (element_count) [N] INFINITY of elements without one */
     CpsEnd end[2];               /* what was imposed in this step */
     const double *reference;     /* (n, 3) [m] x_R, where the step or its last substep began */
     const double *position;      /* (n, 3) [m] */

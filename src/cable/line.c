@@ -19,6 +19,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->compliance_factor, n);
         CPSI_PLACE(arena, line->weight_length, n);
     }
+    if (line->has_breaking_load) CPSI_PLACE(arena, line->breaking_load, n);
     CPSI_PLACE(arena, line->friction_law, contacts);
     CPSI_PLACE(arena, line->friction_bound, contacts);
     CPSI_PLACE(arena, line->friction_force, 3 * contacts);

@@ -53,6 +53,7 @@ typedef struct CpsiLine {
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
     bool has_zones;     /* friction differs along the line */
     bool has_sections;  /* weight and compliance may, and there may be point masses */
+    bool has_breaking_load; /* an element has one */
     bool has_local_axes;    /* each contact has its own axes at its position: not on a single plane
                                with isotropic friction */
     int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
@@ -65,6 +66,7 @@ typedef struct CpsiLine {
     /* of a line of sections or with point masses, else NULL */
     double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
     double *compliance_factor; /* (n - 1) compliance of element e over `compliance` */
+    double *breaking_load;     /* (n - 1) [N] INFINITY where there is none; NULL: none anywhere */
     double *weight_length; /* (n) [m] natural length of `weight` that the node carries, with that
                               of its point masses; negative where a buoy lifts it */
     CpsEnd end_before[2];  /* imposed at the beginning of the substep */

@@ -147,6 +147,27 @@ void cpsi_line_report_ends(CpsiLine *line) {
     }
 }
 
+/* Keep the larger utilisation, by a tension at an arc length. */
+static void use(CpsLineReport *report, double tension, double breaking_load, double arc_length) {
+    const double utilisation = tension / breaking_load;
+    if (!(utilisation > report->utilisation)) return;
+    report->utilisation = utilisation;
+    report->utilisation_arc_length = arc_length;
+}
+
+void cpsi_line_report_utilisation(CpsiLine *line) {
+    CpsLineReport *report = &line->report;
+    report->has_utilisation = line->has_breaking_load;
+    report->utilisation = report->utilisation_arc_length = 0;
+    if (!line->has_breaking_load) return;
+    const int last = line->n - 2;
+    for (int e = 0; e <= last; e++)
+        use(report, line->tension[e], line->breaking_load[e],
+            0.5 * (line->arc_length[e] + line->arc_length[e + 1]));
+    use(report, report->end[CPS_END_A].tension, line->breaking_load[0], 0);
+    use(report, report->end[CPS_END_B].tension, line->breaking_load[last], line->length);
+}
+
 /* Does node j touch obstacle k? If so, *density is its reaction per length. */
 static bool touches(const CpsiLine *line, int j, const CpsiObstacle *k, double *density) {
     if (j < 0 || j >= line->n) return false;

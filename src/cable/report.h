@@ -15,6 +15,10 @@ void cpsi_line_report_ends(CpsiLine *line);
 /* Lengths that lie on an obstacle and that slid there, the ends having been reported. */
 void cpsi_line_report_lengths(CpsiLine *line);
 
+/* The largest tension over the breaking load, where the line has one, the ends having been
+ * reported. */
+void cpsi_line_report_utilisation(CpsiLine *line);
+
 /* [m] The slip of an end on obstacle k in this step: the path of the node, less that of an obstacle
  * that turns. */
 Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k);

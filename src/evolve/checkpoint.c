@@ -55,7 +55,7 @@ _Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 6 * 8 &&
                "add the new field to pass_energies or pass_end_report, then its size here");
 _Static_assert(sizeof(CpsEndReport) == 11 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
                "add the new field to pass_end_report or pass_bend, then its size here");
-_Static_assert(sizeof(CpsLineReport) == 21 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
+_Static_assert(sizeof(CpsLineReport) == 24 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
                                             2 * sizeof(CpsEndReport) + sizeof(CpsBend),
                "add the new field to pass_line_report, then its size here");
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
@@ -117,6 +117,9 @@ static void pass_line_report(Tape *tape, CpsLineReport *report) {
     pass_flag(tape, &report->has_slipping);
     pass_flag(tape, &report->has_tension_mesh);
     PASS(tape, report->tension_mesh);
+    pass_flag(tape, &report->has_utilisation);
+    PASS(tape, report->utilisation);
+    PASS(tape, report->utilisation_arc_length);
     pass_flag(tape, &report->has_pierced_obstacle);
     PASS(tape, report->pierced_obstacle);
     pass_bend(tape, &report->bend);
@@ -214,6 +217,7 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, (size_t)line->n - 1, line->weight_factor);
         hash_numbers(hash, (size_t)line->n - 1, line->compliance_factor);
     }
+    if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
     for (int end = 0; end < 2; end++) {
         hash_bytes(hash, &line->end[end].kind, sizeof line->end[end].kind);
         hash_numbers(hash, 3, line->end[end].value);

@@ -13,6 +13,7 @@
 
 #include "base/larger.h"
 #include "base/status.h"
+#include "cable/report.h"
 #include "cable/tension_field.h"
 #include "evolve/checkpoint.h"
 #include "evolve/ledger.h"
@@ -58,6 +59,7 @@ static void step_line(void *data, int workspace_index, int i) {
                            &workspace->scratch, evolution->done + evolution->move_count > 0);
     }
     if (evolution->part == 0) find_range(line, &options);
+    cpsi_line_report_utilisation(line);
 }
 
 /* Add a line's report to the step's. */

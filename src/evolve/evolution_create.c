@@ -92,6 +92,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->element_contacts = size.element_contacts;
         line->has_zones = scene->line[i].zone_count > 0;
         line->has_sections = cpsi_has_sections(&scene->line[i]);
+        line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
         line->compliance = cpsi_mean_compliance(&scene->line[i]);
         cpsi_line_layout(line, arena);
         if (line->n > size.nodes) size.nodes = line->n;
@@ -161,7 +162,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
             def->element_length ? def->element_length[e] : def->length / def->element_count;
     cpsi_line_set_arc_length(line);
     fill_friction_factor(line, def);
-    if (line->has_sections) cpsi_sections_fill(line, def);
+    if (line->has_sections || line->has_breaking_load) cpsi_sections_fill(line, def);
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->obstacle_index[c] = -1;
     cpsi_start_place(def, line->position);

@@ -19,6 +19,12 @@ bool cpsi_is_elastic(const CpsLine *def) {
     return isfinite(def->section_count > 0 ? def->section[0].stiffness : def->stiffness);
 }
 
+bool cpsi_has_breaking_load(const CpsLine *def) {
+    bool found = def->section_count == 0 && def->has_breaking_load;
+    for (int k = 0; k < def->section_count; k++) found = found || def->section[k].has_breaking_load;
+    return found;
+}
+
 static double compliance_of(double stiffness) { return isinf(stiffness) ? 0 : 1 / stiffness; }
 
 double cpsi_mean_compliance(const CpsLine *def) {
@@ -91,6 +97,11 @@ static CpsStatus check_section(const CpsLine *def, int k, CpsError *err) {
                  "has the stiffness %g N, expected a positive number, or "
                  "infinity where all sections are inextensible",
                  section->stiffness);
+        return fail(err, "sections", k, def, found);
+    }
+    if (section->has_breaking_load && !cpsi_is_positive(section->breaking_load)) {
+        snprintf(found, sizeof found, "has the breaking load %g N, expected a positive number",
+                 section->breaking_load);
         return fail(err, "sections", k, def, found);
     }
     if (isfinite(section->stiffness) != cpsi_is_elastic(def))
@@ -166,6 +177,12 @@ CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsErro
                  def->stiffness);
         return fail(err, "stiffness", -1, def, found);
     }
+    if (def->section_count == 0 && def->has_breaking_load &&
+        !cpsi_is_positive(def->breaking_load)) {
+        snprintf(found, sizeof found, "is %g N, expected a positive finite number",
+                 def->breaking_load);
+        return fail(err, "breaking_load", -1, def, found);
+    }
     CpsStatus status = check_sections(def, err);
     if (status == CPS_OK) status = check_point_weights(def, err);
     if (status != CPS_OK) return status;
@@ -180,19 +197,38 @@ CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsErro
 
 /* ---- fill ---- */
 
-void cpsi_sections_fill(CpsiLine *line, const CpsLine *def) {
-    const double weight = cpsi_mean_weight(def);
+/* What a section has, or a line of one make. */
+typedef struct Make {
+    double weight, compliance, breaking_load;
+} Make;
+
+static Make make_of(const CpsLine *def, int section) {
+    if (def->section_count == 0)
+        return (Make){def->weight, compliance_of(def->stiffness),
+                      def->has_breaking_load ? def->breaking_load : INFINITY};
+    const CpsSection *of = &def->section[section];
+    return (Make){of->weight, compliance_of(of->stiffness),
+                  of->has_breaking_load ? of->breaking_load : INFINITY};
+}
+
+static void fill_elements(CpsiLine *line, const CpsLine *def, double weight) {
     double end = def->section_count > 0 ? def->section[0].length : INFINITY;
     for (int e = 0, k = 0; e + 1 < line->n; e++) {
         const double middle = line->arc_length[e] + 0.5 * line->element_length[e];
         while (middle > end && k + 1 < def->section_count) end += def->section[++k].length;
-        const double own = def->section_count > 0 ? def->section[k].weight : def->weight;
-        line->weight_factor[e] = weight > 0 ? own / weight : 1;
+        const Make make = make_of(def, k);
+        if (line->has_breaking_load) line->breaking_load[e] = make.breaking_load;
+        if (!line->has_sections) continue;
+        line->weight_factor[e] = weight > 0 ? make.weight / weight : 1;
         line->compliance_factor[e] =
-            def->section_count > 0 && line->compliance > 0
-                ? compliance_of(def->section[k].stiffness) / line->compliance
-                : 1;
+            def->section_count > 0 && line->compliance > 0 ? make.compliance / line->compliance : 1;
     }
+}
+
+void cpsi_sections_fill(CpsiLine *line, const CpsLine *def) {
+    const double weight = cpsi_mean_weight(def);
+    fill_elements(line, def, weight);
+    if (!line->has_sections) return;
     for (int j = 0; j < line->n; j++) {
         double sum = 0;
         if (j > 0) sum += 0.5 * line->element_length[j - 1] * line->weight_factor[j - 1];

@@ -2,9 +2,12 @@
 /* The views of the lines of an evolution (view.h). */
 #include "evolve/view.h"
 
+#include <math.h>
+
 void cpsi_view_layout(CpsiViewFill *fill, CpsiArena *arena, int n) {
     CPSI_PLACE(arena, fill->zero, 3 * n);
     CPSI_PLACE(arena, fill->one, n);
+    CPSI_PLACE(arena, fill->infinite, n);
     CPSI_PLACE(arena, fill->first, n);
     CPSI_PLACE(arena, fill->none, n);
     CPSI_PLACE(arena, fill->state, n);
@@ -13,6 +16,7 @@ void cpsi_view_layout(CpsiViewFill *fill, CpsiArena *arena, int n) {
 void cpsi_view_fill(CpsiViewFill *fill, int n) {
     for (int j = 0; j < n; j++) {
         fill->one[j] = 1;
+        fill->infinite[j] = INFINITY;
         fill->none[j] = -1;
         fill->state[j] = CPS_NODE_STATE_FREE;
     }
@@ -65,6 +69,8 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .compliance_factor = from->has_sections ? from->compliance_factor : fill->one,
         .uniform = !from->has_sections,
         .weight_length = from->has_sections ? from->weight_length : fill->zero,
+        .has_breaking_load = from->has_breaking_load,
+        .breaking_load = from->has_breaking_load ? from->breaking_load : fill->infinite,
         .end = {from->end[0], from->end[1]},
         .reference = from->reference,
         .position = from->position,

@@ -75,7 +75,9 @@ static void build(Case *c, int each, CpsSection *section, CpsPointWeight *point,
     case_begin(c, total, each * PIECES, 0, 1);
     for (int k = 0; k < PIECES; k++) {
         const Piece *piece = &LINE[PIECES - 1 - k];
-        section[k] = (CpsSection){NULL, piece->length, piece->weight, piece->stiffness};
+        section[k] = (CpsSection){.length = piece->length,
+                                  .weight = piece->weight,
+                                  .stiffness = piece->stiffness};
         if (k > 0) point[k - 1] = (CpsPointWeight){arc, piece->below};
         arc += piece->length;
         for (int i = 0; i < each; i++) length[k * each + i] = piece->length / each;
@@ -132,9 +134,10 @@ static CpsLineView last_step(Case *c, Run *run, double *position, double *tensio
 static void pulled(bool in_sections, double stiffness, double *position, double *tension) {
     enum { N = 60 };
     static Case c;
-    const CpsSection section[3] = {{"a", 20, 50, stiffness},
-                                   {"b", 35, 50, stiffness},
-                                   {"c", 5, 50, stiffness}};
+    const CpsSection section[3] = {
+        {.type = "a", .length = 20, .weight = 50, .stiffness = stiffness},
+        {.type = "b", .length = 35, .weight = 50, .stiffness = stiffness},
+        {.type = "c", .length = 5, .weight = 50, .stiffness = stiffness}};
     const CpsPointWeight point[2] = {{30, 0}, {31, -0.0}};
     Run run;
     case_begin(&c, 60, N, in_sections ? 7 : 50, in_sections ? 3 : stiffness);
@@ -167,7 +170,8 @@ static void sections_alike(void **state) {
 static void bed_bears_the_rest(void **state) {
     (void)state;
     static Case c;
-    const CpsSection section[2] = {{NULL, 30, 20, 1e6}, {NULL, 30, 90, 3e6}};
+    const CpsSection section[2] = {{.length = 30, .weight = 20, .stiffness = 1e6},
+                                   {.length = 30, .weight = 90, .stiffness = 3e6}};
     const CpsPointWeight point[4] = {{10, 700}, {40, -1200}, {40, 100}, {50, 0}};
     Run run;
     case_begin(&c, 60, 120, 0, 1);
@@ -221,12 +225,57 @@ static void gravity_changes(void **state) {
     CHECK_LESS(imbalance[1], 0.3 * imbalance[0] + 1e-12);
 }
 
+/* The largest tension over the breaking load: of a hanging line of four sections, first by its
+ * weakest section, then by the force at its upper end, half an element's weight above the force in
+ * its last element. */
+static void utilisation_is_of_the_weakest(void **state) {
+    (void)state;
+    static const double WEAK[2][PIECES] = {{0, 3e4, 0, 0}, {9e4, 0, 0, 7e4}};
+    for (int k = 0; k < 2; k++) {
+        static Case c;
+        static double length[PIECES * 16];
+        CpsSection section[PIECES];
+        CpsPointWeight point[PIECES];
+        build(&c, 16, section, point, length);
+        for (int i = 0; i < PIECES; i++) {
+            section[i].has_breaking_load = WEAK[k][i] > 0;
+            section[i].breaking_load = WEAK[k][i];
+        }
+        case_laid(&c, 95, 30);
+        Run run = case_open(&c);
+        (void)case_step(&run);
+        const CpsLineReport report = cps_evolution_line_report(run.evolution, 0);
+        const CpsLineView view = cps_evolution_line_view(run.evolution, 0);
+        double most = 0, at = 0, arc = 0;
+        for (int e = 0; e < PIECES * 16; e++) {
+            const double load = WEAK[k][e / 16], l = view.element_length[e];
+            const double *p = &view.segment_force[3 * e];
+            const double own = load > 0 ? sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / load : 0;
+            CHECK_NEAR(view.breaking_load[e], load > 0 ? load : INFINITY, 0);
+            if (own > most) at = arc + l / 2;
+            most = fmax(most, own);
+            arc += l;
+        }
+        const double end[2] = {k ? report.end[0].tension / 9e4 : 0,
+                               k ? report.end[1].tension / 7e4 : 0};
+        if (fmax(end[0], end[1]) > most) at = end[1] > end[0] ? arc : 0;
+        most = fmax(most, fmax(end[0], end[1]));
+        assert_true(report.has_utilisation && view.has_breaking_load && most > 0);
+        printf("utilisation %.6f at %.3f m of %.3f m\n", report.utilisation,
+               report.utilisation_arc_length, arc);
+        CHECK_RELATIVE(report.utilisation, most, 1e-9);
+        CHECK_NEAR(report.utilisation_arc_length, at, 1e-9 * arc);
+        case_close(&run);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(catenary_of_sections),
         cmocka_unit_test(sections_alike),
         cmocka_unit_test(bed_bears_the_rest),
         cmocka_unit_test(gravity_changes),
+        cmocka_unit_test(utilisation_is_of_the_weakest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

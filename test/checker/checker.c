@@ -219,6 +219,31 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
     }
 }
 
+/* How near to its breaking load the line is, whatever the outcome: at an element's middle by the
+ * force in it, at an end by the force there. */
+static void judge_utilisation(Judge *judge, const Record *r) {
+    if (!r->breaking_load) return;
+    const size_t last = r->elements - 1;
+    double most = 0, arc = 0, there = 0;
+    for (size_t i = 0; i <= last; i++) {
+        const double own = r->tension[i] / r->breaking_load[i], l = r->element_length[i];
+        most = fmax(most, own);
+        if (fabs(arc + l / 2 - r->utilisation_at) <= 1e-9 * l) there = fmax(there, own);
+        arc += l;
+    }
+    const double at_end[2] = {r->end_tension[0] / r->breaking_load[0],
+                              r->end_tension[1] / r->breaking_load[last]};
+    for (int e = 0; e < 2; e++) {
+        most = fmax(most, at_end[e]);
+        if (fabs(r->utilisation_at - (e ? arc : 0)) <= 1e-9 * arc) there = fmax(there, at_end[e]);
+    }
+    if (!(fabs(r->utilisation - most) <= 1e-12 * most))
+        find(judge, "utilisation is %.9g, recomputed %.9g", r->utilisation, most);
+    else if (!(there >= (1 - 1e-12) * most))
+        find(judge, "utilisation at %.9g m is %.9g, not the largest, %.9g", r->utilisation_at,
+             there, most);
+}
+
 /* a solved step: admissible configuration, admissible forces, balance, gap */
 static void judge_solved(Judge *judge, const Source *source, const Record *r, const Measures *m,
                          bool laid) {
@@ -397,6 +422,7 @@ static void judge_record(const Source *source, const Record *r, const char *line
             find(&judge, "proof_length of a line that is not infeasible");
         if (r->proof_force != 0 && r->outcome != OUTCOME_UNBOUNDED && r->outcome != OUTCOME_SLIDES)
             find(&judge, "proof_force of a line that is neither unbounded nor slides");
+        judge_utilisation(&judge, r);
         switch (r->outcome) {
         case OUTCOME_SOLVED:
         case OUTCOME_COARSE: // solved as well, but for the mesh

@@ -208,6 +208,27 @@ static void compare_sections(Compare *compare, const CpsLine *line, const Record
         compare_weights(compare, line, r);
 }
 
+static void compare_breaking_load(Compare *compare, const CpsLine *line, const Record *r) {
+    double arc = 0;
+    bool any = line->section_count == 0 && line->has_breaking_load;
+    for (int k = 0; k < line->section_count; k++) any = any || line->section[k].has_breaking_load;
+    if (any != (r->breaking_load != NULL)) {
+        find(compare, "breaking_load of %s", line->name);
+        return;
+    }
+    if (!any) return;
+    for (size_t i = 0; i < r->elements; i++) {
+        const CpsSection *section = section_at(line, arc + r->element_length[i] / 2);
+        const bool has = section ? section->has_breaking_load : line->has_breaking_load;
+        const double load = section ? section->breaking_load : line->breaking_load;
+        arc += r->element_length[i];
+        if (r->breaking_load[i] == (has ? load : INFINITY)) continue;
+        find(compare, "breaking_load of %s: %.17g in element %zu", line->name, r->breaking_load[i],
+             i);
+        return;
+    }
+}
+
 static void compare_line(Compare *compare, const CpsLine *line, const Record *r) {
     if (r->elements != (size_t)line->element_count) {
         find(compare, "%zu elements of %s, in the scene %d", r->elements, line->name,
@@ -223,6 +244,7 @@ static void compare_line(Compare *compare, const CpsLine *line, const Record *r)
         return;
     }
     compare_sections(compare, line, r);
+    compare_breaking_load(compare, line, r);
     /* what zones do is in the mean factors, which the reader has made of those in the file */
     double at = 0;
     for (size_t j = 0; j < r->nodes; j++) {

@@ -429,6 +429,22 @@ static int read_sections(const Source *source, const char *line, Record *record,
     return 0;
 }
 
+/* What elements break at; it may be infinite, and the variable absent. */
+static int read_breaking_load(const Source *source, const char *line, Record *record, FILE *log) {
+    char name[2 * MAX_NAME];
+    int id;
+    snprintf(name, sizeof name, "%s_breaking_load", line);
+    if (nc_inq_varid(source->nc, name, &id) != NC_NOERR) return 0;
+    record->breaking_load = calloc(record->elements, sizeof(double));
+    if (!record->breaking_load) return complain(log, "out of memory for line", line, 0);
+    if (read_static(source, line, "breaking_load", record->elements, record->breaking_load, log))
+        return -1;
+    for (size_t i = 0; i < record->elements; i++)
+        if (!(record->breaking_load[i] > 0))
+            return complain(log, "senseless breaking_load of", line, 0);
+    return 0;
+}
+
 int record_create(const Source *source, const char *line, Record *record, FILE *log) {
     *record = (Record){0};
     if (read_dimension(source, line, "node", &record->nodes, log)) return -1;
@@ -456,6 +472,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
         return -1;
     if (read_static(source, line, "compliance", 0, &record->compliance, log)) return -1;
     if (read_sections(source, line, record, log)) return -1;
+    if (read_breaking_load(source, line, record, log)) return -1;
     return read_zones(source, line, record, log);
 }
 
@@ -469,6 +486,7 @@ void record_destroy(Record *record) {
     free(record->element_length);
     free(record->element_compliance);
     free(record->weight_length);
+    free(record->breaking_load);
     free(record->gap);
     free(record->friction_bound);
     free(record->reaction);
@@ -503,6 +521,10 @@ static int read_scalars(const Source *source, const char *line, size_t step, Rec
     bad |= read_step(source, line, "iterations", step, 0, 0, &iterations, log);
     bad |= read_step(source, line, "substeps", step, 0, 0, &parts, log);
     bad |= read_step(source, line, "share", step, 0, 0, &record->share, log);
+    if (record->breaking_load) {
+        bad |= read_step(source, line, "utilisation", step, 0, 0, &record->utilisation, log);
+        bad |= read_step(source, line, "utilisation_at", step, 0, 0, &record->utilisation_at, log);
+    }
     bad |= read_step(source, line, "end_kind", step, 2, 0, kind, log);
     bad |= read_step(source, line, "end_held_position", step, 2, 3, record->held_position[0], log);
     bad |= read_step(source, line, "end_applied_force", step, 2, 3, record->applied_force[0], log);

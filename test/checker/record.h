@@ -71,6 +71,8 @@ typedef struct Record {
     double *element_compliance, least_compliance, largest_compliance;
     double
         *weight_length; /* [m] of mean weight that the node carries; NULL: half of its elements */
+    double *breaking_load;              /* (elements) [N] infinite: none; NULL: the line has none */
+    double utilisation, utilisation_at; /* [-], [m], where it has */
     Vector *reference, *position, *load, *segment_force;
     bool has_weight_before; /* [N/m] per natural length, where the step began; else it is that of
                                the loads */

@@ -18,7 +18,8 @@
 static const char SCENE[] =
     "capstan: 1\n"
     "gravity: [0, 0, -10]\n"
-    "types: {stiff: {weight: 9, stiffness: 3000}, soft: {weight: 6, stiffness: 1000}}\n"
+    "types: {stiff: {weight: 9, stiffness: 3000, breaking_load: 50}, soft: {weight: 6, stiffness: "
+    "1000}}\n"
     "obstacles:\n"
     "  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}\n"
     "  drum: {cylinder: {point: [0, 30, 1], axis: [0, 1, 0], radius: 1}, friction: {axial: 0.3, "
@@ -39,6 +40,7 @@ static const char SCENE[] =
     "    elements: 4\n"
     "    weight: 8\n"
     "    stiffness: .inf\n"
+    "    breaking_load: 90\n"
     "    start: {straight: {from: [0, 5, 0], to: [4, 5, 0]}}\n"
     "    ends: {A: held, B: free}\n"
     "  made:\n"
@@ -153,6 +155,9 @@ static const Falsified FALSIFIED[] = {
     {"weight_length of made at node 1", false, {{"made_weight_length", 1, 1.4}}},
     {"weight_length of made at node 2", true, {{"made_weight_length", 2, 0.8}}},
     {"load of made at node 3, step 4", false, {{"made_load", 4 * 15 + 11, -6}}},
+    {"breaking_load of wire", false, {{"wire_breaking_load", 0, 1}}},
+    {"breaking_load of wire", false, {{"wire_breaking_load", 3, 1e9}}},
+    {"breaking_load of made", true, {{"made_breaking_load", 3, 1e9}}},
     {"friction_zones of rope", false, {{"rope_zone_factor", 0, 1.9}}},
     {"friction_zones of rope", false, {{"rope_zone_to", 0, 2.1}}},
     {"point of bed", true, {{"obstacle_point", 0, 1}}},
@@ -193,6 +198,24 @@ static void falsified_copies_are_refused(void **state) {
     }
     printf("%zu falsified copies refused; %d of them are sound by themselves\n",
            sizeof FALSIFIED / sizeof *FALSIFIED, alone);
+}
+
+/* What the file says of breaking loads is recomputed from it alone. */
+static void false_utilisation_is_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *variable;
+        size_t index;
+        double value;
+    } POKE[] = {{"wire_utilisation", 4, 0.1},    {"made_utilisation", 0, 0.5},
+                {"wire_utilisation_at", 4, 0.5}, {"made_utilisation_at", 1, 3.5},
+                {"wire_breaking_load", 3, 30},   {"made_breaking_load", 0, 0}};
+    for (size_t i = 0; i < sizeof POKE / sizeof *POKE; i++) {
+        copy_result();
+        CHECK_INT(sample_poke(copy, POKE[i].variable, POKE[i].index, POKE[i].value), 0);
+        if (checker_file(copy, NULL, NULL) == 0)
+            fail_msg("%s[%zu] = %g is accepted", POKE[i].variable, POKE[i].index, POKE[i].value);
+    }
 }
 
 /* A tolerance, a mode or a gravity of another scene. */
@@ -296,8 +319,11 @@ static void first_step_of_nodes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sound_file_is_the_scenes), cmocka_unit_test(falsified_copies_are_refused),
-        cmocka_unit_test(other_scenes_are_refused), cmocka_unit_test(first_step_in_parts),
+        cmocka_unit_test(sound_file_is_the_scenes),
+        cmocka_unit_test(falsified_copies_are_refused),
+        cmocka_unit_test(false_utilisation_is_refused),
+        cmocka_unit_test(other_scenes_are_refused),
+        cmocka_unit_test(first_step_in_parts),
         cmocka_unit_test(first_step_of_nodes),
     };
     return cmocka_run_group_tests(tests, solve, clean);

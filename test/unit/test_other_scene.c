@@ -37,9 +37,10 @@ static const char SCENE[] =
     "  made: {sections: [{type: hawser, length: 4, elements: 2}, {type: wire, length: 6,"
     " element_length: 1.5}], point_weights: [{at: 2, mass: 5, volume: 0.003}, {at: 4, weight: 3}],"
     " start: {straight: {from: [0, 200, 0], to: [0, 210, 0]}}, ends: {A: held, B: free}}\n"
-    "  wet: {length: 3, elements: 3, mass: 4, diameter: 0.04, stiffness: 2000,"
+    "  wet: {length: 3, elements: 3, mass: 4, diameter: 0.04, stiffness: 2000, breaking_load: 80,"
     " start: {straight: {from: [0, 300, 0], to: [3, 300, 0]}}, ends: {A: held, B: free}}\n"
-    "types: {hawser: {mass: 7, diameter: 0.05, stiffness: 3000}, wire: {weight: 4, stiffness: 3000,"
+    "types: {hawser: {mass: 7, diameter: 0.05, stiffness: 3000, breaking_load: 900}, wire: "
+    "{weight: 4, stiffness: 3000,"
     " friction: 0.5}}\n"
     "water_density: 900\n"
     "friction_policy: consistent\n"
@@ -80,6 +81,9 @@ static const struct Change {
     {"mass", "mass: 2", "mass: 2.5"},
     {"weight", "weight: 3", "weight: 3.5"},
     {"stiffness", "mass: 1, stiffness: 1000", "mass: 1, stiffness: .inf"},
+    {"breaking_load", "stiffness: 3000, breaking_load: 900}",
+     "stiffness: 3000, breaking_load: 901}"},
+    {"breaking_load", "stiffness: 2000, breaking_load: 80", "stiffness: 2000"},
     {"water_density", "water_density: 900", "water_density: 950"},
     {"types", "types: {hawser: {mass: 7", "types: {hawser: {mass: 8"},
     {"sections", "{type: hawser, length: 4, elements: 2}, {type: wire, length: 6,",

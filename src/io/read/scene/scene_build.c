@@ -215,6 +215,8 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
     *line = values->line;
     line->name = copy_text(b, values->node->key);
     if (!line->name) return cpsi_document_no_memory(b->d);
+    line->has_breaking_load = !isnan(values->breaking_load);
+    if (line->has_breaking_load) line->breaking_load = values->breaking_load;
     CpsStatus status = cpsi_line_weight_build(&b->materials, values, line);
     if (status == CPS_OK) status = build_elements(b, values, line);
     if (status == CPS_OK) status = build_zones(b, &values->zones, line);

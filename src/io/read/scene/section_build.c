@@ -82,7 +82,9 @@ static CpsStatus build_section(const CpsiMaterials *m, const CpsiSectionValues *
     *section = (CpsSection){.type = cpsi_pool_text(m->pool, values->type, strlen(values->type)),
                             .length = values->length,
                             .weight = (*type)->weight,
-                            .stiffness = (*type)->stiffness};
+                            .stiffness = (*type)->stiffness,
+                            .has_breaking_load = !isnan((*type)->breaking_load)};
+    if (section->has_breaking_load) section->breaking_load = (*type)->breaking_load;
     if (!section->type) return cpsi_document_no_memory(m->d);
     if (isnan((*type)->mass)) return CPS_OK;
     return submerged(m, (*type)->node, (*type)->mass, (*type)->diameter, &section->weight);

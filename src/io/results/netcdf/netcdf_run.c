@@ -49,6 +49,9 @@ static const Number NUMBER[] = {
      REPORT_IF(certificate.has_tension_bound, certificate.tension_bound)},
     {"tension_mesh", "estimated error of the tension by the elements' lengths", "N",
      REPORT_IF(has_tension_mesh, tension_mesh)},
+    {"utilisation", "largest tension over the breaking load", "1",
+     REPORT_IF(has_utilisation, utilisation)},
+    {"utilisation_at", "arc length there", "m", REPORT_IF(has_utilisation, utilisation_arc_length)},
     {"tension_estimate", "largest difference of elongation and equilibrium tension", "N",
      CERTIFICATE(tension_estimate)},
     {"force_residual", "largest imbalance of forces on a node", "N", CERTIFICATE(force_residual)},
@@ -133,6 +136,7 @@ typedef struct LineIds {
     int number[NUMBERS];
     int zone[ZONES];                      /* unused without zones */
     int compliance_factor, weight_length; /* unused where the line is uniform */
+    int breaking_load;                    /* unused where there is none */
 } LineIds;
 
 struct CpsiNetcdf {
@@ -262,6 +266,12 @@ static void define_zones(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
 
 /* What differs along a line of sections, or with point weights. */
 static void define_sections(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
+    if (view->has_breaking_load) {
+        ids->breaking_load =
+            cpsi_netcdf_variable(&nc->file, view->name, "breaking_load", NC_DOUBLE, 1,
+                                 &ids->element,
+                                 "tension at which the element breaks, infinite: none given", "N");
+    }
     if (view->uniform) return;
     ids->compliance_factor =
         cpsi_netcdf_variable(&nc->file, view->name, "compliance_factor", NC_DOUBLE, 1,
@@ -452,6 +462,8 @@ static void write_zones(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line)
 /* What differs along a line of sections, or with point weights. */
 static void write_sections(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view) {
     const size_t first = 0, elements = (size_t)view->element_count, nodes = elements + 1;
+    if (view->has_breaking_load)
+        cpsi_netcdf_doubles(&nc->file, ids->breaking_load, &first, &elements, view->breaking_load);
     if (view->uniform) return;
     cpsi_netcdf_doubles(&nc->file, ids->compliance_factor, &first, &elements,
                         view->compliance_factor);

@@ -49,6 +49,8 @@ static const CpsiColumn LINE_COLUMN[] = {
     {"bend_coulomb", "1", LINE(bend.coulomb)},
     {"tension_bound_rms", "N", LINE_IF(certificate.has_tension_bound, certificate.tension_bound)},
     {"tension_mesh_estimate", "N", LINE_IF(has_tension_mesh, tension_mesh)},
+    {"utilisation", "1", LINE_IF(has_utilisation, utilisation)},
+    {"utilisation_at", "m", LINE_IF(has_utilisation, utilisation_arc_length)},
 };
 
 enum {

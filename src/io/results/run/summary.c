@@ -96,6 +96,11 @@ static void write_line(FILE *out, const char *name, const CpsLineReport *report,
     write_number(out, "dissipated_J", report->dissipated, ",\n          ");
     write_number(out, "tension_mesh_estimate_N",
                  report->has_tension_mesh ? report->tension_mesh : NAN, ",\n");
+    if (report->has_utilisation) {
+        fputs("          ", out);
+        write_number(out, "utilisation", report->utilisation, ", ");
+        write_number(out, "utilisation_at_m", report->utilisation_arc_length, ",\n");
+    }
     write_proof(out, report);
     write_bend(out, &report->bend);
     write_end(out, "A", &report->end[CPS_END_A], ",\n");

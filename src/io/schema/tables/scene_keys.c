@@ -177,13 +177,15 @@ static const CpsiKey TYPE_KEYS[] = {
      .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
     {"stiffness", REQUIRED, NUMBER(Type, stiffness), 0, INFINITY, true, .unit = "N",
      .help = "axial stiffness EA; .inf for an inextensible type"},
+    {"breaking_load", OPTIONAL, NUMBER(Type, breaking_load), POSITIVE, .unit = "N",
+     .help = "tension at which it breaks: results then give the largest tension over it"},
     {"friction", OPTIONAL, NUMBER(Type, friction), NOT_NEGATIVE, .fallback = "1",
      .help = "factor of the friction of whatever it touches"},
 };
 
 static void begin_type(void *values) {
     CpsiTypeValues *type = values;
-    type->mass = NAN;
+    type->mass = type->breaking_load = NAN;
     type->friction = 1;
 }
 
@@ -207,6 +209,10 @@ static const CpsiKey LINE_KEYS[] = {
      .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
     {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unless = "sections",
      .unit = "N", .help = "axial stiffness EA; .inf for an inextensible line"},
+    {"breaking_load", OPTIONAL, NUMBER(Line, breaking_load), POSITIVE, .unless = "sections",
+     .unit = "N",
+     .help = "tension at which it breaks: results then give the largest tension over "
+             "it"},
     {"point_weights", OPTIONAL, LIST(Line, point_weights, 0), .inside = &POINT_WEIGHT,
      .fallback = "[]", .help = "clumps and buoys between the ends, in order from A to B"},
     {"friction_zones", OPTIONAL, LIST(Line, zones, 0), .inside = &ZONE, .fallback = "[]",
@@ -222,7 +228,7 @@ static const CpsiKey LINE_KEYS[] = {
 static void begin_line(void *values) {
     CpsiLineValues *line = values;
     line->line = cps_line_default();
-    line->mass = line->count = NAN;
+    line->mass = line->count = line->breaking_load = NAN;
 }
 
 static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};

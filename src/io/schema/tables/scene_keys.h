@@ -34,6 +34,7 @@ typedef struct CpsiZoneValues {
 typedef struct CpsiTypeValues {
     const CpsiYaml *node; /* the key is the name */
     double mass, diameter, weight, stiffness, friction;
+    double breaking_load; /* NaN: not given */
 } CpsiTypeValues;
 
 typedef struct CpsiSectionValues {
@@ -79,6 +80,7 @@ typedef struct CpsiLineValues {
     const CpsiYaml *node; /* the key is the name */
     CpsLine line;
     double mass, count, diameter; /* count: number of elements; NaN: not given */
+    double breaking_load;         /* NaN: not given */
     CpsiList sections;            /* CpsiSectionValues */
     CpsiList point_weights;       /* CpsiPointWeightValues */
     const CpsiYaml *elements;     /* a list of them */
