@@ -10,14 +10,14 @@
 #include "progress.h"
 
 /* The history of a tow: poses and driven ends, of which the first is the start. */
-typedef struct Trail {
+typedef struct TowHistory {
     int count;
     double *pose, *end; /* (count, 3), (count, 2) */
     CpsTow tow;
     CpsTowStep last;
     int not_converged, slack, inaccurate;
     double lower, upper; /* [J] bounds of the dissipation */
-} Trail;
+} TowHistory;
 
 /* ---- the law ---- */
 
@@ -204,12 +204,12 @@ static bool answer_push(DriveRun *run, int i) {
 /* ---- tow ---- */
 
 /* turning radius of the hitch in the last step */
-static double turning_radius(const Trail *t) {
+static double turning_radius(const TowHistory *t) {
     const double *w = t->last.twist, *h = t->tow.hitch;
     return w[2] != 0 ? hypot(w[0] - w[2] * h[1], w[1] + w[2] * h[0]) / fabs(w[2]) : INFINITY;
 }
 
-static bool go(DriveRun *run, Trail *t) {
+static bool go(DriveRun *run, TowHistory *t) {
     const CpsDriveTow *tow = &run->file->body.tow;
     t->tow = tow->start;
     t->count = tow->step_count + 1;
@@ -241,7 +241,7 @@ static bool go(DriveRun *run, Trail *t) {
     return good;
 }
 
-static void print_tow(DriveRun *run, const Trail *t) {
+static void print_tow(DriveRun *run, const TowHistory *t) {
     const double radius = turning_radius(t);
     run->answered &= t->inaccurate == 0;
     if (run->json) {
@@ -277,7 +277,7 @@ static void print_tow(DriveRun *run, const Trail *t) {
 
 typedef struct Drawing {
     const CpsDriveFile *file;
-    const Trail *trail;
+    const TowHistory *trail;
 } Drawing;
 
 static CpsStatus draw(void *user, FILE *out, CpsError *err) {
@@ -287,7 +287,7 @@ static CpsStatus draw(void *user, FILE *out, CpsError *err) {
 
 int drive_answer_body(DriveRun *run) {
     const CpsDriveBody *b = &run->file->body;
-    Trail trail = {.count = 0};
+    TowHistory trail = {.count = 0};
     bool good = print_body(run);
     if (run->json) fputs(",\n  \"pushes\": [", stdout);
     for (int i = 0; i < b->push_count && good; i++) good = answer_push(run, i);

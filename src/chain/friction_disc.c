@@ -104,20 +104,20 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
 }
 
 /* What the passes read and write of eight discs. */
-typedef struct Lanes {
+typedef struct DiscLanes {
     CpsiLane s[3], z[3], weight, w[3], g, q[3], ds[3], dz[3];
     CpsiLane du[2], bound; /* B du; the direction of the bound */
     CpsiLane stiffness, block[3],
         across; /* M = stiffness x block (xx, xy, yy); c w1 = -across w1 */
     CpsiLane force[2];
-} Lanes;
+} DiscLanes;
 
-static inline void load_pairs(const CpsiFrictionDisc *disc, int k, int count, Lanes *x) {
+static inline void load_pairs(const CpsiFrictionDisc *disc, int k, int count, DiscLanes *x) {
     cpsi_lanes_load(3, x->s, disc->s[k], count);
     cpsi_lanes_load(3, x->z, disc->z[k], count);
 }
 
-static inline void load_scaled(const CpsiChainProgram *program, int k, int count, Lanes *x) {
+static inline void load_scaled(const CpsiChainProgram *program, int k, int count, DiscLanes *x) {
     const CpsiFrictionDisc *disc = &program->disc;
     cpsi_lanes_load(3, x->w, disc->w[k], count);
     cpsi_lanes_load(3, x->q, disc->q[k], count);
@@ -128,7 +128,7 @@ static inline void load_scaled(const CpsiChainProgram *program, int k, int count
 #define THREE(x, l) \
     { (x)[0][l], (x)[1][l], (x)[2][l] }
 
-CPSI_LANES_FUNCTION void scale_lanes(Lanes *restrict x) {
+CPSI_LANES_FUNCTION void scale_lanes(DiscLanes *restrict x) {
     CPSI_FOR_LANES(l) {
         const double s[3] = THREE(x->s, l), z[3] = THREE(x->z, l);
         const CpsiSocScaling scaling = cpsi_soc_scaling(s, z, 3);
@@ -145,7 +145,7 @@ CPSI_LANES_FUNCTION void scale_lanes(Lanes *restrict x) {
 }
 
 /* Add disc k, in lane l, to the matrix. */
-static inline void add_to_matrix(CpsiChainProgram *program, int k, const Lanes *x, int l) {
+static inline void add_to_matrix(CpsiChainProgram *program, int k, const DiscLanes *x, int l) {
     const CpsiFrictionDisc *disc = &program->disc;
     double *diagonal = &program->matrix.diagonal[6 * disc->node[k]];
     const double m[3] = THREE(x->block, l);
@@ -165,7 +165,7 @@ static inline void add_to_matrix(CpsiChainProgram *program, int k, const Lanes *
 static void scale(CpsiProgram *base) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiFrictionDisc *disc = &program->disc;
-    Lanes x;
+    DiscLanes x;
     for (int k = 0; k < disc->count; k += CPSI_LANES) {
         const int count = cpsi_lanes_count(disc->count - k);
         load_pairs(disc, k, count, &x);
@@ -184,7 +184,7 @@ static void predict(CpsiProgram *base) {
 }
 
 /* Q, the force of the right-hand side. */
-CPSI_LANES_FUNCTION void load_lanes(Lanes *restrict x) {
+CPSI_LANES_FUNCTION void load_lanes(DiscLanes *restrict x) {
     CPSI_FOR_LANES(l) {
         const double w[3] = THREE(x->w, l), q[3] = THREE(x->q, l);
         const double pull = 2 * w[0] * (q[0] - x->bound[l]) / (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
@@ -196,7 +196,7 @@ static void load(CpsiProgram *base, double keep) {
     const CpsiChainProgram *program = cpsi_chain(base);
     const CpsiFrictionDisc *disc = &program->disc;
     (void)keep; /* the direction of the unilateral element, computed before, contains it */
-    Lanes x;
+    DiscLanes x;
     for (int k = 0; k < disc->count; k += CPSI_LANES) {
         const int count = cpsi_lanes_count(disc->count - k);
         load_scaled(program, k, count, &x);
@@ -210,7 +210,7 @@ static void load(CpsiProgram *base, double keep) {
 
 /* The directions ds, dz or, of a predictor, its second-order term in q; `inverse` becomes the
  * largest 1/alpha. */
-CPSI_LANES_PART void direct_lanes(Lanes *restrict x, const bool predictor,
+CPSI_LANES_PART void direct_lanes(DiscLanes *restrict x, const bool predictor,
                                   double *restrict inverse) {
     CPSI_FOR_LANES(l) {
         const double w[3] = THREE(x->w, l), z[3] = THREE(x->z, l), g = x->g[l];
@@ -235,11 +235,11 @@ CPSI_LANES_PART void direct_lanes(Lanes *restrict x, const bool predictor,
     }
 }
 
-CPSI_LANES_FUNCTION void predictor_lanes(Lanes *restrict x, double *restrict inverse) {
+CPSI_LANES_FUNCTION void predictor_lanes(DiscLanes *restrict x, double *restrict inverse) {
     direct_lanes(x, true, inverse);
 }
 
-CPSI_LANES_FUNCTION void direction_lanes(Lanes *restrict x, double *restrict inverse) {
+CPSI_LANES_FUNCTION void direction_lanes(DiscLanes *restrict x, double *restrict inverse) {
     direct_lanes(x, false, inverse);
 }
 
@@ -248,7 +248,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     (void)keep; /* as in load */
     CpsiFrictionDisc *disc = &program->disc;
     CpsiLane inverse = {0};
-    Lanes x;
+    DiscLanes x;
     for (int k = 0; k < disc->count; k += CPSI_LANES) {
         const int count = cpsi_lanes_count(disc->count - k);
         load_scaled(program, k, count, &x);
@@ -272,7 +272,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     sums->inverse_step = cpsi_lanes_largest(sums->inverse_step, inverse);
 }
 
-CPSI_LANES_FUNCTION void aim_lanes(Lanes *restrict x, double target) {
+CPSI_LANES_FUNCTION void aim_lanes(DiscLanes *restrict x, double target) {
     CPSI_FOR_LANES(l) {
         const double s[3] = THREE(x->s, l), z[3] = THREE(x->z, l);
         double q[3] = THREE(x->q, l);
@@ -283,7 +283,7 @@ CPSI_LANES_FUNCTION void aim_lanes(Lanes *restrict x, double target) {
 
 static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
-    Lanes x;
+    DiscLanes x;
     for (int k = 0; k < disc->count; k += CPSI_LANES) {
         const int count = cpsi_lanes_count(disc->count - k);
         load_pairs(disc, k, count, &x);

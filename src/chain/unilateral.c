@@ -91,14 +91,14 @@ static void predict(CpsiProgram *base) {
 }
 
 /* What the passes read and write of eight contacts. */
-typedef struct Lanes {
+typedef struct UnilateralLanes {
     CpsiLane s, z, q, ds, dz, weight;
     CpsiLane rho, rise;      /* the share of the residual that is to be removed; n.du */
     CpsiLane second, change; /* 1 for a second contact, else 0; w (z/s) n.du */
-} Lanes;
+} UnilateralLanes;
 
 static inline void load_pairs(const CpsiChainProgram *program, int k, int count, double keep,
-                              Lanes *x) {
+                              UnilateralLanes *x) {
     const CpsiUnilateral *unilateral = &program->unilateral;
     cpsi_lanes_load(1, &x->s, &unilateral->s[k], count);
     cpsi_lanes_load(1, &x->z, &unilateral->z[k], count);
@@ -107,7 +107,7 @@ static inline void load_pairs(const CpsiChainProgram *program, int k, int count,
     x->rho[l] = keep * cpsi_unilateral_residual(program, k + (l < count ? l : count - 1));
 }
 
-CPSI_LANES_FUNCTION void load_lanes(Lanes *restrict x, double keep) {
+CPSI_LANES_FUNCTION void load_lanes(UnilateralLanes *restrict x, double keep) {
     CPSI_FOR_LANES(l) x->dz[l] = x->q[l] - x->z[l] / x->s[l] * keep * x->rho[l];
 }
 
@@ -116,7 +116,7 @@ CPSI_LANES_FUNCTION void load_lanes(Lanes *restrict x, double keep) {
 static void load(CpsiProgram *base, double keep) {
     CpsiChainProgram *program = cpsi_chain(base);
     const CpsiUnilateral *unilateral = &program->unilateral;
-    Lanes x;
+    UnilateralLanes x;
     for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
         const int count = cpsi_lanes_count(unilateral->count - k);
         load_pairs(program, k, count, 1, &x);
@@ -129,7 +129,7 @@ static void load(CpsiProgram *base, double keep) {
 
 /* The direction of R, and of s, where the linear system gives n.du; and where it gives w (z/s)
  * n.du, as n is oblique to the axes of du and n.du has too few digits. */
-CPSI_LANES_FUNCTION void direct_lanes(Lanes *restrict x, double *restrict inverse) {
+CPSI_LANES_FUNCTION void direct_lanes(UnilateralLanes *restrict x, double *restrict inverse) {
     CPSI_FOR_LANES(l) {
         const double s = x->s[l], z = x->z[l], q = x->q[l], stiffness = z / s;
         const double ds = x->rise[l] + x->rho[l], dz = q - stiffness * ds;
@@ -148,7 +148,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiUnilateral *unilateral = &program->unilateral;
     CpsiLane inverse = {0};
-    Lanes x = {.second = {0}};
+    UnilateralLanes x = {.second = {0}};
     for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
         const int count = cpsi_lanes_count(unilateral->count - k);
         load_pairs(program, k, count, keep, &x);
@@ -169,14 +169,14 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     sums->inverse_step = cpsi_lanes_largest(sums->inverse_step, inverse);
 }
 
-CPSI_LANES_FUNCTION void aim_lanes(Lanes *restrict x, double target) {
+CPSI_LANES_FUNCTION void aim_lanes(UnilateralLanes *restrict x, double target) {
     CPSI_FOR_LANES(l) x->q[l] = -x->z[l] + target / x->s[l] - x->q[l];
 }
 
 /* q with s o z -> target e, less the second-order term that stands in q, or without it. */
 static void aim(CpsiProgram *base, double target, bool second_order) {
     CpsiUnilateral *unilateral = &cpsi_chain(base)->unilateral;
-    Lanes x;
+    UnilateralLanes x;
     for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
         const int count = cpsi_lanes_count(unilateral->count - k);
         cpsi_lanes_load(1, &x.s, &unilateral->s[k], count);

@@ -61,13 +61,13 @@ typedef struct Polish {
 } Polish;
 
 /* A loop over cones with their blocks. */
-typedef struct Walk {
+typedef struct ConeLoop {
     int block, x;    /* the block, and its first column */
     int cone, all;   /* index of the cone inside its block, and among all */
     int inside, row; /* its first row inside the block, and among all */
-} Walk;
+} ConeLoop;
 
-static bool next(const CpsiSparseData *d, Walk *w) {
+static bool next(const CpsiSparseData *d, ConeLoop *w) {
     w->row += d->block[w->block].dim[w->cone];
     w->inside += d->block[w->block].dim[w->cone];
     w->all++;
@@ -107,7 +107,7 @@ static bool begin(Polish *p) {
     p->left_some = false;
     p->tried = 0;
     memcpy(p->other, p->active, (size_t)cones->count * sizeof *p->other);
-    Walk w = {0};
+    ConeLoop w = {0};
     for (int k = 0; k < cones->count; k++) {
         const int rows = cpsi_active_count(p->active[k], cones->dim[k]);
         p->multipliers += rows;
@@ -143,7 +143,7 @@ static bool place(Polish *p) {
     const CpsiSparseData *d = &p->program->data;
     const double *m = p->at + d->unknowns + d->equations;
     bool all_in = true;
-    Walk w = {0};
+    ConeLoop w = {0};
     do {
         const CpsiBlock *block = &d->block[w.block];
         const CpsiActive kind = p->active[w.all];
@@ -182,7 +182,7 @@ static double values(Polish *p) {
 }
 
 /* The rows of G of one cone, one after the other in `g`. Returns their number. */
-static int rows_of(const Polish *p, const Walk *w, double *g) {
+static int rows_of(const Polish *p, const ConeLoop *w, double *g) {
     const CpsiBlock *block = &p->program->data.block[w->block];
     const int n = block->unknowns;
     return cpsi_active_gradients(p->active[w->all], n, &block->a[(size_t)w->inside * (size_t)n],
@@ -190,7 +190,7 @@ static int rows_of(const Polish *p, const Walk *w, double *g) {
 }
 
 /* Add the curvature of a ray to its block's triangle. */
-static void add_curvature(const Polish *p, const Walk *w, const double *g, double *triangle) {
+static void add_curvature(const Polish *p, const ConeLoop *w, const double *g, double *triangle) {
     const CpsiBlock *block = &p->program->data.block[w->block];
     const int dim = block->dim[w->cone], n = block->unknowns;
     const double *a = &block->a[(size_t)w->inside * (size_t)n];
@@ -237,7 +237,7 @@ static bool write_matrix(Polish *p) {
     }
     double *g = malloc(largest * sizeof *g);
     if (!g) return false;
-    Walk w = {0};
+    ConeLoop w = {0};
     do {
         const int rows = rows_of(p, &w, g), n = d->block[w.block].unknowns;
         if (p->active[w.all] == CPSI_RAY)

@@ -90,9 +90,9 @@ void cpsi_motion_recover_forces(CpsMotion *motion, const CpsiDriveProgram *progr
 }
 
 /* Contribution of one piece. */
-typedef struct Part {
+typedef struct Contribution {
     double potential, conjugate, outside, forbidden, missing;
-} Part;
+} Contribution;
 
 /* phi(U) and the distance of F from C by the conic form, F = o + P v. With z of the program, A'z =
  * P'U + e,
@@ -102,15 +102,15 @@ typedef struct Part {
  *
  * It is used for sets without a closed form, and for velocities that the recession of an unbounded
  * set forbids because of rounding. */
-static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, int k,
-                    const double *u) {
+static Contribution by_form(const CpsMotion *motion, const CpsiDriveProgram *program, int k,
+                            const double *u) {
     const CpsiConicForm *form = program->form[k];
     const double *z = program->result.z + program->row[k];
     const double *v = program->result.x + program->first[k];
     const int space = motion->system->piece[k].space, n = form->unknowns;
     const double unit = n > 0 ? program->column_scale[program->first[k]] : 1,
                  power = program->power / unit; /* v in units of `unit` */
-    Part part = {0};
+    Contribution part = {0};
     CpsiSum potential = {0};
     for (int i = 0; i < form->rows; i++) add_product(&potential, power * form->b[i], z[i]);
     for (int i = 0; i < space; i++) add_product(&potential, -u[i], form->origin[i]);
@@ -141,7 +141,8 @@ static Part by_form(const CpsMotion *motion, const CpsiDriveProgram *program, in
 }
 
 static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *program, int k,
-                               const double *u, const double *f, Part *part, CpsError *err) {
+                               const double *u, const double *f, Contribution *part,
+                               CpsError *err) {
     const CpsiPiece *piece = &motion->system->piece[k];
     CpsSetAnswer phi, margin;
     CpsStatus status = cps_set_dissipation(piece->set, u, NULL, &phi, err);
@@ -155,7 +156,7 @@ static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *
     if (!program || (phi.exact && isfinite(part->potential) && margin.exact)) return CPS_OK;
 
     /* the tighter of the two certificates, each with its own violations */
-    const Part form = by_form(motion, program, k, u);
+    const Contribution form = by_form(motion, program, k, u);
     if (form.potential + form.missing < part->potential || !isfinite(part->potential)) {
         part->potential = form.potential;
         part->missing = form.missing;
@@ -166,7 +167,7 @@ static CpsStatus friction_part(const CpsMotion *motion, const CpsiDriveProgram *
 }
 
 /* h*(gauge of C at F), or <F, D^-1 F>/2 */
-static CpsStatus term_conjugate(const CpsiPiece *piece, const double *f, Part *part,
+static CpsStatus term_conjugate(const CpsiPiece *piece, const double *f, Contribution *part,
                                 CpsError *err) {
     const size_t n = (size_t)piece->space;
     if (piece->term->kind == CPSI_VISCOUS) {
@@ -199,11 +200,11 @@ static CpsStatus term_conjugate(const CpsiPiece *piece, const double *f, Part *p
 }
 
 static CpsStatus piece_part(const CpsMotion *motion, const CpsiDriveProgram *program, int k,
-                            Part *part, CpsError *err) {
+                            Contribution *part, CpsError *err) {
     const CpsiPiece *piece = &motion->system->piece[k];
     const double *u = &motion->law_velocity[motion->system->law[piece->law].first + piece->offset];
     const double *f = &motion->piece_force[motion->piece_at[k]];
-    *part = (Part){0};
+    *part = (Contribution){0};
     if (!piece->term || piece->term->kind == CPSI_DRY)
         return friction_part(motion, program, k, u, f, part, err);
     return term_conjugate(piece, f, part, err);
@@ -222,7 +223,7 @@ static CpsStatus law_totals(CpsMotion *motion, const CpsiDriveProgram *program, 
     CpsMotionShare share = {0};
     double conjugate = 0;
     for (int k = law->piece; k < law->piece + law->pieces; k++) {
-        Part part;
+        Contribution part;
         const CpsStatus status = piece_part(motion, program, k, &part, err);
         if (status != CPS_OK) return status;
         share.potential += part.potential;

@@ -220,16 +220,17 @@ static CpsStatus attempt(CpsMotion *motion, CpsiKinematics *kinematics, double s
 
 /* The conditions of an attempt, and its quality: whether the bounds are within the tolerance, and
  * their distance. */
-typedef struct Trial {
+typedef struct Attempt {
     CpsMotion *motion;
     CpsiKinematics *kinematics;
     double first; /* the speed that it is compared with as long as no motion is known */
     CpsMotionOutcome so_far;
     double tolerance, least; /* arguments of close_enough */
     bool still;
-} Trial;
+} Attempt;
 
-static CpsStatus try_once(const Trial *trial, double speed, bool even, bool *near, CpsError *err) {
+static CpsStatus try_once(const Attempt *trial, double speed, bool even, bool *near,
+                          CpsError *err) {
     trial->motion->speed = trial->first;
     trial->motion->report.outcome = trial->so_far;
     const CpsStatus status =
@@ -243,7 +244,7 @@ static CpsStatus try_once(const Trial *trial, double speed, bool even, bool *nea
  * law's equation determines velocities that a strong law resists, one divisor for all equations is
  * better. So where the first scaling leaves bounds farther apart than rounding, the second is tried
  * as well, and the result with the nearer bounds is kept. */
-static CpsStatus try_both(const Trial *trial, double speed, bool *near, CpsError *err) {
+static CpsStatus try_both(const Attempt *trial, double speed, bool *near, CpsError *err) {
     const CpsMotionReport *report = &trial->motion->report;
     CpsStatus status = try_once(trial, speed, false, near, err);
     if (status != CPS_OK || report->outcome == CPS_MOTION_OUTCOME_BLOCKED) return status;
@@ -268,13 +269,13 @@ static CpsStatus move(CpsMotion *motion, CpsiKinematics *kinematics,
     /* there is no drive, and no load whose power a resistance would have to dissipate: rest is a
      * solution */
     const bool still = motion->speed == 0 && !(resistance && cpsi_system_loaded(motion->system));
-    const Trial trial = {.motion = motion,
-                         .kinematics = kinematics,
-                         .first = motion->speed,
-                         .so_far = motion->report.outcome,
-                         .tolerance = options->tolerance,
-                         .least = motion->force * REST,
-                         .still = still};
+    const Attempt trial = {.motion = motion,
+                           .kinematics = kinematics,
+                           .first = motion->speed,
+                           .so_far = motion->report.outcome,
+                           .tolerance = options->tolerance,
+                           .least = motion->force * REST,
+                           .still = still};
     for (size_t k = 0; k < (resistance ? sizeof GUESS / sizeof *GUESS : 1); k++) {
         bool near = false;
         const CpsStatus status = try_both(&trial, speed * GUESS[k], &near, err);

@@ -48,7 +48,7 @@ static const double WIDE = 2;
 static const double JUMP = 1e-9;
 
 /* One term of the sum. */
-typedef struct Part {
+typedef struct SumTerm {
     CpsiTerm term; /* a term of the law, or all viscous terms together */
     CpsSet *set;   /* retained */
     CpsiConicForm *made;
@@ -57,7 +57,7 @@ typedef struct Part {
     /* range of the gauge to consider: beyond it the term alone costs more than the best split */
     double range;
     double t, g; /* gauge of its share; g(V) */
-} Part;
+} SumTerm;
 
 /* Bounds from shares and a velocity: lower <= phi* <= upper, up to the errors of the terms' own
  * answers. */
@@ -66,10 +66,10 @@ typedef struct Bounds {
     double upper, lower, potential, error;
 } Bounds;
 
-typedef struct Sum {
+typedef struct TermSum {
     int n, count;
     const double *force;
-    Part *part;       /* (count) */
+    SumTerm *part;    /* (count) */
     CpsiShare *share; /* (count) */
     double *block;    /* memory of all arrays below */
     Bounds now, best;
@@ -79,13 +79,13 @@ typedef struct Sum {
     /* (count) index of the term in the law; that of the first for the viscous terms */
     int *place;
     CpsSetOutcome outcome;
-} Sum;
+} TermSum;
 
 /* ---- making ---- */
 
-static CpsStatus add_part(Sum *sum, const CpsiTerm *term, CpsSet *set, CpsError *err) {
-    Part *part = &sum->part[sum->count++];
-    *part = (Part){.term = *term, .set = set, .limit = INFINITY};
+static CpsStatus add_part(TermSum *sum, const CpsiTerm *term, CpsSet *set, CpsError *err) {
+    SumTerm *part = &sum->part[sum->count++];
+    *part = (SumTerm){.term = *term, .set = set, .limit = INFINITY};
     if (cpsi_set_has_user(set)) {
         sum->outcome = CPS_SET_OUTCOME_NOT_AVAILABLE;
         return CPS_OK;
@@ -99,7 +99,7 @@ static CpsStatus add_part(Sum *sum, const CpsiTerm *term, CpsSet *set, CpsError 
 }
 
 /* all viscous terms together are one: the ellipsoid of their matrix, h = g^2/2 */
-static CpsStatus add_viscous(Sum *sum, const CpsResistance *law, CpsError *err) {
+static CpsStatus add_viscous(TermSum *sum, const CpsResistance *law, CpsError *err) {
     const size_t size = (size_t)law->n * (size_t)law->n;
     double *matrix = calloc(size, sizeof *matrix);
     if (!matrix) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
@@ -116,7 +116,7 @@ static CpsStatus add_viscous(Sum *sum, const CpsResistance *law, CpsError *err) 
     return set ? add_part(sum, &term, set, err) : status;
 }
 
-static void sum_free(Sum *sum) {
+static void sum_free(TermSum *sum) {
     for (int i = 0; i < sum->count; i++) {
         cpsi_conic_form_free(sum->part[i].made);
         cps_set_release(sum->part[i].set);
@@ -127,9 +127,10 @@ static void sum_free(Sum *sum) {
     free(sum->place);
 }
 
-static CpsStatus sum_make(const CpsResistance *law, const double *force, Sum *sum, CpsError *err) {
+static CpsStatus sum_make(const CpsResistance *law, const double *force, TermSum *sum,
+                          CpsError *err) {
     const size_t n = (size_t)law->n, count = (size_t)law->count;
-    *sum = (Sum){.n = law->n, .force = force, .outcome = CPS_SET_OUTCOME_ANSWERED};
+    *sum = (TermSum){.n = law->n, .force = force, .outcome = CPS_SET_OUTCOME_ANSWERED};
     sum->part = calloc(count, sizeof *sum->part);
     sum->share = calloc(count, sizeof *sum->share);
     sum->block = calloc((2 * count + 4) * n + count, sizeof *sum->block);
@@ -160,7 +161,7 @@ static CpsStatus sum_make(const CpsResistance *law, const double *force, Sum *su
 
 /* h*(gauge) of one share, its gauge and the error of the gauge; a gauge beyond the limit by less
  * than the share `slack` is on the limit */
-static CpsStatus cost_of_share(const Part *part, const double *force, double slack, double *t,
+static CpsStatus cost_of_share(const SumTerm *part, const double *force, double slack, double *t,
                                double *cost, double *error, CpsError *err) {
     CpsSetAnswer gauge;
     CpsiTermDual dual;
@@ -177,7 +178,7 @@ static CpsStatus cost_of_share(const Part *part, const double *force, double sla
 }
 
 /* the part that can bear work (n) in addition to its share at the least extra cost; -1: none */
-static CpsStatus choose_bearer(Sum *sum, double slack, const double *cost, int *bearer,
+static CpsStatus choose_bearer(TermSum *sum, double slack, const double *cost, int *bearer,
                                double *more, CpsError *err) {
     const size_t n = (size_t)sum->n;
     double *trial = sum->work + n, t, with, error;
@@ -198,14 +199,14 @@ static CpsStatus choose_bearer(Sum *sum, double slack, const double *cost, int *
 /* The shares have the error of the conic program. Each is brought within its limit, and the
  * difference to F is given to the part that bears it at the least cost. Where that is possible only
  * up to rounding, F is on the boundary. */
-static CpsStatus bound_above(Sum *sum, CpsError *err) {
+static CpsStatus bound_above(TermSum *sum, CpsError *err) {
     const size_t n = (size_t)sum->n;
     double *lack = sum->work, more, *cost = sum->cost;
     memcpy(lack, sum->force, n * sizeof *lack);
     sum->now.upper = sum->now.error = 0;
     for (int i = 0; i < sum->count; i++) {
         double *share = sum->share[i].force, error;
-        Part *part = &sum->part[i];
+        SumTerm *part = &sum->part[i];
         CpsStatus status = cost_of_share(part, share, 0, &part->t, &cost[i], &error, err);
         if (status == CPS_OK && part->t > part->limit &&
             part->t <= part->limit * (1 + ON_BOUNDARY)) {
@@ -234,7 +235,7 @@ static CpsStatus bound_above(Sum *sum, CpsError *err) {
     return status;
 }
 
-static CpsStatus bound_below(Sum *sum, CpsError *err) {
+static CpsStatus bound_below(TermSum *sum, CpsError *err) {
     const int n = sum->n;
     double *turned = sum->work, *velocity = sum->now.velocity;
     /* a component that is only rounding would be excluded by a set unbounded on that side */
@@ -267,7 +268,7 @@ static CpsStatus bound_below(Sum *sum, CpsError *err) {
 
 /* Keep the better of each kind. Returns true where that reduces their difference by more than
  * rounding. */
-static bool keep_best(Sum *sum) {
+static bool keep_best(TermSum *sum) {
     const Bounds *now = &sum->now;
     Bounds *best = &sum->best;
     const double before = best->upper - best->lower;
@@ -284,17 +285,17 @@ static bool keep_best(Sum *sum) {
     return !(best->upper - best->lower > 0.9 * before);
 }
 
-static double gap_of(const Sum *sum) { return fmax(sum->best.upper - sum->best.lower, 0); }
-static double scale_of(const Sum *sum) { return sum->best.potential + sum->best.upper; }
+static double gap_of(const TermSum *sum) { return fmax(sum->best.upper - sum->best.lower, 0); }
+static double scale_of(const TermSum *sum) { return sum->best.potential + sum->best.upper; }
 
 /* ---- pieces ---- */
 
 /* The first split: no cost up to h'(0), and beyond it the same cost for all terms, for a force as
  * long as F. */
-static CpsStatus first_pieces(Sum *sum, CpsError *err) {
+static CpsStatus first_pieces(TermSum *sum, CpsError *err) {
     const double length = cpsi_norm(sum->n, sum->force);
     for (int i = 0; i < sum->count; i++) {
-        Part *part = &sum->part[i];
+        SumTerm *part = &sum->part[i];
         CpsiShare *share = &sum->share[i];
         double h, rest;
         const CpsStatus status = cpsi_term_at(&part->term, 0, &h, &rest, err);
@@ -316,7 +317,7 @@ static CpsStatus first_pieces(Sum *sum, CpsError *err) {
 
 /* The range of a term: h' where speed x h' - h = h*(h') reaches `energy`, with the speed accurate
  * to a factor 2^(1/4). */
-static CpsStatus find_range(Part *part, double energy, CpsError *err) {
+static CpsStatus find_range(SumTerm *part, double energy, CpsError *err) {
     double g = 1, h, slope, factor = 2;
     CpsStatus status = cpsi_term_at(&part->term, g, &h, &slope, err);
     bool above = !(g * slope - h < energy);
@@ -344,7 +345,7 @@ static CpsStatus find_range(Part *part, double energy, CpsError *err) {
 }
 
 /* slopes of the pieces between nodes 0 .. pieces of the share */
-static CpsStatus slopes(Part *part, CpsiShare *share, CpsError *err) {
+static CpsStatus slopes(SumTerm *part, CpsiShare *share, CpsError *err) {
     CpsStatus status = CPS_OK;
     for (int k = 0; k <= share->pieces && status == CPS_OK; k++) {
         CpsiTermDual dual;
@@ -363,7 +364,7 @@ static void add_node(CpsiShare *share, double t) {
 
 /* A node inside a bracket: where the slope of h* jumps at its end `other`; in a wide bracket at the
  * geometric mean of the speeds of its ends; else 0. */
-static CpsStatus middle_node(const Part *part, double other, double low, double high,
+static CpsStatus middle_node(const SumTerm *part, double other, double low, double high,
                              double *middle, CpsError *err) {
     CpsiTermDual at = {0}, slow = {0}, fast = {0};
     double h;
@@ -380,7 +381,7 @@ static CpsStatus middle_node(const Part *part, double other, double low, double 
 
 /* Nodes at 0, on both sides of the two points of the curve that the last split gave, and at the end
  * of the range. */
-static CpsStatus nodes(Part *part, CpsiShare *share, bool first, CpsError *err) {
+static CpsStatus nodes(SumTerm *part, CpsiShare *share, bool first, CpsError *err) {
     if (first) {
         add_node(share, part->t);
         add_node(share, part->range);
@@ -399,10 +400,10 @@ static CpsStatus nodes(Part *part, CpsiShare *share, bool first, CpsError *err) 
     return status;
 }
 
-static CpsStatus next_pieces(Sum *sum, bool first, CpsError *err) {
+static CpsStatus next_pieces(TermSum *sum, bool first, CpsError *err) {
     CpsStatus status = CPS_OK;
     for (int i = 0; i < sum->count && status == CPS_OK; i++) {
-        Part *part = &sum->part[i];
+        SumTerm *part = &sum->part[i];
         CpsiShare *share = &sum->share[i];
         status = find_range(part, RANGE_MARGIN * sum->best.upper, err);
         if (status != CPS_OK) break;
@@ -420,7 +421,7 @@ static CpsStatus next_pieces(Sum *sum, bool first, CpsError *err) {
 /* ---- the conjugate ---- */
 
 /* Cost of the first split beyond h'(0), relative to |F|: 0 where F can be borne at rest. */
-static double beyond_rest(const Sum *sum) {
+static double beyond_rest(const TermSum *sum) {
     double cost = 0;
     for (int i = 0; i < sum->count; i++) {
         const CpsiShare *share = &sum->share[i];
@@ -431,7 +432,7 @@ static double beyond_rest(const Sum *sum) {
     return cost;
 }
 
-static CpsStatus refine(Sum *sum, CpsError *err) {
+static CpsStatus refine(TermSum *sum, CpsError *err) {
     CpsStatus status = CPS_OK;
     int idle = 0;
     for (int pass = 0; pass < PASSES && idle < IDLE && status == CPS_OK; pass++) {
@@ -449,7 +450,7 @@ static CpsStatus refine(Sum *sum, CpsError *err) {
     return status;
 }
 
-static CpsStatus conjugate(Sum *sum, double *velocity, CpsSetAnswer *answer, CpsError *err) {
+static CpsStatus conjugate(TermSum *sum, double *velocity, CpsSetAnswer *answer, CpsError *err) {
     const size_t n = (size_t)sum->n;
     CpsSetOutcome outcome;
     CpsStatus status = first_pieces(sum, err);
@@ -482,7 +483,7 @@ static CpsStatus conjugate(Sum *sum, double *velocity, CpsSetAnswer *answer, Cps
 
 CpsStatus cpsi_conjugate_sum(const CpsResistance *law, const double *force, double *velocity,
                              double *share, CpsSetAnswer *answer, CpsError *err) {
-    Sum sum;
+    TermSum sum;
     CpsStatus status = sum_make(law, force, &sum, err);
     if (status == CPS_OK && sum.outcome != CPS_SET_OUTCOME_ANSWERED) {
         *answer = (CpsSetAnswer){.outcome = sum.outcome, .value = NAN};

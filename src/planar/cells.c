@@ -86,21 +86,21 @@ static bool rod_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCel
  * mean: means of x, x^2, y^2; radius of the corners on lines 0 and 1. The left corner of a line
  * gets even + along x along + across x across, the right one even + along x along - across x
  * across. */
-typedef struct Sector {
+typedef struct RingSector {
     double x, xx, yy;
     double radius[2], even[2], along[2], across[2];
-} Sector;
+} RingSector;
 
-static Sector sector_of(double r1, double r2, int count) {
+static RingSector sector_of(double r1, double r2, int count) {
     const double h = CPSI_PI / count, mean = r2 > r1 ? (r1 + r2 * r2 / (r1 + r2)) * 2 / 3
                                                      : r1; /* 2/3 (r2^3 - r1^3)/(r2^2 - r1^2) */
     const double square = 0.5 * (r1 * r1 + r2 * r2), wobble = sin(2 * h) / (4 * h),
                  x1 = r1 * cos(h);
     const double yy_x = mean * (asinh(tan(h)) - sin(h)) / h; /* mean of y^2/x */
-    Sector sector = {.x = mean * sin(h) / h,
-                     .xx = square * (0.5 + wobble),
-                     .yy = square * (0.5 - wobble),
-                     .radius = {r1, r2 / cos(h)}};
+    RingSector sector = {.x = mean * sin(h) / h,
+                         .xx = square * (0.5 + wobble),
+                         .yy = square * (0.5 - wobble),
+                         .radius = {r1, r2 / cos(h)}};
 
     /* means of load x l(x) (1 +- y/(x tan h))/2, where l = zero + slope x is 1 on the line and 0 on
      * the other */
@@ -117,7 +117,7 @@ static Sector sector_of(double r1, double r2, int count) {
  * corners on a ray belong to the sectors on both of its sides. */
 static bool sector_cells(const CpsiPatch *patch, double load, double r1, double r2, int count,
                          CpsPlanarSide side, CpsiCell *visit, void *user) {
-    const Sector sector = sector_of(r1, r2, count);
+    const RingSector sector = sector_of(r1, r2, count);
     const double share = load / count, h = CPSI_PI / count;
     double first[2] = {0, 0}, carried[2] = {0, 0};
     for (int i = 0; i < count; i++) {
@@ -160,19 +160,19 @@ static bool disc_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, CpsiCe
 /* ---- polygon ---- */
 
 /* Position of node (i, j) of a triangle's lattice, and the pressure there relative to the mean. */
-typedef struct Node {
+typedef struct LatticeNode {
     double r[2], pressure;
-} Node;
+} LatticeNode;
 
-static Node lattice_node(const CpsiPatch *patch, const double *a, const double *b, double i,
-                         double j) {
-    Node node = {.r = {a[0] * i + b[0] * j, a[1] * i + b[1] * j}};
+static LatticeNode lattice_node(const CpsiPatch *patch, const double *a, const double *b, double i,
+                                double j) {
+    LatticeNode node = {.r = {a[0] * i + b[0] * j, a[1] * i + b[1] * j}};
     node.pressure = 1 + patch->tilt[0] * node.r[0] + patch->tilt[1] * node.r[1];
     return node;
 }
 
 /* `strength`: friction force of the triangle under mean pressure */
-static bool triangle_cell(double strength, const Node corner[3], CpsPlanarSide side,
+static bool triangle_cell(double strength, const LatticeNode corner[3], CpsPlanarSide side,
                           CpsiCell *visit, void *user) {
     const double sum = corner[0].pressure + corner[1].pressure + corner[2].pressure;
     double centroid[2] = {0, 0};
@@ -194,14 +194,15 @@ static bool polygon_cells(const CpsiPatch *patch, CpsPlanarSide side, int n, Cps
             patch->strength * 0.5 * (a[0] * b[1] - a[1] * b[0]) / patch->area * h * h;
         for (int i = 0; i < n; i++)
             for (int j = 0; i + j < n; j++) {
-                const Node right = lattice_node(patch, a, b, h * (i + 1), h * j);
-                const Node left = lattice_node(patch, a, b, h * i, h * (j + 1));
-                const Node near = lattice_node(patch, a, b, h * i, h * j);
-                if (!triangle_cell(strength, (Node[3]){near, right, left}, side, visit, user))
+                const LatticeNode right = lattice_node(patch, a, b, h * (i + 1), h * j);
+                const LatticeNode left = lattice_node(patch, a, b, h * i, h * (j + 1));
+                const LatticeNode near = lattice_node(patch, a, b, h * i, h * j);
+                if (!triangle_cell(strength, (LatticeNode[3]){near, right, left}, side, visit,
+                                   user))
                     return false;
                 if (i + j + 2 > n) continue;
-                const Node far = lattice_node(patch, a, b, h * (i + 1), h * (j + 1));
-                if (!triangle_cell(strength, (Node[3]){right, far, left}, side, visit, user))
+                const LatticeNode far = lattice_node(patch, a, b, h * (i + 1), h * (j + 1));
+                if (!triangle_cell(strength, (LatticeNode[3]){right, far, left}, side, visit, user))
                     return false;
             }
     }

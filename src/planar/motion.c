@@ -41,7 +41,7 @@ typedef struct Place {
     double value, gap;
 } Place;
 
-typedef struct Search {
+typedef struct MotionSearch {
     const CpsPlanar *body;
     int rows;
     /* orthonormal: the first `rows` span the map's rows, the others are free directions */
@@ -53,7 +53,7 @@ typedef struct Search {
     CpsSetOutcome outcome;
     CpsStatus status;
     CpsError *err;
-} Search;
+} MotionSearch;
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -97,7 +97,7 @@ static void complete(double q[3][3], int k) {
     }
 }
 
-static CpsStatus set_drive(Search *self, int rows, const double *map, const double *velocity,
+static CpsStatus set_drive(MotionSearch *self, int rows, const double *map, const double *velocity,
                            CpsError *err) {
     if (rows < 1 || rows > 3)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d rows are driven, expected from 1 to 3", rows);
@@ -122,7 +122,7 @@ static CpsStatus set_drive(Search *self, int rows, const double *map, const doub
 }
 
 /* Forces on the rows: map' drive = -G. */
-static void drive_forces(const Search *self, const double force[3], double drive[3]) {
+static void drive_forces(const MotionSearch *self, const double force[3], double drive[3]) {
     for (int k = self->rows - 1; k >= 0; k--) {
         double sum = -dot(self->q[k], force);
         for (int i = k + 1; i < self->rows; i++) sum -= self->lower[i][k] * drive[i];
@@ -133,7 +133,7 @@ static void drive_forces(const Search *self, const double force[3], double drive
 /* ---- the search ---- */
 
 /* phi and a force at place->y; false where there is none. */
-static bool evaluate(Search *self, Place *place) {
+static bool evaluate(MotionSearch *self, Place *place) {
     const double reach = self->body->reach,
                  twist[3] = {place->y[0], place->y[1], place->y[2] / reach};
     CpsSetAnswer answer;
@@ -148,11 +148,11 @@ static bool evaluate(Search *self, Place *place) {
     return answer.outcome == CPS_SET_OUTCOME_ANSWERED;
 }
 
-static bool minimise(Search *self, int level, Place *place);
+static bool minimise(MotionSearch *self, int level, Place *place);
 
 /* The least value with coordinate t along free direction `level`, minimised over the later
  * directions, and its slope as a function of t. */
-static bool at(Search *self, int level, const double base[3], double t, Place *place,
+static bool at(MotionSearch *self, int level, const double base[3], double t, Place *place,
                double *slope) {
     for (int i = 0; i < 3; i++) place->y[i] = base[i];
     add(t, self->q[level], place->y);
@@ -175,7 +175,7 @@ typedef struct End {
  * vanishes: interpolate, truncate towards the middle, project (Oliveira and Takahashi 2020, ITP).
  * It is as fast as the secant method where the slope is smooth, and never more than one step behind
  * bisection. */
-static bool close_bracket(Search *self, int level, const double base[3], End end[2]) {
+static bool close_bracket(MotionSearch *self, int level, const double base[3], End end[2]) {
     const double first = fabs(end[1].t - end[0].t);
     const double limit = 2 * DBL_EPSILON * (self->scale + fmax(fabs(end[0].t), fabs(end[1].t)));
     double reach = limit;
@@ -206,7 +206,7 @@ static void join(const End end[2], Place *out) {
 }
 
 /* Minimise along free directions `level` and above, from place->y. */
-static bool minimise(Search *self, int level, Place *place) {
+static bool minimise(MotionSearch *self, int level, Place *place) {
     if (level == 3) return evaluate(self, place);
     const double base[3] = {place->y[0], place->y[1], place->y[2]};
     End end[2] = {{.t = 0}, {.t = 0}};
@@ -248,7 +248,7 @@ static bool minimise(Search *self, int level, Place *place) {
 
 /* Of two free directions, the steeper one is minimised inside, so that its remaining slope is the
  * smaller part of the other's. */
-static bool turn_free_directions(Search *self, Place *place) {
+static bool turn_free_directions(MotionSearch *self, Place *place) {
     if (!evaluate(self, place)) return false;
     if (self->rows > 1) return true;
     double plane[3][3] = {{self->q[0][0], self->q[0][1], self->q[0][2]}};
@@ -264,16 +264,16 @@ static bool turn_free_directions(Search *self, Place *place) {
 
 /* ---- calls ---- */
 
-static CpsStatus begin(Search *self, const CpsPlanar *body, int rows, const double *map,
+static CpsStatus begin(MotionSearch *self, const CpsPlanar *body, int rows, const double *map,
                        const double *velocity, CpsError *err) {
-    *self = (Search){.body = body, .outcome = CPS_SET_OUTCOME_ANSWERED, .err = err};
+    *self = (MotionSearch){.body = body, .outcome = CPS_SET_OUTCOME_ANSWERED, .err = err};
     return set_drive(self, rows, map, velocity, err);
 }
 
 CpsStatus cps_planar_drive(const CpsPlanar *body, int rows, const double *map,
                            const double *velocity, CpsPlanarMotion *motion, CpsError *err) {
     if (!body || !motion) return cpsi_fail(err, CPS_ERR_ARGUMENT, "body or motion is NULL");
-    Search self;
+    MotionSearch self;
     CpsStatus status = begin(&self, body, rows, map, velocity, err);
     if (status != CPS_OK) return status;
     Place place = {.y = {self.start[0], self.start[1], self.start[2]}};
@@ -302,7 +302,7 @@ CpsStatus cps_planar_drive(const CpsPlanar *body, int rows, const double *map,
 
 /* How far one can go from `middle` along the last free direction before the least value exceeds
  * `level`. */
-static bool extent(Search *self, const double middle[3], double level, double direction,
+static bool extent(MotionSearch *self, const double middle[3], double level, double direction,
                    double *reach) {
     Place place;
     double slope, inside = 0, outside = 1e-6 * self->scale;
@@ -339,7 +339,7 @@ CpsStatus cps_planar_motions(const CpsPlanar *body, int rows, const double *map,
     const double middle[3] = {motion.twist[0], motion.twist[1], motion.twist[2] * body->reach};
     const double level = motion.upper + (tolerance > 0 ? tolerance : 1e-9) * motion.upper;
     for (int component = 0; component < 3; component++) {
-        Search self;
+        MotionSearch self;
         double ends[2] = {0, 0};
         begin(&self, body, rows, map, velocity, err);
 

@@ -158,8 +158,8 @@ static void run_rounds(CpsFirstOrder *s) {
     double held_before = 0;
     for (int stuck = 0; r->round_count < MAX_ROUNDS && stuck < STUCK_ROUNDS; ++r->round_count) {
         const double noise = fmin(rounding(f), FORCE_ROUNDING * force);
-        CpsiNewton newton = {.tolerance = fmax(0.1 * FORCE_TOLERANCE * force, noise),
-                             .max_iterations = NEWTON_LIMIT};
+        CpsiDampedNewton newton = {.tolerance = fmax(0.1 * FORCE_TOLERANCE * force, noise),
+                                   .max_iterations = NEWTON_LIMIT};
         cpsi_newton_minimise(&smooth, s->unknown, &newton, s->work);
         cpsi_first_order_store(f, s->unknown);
         r->iteration_count += newton.iterations;

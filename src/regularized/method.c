@@ -144,7 +144,7 @@ static void follow(CpsRegularized *c, CpsRegularizedParameters from,
     const int steps =
         farthest > CONTINUATION_FACTOR ? (int)ceil(log(farthest) / log(CONTINUATION_FACTOR)) : 1;
     CpsiSmooth smooth = cpsi_regularized_smooth(&c->f);
-    CpsiNewton newton = {0};
+    CpsiDampedNewton newton = {0};
     for (int k = 1; k <= steps; ++k) {
         const double t = (double)k / steps;
         c->f.parameters = *to;

@@ -44,7 +44,7 @@ static double largest(int n, const double *g) {
 /* Slope of f at x + t direction along the direction. The point and its gradient are left in
  * trial. */
 static double slope_at(const CpsiSmooth *f, const double *x, double t, Space *s,
-                       CpsiNewton *newton) {
+                       CpsiDampedNewton *newton) {
     for (int i = 0; i < f->unknowns; ++i) s->trial[i] = x[i] + t * s->direction[i];
     f->gradient(f->user, s->trial, s->trial_gradient);
     ++newton->evaluations;
@@ -55,7 +55,7 @@ static double slope_at(const CpsiSmooth *f, const double *x, double t, Space *s,
  * positive slope (the Illinois variant: an end that is kept twice counts half). trial and its
  * gradient belong to it. Returns 0 where no decrease is possible. */
 static double search(const CpsiSmooth *f, const double *x, double first, Space *s,
-                     CpsiNewton *newton) {
+                     CpsiDampedNewton *newton) {
     const double small = SLOPE_LEFT * fabs(first);
     double low = 0, low_slope = first, high = 0, high_slope = 0, t = 1;
     int side = 0;
@@ -102,7 +102,7 @@ static bool find_direction(const CpsiSmooth *f, const double *x, double *damping
     return false;
 }
 
-void cpsi_newton_minimise(const CpsiSmooth *f, double *x, CpsiNewton *newton, double *work) {
+void cpsi_newton_minimise(const CpsiSmooth *f, double *x, CpsiDampedNewton *newton, double *work) {
     const int n = f->unknowns;
     Space s = {work, work + n, work + 2 * (size_t)n, work + 3 * (size_t)n, work + 4 * (size_t)n};
     double damping = 0;

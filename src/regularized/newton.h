@@ -23,7 +23,7 @@ typedef struct CpsiSmooth {
     double damping_unit; /* unit of the damping, comparable with the Hessian's entries */
 } CpsiSmooth;
 
-typedef struct CpsiNewton {
+typedef struct CpsiDampedNewton {
     /* in */
     double tolerance; /* converged when no component of the gradient is larger */
     int max_iterations;
@@ -31,13 +31,13 @@ typedef struct CpsiNewton {
     bool converged;
     int iterations, evaluations; /* factorisations and gradients */
     double residual;             /* largest component of the gradient, never NaN */
-} CpsiNewton;
+} CpsiDampedNewton;
 
 /* Improve x (unknowns) until it has converged, the iteration limit is reached, or no direction of
  * descent is found.
  *    work   4*unknowns + unknowns*(band + 1) numbers
  * On return x is a point with a finite gradient. It is no worse along each searched line than the
  * point where that search began. */
-void cpsi_newton_minimise(const CpsiSmooth *f, double *x, CpsiNewton *newton, double *work);
+void cpsi_newton_minimise(const CpsiSmooth *f, double *x, CpsiDampedNewton *newton, double *work);
 
 #endif

@@ -71,7 +71,7 @@ double *cpsi_conic_rows_cone(CpsiConicRows *conic, int dim) {
 /* ---- reduction ---- */
 
 /* Scratch of a reduction. */
-typedef struct Work {
+typedef struct RowReduction {
     /* the equations, made orthonormal and completed to a basis (unknowns, unknowns) */
     double *equation, *rhs;
     double *start; /* (unknowns) a solution of the equations */
@@ -81,9 +81,9 @@ typedef struct Work {
     double *lines; /* (lines + left, n) */
     double *reach; /* (n) previous size of the rows of x */
     double length; /* largest constant of a row of size one */
-} Work;
+} RowReduction;
 
-static void layout_work(CpsiArena *arena, Work *work, const CpsiConicRows *conic, int n,
+static void layout_work(CpsiArena *arena, RowReduction *work, const CpsiConicRows *conic, int n,
                         int lines) {
     const size_t u = (size_t)conic->unknowns, w = u + 1;
     const size_t equations = conic->equations > conic->unknowns ? (size_t)conic->equations : u;
@@ -114,7 +114,7 @@ static void substitute(int count, int from, int to, const double *start, const d
 
 /* Solve the equations: `start`, and a basis of their null space in the rows of work->equation after
  * the first `rank`. Returns the rank, or -1. */
-static int eliminate(const CpsiConicRows *conic, Work *work, double tolerance) {
+static int eliminate(const CpsiConicRows *conic, RowReduction *work, double tolerance) {
     const int u = conic->unknowns;
     double largest = 0, noise = 0;
     for (int i = 0; i < conic->equations; i++) {
@@ -244,7 +244,7 @@ static CpsiConicForm *assemble(const CpsiConicRows *conic, int n, int left, int 
 
 /* An orthonormal basis in work->span of the row space, and the lines of x that the other unknowns
  * generate. Returns the dimension of the row space; *lines increases. */
-static int split(const CpsiConicRows *conic, int n, int left, Work *work, int *lines) {
+static int split(const CpsiConicRows *conic, int n, int left, RowReduction *work, int *lines) {
     const size_t l = (size_t)left, w = l + 1;
     for (int i = 0; i < n; i++) {
         double *row = &work->map[(size_t)i * w];
@@ -280,7 +280,7 @@ CpsStatus cpsi_conic_form_reduce(const CpsiConicRows *conic, int n, const double
                                  const double *q, double tolerance, CpsiConicForm **out,
                                  CpsError *err) {
     CpsiArena arena = {0};
-    Work work;
+    RowReduction work;
     layout_work(&arena, &work, conic, n, lines);
     if (!cpsi_arena_allocate(&arena))
         return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set's conic form");

@@ -14,7 +14,7 @@ static const double ON_PLANE = 1e-12;
  * rounding. */
 static const double NO_AREA = 1e-14;
 
-typedef struct Work {
+typedef struct HullWork {
     int count;
     const double *c;
     double size;
@@ -25,15 +25,15 @@ typedef struct Work {
     int *stack;   /* visible triangles, in the order found */
     int *horizon; /* (3 each) triangle across the edge, its edge, unused */
     int stack_capacity;
-} Work;
+} HullWork;
 
-static double height(const Work *w, const CpsiTriangle *t, int p) {
+static double height(const HullWork *w, const CpsiTriangle *t, int p) {
     const double *x = &w->c[3 * p];
     return t->normal[0] * x[0] + t->normal[1] * x[1] + t->normal[2] * x[2] - t->offset;
 }
 
 /* Add a triangle; -1: no memory, -2: no area. */
-static int add(Work *w, int a, int b, int c) {
+static int add(HullWork *w, int a, int b, int c) {
     if (w->triangles == w->capacity) {
         const int capacity = 2 * w->capacity + 64;
         CpsiTriangle *more = realloc(w->triangle, (size_t)capacity * sizeof *more);
@@ -57,7 +57,7 @@ static int add(Work *w, int a, int b, int c) {
 }
 
 /* Assign a point to the triangle if it is outside it. */
-static bool take(Work *w, int triangle, int p) {
+static bool take(HullWork *w, int triangle, int p) {
     CpsiTriangle *t = &w->triangle[triangle];
     const double d = height(w, t, p);
     if (!(d > ON_PLANE * w->size)) return false;
@@ -70,7 +70,7 @@ static bool take(Work *w, int triangle, int p) {
     return true;
 }
 
-static void link(Work *w, int one, int edge, int other) {
+static void link(HullWork *w, int one, int edge, int other) {
     const int a = w->triangle[one].corner[edge];
     w->triangle[one].neighbour[edge] = other;
     for (int k = 0; k < 3; k++)
@@ -80,7 +80,7 @@ static void link(Work *w, int one, int edge, int other) {
 }
 
 /* The four triangles of a tetrahedron, with all points assigned. */
-static int begin(Work *w, const int start[4]) {
+static int begin(HullWork *w, const int start[4]) {
     static const int FACE[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
     for (int f = 0; f < 4; f++) {
         int v[3] = {start[FACE[f][0]], start[FACE[f][1]], start[FACE[f][2]]};
@@ -107,7 +107,7 @@ static int begin(Work *w, const int start[4]) {
 }
 
 /* Allocate for all triangles on the stack and their edges. */
-static bool grow(Work *w) {
+static bool grow(HullWork *w) {
     if (w->stack_capacity >= w->triangles) return true;
     const int capacity = 2 * w->triangles + 64;
     int *stack = realloc(w->stack, (size_t)capacity * sizeof *stack);
@@ -120,7 +120,7 @@ static bool grow(Work *w) {
 
 /* The triangles visible from p, searched from one of them, and the edges between those and the
  * others. Returns the number of edges. */
-static int look(Work *w, int from, int p, int *seen) {
+static int look(HullWork *w, int from, int p, int *seen) {
     int edges = 0;
     *seen = 0;
     w->stack[(*seen)++] = from;
@@ -143,7 +143,7 @@ static int look(Work *w, int from, int p, int *seen) {
 }
 
 /* Replace the triangles visible from p. Returns 0; -1: no memory; -2: determined by rounding. */
-static int put(Work *w, int from, int p) {
+static int put(HullWork *w, int from, int p) {
     if (!grow(w)) return -1;
     int seen, edges = look(w, from, p, &seen);
     const int first = w->triangles;
@@ -179,7 +179,7 @@ static int put(Work *w, int from, int p) {
 
 int cpsi_quickhull(int count, const double *c, double size, const int start[4],
                    CpsiTriangle **triangles) {
-    Work w = {.count = count, .c = c, .size = size};
+    HullWork w = {.count = count, .c = c, .size = size};
     w.next = malloc((size_t)count * sizeof *w.next);
     w.at = malloc((size_t)count * sizeof *w.at);
     int result = w.next && w.at ? 0 : -1;

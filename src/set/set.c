@@ -150,12 +150,13 @@ double cpsi_set_size(const CpsSet *set) {
 
 /* ---- text ---- */
 
-typedef struct Text {
+typedef struct ExpressionText {
     char *at;
     size_t size, length;
-} Text;
+} ExpressionText;
 
-__attribute__((format(printf, 2, 3))) static void put(Text *text, const char *format, ...) {
+__attribute__((format(printf, 2, 3))) static void put(ExpressionText *text, const char *format,
+                                                      ...) {
     va_list args;
     va_start(args, format);
     const size_t left = text->length < text->size ? text->size - text->length : 0;
@@ -168,14 +169,14 @@ __attribute__((format(printf, 2, 3))) static void put(Text *text, const char *fo
 enum { MOST_WRITTEN = 8 };
 
 /* numbers separated by blanks */
-static void write_numbers(Text *text, size_t count, const double *numbers) {
+static void write_numbers(ExpressionText *text, size_t count, const double *numbers) {
     for (size_t i = 0; i < count && i < MOST_WRITTEN; i++)
         put(text, "%s%.9g", i ? " " : "", numbers[i]);
     if (count > MOST_WRITTEN) put(text, " ..");
 }
 
 /* rows of n numbers separated by semicolons, each with its bound where there are bounds */
-static void write_rows(Text *text, size_t n, size_t count, const double *numbers,
+static void write_rows(ExpressionText *text, size_t n, size_t count, const double *numbers,
                        const double *bound) {
     for (size_t k = 0; k < count && k < MOST_WRITTEN; k++) {
         put(text, "%s", k ? "; " : "");
@@ -185,7 +186,7 @@ static void write_rows(Text *text, size_t n, size_t count, const double *numbers
     if (count > MOST_WRITTEN) put(text, "; ..");
 }
 
-static void write_set(Text *text, const CpsSet *set) {
+static void write_set(ExpressionText *text, const CpsSet *set) {
     static const char *const NAME[] = {[CPSI_SET_POINTS] = "points",
                                        [CPSI_SET_BALL] = "ball",
                                        [CPSI_SET_ELLIPSOID] = "ellipsoid",
@@ -251,7 +252,7 @@ static void write_set(Text *text, const CpsSet *set) {
 }
 
 size_t cps_set_text(const CpsSet *set, char *text, size_t size) {
-    Text out = {text, text ? size : 0, 0};
+    ExpressionText out = {text, text ? size : 0, 0};
     if (out.size) text[0] = 0;
     if (set) write_set(&out, set);
     return out.length;

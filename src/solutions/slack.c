@@ -53,7 +53,7 @@ static bool is_loose(const CpsLineView *step, int node, double force) {
 /* ---- pieces ---- */
 
 /* the plane of the loose nodes of a piece, if there is one */
-static void find_plane(const CpsLineView *step, double force, CpsiPiece *piece) {
+static void find_plane(const CpsLineView *step, double force, CpsiSlackPiece *piece) {
     const int from = piece->first + !piece->open[0], to = piece->last + piece->open[1];
     const Vec3 a = cpsi_at(step->position, piece->first),
                b = cpsi_at(step->position, piece->last + 1);
@@ -81,8 +81,10 @@ static void find_plane(const CpsLineView *step, double force, CpsiPiece *piece) 
     piece->normal = vec3_scale(1 / vec3_norm(normal), normal);
 }
 
-CpsiPiece cpsi_piece_at(const CpsLineView *step, int element, double force) {
-    CpsiPiece piece = {.first = element, .last = element, .slack = is_slack(step, element, force)};
+CpsiSlackPiece cpsi_piece_at(const CpsLineView *step, int element, double force) {
+    CpsiSlackPiece piece = {.first = element,
+                            .last = element,
+                            .slack = is_slack(step, element, force)};
     if (!piece.slack) return piece;
     while (piece.last + 1 < step->element_count && is_loose(step, piece.last + 1, force))
         ++piece.last;
@@ -93,14 +95,14 @@ CpsiPiece cpsi_piece_at(const CpsLineView *step, int element, double force) {
     return piece;
 }
 
-double cpsi_piece_reach(const CpsLineView *step, const CpsiPiece *piece, int i) {
+double cpsi_piece_reach(const CpsLineView *step, const CpsiSlackPiece *piece, int i) {
     const double l = step->element_length[i];
     const double h =
         (i == piece->first ? piece->height[0] : 0) - (i == piece->last ? piece->height[1] : 0);
     return sqrt(fmax(0, (l - h) * (l + h)));
 }
 
-bool cpsi_piece_moves(const CpsLineView *step, const CpsiPiece *piece) {
+bool cpsi_piece_moves(const CpsLineView *step, const CpsiSlackPiece *piece) {
     if (!piece->slack) return false;
     if (piece->open[0] || piece->open[1]) return true;
     if (piece->first == piece->last) return false;
@@ -184,7 +186,7 @@ int cps_solution_slack(const CpsLineView *step, int capacity, CpsSlackPart *part
     int parts = 0;
     CpsSlackPart now = {.to = -1};
     for (int i = 0; i < step->element_count;) {
-        const CpsiPiece piece = cpsi_piece_at(step, i, force);
+        const CpsiSlackPiece piece = cpsi_piece_at(step, i, force);
         i = piece.last + 1;
         if (!piece.slack) continue;
         const bool moves = cpsi_piece_moves(step, &piece);

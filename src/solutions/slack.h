@@ -15,7 +15,7 @@
 #define CPSI_FULL 1e-9
 
 /* Elements first..last, between the nodes first and last + 1. */
-typedef struct CpsiPiece {
+typedef struct CpsiSlackPiece {
     int first, last;
     bool slack;
     bool open[2];  /* its node first, or last + 1, is a free end that can move as well */
@@ -24,20 +24,20 @@ typedef struct CpsiPiece {
     /* [m] heights of the nodes first and last + 1 above the plane; 0 without one */
     double height[2];
     Vec3 foot[2]; /* their projections onto the plane */
-} CpsiPiece;
+} CpsiSlackPiece;
 
 /* Unit of force for tolerances [N]: the largest tension, or all loads together. */
 double cpsi_slack_force(const CpsLineView *step);
 
 /* The piece that begins with an element; an element that is not slack is a piece by itself. */
-CpsiPiece cpsi_piece_at(const CpsLineView *step, int element, double force);
+CpsiSlackPiece cpsi_piece_at(const CpsLineView *step, int element, double force);
 
 /* [m] Reach of element i of a piece within the plane. */
-double cpsi_piece_reach(const CpsLineView *step, const CpsiPiece *piece, int i);
+double cpsi_piece_reach(const CpsLineView *step, const CpsiSlackPiece *piece, int i);
 
 /* Whether nodes of the piece can move with a solution as the result. They cannot where the piece is
  * straight, at its full length, between two nodes that remain in place. */
-bool cpsi_piece_moves(const CpsLineView *step, const CpsiPiece *piece);
+bool cpsi_piece_moves(const CpsLineView *step, const CpsiSlackPiece *piece);
 
 /* |x'| of element i of a configuration. */
 double cpsi_element_stretch(const CpsLineView *step, const double *position, int i);

@@ -36,7 +36,7 @@ const char *cps_completion_text(CpsCompletion completion) {
 /* A piece, how it is laid out, and the sides of its polygon [m]. */
 typedef struct Laying {
     const CpsLineView *step;
-    CpsiPiece piece;
+    CpsiSlackPiece piece;
     CpsCompletion how;
     double chord, length; /* chord between the projections; sum of the elements' reaches */
     double side[3];
@@ -120,7 +120,7 @@ static void directions(const Laying *lay, double out[3][2]) {
     }
 }
 
-static Laying begin(const CpsLineView *step, const CpsiPiece *piece, CpsCompletion how) {
+static Laying begin(const CpsLineView *step, const CpsiSlackPiece *piece, CpsCompletion how) {
     Laying lay = {.step = step,
                   .piece = *piece,
                   .how = how,
@@ -147,7 +147,7 @@ static bool three_close(Laying *lay) {
 
 /* The piece without its last element, which is placed across the chord. */
 static Laying without_last(const Laying *lay) {
-    CpsiPiece piece = lay->piece;
+    CpsiSlackPiece piece = lay->piece;
     Vec3 along, across;
     axes(lay, &along, &across);
     piece.foot[1] = vec3_axpy(-reach(lay, piece.last), across, piece.foot[1]);
@@ -186,7 +186,7 @@ static bool place_slack(Laying lay, double *position) {
 /* Lay out a piece straight to a free end, from the last node that remains in place, in the present
  * direction of the end. */
 static void place_straight_on(const Laying *lay, double *position) {
-    const CpsiPiece *piece = &lay->piece;
+    const CpsiSlackPiece *piece = &lay->piece;
     Vec3 along, across;
     axes(lay, &along, &across);
     const bool forth = piece->open[1];
@@ -199,7 +199,7 @@ static void place_straight_on(const Laying *lay, double *position) {
 }
 
 /* Lay out a piece and count it. */
-static void read_piece(const CpsLineView *step, const CpsiPiece *piece, CpsCompletion how,
+static void read_piece(const CpsLineView *step, const CpsiSlackPiece *piece, CpsCompletion how,
                        double *position, CpsSlackReport *r) {
     const bool moves = cpsi_piece_moves(step, piece), open = piece->open[0] || piece->open[1];
     const double length = step->arc_length[piece->last + 1] - step->arc_length[piece->first];
@@ -239,7 +239,7 @@ CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, doub
     CpsSlackReport r = {0};
     const double force = cpsi_slack_force(step);
     for (int i = 0; i < step->element_count;) {
-        const CpsiPiece piece = cpsi_piece_at(step, i, force);
+        const CpsiSlackPiece piece = cpsi_piece_at(step, i, force);
         if (piece.slack) read_piece(step, &piece, how, position, &r);
         i = piece.last + 1;
     }

@@ -42,7 +42,7 @@ CLEAN = {
                          '    do f(a, b);\n    while (x && a++ < 3);\n'
                          '    switch (x) {\n    case 1: f(a, b); break;\n    default: (*f)(c[0], 1);\n    }\n'
                          '}\n',
-    "cli/main.c": '#include "capstan/scene.h"\n',
+    "cli/main.c": '#include "capstan/scene.h"\n\ntypedef struct Pair {\n    int a;\n} Pair;\n',
 }
 
 # what is added to the clean tree, the check that must object, and a piece of its sentence
@@ -66,6 +66,7 @@ FAULTS = [
     ("src/base/bare.c", "int x;\n", "check-files", "first line should be"),
     ("src/base/long.c", LICENCE + "\n" * 801, "check-files", "at most 800"),
     ("src/base/deep.c", LICENCE + "int f(void) {\n" + "\n" * 100 + "return 0; }\n", "check-files", "at most 100"),
+    ("src/base/same.c", LICENCE + "typedef struct Pair {\n    int a;\n} Pair;\n", "check-files", "the type Pair of"),
     ("src/base/comma.c", "void f(int a, int b) {\n    a = 1, b = 2;\n}\n", "check-idioms", "comma.c:2: a comma operator"),
     ("src/base/group.c", "int f(int a) { return (a++, a); }\n", "check-idioms", "a comma operator"),
     ("src/base/last.c", "int f(int *a) { return *a = 1, 2; }\n", "check-idioms", "a comma operator"),

@@ -132,7 +132,7 @@ static void newton_where_whole_steps_diverge(void **state) {
     (void)state;
     Sharp sharp = {1e-6, -0.5};
     CpsiSmooth f = {1, 0, &sharp, sharp_gradient, sharp_hessian, 1};
-    CpsiNewton newton = {.tolerance = 1e-12, .max_iterations = 200};
+    CpsiDampedNewton newton = {.tolerance = 1e-12, .max_iterations = 200};
     double x = 10, work[5];
     cpsi_newton_minimise(&f, &x, &newton, work);
     assert_true(newton.converged);
@@ -146,7 +146,7 @@ static void newton_without_minimum(void **state) {
     (void)state;
     Sharp sharp = {1, -1.5};
     CpsiSmooth f = {1, 0, &sharp, sharp_gradient, sharp_hessian, 1};
-    CpsiNewton newton = {.tolerance = 1e-12, .max_iterations = 50};
+    CpsiDampedNewton newton = {.tolerance = 1e-12, .max_iterations = 50};
     double x = 0, work[5];
     cpsi_newton_minimise(&f, &x, &newton, work);
     assert_false(newton.converged);

@@ -98,14 +98,14 @@ static CpsStatus read_numbers(const Value *v, const CpsiYaml *list, const CpsiKe
 static const CpsiKey ANY_NUMBER = {.type = CPSI_NUMBER, .low = -CPSI_LARGEST, .high = CPSI_LARGEST};
 
 static CpsStatus reserve_rows(const Value *v, const CpsiYaml *node, int rows, int columns,
-                              CpsiRows *out) {
-    *out = (CpsiRows){.node = node, .rows = rows, .columns = columns};
+                              CpsiNumberRows *out) {
+    *out = (CpsiNumberRows){.node = node, .rows = rows, .columns = columns};
     out->x = CPSI_POOL_TAKE(v->d->pool, (size_t)rows * (size_t)columns, double);
     return out->x ? CPS_OK : cpsi_document_no_memory(v->d);
 }
 
 static CpsStatus read_vector(const Value *v, const CpsiYaml *node, const CpsiKey *form,
-                             CpsiRows *out) {
+                             CpsiNumberRows *out) {
     if (!is_list(node)) return wrong(v, node, "");
     if (node->count > form->most) return too_many(v, node, node->count, "numbers", form->most);
     const CpsStatus status = reserve_rows(v, node, 1, node->count, out);
@@ -113,7 +113,7 @@ static CpsStatus read_vector(const Value *v, const CpsiYaml *node, const CpsiKey
 }
 
 static CpsStatus read_rows(const Value *v, const CpsiYaml *node, const CpsiKey *form,
-                           CpsiRows *out) {
+                           CpsiNumberRows *out) {
     const bool list = is_list(node) && node->child->kind == CPSI_YAML_SEQUENCE;
     if (!list || node->count < form->low) return wrong(v, node, "");
     const int columns = form->most ? form->most : node->child->count;
@@ -157,7 +157,7 @@ static CpsStatus read_side(const Value *v, const CpsiYaml *node, double *low, do
 }
 
 static CpsStatus read_sides(const Value *v, const CpsiYaml *node, const CpsiKey *form,
-                            CpsiRows *out) {
+                            CpsiNumberRows *out) {
     if (!is_list(node)) return wrong(v, node, "");
     const int n = node->count;
     if (n > form->most) return too_many(v, node, n, "numbers", form->most);
@@ -308,7 +308,7 @@ static CpsStatus read_form(const Value *v, const CpsiYaml *node, const CpsiKey *
     case CPSI_ROWS:
     case CPSI_SQUARE: return read_rows(v, node, form, to);
     case CPSI_SIDE: {
-        CpsiRows *side = to;
+        CpsiNumberRows *side = to;
         const CpsStatus status = reserve_rows(v, node, 2, 1, side);
         return status ? status : read_side(v, node, &side->x[0], &side->x[1]);
     }
@@ -337,15 +337,15 @@ CpsStatus cpsi_read_number(const CpsiDocument *d, const CpsiYaml *node, const ch
     return read_number(&v, node, &ANY_NUMBER, out);
 }
 
-CpsStatus cpsi_expect_columns(const CpsiDocument *d, const CpsiRows *rows, const char *what,
+CpsStatus cpsi_expect_columns(const CpsiDocument *d, const CpsiNumberRows *rows, const char *what,
                               int columns) {
     const CpsiKey key = {.type = CPSI_ROWS, .most = columns, .low = 1, .high = CPSI_LARGEST};
     const Value v = {d, &key, what};
     return rows->columns == columns ? CPS_OK : wrong(&v, rows->node->child, "");
 }
 
-CpsStatus cpsi_expect_components(const CpsiDocument *d, const CpsiRows *vector, const char *what,
-                                 int components) {
+CpsStatus cpsi_expect_components(const CpsiDocument *d, const CpsiNumberRows *vector,
+                                 const char *what, int components) {
     const CpsiKey key = {.type = CPSI_POINT, .most = components};
     const Value v = {d, &key, what};
     return vector->columns == components ? CPS_OK : wrong(&v, vector->node, "");

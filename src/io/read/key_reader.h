@@ -28,9 +28,9 @@ CpsStatus cpsi_read_number(const CpsiDocument *d, const CpsiYaml *node, const ch
 
 /* For rows and vectors whose size is known only to the builder: fails unless they have this
  * size. */
-CpsStatus cpsi_expect_columns(const CpsiDocument *d, const CpsiRows *rows, const char *what,
+CpsStatus cpsi_expect_columns(const CpsiDocument *d, const CpsiNumberRows *rows, const char *what,
                               int columns);
-CpsStatus cpsi_expect_components(const CpsiDocument *d, const CpsiRows *vector, const char *what,
-                                 int components);
+CpsStatus cpsi_expect_components(const CpsiDocument *d, const CpsiNumberRows *vector,
+                                 const char *what, int components);
 
 #endif

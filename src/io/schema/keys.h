@@ -21,7 +21,7 @@ typedef enum CpsiValue {
     CPSI_WORD,    /* int: index of one of `words`, from 0 */
     CPSI_POINT,   /* double[most]: exactly this many numbers within the range */
 
-    /* CpsiRows */
+    /* CpsiNumberRows */
     CPSI_VECTOR, /* [x, ..]: one row of at most `most` numbers within the range */
     CPSI_ROWS,   /* [[x, ..], ..]: `low` to `high` rows of `most` numbers; 0: all equally long */
     CPSI_SQUARE, /* as many rows as columns */
@@ -118,11 +118,11 @@ typedef struct CpsiNumberItem {
 } CpsiNumberItem;
 
 /* Rows of numbers. */
-typedef struct CpsiRows {
+typedef struct CpsiNumberRows {
     const CpsiYaml *node; /* NULL: not given */
     int rows, columns;
     double *x; /* (rows, columns) */
-} CpsiRows;
+} CpsiNumberRows;
 
 /* Squares of larger numbers would overflow (cps_scene_check); .inf where a range allows it. */
 #define CPSI_LARGEST 1e100

@@ -18,17 +18,17 @@
  * enough for the memory. */
 enum { MAX_VALUES = 4000000, MAX_SCALAR = 65536 };
 
-typedef struct Open {      /* a collection that is not closed yet */
-    CpsiYaml *node, *last; /* last child so far */
-    const char *key;       /* mapping: a key whose value has not been read yet */
-    int line, column;      /* of that key */
-} Open;
+typedef struct OpenCollection { /* a collection that is not closed yet */
+    CpsiYaml *node, *last;      /* last child so far */
+    const char *key;            /* mapping: a key whose value has not been read yet */
+    int line, column;           /* of that key */
+} OpenCollection;
 
 typedef struct Parse {
     const char *file, *what;
     CpsiPool *pool;
     CpsError *err;
-    Open *open; /* (max_depth) */
+    OpenCollection *open; /* (max_depth) */
     int depth, max_depth, values, documents;
     int line, column; /* of the last event that has a position */
     CpsiYaml *root;
@@ -222,7 +222,7 @@ static CpsStatus add_value(Parse *p, CpsiYaml value, CpsiYaml **added) {
     if (p->depth == 0) {
         p->root = node;
     } else {
-        Open *parent = &p->open[p->depth - 1];
+        OpenCollection *parent = &p->open[p->depth - 1];
         if (parent->node->kind == CPSI_YAML_MAPPING) {
             value.key = parent->key;
             value.line = parent->line;
@@ -291,7 +291,7 @@ static CpsStatus read_value(Parse *p, struct fy_event *event, int line, int colu
 
     /* the value of the key has not been read yet */
     CpsStatus status = CPS_OK;
-    Open *parent = p->depth > 0 ? &p->open[p->depth - 1] : NULL;
+    OpenCollection *parent = p->depth > 0 ? &p->open[p->depth - 1] : NULL;
     const bool scalar = event->type == FYET_SCALAR;
     if (parent && parent->node->kind == CPSI_YAML_MAPPING && !parent->key) {
         if (!scalar)
@@ -315,7 +315,7 @@ static CpsStatus read_value(Parse *p, struct fy_event *event, int line, int colu
                             p->max_depth);
     value.kind = event->type == FYET_MAPPING_START ? CPSI_YAML_MAPPING : CPSI_YAML_SEQUENCE;
     status = add_value(p, value, &added);
-    if (status == CPS_OK) p->open[p->depth++] = (Open){.node = added};
+    if (status == CPS_OK) p->open[p->depth++] = (OpenCollection){.node = added};
     return status;
 }
 
@@ -400,7 +400,7 @@ CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes,
                                                  FYPCF_DEFAULT_VERSION_1_2 | FYPCF_JSON_NONE,
                                         .diag = diag};
     struct fy_parser *parser = diag ? fy_parser_create(&config) : NULL;
-    p.open = CPSI_POOL_TAKE(pool, max_depth, Open);
+    p.open = CPSI_POOL_TAKE(pool, max_depth, OpenCollection);
     if (!parser || !p.open || fy_parser_set_string(parser, bytes, size) != 0)
         status = out_of_memory(&p);
     else

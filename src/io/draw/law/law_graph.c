@@ -32,7 +32,7 @@ static const double WIDER = 1.25;
 /* Unbounded forces are drawn at a distance of this many frames. */
 static const double FAR = 50;
 
-typedef struct Graph {
+typedef struct LawGraph {
     FILE *out;
     CpsError *err;
     const CpsSet *set;
@@ -43,10 +43,10 @@ typedef struct Graph {
     double *velocity, *centre; /* (n) scratch */
     CpsiFrame frame;
     CpsiUnit unit;
-} Graph;
+} LawGraph;
 
 /* The forces at g->velocity; NULL where there are none. */
-static CpsStatus forces_at(const Graph *g, CpsSet **forces, CpsSetAnswer *answer) {
+static CpsStatus forces_at(const LawGraph *g, CpsSet **forces, CpsSetAnswer *answer) {
     *forces = NULL;
     if (g->set) return cps_set_forces(g->set, g->velocity, 0, forces, answer, g->err);
     return cps_resistance_forces(g->resistance, g->velocity, 0, forces, answer, g->err);
@@ -55,7 +55,7 @@ static CpsStatus forces_at(const Graph *g, CpsSet **forces, CpsSetAnswer *answer
 /* ---- one component ---- */
 
 /* Both ends of the set of forces at each velocity, the larger first; NAN where there are none. */
-static CpsStatus sample(Graph *g, double (*end)[2]) {
+static CpsStatus sample(LawGraph *g, double (*end)[2]) {
     for (int i = 0; i <= STEPS; i++) {
         g->velocity[0] = g->most * (2.0 * i / STEPS - 1);
         CpsSet *forces = NULL;
@@ -72,7 +72,7 @@ static CpsStatus sample(Graph *g, double (*end)[2]) {
     return CPS_OK;
 }
 
-static void fit_graph(Graph *g, double (*end)[2]) {
+static void fit_graph(LawGraph *g, double (*end)[2]) {
     double y[2] = {0, 0};
     for (int i = 0; i <= STEPS; i++)
         for (int k = 0; k < 2; k++)
@@ -89,13 +89,13 @@ static void fit_graph(Graph *g, double (*end)[2]) {
 }
 
 /* A force in the units of the frame; an unbounded one far outside. */
-static double in_frame(const Graph *g, double force) {
+static double in_frame(const LawGraph *g, double force) {
     return isfinite(force) ? force * g->unit.factor
                            : copysign(FAR * (g->frame.y[1] - g->frame.y[0]), force);
 }
 
 /* The velocities at a force: a dot, or a thick line. */
-static CpsStatus draw_force(const Graph *g, double force) {
+static CpsStatus draw_force(const LawGraph *g, double force) {
     CpsSet *velocities = NULL;
     CpsSetAnswer answer;
     CpsSetExtent extent;
@@ -116,19 +116,19 @@ static CpsStatus draw_force(const Graph *g, double force) {
     return status;
 }
 
-static void draw_axis_lines(const Graph *g) {
+static void draw_axis_lines(const LawGraph *g) {
     fprintf(g->out,
             "<path d=\"M%.1f %.1fH%.1f M%.1f %.1fV%.1f\" stroke=\"#aaa\" stroke-width=\"1\"/>\n",
             g->frame.left, cpsi_frame_y(&g->frame, 0), g->frame.left + g->frame.width,
             cpsi_frame_x(&g->frame, 0), g->frame.top, g->frame.top + g->frame.height);
 }
 
-static const char *title_of(const Graph *g) {
+static const char *title_of(const LawGraph *g) {
     if (g->picture->title && *g->picture->title) return g->picture->title;
     return g->set ? "friction law" : "resistance law";
 }
 
-static CpsStatus draw_graph(Graph *g) {
+static CpsStatus draw_graph(LawGraph *g) {
     double(*end)[2] = calloc(STEPS + 1, sizeof *end),
     *curve = calloc(4 * (STEPS + 1), sizeof *curve);
     CpsStatus status =
@@ -192,7 +192,7 @@ static CpsStatus draw_graph(Graph *g) {
 
 /* A force for each direction of the plane at one speed, the middle of the set where there are
  * several; NAN where there is none. */
-static CpsStatus sample_speed(Graph *g, double speed, double *curve) {
+static CpsStatus sample_speed(LawGraph *g, double speed, double *curve) {
     for (int i = 0; i < DIRECTIONS; i++) {
         const double angle = 2 * CPSI_PI * (i + 0.5) / DIRECTIONS;
         CpsSet *forces = NULL;
@@ -213,7 +213,7 @@ static CpsStatus sample_speed(Graph *g, double speed, double *curve) {
     return CPS_OK;
 }
 
-static CpsStatus draw_speeds(Graph *g) {
+static CpsStatus draw_speeds(LawGraph *g) {
     double *curve = calloc(2 * SPEEDS * DIRECTIONS, sizeof *curve), x[2] = {0, 0}, y[2] = {0, 0};
     CpsStatus status = curve ? CPS_OK : cpsi_fail(g->err, CPS_ERR_MEMORY, "out of memory");
     for (int k = 0; status == CPS_OK && k < SPEEDS; k++)
@@ -270,7 +270,7 @@ static CpsStatus draw_speeds(Graph *g) {
 /* ---- both ---- */
 
 static CpsStatus draw(void *what, FILE *out, CpsError *err) {
-    Graph *g = what;
+    LawGraph *g = what;
     g->out = out;
     g->err = err;
     return g->n == 1 ? draw_graph(g) : draw_speeds(g);
@@ -300,10 +300,10 @@ CpsStatus cpsi_law_picture_check(const CpsLawPicture *picture, int n, CpsError *
 
 CpsStatus cpsi_law_graph(const CpsSet *set, const CpsResistance *resistance,
                          const CpsLawPicture *picture, FILE *out, CpsError *err) {
-    Graph g = {.set = set,
-               .resistance = resistance,
-               .picture = picture,
-               .axis = {picture->axis[0], picture->axis[1]}};
+    LawGraph g = {.set = set,
+                  .resistance = resistance,
+                  .picture = picture,
+                  .axis = {picture->axis[0], picture->axis[1]}};
     g.n = set ? cps_set_space(set) : cps_resistance_space(resistance);
     for (int i = 0; i < picture->velocity_count * g.n; i++)
         g.most = fmax(g.most, WIDER * fabs(picture->velocity[i]));

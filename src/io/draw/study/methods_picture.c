@@ -25,13 +25,13 @@ enum {
 /* frames below each other */
 enum { PLAN, ELEVATION, PLAN_NEAR, ELEVATION_NEAR, ROWS };
 
-typedef struct Sheet {
+typedef struct MethodsSheet {
     const CpsiMethods *m;
     int rows;
     double column;       /* width */
     double whole[3][2];  /* ranges of everything drawn, so that columns can be compared */
     double around[3][2]; /* the same for end B after the start; heights are all included */
-} Sheet;
+} MethodsSheet;
 
 static const double *place(const CpsiMethods *m, int method, int step, int point) {
     return m->method[method].position + 3 * ((size_t)step * (size_t)m->points + (size_t)point);
@@ -41,7 +41,7 @@ static CpsiColour step_colour(const CpsiMethods *m, int step) {
     return cpsi_colour(CPSI_SCALE_STEP, m->steps > 1 ? (double)step / (m->steps - 1) : 1);
 }
 
-static void find_ranges(Sheet *sheet) {
+static void find_ranges(MethodsSheet *sheet) {
     const CpsiMethods *m = sheet->m;
     for (int x = 0; x < 3; ++x) {
         sheet->whole[x][0] = sheet->around[x][0] = INFINITY;
@@ -148,7 +148,7 @@ static bool is_drawn(const CpsiMethods *m, int step) {
     return step % (m->steps / CURVES + 1) == 0 || step == m->steps - 1;
 }
 
-static void draw_frame(const Sheet *sheet, int method, int row, FILE *out) {
+static void draw_frame(const MethodsSheet *sheet, int method, int row, FILE *out) {
     const CpsiMethods *m = sheet->m;
     const int up = is_plan(row) ? 1 : 2;
     const double(*range)[2] = is_near(row) ? sheet->around : sheet->whole;
@@ -180,7 +180,7 @@ static void draw_frame(const Sheet *sheet, int method, int row, FILE *out) {
                   "font-weight=\"bold\"", name);
 }
 
-static void draw_legend(const Sheet *sheet, double width, double y, FILE *out) {
+static void draw_legend(const MethodsSheet *sheet, double width, double y, FILE *out) {
     const CpsiMethods *m = sheet->m;
     double x = LEFT;
     for (int s = 0; s < m->steps; ++s) {
@@ -196,11 +196,11 @@ static void draw_legend(const Sheet *sheet, double width, double y, FILE *out) {
 }
 
 void cpsi_picture_methods(const CpsiMethods *m, FILE *out) {
-    Sheet sheet = {.m = m,
-                   .rows = m->plan_only   ? 1
-                           : m->steps > 1 ? ROWS
-                                          : PLAN_NEAR,
-                   .column = m->methods > 1 ? NARROW : WIDE};
+    MethodsSheet sheet = {.m = m,
+                          .rows = m->plan_only   ? 1
+                                  : m->steps > 1 ? ROWS
+                                                 : PLAN_NEAR,
+                          .column = m->methods > 1 ? NARROW : WIDE};
     find_ranges(&sheet);
     const double width = LEFT + (sheet.column + GAP) * m->methods,
                  bottom = row_bottom(sheet.rows - 1) + 56;

@@ -179,7 +179,7 @@ CpsStatus cpsi_build_sweep(CpsiSetBuild *b, const CpsiSweepValues *values, CpsDr
         return cpsi_document_fail(b->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "law"),
                                   "'law': found more than 2 components, expected 1 or 2");
     const size_t size = (size_t)out->space * sizeof(double);
-    const CpsiRows *position = &values->position, *end = &values->end;
+    const CpsiNumberRows *position = &values->position, *end = &values->end;
     if (position->node) status = cpsi_expect_components(b->d, position, "'position'", out->space);
     if (status == CPS_OK && end->node)
         status = cpsi_expect_components(b->d, end, "'end'", out->space);

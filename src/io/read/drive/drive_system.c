@@ -202,7 +202,7 @@ static CpsStatus build_load(const Names *names, const CpsiYaml *node, CpsSystem 
 
 CpsStatus cpsi_build_system(CpsiSetBuild *b, const CpsiSystemValues *values, CpsDriveSystem *out) {
     const CpsiYaml *constraints = values->constraints, *drive = values->drive, *load = values->load;
-    const CpsiRows *asked = &values->velocity;
+    const CpsiNumberRows *asked = &values->velocity;
     Names names = {.b = b, .d = b->d};
     CpsError found;
     out->map_radius = values->map_radius;

@@ -60,7 +60,7 @@ static CpsStatus build_arc(const CpsiDocument *d, const CpsiPathArcValues *arc, 
 
 CpsStatus cpsi_build_path(const CpsiDocument *d, const CpsiPathValues *values, int space,
                           const double *start, int steps, int *points, const double **path) {
-    const CpsiRows *given = &values->points;
+    const CpsiNumberRows *given = &values->points;
     if (values->node) {
         if (space != 2)
             return cpsi_document_wrong(d, values->node, "'path'",

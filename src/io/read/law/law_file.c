@@ -57,7 +57,7 @@ bool cps_law_file_composition(const CpsLawFile *file, CpsComposition *compositio
     return file->has_preimage;
 }
 
-static CpsStatus read_load(const CpsiDocument *d, const CpsiRows *load, CpsLawFile *out) {
+static CpsStatus read_load(const CpsiDocument *d, const CpsiNumberRows *load, CpsLawFile *out) {
     CpsError found;
     if (cpsi_set_match(load, "load", load->columns, "numbers", cps_law_space(out->law),
                        "the law has components", &found) == CPS_OK &&

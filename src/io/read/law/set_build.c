@@ -79,7 +79,7 @@ static CpsStatus build_contacts(CpsiSetBuild *b, CpsiSetValues *v) {
     CpsStatus status = read_laws(b, v->contacts.count, v);
     v->columns = contact->map.columns;
     for (int i = 0; i < v->count && status == CPS_OK; i++, contact++) {
-        const CpsiRows *map = &contact->map;
+        const CpsiNumberRows *map = &contact->map;
         v->map[i] = map->x;
         status = cpsi_build_law(b, contact->of, &v->law[i]);
         if (status != CPS_OK) return status;

@@ -152,7 +152,7 @@ static CpsStatus build_nodes(Build *b, const CpsiLineValues *values, CpsLine *li
 static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsStart *start) {
     const CpsiStraightValues *straight = &values->straight;
     const CpsiArcValues *arc = &values->arc;
-    const CpsiRows *polyline = &values->polyline;
+    const CpsiNumberRows *polyline = &values->polyline;
     if (!values->node) {
         start->kind = CPS_START_STATIC;
         return CPS_OK;

@@ -25,15 +25,15 @@ typedef enum Block {
     BLOCKS
 } Block;
 
-typedef struct Layout {
+typedef struct Blocks {
     int lines;
     uint64_t points;
     uint64_t bytes[BLOCKS];
     uint64_t offset[BLOCKS]; /* of the block's size, from the start of the appended data */
-} Layout;
+} Blocks;
 
 /* The sizes fit 64 bits: a node takes more bytes in the evolution than in the file. */
-static void measure(const CpsEvolution *evolution, Layout *out) {
+static void measure(const CpsEvolution *evolution, Blocks *out) {
     static const uint64_t PER_POINT[BLOCKS] = {24, 8, 0, 8, 24, 1, 24, 0},
                           PER_LINE[BLOCKS] = {[BLOCK_OFFSETS] = 8, [BLOCK_LINE_ID] = 4};
     memset(out, 0, sizeof *out);
@@ -48,7 +48,7 @@ static void measure(const CpsEvolution *evolution, Layout *out) {
     }
 }
 
-static void write_array(FILE *out, const Layout *layout, Block block, const char *type,
+static void write_array(FILE *out, const Blocks *layout, Block block, const char *type,
                         const char *name, int components) {
     fprintf(out,
             "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" "
@@ -56,7 +56,7 @@ static void write_array(FILE *out, const Layout *layout, Block block, const char
             type, name, components, (unsigned long long)layout->offset[block]);
 }
 
-static void write_header(FILE *out, const Layout *layout) {
+static void write_header(FILE *out, const Blocks *layout) {
     const uint16_t probe = 1;
     const bool little = *(const unsigned char *)&probe == 1;
     fprintf(out,
@@ -122,7 +122,7 @@ static void write_node(FILE *out, const CpsLineView *view, Block block, int j) {
     fwrite(value, sizeof value[0], count, out);
 }
 
-static void write_block(FILE *out, const CpsEvolution *evolution, const Layout *layout,
+static void write_block(FILE *out, const CpsEvolution *evolution, const Blocks *layout,
                         Block block) {
     fwrite(&layout->bytes[block], sizeof(uint64_t), 1, out);
     int64_t node = 0;
@@ -148,7 +148,7 @@ static void write_block(FILE *out, const CpsEvolution *evolution, const Layout *
 }
 
 CpsStatus cpsi_paraview_step(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
-    Layout layout;
+    Blocks layout;
     measure(evolution, &layout);
     char name[64];
     FILE *out = NULL;

@@ -33,14 +33,14 @@ struct CpsJournal {
 
 /* The head of a journal. The scene is identified by the state of its evolution before the first
  * step. */
-typedef struct Head {
+typedef struct JournalHead {
     char magic[8], program[64];
     uint64_t build, scene,
         /* checksums of the program's version and build and of that state; size of a state in
          * bytes */
         size;
     uint64_t checksum; /* of all the above */
-} Head;
+} JournalHead;
 
 static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'n', 'J', '2'},
                   PROGRAM[] = CAPSTAN_COMMIT " " CAPSTAN_BUILD;
@@ -102,21 +102,21 @@ static CpsStatus refuse(const CpsJournal *journal, CpsStatus status, const char 
 
 /* open ----------------------------------------------------------------------------------------- */
 
-static Head make_head(const CpsJournal *journal) {
-    Head head = {.build = checksum(CHECKSUM_BEGINS, PROGRAM, sizeof PROGRAM),
-                 .size = journal->size};
+static JournalHead make_head(const CpsJournal *journal) {
+    JournalHead head = {.build = checksum(CHECKSUM_BEGINS, PROGRAM, sizeof PROGRAM),
+                        .size = journal->size};
     memcpy(head.magic, MAGIC, sizeof MAGIC);
     snprintf(head.program, sizeof head.program, "%s", cps_version());
     head.build = checksum(head.build, head.program, sizeof head.program);
     snprintf(head.program, sizeof head.program, "capstan %s, %s", cps_version(), CAPSTAN_COMMIT);
     head.scene = checksum(CHECKSUM_BEGINS, journal->state, journal->size);
-    head.checksum = checksum(CHECKSUM_BEGINS, &head, offsetof(Head, checksum));
+    head.checksum = checksum(CHECKSUM_BEGINS, &head, offsetof(JournalHead, checksum));
     return head;
 }
 
 /* An empty journal, synced to the disk together with its name. */
 static CpsStatus begin(CpsJournal *journal, CpsError *err) {
-    const Head head = make_head(journal);
+    const JournalHead head = make_head(journal);
     journal->begun = true;
     journal->end = (off_t)sizeof head;
     if (ftruncate(journal->file, 0) != 0 || !write_at(journal->file, &head, sizeof head, 0) ||
@@ -127,14 +127,14 @@ static CpsStatus begin(CpsJournal *journal, CpsError *err) {
 }
 
 /* Accept what is there as a journal as far as it is complete: `got` bytes of its head. */
-static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const Head *found, size_t got,
-                         CpsError *err) {
+static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const JournalHead *found,
+                         size_t got, CpsError *err) {
     if (memcmp(found->magic, MAGIC, got < sizeof MAGIC ? got : sizeof MAGIC) != 0)
         return refuse(journal, CPS_ERR_IO,
                       "is no journal of capstan: move it away, or choose another directory", err);
     struct stat about;
     if (fstat(journal->file, &about) != 0) return fail(journal, "read", err);
-    const Head own = make_head(journal);
+    const JournalHead own = make_head(journal);
     const bool empty = about.st_size <= (off_t)sizeof own;
     if (mode == CPS_JOURNAL_REPLACE || empty) return begin(journal, err);
     if (mode == CPS_JOURNAL_NEW)
@@ -142,7 +142,7 @@ static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const Head *f
                       "keeps the steps of a run that was interrupted: go on with it (--resume), or "
                       "begin anew without them (--force)",
                       err);
-    if (found->checksum != checksum(CHECKSUM_BEGINS, found, offsetof(Head, checksum)))
+    if (found->checksum != checksum(CHECKSUM_BEGINS, found, offsetof(JournalHead, checksum)))
         return refuse(journal, CPS_ERR_ARGUMENT,
                       "has a damaged head: nothing can be taken from it; begin anew (--force)",
                       err);
@@ -175,7 +175,7 @@ static CpsStatus open_file(CpsJournal *journal, CpsJournalMode mode, CpsError *e
         return refuse(
             journal, CPS_ERR_IO,
             "is not a file but a link or a device: move it away, or choose another directory", err);
-    Head found = {0};
+    JournalHead found = {0};
     size_t got;
     if (!read_at(journal->file, &found, sizeof found, 0, &got)) return fail(journal, "read", err);
     return take_up(journal, mode, &found, got, err);

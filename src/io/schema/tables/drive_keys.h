@@ -24,7 +24,7 @@ typedef struct CpsiPathArcValues {
 
 typedef struct CpsiPathValues {
     const CpsiYaml *node; /* NULL: rows, or no path */
-    CpsiRows points;
+    CpsiNumberRows points;
     CpsiPathArcValues arc;
 } CpsiPathValues;
 
@@ -40,7 +40,7 @@ typedef struct CpsiSystemValues {
     const CpsiYaml *node;
     const CpsiYaml *parameters, *constraints, *drive, *load;
     CpsiList laws; /* CpsiSystemLawValues */
-    CpsiRows velocity;
+    CpsiNumberRows velocity;
     double map_radius;
 } CpsiSystemValues;
 
@@ -52,7 +52,7 @@ typedef struct CpsiPatchValues {
     double orientation; /* [degrees] */
     int locked;         /* brake: 0: the word `locked` is given */
     const CpsiYaml *law;
-    CpsiRows corners;
+    CpsiNumberRows corners;
 } CpsiPatchValues;
 
 typedef struct CpsiPushValues { /* NaN: not given */
@@ -86,7 +86,7 @@ typedef struct CpsiCircleValues {
 
 typedef struct CpsiCurveValues {
     const CpsiYaml *node; /* NULL: rows */
-    CpsiRows points;
+    CpsiNumberRows points;
     CpsiCircleValues circle;
     const char *file;
 } CpsiCurveValues;
@@ -112,7 +112,7 @@ typedef struct CpsiRopeShapeValues {
     const CpsiYaml *node;
     CpsiRopeStraightValues straight;
     CpsiRopeArcValues arc;
-    CpsiRows polyline;
+    CpsiNumberRows polyline;
 } CpsiRopeShapeValues;
 
 /* The kinds of end of a rope. */
@@ -133,7 +133,7 @@ typedef struct CpsiSweepValues {
     const CpsiYaml *node;
     const CpsiYaml *law;
     double stiffness;
-    CpsiRows position, end;
+    CpsiNumberRows position, end;
     CpsiPathValues path;
     int steps;
 } CpsiSweepValues;

@@ -62,7 +62,7 @@ typedef struct CpsiStartValues {
     const CpsiYaml *node; /* NULL: a word */
     int word;             /* that of `static` */
     CpsiStraightValues straight;
-    CpsiRows polyline;
+    CpsiNumberRows polyline;
     CpsiArcValues arc;
     const char *nodes; /* name of a file */
 } CpsiStartValues;

@@ -10,7 +10,7 @@
 typedef const CpsiSetValues *Values;
 typedef CpsiSetMade *Made;
 
-CpsStatus cpsi_set_match(const CpsiRows *value, const char *name, int found, const char *what,
+CpsStatus cpsi_set_match(const CpsiNumberRows *value, const char *name, int found, const char *what,
                          int expected, const char *reason, CpsError *err) {
     if (found == expected) return CPS_OK;
     return cpsi_fail_at(err, CPS_ERR_INPUT, "", value->node->line, value->node->column,
@@ -76,7 +76,7 @@ static CpsStatus make_half_space(Values v, Made made, CpsError *err) {
 }
 
 static CpsStatus make_inequalities(Values v, Made made, CpsError *err) {
-    const CpsiRows *rows = &v->rows, *offsets = &v->offsets;
+    const CpsiNumberRows *rows = &v->rows, *offsets = &v->offsets;
     const CpsStatus status = cpsi_set_match(offsets, "offsets", offsets->columns, "numbers",
                                             rows->rows, "there are rows", err);
     if (status != CPS_OK) return status;

@@ -11,9 +11,9 @@
 /* The values of a word. Values that the word does not have are zero. A word whose value has another
  * meaning gets a field of its own. */
 typedef struct CpsiSetValues {
-    CpsiRows rows;    /* points, matrices, directions, sides, tables */
-    CpsiRows offsets; /* of inequalities */
-    double number;    /* radius, width, offset, friction, factor */
+    CpsiNumberRows rows;    /* points, matrices, directions, sides, tables */
+    CpsiNumberRows offsets; /* of inequalities */
+    double number;          /* radius, width, offset, friction, factor */
     double load, degree;
     int dimension;
     const CpsiYaml *sets, *laws; /* its parts: an expression, or a list of expressions */
@@ -39,7 +39,7 @@ typedef struct CpsiSetMade {
 /* One contact of `contacts`. */
 typedef struct CpsiContactValues {
     const CpsiYaml *node;
-    CpsiRows map;
+    CpsiNumberRows map;
     const CpsiYaml *of;
 } CpsiContactValues;
 
@@ -48,7 +48,7 @@ typedef struct CpsiLawFileValues {
     const CpsiYaml *node;
     int version;
     const char *title;
-    CpsiRows load;
+    CpsiNumberRows load;
     const CpsiYaml *law, *resistance;
 } CpsiLawFileValues;
 
@@ -64,7 +64,7 @@ enum { CPSI_LAW_MOST_COMPONENTS = 32, CPSI_LAW_MOST_SOLVED = 300, CPSI_LAW_LONGE
 
 /* Fails, at the value, unless `found` equals `expected`: "'map': found 3 columns, expected 2, as
  * many as .." */
-CpsStatus cpsi_set_match(const CpsiRows *value, const char *name, int found, const char *what,
+CpsStatus cpsi_set_match(const CpsiNumberRows *value, const char *name, int found, const char *what,
                          int expected, const char *reason, CpsError *err);
 
 #endif
