@@ -249,6 +249,18 @@ def rows():
     expect("stages", shown == [str(i) for i in range(0, 50, 2)] + ["49"], shown)
 
 
+def unresolved():
+    """With a coarse tolerance it is not known which nodes slip: the summary says nothing of them."""
+    write("coarse.yaml", SCENES["two.yaml"].replace("steps: 60", "steps: 2") + "solver: {tolerance: 1e-3}\n")
+    run("run", "coarse.yaml", "-o", "coarse")
+    with open("coarse/summary.json", encoding="utf-8") as file:
+        summary = file.read()
+    expect("coarse", '"slipping_m": null' in summary, summary[:600])
+    run("run", "two.yaml", "-o", "fine")
+    with open("fine/summary.json", encoding="utf-8") as file:
+        expect("fine", '"slipping_m": null' not in file.read())
+
+
 def drives():
     """Many parameters: those printed and those computed are limited, and it is said; the first two of a chain carry its weight."""
     n = 130
@@ -309,7 +321,7 @@ def main():
         os.chdir(folder)
         for name, text in SCENES.items():
             write(name, text)
-        for part in (checks, steps_by_name, no_solution, options, regularized, slack, progress, rows, drives):
+        for part in (checks, steps_by_name, no_solution, options, regularized, slack, progress, rows, unresolved, drives):
             part()
         os.chdir("/")
     print("\n".join(faults))

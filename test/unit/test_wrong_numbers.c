@@ -111,6 +111,49 @@ static void laws(void **state) {
     REFUSED(cps_resistance_function(law, NULL, NULL, NULL, &resistance, &err));
 }
 
+/* A set of the user's has no conic form. */
+static bool unit_disc(void *user, int n, const double *w, double *value, double *x) {
+    (void)user;
+    *value = hypot(w[0], w[1]);
+    for (int a = 0; a < n; a++) x[a] = *value > 0 ? w[a] / *value : 0;
+    return true;
+}
+
+static void limits(void **state) {
+    (void)state;
+    static const CpsLaw *many_laws[CPS_SET_MAX_ITEMS + 1];
+    static const CpsResistance *many[CPS_SET_MAX_ITEMS + 1];
+    CpsSystem *system = NULL, *large = NULL;
+    CpsSetConic conic = {0};
+    CpsSet *own = NULL;
+    CpsLaw *of_user = NULL;
+    CpsLoadedLaw *loaded = NULL;
+    const CpsEntry map[2] = {{0, 0, 1}, {1, 1, 1}};
+    for (i = 0; i <= CPS_SET_MAX_ITEMS; ++i) {
+        many_laws[i] = law;
+        many[i] = viscous;
+    }
+    REFUSED(cps_law_product(CPS_SET_MAX_ITEMS + 1, many_laws, &made, &err));
+    REFUSED(cps_resistance_sum(CPS_SET_MAX_ITEMS + 1, many, &resistance, &err));
+    SOUND(cps_set_user(2, unit_disc, NULL, &own, &err));
+    SOUND(cps_set_conic(own, &conic, &err));
+    GIVES(conic.outcome == CPS_SET_OUTCOME_NOT_AVAILABLE);
+    SOUND(cps_law_friction(own, &of_user, &err));
+    SOUND(cps_system_create(2, &system, &err));
+    REFUSED(cps_system_add_friction(system, NULL, of_user, 2, map, &err));
+    SOUND(cps_system_set_drive(system, 1, 1, map, &err));
+    REFUSED(cps_system_eliminate(system, &made, NULL, NULL, &err)); /* nothing resists */
+    SOUND(cps_system_create(CPS_SET_MAX_SPACE + 1, &large, &err));
+    REFUSED(cps_system_add_subspace(large, 0, ZERO, &err));
+    SOUND(cps_law_load(law, (double[]){0.1, 0}, &loaded, &err));
+    GIVES(cps_loaded_law_space(loaded) == 2);
+    cps_loaded_law_release(loaded);
+    cps_system_destroy(large);
+    cps_system_destroy(system);
+    cps_law_release(of_user);
+    cps_set_release(own);
+}
+
 static void systems(void **state) {
     (void)state;
     CpsSystem *system = NULL;
@@ -157,6 +200,7 @@ static void bodies(void **state) {
     CpsPlanar *body = NULL;
     CpsPlanarBounds bounds;
     SOUND(cps_planar_create(1, &sound, &body, &err));
+    GIVES(cps_planar_patch_count(body) == 1);
     for (i = 0; i < NONES; ++i) {
         double *place[5];
         for (k = 0; k < 3; ++k) {
@@ -301,7 +345,10 @@ static void studies(void **state) {
     REFUSED(cps_study_run(classic, &options, NULL, NULL, &study, &err));
     REFUSED(cps_solution_judge(&view, NULL, 1e-8, &judged, &err));
     REFUSED(cps_solution_judge(&view, view.position, 1e-8, NULL, &err));
+    REFUSED(cps_evolution_create(&scene, NULL, &err));
     REFUSED(cps_evolution_step(NULL, &err));
+    GIVES(cps_solution_slack(&view, 2, NULL) == 0);
+    REFUSED(cps_solution_complete(&view, CPS_COMPLETION_MEANDER, NULL, NULL, &err));
     SOUND(cps_evolution_step(evolution, &err));
     REFUSED(cps_evolution_step(evolution, &err)); /* the history is over */
     cps_regularized_destroy(classic);
@@ -318,9 +365,15 @@ static void release(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(make),    cmocka_unit_test(sets),    cmocka_unit_test(laws),
-        cmocka_unit_test(systems), cmocka_unit_test(bodies),  cmocka_unit_test(ropes_and_sweeps),
-        cmocka_unit_test(studies), cmocka_unit_test(release),
+        cmocka_unit_test(make),
+        cmocka_unit_test(sets),
+        cmocka_unit_test(laws),
+        cmocka_unit_test(limits),
+        cmocka_unit_test(systems),
+        cmocka_unit_test(bodies),
+        cmocka_unit_test(ropes_and_sweeps),
+        cmocka_unit_test(studies),
+        cmocka_unit_test(release),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

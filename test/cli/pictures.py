@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of what is long, many, without a bound or without a direction: each is well formed, and says what it leaves out.
+
+usage: pictures.py CAPSTAN"""
+import os
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+
+sys.dont_write_bytecode = True
+from checks import expect, faults, write
+
+CAPSTAN = os.path.abspath(sys.argv[1])
+LONG = "A title that does not fit into the width of any picture, "*8
+LINES = f"""title: {LONG!r}
+gravity: [0, 0, 0]
+lines:
+""" + "".join(f"  l{i}: {{length: 1, elements: 4, weight: 0, stiffness: 100, start: {{straight: {{from: [0, {i}, 0], to: [1, {i}, 0]}}}}, "
+              "ends: {A: held, B: held}}\n" for i in range(8)) + "history: [{name: out, steps: 2, l0.B: {move: [0.1, 0, 0]}}]\n"
+ROPE = "rope: {length: 10, elements: 20, weight: 5, stiffness: 1e4, start: %s}\n"
+LOOPS = "obstacles: {bed: {plane: {}, friction: 0.5}}\nlines:\n  " + \
+        ROPE % "{straight: {from: [0, 0, 0], to: [10, 0, 0]}}, ends: {A: held, B: held}" + "history:\n" + \
+        "".join(f"  - {{name: {name}, steps: 2, rope.B: {{move: [{x}, 0, 0]}}}}\n"
+                for name, x in 2*(("out", 0.02), ("'home / again?'", -0.02))) + "  - {name: aside, rope.B: {move: [0, 0.1, 0]}}\n"
+SIDEWAYS = "gravity: [-9.81, 0, 0]\nlines:\n  " + ROPE % "static, ends: {A: {held: [0, 0, 0]}, B: {held: [0, 8, 0]}}"
+TWO = """system:
+  parameters: [a, b]
+  laws: [{name: x, on: [a], law: {interval: 1}}, {name: y, on: [b], law: {interval: [0, .inf]}}]
+  drive: [a, b]
+  velocity: [[1, 1]]
+"""
+
+
+def run(verb, text, *arguments, code=0):
+    write("file.yaml", "capstan: 1\n" + text)
+    done = subprocess.run([CAPSTAN, verb, "file.yaml", "-q", *arguments], capture_output=True, text=True, timeout=300, check=False)
+    expect(f"{verb} {arguments}: exit code", done.returncode == code, (done.returncode, done.stderr[-300:]))
+    return done
+
+
+def read(name):
+    """The text in a picture. No number in it is none."""
+    with open(name, encoding="utf-8") as file:
+        content = file.read()
+    words = "\n".join(part for element in xml.fromstring(content).iter() for part in (element.text, element.tail) if part)
+    for attribute in (value for element in xml.fromstring(content).iter() for value in element.attrib.values()):
+        expect(f"{name}: a number that is none", "nan" not in attribute.lower() and "inf" not in attribute.lower(), attribute[:100])
+    return words
+
+
+def main():
+    run("run", LINES, "-o", "lines")
+    words = read("lines/plan.svg")
+    expect("a long title is cut", "\u2026" in words and LONG.strip() not in words.replace("\n", ""), words[:300])
+    expect("many lines", "the first 6 lines" in read("lines/tension.svg"), read("lines/tension.svg")[:300])
+    run("run", LOOPS, "-o", "loops")
+    names = sorted(name for name in os.listdir("loops") if name.startswith("loop-"))
+    # each way out and home is a loop that begins and ends at the same place
+    expect("loops", names and all(set(name) <= set("abcdefghijklmnopqrstuvwxyz0123456789-._") for name in names), names)
+    for name in names:
+        read("loops/" + name)
+    run("run", SIDEWAYS, "-o", "sideways")
+    read("sideways/elevation.svg")
+    read("sideways/plan.svg")
+    run("drive", TWO, "-p", "two.svg")
+    words = read("two.svg")
+    expect("a system without a title", "driven system" in words, words[:300])
+    n = 501
+    many = f"system:\n  parameters: [{', '.join(f'p{i}' for i in range(n))}]\n  laws:\n" + \
+           "".join(f"    - {{name: l{i}, on: [p{i}], law: {{interval: 1}}}}\n" for i in range(n)) + "  drive: [p0, p1]\n  velocity: [[1, 1]]\n"
+    done = run("drive", many, "-p", "many.svg", code=6)
+    expect("too many parameters", "maps are drawn of systems of up to 500 parameters; found 501" in done.stderr, done.stderr)
+    expect("too many parameters: no picture", not os.path.exists("many.svg"))
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    main()
+    os.chdir("/")
+print("\n".join(faults[:20]) or "pictures: long titles, many lines, loops, no gravity and gravity along x, systems")
+sys.exit(1 if faults else 0)
