@@ -162,6 +162,10 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
                     "%.6g N in all, holds the line: 'friction_policy: consistent' has an "
                     "equilibrium",
                     line.coulomb);
+        } else if (line.outcome == CPS_OUTCOME_PASSES) {
+            fputs(" (obstacle ", stderr);
+            cli_print_text(stderr, scene->obstacle[line.proof_obstacle].name, 80, false);
+            fputc(')', stderr);
         } else if (line.outcome == CPS_OUTCOME_MESH_TOO_COARSE)
             warnings_print_bend(&line.bend, scene->obstacle[line.bend.obstacle].name);
         else if (line.outcome != CPS_OUTCOME_TAUT && !(c->scale > 0 && c->largest_force > 0))
@@ -179,7 +183,8 @@ static int exit_code(CpsOutcome worst) {
     case CPS_OUTCOME_TAUT: return EXIT_OK;
     case CPS_OUTCOME_STALLED:
     case CPS_OUTCOME_ITERATION_LIMIT:
-    case CPS_OUTCOME_MESH_TOO_COARSE: return EXIT_NOT_CERTIFIED;
+    case CPS_OUTCOME_MESH_TOO_COARSE:
+    case CPS_OUTCOME_PASSES: return EXIT_NOT_CERTIFIED;
     case CPS_OUTCOME_UNBOUNDED:
     case CPS_OUTCOME_INFEASIBLE:
     case CPS_OUTCOME_SLIDES: return EXIT_NO_SOLUTION;

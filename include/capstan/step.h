@@ -32,7 +32,9 @@ extern "C" {
       "mesh too coarse: one node turns the line by too much for its friction; the answer is not " \
       "certified")                                                                                \
     X(CPS_OUTCOME_SLIDES, 7, "slides",                                                            \
-      "slides without end: no equilibrium at any place along its path")
+      "slides without end: no equilibrium at any place along its path")                           \
+    X(CPS_OUTCOME_PASSES, 8, "passes",                                                            \
+      "passes an obstacle: the step's equations are solved, but the answer is not certified")
 
 typedef enum CpsOutcome {
 #define CPS_OUTCOME_ENUM(name, number, key, sentence) name = number,
@@ -114,9 +116,8 @@ typedef struct CpsTensionRange {
     double greatest, greatest_bound; /* [N] INFINITY where unbounded */
 } CpsTensionRange;
 
-/* Whether the forces of a step determine the positions. Where they do not, the configuration
- * nearest to the reference is taken: the one of least sum h |x - x_R|^2 among those that are
- * compatible with the forces. */
+/* Whether the forces of a step determine the positions. Where they do not, the nearest compatible
+ * configuration is taken, that of least sum h |x - x_R|^2. */
 typedef enum CpsPlaces {
     CPS_PLACES_UNIQUE = 0,
     CPS_PLACES_NEAREST = 1, /* not unique, and the nearest is taken */
@@ -149,8 +150,7 @@ typedef struct CpsBend {
     int obstacle;      /* index in the scene */
 } CpsBend;
 
-/* The energy balance of a step [J]: ends + obstacles = elastic + gravity + dissipated +
- * imbalance. */
+/* Energy of a step [J]: ends + obstacles = elastic + gravity + dissipated + imbalance. */
 typedef struct CpsLedger {
     double elastic;    /* increase of the elastic energy */
     double gravity;    /* increase of the potential energy of the weight */
@@ -201,7 +201,7 @@ typedef struct CpsLineReport {
      * the loads, less all that friction can dissipate, per unit of speed; otherwise 0 */
     double proof_force;
     bool has_proof_obstacle;
-    int proof_obstacle; /* infeasible, with the flag: the obstacle round which it does not reach */
+    int proof_obstacle; /* with the flag: infeasible, not reached round; passes, the one passed */
     /* [N] unbounded with frozen friction: the friction that Coulomb's law allows under these loads,
      * where that is enough to hold the line; otherwise 0 */
     double coulomb;

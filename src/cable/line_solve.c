@@ -97,9 +97,14 @@ bool cpsi_line_is_near(const CpsiLine *line) {
     return true;
 }
 
-/* Can the step have moved the line to its position, and does the line not penetrate obstacles?
- * Strict contact with frozen friction knows the contacts of the reference only; there the straight
- * path from the reference must not pass an obstacle. */
+/* Contact of the reference with frozen friction knows the contacts of the reference only; there the
+ * straight path from the reference must not pass an obstacle. */
+static bool goes_straight(const CpsiLine *line, const CpsiStepOptions *options) {
+    return line->has_local_axes && options->friction_policy == CPS_FRICTION_POLICY_FROZEN &&
+           !line->keeps_reference_axes && !options->frictionless;
+}
+
+/* Can the step have moved the line so far, and does the line not penetrate obstacles? */
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool consistent =
         line->has_local_axes && options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT;
@@ -109,10 +114,6 @@ static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     /* contact of the reference restricts nodes that touched, and nothing else (S90 (35)) */
     if (line->contact_everywhere &&
         !(line->report.certificate.element_penetration <= 0.1 * CPSI_TOUCH * line->length))
-        return false;
-    const bool straight = line->has_local_axes && !consistent && !line->keeps_reference_axes &&
-                          !options->frictionless;
-    if (straight && cpsi_obstacle_side_share(line, line->reference, line->position, 1) < 1)
         return false;
     if (consistent && !cpsi_friction_law_is_satisfied(line, options->solver.tolerance))
         return false;
@@ -140,8 +141,14 @@ CpsOutcome cpsi_line_outcome(const CpsiLine *line, const CpsiStepOptions *option
     if (finite && consistent && ipm->residual <= fmax(0.01 * tolerance, CPSI_CLEAN) &&
         c->gap <= tolerance * c->scale && c->stretch_residual <= fmin(tolerance, POSITION_TOL) &&
         segments_are_consistent(c, tolerance) &&
-        c->force_residual <= CPSI_CLEAN * c->largest_force && is_in_place(line, options))
-        return cpsi_line_is_taut(line) ? CPS_OUTCOME_TAUT : CPS_OUTCOME_SOLVED;
+        c->force_residual <= CPSI_CLEAN * c->largest_force && is_in_place(line, options)) {
+        const bool taut = cpsi_line_is_taut(line);
+        if (!goes_straight(line, options) ||
+            !(cpsi_obstacle_side_share(line, line->reference, line->position, 1) < 1))
+            return taut ? CPS_OUTCOME_TAUT : CPS_OUTCOME_SOLVED;
+        if (!taut && cpsi_obstacle_passed(line, line->reference, line->position) >= 0)
+            return CPS_OUTCOME_PASSES;
+    }
     return ipm->outcome == CPSI_IPM_ITERATION_LIMIT ? CPS_OUTCOME_ITERATION_LIMIT
                                                     : CPS_OUTCOME_STALLED;
 }
@@ -164,6 +171,9 @@ void cpsi_line_certify(CpsiLine *line, const CpsiStepOptions *options, const Cps
     line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
     if (options->frictionless) line->report.certificate.friction_residual = 0;
     line->report.outcome = cpsi_line_outcome(line, options, ipm);
+    line->report.has_proof_obstacle = line->report.outcome == CPS_OUTCOME_PASSES;
+    if (line->report.has_proof_obstacle)
+        line->report.proof_obstacle = cpsi_obstacle_passed(line, line->reference, line->position);
 }
 
 /* The tension of the reference by its own strain; 0 of an inextensible line. */

@@ -49,6 +49,14 @@ static double safe_share(double radius, Vec3 a, Vec3 b, Vec3 u, Vec3 v, double m
     return least > 0 ? share : most;
 }
 
+/* Is the element with its ends at a and b as near to the axis or centre as it must not be, after
+ * this share of the move? */
+static bool is_passing(double radius, Vec3 a, Vec3 b, Vec3 u, Vec3 v, double share) {
+    const double least = NEAREST * fmin(radius, vec3_norm(nearest(a, b)));
+    const Vec3 point = nearest(vec3_axpy(share, u, a), vec3_axpy(share, v, b));
+    return vec3_norm(point) <= (1 + 2 * CLOSE) * least;
+}
+
 double cpsi_obstacle_side_share(const CpsiLine *line, const double *from, const double *to,
                                 double most) {
     double share = most;
@@ -66,4 +74,21 @@ double cpsi_obstacle_side_share(const CpsiLine *line, const double *from, const 
         }
     }
     return share;
+}
+
+int cpsi_obstacle_passed(const CpsiLine *line, const double *from, const double *to) {
+    const double share = cpsi_obstacle_side_share(line, from, to, 1);
+    if (!(share < 1)) return CPS_NO_OBSTACLE;
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const CpsiObstacle *obstacle = &line->obstacle[k];
+        if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
+        for (int j = 1; j < line->n; j++) {
+            const Vec3 a = cpsi_obstacle_spoke(obstacle, vec3_load(&from[3 * (j - 1)])),
+                       b = cpsi_obstacle_spoke(obstacle, vec3_load(&from[3 * j]));
+            const Vec3 u = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_load(&to[3 * (j - 1)])), a),
+                       v = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_load(&to[3 * j])), b);
+            if (is_passing(obstacle->radius, a, b, u, v, share)) return k;
+        }
+    }
+    return CPS_NO_OBSTACLE;
 }

@@ -13,4 +13,8 @@
 double cpsi_obstacle_side_share(const CpsiLine *line, const double *from, const double *to,
                                 double most);
 
+/* The round obstacle that such a move passes: an element comes as near to its axis or centre as it
+ * must not. CPS_NO_OBSTACLE where none is passed. */
+int cpsi_obstacle_passed(const CpsiLine *line, const double *from, const double *to);
+
 #endif

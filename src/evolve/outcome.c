@@ -25,13 +25,14 @@ static int badness(CpsOutcome outcome) {
     case CPS_OUTCOME_SOLVED: return 0;
     case CPS_OUTCOME_TAUT: return 1;
     case CPS_OUTCOME_MESH_TOO_COARSE: return 2;
-    case CPS_OUTCOME_STALLED: return 3;
-    case CPS_OUTCOME_ITERATION_LIMIT: return 4;
-    case CPS_OUTCOME_SLIDES: return 5;
-    case CPS_OUTCOME_UNBOUNDED: return 6;
-    case CPS_OUTCOME_INFEASIBLE: return 7;
+    case CPS_OUTCOME_PASSES: return 3;
+    case CPS_OUTCOME_STALLED: return 4;
+    case CPS_OUTCOME_ITERATION_LIMIT: return 5;
+    case CPS_OUTCOME_SLIDES: return 6;
+    case CPS_OUTCOME_UNBOUNDED: return 7;
+    case CPS_OUTCOME_INFEASIBLE: return 8;
     }
-    return 8;
+    return 9;
 }
 
 CpsOutcome cps_outcome_worse(CpsOutcome a, CpsOutcome b) { return badness(b) > badness(a) ? b : a; }

@@ -66,6 +66,7 @@ static bool is_obstacle(bool given, int index, int obstacles) {
 static bool is_line_report(const CpsLineReport *report, int obstacles) {
     const bool bends = report->bend.turn > 0 || report->outcome == CPS_OUTCOME_MESH_TOO_COARSE;
     bool sound = is_outcome(report->outcome) &&
+                 (report->outcome != CPS_OUTCOME_PASSES || report->has_proof_obstacle) &&
                  within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
                  report->iteration_count >= 0 && report->substep_count >= 0 &&
                  report->warm_count >= 0 && report->jump_count >= 0 &&

@@ -181,7 +181,8 @@ static Part accept(Advance *substeps, double from, double to, bool known) {
     impose(substeps, from, to);
     const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
     cpsi_line_step(line, substeps->program, substeps->options);
-    if (is_answer(line->report.outcome) && cpsi_contact_turns_too_far(line))
+    if ((is_answer(line->report.outcome) || line->report.outcome == CPS_OUTCOME_PASSES) &&
+        cpsi_contact_turns_too_far(line))
         line->report.outcome = CPS_OUTCOME_STALLED;
     if (!cps_outcome_is_certified(line->report.outcome)) line->last_change.known = false;
     line->report.share = to - from;
@@ -205,6 +206,10 @@ static void add(Advance *substeps, const Part *part) {
     whole->jump = before.jump;
     whole->unaccounted = before.unaccounted;
     whole->outcome = cps_outcome_worse(before.outcome, whole->outcome);
+    /* the last part must show that the line passes an obstacle */
+    if (before.outcome == CPS_OUTCOME_PASSES && part->report.outcome != CPS_OUTCOME_PASSES)
+        whole->outcome = cps_outcome_worse(CPS_OUTCOME_STALLED, whole->outcome);
+    if (whole->outcome != part->report.outcome) whole->has_proof_obstacle = false;
     if (before.places > whole->places) whole->places = before.places;
     if (cpsi_bend_is_sharper(&before.bend, &whole->bend)) whole->bend = before.bend;
     whole->iteration_count = substeps->iterations;
@@ -485,7 +490,8 @@ static void accept_rest(Advance *substeps, double from, double to, bool tried) {
     substeps->options = &options;
     Trial rest = {.first = accept(substeps, from, to, substeps->known)};
     substeps->options = all;
-    if (converged(&rest.first)) rest.open = open_energy(substeps, &rest.first, NULL);
+    if (converged(&rest.first) || rest.first.report.outcome == CPS_OUTCOME_PASSES)
+        rest.open = open_energy(substeps, &rest.first, NULL);
     keep_part(substeps, &rest);
 }
 

@@ -12,6 +12,7 @@
 #include "motion.h"
 #include "ranges.h"
 #include "reach.h"
+#include "way.h"
 
 /* A balance is accepted when no node is off by more than this part of the largest force: rounding
  * leaves 1e-16 per operation, and a drag over thousands of nodes must not hide in it. The same for
@@ -73,10 +74,15 @@ static void same(Judge *judge, const char *what, double claimed, double found, d
     }
 }
 
+/* Does the file call the step's own equations solved, though its answer is not certified? */
+static bool solves_equations_only(const Record *r) {
+    return r->outcome == OUTCOME_COARSE || r->outcome == OUTCOME_PASSES;
+}
+
 /* Does the file call the step certified, or without a solution? */
 static bool claims_something(const Record *r) {
     return r->outcome != OUTCOME_STALLED && r->outcome != OUTCOME_LIMIT &&
-           r->outcome != OUTCOME_COARSE;
+           !solves_equations_only(r);
 }
 
 /* A step without friction has no bounds to be compared with the reactions. */
@@ -179,7 +185,7 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
     double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent +
                     strain_energy_of_rounding(r, m);
     double force = FORCE_FLOOR * m->largest_force;
-    bool certified = claims_something(r) || r->outcome == OUTCOME_COARSE;
+    bool certified = claims_something(r) || solves_equations_only(r);
     same(judge, "primal", claim[CLAIM_PRIMAL], m->primal, energy);
     same(judge, "dual", claim[CLAIM_DUAL], m->dual, energy);
     same(judge, "scale", claim[CLAIM_SCALE], m->scale, 0);
@@ -395,7 +401,7 @@ static Measures measure_where(const Source *source, const Record *r, size_t step
 static void judge_bend(Judge *judge, const Record *r, const Measures *m) {
     const Bend *bend = &m->bend;
     bool coarse = r->outcome == OUTCOME_COARSE, whole = r->substeps == 1;
-    if (!coarse && bend->ratio > LOCKING_RATIO * (1 + BEND_TOLERANCE))
+    if (r->outcome == OUTCOME_SOLVED && bend->ratio > LOCKING_RATIO * (1 + BEND_TOLERANCE))
         find(judge, "certified, but friction at one contact holds tensions in the ratio %.6g",
              bend->ratio);
     if (!whole) return;
@@ -412,6 +418,8 @@ static void judge_record(const Source *source, const Record *r, const char *line
                          FILE *log, CheckerReport *report) {
     Judge judge = {log, line, step, 0};
     Measures m = measure_where(source, r, step);
+    const char *way;
+    bool laid;
     report->records++;
     report->outcome[r->outcome]++;
     if (m.missing) {
@@ -426,8 +434,12 @@ static void judge_record(const Source *source, const Record *r, const char *line
         switch (r->outcome) {
         case OUTCOME_SOLVED:
         case OUTCOME_COARSE: // solved as well, but for the mesh
-            judge_solved(&judge, source, r, &m, source->has_static && step == 0 && is_static(r));
+        case OUTCOME_PASSES: // ... and but for the way
+            laid = source->has_static && step == 0 && is_static(r);
+            judge_solved(&judge, source, r, &m, laid);
             judge_bend(&judge, r, &m);
+            way = way_contradiction(source, r, laid);
+            if (way) find(&judge, "%s", way);
             break;
         case OUTCOME_TAUT: judge_taut(&judge, r, &m); break;
         case OUTCOME_INFEASIBLE:
@@ -541,11 +553,11 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
     if (!source->consistent)
         for (size_t i = 0; i < r->elements; i++) largest = fmax(largest, 1e-4 * before->tension[i]);
     // which nodes a step that is not certified left free is no claim of it either
-    const bool known = claims_something(before) || before->outcome == OUTCOME_COARSE;
+    const bool known = claims_something(before) || solves_equations_only(before);
     // what is not certified claims nothing; where nothing is found, the reactions are still those
     // of the step before
-    if (!claims_something(r) && r->outcome != OUTCOME_COARSE) return;
-    bool solved = r->outcome <= OUTCOME_TAUT || r->outcome == OUTCOME_COARSE;
+    if (!claims_something(r) && !solves_equations_only(r)) return;
+    bool solved = r->outcome <= OUTCOME_TAUT || solves_equations_only(r);
     // a line free at both ends balances its forces by a last correction of its reactions
     bool loose = r->end_kind[0] == END_FREE && r->end_kind[1] == END_FREE;
     double shared = source->consistent && loose ? FORCE_FLOOR * 10 * largest : 0;

@@ -18,7 +18,7 @@ typedef struct CheckerReport {
     int uncertified;    /* said by the file itself not to be certified */
     int refuted;        /* where something claimed is contradicted or a number is missing */
     int not_finite;     /* with a NaN or an infinity where there must be a number */
-    int outcome[8];     /* records by claimed outcome, in the file's numbering */
+    int outcome[9];     /* records by claimed outcome, in the file's numbering */
     int steps;          /* length of the file's unlimited dimension */
     double gap;         /* worst sum of local gaps / scale of the records claimed solved */
     double force;       /* worst imbalance / largest force of the same */
