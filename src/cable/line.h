@@ -63,10 +63,10 @@ typedef struct CpsiLine {
     CpsEnd end[2];          /* imposed now */
     double *arc_length;     /* (n) [m] */
     double *element_length; /* (n - 1) [m] element e joins nodes e and e + 1 */
+    double *breaking_load;  /* (n - 1) [N] INFINITY where there is none; NULL: none anywhere */
     /* of a line of sections or with point masses, else NULL */
     double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
     double *compliance_factor; /* (n - 1) compliance of element e over `compliance` */
-    double *breaking_load;     /* (n - 1) [N] INFINITY where there is none; NULL: none anywhere */
     double *weight_length; /* (n) [m] natural length of `weight` that the node carries, with that
                               of its point masses; negative where a buoy lifts it */
     CpsEnd end_before[2];  /* imposed at the beginning of the substep */
@@ -133,8 +133,8 @@ typedef struct CpsiLine {
     CpsLineReport report;
 } CpsiLine;
 
-/* Place the arrays of a line of line->n nodes in the arena; line->has_local_axes, line->contacts,
- * line->has_zones, line->has_sections and line->compliance are set. */
+/* Place the arrays of a line in the arena; its number of nodes, its flags, line->contacts,
+ * line->element_contacts and line->compliance are set. */
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 
 /* Fill the arc length from element_length. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lines whose weight and stiffness differ along them, and what hangs on their nodes. */
+/* Lines whose weight, stiffness and breaking load differ along them, and what hangs on their nodes.
+ */
 #ifndef CAPSTAN_SRC_EVOLVE_SECTIONS_H
 #define CAPSTAN_SRC_EVOLVE_SECTIONS_H
 
@@ -7,7 +8,7 @@
 #include "capstan/scene.h"
 
 /* Check sections and point weights of a line whose length and elements have been checked; of a line
- * without sections, weight and stiffness. */
+ * without sections, weight, stiffness and breaking load. */
 CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsError *err);
 
 /* Has it sections or point weights? Is it elastic? */

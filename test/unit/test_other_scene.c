@@ -258,7 +258,9 @@ static void flags_of_a_changed_state_are_flags(void **state) {
             accepted++;
             for (int k = 0; k < cps_evolution_line_count(evolution); k++) {
                 const CpsLineReport report = cps_evolution_line_report(evolution, k);
+                assert_flag(&report.has_slipping);
                 assert_flag(&report.has_tension_mesh);
+                assert_flag(&report.has_utilisation);
                 assert_flag(&report.has_pierced_obstacle);
                 assert_flag(&report.has_proof_obstacle);
                 assert_flag(&report.certificate.has_tension_bound);

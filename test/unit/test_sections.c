@@ -50,6 +50,20 @@ static void refused(const Parts *p, const char *fragment) {
                  err.message);
 }
 
+static void wrong_breaking_loads_are_refused(void **state) {
+    (void)state;
+    static const double LOAD[] = {0, -1, NAN, INFINITY};
+    Parts p;
+    for (int i = 0; i < 4; i++) {
+        make(&p);
+        p.line.section_count = p.line.point_weight_count = 0;
+        p.line.stiffness = 1e5;
+        p.line.has_breaking_load = true;
+        p.line.breaking_load = LOAD[i];
+        refused(&p, "line 'rope': breaking_load is ");
+    }
+}
+
 static void wrong_sections_are_refused(void **state) {
     (void)state;
     static const double LENGTH[] = {0, -2, NAN, INFINITY}, WEIGHT[] = {-1, NAN, INFINITY},
@@ -72,6 +86,13 @@ static void wrong_sections_are_refused(void **state) {
             make(&p);
             p.section[k].weight = WEIGHT[i];
             refused(&p, "N/m, expected a finite number >= 0");
+            refused(&p, number);
+        }
+        for (int i = 0; i < 4; i++) {
+            make(&p);
+            p.section[k].has_breaking_load = true;
+            p.section[k].breaking_load = (double[]){0, -1, NAN, INFINITY}[i];
+            refused(&p, "N, expected a positive number");
             refused(&p, number);
         }
         make(&p);
@@ -182,6 +203,7 @@ static void each_node_carries_its_own(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_sections_are_refused),
+                                       cmocka_unit_test(wrong_breaking_loads_are_refused),
                                        cmocka_unit_test(wrong_point_weights_are_refused),
                                        cmocka_unit_test(each_node_carries_its_own)};
     return cmocka_run_group_tests(tests, NULL, NULL);

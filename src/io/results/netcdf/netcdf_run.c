@@ -264,7 +264,7 @@ static void define_zones(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
                                             &zone, ZONE[i].long_name, ZONE[i].units);
 }
 
-/* What differs along a line of sections, or with point weights. */
+/* What differs along a line of sections or with point weights, and what breaks. */
 static void define_sections(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     if (view->has_breaking_load) {
         ids->breaking_load =
@@ -459,7 +459,7 @@ static void write_zones(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line)
         }
 }
 
-/* What differs along a line of sections, or with point weights. */
+/* What differs along a line of sections or with point weights, and what breaks. */
 static void write_sections(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *view) {
     const size_t first = 0, elements = (size_t)view->element_count, nodes = elements + 1;
     if (view->has_breaking_load)
