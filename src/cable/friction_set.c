@@ -291,7 +291,7 @@ static CpsStatus find_closed(const CpsSet *of, CpsiFrictionSet *set, CpsError *e
 }
 
 static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, CpsError *err) {
-    CpsStatus status = cpsi_conic_form_make(of, &set->form, err);
+    CpsStatus status = cpsi_conic_form_make(of, 1, &set->form, err);
     if (status) return status;
     const CpsiConicForm *form = set->form;
     if (form->empty || form->lines > 0 || form->unknowns == 0 || form->rows > MOST_ROWS)

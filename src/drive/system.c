@@ -100,7 +100,7 @@ static CpsStatus form_of(CpsSystem *system, const CpsSet *set, const CpsiPiece *
     }
     if (!grow((void **)&system->form, &system->form_room, system->forms, sizeof(CpsiConicForm *)))
         return out_of_memory(err);
-    const CpsStatus status = cpsi_conic_form_make(set, &system->form[system->forms], err);
+    const CpsStatus status = cpsi_conic_form_make(set, 1, &system->form[system->forms], err);
     if (status == CPS_OK) *place = system->forms++;
     return status;
 }

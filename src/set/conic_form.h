@@ -69,8 +69,9 @@ bool cpsi_conic_rows_write(CpsiConicRows *conic, const CpsSet *set, const double
 CpsStatus cpsi_conic_form_reduce(const CpsiConicRows *conic, int n, const double *x, int lines,
                                  const double *q, double tolerance, CpsiConicForm **out,
                                  CpsError *err);
-/* The reduced form of a set; the caller frees it (conic_make.c). */
-CpsStatus cpsi_conic_form_make(const CpsSet *set, CpsiConicForm **out, CpsError *err);
+/* The reduced form of `scale` times a set, at 0 of its recession cone; the caller frees it
+ * (conic_make.c). */
+CpsStatus cpsi_conic_form_make(const CpsSet *set, double scale, CpsiConicForm **out, CpsError *err);
 /* A form of zeros with memory for these numbers of unknowns, lines, rows and cones; NULL when
  * memory does not suffice. */
 CpsiConicForm *cpsi_conic_form_new(int n, int unknowns, int lines, int rows, int cones);

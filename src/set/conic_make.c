@@ -6,7 +6,8 @@
 #include "base/status.h"
 #include "set/conic_form.h"
 
-CpsStatus cpsi_conic_form_make(const CpsSet *set, CpsiConicForm **out, CpsError *err) {
+CpsStatus cpsi_conic_form_make(const CpsSet *set, double scale, CpsiConicForm **out,
+                               CpsError *err) {
     const size_t n = (size_t)cps_set_space(set);
     CpsiCount count = {.unknowns = n};
     cpsi_conic_rows_count(set, &count);
@@ -17,7 +18,7 @@ CpsStatus cpsi_conic_form_make(const CpsSet *set, CpsiConicForm **out, CpsError 
            *t = x ? x + n * (size_t)conic->width : NULL;
     if (x) {
         for (size_t i = 0; i < n; i++) x[i * (size_t)conic->width + i] = 1;
-        t[conic->unknowns] = 1;
+        t[conic->unknowns] = scale;
     }
     if (!x || !cpsi_conic_rows_write(conic, set, x, t))
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a set's conic form");

@@ -11,7 +11,7 @@ CpsStatus cps_set_conic(const CpsSet *set, CpsSetConic *conic, CpsError *err) {
         return CPS_OK;
     }
     CpsiConicForm *form = NULL;
-    const CpsStatus status = cpsi_conic_form_make(set, &form, err);
+    const CpsStatus status = cpsi_conic_form_make(set, 1, &form, err);
     if (status) return status;
     if (form->empty || form->lines > 0) {
         *conic = (CpsSetConic){.outcome =

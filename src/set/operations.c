@@ -37,8 +37,8 @@ static CpsStatus finish(CpsSet *set, CpsSet **out, CpsError *err) {
     CpsStatus status = CPS_OK;
     if (!cpsi_set_has_user(set)) {
         if (set->kind == CPSI_SET_POLAR)
-            status = cpsi_conic_form_make(set->part[0], &set->dual, err);
-        if (!status) status = cpsi_conic_form_make(set, &set->form, err);
+            status = cpsi_conic_form_make(set->part[0], 1, &set->dual, err);
+        if (!status) status = cpsi_conic_form_make(set, 1, &set->form, err);
         if (!status) status = cpsi_conic_form_deepen(&set->form, &set->touching, err);
     }
     if (status)

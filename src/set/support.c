@@ -26,7 +26,7 @@ CpsStatus cpsi_set_conic_form(const CpsSet *set, const CpsiConicForm **form, Cps
     *made = NULL;
     *form = set->form;
     if (*form) return CPS_OK;
-    const CpsStatus status = cpsi_conic_form_make(set, made, err);
+    const CpsStatus status = cpsi_conic_form_make(set, 1, made, err);
     *form = *made;
     return status;
 }
@@ -328,6 +328,23 @@ static CpsStatus support_solve(Ask *ask, const CpsSet *set, int outputs, const d
     return status;
 }
 
+/* Minimise c times the one unknown. INFINITY where the program has the outcome `infinite`. */
+static CpsStatus answer_one(Ask *ask, const CpsSet *set, double c, CpsSetOutcome infinite,
+                            CpsSetAnswer *answer, CpsError *err) {
+    CpsiSolution solution;
+    const CpsStatus status = support_solve(ask, set, 1, &c, &solution, err);
+    if (status) return status;
+    *answer = (CpsSetAnswer){.outcome = solution.outcome,
+                             .value = c * solution.value,
+                             .gap = solution.gap};
+    if (solution.outcome == infinite) {
+        answer->outcome = CPS_SET_OUTCOME_ANSWERED;
+        answer->value = INFINITY;
+    }
+    cpsi_solution_free(&solution);
+    return CPS_OK;
+}
+
 CpsStatus cpsi_reach(const CpsSet *set, const double *p, const double *d, CpsSetAnswer *answer,
                      CpsError *err) {
     *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
@@ -342,18 +359,7 @@ CpsStatus cpsi_reach(const CpsSet *set, const double *p, const double *d, CpsSet
         ask.x[i * w + w - 1] = p[i];
     }
     ask.t[w - 1] = 1;
-    CpsiSolution solution;
-    const double c = -1;
-    status = support_solve(&ask, set, 1, &c, &solution, err);
-    if (status) return status;
-    *answer =
-        (CpsSetAnswer){.outcome = solution.outcome, .value = -solution.value, .gap = solution.gap};
-    if (solution.outcome == CPS_SET_OUTCOME_UNBOUNDED) {
-        answer->outcome = CPS_SET_OUTCOME_ANSWERED;
-        answer->value = INFINITY;
-    }
-    cpsi_solution_free(&solution);
-    return CPS_OK;
+    return answer_one(&ask, set, -1, CPS_SET_OUTCOME_UNBOUNDED, answer, err);
 }
 
 CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, CpsError *err) {
@@ -370,18 +376,7 @@ CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, C
     for (size_t i = 0; i < (size_t)set->n; i++) ask.x[i * w + w - 1] = p[i];
     ask.t[0] = 1;
     cpsi_conic_rows_cone(ask.conic, 1)[0] = 1;
-    CpsiSolution solution;
-    const double c = 1;
-    status = support_solve(&ask, set, 1, &c, &solution, err);
-    if (status) return status;
-    *answer =
-        (CpsSetAnswer){.outcome = solution.outcome, .value = solution.value, .gap = solution.gap};
-    if (solution.outcome == CPS_SET_OUTCOME_EMPTY) {
-        answer->outcome = CPS_SET_OUTCOME_ANSWERED;
-        answer->value = INFINITY;
-    }
-    cpsi_solution_free(&solution);
-    return CPS_OK;
+    return answer_one(&ask, set, 1, CPS_SET_OUTCOME_EMPTY, answer, err);
 }
 
 /* min r with |R (x - p)| <= r, x in C; R upper triangular with M = R'R, or NULL */

@@ -96,16 +96,6 @@ CpsStatus cpsi_build_planimeter(CpsiSetBuild *b, const CpsiPlanimeterValues *val
 
 /* ---- rope ---- */
 
-static void arc_shape(const CpsiRopeArcValues *arc, int nodes, double *x) {
-    const double angle = arc->angle * CPSI_DEGREE;
-    const double dx = arc->from[0] - arc->centre[0], dy = arc->from[1] - arc->centre[1];
-    for (int i = 0; i < nodes; i++) {
-        const double a = angle * i / (nodes - 1);
-        x[2 * i] = arc->centre[0] + cos(a) * dx - sin(a) * dy;
-        x[2 * i + 1] = arc->centre[1] + sin(a) * dx + cos(a) * dy;
-    }
-}
-
 static CpsStatus build_shape(const CpsiDocument *d, const CpsiRopeShapeValues *shape, int elements,
                              CpsDriveRope *out) {
     const int nodes = elements + 1;
@@ -116,7 +106,7 @@ static CpsStatus build_shape(const CpsiDocument *d, const CpsiRopeShapeValues *s
     out->rope.node_count = nodes;
     out->rope.node = x;
     if (shape->arc.node)
-        arc_shape(&shape->arc, nodes, x);
+        cpsi_arc_points(shape->arc.from, shape->arc.centre, shape->arc.angle, nodes - 1, x);
     else if (shape->straight.node)
         cps_drive_walk(2, 2, straight, nodes, x);
     else

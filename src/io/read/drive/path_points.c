@@ -40,19 +40,23 @@ void cps_drive_walk(int space, int points, const double *path, int count, double
         }
 }
 
+void cpsi_arc_points(const double start[2], const double centre[2], double degrees, int sides,
+                     double *x) {
+    const double dx = start[0] - centre[0], dy = start[1] - centre[1];
+    for (int i = 0; i <= sides; i++) {
+        const double a = degrees * CPSI_DEGREE * i / sides;
+        x[2 * i] = centre[0] + cos(a) * dx - sin(a) * dy;
+        x[2 * i + 1] = centre[1] + sin(a) * dx + cos(a) * dy;
+    }
+}
+
 static CpsStatus build_arc(const CpsiDocument *d, const CpsiPathArcValues *arc, const double *start,
                            int steps, int *points, const double **path) {
     /* corners at the ends of steps */
     const int sides = steps * (steps < CPSI_DRIVE_ARC_SIDES ? 1 + CPSI_DRIVE_ARC_SIDES / steps : 1);
     double *x = CPSI_POOL_TAKE(d->pool, 2 * ((size_t)sides + 1), double);
     if (!x) return cpsi_document_no_memory(d);
-    const double angle = arc->angle * CPSI_DEGREE;
-    const double dx = start[0] - arc->centre[0], dy = start[1] - arc->centre[1];
-    for (int i = 0; i <= sides; i++) {
-        const double a = angle * i / sides;
-        x[2 * i] = arc->centre[0] + cos(a) * dx - sin(a) * dy;
-        x[2 * i + 1] = arc->centre[1] + sin(a) * dx + cos(a) * dy;
-    }
+    cpsi_arc_points(start, arc->centre, arc->angle, sides, x);
     *points = sides + 1;
     *path = x;
     return CPS_OK;
