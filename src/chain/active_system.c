@@ -109,7 +109,7 @@ static void load_nodes(CpsiNewton *newton) {
         double *diagonal = &program->matrix.diagonal[6 * j], *f = &program->base.du[3 * j];
         const double *g = &program->base.residual[3 * j];
         const int status = newton->status[j];
-        const bool rubs =
+        const bool has_friction =
             (status & CPSI_RUBS) && (!program->bounds_coupled || (status & CPSI_CLOSED));
         for (int a = 0; a < 6; a++) diagonal[a] = 0;
         for (int a = 0; a < 2; a++) program->matrix.skew[2 * j + a] = 0;
@@ -120,7 +120,7 @@ static void load_nodes(CpsiNewton *newton) {
             f[2] = 0;
         }
         if (status & CPSI_STICKS) diagonal[0] = diagonal[2] = status & CPSI_STOPS ? PULLING : RIGID;
-        if (rubs) f[0] = f[1] = 0;
+        if (has_friction) f[0] = f[1] = 0;
         for (int a = 0; a < 3; a++) error = cpsi_max_nan(error, fabs(f[a]));
     }
     newton->force_error = error;

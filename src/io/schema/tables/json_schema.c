@@ -203,10 +203,8 @@ static void write_needs(FILE *out, const CpsiMapping *mapping, CpsiNeed need) {
     for (int i = 0; i < mapping->count; i++) {
         const CpsiKey *key = &mapping->key[i];
         if (key->need != need || (all && key->unless)) continue;
-        if (written++)
-            fputs(", ", out);
-        else
-            fputs(all ? ",\n      \"required\": [" : ",\n      \"oneOf\": [", out);
+        const char *first = all ? ",\n      \"required\": [" : ",\n      \"oneOf\": [";
+        fputs(written++ ? ", " : first, out);
         fprintf(out, all ? "\"%s\"" : "{\"required\": [\"%s\"]}", key->name);
     }
     if (written) fputc(']', out);

@@ -93,7 +93,7 @@ static const char *band_colour(unsigned char state) {
                                           : COLOUR_STICK;
 }
 
-static bool rubs_in_air(const CpsResults *results, const CpsiSnapshot *snapshot) {
+static bool friction_in_air(const CpsResults *results, const CpsiSnapshot *snapshot) {
     for (int l = 0; l < results->line_count; ++l)
         if (memchr(snapshot->shape[l].state, CPSI_SHAPE_IN_AIR, (size_t)snapshot->shape[l].points))
             return true;
@@ -244,7 +244,8 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
     snprintf(label, sizeof label, "tension (%s)", unit.name);
     cpsi_frame_bar(out, &frame, CPSI_SCALE_TENSION, range[0] * unit.factor, range[1] * unit.factor,
                    label);
-    draw_step_legend(results, rubs_in_air(results, snapshot), frame.top + frame.height + 68, out);
+    draw_step_legend(results, friction_in_air(results, snapshot), frame.top + frame.height + 68,
+                     out);
     cpsi_svg_finish(out);
 }
 
