@@ -246,7 +246,7 @@ typedef struct CpsLineView {
     bool uniform;                 /* without sections and point weights */
     const double *compliance_factor; /* (element_count) [-] of `compliance`; 1 where uniform */
     const double *weight_length; /* (n) [m] weight at a node over the mean one; 0 where uniform */
-    bool has_breaking_load;      /* of some element at least */
+    bool has_breaking_load;      /* of some element at least; otherwise the array is 0 */
     const double *breaking_load; /* (element_count) [N] INFINITY of elements without one */
     CpsEnd end[2];               /* what was imposed in this step */
     const double *reference;     /* (n, 3) [m] x_R, where the step or its last substep began */

@@ -24,7 +24,6 @@ typedef struct CpsiEvolutionStage {
 typedef struct CpsiViewFill {
     double *zero;         /* (3 n) 0 */
     double *one;          /* (n) 1 */
-    double *infinite;     /* (n) INFINITY */
     int *first, *none;    /* (n) 0: the first obstacle; -1: none */
     unsigned char *state; /* (n) CPS_NODE_STATE_FREE */
 } CpsiViewFill;

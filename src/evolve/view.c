@@ -2,12 +2,9 @@
 /* The views of the lines of an evolution (view.h). */
 #include "evolve/view.h"
 
-#include <math.h>
-
 void cpsi_view_layout(CpsiViewFill *fill, CpsiArena *arena, int n) {
     CPSI_PLACE(arena, fill->zero, 3 * n);
     CPSI_PLACE(arena, fill->one, n);
-    CPSI_PLACE(arena, fill->infinite, n);
     CPSI_PLACE(arena, fill->first, n);
     CPSI_PLACE(arena, fill->none, n);
     CPSI_PLACE(arena, fill->state, n);
@@ -16,7 +13,6 @@ void cpsi_view_layout(CpsiViewFill *fill, CpsiArena *arena, int n) {
 void cpsi_view_fill(CpsiViewFill *fill, int n) {
     for (int j = 0; j < n; j++) {
         fill->one[j] = 1;
-        fill->infinite[j] = INFINITY;
         fill->none[j] = -1;
         fill->state[j] = CPS_NODE_STATE_FREE;
     }
@@ -70,7 +66,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .uniform = !from->has_sections,
         .weight_length = from->has_sections ? from->weight_length : fill->zero,
         .has_breaking_load = from->has_breaking_load,
-        .breaking_load = from->has_breaking_load ? from->breaking_load : fill->infinite,
+        .breaking_load = from->has_breaking_load ? from->breaking_load : fill->zero,
         .end = {from->end[0], from->end[1]},
         .reference = from->reference,
         .position = from->position,
