@@ -31,7 +31,7 @@ static int pull(const char *what, CpsObstacle obstacle, const double *start, int
     CpsLine line = cps_line_default();
     line.name = "line";
     line.length = 6;
-    line.elements = 60;
+    line.element_count = 60;
     line.weight = 9.81;
     line.stiffness = stiffness;
     line.start = (CpsStart){.kind = CPS_START_POLYLINE, .point_count = points, .point = start};
@@ -41,7 +41,7 @@ static int pull(const char *what, CpsObstacle obstacle, const double *start, int
                               .to = {CPS_END_KIND_FREE, {force[0], force[1], force[2]}}};
     const CpsStage stage = {.cookie = cps_stage_default().cookie,
                             .name = "pull",
-                            .steps = 4,
+                            .step_count = 4,
                             .change_count = 1,
                             .change = &change};
     CpsScene scene = cps_scene_default();
@@ -56,11 +56,11 @@ static int pull(const char *what, CpsObstacle obstacle, const double *start, int
         if (cps_evolution_step(evolution, &err) != CPS_OK) return failed(what, &err);
         const CpsStepReport step = cps_evolution_report(evolution);
         const CpsLineView view = cps_evolution_line_view(evolution, 0);
-        uint64_t hash = mixed(14695981039346656037u, 3 * (view.elements + 1), view.position);
-        hash = mixed(hash, view.elements, view.tension);
+        uint64_t hash = mixed(14695981039346656037u, 3 * (view.element_count + 1), view.position);
+        hash = mixed(hash, view.element_count, view.tension);
         printf("%s %d: %s, tip %a, dissipated %a, all %016llx\n", what, step.step_count - 1,
-               cps_outcome_name(step.outcome), view.position[3 * view.elements], step.dissipated,
-               (unsigned long long)hash);
+               cps_outcome_name(step.outcome), view.position[3 * view.element_count],
+               step.dissipated, (unsigned long long)hash);
     }
     cps_evolution_destroy(evolution);
     return 0;
