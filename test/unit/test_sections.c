@@ -22,7 +22,9 @@ typedef struct Parts {
 
 static void make(Parts *p) {
     *p = (Parts){.point = {0, 0, 0, 12, 0, 0},
-                 .section = {{"a", 4, 50, 1e5}, {"b", 2, 20, 4e5}, {"c", 6, 0, 2e5}},
+                 .section = {{.type = "a", .length = 4, .weight = 50, .stiffness = 1e5},
+                             {.type = "b", .length = 2, .weight = 20, .stiffness = 4e5},
+                             {.type = "c", .length = 6, .stiffness = 2e5}},
                  .weight = {{2, 30}, {8, -10}}};
     p->line = cps_line_default();
     p->line.name = "rope";
