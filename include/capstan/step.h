@@ -65,7 +65,7 @@ typedef struct CpsCertificate {
     double largest_force;    /* [N] largest force in the line or on it */
     double law_residual;     /* [J] sum of phi(u) + <u, F> over the contacts */
     double contact_residual; /* [J] sum of R (n.u + gap) over the contacts */
-    /* [N] sum of |A - mu R|: the error of frozen bounds A; with consistent friction rounding */
+    /* [N] sum of |w - mu R|: the error of frozen bounds w; with consistent friction rounding */
     double friction_residual;
     double element_push;        /* [N] largest compressive part of an element's force */
     double elongation_residual; /* [-] largest |x'| - (1 + c |p|) of an elastic element */
@@ -214,8 +214,8 @@ typedef struct CpsStepReport {
     int step_count;      /* steps taken so far, this one included; 0 before the first one */
     CpsOutcome outcome;  /* the worst of the lines */
     int iteration_count; /* largest of the lines */
-    /* energies, gap, scale and residuals in joules are sums over the lines, all else is the largest
-     * of the lines; has_tension_bound where all lines have one */
+    /* energies, gap, scale, friction_residual and residuals in joules are sums over the lines, all
+     * else is the largest of them; has_tension_bound where all lines have one */
     CpsCertificate certificate;
     double dissipated;             /* [J] sum of the lines */
     CpsLedger ledger;              /* sum of the lines */

@@ -384,7 +384,7 @@ static double penetration_turn(const CpsiLine *line) {
 }
 
 double cpsi_contact_move_base(CpsiLine *line, bool sides) {
-    /* where nodes moved along the surface would pass an obstacle, they move straight; slide serves
+    /* where nodes moved along the surface would pass an obstacle, they move straight; slip serves
      * as scratch memory here, it is computed anew afterwards */
     const size_t places = 3 * (size_t)line->n * sizeof *line->position;
     memcpy(line->slip, line->position, places);

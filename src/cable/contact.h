@@ -6,7 +6,7 @@
 #include "base/math.h"
 #include "cable/line.h"
 
-#define CPSI_TOUCH CPS_TOUCH /* evolve.h */
+#define CPSI_TOUCH CPS_TOUCH /* step.h */
 
 /* [rad] In one substep no obstacle turns by more, and no node with friction moves farther round
  * one. */

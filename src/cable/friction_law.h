@@ -8,7 +8,7 @@
 #include "cable/friction_set.h"
 
 typedef struct CpsiFrictionLaw {
-    double friction; /* [-] the larger coefficient, 1 for a general set: w = friction R */
+    double friction; /* [-] zone factor times the larger coefficient, or times 1: w = friction R */
     double ratio[2]; /* of the coefficients along the two tangents to it, 0..1, the larger is 1 */
     bool box;
     const CpsiFrictionSet *given; /* NULL: ellipse or box */

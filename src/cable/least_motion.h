@@ -29,7 +29,7 @@ void cpsi_least_motion_layout(CpsiLeastMotion *least, CpsiArena *arena, int n, i
 /* Move the line from the configuration that a round has found to the one of least sum h |x - x_R|^2
  * among all that are compatible with its forces.
  *
- *   line      reads position, reference, base, slide, gap, normal, friction bounds; writes
+ *   line      reads position, reference, base, slip, gap, normal, friction bounds; writes
  *             position, and tension where there is none
  *   program   the solution of the round; NULL: no force acts on the line anywhere
  *   bounds    of the round

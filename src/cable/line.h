@@ -82,7 +82,7 @@ typedef struct CpsiLine {
                     not enter the program */
     double *friction_factor;       /* (n) of the obstacles' coefficients; NULL: 1 */
     CpsiFrictionLaw *friction_law; /* (contacts, n) of the obstacle that each contact is with */
-    double *friction_bound;        /* (contacts, n) [N] */
+    double *friction_bound;        /* (contacts, n) [N] with the larger coefficient */
     double *friction_force;        /* (contacts, n, 3) [N] */
     double *reaction;              /* (contacts, n) [N] */
     double *segment_force;         /* (n - 1, 3) [N] */

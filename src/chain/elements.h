@@ -45,7 +45,7 @@ typedef struct CpsiFrictionDisc {
     double (*offset)[2]; /* (count) o_k; NULL: none */
     double (*map)[6]; /* (count) B_k (2, 3) row by row; NULL: the first two rows of the identity */
     int *unilateral;  /* (count) the contact whose reaction bounds it, where bounds are coupled */
-    double *friction; /* (count) */
+    double *friction; /* (count) [-] bound over reaction, where bounds are coupled */
     double (*w)[3];
     double *g;
     double (*q)[3], (*ds)[3], (*dz)[3];
@@ -93,7 +93,7 @@ typedef struct CpsiFrictionConic {
                                 first one */
     bool *second;            /* (count) as its contact */
     int *unilateral;         /* (count) as of a friction disc */
-    double *friction;        /* (count) */
+    double *friction;        /* (count) the same */
     double *d_bound, *shift; /* (count) direction of a, and its part that does not come from the
                                 direction of R */
     double (*turn)[2]; /* (count) cosine and sine of the turn of the node's tangents in the linear

@@ -192,7 +192,7 @@ static void judge_claims(Judge *judge, const Record *r, const Measures *m, doubl
     same(judge, "force_residual", claim[CLAIM_FORCE_RESIDUAL], m->force, force);
     same(judge, "largest_force", claim[CLAIM_LARGEST_FORCE], m->largest_force, force);
     same(judge, "tension_estimate", claim[CLAIM_TENSION_ESTIMATE], m->tension_estimate, force);
-    // what friction dissipates is -F.u_T; w |u_T| differs from it by the law residual
+    // the sum of phi(slip); by -F.slip it would differ by the law residual
     if (r->substeps == 1) same(judge, "dissipated", r->dissipated, m->slid + ends, energy + m->law);
     same(judge, "friction_residual", claim[CLAIM_FRICTION_RESIDUAL], claimed_residual(r, m),
          force * (double)r->nodes);

@@ -13,7 +13,7 @@ SAME = 1e-6
 MADE, FREED = 0.05, 0.5
 # what may be no number: what is told only of some lines, ends and outcomes
 MAY_BE_NONE = ("proof", "proof_length", "proof_force", "end_held_position", "end_applied_force", "motion", "end_tension_least", "end_tension_least_bound", "end_tension_greatest",
-               "end_tension_greatest_bound", "tension_bound", "tension_mesh", "contact_gap", "contact_gap_second", "element_contact_gap",
+               "end_tension_greatest_bound", "tension_bound", "tension_mesh", "utilisation", "utilisation_at", "contact_gap", "contact_gap_second", "element_contact_gap",
                "normal", "normal_second", "element_normal")
 # no place may be farther from where the step begins, and no force larger, than this times what the scene is made of: an answer that is not
 # certified ends within 1e4 lengths along each axis (docs/theory.md, 5)

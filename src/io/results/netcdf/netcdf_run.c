@@ -359,9 +359,11 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     const int vectors[] = {nc->step, nc->xyz};
     ids->proof = cpsi_netcdf_variable(&nc->file, view->name, "proof", NC_DOUBLE, 2, vectors,
                                       "direction that proves no solution", "1");
-    ids->proof_obstacle = cpsi_netcdf_variable(
-        &nc->file, view->name, "proof_obstacle", NC_INT, 1, &nc->step,
-        "infeasible: the obstacle that the line does not reach round; -1: none", "1");
+    ids->proof_obstacle =
+        cpsi_netcdf_variable(&nc->file, view->name, "proof_obstacle", NC_INT, 1, &nc->step,
+                             "infeasible: the obstacle that the line does not reach round, passes: "
+                             "that it passes; -1: none",
+                             "1");
     ids->weight_before =
         cpsi_netcdf_variable(&nc->file, view->name, "weight_before", NC_DOUBLE, 2, vectors,
                              "weight per natural length where the step, or its last part, began",
