@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Public access to the reduced conic form of a set (conic_form.h). */
+/* Public access to the reduced conic form of a set (conic_form.h), and sets made by writing one. */
 #include <math.h>
 
 #include "set/set.h"

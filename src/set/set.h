@@ -60,7 +60,7 @@ struct CpsSet {
 CpsStatus cpsi_set_new(CpsiSetKind kind, int n, int count, const CpsSet *const *parts,
                        size_t doubles, CpsSet **out, CpsError *err);
 
-/* A set from a restricted form. The form then belongs to the set, or is freed on failure. */
+/* A set from a reduced form. The form then belongs to the set, or is freed on failure. */
 CpsStatus cpsi_set_from_conic_form(CpsiConicForm *form, CpsSet **out, CpsError *err);
 
 /* Check that all `count` numbers are finite; otherwise CPS_ERR_ARGUMENT with the name of the
