@@ -27,6 +27,8 @@ static inline double vec3_dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a
 static inline Vec3 vec3_cross(Vec3 a, Vec3 b) {
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/* The part of v normal to the unit vector n. */
+static inline Vec3 vec3_reject(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
 static inline double vec3_norm(Vec3 a) { return sqrt(vec3_dot(a, a)); }
 /* |a||b| - a.b >= 0 without cancellation, for vectors whose lengths are known. */
 static inline double vec3_angle_defect(Vec3 a, Vec3 b, double size_a, double size_b) {

@@ -61,15 +61,15 @@ static double resolved_turn(double friction) {
 /* The larger of the friction coefficients for slip along the line in either direction, from the
  * support function of the set of forces. */
 static double friction_along(const CpsiLine *line, int c, Vec3 along) {
-    const CpsiFrictionLaw *set = &line->friction_law[c];
+    const CpsiFrictionLaw *law = &line->friction_law[c];
     double wanted[3], slip[3];
     vec3_store(wanted, along);
     cpsi_frame_to(slip, cpsi_line_axes(line, c), wanted);
     const double size = hypot(slip[0], slip[1]);
     const double forth[2] = {size > 0 ? slip[0] / size : 1, size > 0 ? slip[1] / size : 0},
                  back[2] = {-forth[0], -forth[1]};
-    return fmax(cpsi_friction_law_dissipation(set, set->friction, forth),
-                cpsi_friction_law_dissipation(set, set->friction, back));
+    return fmax(cpsi_friction_law_dissipation(law, law->friction, forth),
+                cpsi_friction_law_dissipation(law, law->friction, back));
 }
 
 /* The forces of the line before and after contact c, false where there is none on one side. The

@@ -31,8 +31,6 @@
  * work is done. */
 static const double GAP_FLOOR = 1e-12;
 
-static Vec3 tangential(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
-
 Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum) {
     if (line->element_contacts > 0)
         for (int e = j - 1; e <= j; e++) {
@@ -59,18 +57,11 @@ static Vec3 segment_force(const CpsiLine *line, int e) {
     return vec3_load(&line->segment_force[3 * e]);
 }
 
-/* The friction law of contact c, and a force or displacement in its tangent axes. */
-static const CpsiFrictionLaw *law_and_local(const CpsiLine *line, int c, const double vector[3],
-                                            double local[3]) {
-    cpsi_frame_to(local, cpsi_line_axes(line, c), vector);
-    return &line->friction_law[c];
-}
-
 /* By how much the friction of contact c may still grow, in any direction. */
 static double friction_margin(const CpsiLine *line, int c) {
     double f[3];
-    const CpsiFrictionLaw *law = law_and_local(line, c, &line->friction_force[3 * c], f);
-    return cpsi_friction_law_margin(law, line->friction_bound[c], f);
+    cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
+    return cpsi_friction_law_margin(&line->friction_law[c], line->friction_bound[c], f);
 }
 
 /* Add scale x a b^T to m (3, 3). */
@@ -117,7 +108,7 @@ static void distribute_excess(CpsiLine *line, Vec3 rest) {
         const double along = vec3_dot(n, by), follow = bound_follows(line, c) ? 1 + along : 1;
         /* the force is inside its set before it is scaled with its bound, and so it is after */
         const Vec3 more = vec3_axpy(friction_margin(line, c),
-                                    tangential(by, cpsi_line_friction_normal(line, c)), f);
+                                    vec3_reject(by, cpsi_line_friction_normal(line, c)), f);
         vec3_store(&line->friction_force[3 * c], vec3_scale(follow, more));
         line->friction_bound[c] *= follow;
         line->reaction[c] *= 1 + along;
@@ -208,11 +199,10 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     const Vec3 x = cpsi_line_place(line, line->position, c),
                reference = cpsi_line_place(line, line->reference, c);
     const Vec3 n = vec3_load(&line->normal[3 * c]), f = vec3_load(&line->friction_force[3 * c]);
-    const Vec3 slide = cpsi_line_slide(line, c);
     const double w = line->friction_bound[c], reaction = line->reaction[c];
-    double force[3], slip[3], along[3];
-    vec3_store(along, slide);
-    const CpsiFrictionLaw *law = law_and_local(line, c, along, slip);
+    const CpsiFrictionLaw *law = &line->friction_law[c];
+    double force[3], slip[3];
+    cpsi_line_local_slip(line, c, slip);
     cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
     const double law_gap = cpsi_friction_law_gap(law, w, force, slip),
                  dissipation = cpsi_friction_law_dissipation(law, w, slip);
@@ -220,8 +210,8 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     out->friction_residual += fabs(w - law->friction * reaction);
     out->primal += dissipation;
     out->scale += dissipation;
-    /* the position from which it slid, on the tangent plane: the reference there */
-    out->dual += vec3_dot(f, vec3_sub(x, slide));
+    /* the position from which it slipped, on the tangent plane: the reference there */
+    out->dual += vec3_dot(f, vec3_sub(x, cpsi_line_slip(line, c)));
     raise_to(&out->largest_force, vec3_norm(f));
     if (reaction > 0) {
         /* the rounds move nodes onto the surface; an element may be on either side of it */
@@ -283,9 +273,9 @@ bool cpsi_friction_law_is_satisfied(const CpsiLine *line, double tolerance) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double w = line->friction_bound[c];
         if (!(w > 0)) continue;
-        double force[3], slip[3], along[3];
-        vec3_store(along, cpsi_line_slide(line, c));
-        const CpsiFrictionLaw *law = law_and_local(line, c, along, slip);
+        const CpsiFrictionLaw *law = &line->friction_law[c];
+        double force[3], slip[3];
+        cpsi_line_local_slip(line, c, slip);
         cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
         const double off = fabs(cpsi_friction_law_gap(law, w, force, slip));
         if (off > tolerance * w * line->length + rounding) return false;

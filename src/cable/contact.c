@@ -96,7 +96,7 @@ static Vec3 plane_slip(const CpsiLine *line, int c, Vec3 x) {
     const Vec3 u = vec3_sub(x, carried_along(line, c));
     if (line->obstacle_index[c] < 0) return u;
     const Vec3 n = vec3_load(&cpsi_line_axes(line, c)[6]);
-    return vec3_axpy(-vec3_dot(u, n), n, u);
+    return vec3_reject(u, n);
 }
 
 /* [m] Permitted penetration at contact c: 0 of a node, that of its chord of an element. */
@@ -204,12 +204,12 @@ void cpsi_contact_reset(CpsiLine *line) {
 }
 
 void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
-                                CpsFrictionPolicy friction, bool frictionless) {
+                                CpsFrictionPolicy friction_policy, bool frictionless) {
     const size_t n = (size_t)line->n;
     line->keeps_tangents = false;
     line->contact_everywhere = contact == CPS_CONTACT_POLICY_REACHED;
     line->keeps_reference_axes = line->has_local_axes && line->contact_everywhere &&
-                                 friction == CPS_FRICTION_POLICY_FROZEN && !frictionless;
+                                 friction_policy == CPS_FRICTION_POLICY_FROZEN && !frictionless;
     memcpy(line->reference, line->position, 3 * n * sizeof *line->reference);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         line->friction_bound[c] = 0;

@@ -16,7 +16,7 @@
  * reference, a first guess where friction is consistent, zero for an initial configuration by
  * statics (`frictionless`). */
 void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
-                                CpsFrictionPolicy friction, bool frictionless);
+                                CpsFrictionPolicy friction_policy, bool frictionless);
 
 /* Move the base back to the reference, where rounds begin (lines with local axes). */
 void cpsi_contact_reset(CpsiLine *line);

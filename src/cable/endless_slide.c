@@ -67,12 +67,12 @@ static Vec3 direction(const OrientedLine *a, int i) {
 /* phi per unit normal force of contact c for the tangential velocity v. */
 static double friction_of(const OrientedLine *a, int c, Vec3 v) {
     double along[3], slip[3];
-    const CpsiFrictionLaw *set = &a->line->friction_law[c];
+    const CpsiFrictionLaw *law = &a->line->friction_law[c];
     const CpsiObstacle *obstacle = cpsi_line_obstacle(a->line, c);
     vec3_store(along, v);
     cpsi_frame_to(slip, cpsi_line_axes(a->line, c), along);
     return cpsi_friction_law_dissipation(
-        set, a->factor * (set->given ? 1 : fmax(obstacle->friction[0], obstacle->friction[1])),
+        law, a->factor * (law->given ? 1 : fmax(obstacle->friction[0], obstacle->friction[1])),
         slip);
 }
 
@@ -92,7 +92,7 @@ static bool slip(const OrientedLine *a, int i, Vec3 *out) {
         touched = c;
         normal = cpsi_obstacle_normal(obstacle, place(a, i));
     }
-    tangent = unit(vec3_axpy(-vec3_dot(tangent, normal), normal, tangent));
+    tangent = unit(vec3_reject(tangent, normal));
     *out = touched < 0 ? tangent : vec3_axpy(friction_of(a, touched, tangent), normal, tangent);
     return isfinite(vec3_norm(*out));
 }
@@ -129,8 +129,7 @@ static bool is_clear(const CpsiObstacle *o, Vec3 x, Vec3 t, double reach) {
     if (o->kind !=
         CPS_OBSTACLE_PLANE) { /* the point of the path nearest to the axis or the centre */
         const Vec3 arm = vec3_sub(o->frame.point, x), axis = o->frame.axis[2];
-        const Vec3 slip =
-            o->kind == CPS_OBSTACLE_CYLINDER ? vec3_axpy(-vec3_dot(t, axis), axis, t) : t;
+        const Vec3 slip = o->kind == CPS_OBSTACLE_CYLINDER ? vec3_reject(t, axis) : t;
         const double square = vec3_dot(slip, slip);
         nearest = square > 0 ? fmin(reach, fmax(0, vec3_dot(arm, slip) / square)) : 0;
     }

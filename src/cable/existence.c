@@ -30,16 +30,15 @@ static bool too_short(CpsiLine *line) {
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     if (!cpsi_line_both_ends(line, CPS_END_KIND_FREE) || line->has_local_axes) return false;
     Vec3 sum = vec3(0, 0, 0);
-    double friction = 0, steepest = 0, least = INFINITY, loads = 0;
+    double bound = 0, steepest = 0, least = INFINITY, loads = 0;
     bool stopped = false;
     for (int j = 0; j < line->n; j++) {
         const Vec3 b = vec3_load(&line->load[3 * j]);
         sum = vec3_add(sum, b);
         loads += vec3_norm(b);
-        friction += line->friction_bound[j];
-        const double coefficient = line->friction_law[j].friction;
-        steepest = fmax(steepest, coefficient);
-        least = fmin(least, coefficient);
+        bound += line->friction_bound[j];
+        steepest = fmax(steepest, line->friction_law[j].friction);
+        least = fmin(least, line->friction_law[j].friction);
         stopped = stopped || isfinite(line->gap[j]);
     }
     const Vec3 n = vec3_load(&line->common_axes[6]);
@@ -48,13 +47,13 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     /* all reactions together balance B.n; friction is largest if they act where its coefficient
      * is */
     if (options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT && !options->frictionless)
-        friction = steepest * fmax(0, -normal);
-    const double pull = vec3_norm(tangent), beyond = pull > friction ? pull - friction : 0;
+        bound = steepest * fmax(0, -normal);
+    const double pull = vec3_norm(tangent), beyond = pull > bound ? pull - bound : 0;
     const double fall = sqrt(beyond * beyond + along * along);
     if (!(fall > CPSI_TAUT * loads)) return false;
-    const Vec3 slide = pull > 0 ? vec3_scale(beyond / (pull * fall), tangent) : vec3(0, 0, 0);
+    const Vec3 in_plane = pull > 0 ? vec3_scale(beyond / (pull * fall), tangent) : vec3(0, 0, 0);
     line->report.outcome = CPS_OUTCOME_UNBOUNDED;
-    vec3_store(line->report.proof, vec3_axpy(along / fall, n, slide));
+    vec3_store(line->report.proof, vec3_axpy(along / fall, n, in_plane));
     line->report.proof_force = fall;
     /* with bounds coupled to the reactions, whose sum is -B.n, friction would hold the line
      * wherever they act */

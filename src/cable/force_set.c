@@ -86,42 +86,43 @@ static void add_column(Contact *contact, Vec3 direction, double rise, const doub
 /* Along which of the two tangents may friction vary? Not where it slips, nor where there is
  * none. */
 static void free_tangents(const CpsiLine *line, const CpsiForceLaw *law, int c,
-                          const CpsiFrictionLaw *set, bool out[2]) {
-    double slide[3], slip[3];
-    vec3_store(slide, cpsi_line_slide(line, c));
-    cpsi_frame_to(slip, cpsi_line_axes(line, c), slide);
-    for (int a = 0; a < 2; a++) slip[a] = fabs(set->ratio[a] * slip[a]);
+                          const CpsiFrictionLaw *contact_law, bool out[2]) {
+    double slip[3];
+    cpsi_line_local_slip(line, c, slip);
+    for (int a = 0; a < 2; a++) slip[a] = fabs(contact_law->ratio[a] * slip[a]);
     const double still = EXACT * line->length;
     const bool rest_count = line->state[c] == CPS_NODE_STATE_STICK && !law->exact;
     for (int a = 0; a < 2; a++) {
-        const double slid = set->box ? slip[a] : sqrt(slip[0] * slip[0] + slip[1] * slip[1]);
-        out[a] = set->ratio[a] > 0 && (rest_count || slid <= still);
+        const double size =
+            contact_law->box ? slip[a] : sqrt(slip[0] * slip[0] + slip[1] * slip[1]);
+        out[a] = contact_law->ratio[a] > 0 && (rest_count || size <= still);
     }
 }
 
 /* The cones of a contact whose friction is free along `free` of its tangents: columns are that of
  * the normal, if `normal`, then those of the free tangents. */
-static void add_cones(Contact *contact, const CpsiFrictionLaw *set, const bool free[2], bool normal,
-                      double mu, double reaction, double bound, const double force[2]) {
+static void add_cones(Contact *contact, const CpsiFrictionLaw *contact_law, const bool free[2],
+                      bool normal, double mu, double reaction, double bound,
+                      const double force[2]) {
     const int first = normal ? 1 : 0, count = free[0] + free[1];
     const double follow = normal ? mu : 0; /* change of the bound per unit of the normal column */
     if (normal && (count == 0 || mu == 0))
         add_row(contact, 1, (const double[3]){1, 0, 0}, reaction);
-    if (count == 2 && !set->box) {
+    if (count == 2 && !contact_law->box) {
         add_row(contact, 3, (const double[3]){follow, 0, 0}, bound);
         for (int a = 0; a < 2; a++) {
             double row[3] = {0};
-            row[first + a] = 1 / set->ratio[a];
-            add_row(contact, 0, row, force[a] / set->ratio[a]);
+            row[first + a] = 1 / contact_law->ratio[a];
+            add_row(contact, 0, row, force[a] / contact_law->ratio[a]);
         }
         return;
     }
     for (int a = 0, k = first; a < 2; a++) {
         if (!free[a]) continue;
         for (int sign = -1; sign < 2; sign += 2) {
-            double row[3] = {normal ? set->ratio[a] * follow : 0, 0, 0};
+            double row[3] = {normal ? contact_law->ratio[a] * follow : 0, 0, 0};
             row[k] = sign;
-            add_row(contact, 1, row, set->ratio[a] * bound + sign * force[a]);
+            add_row(contact, 1, row, contact_law->ratio[a] * bound + sign * force[a]);
         }
         k++;
     }
@@ -133,10 +134,10 @@ static bool build_contact(const CpsiLine *line, const CpsiForceLaw *law, double 
                           Contact *out) {
     static const double none[2] = {0, 0};
     *out = (Contact){0};
-    const CpsiFrictionLaw *set = &line->friction_law[c];
+    const CpsiFrictionLaw *contact_law = &line->friction_law[c];
     const double *axes = cpsi_line_axes(line, c), reaction = line->reaction[c] / unit;
-    const bool touching = touches(line, c), discs = !law->frictionless && set->friction > 0;
-    const bool given = discs && set->given && (touching || line->friction_bound[c] > 0);
+    const bool touching = touches(line, c), discs = !law->frictionless && contact_law->friction > 0;
+    const bool given = discs && contact_law->given && (touching || line->friction_bound[c] > 0);
     double force[3];
     cpsi_frame_to(force, axes, &line->friction_force[3 * c]);
     for (int a = 0; a < 2; a++) force[a] /= unit;
@@ -146,11 +147,11 @@ static bool build_contact(const CpsiLine *line, const CpsiForceLaw *law, double 
     if (law->frozen || !discs) {
         /* R varies by itself; F varies within its fixed bound, which has no unbounded directions */
         const bool varies = discs && !given && !law->directions && line->friction_bound[c] > 0;
-        if (varies) free_tangents(line, law, c, set, free);
+        if (varies) free_tangents(line, law, c, contact_law, free);
         if (touching) add_column(out, n, 1, none);
     } else {
         if (!touching) return true;
-        free_tangents(line, law, c, set, free);
+        free_tangents(line, law, c, contact_law, free);
         const bool slips = !(free[0] && free[1]);
         if (slips && !(reaction > 0)) return true;
         double disc[2] = {0, 0};
@@ -166,8 +167,8 @@ static bool build_contact(const CpsiLine *line, const CpsiForceLaw *law, double 
     const bool normal = out->columns > 0;
     for (int a = 0; a < 2; a++)
         if (free[a]) add_column(out, vec3_load(&axes[3 * a]), 0, (const double[2]){a == 0, a == 1});
-    const double follow = law->frozen || !discs ? 0 : set->friction;
-    add_cones(out, set, free, normal, follow, reaction,
+    const double follow = law->frozen || !discs ? 0 : contact_law->friction;
+    add_cones(out, contact_law, free, normal, follow, reaction,
               law->frozen ? line->friction_bound[c] / unit : follow * reaction, force);
     return !given;
 }
@@ -385,7 +386,7 @@ bool cpsi_force_set_solve(CpsiForceSet *set) {
 
 static void store_contact(const CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw *law, int c,
                           const Contact *contact, const double *amount) {
-    const CpsiFrictionLaw *disc = &line->friction_law[c];
+    const CpsiFrictionLaw *contact_law = &line->friction_law[c];
     const double *axes = cpsi_line_axes(line, c);
     double force[3], reaction = line->reaction[c];
     cpsi_frame_to(force, axes, &line->friction_force[3 * c]);
@@ -395,9 +396,10 @@ static void store_contact(const CpsiForceSet *set, CpsiLine *line, const CpsiFor
     }
     line->reaction[c] = fmax(0, reaction);
     if (law->frictionless) return;
-    if (!law->frozen) line->friction_bound[c] = disc->friction * line->reaction[c];
-    if (!disc->given)
-        cpsi_friction_law_clip(disc, line->friction_bound[c], line->friction_bound[c], force);
+    if (!law->frozen) line->friction_bound[c] = contact_law->friction * line->reaction[c];
+    if (!contact_law->given)
+        cpsi_friction_law_clip(contact_law, line->friction_bound[c], line->friction_bound[c],
+                               force);
     force[2] = 0;
     cpsi_frame_from(&line->friction_force[3 * c], axes, force);
 }
@@ -462,7 +464,7 @@ void cpsi_force_set_layout(CpsiForceSet *set, CpsiArena *arena, int n, int conta
     CPSI_PLACE(arena, set->segment_force, 3 * (size_t)n);
     CPSI_PLACE(arena, set->kept_tension, n);
     CPSI_PLACE(arena, set->reaction, all);
-    CPSI_PLACE(arena, set->friction, 3 * (size_t)all);
+    CPSI_PLACE(arena, set->friction_force, 3 * (size_t)all);
     CPSI_PLACE(arena, set->bound, all);
 }
 
@@ -475,7 +477,7 @@ static void copy_fields(const CpsiForceSet *set, CpsiLine *line, bool back) {
     } fields[] = {{set->segment_force, line->segment_force, 3 * (n - 1)},
                   {set->kept_tension, line->tension, n - 1},
                   {set->reaction, line->reaction, contacts},
-                  {set->friction, line->friction_force, 3 * contacts},
+                  {set->friction_force, line->friction_force, 3 * contacts},
                   {set->bound, line->friction_bound, contacts}};
     for (size_t k = 0; k < sizeof fields / sizeof *fields; k++)
         memcpy(back ? fields[k].field : fields[k].copy, back ? fields[k].copy : fields[k].field,

@@ -38,7 +38,7 @@ typedef struct CpsiForceSet {
     int *scalar;     /* (n) scalar of element e, -1: it keeps its tension */
     int *site;       /* (n) site of node j, -1: none */
     /* copies of the line's fields (cpsi_force_set_keep) */
-    double *segment_force, *kept_tension, *reaction, *friction, *bound;
+    double *segment_force, *kept_tension, *reaction, *friction_force, *bound;
 } CpsiForceSet;
 
 /* Place the arrays for lines of at most n nodes. */

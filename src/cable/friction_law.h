@@ -16,17 +16,17 @@ typedef struct CpsiFrictionLaw {
 
 /* phi(u) + <F, u> >= 0 [J], of a force F in the set and a slip u, both in the tangent axes;
  * computed without cancellation except for a general set. */
-double cpsi_friction_law_gap(const CpsiFrictionLaw *set, double bound, const double force[2],
+double cpsi_friction_law_gap(const CpsiFrictionLaw *law, double bound, const double force[2],
                              const double slip[2]);
 /* phi(u) [J]. */
-double cpsi_friction_law_dissipation(const CpsiFrictionLaw *set, double bound,
+double cpsi_friction_law_dissipation(const CpsiFrictionLaw *law, double bound,
                                      const double slip[2]);
 /* Scale the force back into the set of `bound` where it lies outside; with a general set, scale it
  * from the set of the bound `within`, in which it lies. */
-void cpsi_friction_law_clip(const CpsiFrictionLaw *set, double within, double bound,
+void cpsi_friction_law_clip(const CpsiFrictionLaw *law, double within, double bound,
                             double force[2]);
 /* [N] Lower bound of the distance of the force from the boundary of the set; 0 for a general
  * set. */
-double cpsi_friction_law_margin(const CpsiFrictionLaw *set, double bound, const double force[2]);
+double cpsi_friction_law_margin(const CpsiFrictionLaw *law, double bound, const double force[2]);
 
 #endif

@@ -127,7 +127,7 @@ static void remove_direction(double *basis, int *freedom, Vec3 a) {
         const Vec3 unit = vec3_scale(1 / vec3_norm(a), a);
         const double x = fabs(unit.x), y = fabs(unit.y), z = fabs(unit.z);
         const Vec3 axis = x <= y && x <= z ? vec3(1, 0, 0) : y <= z ? vec3(0, 1, 0) : vec3(0, 0, 1);
-        const Vec3 across = vec3_axpy(-vec3_dot(axis, unit), unit, axis),
+        const Vec3 across = vec3_reject(axis, unit),
                    first = vec3_scale(1 / vec3_norm(across), across);
         vec3_store(basis, first);
         vec3_store(&basis[3], vec3_cross(unit, first));
@@ -179,24 +179,23 @@ static void restrict_slip(const CpsiLine *line, CpsiLeastMotion *least, int c, d
                           double *basis, int *freedom) {
     const int j = cpsi_line_node(line, c), mark = least->mark[c];
     const double *axes = cpsi_line_axes(line, c);
-    const CpsiFrictionLaw *set = &line->friction_law[c];
+    const CpsiFrictionLaw *law = &line->friction_law[c];
     const Vec3 n = cpsi_line_friction_normal(line, c),
                from =
                    vec3_load(line->has_local_axes ? &line->base[3 * j] : &line->reference[3 * j]);
     const Vec3 u = vec3_sub(vec3_load(&line->position[3 * j]), from);
     const Vec3 before = line->has_local_axes ? vec3_load(&line->slip[3 * c]) : vec3(0, 0, 0);
-    const Vec3 slip =
-        vec3_scale(1 / line->length, vec3_add(before, vec3_axpy(-vec3_dot(u, n), n, u)));
+    const Vec3 slip = vec3_scale(1 / line->length, vec3_add(before, vec3_reject(u, n)));
     Vec3 along[2] = {row(axes, 0), row(axes, 1)};
-    bool acts[2] = {set->given || set->ratio[0] > 0, set->given || set->ratio[1] > 0},
-         slips[2] = {mark & SLIPS, mark & (set->box ? SLIPS_ACROSS : SLIPS)};
-    if (set->given && cpsi_friction_set_conic(set->given)->unknowns == 1) {
-        const double *p = cpsi_friction_set_conic(set->given)->p, size = hypot(p[0], p[1]);
+    bool acts[2] = {law->given || law->ratio[0] > 0, law->given || law->ratio[1] > 0},
+         slips[2] = {mark & SLIPS, mark & (law->box ? SLIPS_ACROSS : SLIPS)};
+    if (law->given && cpsi_friction_set_conic(law->given)->unknowns == 1) {
+        const double *p = cpsi_friction_set_conic(law->given)->p, size = hypot(p[0], p[1]);
         const Vec3 x = along[0], y = along[1];
         along[0] = vec3_axpy(p[0] / size, x, vec3_scale(p[1] / size, y));
         along[1] = vec3_cross(n, along[0]);
         acts[1] = false;
-    } else if (!set->box && acts[0] && acts[1]) {
+    } else if (!law->box && acts[0] && acts[1]) {
         const double size = vec3_norm(slip);
         if (!slips[0] || size <= LEAST_SLIP) {
             remove_direction(basis, freedom, along[0]);
@@ -445,12 +444,12 @@ void cpsi_least_motion_restate(const CpsiLine *line, CpsiChainProgram *program) 
     CpsiFrictionDisc *disc = &program->disc;
     for (int k = 0; k < disc->count; k++) {
         const int c = disc->contact[k];
-        const CpsiFrictionLaw *set = &line->friction_law[c];
+        const CpsiFrictionLaw *law = &line->friction_law[c];
         const bool across = k > 0 && disc->contact[k - 1] == c;
         const double *axes = cpsi_line_axes(line, c);
-        const Vec3 slip = vec3_scale(1 / line->length, cpsi_line_slide(line, c));
+        const Vec3 slip = vec3_scale(1 / line->length, cpsi_line_slip(line, c));
         for (int a = 0; a < 2; a++)
-            disc->s[k][1 + a] = (!set->box || across == (a == 1) ? set->ratio[a] : 0) *
+            disc->s[k][1 + a] = (!law->box || across == (a == 1) ? law->ratio[a] : 0) *
                                 vec3_dot(row(axes, a), slip);
     }
 }

@@ -3,6 +3,7 @@
 #include "cable/line.h"
 
 #include "base/larger.h"
+#include "chain/frame.h"
 
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
@@ -159,6 +160,12 @@ CpsiFrictionLaw cpsi_line_friction_law(const CpsiLine *line, int c) {
         CpsiFrictionLaw){.friction = factor * friction,
                          .ratio = {friction > 0 ? mu[0] * by : 1, friction > 0 ? mu[1] * by : 1},
                          .box = obstacle->shape == CPS_FRICTION_SHAPE_BOX};
+}
+
+void cpsi_line_local_slip(const CpsiLine *line, int c, double slip[3]) {
+    double global[3];
+    vec3_store(global, cpsi_line_slip(line, c));
+    cpsi_frame_to(slip, cpsi_line_axes(line, c), global);
 }
 
 void cpsi_line_lay_out_friction(CpsiLine *line) {

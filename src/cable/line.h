@@ -247,12 +247,15 @@ static inline Vec3 cpsi_line_friction_normal(const CpsiLine *line, int c) {
 }
 
 /* [m] The slip of contact c on its obstacle in this step. */
-static inline Vec3 cpsi_line_slide(const CpsiLine *line, int c) {
+static inline Vec3 cpsi_line_slip(const CpsiLine *line, int c) {
     if (line->has_local_axes) return vec3_load(&line->slip[3 * c]);
     const Vec3 u = vec3_sub(vec3_load(&line->position[3 * c]), vec3_load(&line->reference[3 * c]));
     const Vec3 n = vec3_load(&line->normal[3 * c]);
-    return vec3_axpy(-vec3_dot(u, n), n, u);
+    return vec3_reject(u, n);
 }
+
+/* [m] ... and in the axes of the contact. */
+void cpsi_line_local_slip(const CpsiLine *line, int c, double slip[3]);
 
 /* [m] The largest displacement of a node from the positions `from` (n, 3). */
 double cpsi_line_largest_displacement(const CpsiLine *line, const double *from);

@@ -75,7 +75,7 @@ static void add_support(const CpsiLine *line, int j, int e, int inward, Span *sp
     const Vec3 n = vec3_load(&line->normal[3 * c]), q = cpsi_line_weight_at(line, j),
                p = force_of(line, e);
     const double normal_load = -vec3_dot(q, n), l = line->element_length[e];
-    const Vec3 flat = vec3_axpy(-vec3_dot(p, n), n, p);
+    const Vec3 flat = vec3_reject(p, n);
     const double tight = vec3_norm(flat);
     if (!(tight > 0)) return;
     if (cpsi_line_obstacle(line, c)->kind == CPS_OBSTACLE_PLANE && normal_load > 0) {

@@ -14,11 +14,9 @@ static double dissipated(const CpsiLine *line) {
     double sum = 0;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!(line->friction_bound[c] > 0)) continue;
-        double slide[3], slip[3];
-        const CpsiFrictionLaw *set = &line->friction_law[c];
-        vec3_store(slide, cpsi_line_slide(line, c));
-        cpsi_frame_to(slip, cpsi_line_axes(line, c), slide);
-        sum += cpsi_friction_law_dissipation(set, line->friction_bound[c], slip);
+        double slip[3];
+        cpsi_line_local_slip(line, c, slip);
+        sum += cpsi_friction_law_dissipation(&line->friction_law[c], line->friction_bound[c], slip);
     }
     return sum;
 }
@@ -45,8 +43,8 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     for (int k = 0; k < program->disc.count; k++) {
         const int c = program->disc.contact[k];
         const double *z = program->disc.z[k], *s = program->disc.s[k],
-                     slide = sqrt(s[1] * s[1] + s[2] * s[2]);
-        if (line->state[c] == CPS_NODE_STATE_STICK && slide > CPSI_TOUCH &&
+                     slip = sqrt(s[1] * s[1] + s[2] * s[2]);
+        if (line->state[c] == CPS_NODE_STATE_STICK && slip > CPSI_TOUCH &&
             sqrt(z[1] * z[1] + z[2] * z[2]) >= (1 - AT_BOUND) * z[0])
             line->state[c] = CPS_NODE_STATE_SLIP;
     }
@@ -67,7 +65,7 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
 
 static int end_node(const CpsiLine *line, int end) { return end == CPS_END_A ? 0 : line->n - 1; }
 
-Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k) {
+Vec3 cpsi_line_end_slip(const CpsiLine *line, int end, int k) {
     const int j = end_node(line, end);
     const CpsiObstacle *obstacle = &line->obstacle[k];
     const Vec3 from = vec3_load(&line->reference[3 * j]), to = vec3_load(&line->position[3 * j]);
@@ -86,7 +84,7 @@ static Vec3 rotate_with_normal(Vec3 v, Vec3 from, Vec3 to) {
  * normal n and a reaction: that of the neighbouring node, F per length of the line, with the end's
  * own zone factor. Its share of its bound is no larger than that of F, and it is 0 where it would
  * drive a sliding end. */
-static Vec3 half_friction(const CpsiLine *line, int end, int k, Vec3 n, double reaction) {
+static Vec3 half_friction_force(const CpsiLine *line, int end, int k, Vec3 n, double reaction) {
     const Vec3 none = vec3(0, 0, 0);
     const int j = end_node(line, end), next = end == CPS_END_A ? 1 : line->n - 2;
     for (int c = next; c < cpsi_line_contacts(line); c += line->n) {
@@ -98,9 +96,9 @@ static Vec3 half_friction(const CpsiLine *line, int end, int k, Vec3 n, double r
         const double part = fmin(density, line->friction_law[j].friction * reaction / bound);
         const Vec3 force = rotate_with_normal(vec3_load(&line->friction_force[3 * c]),
                                               cpsi_line_friction_normal(line, c), n);
-        const Vec3 slide = cpsi_line_end_slide(line, end, k);
+        const Vec3 slip = cpsi_line_end_slip(line, end, k);
         const bool drives =
-            vec3_dot(force, slide) > 0 && vec3_norm(slide) > CPSI_TOUCH * line->length;
+            vec3_dot(force, slip) > 0 && vec3_norm(slip) > CPSI_TOUCH * line->length;
         return drives ? none : vec3_scale(part, force);
     }
     return none;
@@ -122,10 +120,10 @@ static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     line->friction_law[j] = cpsi_line_friction_law(line, j);
     line->state[j] =
         CPS_NODE_STATE_STICK; /* if it is released in the next step, it starts with this friction */
-    const Vec3 friction = half_friction(line, end, on, n, up);
-    vec3_store(line->report.end[end].friction_force, friction);
-    line->report.dissipated -= vec3_dot(friction, cpsi_line_end_slide(line, end, on));
-    return vec3_sub(vec3_axpy(-up, n, force), friction);
+    const Vec3 friction_force = half_friction_force(line, end, on, n, up);
+    vec3_store(line->report.end[end].friction_force, friction_force);
+    line->report.dissipated -= vec3_dot(friction_force, cpsi_line_end_slip(line, end, on));
+    return vec3_sub(vec3_axpy(-up, n, force), friction_force);
 }
 
 void cpsi_line_report_ends(CpsiLine *line) {
@@ -148,7 +146,8 @@ void cpsi_line_report_ends(CpsiLine *line) {
 }
 
 /* Keep the larger utilisation, by a tension at an arc length. */
-static void use(CpsLineReport *report, double tension, double breaking_load, double arc_length) {
+static void raise_utilisation(CpsLineReport *report, double tension, double breaking_load,
+                              double arc_length) {
     const double utilisation = tension / breaking_load;
     if (!(utilisation > report->utilisation)) return;
     report->utilisation = utilisation;
@@ -162,10 +161,11 @@ void cpsi_line_report_utilisation(CpsiLine *line) {
     if (!line->has_breaking_load) return;
     const int last = line->n - 2;
     for (int e = 0; e <= last; e++)
-        use(report, line->tension[e], line->breaking_load[e],
-            0.5 * (line->arc_length[e] + line->arc_length[e + 1]));
-    use(report, report->end[CPS_END_A].tension, line->breaking_load[0], 0);
-    use(report, report->end[CPS_END_B].tension, line->breaking_load[last], line->length);
+        raise_utilisation(report, line->tension[e], line->breaking_load[e],
+                          0.5 * (line->arc_length[e] + line->arc_length[e + 1]));
+    raise_utilisation(report, report->end[CPS_END_A].tension, line->breaking_load[0], 0);
+    raise_utilisation(report, report->end[CPS_END_B].tension, line->breaking_load[last],
+                      line->length);
 }
 
 /* Does node j touch obstacle k? If so, *density is its reaction per length. */
@@ -198,12 +198,12 @@ static double grounded_part(const CpsiLine *line, int c) {
     return line->reaction[c] < bears ? line->reaction[c] / bears : 1;
 }
 
-/* Has the node of contact c slid? The motion of a held end is imposed. */
-static bool has_slid(const CpsiLine *line, int c) {
+/* Has the node of contact c slipped? The motion of a held end is imposed. */
+static bool has_slipped(const CpsiLine *line, int c) {
     const int j = cpsi_line_node(line, c), end = j == 0 ? CPS_END_A : CPS_END_B;
     if (!cpsi_line_is_held(line, j)) return line->state[c] == CPS_NODE_STATE_SLIP;
     const int k = line->has_local_axes ? line->obstacle_index[c] : 0;
-    return vec3_norm(cpsi_line_end_slide(line, end, k)) > CPSI_TOUCH * line->length;
+    return vec3_norm(cpsi_line_end_slip(line, end, k)) > CPSI_TOUCH * line->length;
 }
 
 void cpsi_line_report_lengths(CpsiLine *line) {
@@ -214,7 +214,7 @@ void cpsi_line_report_lengths(CpsiLine *line) {
         for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
             if (line->state[c] == CPS_NODE_STATE_FREE) continue;
             part = fmax(part, grounded_part(line, c));
-            slips = slips || has_slid(line, c);
+            slips = slips || has_slipped(line, c);
             if (line->state[c] == CPS_NODE_STATE_UNRESOLVED) line->report.has_slipping = false;
         }
         line->report.grounded += part * cpsi_line_share(line, j);

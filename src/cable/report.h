@@ -21,6 +21,6 @@ void cpsi_line_report_utilisation(CpsiLine *line);
 
 /* [m] The slip of an end on obstacle k in this step: the path of the node, less that of an obstacle
  * that turns. */
-Vec3 cpsi_line_end_slide(const CpsiLine *line, int end, int k);
+Vec3 cpsi_line_end_slip(const CpsiLine *line, int end, int k);
 
 #endif

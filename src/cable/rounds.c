@@ -37,12 +37,12 @@ static const double LEAST_DRAG = 0.25, MOST_DRAG = 1e4;
 void cpsi_rounds_couple_bounds(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const double *axes = cpsi_line_axes(line, c);
-        const CpsiFrictionLaw *set = &line->friction_law[c];
+        const CpsiFrictionLaw *law = &line->friction_law[c];
         const double within = line->friction_bound[c];
         double f[3];
-        line->friction_bound[c] = isfinite(line->gap[c]) ? set->friction * line->reaction[c] : 0;
+        line->friction_bound[c] = isfinite(line->gap[c]) ? law->friction * line->reaction[c] : 0;
         cpsi_frame_to(f, axes, &line->friction_force[3 * c]);
-        cpsi_friction_law_clip(set, within, line->friction_bound[c], f);
+        cpsi_friction_law_clip(law, within, line->friction_bound[c], f);
         cpsi_frame_from(&line->friction_force[3 * c], axes, f);
     }
 }

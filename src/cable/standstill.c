@@ -33,17 +33,17 @@ static bool supports_rest(const CpsiLine *line) {
 static bool friction_holds(const CpsiLine *line, const CpsiStepOptions *options) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         double f[3], inside[3];
-        const CpsiFrictionLaw *set = &line->friction_law[c];
+        const CpsiFrictionLaw *law = &line->friction_law[c];
         const double bound = line->friction_bound[c];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
         if (f[0] == 0 && f[1] == 0 && f[2] == 0) continue;
         /* whether F lies in a given set is not computed: its bound must be the one under which F
          * was found, as a bound coupled to the reaction is */
-        if (set->given &&
+        if (law->given &&
             !(bound > 0 && options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT))
             return false;
         memcpy(inside, f, sizeof f);
-        cpsi_friction_law_clip(set, bound, bound, inside);
+        cpsi_friction_law_clip(law, bound, bound, inside);
         const double out = hypot(f[0] - inside[0], f[1] - inside[1]) + fabs(f[2]);
         if (!(out <= CPSI_CLEAN * line->report.certificate.largest_force)) return false;
     }

@@ -135,7 +135,7 @@ static double trial_bound_or(const CpsiStepScale *scale, double bound) {
 static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
                        const CpsiStepScale *scale) {
     CpsiFrictionConic *conic = &program->conic;
-    const CpsiFrictionLaw *set = &line->friction_law[c];
+    const CpsiFrictionLaw *law = &line->friction_law[c];
     const int j = node_of(line, c), k = conic->count++;
     const double share = cpsi_line_contact_share(line, c) / line->length;
     double slip[3], axes[9];
@@ -147,9 +147,9 @@ static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
         is_second(line, c) ||
         line->keeps_reference_axes; /* the tangents of a first contact are those of the node */
     conic->weight[k] = share;
-    conic->form[k] = cpsi_friction_set_conic(set->given);
+    conic->form[k] = cpsi_friction_set_conic(law->given);
     conic->unilateral[k] = isfinite(line->gap[c]) ? program->unilateral.count - 1 : -1;
-    conic->friction[k] = set->friction;
+    conic->friction[k] = law->friction;
     conic->bound[k] = trial_bound_or(scale, line->friction_bound[c] / (scale->force * share));
     for (int a = 0; a < 2; a++) conic->offset[k][a] = slip[a] / line->length;
     memcpy(conic->tangent[k], axes, sizeof conic->tangent[k]);
@@ -160,8 +160,8 @@ static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
 static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
                        const CpsiStepScale *scale) {
     CpsiFrictionDisc *disc = &program->disc;
-    const CpsiFrictionLaw *set = &line->friction_law[c];
-    const int j = node_of(line, c), count = line->has_local_axes && set->box ? 2 : 1;
+    const CpsiFrictionLaw *law = &line->friction_law[c];
+    const int j = node_of(line, c), count = line->has_local_axes && law->box ? 2 : 1;
     const double share = cpsi_line_contact_share(line, c) / line->length;
     double slip[3] = {0}, axes[9];
     if (line->has_local_axes) cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slip[3 * c]);
@@ -172,11 +172,11 @@ static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
         disc->contact[k] = c;
         disc->weight[k] = share;
         disc->unilateral[k] = isfinite(line->gap[c]) ? program->unilateral.count - 1 : -1;
-        disc->friction[k] = set->friction;
+        disc->friction[k] = law->friction;
         disc->z[k][0] = trial_bound_or(scale, line->friction_bound[c] / (scale->force * share));
         if (line->has_local_axes)
             for (int a = 0; a < 2; a++) {
-                const double ratio = !set->box || i == a ? set->ratio[a] : 0;
+                const double ratio = !law->box || i == a ? law->ratio[a] : 0;
                 for (int b = 0; b < 3; b++) disc->map[k][3 * a + b] = ratio * axes[3 * a + b];
                 disc->offset[k][a] = ratio * slip[a] / line->length;
             }
@@ -337,9 +337,9 @@ static void unpack_reactions(CpsiLine *line, const CpsiChainProgram *program,
 /* The friction (f_x, f_y) of contact c, given inside the set of the bound `within`, kept inside its
  * own. */
 static void store_friction(CpsiLine *line, int c, bool follow, double within, double f[3]) {
-    const CpsiFrictionLaw *set = &line->friction_law[c];
-    if (follow) line->friction_bound[c] = set->friction * line->reaction[c];
-    cpsi_friction_law_clip(set, within > 0 ? within : line->friction_bound[c],
+    const CpsiFrictionLaw *law = &line->friction_law[c];
+    if (follow) line->friction_bound[c] = law->friction * line->reaction[c];
+    cpsi_friction_law_clip(law, within > 0 ? within : line->friction_bound[c],
                            line->friction_bound[c], f);
     cpsi_frame_from(&line->friction_force[3 * c], cpsi_line_axes(line, c), f);
 }
@@ -358,12 +358,12 @@ static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program,
     }
     for (int k = 0; k < disc->count;) {
         const int c = disc->contact[k];
-        const CpsiFrictionLaw *set = &line->friction_law[c];
+        const CpsiFrictionLaw *law = &line->friction_law[c];
         double f[3] = {0};
         for (int i = 0; k < disc->count && disc->contact[k] == c; k++, i++) {
             const double by = scale->force * disc->weight[k];
             for (int a = 0; a < 2; a++)
-                f[a] += by * (!set->box || i == a ? set->ratio[a] : 0) * disc->z[k][1 + a];
+                f[a] += by * (!law->box || i == a ? law->ratio[a] : 0) * disc->z[k][1 + a];
         }
         store_friction(line, c, follow, 0, f);
     }

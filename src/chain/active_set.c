@@ -92,7 +92,7 @@ static void finish_friction(const CpsiNewton *newton, int d) {
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
     double *s = disc->s[d], *z = disc->z[d];
-    if (!cpsi_newton_rubs(newton, d)) {
+    if (!cpsi_newton_has_friction(newton, d)) {
         memset(s, 0, sizeof disc->s[d]);
         if (program->bounds_coupled) memset(z, 0, sizeof disc->z[d]);
         return;
@@ -100,14 +100,14 @@ static void finish_friction(const CpsiNewton *newton, int d) {
     const CpsiNodeFriction now = cpsi_newton_friction(program, d);
     const bool slips = !(newton->status[disc->node[d]] & CPSI_STICKS);
     /* a force inside its bound is one that sticks (cable/report.c) */
-    const double slid = cpsi_newton_size(now.s), size = cpsi_newton_size(now.f),
+    const double slip = cpsi_newton_size(now.s), size = cpsi_newton_size(now.f),
                  most = slips ? now.bound : (1 - 4 * DBL_EPSILON) * now.bound;
     const double keep = size > most ? most / size : 1;
     z[0] = now.bound;
-    s[0] = slips ? slid : 0;
+    s[0] = slips ? slip : 0;
     for (int a = 0; a < 2; a++) {
         s[1 + a] = slips ? now.s[a] : 0;
-        z[1 + a] = slips && slid > CPSI_LEAST_SLIP ? -now.bound * now.s[a] / slid : keep * now.f[a];
+        z[1 + a] = slips && slip > CPSI_LEAST_SLIP ? -now.bound * now.s[a] / slip : keep * now.f[a];
     }
 }
 

@@ -93,8 +93,8 @@ static bool begin_friction(CpsiNewton *newton, int d) {
     if (cpsi_newton_is_other(program, disc->node[d], disc->unilateral[d]))
         return program->bounds_coupled;
     if (!is_plain(disc, d)) return false;
-    newton->status[disc->node[d]] |= CPSI_RUBS;
-    if (cpsi_newton_rubs(newton, d) && !(disc->s[d][0] > 0)) stick(newton, d);
+    newton->status[disc->node[d]] |= CPSI_HAS_FRICTION;
+    if (cpsi_newton_has_friction(newton, d) && !(disc->s[d][0] > 0)) stick(newton, d);
     return true;
 }
 
@@ -140,7 +140,7 @@ static void decide_contacts(CpsiNewton *newton) {
         if (*status & CPSI_CLOSED) {
             unilateral->z[k] = force > 0 ? force / unilateral->weight[k] : 0;
             if (force >= -newton->noise * newton->force) continue;
-            *status &= CPSI_RUBS;
+            *status &= CPSI_HAS_FRICTION;
             newton->changed = true;
         } else if (gap < -newton->rounding) {
             *status |= CPSI_CLOSED | CPSI_LANDS;
@@ -166,11 +166,11 @@ static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
     const double size = cpsi_newton_size(now->f), q[2] = {now->f[0] / size, now->f[1] / size};
-    for (int way = -1; way <= 1; way += 2) {
+    for (int side = -1; side <= 1; side += 2) {
         double left = disc->weight[d] * (size - now->bound);
-        for (int e = d + way; e >= 0 && e < disc->count; e += way) {
+        for (int e = d + side; e >= 0 && e < disc->count; e += side) {
             const int j = disc->node[e];
-            if (j != disc->node[e - way] + way || !(newton->status[j] & CPSI_STICKS)) break;
+            if (j != disc->node[e - side] + side || !(newton->status[j] & CPSI_STICKS)) break;
             const CpsiNodeFriction next = cpsi_newton_friction(program, e);
             const double along = next.f[0] * q[0] + next.f[1] * q[1],
                          across = next.f[1] * q[0] - next.f[0] * q[1],
@@ -193,7 +193,7 @@ static double push(const CpsiNewton *newton, int d) {
 static bool slips_beside(const CpsiNewton *newton, int d, int e) {
     const CpsiFrictionDisc *disc = &newton->program->disc;
     return d >= 0 && d < disc->count && abs(disc->node[d] - disc->node[e]) == 1 &&
-           cpsi_newton_rubs(newton, d) && !(newton->status[disc->node[d]] & CPSI_STICKS);
+           cpsi_newton_has_friction(newton, d) && !(newton->status[disc->node[d]] & CPSI_STICKS);
 }
 
 static void stop(CpsiNewton *newton, int d) {
@@ -225,7 +225,8 @@ static void stop_friction(CpsiNewton *newton) {
     const CpsiFrictionDisc *disc = &newton->program->disc;
     for (int d = 0, next; d < disc->count; d = next) {
         next = d + 1;
-        if (!cpsi_newton_rubs(newton, d) || (newton->status[disc->node[d]] & CPSI_STICKS)) continue;
+        if (!cpsi_newton_has_friction(newton, d) || (newton->status[disc->node[d]] & CPSI_STICKS))
+            continue;
         const double pushed = push(newton, d);
         if (pushed < 0) newton->status[disc->node[d]] &= (unsigned char)~CPSI_RELEASED;
         if (!(pushed > 0)) continue;
@@ -239,7 +240,7 @@ static void decide_friction(CpsiNewton *newton) {
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
     for (int d = 0; d < disc->count; d++) {
-        if (!cpsi_newton_rubs(newton, d)) continue;
+        if (!cpsi_newton_has_friction(newton, d)) continue;
         unsigned char *status = &newton->status[disc->node[d]];
         if (!(*status & CPSI_STICKS)) continue;
         const CpsiNodeFriction now = cpsi_newton_friction(program, d);

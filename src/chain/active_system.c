@@ -59,7 +59,7 @@ static Direction direction_of(const CpsiNewton *newton, int d, const CpsiNodeFri
                  after = j + 1 < program->n ? stiffness[j + 1] : 0,
                  rho = SLIP_STIFFNESS * (before + after) / program->disc.weight[d];
     const double tau[2] = {now->f[0] - rho * now->s[0], now->f[1] - rho * now->s[1]};
-    const double size = cpsi_newton_size(tau), slid = cpsi_newton_size(now->s),
+    const double size = cpsi_newton_size(tau), slip = cpsi_newton_size(now->s),
                  beyond = size - now->bound;
     Direction out = {.q = {last[0], last[1]}, .by = 1};
     if (beyond > now->bound * rho / RIGID) {
@@ -68,9 +68,9 @@ static Direction direction_of(const CpsiNewton *newton, int d, const CpsiNodeFri
         out.by = size / beyond;
         return out;
     }
-    if (slid > 0 && now->s[0] * last[0] + now->s[1] * last[1] <= 0)
-        for (int a = 0; a < 2; a++) out.q[a] = -now->s[a] / slid;
-    out.across = slid > now->bound / RIGID ? now->bound / slid : RIGID;
+    if (slip > 0 && now->s[0] * last[0] + now->s[1] * last[1] <= 0)
+        for (int a = 0; a < 2; a++) out.q[a] = -now->s[a] / slip;
+    out.across = slip > now->bound / RIGID ? now->bound / slip : RIGID;
     return out;
 }
 
@@ -84,7 +84,7 @@ static void load_slip(CpsiNewton *newton, int d) {
     const CpsiNodeFriction now = cpsi_newton_friction(program, d);
     const Direction to = direction_of(newton, d, &now);
     const double *q = to.q, *b = now.b, along = now.f[0] * q[0] + now.f[1] * q[1];
-    const double slid = cpsi_newton_size(now.s), certain = slid / (slid + CPSI_LEAST_SLIP);
+    const double slip = cpsi_newton_size(now.s), certain = slip / (slip + CPSI_LEAST_SLIP);
     const double stiffness = weight * to.across;
     double *diagonal = &program->matrix.diagonal[6 * j], *f = &program->base.du[3 * j];
     diagonal[0] = stiffness * b[0] * b[0] * q[1] * q[1];
@@ -110,7 +110,7 @@ static void load_nodes(CpsiNewton *newton) {
         const double *g = &program->base.residual[3 * j];
         const int status = newton->status[j];
         const bool has_friction =
-            (status & CPSI_RUBS) && (!program->bounds_coupled || (status & CPSI_CLOSED));
+            (status & CPSI_HAS_FRICTION) && (!program->bounds_coupled || (status & CPSI_CLOSED));
         for (int a = 0; a < 6; a++) diagonal[a] = 0;
         for (int a = 0; a < 2; a++) program->matrix.skew[2 * j + a] = 0;
         for (int a = 0; a < 3; a++) f[a] = g[a];
@@ -134,7 +134,7 @@ static void load_contacts(CpsiNewton *newton) {
     double *f = program->base.du;
     for (int d = 0; d < disc->count; d++) {
         const int j = disc->node[d];
-        if (newton->held[j < program->n ? j : 0] || !cpsi_newton_rubs(newton, d)) continue;
+        if (newton->held[j < program->n ? j : 0] || !cpsi_newton_has_friction(newton, d)) continue;
         if (!(newton->status[j] & CPSI_STICKS)) {
             load_slip(newton, d);
         } else if (newton->status[j] & CPSI_STOPS) {

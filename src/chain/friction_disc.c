@@ -40,8 +40,8 @@ static inline double bound_direction(const CpsiChainProgram *program, int k) {
 static const double PLAIN[6] = {1, 0, 0, 0, 1, 0};
 
 /* u = o + B v (`whole`) or du = B v of disc k, for the displacement v of its node. */
-static inline void slide(const CpsiFrictionDisc *disc, int k, const double v[3], bool whole,
-                         double u[2]) {
+static inline void displacement_of(const CpsiFrictionDisc *disc, int k, const double v[3],
+                                   bool whole, double u[2]) {
     u[0] = v[0];
     u[1] = v[1];
     if (disc->map) {
@@ -77,7 +77,7 @@ static void start(CpsiProgram *base, double mu, double margin) {
             disc->z[k][0] = disc->friction[k] * program->unilateral.z[disc->unilateral[k]];
         const double bound = disc->z[k][0];
         double u[2];
-        slide(disc, k, &base->u[3 * disc->node[k]], true, u);
+        displacement_of(disc, k, &base->u[3 * disc->node[k]], true, u);
         /* F = -beta A u/|u| with s o z = mu e:  |u| = mu beta/(A (1 - beta^2)),  t = mu/(A (1 -
          * beta^2)) */
         const double size = sqrt(u[0] * u[0] + u[1] * u[1]), ratio = 2 * size * bound / mu;
@@ -257,7 +257,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         CPSI_FOR_LANES(l) {
             const int at = k + (l < count ? l : count - 1);
             double du[2];
-            slide(disc, at, &base->du[3 * disc->node[at]], false, du);
+            displacement_of(disc, at, &base->du[3 * disc->node[at]], false, du);
             for (int a = 0; a < 2; a++) x.du[a][l] = du[a];
         }
         if (predictor) {

@@ -14,10 +14,10 @@
 
 /* Bits of a node's status: its contact is closed; friction may act; friction sticks; the node has
  * just landed, or stopped, and is not yet where that wants it; it was released and has not yet
- * slipped the way that it pulls. */
+ * slipped in the direction of its pull. */
 enum {
     CPSI_CLOSED = 1,
-    CPSI_RUBS = 2,
+    CPSI_HAS_FRICTION = 2,
     CPSI_STICKS = 4,
     CPSI_LANDS = 8,
     CPSI_STOPS = 16,
@@ -81,7 +81,7 @@ static inline bool cpsi_newton_is_other(const CpsiChainProgram *program, int nod
 }
 
 /* May friction act on disc d? */
-static inline bool cpsi_newton_rubs(const CpsiNewton *newton, int d) {
+static inline bool cpsi_newton_has_friction(const CpsiNewton *newton, int d) {
     const CpsiChainProgram *program = newton->program;
     const int j = program->disc.node[d];
     if (cpsi_newton_is_other(program, j, program->disc.unilateral[d])) return false;

@@ -53,8 +53,8 @@ static CpsStatus copy_system(const CpsSystem *system, CpsSystem **out, CpsError 
     for (int k = 0; status == CPS_OK && k < system->laws; k++) {
         const CpsiSystemLaw *law = &system->law[k];
         status = entries_of(&system->map, law->first, law->space, &entry, &count, err);
-        if (status == CPS_OK && law->friction)
-            status = cps_system_add_friction(copy, law->name, law->friction, count, entry, err);
+        if (status == CPS_OK && law->friction_law)
+            status = cps_system_add_friction(copy, law->name, law->friction_law, count, entry, err);
         else if (status == CPS_OK)
             status = cps_system_add_resistance(copy, law->name, law->resistance, count, entry, err);
         free(entry);

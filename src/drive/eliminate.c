@@ -229,7 +229,7 @@ static CpsStatus compose_set(const Reduction *r, const CpsSet *product, CpsSet *
 static CpsStatus product_of(const CpsSystem *system, CpsLaw **out, CpsError *err) {
     const CpsLaw **law = malloc(((size_t)system->laws + 1) * sizeof *law);
     if (!law) return out_of_memory(err);
-    for (int k = 0; k < system->laws; k++) law[k] = system->law[k].friction;
+    for (int k = 0; k < system->laws; k++) law[k] = system->law[k].friction_law;
     const CpsStatus status = cps_law_product(system->laws, law, out, err);
     free(law);
     return status;

@@ -236,7 +236,7 @@ static CpsStatus value_beside(const CpsMotion *motion, const double *d, double s
             *value += of.outcome == CPS_SET_OUTCOME_ANSWERED ? of.potential : INFINITY;
         } else {
             CpsSetAnswer phi = {0};
-            status = cps_set_dissipation(cps_law_set(law->friction), u, NULL, &phi, err);
+            status = cps_set_dissipation(cps_law_set(law->friction_law), u, NULL, &phi, err);
             *value += phi.outcome == CPS_SET_OUTCOME_ANSWERED ? phi.value : INFINITY;
         }
     }

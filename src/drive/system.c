@@ -37,7 +37,7 @@ CpsStatus cps_system_create(int parameters, CpsSystem **out, CpsError *err) {
 
 static void clear_law(CpsiSystemLaw *law) {
     free(law->name);
-    cps_law_release(law->friction);
+    cps_law_release(law->friction_law);
     cps_resistance_release(law->resistance);
 }
 
@@ -150,7 +150,7 @@ CpsStatus cps_system_add_friction(CpsSystem *system, const char *name, const Cps
     CpsStatus status = begin_law(system, name, cps_law_space(law), law->factor_count, &own, err);
     if (status != CPS_OK) return status;
     status = refuse_user(own->name, cps_law_set(law), err);
-    if (status == CPS_OK) own->friction = cps_law_retain(law);
+    if (status == CPS_OK) own->friction_law = cps_law_retain(law);
     for (int i = 0, offset = 0; status == CPS_OK && i < law->factor_count; i++) {
         const int at = system->pieces + i;
         CpsiPiece piece = {.law = system->laws, .offset = offset, .set = law->factor[i]};

@@ -24,7 +24,7 @@ typedef struct CpsiSystemLaw {
     /* number of its components, and the first of them among those of all laws */
     int space, first;
     int piece, pieces;         /* its first piece, and their number */
-    CpsLaw *friction;          /* its own copy, or NULL */
+    CpsLaw *friction_law;      /* its own copy, or NULL */
     CpsResistance *resistance; /* its own copy, or NULL */
 } CpsiSystemLaw;
 

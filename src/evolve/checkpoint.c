@@ -279,7 +279,7 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     hash_numbers(&hash, 3, evolution->origin);
     hash_numbers(&hash, 3, evolution->gravity);
     for (int i = 0; i < evolution->line_count; i++) hash_line(&hash, &evolution->line[i]);
-    CpsiFrictionSet **set = evolution->workspace[0].friction.set;
+    CpsiFrictionSet **set = evolution->workspace[0].friction_sets.set;
     for (int k = 0; k < evolution->obstacle_count; k++)
         hash_obstacle(&hash, &evolution->obstacle[k], set ? set[k] : NULL);
     return hash;

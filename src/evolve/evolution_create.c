@@ -234,9 +234,10 @@ static CpsStatus equip(CpsEvolution *evolution, const CpsScene *scene, CpsiFrict
                        CpsError *err) {
     CpsiConicSet sizes;
     CpsStatus status = CPS_OK;
-    evolution->workspace[0].friction = first;
+    evolution->workspace[0].friction_sets = first;
     for (int i = 1; i < evolution->workspace_count && status == CPS_OK; i++)
-        status = cpsi_friction_sets_make(scene, &evolution->workspace[i].friction, &sizes, err);
+        status =
+            cpsi_friction_sets_make(scene, &evolution->workspace[i].friction_sets, &sizes, err);
     if (status != CPS_OK || evolution->workspace_count == 1) return status;
     evolution->workers = cpsi_workers_create(evolution->workspace_count);
     if (evolution->workers) return CPS_OK;
@@ -295,7 +296,7 @@ void cps_evolution_destroy(CpsEvolution *evolution) {
     if (!evolution) return;
     cpsi_workers_destroy(evolution->workers);
     for (int i = 0; i < evolution->workspace_count; i++)
-        cpsi_friction_sets_free(&evolution->workspace[i].friction);
+        cpsi_friction_sets_free(&evolution->workspace[i].friction_sets);
     free(evolution->before);
     CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
     cpsi_arena_free(&arena);

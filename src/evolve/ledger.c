@@ -77,7 +77,7 @@ static double end_obstacle_work(const CpsiLine *line) {
                 cpsi_obstacle_slip(&line->obstacle[k], vec3_load(&line->reference[3 * j]),
                                    vec3_load(&line->position[3 * j]));
             work += vec3_dot(vec3_load(line->report.end[end].friction_force),
-                             vec3_sub(own, cpsi_line_end_slide(line, end, k)));
+                             vec3_sub(own, cpsi_line_end_slip(line, end, k)));
         }
     return work;
 }
@@ -94,7 +94,7 @@ static double obstacle_work(const CpsiLine *line) {
                        from = cpsi_line_place(line, line->reference, c);
             const Vec3 own = cpsi_contact_slip_between(line, c, from, x);
             work += vec3_dot(vec3_load(&line->friction_force[3 * c]),
-                             vec3_sub(own, cpsi_line_slide(line, c)));
+                             vec3_sub(own, cpsi_line_slip(line, c)));
         }
     return work + end_obstacle_work(line);
 }

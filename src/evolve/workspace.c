@@ -66,6 +66,6 @@ void cpsi_workspace_connect(CpsiWorkspace *workspace) {
 
 void cpsi_workspace_attach(CpsiWorkspace *workspace, CpsiLine *line) {
     line->turn = workspace->scratch.turn;
-    line->friction_set = (const CpsiFrictionSet *const *)workspace->friction.set;
+    line->friction_set = (const CpsiFrictionSet *const *)workspace->friction_sets.set;
     if (line->compliance == 0) line->forces = &workspace->forces;
 }

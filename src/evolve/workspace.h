@@ -37,7 +37,7 @@ typedef struct CpsiWorkspace {
     CpsiForceSet forces; /* of inextensible lines */
     CpsiLeastMotion least;
     CpsiInterrupt interrupt; /* of all programs */
-    CpsiFrictionSets friction;
+    CpsiFrictionSets friction_sets;
 } CpsiWorkspace;
 
 void cpsi_workspace_layout(CpsiWorkspace *workspace, CpsiArena *arena,

@@ -34,11 +34,9 @@ static Vec3 unit(Vec3 v, Vec3 otherwise) {
     return size > 0 ? vec3_scale(1 / size, v) : otherwise;
 }
 
-static Vec3 reject(Vec3 v, Vec3 n) { return vec3_axpy(-vec3_dot(v, n), n, v); }
-
 Vec3 cpsi_obstacle_spoke(const CpsiObstacle *o, Vec3 x) {
     const Vec3 from = vec3_sub(x, o->frame.point);
-    return o->kind == CPS_OBSTACLE_CYLINDER ? reject(from, o->frame.axis[2]) : from;
+    return o->kind == CPS_OBSTACLE_CYLINDER ? vec3_reject(from, o->frame.axis[2]) : from;
 }
 
 double cpsi_obstacle_gap(const CpsiObstacle *o, Vec3 x) {
@@ -63,10 +61,10 @@ Vec3 cpsi_obstacle_normal(const CpsiObstacle *o, Vec3 x) {
 void cpsi_obstacle_axes(const CpsiObstacle *o, Vec3 x, Vec3 along, double axes[9],
                         double curvature[3]) {
     const Vec3 n = cpsi_obstacle_normal(o, x), wanted = o->has_grain ? o->grain : along;
-    Vec3 t = reject(wanted, n);
+    Vec3 t = vec3_reject(wanted, n);
     /* a direction along the normal has no tangent: any other */
     for (int i = 0; i < 3 && !(vec3_norm(t) > LEAST * vec3_norm(wanted)); i++) {
-        t = reject(o->frame.axis[i], n);
+        t = vec3_reject(o->frame.axis[i], n);
         if (vec3_norm(t) < 0.5) t = vec3(0, 0, 0);
     }
     t = unit(t, o->frame.axis[0]);
@@ -95,7 +93,7 @@ Vec3 cpsi_obstacle_move(const CpsiObstacle *o, Vec3 x, Vec3 u) {
     if (o->kind == CPS_OBSTACLE_PLANE) return vec3_add(x, u);
     const Vec3 n = cpsi_obstacle_normal(o, x), s = cpsi_obstacle_spoke(o, x);
     const double rise = vec3_dot(u, n), distance = vec3_norm(s);
-    Vec3 tangent = reject(u, n), straight = vec3(0, 0, 0);
+    Vec3 tangent = vec3_reject(u, n), straight = vec3(0, 0, 0);
     if (o->kind == CPS_OBSTACLE_CYLINDER) {
         straight = vec3_scale(vec3_dot(tangent, o->frame.axis[2]), o->frame.axis[2]);
         tangent = vec3_sub(tangent, straight);
@@ -110,7 +108,7 @@ Vec3 cpsi_obstacle_move(const CpsiObstacle *o, Vec3 x, Vec3 u) {
 }
 
 Vec3 cpsi_obstacle_slip(const CpsiObstacle *o, Vec3 from, Vec3 to) {
-    if (o->kind == CPS_OBSTACLE_PLANE) return reject(vec3_sub(to, from), o->frame.axis[2]);
+    if (o->kind == CPS_OBSTACLE_PLANE) return vec3_reject(vec3_sub(to, from), o->frame.axis[2]);
     const Vec3 n0 = cpsi_obstacle_normal(o, from), n1 = cpsi_obstacle_normal(o, to),
                axis = o->frame.axis[2];
     Vec3 straight = vec3(0, 0, 0);

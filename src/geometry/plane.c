@@ -11,7 +11,7 @@ CpsiPlane cpsi_plane(const double point[3], const double normal[3]) {
     const Vec3 n = vec3_scale(1 / vec3_norm(scaled), scaled);
     /* x, or y where the normal is nearly along x, made orthogonal to the normal */
     const Vec3 seed = fabs(n.x) <= 0.75 ? vec3(1, 0, 0) : vec3(0, 1, 0);
-    const Vec3 along = vec3_axpy(-vec3_dot(seed, n), n, seed);
+    const Vec3 along = vec3_reject(seed, n);
     const Vec3 t = vec3_scale(1 / vec3_norm(along), along);
     return (CpsiPlane){.point = vec3_load(point), .axis = {t, vec3_cross(n, t), n}};
 }

@@ -37,10 +37,10 @@ static double chord_per_arc(double radius, CpsiPolygon polygon) {
 static Vec3 forward_tangent(const CpsiObstacle *o, Vec3 e, Vec3 b, double turn) {
     if (o->kind == CPS_OBSTACLE_CYLINDER)
         return vec3_scale(turn < 0 ? -1 : 1, vec3_cross(o->frame.axis[2], e));
-    Vec3 across = vec3_axpy(-vec3_dot(b, e), e, b);
+    Vec3 across = vec3_reject(b, e);
     for (int i = 0; i < 3 && !(vec3_norm(across) > ROUNDING * vec3_norm(b));
          i++) /* opposite points: all directions are equally long */
-        across = vec3_axpy(-vec3_dot(o->frame.axis[i], e), e, o->frame.axis[i]);
+        across = vec3_reject(o->frame.axis[i], e);
     return vec3_scale(1 / vec3_norm(across), across);
 }
 

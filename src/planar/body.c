@@ -257,21 +257,20 @@ CpsStatus cpsi_planar_dissipation_rate(const CpsPlanar *body, const double twist
     *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
     for (int k = 0; k < body->count; k++) {
         const CpsiPatch *patch = &body->patch[k];
-        CpsiPatchFriction friction;
+        CpsiPatchDissipation part;
         double velocity[2];
         cpsi_patch_velocity(patch, twist, velocity);
-        const CpsStatus status =
-            cpsi_patch_dissipation_rate(patch, velocity, twist[2], &friction, err);
+        const CpsStatus status = cpsi_patch_dissipation_rate(patch, velocity, twist[2], &part, err);
         if (status != CPS_OK) return status;
-        if (friction.outcome != CPS_SET_OUTCOME_ANSWERED) answer->outcome = friction.outcome;
-        answer->exact &= friction.exact;
-        answer->value += friction.power;
-        answer->gap += friction.gap;
-        total[0] += friction.force[0];
-        total[1] += friction.force[1];
-        total[2] += friction.torque + patch->position[0] * friction.force[1] -
-                    patch->position[1] * friction.force[0];
-        if (by_patch) by_patch[k] = friction.power;
+        if (part.outcome != CPS_SET_OUTCOME_ANSWERED) answer->outcome = part.outcome;
+        answer->exact &= part.exact;
+        answer->value += part.power;
+        answer->gap += part.gap;
+        total[0] += part.force[0];
+        total[1] += part.force[1];
+        total[2] +=
+            part.torque + patch->position[0] * part.force[1] - patch->position[1] * part.force[0];
+        if (by_patch) by_patch[k] = part.power;
     }
     if (answer->outcome == CPS_SET_OUTCOME_ANSWERED && !isfinite(answer->value))
         answer->outcome = CPS_SET_OUTCOME_INACCURATE;

@@ -88,13 +88,13 @@ CpsStatus cps_planar_bounds(const CpsPlanar *body, const double twist[3], double
                 found.outcome = CPS_SET_OUTCOME_INACCURATE;
             continue;
         }
-        CpsiPatchFriction friction;
-        status = cpsi_patch_dissipation_rate(patch, velocity, twist[2], &friction, err);
+        CpsiPatchDissipation part;
+        status = cpsi_patch_dissipation_rate(patch, velocity, twist[2], &part, err);
         if (status != CPS_OK) break;
-        if (friction.outcome != CPS_SET_OUTCOME_ANSWERED) found.outcome = friction.outcome;
-        const double slack = friction.gap + ROUNDING * friction.power;
-        found.lower += fmax(friction.power - slack, 0);
-        found.upper += friction.power + slack;
+        if (part.outcome != CPS_SET_OUTCOME_ANSWERED) found.outcome = part.outcome;
+        const double slack = part.gap + ROUNDING * part.power;
+        found.lower += fmax(part.power - slack, 0);
+        found.upper += part.power + slack;
         found.cell_count++;
     }
     if (status == CPS_OK) *bounds = found;

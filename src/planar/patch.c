@@ -41,14 +41,14 @@ static Line along_line(double d, double y0, double y1) {
 
 /* Add friction of strength q at r to the sum. */
 static void add_point(double q, const double r[2], const double velocity[2], double w,
-                      CpsiPatchFriction *friction) {
+                      CpsiPatchDissipation *out) {
     const double v[2] = {velocity[0] - w * r[1], velocity[1] + w * r[0]}, speed = hypot(v[0], v[1]);
     if (!(speed > 0)) return;
     const double f[2] = {-q * v[0] / speed, -q * v[1] / speed};
-    friction->power += q * speed;
-    friction->force[0] += f[0];
-    friction->force[1] += f[1];
-    friction->torque += r[0] * f[1] - r[1] * f[0];
+    out->power += q * speed;
+    out->force[0] += f[0];
+    out->force[1] += f[1];
+    out->torque += r[0] * f[1] - r[1] * f[0];
 }
 
 /* ---- points and wheels ---- */
@@ -64,8 +64,8 @@ static void from_axis(const CpsiPatch *patch, const double v[2], double out[2]) 
     out[1] = patch->axis[1] * v[0] + patch->axis[0] * v[1];
 }
 
-static CpsStatus law_friction(const CpsiPatch *patch, const double velocity[2],
-                              CpsiPatchFriction *friction, CpsError *err) {
+static CpsStatus law_dissipation(const CpsiPatch *patch, const double velocity[2],
+                                 CpsiPatchDissipation *out, CpsError *err) {
     double local[2], force[2] = {0, 0};
     CpsSetAnswer answer;
     /* at rest any force of the set is admissible; 0 is returned */
@@ -73,11 +73,11 @@ static CpsStatus law_friction(const CpsiPatch *patch, const double velocity[2],
     to_axis(patch, velocity, local);
     const CpsStatus status = cps_set_dissipation(patch->set, local, force, &answer, err);
     if (status != CPS_OK) return status;
-    friction->outcome = answer.outcome;
-    friction->exact = answer.exact;
-    friction->power = answer.value;
-    friction->gap = answer.gap;
-    from_axis(patch, force, friction->force);
+    out->outcome = answer.outcome;
+    out->exact = answer.exact;
+    out->power = answer.value;
+    out->gap = answer.gap;
+    from_axis(patch, force, out->force);
     return CPS_OK;
 }
 
@@ -103,8 +103,8 @@ CpsWheelMotion cpsi_wheel_motion(const CpsiPatch *patch, const double velocity[2
     return motion;
 }
 
-static void wheel_friction(const CpsiPatch *patch, const double velocity[2],
-                           CpsiPatchFriction *friction) {
+static void wheel_dissipation(const CpsiPatch *patch, const double velocity[2],
+                              CpsiPatchDissipation *out) {
     const double r = patch->strength, s = patch->strip;
     const CpsWheelMotion motion = cpsi_wheel_motion(patch, velocity);
     const double wi = motion.velocity[0], wj = motion.velocity[1], speed = hypot(wi, wj);
@@ -112,26 +112,26 @@ static void wheel_friction(const CpsiPatch *patch, const double velocity[2],
 
     /* on the arcs */
     double fi = -r * wi / speed, fj = -r * wj / speed;
-    friction->power = r * speed;
+    out->power = r * speed;
     if (s < r && r * fabs(wj) > s * speed) {
         /* at the corners; or, rolling straight ahead up to rounding, at the middle of an edge */
         const double c = half_chord(r, s);
         fi = fabs(wi) <= 4 * DBL_EPSILON * speed ? 0 : -copysign(c, wi);
         fj = -copysign(s, wj);
-        friction->power = s * fabs(wj) + c * fabs(wi);
+        out->power = s * fabs(wj) + c * fabs(wi);
     }
-    from_axis(patch, (double[2]){fj, -fi}, friction->force);
+    from_axis(patch, (double[2]){fj, -fi}, out->force);
 }
 
 /* ---- rod ---- */
 
 /* q = q0 (1 + tilt s) at s from -a to a. With y = vy + w s, the speed is hypot(vx, y). */
-static void rod_friction(const CpsiPatch *patch, const double velocity[2], double w,
-                         CpsiPatchFriction *friction) {
+static void rod_dissipation(const CpsiPatch *patch, const double velocity[2], double w,
+                            CpsiPatchDissipation *out) {
     const double a = patch->size, tilt = patch->tilt[0], q0 = patch->strength / (2 * a);
     double v[2];
     to_axis(patch, velocity, v);
-    CpsiPatchFriction local = {0};
+    CpsiPatchDissipation local = {0};
     if (fabs(w) * a * FAR <= hypot(v[0], v[1])) {
         for (int i = 0; i < CPSI_GAUSS; i++) {
             const double s = a * CPSI_GAUSS_NODE[i];
@@ -146,9 +146,9 @@ static void rod_friction(const CpsiPatch *patch, const double velocity[2], doubl
         local.force[1] = -(even * line.j1 + odd * line.j2);
         local.torque = -(local.power + local.force[0] * v[0] + local.force[1] * v[1]) / w;
     }
-    friction->power = local.power;
-    friction->torque = local.torque;
-    from_axis(patch, local.force, friction->force);
+    out->power = local.power;
+    out->torque = local.torque;
+    from_axis(patch, local.force, out->force);
 }
 
 /* ---- ring and disc ---- */
@@ -194,31 +194,31 @@ static Round round_axes(const CpsiPatch *patch, const double velocity[2], double
 /* (u1, u2) is the sum of the unit vectors away from the centre of rotation; friction is this sum,
  * turned back by a right angle. */
 static void set_round_force(const Round *round, double u1, double u2, double w,
-                            CpsiPatchFriction *friction) {
+                            CpsiPatchDissipation *out) {
     const double turn = copysign(1, w);
-    friction->force[0] = turn * (u1 * round->e1[1] + u2 * round->e2[1]);
-    friction->force[1] = -turn * (u1 * round->e1[0] + u2 * round->e2[0]);
+    out->force[0] = turn * (u1 * round->e1[1] + u2 * round->e2[1]);
+    out->force[1] = -turn * (u1 * round->e1[0] + u2 * round->e2[0]);
 }
 
 /* q = N (1 + tilt . r)/(2 pi): integrals of q rho, q (r - c)/rho and q r.(r - c)/rho round the
  * circle; 4/(u + v) times K, k^2 C and K - 4 i are those of 1/rho with 1, cos x, cos^2 x, in units
  * of |w|. */
-static void ring_friction(const CpsiPatch *patch, const double velocity[2], double w,
-                          CpsiPatchFriction *friction) {
+static void ring_dissipation(const CpsiPatch *patch, const double velocity[2], double w,
+                             CpsiPatchDissipation *out) {
     if (velocity[0] == 0 && velocity[1] == 0 && w == 0) return;
     const Round r = round_axes(patch, velocity, w);
     const double sum = r.u + r.v, n = patch->strength * 2 / CPSI_PI, m = n / sum;
     const double one = r.q.b + r.q.d, cosine = r.k2 * r.q.c, square = one - 4 * r.i;
-    friction->power = n * sum * (r.q.e - r.tilt[0] * r.k2 * r.i);
+    out->power = n * sum * (r.q.e - r.tilt[0] * r.k2 * r.i);
     set_round_force(&r, m * (r.u * cosine - r.v * one + r.tilt[0] * (r.u * square - r.v * cosine)),
-                    m * r.tilt[1] * r.u * 4 * r.i, w, friction);
-    friction->torque = -copysign(m * r.a, w) *
-                       (r.u * one - r.v * cosine + r.tilt[0] * (r.u * cosine - r.v * square));
+                    m * r.tilt[1] * r.u * 4 * r.i, w, out);
+    out->torque = -copysign(m * r.a, w) *
+                  (r.u * one - r.v * cosine + r.tilt[0] * (r.u * cosine - r.v * square));
 }
 
 /* Circles at Gauss's radii with 24 points each, whose relative error is FAR^-24. */
 static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
-                     CpsiPatchFriction *friction) {
+                     CpsiPatchDissipation *out) {
     enum { AROUND = 24 };
     for (int i = 0; i < AROUND; i++)
         for (int j = 0; j < CPSI_GAUSS; j++) {
@@ -226,7 +226,7 @@ static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
             const double r[2] = {patch->size * t * cos(x), patch->size * t * sin(x)};
             const double pressure = 1 + patch->tilt[0] * r[0] + patch->tilt[1] * r[1];
             add_point(patch->strength * CPSI_GAUSS_WEIGHT[j] * t / (double)AROUND * pressure, r,
-                      velocity, w, friction);
+                      velocity, w, out);
         }
 }
 
@@ -239,7 +239,7 @@ static void disc_far(const CpsiPatch *patch, const double velocity[2], double w,
  * rho0, rho1, rho2: integrals of rho with 1, cos x, cos^2 x in units of a^2. (Uniform: Farkas et
  * al. 2003.) */
 static void disc_near(const CpsiPatch *patch, const double velocity[2], double w,
-                      CpsiPatchFriction *friction) {
+                      CpsiPatchDissipation *out) {
     const Round r = round_axes(patch, velocity, w);
     const double d = r.v / r.u, p = patch->strength / CPSI_PI, four = 4 * (1 + d);
     const double sine = four * 4 * (r.i + 0.5 * (r.q.e - r.k2 * r.i)) / 5;
@@ -248,24 +248,24 @@ static void disc_near(const CpsiPatch *patch, const double velocity[2], double w
     const double whole =
         p * (mean * (1 + 0.25 * d * r.tilt[0]) + 0.25 * r.tilt[0] * (rho1 - d * rho2));
     const double u1 = p * (rho1 + r.tilt[0] * (rho2 - mean)), u2 = p * r.tilt[1] * (sine - mean);
-    friction->power = r.u * whole;
-    set_round_force(&r, u1, u2, w, friction);
-    friction->torque = -copysign(r.a, w) * (whole + d * u1);
+    out->power = r.u * whole;
+    set_round_force(&r, u1, u2, w, out);
+    out->torque = -copysign(r.a, w) * (whole + d * u1);
 }
 
-static void disc_friction(const CpsiPatch *patch, const double velocity[2], double w,
-                          CpsiPatchFriction *friction) {
+static void disc_dissipation(const CpsiPatch *patch, const double velocity[2], double w,
+                             CpsiPatchDissipation *out) {
     if (fabs(w) * patch->size * FAR <= hypot(velocity[0], velocity[1]))
-        disc_far(patch, velocity, w, friction);
+        disc_far(patch, velocity, w, out);
     else if (w != 0)
-        disc_near(patch, velocity, w, friction);
+        disc_near(patch, velocity, w, out);
 }
 
 /* ---- polygon ---- */
 
 /* Triangles from the centroid to each side, Gauss's rule in both directions. */
 static void polygon_far(const CpsiPatch *patch, const double velocity[2], double w,
-                        CpsiPatchFriction *friction) {
+                        CpsiPatchDissipation *out) {
     const double density = patch->strength / patch->area;
     for (int i = 0; i < patch->corner_count; i++) {
         const double *a = patch->corner + 2 * i,
@@ -279,7 +279,7 @@ static void polygon_far(const CpsiPatch *patch, const double velocity[2], double
                 const double weight =
                     0.25 * CPSI_GAUSS_WEIGHT[j] * CPSI_GAUSS_WEIGHT[k] * t * twice;
                 add_point(density * weight * (1 + patch->tilt[0] * r[0] + patch->tilt[1] * r[1]), r,
-                          velocity, w, friction);
+                          velocity, w, out);
             }
     }
 }
@@ -291,7 +291,7 @@ static void polygon_far(const CpsiPatch *patch, const double velocity[2], double
  *     integral of p r/rho (n)    = d^2 (p(c)/2 + d g.n/3) j0 + d^2 g.t j1/3
  *     integral of p r/rho (t)    = d (p(c)/2 + d g.n/3) j1 + d g.t j2/3  */
 static void polygon_near(const CpsiPatch *patch, const double velocity[2], double w,
-                         CpsiPatchFriction *friction) {
+                         CpsiPatchDissipation *out) {
     const double density = patch->strength / patch->area,
                  c[2] = {-velocity[1] / w, velocity[0] / w};
     const double g[2] = {density * patch->tilt[0], density * patch->tilt[1]};
@@ -312,35 +312,33 @@ static void polygon_near(const CpsiPatch *patch, const double velocity[2], doubl
         for (int k = 0; k < 2; k++) direction[k] += along_n * n[k] + along_t * t[k];
     }
     const double turn = copysign(1, w);
-    friction->power = fabs(w) * rho;
-    friction->force[0] = turn * direction[1];
-    friction->force[1] = -turn * direction[0];
-    friction->torque =
-        -(friction->power + friction->force[0] * velocity[0] + friction->force[1] * velocity[1]) /
-        w;
+    out->power = fabs(w) * rho;
+    out->force[0] = turn * direction[1];
+    out->force[1] = -turn * direction[0];
+    out->torque = -(out->power + out->force[0] * velocity[0] + out->force[1] * velocity[1]) / w;
 }
 
-static void polygon_friction(const CpsiPatch *patch, const double velocity[2], double w,
-                             CpsiPatchFriction *friction) {
+static void polygon_dissipation(const CpsiPatch *patch, const double velocity[2], double w,
+                                CpsiPatchDissipation *out) {
     if (fabs(w) * patch->size * FAR <= hypot(velocity[0], velocity[1]))
-        polygon_far(patch, velocity, w, friction);
+        polygon_far(patch, velocity, w, out);
     else
-        polygon_near(patch, velocity, w, friction);
+        polygon_near(patch, velocity, w, out);
 }
 
 CpsStatus cpsi_patch_dissipation_rate(const CpsiPatch *patch, const double velocity[2], double w,
-                                      CpsiPatchFriction *friction, CpsError *err) {
-    *friction = (CpsiPatchFriction){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
+                                      CpsiPatchDissipation *out, CpsError *err) {
+    *out = (CpsiPatchDissipation){.outcome = CPS_SET_OUTCOME_ANSWERED, .exact = true};
     switch (patch->kind) {
     case CPS_PATCH_POINT:
-        if (patch->set) return law_friction(patch, velocity, friction, err);
-        add_point(patch->strength, (double[2]){0, 0}, velocity, 0, friction);
+        if (patch->set) return law_dissipation(patch, velocity, out, err);
+        add_point(patch->strength, (double[2]){0, 0}, velocity, 0, out);
         break;
-    case CPS_PATCH_WHEEL: wheel_friction(patch, velocity, friction); break;
-    case CPS_PATCH_ROD: rod_friction(patch, velocity, w, friction); break;
-    case CPS_PATCH_RING: ring_friction(patch, velocity, w, friction); break;
-    case CPS_PATCH_DISC: disc_friction(patch, velocity, w, friction); break;
-    case CPS_PATCH_POLYGON: polygon_friction(patch, velocity, w, friction); break;
+    case CPS_PATCH_WHEEL: wheel_dissipation(patch, velocity, out); break;
+    case CPS_PATCH_ROD: rod_dissipation(patch, velocity, w, out); break;
+    case CPS_PATCH_RING: ring_dissipation(patch, velocity, w, out); break;
+    case CPS_PATCH_DISC: disc_dissipation(patch, velocity, w, out); break;
+    case CPS_PATCH_POLYGON: polygon_dissipation(patch, velocity, w, out); break;
     }
     return CPS_OK;
 }

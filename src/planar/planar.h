@@ -32,16 +32,16 @@ struct CpsPlanar {
 
 /* Power and friction wrench of a patch about its position, in body axes: power = -(force . velocity
  * + torque w). */
-typedef struct CpsiPatchFriction {
+typedef struct CpsiPatchDissipation {
     CpsSetOutcome outcome;
     bool exact;
     double power, gap;
     double force[2], torque;
-} CpsiPatchFriction;
+} CpsiPatchDissipation;
 
 /* Closed form for a patch whose position moves with `velocity` while it turns with w. */
 CpsStatus cpsi_patch_dissipation_rate(const CpsiPatch *patch, const double velocity[2], double w,
-                                      CpsiPatchFriction *friction, CpsError *err);
+                                      CpsiPatchDissipation *out, CpsError *err);
 
 /* M77 section 11 for a wheel whose centre moves with `velocity` (body axes). */
 CpsWheelMotion cpsi_wheel_motion(const CpsiPatch *patch, const double velocity[2]);

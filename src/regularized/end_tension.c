@@ -12,13 +12,13 @@
 static const double TOUCH = 1e-9;
 
 /* Friction on place j. */
-static Vec3 friction(const CpsRegularized *regularized, int j) {
+static Vec3 friction_force(const CpsRegularized *regularized, int j) {
     const CpsiCells *c = &regularized->cells;
     const double delta = regularized->f.parameters.delta;
     const Vec3 u = vec3_sub(cpsi_at(regularized->f.place, j), cpsi_at(c->reference, j)),
                n = cpsi_at(c->normal, j);
-    const Vec3 slid = vec3_axpy(-vec3_dot(u, n), n, u);
-    return vec3_scale(-c->bound[j] / sqrt(delta * delta + vec3_dot(slid, slid)), slid);
+    const Vec3 slip = vec3_reject(u, n);
+    return vec3_scale(-c->bound[j] / sqrt(delta * delta + vec3_dot(slip, slip)), slip);
 }
 
 /* The height of the held place j above the plane, from that of its neighbour. */
@@ -57,6 +57,6 @@ double cpsi_end_tension(const CpsRegularized *regularized, int end) {
     const Vec3 force = support(regularized, j, &up);
     if (!(up > 0)) return vec3_norm(force);
     const Vec3 half = vec3_scale(cpsi_zone_ratio(c, j, next) * c->share[j] / c->share[next],
-                                 friction(regularized, next));
+                                 friction_force(regularized, next));
     return vec3_norm(vec3_sub(vec3_axpy(-up, cpsi_at(c->normal, next), force), half));
 }

@@ -39,15 +39,15 @@ static Vec3 pressed(const CpsiFirstOrder *f, int j, double *push) {
     const Vec3 u = cpsi_at(f->u, j), n = cpsi_at(c->normal, j);
     const double across = vec3_dot(u, n), r = f->augment * c->share[j];
     *push = isfinite(f->gap[j]) ? f->push[j] - r * (across + f->gap[j]) : 0;
-    return vec3_axpy(r, vec3_axpy(-across, n, u), cpsi_at(f->friction, j));
+    return vec3_axpy(r, vec3_axpy(-across, n, u), cpsi_at(f->friction_force, j));
 }
 
-void cpsi_first_order_multipliers(const CpsiFirstOrder *f, int j, double friction[3],
+void cpsi_first_order_multipliers(const CpsiFirstOrder *f, int j, double friction_force[3],
                                   double *push) {
     Vec3 z = pressed(f, j, push);
     const double length = vec3_norm(z), bound = f->step->own.bound[j];
     if (length > bound) z = vec3_scale(bound / length, z);
-    vec3_store(friction, z);
+    vec3_store(friction_force, z);
     *push = fmax(0, *push);
 }
 
@@ -64,10 +64,10 @@ static void gradient(void *user, const double *x, double *g) {
         cpsi_add(f->gradient, i + 1, 1, pull);
     }
     for (int j = 0; j <= c->cells; ++j) {
-        double friction[3], push;
-        cpsi_first_order_multipliers(f, j, friction, &push);
+        double friction_force[3], push;
+        cpsi_first_order_multipliers(f, j, friction_force, &push);
         cpsi_add(f->gradient, j, -1, cpsi_at(c->load, j));
-        cpsi_add(f->gradient, j, 1, vec3_load(friction));
+        cpsi_add(f->gradient, j, 1, vec3_load(friction_force));
         cpsi_add(f->gradient, j, -push, cpsi_at(c->normal, j));
         cpsi_add(f->gradient, j, f->anchor * c->share[j],
                  vec3_sub(cpsi_at(f->u, j), cpsi_at(f->before, j)));

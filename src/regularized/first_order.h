@@ -27,18 +27,18 @@ enum { CPSI_FIRST_ORDER_BAND = 5 };
 
 typedef struct CpsiFirstOrder {
     const CpsiStep *step;
-    int unknowns;     /* 3 per node that is free */
-    double *tangent;  /* (m, 3) t */
-    double *stretch;  /* (m) s = |x_R'| */
-    double *strain;   /* (m) e; 0: slack, an element of D */
-    double *gap;      /* (m + 1) [m] n.u >= -gap; INFINITY: no condition */
-    double *u;        /* (m + 1, 3) [m] */
-    double *before;   /* (m + 1, 3) [m] u of the preceding round */
-    double *friction; /* (m + 1, 3) [N] q */
-    double *push;     /* (m + 1) [N] R */
-    double *gradient; /* (m + 1, 3) [N] */
-    double augment;   /* [N/m2] r per length */
-    double anchor;    /* [N/m2] k per length */
+    int unknowns;           /* 3 per node that is free */
+    double *tangent;        /* (m, 3) t */
+    double *stretch;        /* (m) s = |x_R'| */
+    double *strain;         /* (m) e; 0: slack, an element of D */
+    double *gap;            /* (m + 1) [m] n.u >= -gap; INFINITY: no condition */
+    double *u;              /* (m + 1, 3) [m] */
+    double *before;         /* (m + 1, 3) [m] u of the preceding round */
+    double *friction_force; /* (m + 1, 3) [N] q */
+    double *push;           /* (m + 1) [N] R */
+    double *gradient;       /* (m + 1, 3) [N] */
+    double augment;         /* [N/m2] r per length */
+    double anchor;          /* [N/m2] k per length */
 } CpsiFirstOrder;
 
 CpsiSmooth cpsi_first_order_smooth(CpsiFirstOrder *f);
@@ -49,7 +49,7 @@ void cpsi_first_order_slope(const CpsiFirstOrder *f, int element, double slope[3
 void cpsi_first_order_tension(const CpsiFirstOrder *f, int element, double tension[3]);
 
 /* The multipliers of a node updated for u. */
-void cpsi_first_order_multipliers(const CpsiFirstOrder *f, int node, double friction[3],
+void cpsi_first_order_multipliers(const CpsiFirstOrder *f, int node, double friction_force[3],
                                   double *push);
 
 #endif

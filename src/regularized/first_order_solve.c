@@ -34,7 +34,7 @@ struct CpsFirstOrder {
     CpsiArena arena;
     CpsiFirstOrder f; /* f.step is valid only during a solve */
     int elements;
-    double *arc, *tension, *along, *friction;
+    double *arc, *tension, *along, *friction_force;
     double *unknown, *work;
     CpsFirstOrderReport report;
 };
@@ -60,13 +60,13 @@ static void layout(CpsFirstOrder *s, int elements, CpsiArena *arena) {
     CPSI_PLACE(arena, f->gap, n);
     CPSI_PLACE(arena, f->u, 3 * n);
     CPSI_PLACE(arena, f->before, 3 * n);
-    CPSI_PLACE(arena, f->friction, 3 * n);
+    CPSI_PLACE(arena, f->friction_force, 3 * n);
     CPSI_PLACE(arena, f->push, n);
     CPSI_PLACE(arena, f->gradient, 3 * n);
     CPSI_PLACE(arena, s->arc, n);
     CPSI_PLACE(arena, s->tension, 3 * m);
     CPSI_PLACE(arena, s->along, m);
-    CPSI_PLACE(arena, s->friction, 3 * n);
+    CPSI_PLACE(arena, s->friction_force, 3 * n);
     CPSI_PLACE(arena, s->unknown, 3 * n);
     CPSI_PLACE(arena, s->work, 3 * n * (4 + CPSI_FIRST_ORDER_BAND + 1));
 }
@@ -113,13 +113,13 @@ static double accept_solution(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
     double change = 0, held_most = 0;
     const int end = f->unknowns / 3;
     for (int j = 1; j <= end; ++j) {
-        double friction[3], push;
-        cpsi_first_order_multipliers(f, j, friction, &push);
+        double friction_force[3], push;
+        cpsi_first_order_multipliers(f, j, friction_force, &push);
         const Vec3 drag =
             vec3_scale(f->anchor * c->share[j], vec3_sub(cpsi_at(f->u, j), cpsi_at(f->before, j)));
         const double held = vec3_norm(drag);
-        change =
-            cpsi_max_nan(change, vec3_norm(vec3_sub(vec3_load(friction), cpsi_at(f->friction, j))));
+        change = cpsi_max_nan(change, vec3_norm(vec3_sub(vec3_load(friction_force),
+                                                         cpsi_at(f->friction_force, j))));
         change = cpsi_max_nan(change, fabs(push - f->push[j]));
         change = cpsi_max_nan(change, held);
         if (held > held_most) {
@@ -127,7 +127,7 @@ static double accept_solution(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
             vec3_store(r->unbalanced, drag);
             r->unbalanced_arc = c->arc[j];
         }
-        memcpy(f->friction + 3 * (size_t)j, friction, sizeof friction);
+        memcpy(f->friction_force + 3 * (size_t)j, friction_force, sizeof friction_force);
         f->push[j] = push;
     }
     memcpy(f->before, f->u, 3 * ((size_t)c->cells + 1) * sizeof(double));
@@ -226,7 +226,8 @@ static void finish(CpsFirstOrder *s) {
     }
     for (int j = 0; j <= c->cells; ++j) {
         const Vec3 reached = vec3_add(cpsi_at(c->reference, j), cpsi_at(f->u, j));
-        vec3_store(s->friction + 3 * (size_t)j, vec3_scale(-1, cpsi_at(f->friction, j)));
+        vec3_store(s->friction_force + 3 * (size_t)j,
+                   vec3_scale(-1, cpsi_at(f->friction_force, j)));
         r->against_step =
             cpsi_max_nan(r->against_step, vec3_norm(vec3_sub(reached, cpsi_at(c->position, j))));
     }
@@ -286,6 +287,6 @@ CpsFirstOrderView cps_first_order_view(const CpsFirstOrder *solution) {
                                .displacement = solution->f.u,
                                .strain = solution->along,
                                .tension = solution->tension,
-                               .friction_force = solution->friction,
+                               .friction_force = solution->friction_force,
                                .reaction = solution->f.push};
 }

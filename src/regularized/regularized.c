@@ -36,16 +36,16 @@ static int bend_stencil(const CpsiCells *c, int cell, double coefficient[3]) {
 
 /* tangential displacement from the reference, and *distance from the obstacle, negative inside
  * it */
-static Vec3 slip(const CpsiRegularized *f, int j, double *distance) {
+static Vec3 find_slip(const CpsiRegularized *f, int j, double *distance) {
     const CpsiCells *c = f->cells;
     const Vec3 u = vec3_sub(cpsi_at(f->place, j), cpsi_at(c->reference, j)),
                n = cpsi_at(c->normal, j);
     *distance = vec3_dot(u, n) + c->gap[j];
-    return vec3_axpy(-vec3_dot(u, n), n, u);
+    return vec3_reject(u, n);
 }
 
-static double smoothed(const CpsiRegularized *f, Vec3 slid) {
-    return sqrt(f->parameters.delta * f->parameters.delta + vec3_dot(slid, slid));
+static double smoothed(const CpsiRegularized *f, Vec3 slip) {
+    return sqrt(f->parameters.delta * f->parameters.delta + vec3_dot(slip, slip));
 }
 
 /* ---- gradient ---- */
@@ -53,9 +53,9 @@ static double smoothed(const CpsiRegularized *f, Vec3 slid) {
 static void place_gradient(CpsiRegularized *f, int j) {
     const CpsiCells *c = f->cells;
     double distance;
-    const Vec3 slid = slip(f, j, &distance);
+    const Vec3 slip = find_slip(f, j, &distance);
     cpsi_add(f->gradient, j, -1, cpsi_at(c->load, j));
-    if (c->bound[j] > 0) cpsi_add(f->gradient, j, c->bound[j] / smoothed(f, slid), slid);
+    if (c->bound[j] > 0) cpsi_add(f->gradient, j, c->bound[j] / smoothed(f, slip), slip);
     if (distance < 0)
         cpsi_add(f->gradient, j, f->parameters.penalty * c->share[j] * distance,
                  cpsi_at(c->normal, j));
@@ -121,10 +121,10 @@ static void bend_blocks(const CpsiRegularized *f, int cell, double *a) {
 static void place_blocks(const CpsiRegularized *f, int j, double *a) {
     const CpsiCells *c = f->cells;
     double distance;
-    const Vec3 slid = slip(f, j, &distance), n = cpsi_at(c->normal, j);
+    const Vec3 slip = find_slip(f, j, &distance), n = cpsi_at(c->normal, j);
     if (c->bound[j] > 0) {
-        const double r = smoothed(f, slid), k = c->bound[j] / r;
-        add_block(f, a, j, j, k, -k / (r * r), slid);
+        const double r = smoothed(f, slip), k = c->bound[j] / r;
+        add_block(f, a, j, j, k, -k / (r * r), slip);
         add_block(f, a, j, j, 0, -k, n);
     }
     if (distance <= 0) add_block(f, a, j, j, 0, f->parameters.penalty * c->share[j], n);

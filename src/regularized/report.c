@@ -81,13 +81,12 @@ static void measure_place(const CpsiRegularized *f, int j, CpsRegularizedReport 
     const Vec3 x = cpsi_at(f->place, j), u = vec3_sub(x, cpsi_at(c->reference, j)),
                n = cpsi_at(c->normal, j);
     const double distance = vec3_dot(u, n) + c->gap[j];
-    const double slid = vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u)),
-                 smooth = hypot(f->parameters.delta, slid);
+    const double slip = vec3_norm(vec3_reject(u, n)), smooth = hypot(f->parameters.delta, slip);
     r->potential -= vec3_dot(cpsi_at(c->load, j), x);
     r->friction_energy += c->bound[j] * smooth;
-    r->relaxed += c->bound[j] * slid;
+    r->relaxed += c->bound[j] * slip;
     if (distance < 0) r->contact += f->parameters.penalty * c->share[j] * distance * distance / 2;
-    if (c->bound[j] > 0 && slid < BELOW_BOUND * smooth) r->creep = cpsi_max_nan(r->creep, slid);
+    if (c->bound[j] > 0 && slip < BELOW_BOUND * smooth) r->creep = cpsi_max_nan(r->creep, slip);
     r->penetration = cpsi_max_nan(r->penetration, -distance);
     r->position_max =
         cpsi_max_nan(r->position_max, vec3_norm(vec3_sub(x, cpsi_at(c->position, j))));

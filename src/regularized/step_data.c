@@ -55,8 +55,8 @@ static double energy_of(const CpsiCells *own, double compliance) {
     for (int j = 0; j <= own->cells; ++j) {
         const Vec3 x = cpsi_at(own->position, j), u = vec3_sub(x, cpsi_at(own->reference, j)),
                    n = cpsi_at(own->normal, j);
-        const Vec3 slid = vec3_axpy(-vec3_dot(u, n), n, u);
-        energy += own->bound[j] * vec3_norm(slid) - vec3_dot(cpsi_at(own->load, j), x);
+        const Vec3 slip = vec3_reject(u, n);
+        energy += own->bound[j] * vec3_norm(slip) - vec3_dot(cpsi_at(own->load, j), x);
     }
     return energy;
 }

@@ -51,10 +51,10 @@ static double segment_gap(double c, Vec3 e, Vec3 p) {
 }
 
 /* A |u| + F.u, at least 0 for |F| <= A */
-static double slip_gap(double bound, Vec3 slid, Vec3 friction) {
-    const double length = vec3_norm(slid), force = vec3_norm(friction);
+static double slip_gap(double bound, Vec3 slip, Vec3 friction_force) {
+    const double length = vec3_norm(slip), force = vec3_norm(friction_force);
     return fmax(0, bound - force) * length +
-           vec3_angle_defect(vec3_scale(-1, friction), slid, force, length);
+           vec3_angle_defect(vec3_scale(-1, friction_force), slip, force, length);
 }
 
 /* Smallest limit of a gap, per length and force, where the force is the largest or that of all
@@ -83,8 +83,7 @@ static double scale_of(const CpsLineView *step, double tolerance) {
     for (int j = 0; j <= step->element_count; ++j) {
         const Vec3 x = cpsi_at(step->position, j), u = vec3_sub(x, cpsi_at(step->reference, j)),
                    n = cpsi_at(step->normal, j), b = cpsi_at(step->load, j);
-        if (!held(step, j))
-            scale += step->friction_bound[j] * vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u));
+        if (!held(step, j)) scale += step->friction_bound[j] * vec3_norm(vec3_reject(u, n));
         work += fabs(vec3_dot(b, u));
         loads += vec3_norm(b);
         moment += vec3_norm(b) * vec3_norm(vec3_sub(x, cpsi_at(step->position, 0)));

@@ -111,7 +111,7 @@ bool cpsi_piece_moves(const CpsLineView *step, const CpsiSlackPiece *piece) {
     return reach > vec3_norm(vec3_sub(piece->foot[1], piece->foot[0])) * (1 + CPSI_FULL);
 }
 
-/* ---- nodes that slide on ---- */
+/* ---- nodes that slip on ---- */
 
 static bool at_bound(const CpsLineView *step, int node) {
     const double bound = step->friction_bound[node];
@@ -124,7 +124,7 @@ static bool is_held(const CpsLineView *step, int node) {
 }
 
 /* Whether a node can move along the unit vector v of its plane by itself, with a solution as the
- * result. Friction at its bound lets it slide on, or back as far as it has slipped. */
+ * result. Friction at its bound lets it slip on, or back as far as it has slipped. */
 static bool may_go(const CpsLineView *step, int node, Vec3 v) {
     if (is_held(step, node)) return false;
     if (!(step->friction_bound[node] > 0)) return true;
@@ -133,8 +133,8 @@ static bool may_go(const CpsLineView *step, int node, Vec3 v) {
     const Vec3 u = vec3_sub(cpsi_at(step->position, node), cpsi_at(step->reference, node));
     const double along = vec3_dot(force, v), size = vec3_norm(force);
     if (!(vec3_norm(vec3_cross(force, v)) <= SAME * size)) return false;
-    const double slid = vec3_norm(vec3_axpy(-vec3_dot(u, n), n, u));
-    return along < 0 || slid > SLIP * step->arc_length[step->element_count];
+    const double slip = vec3_norm(vec3_reject(u, n));
+    return along < 0 || slip > SLIP * step->arc_length[step->element_count];
 }
 
 /* Whether the element between a node that moves along v and the next one, on side 0 or 1, moves
@@ -161,8 +161,8 @@ static bool cluster_goes(const CpsLineView *step, int node, Vec3 v, double force
     return true;
 }
 
-/* whether a node at its bound can slide on or back */
-static bool may_slide(const CpsLineView *step, int node, double force) {
+/* whether a node at its bound can slip on or back */
+static bool may_slip(const CpsLineView *step, int node, double force) {
     const Vec3 f = cpsi_at(step->friction_force, node);
     const double size = vec3_norm(f);
     return at_bound(step, node) && size > 0 &&
@@ -177,7 +177,7 @@ static void note_node(const CpsLineView *step, int j, double force, CpsSlackPart
     part->grounded |= step->reaction[j] > 0;
     part->has_friction |= step->friction_bound[j] > 0;
     part->at_bound = part->at_bound || at_bound(step, j);
-    part->sliding = part->sliding || may_slide(step, j, force);
+    part->sliding = part->sliding || may_slip(step, j, force);
 }
 
 int cps_solution_slack(const CpsLineView *step, int capacity, CpsSlackPart *part) {

@@ -20,27 +20,27 @@ static CpsiFrictionLaw make(double first, double second, bool box) {
 }
 
 /* The point of the set's boundary at parameter t, with bound w of the larger coefficient. */
-static void edge(const CpsiFrictionLaw *set, double w, double t, double out[2]) {
-    const double c = cos(t), s = sin(t), by = set->box ? fmax(fabs(c), fabs(s)) : 1;
-    out[0] = w * set->ratio[0] * c / by;
-    out[1] = w * set->ratio[1] * s / by;
+static void edge(const CpsiFrictionLaw *law, double w, double t, double out[2]) {
+    const double c = cos(t), s = sin(t), by = law->box ? fmax(fabs(c), fabs(s)) : 1;
+    out[0] = w * law->ratio[0] * c / by;
+    out[1] = w * law->ratio[1] * s / by;
 }
 
 static void ratios(void **state) {
     (void)state;
-    CpsiFrictionLaw set = make(0.6, 0.3, false);
-    CHECK_NEAR(set.friction, 0.6, 0);
-    CHECK_NEAR(set.ratio[0], 1, 2e-16);
-    CHECK_NEAR(set.ratio[1], 0.5, 2e-16);
-    set = make(0, 0.3, true);
-    CHECK_NEAR(set.friction, 0.3, 0);
-    CHECK_NEAR(set.ratio[0], 0, 0);
-    CHECK_NEAR(set.ratio[1], 1, 2e-16);
-    set = make(0, 0, false);
-    CHECK_NEAR(set.friction, 0, 0);
+    CpsiFrictionLaw law = make(0.6, 0.3, false);
+    CHECK_NEAR(law.friction, 0.6, 0);
+    CHECK_NEAR(law.ratio[0], 1, 2e-16);
+    CHECK_NEAR(law.ratio[1], 0.5, 2e-16);
+    law = make(0, 0.3, true);
+    CHECK_NEAR(law.friction, 0.3, 0);
+    CHECK_NEAR(law.ratio[0], 0, 0);
+    CHECK_NEAR(law.ratio[1], 1, 2e-16);
+    law = make(0, 0, false);
+    CHECK_NEAR(law.friction, 0, 0);
     const CpsiLine nowhere = {.obstacle_count = 0};
-    set = cpsi_line_friction_law(&nowhere, 0);
-    CHECK_NEAR(set.friction, 0, 0);
+    law = cpsi_line_friction_law(&nowhere, 0);
+    CHECK_NEAR(law.friction, 0, 0);
 }
 
 static const double SHAPE[][3] = {{0.6, 0.3, 0}, {0.3, 0.6, 0}, {0.5, 0.5, 0}, {0.6, 0.3, 1},
@@ -52,16 +52,16 @@ static const double SHAPE[][3] = {{0.6, 0.3, 0}, {0.3, 0.6, 0}, {0.5, 0.5, 0}, {
 static void support(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof SHAPE / sizeof *SHAPE; k++) {
-        const CpsiFrictionLaw set = make(SHAPE[k][0], SHAPE[k][1], SHAPE[k][2] > 0);
+        const CpsiFrictionLaw law = make(SHAPE[k][0], SHAPE[k][1], SHAPE[k][2] > 0);
         for (double a = 0; a < 6.3; a += 0.37) {
             const double u[2] = {3 * cos(a), 3 * sin(a)}, w = 2.5;
             double most = 0;
             for (int i = 0; i < 4000; i++) {
                 double f[2];
-                edge(&set, w, i * PI / 2000, f);
+                edge(&law, w, i * PI / 2000, f);
                 most = fmax(most, -f[0] * u[0] - f[1] * u[1]);
             }
-            const double phi = cpsi_friction_law_dissipation(&set, w, u);
+            const double phi = cpsi_friction_law_dissipation(&law, w, u);
             CHECK_BETWEEN(phi, most * (1 - 1e-15), most * (1 + 2e-6) + 1e-15);
         }
     }
@@ -72,17 +72,17 @@ static void support(void **state) {
 static void gap(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof SHAPE / sizeof *SHAPE; k++) {
-        const CpsiFrictionLaw set = make(SHAPE[k][0], SHAPE[k][1], SHAPE[k][2] > 0);
+        const CpsiFrictionLaw law = make(SHAPE[k][0], SHAPE[k][1], SHAPE[k][2] > 0);
         const double w = 2.5;
         for (double t = 0.01; t < 6.3; t += 0.19) {
             for (double part = 0; part <= 1; part += 0.25) {
                 double f[2];
-                edge(&set, w, t, f);
+                edge(&law, w, t, f);
                 for (int a = 0; a < 2; a++) f[a] *= part;
                 for (double a = 0; a < 6.3; a += 0.41) {
                     const double u[2] = {1e-3 * cos(a), 1e-3 * sin(a)};
-                    const double found = cpsi_friction_law_gap(&set, w, f, u),
-                                 plain = cpsi_friction_law_dissipation(&set, w, u) + f[0] * u[0] +
+                    const double found = cpsi_friction_law_gap(&law, w, f, u),
+                                 plain = cpsi_friction_law_dissipation(&law, w, u) + f[0] * u[0] +
                                          f[1] * u[1];
                     CHECK_NEAR(found, plain, 2e-15 * w * 1e-3); /* a few ulps of each term */
                     CHECK_GREATER(found, -1e-18);
@@ -90,12 +90,12 @@ static void gap(void **state) {
             }
             /* the way that the force on the edge answers: its normal, u against F */
             double f[2];
-            edge(&set, w, t, f);
-            const double *r = set.ratio;
-            if (set.box || r[0] == 0 || r[1] == 0) continue;
+            edge(&law, w, t, f);
+            const double *r = law.ratio;
+            if (law.box || r[0] == 0 || r[1] == 0) continue;
             const double u[2] = {-f[0] / (r[0] * r[0]), -f[1] / (r[1] * r[1])};
             /* quadratic in the rounding of directions, linear in that of |f| against w */
-            CHECK_NEAR(cpsi_friction_law_gap(&set, w, f, u), 0,
+            CHECK_NEAR(cpsi_friction_law_gap(&law, w, f, u), 0,
                        1e-15 * w * hypot(r[0] * u[0], r[1] * u[1]));
         }
     }
@@ -104,11 +104,11 @@ static void gap(void **state) {
 /* A corner of a box answers every way of its quadrant. */
 static void corner(void **state) {
     (void)state;
-    const CpsiFrictionLaw set = make(0.6, 0.3, true);
+    const CpsiFrictionLaw law = make(0.6, 0.3, true);
     const double f[2] = {-2, -1};
     for (double a = 0; a <= PI / 2; a += 0.1) {
         const double u[2] = {cos(a), sin(a)};
-        CHECK_NEAR(cpsi_friction_law_gap(&set, 2, f, u), 0, 1e-15);
+        CHECK_NEAR(cpsi_friction_law_gap(&law, 2, f, u), 0, 1e-15);
     }
 }
 
@@ -117,32 +117,32 @@ static void corner(void **state) {
 static void clip_and_room(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof SHAPE / sizeof *SHAPE; k++) {
-        const CpsiFrictionLaw set = make(SHAPE[k][0], SHAPE[k][1], SHAPE[k][2] > 0);
-        const bool flat = set.ratio[0] == 0 || set.ratio[1] == 0;
+        const CpsiFrictionLaw law = make(SHAPE[k][0], SHAPE[k][1], SHAPE[k][2] > 0);
+        const bool flat = law.ratio[0] == 0 || law.ratio[1] == 0;
         for (double t = 0.05; t < 6.3; t += 0.23) {
             double on[2], far[2], in[2], kept[2];
-            edge(&set, 2.5, t, on);
+            edge(&law, 2.5, t, on);
             for (int a = 0; a < 2; a++) {
                 far[a] = 3 * on[a];
                 kept[a] = in[a] = 0.4 * on[a];
             }
-            cpsi_friction_law_clip(&set, 2.5, 2.5, far);
-            cpsi_friction_law_clip(&set, 2.5, 2.5, kept);
+            cpsi_friction_law_clip(&law, 2.5, 2.5, far);
+            cpsi_friction_law_clip(&law, 2.5, 2.5, kept);
             for (int a = 0; a < 2; a++) {
                 if (!flat) CHECK_NEAR(far[a], on[a], 1e-15);
                 CHECK_NEAR(kept[a], in[a], 0);
             }
-            const double size = hypot(in[0], in[1]), room = cpsi_friction_law_margin(&set, 2.5, in);
+            const double size = hypot(in[0], in[1]), room = cpsi_friction_law_margin(&law, 2.5, in);
             CHECK_GREATER(room, -1e-300);
             CHECK_LESS(room, hypot(on[0], on[1]) - size + 1e-15);
             if (flat) CHECK_NEAR(room, 0, 0);
-            if (!flat) CHECK_NEAR(cpsi_friction_law_margin(&set, 2.5, on), 0, 1e-15);
+            if (!flat) CHECK_NEAR(cpsi_friction_law_margin(&law, 2.5, on), 0, 1e-15);
         }
     }
     /* no width, no force */
-    const CpsiFrictionLaw set = make(0, 0.7, false);
+    const CpsiFrictionLaw law = make(0, 0.7, false);
     double f[2] = {1, 0.5};
-    cpsi_friction_law_clip(&set, 2.5, 2.5, f);
+    cpsi_friction_law_clip(&law, 2.5, 2.5, f);
     CHECK_NEAR(f[0], 0, 0);
     CHECK_NEAR(f[1], 0.5, 0);
 }

@@ -57,7 +57,7 @@ static Patch patch_of(const CpsResults *results, const CpsObstacle *obstacle) {
     const Vec3 axis = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));
     const Vec3 seed = fabs(axis.x) <= 0.75 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     patch.centre = vec3_load(obstacle->point);
-    patch.axis[0] = unit(vec3_axpy(-vec3_dot(seed, axis), axis, seed));
+    patch.axis[0] = unit(vec3_reject(seed, axis));
     patch.axis[1] = vec3_cross(axis, patch.axis[0]);
     patch.axis[2] = axis;
     reach_along(results, patch.centre, patch.axis[plane ? 0 : 2], patch.reach[0]);

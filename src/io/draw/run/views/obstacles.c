@@ -97,7 +97,7 @@ static void draw_plane(const CpsObstacle *plane, const CpsiView *view, const Cps
 static void draw_spoke(const CpsObstacle *obstacle, double turned, const CpsiView *view,
                        const CpsiFrame *frame, FILE *out) {
     const Vec3 axis = unit(obstacle->axis), centre = vec3_load(obstacle->point);
-    const Vec3 upright = vec3_axpy(-vec3_dot(view->up, axis), axis, view->up);
+    const Vec3 upright = vec3_reject(view->up, axis);
     const Vec3 spoke =
         vec3_axpy(cos(turned), upright, vec3_scale(sin(turned), vec3_cross(axis, upright)));
     const Vec3 rim = vec3_axpy(obstacle->radius / vec3_norm(upright), spoke, centre);

@@ -34,7 +34,7 @@ static Vec3 upward(const CpsResults *results) {
 /* the horizontal part of x, or of y where x is vertical */
 static Vec3 horizontal_x(Vec3 up) {
     const Vec3 axis = fabs(up.x) < 0.9 ? vec3(1, 0, 0) : vec3(0, 1, 0);
-    return unit(vec3_axpy(-vec3_dot(axis, up), up, axis));
+    return unit(vec3_reject(axis, up));
 }
 
 static void label_axis(char *out, size_t size, Vec3 a, const char *otherwise) {
