@@ -18,7 +18,9 @@
  *   - The name of a number of things, entries of an array or steps taken, ends in `_count`; that of
  *     the largest number allowed begins with `max_`.
  *   - Where a value may be missing, a flag `has_..` or an enumeration says so, and the value is 0;
- *     only residuals of laws (law.h) and rates of a study (regularized.h) are NaN instead.
+ *     only residuals of laws (law.h) are NaN instead. An array of indices needs an entry for
+ *     `none` beside 0, so as to stay one array; it has a name, CPS_NO_OBSTACLE (step.h), which is
+ *     negative.
  *   - A returned `const double *` is a view that the handle owns. It is valid until the next
  *     non-const call on that handle.
  *   - The library never prints, exits or aborts, and has no mutable global state: different handles

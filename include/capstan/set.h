@@ -217,13 +217,14 @@ CPS_API CpsStatus cps_set_normal_cone(const CpsSet *set, const double *point, do
 
 /* Properties of a set. */
 typedef struct CpsSetFacts {
-    CpsSetOutcome outcome; /* CPS_SET_OUTCOME_EMPTY: dimension -1 */
+    CpsSetOutcome outcome;
     bool exact;
     bool closure; /* see CpsSetAnswer */
     bool bounded;
     bool has_zero;      /* 0 is in the set */
     bool zero_interior; /* 0 is in its interior */
     bool zero_relative; /* 0 is in its relative interior */
+    bool has_dimension; /* false of an empty set, and where the directions have no answer */
     int dimension;      /* of its affine hull */
     double tolerance;   /* the width that was used, as a length */
 } CpsSetFacts;

@@ -227,7 +227,7 @@ typedef struct CpsStepReport {
     double wall;                   /* [s] time taken */
 } CpsStepReport;
 
-/* The index of an obstacle where there is none. */
+/* The entry of an array of obstacles' indices where there is no obstacle (base.h). */
 enum { CPS_NO_OBSTACLE = -1 };
 
 /* All arrays of one line after a step or its last substep, until the evolution's next step. n =

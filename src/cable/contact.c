@@ -218,7 +218,7 @@ void cpsi_contact_set_reference(CpsiLine *line, CpsContactPolicy contact,
     for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
         if (line->state[c] == CPS_NODE_STATE_FREE)
             line->obstacle_index[c] =
-                -1; /* detected again when the element penetrates an obstacle */
+                CPS_NO_OBSTACLE; /* detected again when the element penetrates an obstacle */
     if (line->has_local_axes)
         cpsi_contact_reset(line);
     else

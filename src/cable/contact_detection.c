@@ -41,7 +41,7 @@ static bool third_keeps(const CpsiLine *line, int j, int k, bool keep_active) {
  * distance. */
 static void nearest(const CpsiLine *line, int j, Vec3 x, bool keep_active, int on[2]) {
     double gap[2] = {INFINITY, INFINITY};
-    on[0] = on[1] = -1;
+    on[0] = on[1] = CPS_NO_OBSTACLE;
     for (int k = 0; k < line->obstacle_count; k++) {
         if (third_keeps(line, j, k, keep_active)) continue;
         const double distance = node_keeps(line, j, k, keep_active)
@@ -151,7 +151,7 @@ static int third_obstacle(const CpsiLine *line, int j, const SavedContact before
             on[i] = left_out;
             return plane;
         }
-    return -1;
+    return CPS_NO_OBSTACLE;
 }
 
 /* Detect the contacts of node j at its base; those with the same obstacle as before keep their
@@ -159,9 +159,9 @@ static int third_obstacle(const CpsiLine *line, int j, const SavedContact before
 static void detect(CpsiLine *line, int j, bool keep_active) {
     const int n = line->n, third = third_contact(line, j);
     const bool had_third = third >= 0 && cpsi_line_is_third(line, third);
-    SavedContact before[3] = {{.obstacle_index = -1},
-                              {.obstacle_index = -1},
-                              {.obstacle_index = -1}};
+    SavedContact before[3] = {{.obstacle_index = CPS_NO_OBSTACLE},
+                              {.obstacle_index = CPS_NO_OBSTACLE},
+                              {.obstacle_index = CPS_NO_OBSTACLE}};
     int on[2], plane = -1;
     nearest(line, j, vec3_load(&line->base[3 * j]), keep_active, on);
     for (int i = 0; i < line->contacts; i++) before[i] = save_contact(line, j + i * n);
@@ -195,7 +195,9 @@ bool cpsi_contact_clearance(const CpsiLine *line, const double *x, int e, int k,
  * at the point where the element last faced the obstacle. */
 static void detect_element(CpsiLine *line, int e) {
     const int c = cpsi_line_contacts(line) + e;
-    SavedContact now = {.obstacle_index = -1, .gap = INFINITY, .state = CPS_NODE_STATE_FREE};
+    SavedContact now = {.obstacle_index = CPS_NO_OBSTACLE,
+                        .gap = INFINITY,
+                        .state = CPS_NODE_STATE_FREE};
     const SavedContact before = save_contact(line, c);
     double least = INFINITY;
     if (is_kept(line, c)) return;

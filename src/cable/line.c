@@ -66,7 +66,7 @@ double cpsi_line_largest_displacement(const CpsiLine *line, const double *from) 
 }
 
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap) {
-    int nearest = -1;
+    int nearest = CPS_NO_OBSTACLE;
     *gap = INFINITY;
     for (int k = 0; k < line->obstacle_count; k++) {
         const double distance = cpsi_obstacle_gap(&line->obstacle[k], x);

@@ -260,7 +260,7 @@ void cpsi_line_local_slip(const CpsiLine *line, int c, double slip[3]);
 /* [m] The largest displacement of a node from the positions `from` (n, 3). */
 double cpsi_line_largest_displacement(const CpsiLine *line, const double *from);
 
-/* The obstacle nearest to a point (-1: none) and the distance to it (INFINITY). */
+/* The obstacle nearest to a point (CPS_NO_OBSTACLE: none) and the distance to it (INFINITY). */
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap);
 
 /* [m] The largest penetration of an element into a round obstacle at `position`, beyond the

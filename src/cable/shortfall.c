@@ -54,7 +54,7 @@ bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
     if (vec3_norm(vec3_sub(b, a)) > allowed) return false;
     double longest = 0;
     for (int e = 0; e + 1 < line->n; e++) longest = fmax(longest, line->element_length[e]);
-    *out = (CpsiShortfall){.obstacle = -1};
+    *out = (CpsiShortfall){.obstacle = CPS_NO_OBSTACLE};
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *o = &line->obstacle[k];
         CpsiPolygon polygon = {longest, line->element_contacts > 0

@@ -116,7 +116,7 @@ CpsStatus cps_motion_resistances(const CpsMotion *motion, double tolerance, CpsS
     all->outcome = facts.outcome;
     all->dimension = facts.dimension;
     all->bounded = facts.bounded;
-    all->unique = facts.dimension == 0;
+    all->unique = facts.has_dimension && facts.dimension == 0;
     all->tolerance = forces.tolerance;
     all->moved = forces.moved;
     if (status != CPS_OK) cps_solution_set_clear(all);

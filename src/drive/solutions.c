@@ -154,7 +154,7 @@ static CpsStatus finish(Gather *g, int n, const double *origin, double size, dou
     }
     /* a set no wider than the tolerance is a point; otherwise widths below the tolerance are
      * flat */
-    CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_ANSWERED};
+    CpsSetFacts facts = {.outcome = CPS_SET_OUTCOME_ANSWERED, .has_dimension = true};
     if (status == CPS_OK && found->outcome == CPS_SET_OUTCOME_ANSWERED &&
         !(widest <= g->tolerance * size)) {
         const double flat =
@@ -163,7 +163,7 @@ static CpsStatus finish(Gather *g, int n, const double *origin, double size, dou
         found->outcome = facts.outcome;
     }
     found->dimension = facts.dimension;
-    found->unique = facts.dimension == 0;
+    found->unique = facts.has_dimension && facts.dimension == 0;
     if (status == CPS_OK && found->outcome == CPS_SET_OUTCOME_ANSWERED)
         status = cps_set_image(n, turned, inside, &image, err);
     if (status == CPS_OK && image) status = cps_set_translate(origin, image, &found->set, err);

@@ -164,7 +164,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     fill_friction_factor(line, def);
     if (line->has_sections || line->has_breaking_load) cpsi_sections_fill(line, def);
     if (line->has_local_axes)
-        for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->obstacle_index[c] = -1;
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++)
+            line->obstacle_index[c] = CPS_NO_OBSTACLE;
     cpsi_start_place(def, line->position);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];

@@ -24,7 +24,7 @@ typedef struct CpsiEvolutionStage {
 typedef struct CpsiViewFill {
     double *zero;         /* (3 n) 0 */
     double *one;          /* (n) 1 */
-    int *first, *none;    /* (n) 0: the first obstacle; -1: none */
+    int *first, *none;    /* (n) 0: the first obstacle; CPS_NO_OBSTACLE */
     unsigned char *state; /* (n) CPS_NODE_STATE_FREE */
 } CpsiViewFill;
 

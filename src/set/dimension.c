@@ -138,7 +138,10 @@ static CpsStatus check_bounded(const CpsSet *set, double *w, CpsSetFacts *facts,
         }
         w[i] = 0;
     }
-    if (facts->outcome != CPS_SET_OUTCOME_ANSWERED) facts->dimension = -1;
+    if (facts->outcome != CPS_SET_OUTCOME_ANSWERED) {
+        facts->has_dimension = false;
+        facts->dimension = 0;
+    }
     return status;
 }
 
@@ -202,7 +205,7 @@ static CpsStatus facts_of_polar(const CpsSet *set, CpsSetFacts *facts, double *c
     const CpsStatus status = cps_set_facts(set->part[0], 0, &part, NULL, NULL, err);
     if (status != CPS_OK || part.outcome != CPS_SET_OUTCOME_ANSWERED || !part.bounded)
         return status;
-    facts->exact = *known = true;
+    facts->exact = facts->has_dimension = *known = true;
     facts->dimension = set->n;
     facts->bounded = part.zero_interior;
     facts->has_zero = facts->zero_relative = facts->zero_interior = true;
@@ -238,11 +241,11 @@ CpsStatus cps_set_facts(const CpsSet *set, double tolerance, CpsSetFacts *facts,
     double *rays = scratch + n * n + 4 * n, *work = scratch + n * n + 5 * n;
     *facts = (CpsSetFacts){.outcome = CPS_SET_OUTCOME_ANSWERED,
                            .closure = set->closure,
-                           .dimension = -1,
                            .tolerance = search.width};
     status = search_all(&search, rays, &facts->outcome, err);
     if (!status && facts->outcome == CPS_SET_OUTCOME_ANSWERED) {
         facts->exact = search.exact;
+        facts->has_dimension = true;
         facts->dimension = search.dimension;
         facts->bounded = search.bounded;
         if (facts->bounded) status = check_bounded(set, work, facts, err);

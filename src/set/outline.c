@@ -228,7 +228,7 @@ CpsStatus cpsi_walk_start(const CpsSet *set, double tolerance, CpsiWalk *walk, C
                        .err = err};
     const CpsStatus status = cps_set_facts(set, 0, facts, centre, basis, err);
     if (status) return status;
-    if (facts->outcome == CPS_SET_OUTCOME_NOT_AVAILABLE && facts->dimension >= 0)
+    if (facts->outcome == CPS_SET_OUTCOME_NOT_AVAILABLE && facts->has_dimension)
         facts->outcome = CPS_SET_OUTCOME_ANSWERED;
     if (facts->outcome == CPS_SET_OUTCOME_ANSWERED && !facts->bounded)
         facts->outcome = CPS_SET_OUTCOME_UNBOUNDED;

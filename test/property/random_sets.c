@@ -544,7 +544,7 @@ static Verdict check_empty(int n, const CpsSet *set) {
     for (int k = 0; k < 4; k++)
         if (all[k] != CPS_SET_OUTCOME_EMPTY)
             verdict = both(verdict, all[k] == CPS_SET_OUTCOME_INACCURATE ? OPEN : WRONG);
-    if (verdict == ANSWERED && (support.value != -INFINITY || facts.dimension != -1 || out))
+    if (verdict == ANSWERED && (support.value != -INFINITY || facts.has_dimension || out))
         verdict = WRONG;
     return verdict;
 }
@@ -580,7 +580,8 @@ static Verdict case_flat(int n, const Sample *sample) {
     DO(cps_set_intersection(2, (const CpsSet *[]){sample->set, plane}, &flat, &err));
     DO(cps_set_facts(flat, 0, &facts, centre, NULL, &err));
     Verdict verdict = due(facts.outcome);
-    if (verdict == ANSWERED && (facts.dimension < 0 || facts.dimension >= n || facts.zero_interior))
+    if (verdict == ANSWERED &&
+        (!facts.has_dimension || facts.dimension >= n || facts.zero_interior))
         verdict = WRONG;
     if (verdict == ANSWERED)
         verdict = same(dot(n, u, centre), at, norm(n, u) * fmax(1, norm(n, centre)));

@@ -93,7 +93,8 @@ static void degenerate_sets_are_answered(void **state) {
     assert_true(answer.value == -INFINITY);
     DO(cps_set_facts(none, 0, &facts, NULL, NULL, &err));
     assert_int_equal(facts.outcome, CPS_SET_OUTCOME_EMPTY);
-    CHECK_INT(facts.dimension, -1);
+    assert_false(facts.has_dimension);
+    CHECK_INT(facts.dimension, 0);
     DO(cps_set_face(none, w, 0, &face, &answer, &err));
     assert_int_equal(answer.outcome, CPS_SET_OUTCOME_EMPTY);
     assert_null(face);

@@ -370,7 +370,7 @@ static CpsStatus draw_velocity(const Sheet *s, int i) {
     const double direction[2] = {l > 0 ? v[0] / l : 0, l > 0 ? v[1] / l : 0};
     if (answer.outcome == CPS_SET_OUTCOME_ANSWERED)
         draw_arrow(s, centre, direction, ARROW * s->size, colour.hex);
-    list_velocity(s, i, velocity, &answer, facts.dimension < 0 ? 0 : facts.dimension);
+    list_velocity(s, i, velocity, &answer, facts.dimension);
     return CPS_OK;
 }
 

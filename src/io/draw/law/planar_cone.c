@@ -42,7 +42,7 @@ static CpsStatus reach(const CpsSet *cone, double middle, int side, double *angl
 CpsStatus cpsi_planar_cone(const CpsSet *cone, CpsiPlanarCone *out, CpsError *err) {
     CpsSetFacts facts;
     double centre[2], basis[4];
-    *out = (CpsiPlanarCone){.dimension = -1};
+    *out = (CpsiPlanarCone){0};
     CpsStatus status = cps_set_facts(cone, 0, &facts, centre, basis, err);
     if (status != CPS_OK || facts.outcome != CPS_SET_OUTCOME_ANSWERED) return status;
     out->dimension = facts.dimension;

@@ -7,7 +7,7 @@
 #include "capstan/set.h"
 
 typedef struct CpsiPlanarCone {
-    int dimension;      /* 0: only 0; -1: not known */
+    int dimension;      /* 0: only 0, or not known */
     bool line;          /* for dimension 1: whether both directions belong to it */
     double start, turn; /* angles from `start` on, counterclockwise, turn from 0 to 2 pi */
 } CpsiPlanarCone;
