@@ -285,16 +285,22 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     return hash;
 }
 
-/* A hash of the first `count` stages. */
-static uint64_t hash_history(const CpsEvolution *evolution, int count) {
+void cpsi_evolution_hash_stages(CpsEvolution *evolution) {
     uint64_t hash = HASH_START;
-    for (int k = 0; k < count; k++) hash_stage(&hash, &evolution->stage[k]);
-    return hash;
+    for (int k = 0; k < evolution->stage_count; k++) {
+        hash_stage(&hash, &evolution->stage[k]);
+        evolution->stage[k].hash = hash;
+    }
+}
+
+/* The hash of the first `count` stages. */
+static uint64_t history_hash(const CpsEvolution *evolution, int count) {
+    return count > 0 ? evolution->stage[count - 1].hash : HASH_START;
 }
 
 /* ... and of those that have begun. */
-static uint64_t hash_past(const CpsEvolution *evolution) {
-    return hash_history(evolution, evolution->current + (evolution->part > 0 ? 1 : 0));
+static uint64_t past_hash(const CpsEvolution *evolution) {
+    return history_hash(evolution, evolution->current + (evolution->part > 0 ? 1 : 0));
 }
 
 size_t cps_evolution_state_size(const CpsEvolution *evolution) {
@@ -306,8 +312,8 @@ size_t cps_evolution_state_size(const CpsEvolution *evolution) {
 void cpsi_evolution_keep(const CpsEvolution *evolution, void *state) {
     Head head = {.size = cps_evolution_state_size(evolution),
                  .fingerprint = evolution->fingerprint,
-                 .history = hash_history(evolution, evolution->stage_count),
-                 .past = hash_past(evolution)};
+                 .history = history_hash(evolution, evolution->stage_count),
+                 .past = past_hash(evolution)};
     memcpy(head.magic, MAGIC, sizeof MAGIC);
     memcpy(state, &head, sizeof head);
     Tape tape = {.out = state};
@@ -351,7 +357,7 @@ CpsStatus cps_evolution_load(CpsEvolution *evolution, const void *state, size_t 
     const bool ended = evolution->ended;
     cpsi_evolution_restore(evolution, state);
     const char *fault = cpsi_state_fault(evolution);
-    const bool other_past = !fault && hash_past(evolution) != head.past;
+    const bool other_past = !fault && past_hash(evolution) != head.past;
     if (fault || other_past) {
         cpsi_evolution_restore(evolution, before);
         evolution->ended = ended;

@@ -10,6 +10,9 @@
  * between scenes. */
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution);
 
+/* Write the hash of each stage (state.h), which saving a state then reads in constant time. */
+void cpsi_evolution_hash_stages(CpsEvolution *evolution);
+
 /* Save the state as it is, also after a move that found no equilibrium; and restore a state that
  * this evolution itself has saved. */
 void cpsi_evolution_keep(const CpsEvolution *evolution, void *state);

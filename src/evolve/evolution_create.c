@@ -213,6 +213,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         cpsi_workspace_connect(&evolution->workspace[i]);
     evolution->report = (CpsStepReport){.name = evolution->step_name};
     evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
+    cpsi_evolution_hash_stages(evolution);
 }
 
 /* Keep what stages are checked against. */

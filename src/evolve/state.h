@@ -17,6 +17,7 @@ typedef struct CpsiEvolutionStage {
     CpsTurn *turn;
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */
+    uint64_t hash;     /* of this stage and all before it */
 } CpsiEvolutionStage;
 
 /* Arrays of equal entries for what a line does not have; shared by all lines, whose largest number

@@ -3,6 +3,7 @@
 import os
 import re
 import sys
+import tempfile
 
 faults = []
 PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../docs/validation.md")
@@ -19,7 +20,6 @@ def is_told(count):
     return False
 
 
-
 def expect(what, holds, found=""):
     if not holds:
         faults.append(f"{what}: {found!r}")
@@ -33,3 +33,13 @@ def write(name, data):
 def read(name):
     with open(name, "rb") as file:
         return file.read()
+
+
+def run_in_an_empty_folder(main, passed):
+    """Run a test in a folder that is removed after it, print its faults or that it passed, and end the program."""
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        main()
+        os.chdir("/")
+    print("\n".join(faults[:20]) or passed)
+    sys.exit(1 if faults else 0)

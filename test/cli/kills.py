@@ -13,11 +13,10 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 
 sys.dont_write_bytecode = True
-from checks import expect, faults, write
+from checks import expect, run_in_an_empty_folder, write
 from same_files import differences
 
 CAPSTAN, EXAMPLES = (os.path.abspath(a) for a in sys.argv[1:3])
@@ -129,9 +128,4 @@ def main():
     print(f"{tally['kills']} kills in {TRIALS} runs, of which {tally['under way']} at last went on in the middle of a history")
 
 
-with tempfile.TemporaryDirectory() as folder:
-    os.chdir(folder)
-    main()
-    os.chdir("/")
-print("\n".join(faults[:20]) or "kills: every file as that of a run without a kill")
-sys.exit(1 if faults else 0)
+run_in_an_empty_folder(main, "kills: every file as that of a run without a kill")

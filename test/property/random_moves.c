@@ -252,19 +252,15 @@ static void try_scene(int class_index, uint64_t seed, Tally *tally) {
 }
 
 int main(int argc, char **argv) {
-    int scenes = 200;
-    uint64_t seed = 1;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (!strcmp(argv[i], "--scenes")) scenes = atoi(argv[i + 1]);
-        if (!strcmp(argv[i], "--seed")) seed = strtoull(argv[i + 1], NULL, 10);
-    }
+    const RandomSceneRange range = random_scene_range(argc, argv);
     Tally tally = {0};
-    for (int k = 0; k < scenes; k++) try_scene(k % SCENE_CLASSES, seed + (uint64_t)k, &tally);
+    for (int k = 0; k < range.count; k++)
+        try_scene(k % SCENE_CLASSES, range.seed + (uint64_t)k, &tally);
     printf("%d of %d scenes valid, %d steps; %d moves taken back, %d refused, %d that no line can "
            "follow, %d states handed over, %d failures\n",
-           tally.scenes, scenes, tally.steps, tally.taken_back, tally.refused, tally.failed,
+           tally.scenes, range.count, tally.steps, tally.taken_back, tally.refused, tally.failed,
            tally.loaded, tally.failures);
     /* most scenes must be valid and all kinds of moves occur, or nothing is tested */
-    return tally.failures > 0 || 2 * tally.scenes < scenes || tally.taken_back == 0 ||
+    return tally.failures > 0 || 2 * tally.scenes < range.count || tally.taken_back == 0 ||
            tally.refused == 0 || tally.failed == 0 || tally.loaded == 0;
 }

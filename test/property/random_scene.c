@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- random numbers ---- */
@@ -580,4 +581,13 @@ void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
         maker_stiffness(&maker, random_decades(random, class_index, class_index + 1), force);
     }
     }
+}
+
+RandomSceneRange random_scene_range(int argc, char **argv) {
+    RandomSceneRange range = {.count = 200, .seed = 1};
+    for (int i = 1; i + 1 < argc; i += 2) {
+        if (!strcmp(argv[i], "--scenes")) range.count = atoi(argv[i + 1]);
+        if (!strcmp(argv[i], "--seed")) range.seed = strtoull(argv[i + 1], NULL, 10);
+    }
+    return range;
 }

@@ -82,4 +82,13 @@ typedef struct RandomScene {
 const char *random_scene_class_name(int class_index);
 void random_scene_make(int class_index, uint64_t seed, RandomScene *out);
 
+/* Which scenes a program takes: number k is of class k modulo SCENE_CLASSES and has seed + k. */
+typedef struct RandomSceneRange {
+    int count;
+    uint64_t seed;
+} RandomSceneRange;
+
+/* The range that the arguments `--scenes COUNT --seed SEED` give; 200 and 1 without them. */
+RandomSceneRange random_scene_range(int argc, char **argv);
+
 #endif

@@ -165,17 +165,14 @@ static void try_scene(int class_index, uint64_t seed, Tally *tally) {
 }
 
 int main(int argc, char **argv) {
-    int scenes = 200;
-    uint64_t seed = 1;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (!strcmp(argv[i], "--scenes")) scenes = atoi(argv[i + 1]);
-        if (!strcmp(argv[i], "--seed")) seed = strtoull(argv[i + 1], NULL, 10);
-    }
+    const RandomSceneRange range = random_scene_range(argc, argv);
     Tally tally = {0};
-    for (int k = 0; k < scenes; k++) try_scene(k % SCENE_CLASSES, seed + (uint64_t)k, &tally);
+    for (int k = 0; k < range.count; k++)
+        try_scene(k % SCENE_CLASSES, range.seed + (uint64_t)k, &tally);
     printf("%d of %d scenes valid, %d steps, %d with a friction set, %d inextensible lines, %d "
            "failures\n",
-           tally.scenes, scenes, tally.steps, tally.with_set, tally.inextensible, tally.failures);
+           tally.scenes, range.count, tally.steps, tally.with_set, tally.inextensible,
+           tally.failures);
     /* most scenes must be valid, or nothing is tested */
-    return tally.failures > 0 || 2 * tally.scenes < scenes;
+    return tally.failures > 0 || 2 * tally.scenes < range.count;
 }

@@ -84,31 +84,27 @@ static int compare(const CpsScene *scene, int widths, const char *class_name, ui
 
 int main(int argc, char **argv) {
     static RandomScene random;
-    int scenes = 200, valid = 0, steps = 0, failures = 0;
-    uint64_t seed = 1;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (!strcmp(argv[i], "--scenes")) scenes = atoi(argv[i + 1]);
-        if (!strcmp(argv[i], "--seed")) seed = strtoull(argv[i + 1], NULL, 10);
-    }
+    const RandomSceneRange range = random_scene_range(argc, argv);
+    int valid = 0, steps = 0, failures = 0;
     unsetenv("CAPSTAN_WIDTH");
     const int widths = (int)cpsi_width() + 1;
     if (widths == 1) {
         printf("this processor, or this build, has one width alone\n");
         return 77;
     }
-    for (int k = 0; k < scenes; k++) {
+    for (int k = 0; k < range.count; k++) {
         const int class_index = k % SCENE_CLASSES;
-        uint64_t state = seed + (uint64_t)k;
-        random_scene_make(class_index, seed + (uint64_t)k, &random);
+        uint64_t state = range.seed + (uint64_t)k;
+        random_scene_make(class_index, range.seed + (uint64_t)k, &random);
         if (!random.line[0].element_length)
             random.line[0].element_count = 8 + (int)splitmix(&state, 0, 24);
         if (cps_scene_check(&random.scene, NULL) != CPS_OK) continue;
         valid++;
         steps += compare(&random.scene, widths, random_scene_class_name(class_index),
-                         seed + (uint64_t)k, &failures);
+                         range.seed + (uint64_t)k, &failures);
     }
-    printf("%d of %d scenes valid, %d steps, %d widths, %d failures\n", valid, scenes, steps,
+    printf("%d of %d scenes valid, %d steps, %d widths, %d failures\n", valid, range.count, steps,
            widths, failures);
     /* most scenes must be valid, or nothing is tested */
-    return failures > 0 || 2 * valid < scenes;
+    return failures > 0 || 2 * valid < range.count;
 }
