@@ -106,7 +106,10 @@ static CpsStatus conic_face(const CpsSet *set, const double *w, double slack, Cp
             *out = cps_set_retain(set);
         else
             status = cpsi_conic_form_restrict(form, &solution, angle, &face, err);
-        if (!status && face) status = simplest(face, solution.x, out, err);
+        if (!status && face) {
+            status = simplest(face, solution.x, out, err);
+            if (!status) (*out)->bounded = cpsi_set_known_bounded(set);
+        }
     } else if (!status)
         *answer = (CpsSetAnswer){.outcome = solution.outcome};
     cpsi_solution_free(&solution);

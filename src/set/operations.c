@@ -50,8 +50,7 @@ static CpsStatus finish(CpsSet *set, CpsSet **out, CpsError *err) {
 
 /* ---- closedness ---- */
 
-/* Whether the set is known to be bounded from its expression; false means unknown. */
-static bool known_bounded(const CpsSet *set) {
+bool cpsi_set_known_bounded(const CpsSet *set) {
     int bounded = 0;
     switch (set->kind) {
     case CPSI_SET_POINTS:
@@ -61,15 +60,15 @@ static bool known_bounded(const CpsSet *set) {
     case CPSI_SET_BOX:
         for (int i = 0; i < set->n; i++) bounded += isfinite(set->a[i]) && isfinite(set->b[i]);
         return bounded == set->n;
+    case CPSI_SET_CONIC: return set->bounded;
     case CPSI_SET_INEQUALITIES:
-    case CPSI_SET_CONIC:
     case CPSI_SET_PREIMAGE:
     case CPSI_SET_POLAR: return false;
     case CPSI_SET_SUBSPACE:
     case CPSI_SET_RAYS: return set->count == 0;
     default: break;
     }
-    for (int k = 0; k < set->count; k++) bounded += known_bounded(set->part[k]);
+    for (int k = 0; k < set->count; k++) bounded += cpsi_set_known_bounded(set->part[k]);
     return set->kind == CPSI_SET_INTERSECTION ? bounded > 0 : bounded == set->count;
 }
 
@@ -99,7 +98,7 @@ static bool known_polyhedral(const CpsSet *set) {
 static bool need_not_be_closed(const CpsSet *set) {
     int unbounded = 0, curved = 0;
     for (int k = 0; k < set->count; k++) {
-        if (known_bounded(set->part[k])) continue;
+        if (cpsi_set_known_bounded(set->part[k])) continue;
         unbounded++;
         curved += !known_polyhedral(set->part[k]);
     }

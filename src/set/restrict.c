@@ -98,6 +98,7 @@ CpsStatus cpsi_conic_form_restrict(const CpsiConicForm *form, const CpsiSolution
         }
         status = cpsi_conic_form_reduce(conic, n, map, form->lines, form->q, CPSI_SAME_EQUATION,
                                         out, err);
+        if (!status) (*out)->size *= form->size; /* the rows above are in the unit of `form` */
     }
     free(map);
     cpsi_conic_rows_free(conic);

@@ -44,6 +44,7 @@ struct CpsSet {
     int count; /* points, rows, rays or parts */
     /* the expression may describe a set that is not closed; the node stands for its closure */
     bool closure;
+    bool bounded;      /* of a conic form: it is a face of a bounded set */
     CpsSet **part;     /* (count) for operations */
     double *a, *b, *c; /* see the kind; inside the node's memory block */
     double scalar;
@@ -66,6 +67,9 @@ CpsStatus cpsi_set_from_conic_form(CpsiConicForm *form, CpsSet **out, CpsError *
 /* Check that all `count` numbers are finite; otherwise CPS_ERR_ARGUMENT with the name of the
  * argument and the index. */
 CpsStatus cpsi_set_finite(const char *name, size_t count, const double *numbers, CpsError *err);
+
+/* Whether the set is known to be bounded from its expression; false means unknown. */
+bool cpsi_set_known_bounded(const CpsSet *set);
 
 /* Whether the expression contains a user's set. */
 bool cpsi_set_has_user(const CpsSet *set);

@@ -571,6 +571,33 @@ static void face_of_an_unbounded_hull(void **state) {
     cps_set_release(part[1]);
 }
 
+/* A ball cut by a half-space ends in a disc, whose unit is its radius, whatever that is: its
+ * dimension does not depend on the units, and it is bounded, so that its sum with itself is closed.
+ */
+static void face_of_a_cut_ball(void **state) {
+    (void)state;
+    for (double r = 1e4; r > 1e-9; r /= 100) {
+        const double w[3] = {1, 0, 0}, offset = 0.5 * r;
+        CpsSet *ball, *half, *cut, *face, *sum;
+        CpsSetAnswer answer;
+        CpsSetFacts facts;
+        DO(cps_set_ball(3, NULL, r, &ball, &err));
+        DO(cps_set_inequalities(3, 1, w, &offset, &half, &err));
+        DO(cps_set_intersection(2, (const CpsSet *[]){ball, half}, &cut, &err));
+        DO(cps_set_face(cut, w, 0, &face, &answer, &err));
+        DO(cps_set_facts(face, 0, &facts, NULL, NULL, &err));
+        CHECK_INT(facts.dimension, 2);
+        assert_true(facts.bounded);
+        CHECK_LESS(facts.tolerance, 1.1e-7 * r);
+        CHECK_GREATER(facts.tolerance, 0.8e-7 * r);
+        DO(cps_set_sum(2, (const CpsSet *[]){face, face}, &sum, &err));
+        DO(cps_set_facts(sum, 0, &facts, NULL, NULL, &err));
+        assert_false(facts.closure);
+        CpsSet *all[] = {ball, half, cut, face, sum};
+        for (size_t k = 0; k < sizeof all / sizeof *all; k++) cps_set_release(all[k]);
+    }
+}
+
 static void bipod_face(void **state) {
     (void)state;
     const double at[4] = {1, 0, -1, 0}, half[2] = {0.5, 0.5}, about_right[3] = {0, -1, 1};
@@ -591,21 +618,14 @@ static void bipod_face(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elementary_sets),
-        cmocka_unit_test(wheel_support_area_and_corners),
-        cmocka_unit_test(wheel_faces),
-        cmocka_unit_test(corners_between_arcs),
-        cmocka_unit_test(ring_limit_surface),
-        cmocka_unit_test(disc_limit_surface),
-        cmocka_unit_test(rod_limit_surface),
-        cmocka_unit_test(bipod_face),
-        cmocka_unit_test(gauge_through_zero),
-        cmocka_unit_test(touching_sets),
-        cmocka_unit_test(face_of_an_unbounded_hull),
-        cmocka_unit_test(thin_ellipses),
-        cmocka_unit_test(polygons_and_cut_discs),
-        cmocka_unit_test(margins_inside),
-        cmocka_unit_test(rosette),
+        cmocka_unit_test(elementary_sets),    cmocka_unit_test(wheel_support_area_and_corners),
+        cmocka_unit_test(wheel_faces),        cmocka_unit_test(corners_between_arcs),
+        cmocka_unit_test(ring_limit_surface), cmocka_unit_test(disc_limit_surface),
+        cmocka_unit_test(rod_limit_surface),  cmocka_unit_test(face_of_a_cut_ball),
+        cmocka_unit_test(bipod_face),         cmocka_unit_test(gauge_through_zero),
+        cmocka_unit_test(touching_sets),      cmocka_unit_test(face_of_an_unbounded_hull),
+        cmocka_unit_test(thin_ellipses),      cmocka_unit_test(polygons_and_cut_discs),
+        cmocka_unit_test(margins_inside),     cmocka_unit_test(rosette),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
