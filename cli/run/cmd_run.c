@@ -72,7 +72,7 @@ static void print_range(FILE *table, char end, const CpsTensionRange *range, dou
 }
 
 /* [m] natural length of elements with |x'| < 1, by more than the strain tolerance of a judgement
- * (solutions.h, 1e-8) */
+ * (cps_solution_judge with 1e-8) */
 static double outside_kin(const CpsLineView *view) {
     double length = 0;
     for (int i = 0; i < view->element_count; ++i) {
@@ -86,22 +86,22 @@ static double outside_kin(const CpsLineView *view) {
 
 /* With the friction of the reference a step is P4.2 of S90. Print whether its solution lies in Kin,
  * and therefore solves P3.1, and whether it is unique. */
-static void print_verdict(FILE *verdicts, const char *step, const CpsLineReport *line,
-                          const CpsLineView *view) {
+static void print_solution(FILE *solutions, const char *step, const CpsLineReport *line,
+                           const CpsLineView *view) {
     const double length = outside_kin(view);
-    cli_print_text(verdicts, step, NAME_WIDTH, true);
-    fputc(' ', verdicts);
-    cli_print_text(verdicts, view->name, LINE_WIDTH, true);
-    fputc(' ', verdicts);
+    cli_print_text(solutions, step, NAME_WIDTH, true);
+    fputc(' ', solutions);
+    cli_print_text(solutions, view->name, LINE_WIDTH, true);
+    fputc(' ', solutions);
     if (length > 0)
-        fprintf(verdicts, "a solution of P4.2 outside Kin: |x'| < 1 on %.4g m", length);
+        fprintf(solutions, "a solution of P4.2 outside Kin: |x'| < 1 on %.4g m", length);
     else
-        fputs("a solution of P3.1", verdicts);
-    fprintf(verdicts, ", %s\n",
+        fputs("a solution of P3.1", solutions);
+    fprintf(solutions, ", %s\n",
             line->places == CPS_PLACES_UNIQUE ? "the only one" : "one of many places");
 }
 
-static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
+static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
                        const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
@@ -127,7 +127,7 @@ static void print_rows(FILE *table, FILE *verdicts, const CpsScene *scene,
             print_range(table, "AB"[e], &line.end[e].range, certificate->largest_force);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         if (solved && scene->friction_policy == CPS_FRICTION_POLICY_FROZEN && view.one_plane)
-            print_verdict(verdicts, step.name, &line, &view);
+            print_solution(solutions, step.name, &line, &view);
     }
 }
 
@@ -200,33 +200,13 @@ static CpsResultsOptions wanted_results(const CliOptions *options) {
     return wanted;
 }
 
-/* The largest utilisation of all lines and steps. */
-typedef struct Utilisation {
-    bool known;
-    double value, arc_length;
-    char step[96], line[96];
-} Utilisation;
-
-static void note_utilisation(Utilisation *most, const CpsEvolution *evolution) {
-    const char *step = cps_evolution_report(evolution).name;
-    for (int i = 0; i < cps_evolution_line_count(evolution); i++) {
-        const CpsLineReport line = cps_evolution_line_report(evolution, i);
-        if (!line.has_utilisation || (most->known && !(line.utilisation > most->value))) continue;
-        *most = (Utilisation){.known = true,
-                              .value = line.utilisation,
-                              .arc_length = line.utilisation_arc_length};
-        snprintf(most->step, sizeof most->step, "%s", step);
-        snprintf(most->line, sizeof most->line, "%s", cps_evolution_line_view(evolution, i).name);
-    }
-}
-
-static void print_utilisation(const Utilisation *most) {
-    if (!most->known) return;
+static void print_utilisation(const WorstCase *most) {
+    if (most->steps == 0) return;
     printf("\nutilisation  %.3g of the breaking load at most: step ", most->value);
     cli_print_text(stdout, most->step, 80, false);
     fputs(", line ", stdout);
     cli_print_text(stdout, most->line, 80, false);
-    printf(", at %.6g m\n", most->arc_length);
+    printf(", at %.6g m\n", most->of);
 }
 
 /* A run: its scene, its results and its output. */
@@ -237,8 +217,7 @@ typedef struct Run {
     CpsJournal *journal;
     Progress progress;
     Warnings warnings;
-    Utilisation most;
-    FILE *table, *verdicts;
+    FILE *table, *solutions;
     CpsOutcome worst;
     bool refused; /* a step could not begin; the steps before it are kept */
 } Run;
@@ -250,11 +229,10 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     const CpsStepReport report = cps_evolution_report(run->evolution);
     progress_step(&run->progress, report.step_count, report.name);
     warnings_note_step(&run->warnings, run->scene, run->evolution);
-    note_utilisation(&run->most, run->evolution);
     const int steps = cps_evolution_step_count(run->evolution);
     if (cli_is_shown(run->scene, steps, report.step_count - 1) ||
         report.outcome != CPS_OUTCOME_SOLVED || cli_interrupted())
-        print_rows(run->table, run->verdicts, run->scene, run->evolution);
+        print_rows(run->table, run->solutions, run->scene, run->evolution);
     if (report.outcome != CPS_OUTCOME_SOLVED) {
         progress_end(&run->progress);
         report_outcomes(run->scene, run->evolution);
@@ -357,10 +335,10 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     size_t size = 0, length = 0;
     Run run = {.scene = scene,
                .table = open_memstream(&text, &size),
-               .verdicts = open_memstream(&said, &length)};
-    if (!run.table || !run.verdicts) {
+               .solutions = open_memstream(&said, &length)};
+    if (!run.table || !run.solutions) {
         if (run.table) fclose(run.table);
-        if (run.verdicts) fclose(run.verdicts);
+        if (run.solutions) fclose(run.solutions);
         free(text);
         free(said);
         fprintf(stderr, "capstan: out of memory\n");
@@ -368,12 +346,12 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     }
     print_head(run.table);
     const CpsStatus status = execute(&run, directory, options, &err);
-    const bool table = fclose(run.table) == 0, verdicts = fclose(run.verdicts) == 0;
-    const bool whole = table && verdicts;
+    const bool table = fclose(run.table) == 0, solutions = fclose(run.solutions) == 0;
+    const bool whole = table && solutions;
     if (whole && !status && !options->json && !options->quiet) {
         fwrite(text, 1, size, stdout);
         if (length > 0) printf("\n%s", said);
-        print_utilisation(&run.most);
+        print_utilisation(&run.warnings.utilisation);
         print_where(directory, run.evolution, !options->no_paraview);
     }
     const int code = status              ? cli_report(&err)

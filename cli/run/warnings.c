@@ -42,23 +42,22 @@ static const double WARN_FREED = 0.5;
 
 static double length3(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-static void note(Warnings *warnings, int kind, double value, double of, const char *step,
-                 const char *line) {
-    warnings->kind[kind].steps++;
-    if (!(value > warnings->kind[kind].value)) return;
-    warnings->kind[kind].value = value;
-    warnings->kind[kind].of = of;
-    snprintf(warnings->kind[kind].step, sizeof warnings->kind[kind].step, "%s", step);
-    snprintf(warnings->kind[kind].line, sizeof warnings->kind[kind].line, "%s", line);
+/* Count the case, and keep it where it is the worst so far. */
+static bool note(WorstCase *worst, double value, double of, const char *step, const char *line) {
+    if (worst->steps++ > 0 && !(value > worst->value)) return false;
+    worst->value = value;
+    worst->of = of;
+    snprintf(worst->step, sizeof worst->step, "%s", step);
+    snprintf(worst->line, sizeof worst->line, "%s", line);
+    return true;
 }
 
-static void note_pierced(Warnings *warnings, double value, double of, const char *step,
-                         const char *line, const char *obstacle) {
-    const bool worst = value > warnings->kind[WARNING_PIERCED].value;
-    note(warnings, WARNING_PIERCED, value, of, step, line);
-    if (worst)
-        snprintf(warnings->kind[WARNING_PIERCED].obstacle,
-                 sizeof warnings->kind[WARNING_PIERCED].obstacle, "%s", obstacle);
+/* ... of a case that concerns an obstacle. */
+static bool note_at(WorstCase *worst, double value, double of, const char *step, const char *line,
+                    const char *obstacle) {
+    const bool is_worst = note(worst, value, of, step, line);
+    if (is_worst) snprintf(worst->obstacle, sizeof worst->obstacle, "%s", obstacle);
+    return is_worst;
 }
 
 /* friction on nodes that have left the obstacle, and the sum of all bounds [N] */
@@ -92,9 +91,9 @@ static void note_energy(Warnings *warnings, const CpsStepReport *step, const Cps
     const double freed = open - (step->step_count == 1 ? fabs(line->ledger.ends) : 0);
     const double known = line->certificate.gap + 1e-8 * line->certificate.scale;
     if (line->unaccounted > 0)
-        note(warnings, WARNING_MADE, line->unaccounted, beside, step->name, name);
+        note(&warnings->kind[WARNING_MADE], line->unaccounted, beside, step->name, name);
     else if (line->jump_count == 0 && freed > WARN_FREED * beside && freed > known)
-        note(warnings, WARNING_FREED, freed, beside, step->name, name);
+        note(&warnings->kind[WARNING_FREED], freed, beside, step->name, name);
 }
 
 /* [N] tension caused by rounding of the largest coordinate of an end, eps |x| EA/L; not defined for
@@ -120,42 +119,42 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
         const double length = view.arc_length[view.element_count],
                      pierced = line.certificate.element_penetration;
         if (line.has_pierced_obstacle && pierced > WARN_PIERCED * length)
-            note_pierced(warnings, pierced, length, step, view.name,
-                         scene->obstacle[line.pierced_obstacle].name);
+            note_at(&warnings->kind[WARNING_PIERCED], pierced, length, step, view.name,
+                    scene->obstacle[line.pierced_obstacle].name);
+        if (line.has_utilisation)
+            note(&warnings->utilisation, line.utilisation, line.utilisation_arc_length, step,
+                 view.name);
         if (line.outcome != CPS_OUTCOME_SOLVED) continue;
         note_energy(warnings, &report, &line, view.name);
-        if (line.jump_count > 0) note(warnings, WARNING_JUMPED, line.jump, length, step, view.name);
+        if (line.jump_count > 0)
+            note(&warnings->kind[WARNING_JUMPED], line.jump, length, step, view.name);
         const double residual = line.certificate.friction_residual;
         double bounds;
         const double lifted = lifted_friction(&view, &bounds);
         if (scene->friction_policy == CPS_FRICTION_POLICY_FROZEN && lifted > WARN_LIFTED * bounds)
-            note(warnings, WARNING_LIFTED, lifted, bounds, step, view.name);
+            note(&warnings->kind[WARNING_LIFTED], lifted, bounds, step, view.name);
         if (scene->friction_policy == CPS_FRICTION_POLICY_FROZEN &&
             residual > WARN_BOUND * bounds && bounds > 0)
-            note(warnings, WARNING_BOUND, residual, bounds, step, view.name);
+            note(&warnings->kind[WARNING_BOUND], residual, bounds, step, view.name);
         if (line.has_utilisation && line.utilisation > 1)
-            note(warnings, WARNING_BROKEN, line.utilisation, line.utilisation_arc_length, step,
-                 view.name);
+            note(&warnings->kind[WARNING_BROKEN], line.utilisation, line.utilisation_arc_length,
+                 step, view.name);
         const CpsBend *bend = &line.bend;
-        if (bend->turn > 0 && bend->ratio > (1 + WARN_BEND) * bend->coulomb) {
-            if (bend->ratio / bend->coulomb > warnings->kind[WARNING_BEND].value) {
-                warnings->bend = *bend;
-                snprintf(warnings->kind[WARNING_BEND].obstacle,
-                         sizeof warnings->kind[WARNING_BEND].obstacle, "%s",
-                         scene->obstacle[bend->obstacle].name);
-            }
-            note(warnings, WARNING_BEND, bend->ratio / bend->coulomb, 1, step, view.name);
-        }
+        if (bend->turn > 0 && bend->ratio > (1 + WARN_BEND) * bend->coulomb &&
+            note_at(&warnings->kind[WARNING_BEND], bend->ratio / bend->coulomb, 1, step, view.name,
+                    scene->obstacle[bend->obstacle].name))
+            warnings->bend = *bend;
         if (scene->contact_policy == CPS_CONTACT_POLICY_REFERENCE &&
             line.certificate.penetration > WARN_SUNK * length)
-            note(warnings, WARNING_SUNK, line.certificate.penetration, length, step, view.name);
+            note(&warnings->kind[WARNING_SUNK], line.certificate.penetration, length, step,
+                 view.name);
         if (line.slack > WARN_SLACK * length && line.slipping > 0)
-            note(warnings, WARNING_SLACK, line.slack, length, step, view.name);
+            note(&warnings->kind[WARNING_SLACK], line.slack, length, step, view.name);
         if (line.places != CPS_PLACES_UNIQUE)
-            note(warnings, WARNING_PLACES, (double)line.places, 0, step, view.name);
+            note(&warnings->kind[WARNING_PLACES], (double)line.places, 0, step, view.name);
         const double rounded = rounded_tension(&view), force = line.certificate.largest_force;
         if (rounded > WARN_ROUNDED * force && force > 0)
-            note(warnings, WARNING_ROUNDED, rounded, force, step, view.name);
+            note(&warnings->kind[WARNING_ROUNDED], rounded, force, step, view.name);
     }
 }
 
@@ -235,23 +234,23 @@ static void print_figures(int kind, double value, double of) {
 
 void warnings_print(const Warnings *warnings) {
     for (int k = 0; k < WARNINGS; ++k) {
-        if (warnings->kind[k].steps == 0) continue;
+        const WorstCase *worst = &warnings->kind[k];
+        if (worst->steps == 0) continue;
         fputs("capstan: warning: step ", stderr);
-        cli_print_text(stderr, warnings->kind[k].step, 80, false);
+        cli_print_text(stderr, worst->step, 80, false);
         fputs(", line ", stderr);
-        cli_print_text(stderr, warnings->kind[k].line, 80, false);
+        cli_print_text(stderr, worst->line, 80, false);
         if (k == WARNING_PIERCED) {
             fputs(", obstacle ", stderr);
-            cli_print_text(stderr, warnings->kind[k].obstacle, 80, false);
+            cli_print_text(stderr, worst->obstacle, 80, false);
         }
         fputs(": ", stderr);
         if (k == WARNING_BEND) {
             fputs("the mesh is coarse for a bend", stderr);
-            warnings_print_bend(&warnings->bend, warnings->kind[WARNING_BEND].obstacle);
+            warnings_print_bend(&warnings->bend, worst->obstacle);
         } else
-            print_figures(k, warnings->kind[k].value, warnings->kind[k].of);
-        if (warnings->kind[k].steps > 1)
-            fprintf(stderr, " (the worst of %d)", warnings->kind[k].steps);
+            print_figures(k, worst->value, worst->of);
+        if (worst->steps > 1) fprintf(stderr, " (the worst of %d)", worst->steps);
         fputc('\n', stderr);
     }
 }

@@ -25,14 +25,17 @@ enum {
     WARNINGS
 };
 
+typedef struct WorstCase {
+    int steps;        /* number of steps in which it occurred */
+    double value, of; /* the value, and the value that it is a share of, or its arc length */
+    char step[96], line[96], obstacle[96];
+} WorstCase;
+
 /* The worst case of each kind. */
 typedef struct Warnings {
-    struct {
-        int steps;        /* number of steps in which it occurred */
-        double value, of; /* the value, and the value that it is a share of */
-        char step[96], line[96], obstacle[96];
-    } kind[WARNINGS];
-    CpsBend bend; /* the worst */
+    WorstCase kind[WARNINGS];
+    WorstCase utilisation; /* the largest of the breaking load, which may be below 1 */
+    CpsBend bend;          /* the worst */
 } Warnings;
 
 /* Examine the step that has just been solved. */

@@ -162,24 +162,24 @@ static void print_force(const CpsFirstOrderReport *r, const char *what) {
            what);
 }
 
-static void print_verdict(const CpsFirstOrderReport *r, const char *contact) {
-    printf("  %s: %s\n", contact, cps_first_order_verdict_text(r->verdict));
-    switch (r->verdict) {
-    case CPS_FIRST_ORDER_VERDICT_SHORTENS:
+static void print_outcome(const CpsFirstOrderReport *r, const char *contact) {
+    printf("  %s: %s\n", contact, cps_first_order_outcome_text(r->outcome));
+    switch (r->outcome) {
+    case CPS_FIRST_ORDER_OUTCOME_SHORTENS:
         printf("    t_R.u' = %.6g at a = %.6g m; (86) fails on %.6g m of %.6g m without tension in "
                "the reference\n",
                r->least_strain, r->least_strain_arc, r->shortened, r->slack);
         break;
-    case CPS_FIRST_ORDER_VERDICT_UNBALANCED: print_force(r, "is carried by nothing, (89)"); break;
-    case CPS_FIRST_ORDER_VERDICT_MESH:
+    case CPS_FIRST_ORDER_OUTCOME_UNBALANCED: print_force(r, "is carried by nothing, (89)"); break;
+    case CPS_FIRST_ORDER_OUTCOME_MESH:
         print_force(r, "does not pull along the slack end, (87)");
         break;
-    case CPS_FIRST_ORDER_VERDICT_SOLVED: break;
-    case CPS_FIRST_ORDER_VERDICT_UNDECIDED:
+    case CPS_FIRST_ORDER_OUTCOME_SOLVED: break;
+    case CPS_FIRST_ORDER_OUTCOME_UNDECIDED:
         printf("    forces still fail by %.4g N after %d rounds\n", r->residual, r->round_count);
         break;
     }
-    if (r->verdict == CPS_FIRST_ORDER_VERDICT_SOLVED || r->verdict == CPS_FIRST_ORDER_VERDICT_MESH)
+    if (r->outcome == CPS_FIRST_ORDER_OUTCOME_SOLVED || r->outcome == CPS_FIRST_ORDER_OUTCOME_MESH)
         printf("    x_R + u is at most %.4g m from the solution of P2.1; forces fail by at most "
                "%.2g N\n",
                r->against_step, r->residual);
@@ -196,9 +196,9 @@ static void print_first_order(const CpsFirstOrder *const *solution) {
     for (int k = 0; k < 3 * (a.element_count + 1); ++k)
         apart = fmax(apart, fabs(a.displacement[k] - b.displacement[k]));
     printf("\nconsistent first-order problem P10.1\n");
-    print_verdict(&paper, "C of (77), u.n >= 0 where x_R touches");
-    if (paper.verdict != reached.verdict || apart > 1e-6 * a.arc_length[a.element_count])
-        print_verdict(&reached,
+    print_outcome(&paper, "C of (77), u.n >= 0 where x_R touches");
+    if (paper.outcome != reached.outcome || apart > 1e-6 * a.arc_length[a.element_count])
+        print_outcome(&reached,
                       "every node kept out, (16), as the step with 'contact_policy: reached' does");
     if (paper.outside > 0)
         printf("  (on %.6g m the reference has |x_R'| < 1, outside Kin: taken as slack and just "

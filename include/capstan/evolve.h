@@ -132,7 +132,7 @@ CPS_API CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int l
 /* The energy of a configuration above the minimum is the sum of three gaps against the step's own
  * forces, none negative: a configuration in C is a solution of P4.2 exactly where all three vanish,
  * and of P3.1 if it also shortens nothing (result 4.3). What fails first, in this order, is the
- * verdict. */
+ * judgement. */
 #define CPS_JUDGEMENT_LIST(X)                                                \
     X(CPS_JUDGEMENT_SOLUTION, 0, "solution",                                 \
       "a solution of P3.1: same tensions, contact and friction, |x'| >= 1")  \

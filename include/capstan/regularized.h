@@ -206,24 +206,24 @@ CPS_API CpsRegularizedView cps_study_stage_end(const CpsStudy *study, CpsStudySt
 /* The result. P10.1 minimises a convex quadratic energy plus friction over the displacements u that
  * contact allows, and requires that the minimiser shorten no slack part, (86). The strain t_R.u' of
  * all minimisers is the same, so that the result does not depend on which one is found. */
-#define CPS_FIRST_ORDER_VERDICT_LIST(X)                                                            \
-    X(CPS_FIRST_ORDER_VERDICT_SOLVED, 0, "solved", "a solution of P10.1")                          \
-    X(CPS_FIRST_ORDER_VERDICT_SHORTENS, 1, "shortens",                                             \
+#define CPS_FIRST_ORDER_OUTCOME_LIST(X)                                                            \
+    X(CPS_FIRST_ORDER_OUTCOME_SOLVED, 0, "solved", "a solution of P10.1")                          \
+    X(CPS_FIRST_ORDER_OUTCOME_SHORTENS, 1, "shortens",                                             \
       "no solution: the balance (90) shortens a slack part, t_R.u' < 0 where (86) asks for >= 0")  \
-    X(CPS_FIRST_ORDER_VERDICT_UNBALANCED, 2, "unbalanced",                                         \
+    X(CPS_FIRST_ORDER_OUTCOME_UNBALANCED, 2, "unbalanced",                                         \
       "no solution: a force across the line, which (84) lets nothing carry where the reference "   \
       "is slack")                                                                                  \
-    X(CPS_FIRST_ORDER_VERDICT_UNDECIDED, 3, "undecided",                                           \
+    X(CPS_FIRST_ORDER_OUTCOME_UNDECIDED, 3, "undecided",                                           \
       "not decided: the iteration came to no end")                                                 \
-    X(CPS_FIRST_ORDER_VERDICT_MESH, 4, "mesh_only",                                                \
+    X(CPS_FIRST_ORDER_OUTCOME_MESH, 4, "mesh_only",                                                \
       "a solution on this mesh only: (87) has none, half an element carries the force on a slack " \
       "end")
 
-typedef enum CpsFirstOrderVerdict {
-#define CPS_FIRST_ORDER_VERDICT_ENUM(name, number, key, sentence) name = number,
-    CPS_FIRST_ORDER_VERDICT_LIST(CPS_FIRST_ORDER_VERDICT_ENUM)
-#undef CPS_FIRST_ORDER_VERDICT_ENUM
-} CpsFirstOrderVerdict;
+typedef enum CpsFirstOrderOutcome {
+#define CPS_FIRST_ORDER_OUTCOME_ENUM(name, number, key, sentence) name = number,
+    CPS_FIRST_ORDER_OUTCOME_LIST(CPS_FIRST_ORDER_OUTCOME_ENUM)
+#undef CPS_FIRST_ORDER_OUTCOME_ENUM
+} CpsFirstOrderOutcome;
 
 /* The nodes that the obstacle keeps out. (77) requires u.n >= 0 on D(x_R), where the reference is
  * in contact, and nothing elsewhere. With `reached` contact the step itself requires n.u + psi(x_R)
@@ -233,11 +233,11 @@ typedef enum CpsFirstOrderContact {
     CPS_FIRST_ORDER_CONTACT_REACHED
 } CpsFirstOrderContact;
 
-CPS_API const char *cps_first_order_verdict_name(CpsFirstOrderVerdict verdict);
-CPS_API const char *cps_first_order_verdict_text(CpsFirstOrderVerdict verdict);
+CPS_API const char *cps_first_order_outcome_name(CpsFirstOrderOutcome outcome);
+CPS_API const char *cps_first_order_outcome_text(CpsFirstOrderOutcome outcome);
 
 typedef struct CpsFirstOrderReport {
-    CpsFirstOrderVerdict verdict;
+    CpsFirstOrderOutcome outcome;
     CpsFirstOrderContact contact;
     int round_count, iteration_count; /* of multipliers, of Newton steps in all */
     double residual;     /* [N] largest force by which balance, friction or contact still fail */
@@ -271,7 +271,7 @@ typedef struct CpsFirstOrder CpsFirstOrder;
  *
  *   contact  CPS_FIRST_ORDER_CONTACT_REFERENCE is the paper's, (77)
  *
- * Returns CPS_OK whatever the verdict, CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. */
+ * Returns CPS_OK whatever the outcome, CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_first_order_solve(const CpsRegularized *regularized,
                                         CpsFirstOrderContact contact, CpsFirstOrder **out,
                                         CpsError *err);

@@ -49,7 +49,7 @@ static void keep_best(CpsiHomogeneous *program, CpsiConicOutcome outcome, double
 /* Measure how near the iterate is to each of the three outcomes. The measure of the nearest one
  * becomes the residual of the loop. base.residual holds A'z + E'y and E x in the places of x and
  * y. */
-static void judge(CpsiHomogeneous *program, double gain, double pull, CpsiSums *sums) {
+static void measure_outcomes(CpsiHomogeneous *program, double gain, double pull, CpsiSums *sums) {
     const int n = program->unknowns;
     const double tau = program->base.u[cpsi_homogeneous_tau(program)],
                  *force = program->base.residual;
@@ -76,7 +76,7 @@ static void judge(CpsiHomogeneous *program, double gain, double pull, CpsiSums *
         outcome = CPSI_CONIC_UNBOUNDED;
         residual = ray_primal / -gain;
     }
-    /* a ray is judged by its residual alone */
+    /* a ray is measured by its residual alone */
     if (outcome != CPSI_CONIC_SOLVED) scale = sz / residual;
     sums->residual = residual;
     sums->scale = scale;
@@ -96,7 +96,7 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     const double gain = cpsi_dot(n, program->c, base->u);
     const double pull = program->operator->offset(program, base->u + n, cones->z);
     program->operator->multiply_transposed(program, gain, pull);
-    judge(program, gain, pull, sums);
+    measure_outcomes(program, gain, pull, sums);
     sums->weight += cones->count + 1;
     sums->sz += tau * program->kappa;
     for (int j = 0; j < n; j++) base->residual[j] -= program->c[j] * tau;
@@ -161,7 +161,7 @@ static const CpsiKind *const KINDS[] = {&HOMOGENEOUS};
 static void clear(CpsiProgram *base) { (void)base; /* `scale` and `factor` write every entry */ }
 
 static double imbalance(const CpsiProgram *base) {
-    (void)base; /* counted by `judge` */
+    (void)base; /* counted by `measure_outcomes` */
     return 0;
 }
 

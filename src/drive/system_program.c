@@ -11,7 +11,7 @@
 #include "drive/adjoint.h"
 #include "linalg/dense.h"
 
-/* Residual and gap above which the solver's outcome is no proof by itself. Motions are judged by
+/* Residual and gap above which the solver's outcome is no proof by itself. Motions are checked by
  * their bounds. */
 static const double ACCEPT = 1e-7;
 

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The initial positions of a line's nodes, by natural length along its initial shape.
  *
- *   straight, polyline   node i at the shape's arc length a_i s, with a_i its natural abscissa and
- *                        s = shape's length over line's length >= 1: an elastic line is stretched
- * uniformly arc                  nodes on the circle, each chord exactly as long as its element:
- * without tension nodes                where they are given (node_start.h) static only a first
- * guess for statics: uniformly on the straight line between the held ends, or from the held end
- * along the force on the free one (straight down, -z, when there is none)
+ *   straight,   node i at the arc length a_i s of the shape, with a_i its natural abscissa and s
+ *   polyline    the length of the shape over that of the line, at least 1: an elastic line is
+ *               stretched uniformly
+ *   arc         nodes on the circle, each chord as long as its element: without tension
+ *   nodes       where they are given (node_start.h)
+ *   static      a first guess for statics: uniformly on the straight line between the held ends,
+ *               or from the held end along the force on the free one (straight down, -z, where
+ *               there is none)
  *
  * The line must have passed the check of its start (scene_check.c), which itself uses
  * cpsi_start_walk. */

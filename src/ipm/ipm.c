@@ -91,8 +91,8 @@ static double step_length(const CpsiSums *sums, double fraction) {
 
 /* Gap, residual and merit of an iterate. The imbalance of forces is relative to the largest force,
  * with which rounding grows. */
-static double judge(CpsiProgram *program, const CpsiSums *sums, const CpsiIpmOptions *options,
-                    CpsiIpmReport *report) {
+static double measure_merit(CpsiProgram *program, const CpsiSums *sums,
+                            const CpsiIpmOptions *options, CpsiIpmReport *report) {
     report->imbalance = program->imbalance(program) / cpsi_max_nan(1, sums->largest);
     report->gap = sums->sz / (options->scale + sums->scale);
     report->residual = sums->residual;
@@ -118,7 +118,7 @@ static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const Cp
         advance(program, alpha);
         const CpsiIpmReport before = *report;
         const CpsiSums now = measure(program);
-        if (!(judge(program, &now, options, report) <= 2 * options->target) || now.sz < 0) {
+        if (!(measure_merit(program, &now, options, report) <= 2 * options->target) || now.sz < 0) {
             advance(program, -alpha);
             *report = before;
             return;
@@ -157,7 +157,8 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
     for (;; report.iterations++) {
         /* measure the iterate, and stop where it is good enough */
         const CpsiSums sums = measure(program);
-        const double merit = judge(program, &sums, options, &report), mu = sums.sz / sums.weight;
+        const double merit = measure_merit(program, &sums, options, &report),
+                     mu = sums.sz / sums.weight;
         if (!isfinite(merit) || cpsi_interrupt_look(program->interrupt)) {
             report.outcome = CPSI_IPM_STALLED;
             break;

@@ -27,7 +27,7 @@ static const double SAME = 1e-10;
 /* A force is not in the space of the sets where its distance from it, relative to its length, is
  * larger than this. */
 static const double BESIDE = 1e-9;
-/* The caller judges the result by closed forms. Results with larger residuals are rejected, since
+/* The caller checks the result by closed forms. Results with larger residuals are rejected, since
  * they cannot be distinguished from failures. */
 static const double ACCEPT = 1e-9;
 /* Limits for the unknowns and for the numbers in one matrix of a dense solver; the same as for a

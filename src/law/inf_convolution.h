@@ -28,7 +28,7 @@ typedef struct CpsiShare {
 } CpsiShare;
 
 /* Solve. energy > 0: the order of magnitude of the cost. velocity (n): minus the derivative of the
- * least cost by F. The outcome is ANSWERED where forces and velocity were found; the caller judges
+ * least cost by F. The outcome is ANSWERED where forces and velocity were found; the caller checks
  * their accuracy. OUTSIDE: no shares add up to F. */
 CpsStatus cpsi_inf_convolution(int n, int count, CpsiShare *share, const double *force,
                                double energy, double *velocity, CpsSetOutcome *outcome,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* P10.1 solved by the method of multipliers, and the judgement of its solution (see first_order.h
+/* P10.1 solved by the method of multipliers, and the outcome of its solution (see first_order.h
  * and capstan/regularized.h). */
 #include <float.h>
 #include <math.h>
@@ -39,14 +39,14 @@ struct CpsFirstOrder {
     CpsFirstOrderReport report;
 };
 
-static const CpsiWords VERDICT[] = {CPS_FIRST_ORDER_VERDICT_LIST(CPSI_WORDS_WITH_KEY)};
+static const CpsiWords OUTCOME[] = {CPS_FIRST_ORDER_OUTCOME_LIST(CPSI_WORDS_WITH_KEY)};
 
-const char *cps_first_order_verdict_name(CpsFirstOrderVerdict verdict) {
-    return CPSI_WORDS(VERDICT, verdict).name;
+const char *cps_first_order_outcome_name(CpsFirstOrderOutcome outcome) {
+    return CPSI_WORDS(OUTCOME, outcome).name;
 }
 
-const char *cps_first_order_verdict_text(CpsFirstOrderVerdict verdict) {
-    return CPSI_WORDS(VERDICT, verdict).text;
+const char *cps_first_order_outcome_text(CpsFirstOrderOutcome outcome) {
+    return CPSI_WORDS(OUTCOME, outcome).text;
 }
 
 /* ---- memory and the reference ---- */
@@ -154,7 +154,7 @@ static void run_rounds(CpsFirstOrder *s) {
     const CpsiSmooth smooth = cpsi_first_order_smooth(f);
     f->augment = AUGMENT_FIRST * unit;
     f->anchor = ANCHOR * unit;
-    r->verdict = CPS_FIRST_ORDER_VERDICT_UNDECIDED;
+    r->outcome = CPS_FIRST_ORDER_OUTCOME_UNDECIDED;
     double held_before = 0;
     for (int stuck = 0; r->round_count < MAX_ROUNDS && stuck < STUCK_ROUNDS; ++r->round_count) {
         const double noise = fmin(rounding(f), FORCE_ROUNDING * force);
@@ -166,7 +166,7 @@ static void run_rounds(CpsFirstOrder *s) {
         const double residual_before = r->round_count > 0 ? r->residual : INFINITY;
         r->residual = fmax(accept_solution(f, r), newton.residual);
         if (r->residual <= fmax(FORCE_TOLERANCE * force, 10 * newton.tolerance)) {
-            r->verdict = CPS_FIRST_ORDER_VERDICT_SOLVED;
+            r->outcome = CPS_FIRST_ORDER_OUTCOME_SOLVED;
             return;
         }
 
@@ -176,7 +176,7 @@ static void run_rounds(CpsFirstOrder *s) {
         held_before = held;
         if (r->residual > SLOW * residual_before)
             f->augment = fmin(AUGMENT_GROWTH * f->augment, AUGMENT_MOST * unit);
-        if (stuck == STUCK_ROUNDS) r->verdict = CPS_FIRST_ORDER_VERDICT_UNBALANCED;
+        if (stuck == STUCK_ROUNDS) r->outcome = CPS_FIRST_ORDER_OUTCOME_UNBALANCED;
     }
 }
 
@@ -198,10 +198,10 @@ static Vec3 end_excess(const CpsiFirstOrder *f) {
 static void judge_end(CpsFirstOrder *s) {
     CpsFirstOrderReport *r = &s->report;
     const Vec3 excess = end_excess(&s->f);
-    if (r->verdict != CPS_FIRST_ORDER_VERDICT_SOLVED ||
+    if (r->outcome != CPS_FIRST_ORDER_OUTCOME_SOLVED ||
         !(vec3_norm(excess) > FORCE_TOLERANCE * s->f.step->force))
         return;
-    r->verdict = CPS_FIRST_ORDER_VERDICT_MESH;
+    r->outcome = CPS_FIRST_ORDER_OUTCOME_MESH;
     vec3_store(r->unbalanced, excess);
     r->unbalanced_arc = s->f.step->length;
 }
@@ -231,9 +231,9 @@ static void finish(CpsFirstOrder *s) {
         r->against_step =
             cpsi_max_nan(r->against_step, vec3_norm(vec3_sub(reached, cpsi_at(c->position, j))));
     }
-    if (r->verdict == CPS_FIRST_ORDER_VERDICT_SOLVED && r->shortened > 0)
-        r->verdict = CPS_FIRST_ORDER_VERDICT_SHORTENS;
-    if (r->verdict != CPS_FIRST_ORDER_VERDICT_UNBALANCED) {
+    if (r->outcome == CPS_FIRST_ORDER_OUTCOME_SOLVED && r->shortened > 0)
+        r->outcome = CPS_FIRST_ORDER_OUTCOME_SHORTENS;
+    if (r->outcome != CPS_FIRST_ORDER_OUTCOME_UNBALANCED) {
         memset(r->unbalanced, 0, sizeof r->unbalanced);
         r->unbalanced_arc = 0;
     }
@@ -277,7 +277,7 @@ void cps_first_order_destroy(CpsFirstOrder *solution) {
 
 CpsFirstOrderReport cps_first_order_report(const CpsFirstOrder *solution) {
     return solution ? solution->report
-                    : (CpsFirstOrderReport){.verdict = CPS_FIRST_ORDER_VERDICT_UNDECIDED};
+                    : (CpsFirstOrderReport){.outcome = CPS_FIRST_ORDER_OUTCOME_UNDECIDED};
 }
 
 CpsFirstOrderView cps_first_order_view(const CpsFirstOrder *solution) {

@@ -106,6 +106,6 @@ CpsStatus cpsi_conic_form_restrict(const CpsiConicForm *form, const CpsiSolution
                                    CpsiConicForm **out, CpsError *err);
 /* Replace a form without interior by one over the faces of its cones that it lies in, and set
  * *touching to true then (touching.c). */
-CpsStatus cpsi_conic_form_deepen(CpsiConicForm **form, bool *touching, CpsError *err);
+CpsStatus cpsi_conic_form_reduce_to_face(CpsiConicForm **form, bool *touching, CpsError *err);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Minimise <c, x> over a reduced form with the interior-point loop, and judge the result. */
+/* Minimise <c, x> over a reduced form with the interior-point loop, and check the result. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -39,7 +39,7 @@ static CpsStatus finish(CpsSet *set, CpsSet **out, CpsError *err) {
         if (set->kind == CPSI_SET_POLAR)
             status = cpsi_conic_form_make(set->part[0], 1, &set->dual, err);
         if (!status) status = cpsi_conic_form_make(set, 1, &set->form, err);
-        if (!status) status = cpsi_conic_form_deepen(&set->form, &set->touching, err);
+        if (!status) status = cpsi_conic_form_reduce_to_face(&set->form, &set->touching, err);
     }
     if (status)
         cps_set_release(set);

@@ -8,7 +8,7 @@ CpsStatus cpsi_set_recession(const CpsSet *set, CpsSet **out, CpsError *err) {
     CpsStatus status = cpsi_conic_form_make(set, 0, &form, err);
     if (status) return status;
     /* for a bounded set only 0 remains, which has no interior */
-    status = cpsi_conic_form_deepen(&form, &touching, err);
+    status = cpsi_conic_form_reduce_to_face(&form, &touching, err);
     if (!status) return cpsi_set_from_conic_form(form, out, err);
     cpsi_conic_form_free(form);
     return status;

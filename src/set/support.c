@@ -43,9 +43,8 @@ void cpsi_check_attained(const CpsiConicForm *form, const double *c, CpsiSolutio
     const double size = fabs(solution->value) + form->size * cpsi_norm(form->n, c);
     if (far <= CPSI_SET_FAR * form->size || solution->gap > ASYMPTOTIC * size) return;
     solution->outcome = CPS_SET_OUTCOME_NOT_ATTAINED;
-    solution->gap =
-        fmax(solution->gap,
-             size / CPSI_SET_FAR); /* distance of a hyperbola from its asymptote at that point */
+    /* as a hyperbola is from its asymptote at such a point */
+    solution->gap = fmax(solution->gap, size / CPSI_SET_FAR);
 }
 
 static CpsStatus conic_support(const CpsSet *set, const double *w, double *point,
@@ -157,11 +156,12 @@ static CpsStatus support_moved(const CpsSet *set, const double *w, double *point
     if (!turned) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a direction");
     for (int i = 0; i < n; i++) turned[i] = shift ? w[i] : w[i] * set->scalar;
     const CpsStatus status = cpsi_support(set->part[0], turned, point, answer, err);
-    const bool ray = answer->outcome == CPS_SET_OUTCOME_UNBOUNDED;
-    if (!status)
+    if (!status) {
+        const bool ray = answer->outcome == CPS_SET_OUTCOME_UNBOUNDED;
         for (int i = 0; point && i < n; i++)
             point[i] = shift ? point[i] + (ray ? 0 : set->a[i]) : point[i] * set->scalar;
-    if (!status && shift) answer->value += cpsi_dot(n, w, set->a);
+        if (shift) answer->value += cpsi_dot(n, w, set->a);
+    }
     cpsi_scratch_give(&scratch);
     return status;
 }
@@ -287,52 +287,52 @@ CpsStatus cpsi_support(const CpsSet *set, const double *w, double *point, CpsSet
 
 /* Rows of one set after `own` unknowns of the query; x (n, width) and t (width) are zero, and the
  * caller fills them. */
-typedef struct Ask {
+typedef struct Query {
     CpsiConicRows *conic;
     double *x, *t;
-} Ask;
+} Query;
 
-static CpsStatus support_new(const CpsSet *set, CpsiCount own, Ask *ask, CpsError *err) {
+static CpsStatus query_new(const CpsSet *set, CpsiCount own, Query *query, CpsError *err) {
     const int used = (int)own.unknowns;
-    *ask = (Ask){0};
+    *query = (Query){0};
     cpsi_conic_rows_count(set, &own);
-    CpsStatus status = cpsi_conic_rows_new(own, used, &ask->conic, err);
+    CpsStatus status = cpsi_conic_rows_new(own, used, &query->conic, err);
     if (status) return status;
-    const size_t w = (size_t)ask->conic->width, n = (size_t)set->n;
-    ask->x = calloc((n + 1) * w, sizeof *ask->x);
-    if (!ask->x) {
-        cpsi_conic_rows_free(ask->conic);
+    const size_t w = (size_t)query->conic->width, n = (size_t)set->n;
+    query->x = calloc((n + 1) * w, sizeof *query->x);
+    if (!query->x) {
+        cpsi_conic_rows_free(query->conic);
         return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a question about a set");
     }
-    ask->t = ask->x + n * w;
+    query->t = query->x + n * w;
     return CPS_OK;
 }
 
 /* Write the set's rows and minimise sum c_i u_i over the first `outputs` unknowns u. */
-static CpsStatus support_solve(Ask *ask, const CpsSet *set, int outputs, const double *c,
-                               CpsiSolution *solution, CpsError *err) {
+static CpsStatus query_solve(Query *query, const CpsSet *set, int outputs, const double *c,
+                             CpsiSolution *solution, CpsError *err) {
     CpsiConicForm *form = NULL;
-    const size_t w = (size_t)ask->conic->width;
+    const size_t w = (size_t)query->conic->width;
     double *first = calloc((size_t)outputs * w, sizeof *first);
     CpsStatus status = CPS_OK;
     for (size_t i = 0; first && i < (size_t)outputs; i++) first[i * w + i] = 1;
-    if (!first || !cpsi_conic_rows_write(ask->conic, set, ask->x, ask->t))
+    if (!first || !cpsi_conic_rows_write(query->conic, set, query->x, query->t))
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a question about a set");
     if (!status)
-        status = cpsi_conic_form_reduce(ask->conic, outputs, first, 0, NULL, 1e-11, &form, err);
+        status = cpsi_conic_form_reduce(query->conic, outputs, first, 0, NULL, 1e-11, &form, err);
     if (!status) status = cpsi_conic_form_minimise(form, c, solution, err);
     cpsi_conic_form_free(form);
     free(first);
-    free(ask->x);
-    cpsi_conic_rows_free(ask->conic);
+    free(query->x);
+    cpsi_conic_rows_free(query->conic);
     return status;
 }
 
 /* Minimise c times the one unknown. INFINITY where the program has the outcome `infinite`. */
-static CpsStatus answer_one(Ask *ask, const CpsSet *set, double c, CpsSetOutcome infinite,
-                            CpsSetAnswer *answer, CpsError *err) {
+static CpsStatus query_number(Query *query, const CpsSet *set, double c, CpsSetOutcome infinite,
+                              CpsSetAnswer *answer, CpsError *err) {
     CpsiSolution solution;
-    const CpsStatus status = support_solve(ask, set, 1, &c, &solution, err);
+    const CpsStatus status = query_solve(query, set, 1, &c, &solution, err);
     if (status) return status;
     *answer = (CpsSetAnswer){.outcome = solution.outcome,
                              .value = c * solution.value,
@@ -349,17 +349,17 @@ CpsStatus cpsi_reach(const CpsSet *set, const double *p, const double *d, CpsSet
                      CpsError *err) {
     *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     if (cpsi_set_has_user(set)) return CPS_OK;
-    Ask ask;
+    Query query;
     CpsStatus status =
-        support_new(set, (CpsiCount){.unknowns = 1, .rows = 1, .cones = 1}, &ask, err);
+        query_new(set, (CpsiCount){.unknowns = 1, .rows = 1, .cones = 1}, &query, err);
     if (status) return status;
-    const size_t w = (size_t)ask.conic->width;
+    const size_t w = (size_t)query.conic->width;
     for (size_t i = 0; i < (size_t)set->n; i++) {
-        ask.x[i * w] = d[i];
-        ask.x[i * w + w - 1] = p[i];
+        query.x[i * w] = d[i];
+        query.x[i * w + w - 1] = p[i];
     }
-    ask.t[w - 1] = 1;
-    return answer_one(&ask, set, -1, CPS_SET_OUTCOME_UNBOUNDED, answer, err);
+    query.t[w - 1] = 1;
+    return query_number(&query, set, -1, CPS_SET_OUTCOME_UNBOUNDED, answer, err);
 }
 
 CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, CpsError *err) {
@@ -368,15 +368,15 @@ CpsStatus cpsi_gauge(const CpsSet *set, const double *p, CpsSetAnswer *answer, C
     *answer = (CpsSetAnswer){.outcome = CPS_SET_OUTCOME_NOT_AVAILABLE};
     if (cpsi_set_has_user(set)) return CPS_OK;
     /* min t with p in t C */
-    Ask ask;
+    Query query;
     CpsStatus status =
-        support_new(set, (CpsiCount){.unknowns = 1, .rows = 1, .cones = 1}, &ask, err);
+        query_new(set, (CpsiCount){.unknowns = 1, .rows = 1, .cones = 1}, &query, err);
     if (status) return status;
-    const size_t w = (size_t)ask.conic->width;
-    for (size_t i = 0; i < (size_t)set->n; i++) ask.x[i * w + w - 1] = p[i];
-    ask.t[0] = 1;
-    cpsi_conic_rows_cone(ask.conic, 1)[0] = 1;
-    return answer_one(&ask, set, 1, CPS_SET_OUTCOME_EMPTY, answer, err);
+    const size_t w = (size_t)query.conic->width;
+    for (size_t i = 0; i < (size_t)set->n; i++) query.x[i * w + w - 1] = p[i];
+    query.t[0] = 1;
+    cpsi_conic_rows_cone(query.conic, 1)[0] = 1;
+    return query_number(&query, set, 1, CPS_SET_OUTCOME_EMPTY, answer, err);
 }
 
 /* min r with |R (x - p)| <= r, x in C; R upper triangular with M = R'R, or NULL */
@@ -387,16 +387,16 @@ static CpsStatus conic_project(const CpsSet *set, const double *p, const double 
     double *c = cpsi_scratch_take(&scratch, (size_t)n + 1);
     if (!c) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a projection");
     for (int i = 0; i <= n; i++) c[i] = i == n;
-    Ask ask;
+    Query query;
     CpsStatus status =
-        support_new(set, (CpsiCount){.unknowns = (size_t)n + 1, .rows = (size_t)n + 1, .cones = 1},
-                    &ask, err);
+        query_new(set, (CpsiCount){.unknowns = (size_t)n + 1, .rows = (size_t)n + 1, .cones = 1},
+                  &query, err);
     if (status) {
         cpsi_scratch_give(&scratch);
         return status;
     }
-    const size_t w = (size_t)ask.conic->width;
-    double *rows = cpsi_conic_rows_cone(ask.conic, n + 1);
+    const size_t w = (size_t)query.conic->width;
+    double *rows = cpsi_conic_rows_cone(query.conic, n + 1);
     rows[n] = 1; /* the unknown r follows x */
     for (int i = 0; i < n; i++) {
         double *row = &rows[(size_t)(i + 1) * w];
@@ -405,11 +405,11 @@ static CpsStatus conic_project(const CpsSet *set, const double *p, const double 
             row[j] = factor;
             row[w - 1] -= factor * p[j];
         }
-        ask.x[(size_t)i * w + (size_t)i] = 1;
+        query.x[(size_t)i * w + (size_t)i] = 1;
     }
-    ask.t[w - 1] = 1;
+    query.t[w - 1] = 1;
     CpsiSolution solution = {.outcome = CPS_SET_OUTCOME_INACCURATE};
-    status = support_solve(&ask, set, n + 1, c, &solution, err);
+    status = query_solve(&query, set, n + 1, c, &solution, err);
     if (!status) {
         *answer = (CpsSetAnswer){.outcome = solution.outcome,
                                  .value = fmax(solution.value, 0),

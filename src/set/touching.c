@@ -97,7 +97,7 @@ static CpsStatus reduce_once(const CpsiConicForm *form, CpsiConicForm **reduced,
     return status;
 }
 
-CpsStatus cpsi_conic_form_deepen(CpsiConicForm **form, bool *touching, CpsError *err) {
+CpsStatus cpsi_conic_form_reduce_to_face(CpsiConicForm **form, bool *touching, CpsError *err) {
     CpsStatus status = CPS_OK;
     for (int round = (*form)->unknowns;
          !status && round > 0 && (*form)->unknowns > 0 && (*form)->rows > 0; round--) {

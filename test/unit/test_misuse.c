@@ -53,8 +53,8 @@ static void names_of_nothing(void **state) {
     GIVES(cps_completion_name((CpsCompletion)NEVER) != NULL &&
           cps_completion_text((CpsCompletion)NEVER) != NULL);
     GIVES(cps_study_stage_name((CpsStudyStage)NEVER) != NULL);
-    GIVES(cps_first_order_verdict_name((CpsFirstOrderVerdict)NEVER) != NULL &&
-          cps_first_order_verdict_text((CpsFirstOrderVerdict)NEVER) != NULL);
+    GIVES(cps_first_order_outcome_name((CpsFirstOrderOutcome)NEVER) != NULL &&
+          cps_first_order_outcome_text((CpsFirstOrderOutcome)NEVER) != NULL);
 }
 
 static void sets(void **state) {
@@ -553,7 +553,7 @@ static void studies(void **state) {
     GIVES(cps_study_row_count(NULL) == 0);
     REFUSED(cps_first_order_solve(NULL, CPS_FIRST_ORDER_CONTACT_REFERENCE, &first_order, &err));
     RUNS(cps_first_order_destroy(NULL));
-    GIVES(cps_first_order_report(NULL).verdict == CPS_FIRST_ORDER_VERDICT_UNDECIDED);
+    GIVES(cps_first_order_report(NULL).outcome == CPS_FIRST_ORDER_OUTCOME_UNDECIDED);
     GIVES(cps_first_order_view(NULL).element_count == 0 &&
           cps_first_order_view(NULL).strain == NULL);
     REFUSED(cps_scene_check(NULL, &err));

@@ -157,10 +157,10 @@ static void draw_places(const CpsStudyFiles *files, int panel, bool linear, FILE
 
 void cpsi_picture_first_order(const CpsStudyFiles *files, FILE *out) {
     const CpsFirstOrderReport report = cps_first_order_report(files->first_order);
-    const bool drawn = report.verdict == CPS_FIRST_ORDER_VERDICT_SOLVED ||
-                       report.verdict == CPS_FIRST_ORDER_VERDICT_SHORTENS;
+    const bool drawn = report.outcome == CPS_FIRST_ORDER_OUTCOME_SOLVED ||
+                       report.outcome == CPS_FIRST_ORDER_OUTCOME_SHORTENS;
     char note[200];
-    snprintf(note, sizeof note, "P10.1: %s", cps_first_order_verdict_text(report.verdict));
+    snprintf(note, sizeof note, "P10.1: %s", cps_first_order_outcome_text(report.outcome));
     cpsi_svg_begin(out, SHEET_WIDTH, TOP + PITCH * (drawn ? 3 : 2) - 10, files->title, note);
     if (drawn) {
         draw_pair(files, 0, linear_strain, step_strain, "", out);
