@@ -196,7 +196,7 @@ def norm(problem, answer):
 
 
 class Conic:
-    """min x.P x/2 + q.x,  h - G x in R+^l x Q3 ... x Q4 ...;  x = (u of free nodes, T of elements, t of rubbing nodes)."""
+    """min x.P x/2 + q.x,  h - G x in R+^l x Q3 ... x Q4 ...;  x = (u of free nodes, T of elements, t of nodes with friction)."""
 
     def __init__(self, problem, scaling):
         self.problem, self.scaling = problem, f"rows {scaling[0]}, cost {scaling[1]}"
@@ -207,35 +207,35 @@ class Conic:
         m, self.free = problem.nodes - 1, free
         l, c = problem.length/L, problem.compliance*F
         self.l = l
-        self.rubs = np.flatnonzero((problem.bound > 0) & ~problem.held)
+        self.discs = np.flatnonzero((problem.bound > 0) & ~problem.held)
         self.stops = np.flatnonzero(np.isfinite(problem.gap) & ~problem.held)
         at = np.full(problem.nodes, -1)
         at[free] = 3*np.arange(len(free))
         tension, slide = 3*len(free), 3*len(free) + (m if c > 0 else 0)
-        self.slide, self.columns = slide, slide + len(self.rubs)
+        self.slide, self.columns = slide, slide + len(self.discs)
 
         # the objective
         self.q = np.zeros(self.columns)
         self.q[:tension] = -(problem.load[free] @ self.frame.T).ravel()/F
-        self.q[slide:] = problem.bound[self.rubs]/F
+        self.q[slide:] = problem.bound[self.discs]/F
         self.p = np.zeros(self.columns)
         self.p[tension:slide] = l*c if c > 0 else 0
 
-        # the rows: stops, rubs, stretches
+        # the rows: reactions, friction discs, tensions
         rows, cols, values = [], [], []
 
         def put(row, col, value):
             keep = col >= 0
             rows.append(row[keep]), cols.append(col[keep]), values.append(np.broadcast_to(value, row.shape)[keep])
 
-        ns, nr = len(self.stops), len(self.rubs)
+        ns, nr = len(self.stops), len(self.discs)
         h = np.zeros(ns + 3*nr + 4*m)
         put(np.arange(ns), at[self.stops] + 2, -1.0)
         h[:ns] = problem.gap[self.stops]/L
-        rub = ns + 3*np.arange(nr)
-        put(rub, slide + np.arange(nr), -1.0)
+        first = ns + 3*np.arange(nr)
+        put(first, slide + np.arange(nr), -1.0)
         for a in range(2):
-            put(rub + 1 + a, at[self.rubs] + a, -1.0)
+            put(first + 1 + a, at[self.discs] + a, -1.0)
         stretch = ns + 3*nr + 4*np.arange(m)
         if c > 0:
             put(stretch, tension + np.arange(m), -c)
@@ -266,10 +266,10 @@ class Conic:
         problem, F, z = self.problem, self.F, z[:len(self.undo)]*self.undo
         position = problem.reference.copy()
         position[self.free] += self.L*x[:3*len(self.free)].reshape(-1, 3) @ self.frame
-        ns, nr = self.orthant, len(self.rubs)
+        ns, nr = self.orthant, len(self.discs)
         reaction, friction = np.zeros(problem.nodes), np.zeros((problem.nodes, 3))
         reaction[self.stops] = F*z[:ns]
-        friction[self.rubs, :2] = F*z[ns:ns + 3*nr].reshape(-1, 3)[:, 1:]
+        friction[self.discs, :2] = F*z[ns:ns + 3*nr].reshape(-1, 3)[:, 1:]
         force = -F*z[ns + 3*nr:].reshape(-1, 4)[:, 1:]/self.l[:, None]
         return Answer(position, friction @ self.frame, reaction, force @ self.frame)
 

@@ -137,10 +137,10 @@ static void turned(const CpsObstacle *o, double angle, const double *x, double *
         out[k] = o->point[k] + along * axis[k] + c * (from[k] - along * axis[k]) + s * side[k];
 }
 
-/* Way from the foot of one point to that of another, as a tangent at the second, where the normal
+/* Path from the foot of one point to that of another, as a tangent at the second, where the normal
  * is n. */
-static void way(const CpsObstacle *o, const double *from, const double *to, const double *n,
-                double *out) {
+static void path_between(const CpsObstacle *o, const double *from, const double *to,
+                         const double *n, double *out) {
     double other[3], step[3], axis[3], straight = 0;
     distance(o, from, other);
     add(step, to, -1, from);
@@ -222,8 +222,8 @@ typedef struct Touch {
 } Touch;
 
 /* Its friction, where the normal is n. */
-static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn,
-                          const Touch *touch, const double *n, double length) {
+static void audit_friction(Audit *audit, const CpsObstacle *o, const double *turn,
+                           const Touch *touch, const double *n, double length) {
     double first[3], second[3], from[3], slid[3];
     const double *f = touch->friction, reaction = touch->reaction;
     const double lateral = o->has_friction_lateral ? o->friction_lateral : o->friction;
@@ -231,7 +231,7 @@ static void audit_rubbing(Audit *audit, const CpsObstacle *o, const double *turn
     tangents(o, touch->along, n, first, second);
     memcpy(from, touch->reference, sizeof from);
     if (*turn != 0) turned(o, *turn, touch->reference, from);
-    way(o, from, touch->place, n, slid);
+    path_between(o, from, touch->place, n, slid);
     const double f1 = dot(f, first), f2 = dot(f, second), s1 = dot(slid, first),
                  s2 = dot(slid, second);
     const double phi = support(o, lateral, reaction, s1, s2), law = phi + f1 * s1 + f2 * s2;
@@ -263,7 +263,7 @@ static void audit_touch(Audit *audit, const CpsScene *scene, const double *turn,
     audit->open += fabs(gap * touch->reaction) / audit->scale;
     CpsObstacle within = *o; /* at the depth at which the point goes round */
     within.radius -= depth;
-    if (touch->reaction > 0) audit_rubbing(audit, &within, &turn[k], touch, n, length);
+    if (touch->reaction > 0) audit_friction(audit, &within, &turn[k], touch, n, length);
 }
 
 /* Contact c of node j. */

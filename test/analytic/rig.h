@@ -3,7 +3,7 @@
  * every step.
  *
  * The audit shares no code with the library: it takes the obstacles of the scene, of those that a
- * node is said to touch the distance, the normal and the node's way on it (the reference carried
+ * node is said to touch the distance, the normal and the node's slip on it (the reference carried
  * along by an obstacle that turns) and recomputes balance, friction bound, set of forces, phi(s) +
  * <s, F> and depth from the view of the line. */
 #ifndef CAPSTAN_TEST_RIG_H

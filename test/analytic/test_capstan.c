@@ -176,7 +176,8 @@ static void stick_below_the_law(void **state) {
                turning);
     /* what sticks is at its limit, and axes are settled to 1e-8 in each of some tens of parts of
      * the step */
-    CHECK_LESS(rig_show("then B, to 0.4 of the law", "way of what sticks [m]", 0, stuck), 1e-6);
+    CHECK_LESS(rig_show("then B, to 0.4 of the law", "displacement of what sticks [m]", 0, stuck),
+               1e-6);
     rig_close(&run);
 }
 
@@ -184,10 +185,11 @@ static void stick_below_the_law(void **state) {
  * change, to fall to tau: the strains given up beyond it. */
 static double turn_back(int n, int m, double tau, double k, double force, double stiffness,
                         double chord, double lead) {
-    double way = 0;
+    double displacement = 0;
     for (int e = m; e <= n; e++)
-        way += (force * pow(k, e) - tau * pow(k, m - e)) * (e == n ? lead : chord) / stiffness;
-    return way;
+        displacement +=
+            (force * pow(k, e) - tau * pow(k, m - e)) * (e == n ? lead : chord) / stiffness;
+    return displacement;
 }
 
 /* The drum turns one way, T_e = F k^e, then back by a little: the line sticks to it as far as node
@@ -222,7 +224,8 @@ static void reversal(void **state) {
         char name[48];
         snprintf(name, sizeof name, "turned back, m = %d of %d", m, N);
         const double exact = tau * pow(k, m - N);
-        /* the turn is that of a rigid drum of radius 1; chords are its way but for d^2/24 = 1e-4 */
+        /* the turn is that of a rigid drum of radius 1; chords are its path but for d^2/24 = 1e-4
+         */
         CHECK_LESS(fabs(rig_show(name, "tension at B [N]", exact, rig_tension(&view, N))) / exact,
                    1e-3);
         view = rig_next(&run);

@@ -7,13 +7,13 @@
  *
  *     R1 n1 + R2 n2 = -(p - (p.e) e),
  *
- * and while it slides along e each plane rubs by mu_i R_i against e: with F = mu1 R1 + mu2 R2 the
- * string carries T = f + p.e - F and is longer by T L/K. So it rests where the pull f + p.e is less
- * than F. Where it rests, reactions are not unique: friction across e may press the block into the
- * corner, and what it then bears along e grows in the first order while what it spends grows in the
- * second. Hence above F it may slide or rest, and it must slide above the limit G of limit analysis
- * with associated flow, where a motion e + lambda, lambda across e, parts from each plane by mu_i
- * of its slip:
+ * and while it slides along e each plane has the friction mu_i R_i against e: with F = mu1 R1 + mu2
+ * R2 the string carries T = f + p.e - F and is longer by T L/K. So it rests where the pull f + p.e
+ * is less than F. Where it rests, reactions are not unique: friction across e may press the block
+ * into the corner, and what it then bears along e grows in the first order while what it spends
+ * grows in the second. Hence above F it may slide or rest, and it must slide above the limit G of
+ * limit analysis with associated flow, where a motion e + lambda, lambda across e, parts from each
+ * plane by mu_i of its slip:
  *
  *     G <= lambda.P for lambda.n_i = mu_i sqrt(1 + (lambda.t_i)^2), t_i = n_i x e, P the load
  *         across
@@ -29,7 +29,7 @@
  *                          mu/sin(alpha)
  *     bed and buried pipe  R2 = P/n2y, R1 = W - R2 n2z
  *
- * A string in a corner slides as on a bed that rubs by q = mu1 w1 + mu2 w2 per length: its tip
+ * A string in a corner slides as on a bed with the friction q = mu1 w1 + mu2 w2 per length: its tip
  * moves by H^2/(2 q K). */
 #include <stdio.h>
 #include <string.h>
@@ -106,7 +106,7 @@ static void check_slide(const Corner *corner, const CpsLineView *view, double pu
     const double tension = pull - limit_of(corner);
     /* the loop ends at a gap of 1e-13 of its scale, which leaves 3e-7 of forces if they are
      * degenerate; a block that slides is not, and keeps 1e-8 of them with room */
-    CHECK_NEAR(rig_show(corner->name, "way along the corner [m]", tension * LENGTH / STIFFNESS,
+    CHECK_NEAR(rig_show(corner->name, "path along the corner [m]", tension * LENGTH / STIFFNESS,
                         along(moved, corner->e)),
                0, 1e-8 * load * LENGTH / STIFFNESS);
     CHECK_NEAR(along(&view->segment_force[0], corner->e), tension, 1e-8 * load);
@@ -131,9 +131,9 @@ static bool expect(const Corner *corner, Rig *rig, const double force[3], double
     const CpsLineView view = rig_step(&run);
     CHECK_INT(view.contact_count, 2);
     const double *e = corner->e, load = pull + corner->reaction[0] + corner->reaction[1];
-    double moved[3], rubs = 0;
+    double moved[3], friction = 0;
     for (int a = 0; a < 3; a++) moved[a] = view.position[3 + a] - LENGTH * e[a];
-    for (int c = 1; c < 4; c += 2) rubs += along(&view.friction_force[3 * c], e);
+    for (int c = 1; c < 4; c += 2) friction += along(&view.friction_force[3 * c], e);
     const bool slides = must == MUST_SLIDE || (must == MAY_REST && along(moved, e) > 1e-8 * LENGTH);
     if (slides)
         check_slide(corner, &view, pull, moved, load);
@@ -141,8 +141,8 @@ static bool expect(const Corner *corner, Rig *rig, const double force[3], double
               elongated */
         const double off = run.report.certificate.tension_bound + 1e-12 * load;
         CHECK_NEAR(along(&view.segment_force[0], e), 0, off);
-        CHECK_NEAR(rubs, -pull, off);
-        CHECK_NEAR(rig_show(corner->name, "rests: way [m]", 0, along(moved, e)), 0,
+        CHECK_NEAR(friction, -pull, off);
+        CHECK_NEAR(rig_show(corner->name, "rests: path [m]", 0, along(moved, e)), 0,
                    off * LENGTH / STIFFNESS + 1e-12 * LENGTH);
     }
     rig_close(&run);
@@ -312,7 +312,7 @@ static void string_in_a_corner(void **state) {
         const double h = length / n, motion = pull * pull / (2 * q * stiffness);
         /* forces are exact at the middles of elements; the one in which sliding ends moves the tip
          * by q h^2/(8 K) at most, and the certified gap leaves what rig.h calls motion */
-        const double error = rig_show("string in a corner", "way of the tip [m]", motion,
+        const double error = rig_show("string in a corner", "path of the tip [m]", motion,
                                       view.position[3 * n] - length);
         CHECK_LESS(fabs(error), q * h * h / (8 * stiffness) + run.motion);
         for (int j = 1; j < n; j++)
@@ -391,7 +391,7 @@ static void the_same_set_given_twice(void **state) {
                 evolution[i] = solved(&rig[i]);
                 view[i] = cps_evolution_line_view(evolution[i], 0);
             }
-            double place = 0, force = 0, pressed = 0, rubbed = 0;
+            double place = 0, force = 0, pressed = 0, friction_error = 0;
             const int n = view[0].element_count + 1;
             for (int i = 0; i < 3 * n; i++)
                 place = fmax(place, fabs(view[0].position[i] - view[1].position[i]));
@@ -401,14 +401,14 @@ static void the_same_set_given_twice(void **state) {
                 CHECK_INT(view[0].obstacle[c], view[1].obstacle[d]);
                 force = fmax(force, fabs(view[0].reaction[c] - view[1].reaction[d]));
                 for (int a = 0; a < 3; a++)
-                    rubbed = fmax(rubbed, fabs(view[0].friction_force[3 * c + a] -
-                                               view[1].friction_force[3 * d + a]));
+                    friction_error = fmax(friction_error, fabs(view[0].friction_force[3 * c + a] -
+                                                               view[1].friction_force[3 * d + a]));
                 if (c >= n) pressed += fmin(view[0].reaction[c], view[0].reaction[j]);
             }
             const char *name = pipe ? "swept against a pipe" : "swept against a wall";
             rig_show(name, "places [m]", 0, place);
             rig_show(name, "reactions [N]", 0, force);
-            rig_show(name, "frictions [N]", 0, rubbed);
+            rig_show(name, "frictions [N]", 0, friction_error);
             rig_show(name, "smaller of two reactions, sum [N]", 0, pressed);
             CHECK_GREATER(pressed, 1);
             /* the loops end at a relative gap of 1e-13; its root 3e-7 bounds what forces keep that
@@ -416,22 +416,22 @@ static void the_same_set_given_twice(void **state) {
              * keep the elongation that goes with it, 200/1e4 of that and 10 m */
             CHECK_LESS(place, 1e-8 * 10);
             CHECK_LESS(force, 3e-7 * 200);
-            CHECK_LESS(rubbed, 3e-7 * 200);
+            CHECK_LESS(friction_error, 3e-7 * 200);
             for (int i = 0; i < 2; i++) cps_evolution_destroy(evolution[i]);
         }
     cps_set_release(set[0]);
     cps_set_release(set[1]);
 }
 
-/* Three planes meet in an apex and open upwards; where they do not rub, a block in it is borne by
- * all three, R1 n1 + R2 n2 + R3 n3 = -load, whatever the reactions. The slack string has no
- * tension. */
+/* Three planes meet in an apex and open upwards; where they have no friction, a block in it is
+ * borne by all three, R1 n1 + R2 n2 + R3 n3 = -load, whatever the reactions. The slack string has
+ * no tension. */
 static void pit_of_three_planes(void **state) {
     (void)state;
     static const double APEX[3] = {0.3, -0.2, 0.1};
     uint64_t random = 11;
     double worst = 0, deepest = 0;
-    int rubbing = 0;
+    int rough = 0;
     for (int i = 0; i < 40; i++) {
         Rig rig;
         double n[3][3], reaction[3], load[3] = {0, 0, 0.5 * WEIGHT * LENGTH};
@@ -459,7 +459,7 @@ static void pit_of_three_planes(void **state) {
         CHECK_INT(rig_try(&run), CPS_OUTCOME_SOLVED); /* and the audit */
         const CpsLineView v = run.view;
         const int j = v.element_count, c[3] = {j, j + v.element_count + 1, j - 1};
-        rubbing += mu > 0 && v.element_obstacle[j - 1] >= 0 && v.element_reaction[j - 1] > 0;
+        rough += mu > 0 && v.element_obstacle[j - 1] >= 0 && v.element_reaction[j - 1] > 0;
         const int count = mu == 0 ? 3 : 0; /* reactions that are unique */
         for (int a = 0; a < count; a++) {
             const int on = a < 2 ? v.obstacle[c[a]] : v.element_obstacle[c[a]];
@@ -471,12 +471,12 @@ static void pit_of_three_planes(void **state) {
         rig_close(&run);
     }
     rig_show("pit of three planes", "reactions, worst of 20 [N]", 0, worst);
-    rig_show("pit of three planes", "of 20 with friction, borne by all three", 20, rubbing);
+    rig_show("pit of three planes", "of 20 with friction, borne by all three", 20, rough);
     rig_show("pit of three planes", "block off the apex, worst of 20 [m]", 0, deepest);
     /* the loop ends at 1e-13 of its scale, and the reactions are not degenerate */
     CHECK_LESS(worst, 1e-8 * 15);
     CHECK_LESS(deepest, 1e-8 * LENGTH);
-    CHECK_GREATER(rubbing, 5);
+    CHECK_GREATER(rough, 5);
 }
 
 int main(void) {

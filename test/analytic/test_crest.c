@@ -51,7 +51,8 @@ static void draw(const char *name, double mu, double from, double to, int steps,
         const CpsStepReport report = cps_evolution_report(run.evolution);
         least = fmin(least, report.ledger.imbalance);
         if (path_tolerance > 0) CHECK_INT(report.jump_count, !on && before < limit);
-        /* the way of the jump, from a place within a part of 2^-10 of the step before the limit */
+        /* the length of the jump, from a place within a part of 2^-10 of the step before the limit
+         */
         if (report.jump_count > 0) {
             const double away = hypot(limit - sin(atan(mu)), HEIGHT - LENGTH - cos(atan(mu)));
             rig_show(name, "jump [m]", away, report.jump);
@@ -64,7 +65,7 @@ static void draw(const char *name, double mu, double from, double to, int steps,
     rig_show(name, "least imbalance [J]", 0, least);
     CHECK_LESS(worst, 1e-8);
     /* no energy from nowhere: the ledger is open by the trapezium rule's error, at most (W/2) times
-     * the square of a step's way */
+     * the square of a step's displacement */
     CHECK_GREATER(least, -0.5 * WEIGHT * pow((to - start) / steps, 2) - 1e-12);
     CHECK_INT(snaps, expected);
     rig_close(&run);

@@ -160,7 +160,8 @@ static void back_again(void **unused) {
     rig_close(&run);
 }
 
-/* Held above the plane, an end carries its half element alone, though its neighbour rubs. */
+/* Held above the plane, an end carries its half element alone, though its neighbour has friction.
+ */
 static void held_in_the_air(void **unused) {
     (void)unused;
     static Rig rig;

@@ -96,7 +96,7 @@ static void shifted_scenes_agree(void **state) {
     (void)state;
     static const double FAR[] = {1e4, 1e6, 1e7};
     static Answer here, there;
-    double way = 0, tension = 0;
+    double displacement = 0, tension = 0;
     int steps = 0;
     for (uint64_t seed = 1; seed <= SCENES; seed++) {
         solve(seed, (double[3]){0, 0, 0}, &here);
@@ -116,7 +116,8 @@ static void shifted_scenes_agree(void **state) {
                 if (here.outcome[k] != CPS_OUTCOME_SOLVED) continue;
                 steps++;
                 for (int i = 0; i < 3 * NODES; i++)
-                    way = fmax(way, fabs(there.position[k][i] - here.position[k][i]));
+                    displacement =
+                        fmax(displacement, fabs(there.position[k][i] - here.position[k][i]));
                 for (int i = 0; i < ELEMENTS; i++)
                     tension = fmax(tension,
                                    fabs(there.tension[k][i] - here.tension[k][i]) /
@@ -126,11 +127,11 @@ static void shifted_scenes_agree(void **state) {
     }
     printf("%d steps, places differ by %.1e of the length, tensions by %.1e of what certificates "
            "leave open\n",
-           steps, way, tension);
+           steps, displacement, tension);
     CHECK_GREATER(steps, 20 * SCENES);
     /* the loop ends at a relative gap of 1e-13; its root 3e-7 bounds what forces and places of a
      * step keep of it, and steps add up */
-    CHECK_LESS(way, 1e-6);
+    CHECK_LESS(displacement, 1e-6);
     CHECK_LESS(tension, 1);
 }
 

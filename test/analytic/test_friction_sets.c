@@ -325,7 +325,7 @@ static void a_node_on_grooves(void **state) {
     int faces = 0;
     for (int frozen = 0; frozen < 2; frozen++)
         for (int k = 0; k < 48; k++) {
-            const double angle = 2 * acos(-1) * k / 24, way = k < 24 ? 0.02 : 0.7;
+            const double angle = 2 * acos(-1) * k / 24, distance = k < 24 ? 0.02 : 0.7;
             Rig r;
             rig(&r, 1, 1, WEIGHT, 1e4);
             r.bed.friction_set = set;
@@ -337,7 +337,8 @@ static void a_node_on_grooves(void **state) {
             r.point[3] = cos(angle);
             r.point[4] = sin(angle);
             const double turn = angle + 0.3;
-            change(&r, 1, CPS_END_A, CPS_END_KIND_HELD, -way * cos(turn), -way * sin(turn), 0);
+            change(&r, 1, CPS_END_A, CPS_END_KIND_HELD, -distance * cos(turn),
+                   -distance * sin(turn), 0);
             const CpsLineView v = go(&r);
             const double *f = &v.friction_force[3], R = v.friction_bound[1],
                          u[2] = {v.position[3] - r.point[3], v.position[4] - r.point[4]};
@@ -354,7 +355,7 @@ static void a_node_on_grooves(void **state) {
                        2e-9); /* cps_set_gauge promises 1e-9, mu/s of the loop leaves as much */
             /* which face, and its normal: -u lies along it, or between two of them */
             const double size = hypot(u[0], u[1]);
-            CHECK_GREATER(size, 0.25 * way);
+            CHECK_GREATER(size, 0.25 * distance);
             double normal[2][2];
             int found = 0;
             for (int i = 0; i < corners; i++) {
@@ -523,12 +524,12 @@ static double check_against(const Rig *r, const CpsSet *set, const CpsLineView *
         const double w = v->friction_bound[j], *f = &v->friction_force[3 * j], *u = &v->slip[3 * j];
         if (!(w > 1e-6 * WEIGHT)) continue;
         const double force[] = {(c * f[0] + s * f[1]) / w, (-s * f[0] + c * f[1]) / w},
-                     way[] = {-(c * u[0] + s * u[1]), s * u[0] - c * u[1]};
+                     distance[] = {-(c * u[0] + s * u[1]), s * u[0] - c * u[1]};
         CpsSetAnswer answer;
         do_(cps_set_gauge(set, force, &answer, &err), &err);
         worst = fmax(worst, answer.value - 1);
-        do_(cps_set_support(set, way, NULL, &answer, &err), &err);
-        *defect += w * (answer.value - force[0] * way[0] - force[1] * way[1]);
+        do_(cps_set_support(set, distance, NULL, &answer, &err), &err);
+        *defect += w * (answer.value - force[0] * distance[0] - force[1] * distance[1]);
     }
     return worst;
 }

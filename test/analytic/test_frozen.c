@@ -174,8 +174,8 @@ static void look_at_node(const Rig *rig, const CpsLineView *v, const Before *bef
     look_at(rig, &t, before->known, largest, sum, w, law);
 }
 
-/* The share of the way from a to b at which the straight piece is nearest to an obstacle; below 0
- * or above 1 where that is an end. */
+/* The share of the segment from a to b at which the straight piece is nearest to an obstacle; below
+ * 0 or above 1 where that is an end. */
 static double nearest(const CpsObstacle *o, const double *a, const double *b) {
     double d0[3], d1[3];
     for (int k = 0; k < 3; k++) {
@@ -299,7 +299,7 @@ static void random_scenes(void **state) {
         CpsError err = {0};
         CpsEvolution *evolution;
         if (cps_evolution_create(&rig.scene, &evolution, &err) != CPS_OK)
-            continue; /* an end's way leads through an obstacle */
+            continue; /* an end's path leads through an obstacle */
         Before before = {.known = false};
         Worst worst = {0};
         for (int s = 0; cps_evolution_remaining_count(evolution) > 0; s++) {

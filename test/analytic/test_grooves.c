@@ -124,10 +124,11 @@ static void an_element_on_a_face(void **state) {
                          h = v[0] * p[0] + v[1] * p[1];
             const double middle[2] = {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2},
                          size = hypot(middle[0], middle[1]);
-            const double b[2] = {middle[0] / size, middle[1] / size}, turn = 0.35, way = 0.05;
+            const double b[2] = {middle[0] / size, middle[1] / size}, turn = 0.35,
+                         displacement = 0.05;
             /* the force on B lies along b, from A to B, when A is drawn along -b */
-            const double a[2] = {-way * (b[0] * cos(turn) - b[1] * sin(turn)),
-                                 -way * (b[0] * sin(turn) + b[1] * cos(turn))};
+            const double a[2] = {-displacement * (b[0] * cos(turn) - b[1] * sin(turn)),
+                                 -displacement * (b[0] * sin(turn) + b[1] * cos(turn))};
             CpsSceneFile *file = element(b[0], b[1], a[0], a[1], steps);
             Tip tip;
             assert_true(run_all(cps_scene_file_scene(file), look_at_tip, &tip));
@@ -141,7 +142,7 @@ static void an_element_on_a_face(void **state) {
             char name[40];
             snprintf(name, sizeof name, "face %d, %d steps", i + 1, steps);
             const double off = hypot(tip.place[0] - to[0], tip.place[1] - to[1]);
-            show(name, "way of B, its error [m]", s, s + off);
+            show(name, "place of B, its error [m]", s, s + off);
             show(name, "force [N]", force, hypot(tip.force[0], tip.force[1]));
             /* on a face phi + F.u grows like the angle off the normal: a gap of 1e-12 leaves 1e-11
              * m, and the stretch that an inextensible element may have 1e-9 m; directions that much
@@ -160,14 +161,15 @@ static void an_element_on_a_corner(void **state) {
         const double *o = CORNER[(i + 4) % 5], *p = CORNER[i], *q = CORNER[(i + 1) % 5],
                      size = hypot(p[0], p[1]);
         const double n[2] = {(p[1] - o[1]) + (q[1] - p[1]), (o[0] - p[0]) + (p[0] - q[0])},
-                     way = 2 / hypot(n[0], n[1]);
-        CpsSceneFile *file = element(p[0] / size, p[1] / size, -way * n[0], -way * n[1], 3);
+                     displacement = 2 / hypot(n[0], n[1]);
+        CpsSceneFile *file =
+            element(p[0] / size, p[1] / size, -displacement * n[0], -displacement * n[1], 3);
         Tip tip;
         assert_true(run_all(cps_scene_file_scene(file), look_at_tip, &tip));
         cps_scene_file_destroy(file);
         char name[40];
         snprintf(name, sizeof name, "corner %d", i + 1);
-        const double x = p[0] / size - way * n[0], y = p[1] / size - way * n[1];
+        const double x = p[0] / size - displacement * n[0], y = p[1] / size - displacement * n[1];
         const double off = hypot(tip.place[0] - x, tip.place[1] - y);
         show(name, "place of B, its error [m]", 0, off);
         show(name, "force [N]", 5 * size, hypot(tip.force[0], tip.force[1]));

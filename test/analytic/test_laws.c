@@ -8,8 +8,8 @@
 #include "capstan/law.h"
 #include "check.h"
 
-/* Closed forms in a handful of operations: rounding of the values, 1e-10 with room for the conic
- * solver's 1e-9 gap being met far better than promised. */
+/* Closed forms in a handful of operations: rounding of the values, 1e-10 with a margin for the
+ * conic solver's 1e-9 gap being met far better than promised. */
 static const double EXACT = 1e-10;
 
 static const double PI = 3.14159265358979323846;

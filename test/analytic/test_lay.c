@@ -16,7 +16,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* largest way of a node from the start */
+/* largest displacement of a node from the start */
 static double farthest(const RigRun *run) {
     double most = 0;
     for (int j = 0; j <= run->view.element_count; j++) {
@@ -45,9 +45,9 @@ static double lay(double radius, double lateral, CpsFrictionShape shape, double 
     rig_end(&rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
     RigRun run = rig_open(&rig);
     rig_step(&run);
-    const double way = farthest(&run);
+    const double displacement = farthest(&run);
     rig_close(&run);
-    return way;
+    return displacement;
 }
 
 /* The critical radius, by halving: the line moves iff its radius is less. */
@@ -56,7 +56,7 @@ static double critical(double lateral, CpsFrictionShape shape, double tension) {
     for (int i = 0; i < 22; i++) {
         const double middle = 0.5 * (low + high);
         /* a radius too small by a share s lets the line in by s r T/EA = 0.18 s; near the limit,
-         * where friction has no room left, a certified line may be off by 1e-7 */
+         * where friction has no reserve left, a certified line may be off by 1e-7 */
         if (lay(middle, lateral, shape, tension) > 1e-6)
             low = middle;
         else
@@ -115,9 +115,9 @@ static double pull_arc(double theta, double axial, double lateral, double force)
                force * cos(theta - d / 2), 0);
     RigRun run = rig_open(&rig);
     rig_step(&run);
-    const double way = farthest(&run);
+    const double displacement = farthest(&run);
     rig_close(&run);
-    return way;
+    return displacement;
 }
 
 static void pulled_arc(void **state) {
@@ -133,10 +133,10 @@ static void pulled_arc(void **state) {
          * short */
         CHECK_LESS(fabs(rig_show(name, "limit, polygon of 50 [N]", closed, discrete)) / closed,
                    0.5 * theta / 50);
-        CHECK_LESS(rig_show(name, "way at 0.9995 of the limit [m]", 0,
+        CHECK_LESS(rig_show(name, "displacement at 0.9995 of the limit [m]", 0,
                             pull_arc(theta, axial, lateral, 0.9995 * discrete)),
                    1e-8);
-        CHECK_GREATER(rig_show(name, "way at 1.0005 of the limit [m]", 0,
+        CHECK_GREATER(rig_show(name, "displacement at 1.0005 of the limit [m]", 0,
                                pull_arc(theta, axial, lateral, 1.0005 * discrete)),
                       1e-6);
     }
@@ -187,11 +187,11 @@ static void lateral_slip(void **state) {
 /* normality ------------------------------------------------------------------------------------ */
 
 /* One element drags its node A over a grooved bed, B is led at the angle theta to the grooves. The
- * force on the node is normal to the set of forces, against the way: along (mu1^2 s1, mu2^2 s2) for
- * an ellipse, into a corner for a box. After a while the element trails along that force and the
- * node follows B. */
+ * force on the node is normal to the set of forces, against the motion: along (mu1^2 s1, mu2^2 s2)
+ * for an ellipse, into a corner for a box. After a while the element trails along that force and
+ * the node follows B. */
 static void tow(const char *name, CpsFrictionShape shape, double mu1, double mu2, double theta) {
-    const double way = 12, direction[2] = {cos(theta), sin(theta)};
+    const double displacement = 12, direction[2] = {cos(theta), sin(theta)};
     Rig rig;
     rig_begin(&rig, 1, 10, INFINITY);
     CpsObstacle *bed = rig_obstacle(&rig, CPS_OBSTACLE_PLANE, mu1);
@@ -204,7 +204,8 @@ static void tow(const char *name, CpsFrictionShape shape, double mu1, double mu2
     rig_end(&rig, CPS_END_A, CPS_END_KIND_FREE, 0, 0, 0);
     rig_end(&rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
     rig_stage(&rig, 120);
-    rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, 1 + way * direction[0], way * direction[1], 0);
+    rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, 1 + displacement * direction[0],
+               displacement * direction[1], 0);
     RigRun run = rig_open(&rig);
     double worst = 0;
     for (int k = 0; k < 120; k++) {
@@ -225,7 +226,8 @@ static void tow(const char *name, CpsFrictionShape shape, double mu1, double mu2
     const double exact =
         box ? atan2(mu2, mu1) : atan2(mu2 * mu2 * direction[1], mu1 * mu1 * direction[0]);
     const double found = atan2(v.position[4] - v.position[1], v.position[3] - v.position[0]);
-    /* the element turns towards it with exp(-way/length), or faster: 6e-6 after 12 lengths */
+    /* the element turns towards it with exp(-displacement/length), or faster: 6e-6 after 12 lengths
+     */
     CHECK_LESS(fabs(rig_show(name, "direction of the element [rad]", exact, found)), 2e-5);
     rig_close(&run);
 }
@@ -246,7 +248,7 @@ static void normality(void **state) {
  * strain. */
 static double geodesic(int n, double *aside) {
     const double reach = sqrt(4.36), arc = 2 * atan2(2, 0.6) - 2 * acos(1 / reach);
-    const double way = 2 * sqrt(reach * reach - 1) + arc, stiffness = 100, strain = 0.05;
+    const double displacement = 2 * sqrt(reach * reach - 1) + arc, stiffness = 100, strain = 0.05;
     Rig rig;
     rig_begin(&rig, n, 0, stiffness);
     rig_obstacle(&rig, CPS_OBSTACLE_SPHERE, 0);
@@ -254,7 +256,7 @@ static double geodesic(int n, double *aside) {
     rig_point(&rig, -0.5, 0.4, 1.2);
     rig_point(&rig, 0.5, 0.3, 1.2);
     rig_point(&rig, 2, 0, 0.6);
-    rig_length(&rig, way / (1 + strain));
+    rig_length(&rig, displacement / (1 + strain));
     rig_end(&rig, CPS_END_A, CPS_END_KIND_AT_START, 0, 0, 0);
     rig_end(&rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
     RigRun run = rig_open(&rig);
@@ -264,7 +266,7 @@ static double geodesic(int n, double *aside) {
     for (int j = 0; j <= n; j++) *aside = fmax(*aside, fabs(v.position[3 * j + 1]));
     for (int e = 0; e < n; e++) length += rig_tension(&v, e) / stiffness * v.element_length[e];
     rig_close(&run);
-    return length / (way - way / (1 + strain)) - 1;
+    return length / (displacement - displacement / (1 + strain)) - 1;
 }
 
 static void sphere_geodesic(void **state) {
@@ -307,9 +309,9 @@ static double latitude(double mu, double part, CpsFrictionShape shape) {
     rig_end(&rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
     RigRun run = rig_open(&rig);
     rig_step(&run);
-    const double way = farthest(&run);
+    const double displacement = farthest(&run);
     rig_close(&run);
-    return way;
+    return displacement;
 }
 
 static void sphere_latitude(void **state) {
@@ -320,10 +322,10 @@ static void sphere_latitude(void **state) {
             char name[48];
             snprintf(name, sizeof name, "latitude, mu %g, %s", MU[i], k ? "box" : "ellipse");
             const CpsFrictionShape shape = k ? CPS_FRICTION_SHAPE_BOX : CPS_FRICTION_SHAPE_ELLIPSE;
-            CHECK_LESS(rig_show(name, "way at 0.999 of the limit [m]", 0,
+            CHECK_LESS(rig_show(name, "displacement at 0.999 of the limit [m]", 0,
                                 latitude(MU[i], 0.999, shape)),
                        1e-6);
-            CHECK_GREATER(rig_show(name, "way at 1.001 of the limit [m]", 0,
+            CHECK_GREATER(rig_show(name, "displacement at 1.001 of the limit [m]", 0,
                                    latitude(MU[i], 1.001, shape)),
                           1e-5);
         }

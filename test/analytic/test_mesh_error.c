@@ -108,7 +108,7 @@ static void laid(void **unused) {
     compare("laid on a bed", true, false, 0);
 }
 
-static void rubbing(void **unused) {
+static void with_friction(void **unused) {
     (void)unused;
     /* it is of the step: what earlier steps have left in the friction of another mesh is not in
      * it */
@@ -119,7 +119,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hanging),
         cmocka_unit_test(laid),
-        cmocka_unit_test(rubbing),
+        cmocka_unit_test(with_friction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -123,22 +123,24 @@ static void masing(void **state) {
         pull(&rig, STEPS, pretension + force);
         RigRun run = rig_open(&rig);
         CpsLineView view = rig_next(&run);
-        double at = tip(&view), way[3][STEPS], worst = 0;
+        double at = tip(&view), displacement[3][STEPS], worst = 0;
         for (int branch = 0; branch < 3; branch++) {
             for (int k = 0; k < STEPS; k++) {
                 view = rig_step(&run);
-                way[branch][k] = fabs(tip(&view) - at);
+                displacement[branch][k] = fabs(tip(&view) - at);
             }
             at = tip(&view);
         }
         for (int k = 0; k < STEPS; k++) {
-            worst = fmax(worst, fabs(way[1][k] - 2 * way[0][k]) / way[0][STEPS - 1]);
-            worst = fmax(worst, fabs(way[2][k] - way[1][k]) / way[0][STEPS - 1]);
+            worst = fmax(worst, fabs(displacement[1][k] - 2 * displacement[0][k]) /
+                                    displacement[0][STEPS - 1]);
+            worst = fmax(worst, fabs(displacement[2][k] - displacement[1][k]) /
+                                    displacement[0][STEPS - 1]);
         }
         /* the ends of sliding fall differently in their elements: h^2/(4 s^2) each, s = F/A */
         const double part = LENGTH / N * FRICTION * WEIGHT / force;
         CHECK_LESS(rig_show(BED[bed], "Masing, worst share off", 0, worst),
-                   part * part + 2 * run.motion / way[0][STEPS - 1]);
+                   part * part + 2 * run.motion / displacement[0][STEPS - 1]);
         rig_close(&run);
     }
 }
@@ -149,28 +151,28 @@ static void no_time(void **state) {
     (void)state;
     for (Bed bed = BED_PLAIN; bed <= BED_CREST; bed++) {
         double found[2][2];
-        for (int way = 0; way < 2; way++) {
+        for (int displacement = 0; displacement < 2; displacement++) {
             Rig rig;
             lay(&rig, bed, 64, 256);
             pull(&rig, 1, 256);
-            if (way == 0) {
+            if (displacement == 0) {
                 pull(&rig, 8, 512);
                 pull(&rig, 16, 0);
             }
-            if (way == 1) {
+            if (displacement == 1) {
                 pull(&rig, 2, 320);
                 pull(&rig, 6, 512);
                 pull(&rig, 8, 256);
                 pull(&rig, 4, 128);
                 pull(&rig, 4, 0);
             }
-            if (way == 1)
+            if (displacement == 1)
                 for (int s = 0; s < rig.scene.stage_count; s++) rig.stage[s].name = "slowly";
             RigRun run = rig_open(&rig);
             CpsLineView view = {0};
             while (cps_evolution_remaining_count(run.evolution) > 0) view = rig_step(&run);
-            found[way][0] = tip(&view);
-            found[way][1] = run.dissipated;
+            found[displacement][0] = tip(&view);
+            found[displacement][1] = run.dissipated;
             rig_close(&run);
         }
         CHECK_NEAR(found[1][0], found[0][0], 0);

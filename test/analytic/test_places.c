@@ -270,15 +270,15 @@ static void the_other_way_round(void **state) {
         to[0] = reach * cos(about);
         to[1] = reach * sin(about);
         to[2] = 0;
-        for (int way = 0; way < 4; way++) {
+        for (int variant = 0; variant < 4; variant++) {
             Case c;
-            const double cosine = way == 3 ? cos(turn) : 1, sine = way == 3 ? sin(turn) : 0,
-                         mirror = way == 2 ? -1 : 1;
+            const double cosine = variant == 3 ? cos(turn) : 1, sine = variant == 3 ? sin(turn) : 0,
+                         mirror = variant == 2 ? -1 : 1;
             case_begin(&c, 1, 12, 1, run & 1 ? INFINITY : 50);
             case_bed(&c, run % 4 < 2 ? 0 : 0.3);
             case_straight(&c, 0, 0);
             const int far =
-                way == 1 ? 0 : 1; /* the point of the start at which the moving end is */
+                variant == 1 ? 0 : 1; /* the point of the start at which the moving end is */
             c.point[3 * far] = cosine;
             c.point[3 * far + 1] = sine;
             for (int e = 0; e < 2; e++) {
@@ -287,17 +287,18 @@ static void the_other_way_round(void **state) {
             }
             case_move(&c, 1, cosine * to[0] - sine * mirror * to[1],
                       sine * to[0] + cosine * mirror * to[1], 0);
-            if (way == 1) c.change[0].end = CPS_END_A;
+            if (variant == 1) c.change[0].end = CPS_END_A;
             Run r = case_open(&c);
             const CpsLineView v = case_step(&r);
             for (int j = 0; j <= 12; j++) {
-                const double *x = &v.position[3 * (way == 1 ? 12 - j : j)];
-                place[way][3 * j] = cosine * x[0] + sine * x[1];
-                place[way][3 * j + 1] = mirror * (cosine * x[1] - sine * x[0]);
-                place[way][3 * j + 2] = x[2];
+                const double *x = &v.position[3 * (variant == 1 ? 12 - j : j)];
+                place[variant][3 * j] = cosine * x[0] + sine * x[1];
+                place[variant][3 * j + 1] = mirror * (cosine * x[1] - sine * x[0]);
+                place[variant][3 * j + 2] = x[2];
             }
             case_close(&r);
-            for (int i = 0; i < 3 * 13; i++) worst = fmax(worst, fabs(place[way][i] - place[0][i]));
+            for (int i = 0; i < 3 * 13; i++)
+                worst = fmax(worst, fabs(place[variant][i] - place[0][i]));
         }
     }
     /* where a node rests on a limit without force, the loop leaves the square root of its 1e-13 */

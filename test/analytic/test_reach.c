@@ -18,7 +18,7 @@
 typedef struct Case {
     CpsObstacleKind kind;
     double radius, turn, pitch, lift, scale, axis[3][3], point[3],
-        way[3]; /* lift: of the start above the surface; way: of B, in the axes */
+        direction[3]; /* lift: of the start above the surface; direction: of B, in the axes */
     int elements;
     bool graded, elastic;
 } Case;
@@ -60,30 +60,31 @@ static Case random_case(uint64_t *seed) {
     const double off = draw(seed, 0, 1) < 0.5 ? 0 : c.scale * pow(10, draw(seed, 0, 5));
     for (int k = 0; k < 3; k++) c.point[k] = off * draw(seed, -1, 1);
     /* outwards, on, along the axis */
-    c.way[0] = draw(seed, 0.01, 0.5);
-    c.way[1] = 1;
-    c.way[2] = draw(seed, 0, 1) < 0.3 ? 0 : draw(seed, -1, 1);
+    c.direction[0] = draw(seed, 0.01, 0.5);
+    c.direction[1] = 1;
+    c.direction[2] = draw(seed, 0, 1) < 0.3 ? 0 : draw(seed, -1, 1);
     return c;
 }
 
-/* A point at distance r and angle phi, moved by s along the way of B there. */
+/* A point at distance r and angle phi, moved by s along the direction of B there. */
 static void place(const Case *c, double r, double phi, double rise, double s, double *out) {
     const double sense = c->turn < 0 ? -1 : 1;
     for (int k = 0; k < 3; k++) {
         const double radial = cos(phi) * c->axis[0][k] + sin(phi) * c->axis[1][k],
                      onward = sense * (cos(phi) * c->axis[1][k] - sin(phi) * c->axis[0][k]);
         out[k] = c->point[k] + r * radial + rise * c->axis[2][k] +
-                 s * (c->way[0] * radial + c->way[1] * onward + c->way[2] * c->axis[2][k]);
+                 s * (c->direction[0] * radial + c->direction[1] * onward +
+                      c->direction[2] * c->axis[2][k]);
     }
 }
 
 static double rise_of(const Case *c, double share) { return c->pitch * fabs(c->turn) * share; }
 
-/* The way round an obstacle of radius R once B has gone by s: A is at the angle 0 and B was at the
+/* The path round an obstacle of radius R once B has gone by s: A is at the angle 0 and B was at the
  * angle `turn`. */
-static double way_round(const Case *c, double R, double s) {
-    const double r = c->radius * (1 + c->lift), x = r + s * c->way[0], y = s * c->way[1],
-                 z = rise_of(c, 1) + s * c->way[2];
+static double path_round(const Case *c, double R, double s) {
+    const double r = c->radius * (1 + c->lift), x = r + s * c->direction[0],
+                 y = s * c->direction[1], z = rise_of(c, 1) + s * c->direction[2];
     double turn = fabs(c->turn) + atan2(y, x), far = hypot(x, y), up = z;
     if (c->kind == CPS_OBSTACLE_SPHERE) { /* the angle at the centre between the two ends */
         turn = acos((x * cos(c->turn) - y * sin(c->turn)) / hypot(far, z));
@@ -126,22 +127,22 @@ static double longest_of(const Rig *rig) {
     return longest;
 }
 
-/* How far B goes until the way round an obstacle of radius R is so long; NAN where it never gets so
- * long or the obstacle is not in the way. */
-static double way_of_end(const Case *c, double R, double length) {
+/* How far B goes until the path round an obstacle of radius R is so long; NAN where it never gets
+ * so long or the obstacle is not in the way. */
+static double path_of_end(const Case *c, double R, double length) {
     double low = 0, high = 10 * length;
-    if (!(way_round(c, R, 0) < length && way_round(c, R, 0) > 0)) return NAN;
+    if (!(path_round(c, R, 0) < length && path_round(c, R, 0) > 0)) return NAN;
     for (int i = 0; i < 200; i++) {
         const double s = (low + high) / 2;
-        if (way_round(c, R, s) > length || way_round(c, R, s) == 0)
+        if (path_round(c, R, s) > length || path_round(c, R, s) == 0)
             high = s;
         else
             low = s;
     }
-    return fabs(way_round(c, R, low) - length) < 1e-9 * length ? low : NAN;
+    return fabs(path_round(c, R, low) - length) < 1e-9 * length ? low : NAN;
 }
 
-/* The outcome where the way round the obstacle of radius R is `length` in the end. */
+/* The outcome where the path round the obstacle of radius R is `length` in the end. */
 static bool outcome(const Case *c, uint64_t seed, bool shrunk, double share, CpsOutcome *out,
                     CpsLineReport *report) {
     Rig *rig = malloc(sizeof *rig);
@@ -149,7 +150,7 @@ static bool outcome(const Case *c, uint64_t seed, bool shrunk, double share, Cps
     lay(rig, c, &seed);
     const double l = longest_of(rig),
                  R = c->radius - (shrunk ? fmin(l * l / (4 * c->radius), c->radius / 4) : 0);
-    const double s = way_of_end(c, R, rig->line.length * (1 + share));
+    const double s = path_of_end(c, R, rig->line.length * (1 + share));
     double to[3];
     place(c, c->radius * (1 + c->lift), c->turn, rise_of(c, 1), s, to);
     rig_end(rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
@@ -176,7 +177,7 @@ static bool outcome(const Case *c, uint64_t seed, bool shrunk, double share, Cps
     return taken;
 }
 
-static void short_of_the_way(void **state) {
+static void short_of_the_path(void **state) {
     (void)state;
     int tried[2][2] = {{0}}, proved[2] = {0}, straight[2] = {0};
     for (int i = 0; i < cases; i++) {
@@ -227,6 +228,6 @@ static void short_of_the_way(void **state) {
 
 int main(int argc, char **argv) {
     if (argc == 2 && strcmp(argv[1], "--all") == 0) cases *= 10;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(short_of_the_way)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(short_of_the_path)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,7 +46,7 @@ typedef struct Copy {
     RestContact contact[CONTACTS];
 } Copy;
 
-/* False where a node rubs that has left its obstacle, as frozen friction lets it. */
+/* False where friction acts on a node that has left its obstacle, as frozen friction lets it. */
 static bool copy(const Rig *rig, const CpsLineView *view, const CpsLineReport *report, Copy *out) {
     const int n = view->element_count + 1;
     const double fine = 1e-9 * rig->line.length;

@@ -160,7 +160,8 @@ static void sections_alike(void **state) {
     static const double STIFFNESS[] = {1e6, INFINITY};
     for (int k = 0; k < 2; k++) {
         double one[2][3 * 61], two[2][60];
-        for (int way = 0; way < 2; way++) pulled(way > 0, STIFFNESS[k], one[way], two[way]);
+        for (int variant = 0; variant < 2; variant++)
+            pulled(variant > 0, STIFFNESS[k], one[variant], two[variant]);
         for (int i = 0; i < 3 * 61; i++) CHECK_NEAR(one[1][i], one[0][i], 60 * 1e-9);
         for (int i = 0; i < 60; i++) CHECK_NEAR(two[1][i], two[0][i], 2000 * 1e-7);
     }

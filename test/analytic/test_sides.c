@@ -15,7 +15,7 @@ static const double SAME = 1e-6;
 
 static const double PI = 3.14159265358979323846;
 
-/* [rad] by which the straight way from a to b goes round the z axis, between -pi and pi */
+/* [rad] by which the straight path from a to b goes round the z axis, between -pi and pi */
 static double angle(const double *a, const double *b) {
     return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
 }
@@ -136,7 +136,7 @@ static void around(uint64_t *seed, int i, Tally *tally) {
     rig_length(rig, length);
     const bool ball = stand(rig, seed, i, radius)->kind == CPS_OBSTACLE_SPHERE;
     if (ball) rig->line.weight = 0;
-    const double reach = radius + splitmix(seed, 0.3, 0.6), way = i % 2 ? 1 : -1;
+    const double reach = radius + splitmix(seed, 0.3, 0.6), sense = i % 2 ? 1 : -1;
     rig_point(rig, -length + 0.2, -reach, 0);
     rig_point(rig, 0.2, -reach, 0);
     rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, -length + 0.2, -reach, 0);
@@ -145,7 +145,7 @@ static void around(uint64_t *seed, int i, Tally *tally) {
     const double from = atan2(-reach, 0.2), around = hypot(0.2, reach);
     for (int k = 1; k <= 8; k++) { /* chords of 40 degrees come as near as 0.94 of the circle */
         rig_stage(rig, STEPS[i % 2]);
-        const double turn = from + way * (k <= 5 || i % 4 < 2 ? k : 10 - k) * PI / 4.5;
+        const double turn = from + sense * (k <= 5 || i % 4 < 2 ? k : 10 - k) * PI / 4.5;
         rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, around * cos(turn), around * sin(turn),
                    ball ? 0 : 0.1 * k);
     }

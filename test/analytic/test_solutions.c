@@ -241,11 +241,11 @@ static void slack_held_by_friction(void **state) {
     assert_true(part.has_friction && !part.sliding && part.grounded);
     // a made-up friction force at its bound: the elements beside it are straight at their length,
     // and hold node 30
-    static double rub[COORDINATES], shorter[COORDINATES];
-    memcpy(rub, b.view.friction_force, sizeof rub);
-    rub[3 * 30 + 1] = b.view.friction_bound[30];
+    static double own_friction[COORDINATES], shorter[COORDINATES];
+    memcpy(own_friction, b.view.friction_force, sizeof own_friction);
+    own_friction[3 * 30 + 1] = b.view.friction_bound[30];
     CpsLineView made_up = b.view;
-    made_up.friction_force = rub;
+    made_up.friction_force = own_friction;
     CHECK_INT(cps_solution_slack(&made_up, 1, &part), 1);
     assert_true(part.at_bound && !part.sliding);
     // and where they are short it may slide on
@@ -413,19 +413,19 @@ static void inextensible_tensions(void **state) {
     open_bench(&b, 1, INFINITY);
     case_force(&b.c, 1, 0.4, 0, 0);
     solve_bench(&b);
-    static double force[3 * ELEMENTS], rub[COORDINATES];
+    static double force[3 * ELEMENTS], own_friction[COORDINATES];
     for (int field = 0; field < 2; field++) {
         double tension = 0.4;
         for (int i = ELEMENTS - 1; i >= 0; i--) {
             // node i + 1 first: what friction takes there, never beyond its bound
             const double bound = b.view.friction_bound[i + 1];
             const double taken = field ? 0.4 * bound : fmin(bound, tension);
-            rub[3 * (i + 1)] = -taken;
+            own_friction[3 * (i + 1)] = -taken;
             tension -= taken;
             force[3 * i] = tension;
         }
         b.view.segment_force = force;
-        b.view.friction_force = rub;
+        b.view.friction_force = own_friction;
         CpsJudgementReport report = judge(&b);
         assert_int_equal(report.judgement, CPS_JUDGEMENT_SOLUTION);
         // at 0.5 m: 0, or 0.4 N less 0.4 of the half of the line beyond

@@ -42,8 +42,8 @@ static Sum run_all(const CpsScene *scene) {
     return sum;
 }
 
-/* A straight elastic line without weight, pulled along itself: force and way are linear, so the
- * ledger closes to rounding: F L/EA = 2 x 3/100, work F u/2. */
+/* A straight elastic line without weight, pulled along itself: force and displacement are linear,
+ * so the ledger closes to rounding: F L/EA = 2 x 3/100, work F u/2. */
 static void linear_path_closes(void **state) {
     (void)state;
     Case c;
@@ -194,9 +194,9 @@ static double slide_off(int steps) {
             CHECK_NEAR(view.tension[0], force - BLOCK.limit, NEAR);
         }
         if (force >= BLOCK.limit && before < BLOCK.limit) {
-            const double way = 2 * BLOCK.length + over;
-            CHECK_NEAR(l.dissipated, BLOCK.limit * way, NEAR);
-            CHECK_NEAR(l.ends, 0.5 * (before + force) * way, NEAR);
+            const double displacement = 2 * BLOCK.length + over;
+            CHECK_NEAR(l.dissipated, BLOCK.limit * displacement, NEAR);
+            CHECK_NEAR(l.ends, 0.5 * (before + force) * displacement, NEAR);
             CHECK_NEAR(l.elastic, 0.5 * BLOCK.stiffness * over * over, NEAR);
             open = l.imbalance;
         }

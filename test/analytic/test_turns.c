@@ -226,7 +226,7 @@ static void carried(void **state) {
 static void drawn(void **state) {
     (void)state;
     enum { N = 40, LEAD = 70 };
-    const double d = PI / N, chord = 2 * sin(d / 2), way = 2.5, mu = 0.3;
+    const double d = PI / N, chord = 2 * sin(d / 2), displacement = 2.5, mu = 0.3;
     for (int halvings = 0; halvings <= 10; halvings += 10) {
         Rig rig;
         rig_begin(&rig, N + 2 * LEAD, 0, INFINITY);
@@ -240,7 +240,7 @@ static void drawn(void **state) {
         rig_end(&rig, CPS_END_B, CPS_END_KIND_AT_START, 0, 0, 0);
         rig_stage(&rig, 1);
         rig_stage(&rig, 1);
-        rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, 1, 0, -chord * LEAD - way);
+        rig_change(&rig, CPS_END_B, CPS_END_KIND_HELD, 1, 0, -chord * LEAD - displacement);
         rig.scene.solver.max_halvings = halvings;
         RigRun run = rig_open(&rig);
         rig_next(&run);

@@ -32,14 +32,14 @@ static Real above(const Real *e, const Real *n) {
  * slip of 1 under a reaction of 1. */
 static Real friction_along(const Surface *surface, const Real *n, const Real *line,
                            const Real *chord, Real factor) {
-    Real axes[2][3], way[2], most = 0, phi;
+    Real axes[2][3], direction[2], most = 0, phi;
     static const Real none[2] = {0, 0};
     if (!surface_axes(surface, n, chord, axes)) return 0;
-    for (int a = 0; a < 2; a++) way[a] = dot(line, axes[a]);
-    Real size = hypotl(way[0], way[1]);
+    for (int a = 0; a < 2; a++) direction[a] = dot(line, axes[a]);
+    Real size = hypotl(direction[0], direction[1]);
     for (int sign = -1; sign <= 1; sign += 2) {
-        const Real slip[2] = {size > 0 ? sign * way[0] / size : sign,
-                              size > 0 ? sign * way[1] / size : 0};
+        const Real slip[2] = {size > 0 ? sign * direction[0] / size : sign,
+                              size > 0 ? sign * direction[1] / size : 0};
         surface_gap(surface, factor * surface_friction(surface), none, slip, &phi);
         most = fmaxl(most, phi);
     }
@@ -51,8 +51,8 @@ static Real ratio_of(Real turn, Real friction) {
     return low > 0 ? cosl(turn / 2 - phi) / low : INFINITY;
 }
 
-/* turn and coefficient at contact c of node j; no turn where nothing rubs, or the obstacle is
- * flat */
+/* turn and coefficient at contact c of node j; no turn where there is no friction, or the obstacle
+ * is flat */
 static void bend_at(const Source *source, const Record *r, bool reached, size_t j, size_t c,
                     Real least, Real *turn, Real *friction) {
     *turn = *friction = 0;

@@ -10,9 +10,9 @@
 #include "ends.h"
 #include "measure.h"
 #include "motion.h"
+#include "passing.h"
 #include "ranges.h"
 #include "reach.h"
-#include "way.h"
 
 /* A balance is accepted when no node is off by more than this part of the largest force: rounding
  * leaves 1e-16 per operation, and a drag over thousands of nodes must not hide in it. The same for
@@ -141,7 +141,7 @@ static void judge_ledger(Judge *judge, const Record *r, const Measures *m, doubl
 }
 
 /* Forces, tensions and friction of the half elements at the ends; the sums of their dissipation and
- * of their work on the way of obstacles that turn. */
+ * of their work on the path of obstacles that turn. */
 static void judge_ends(Judge *judge, const Source *source, const Record *r, const Measures *m,
                        double *slid, double *carried) {
     const double force = FORCE_TOLERANCE * m->largest_force + NOTHING;
@@ -149,12 +149,14 @@ static void judge_ends(Judge *judge, const Source *source, const Record *r, cons
     for (int e = 0; e < 2; e++) {
         const End end = end_measure(source, r, e);
         const double *said = r->end_force[e];
-        double off = 0, rubs = 0;
+        double off = 0, friction_error = 0;
         for (int k = 0; k < 3; k++) off = fmax(off, fabs(said[k] - (double)end.force[k]));
         for (int k = 0; k < 3; k++)
-            rubs = fmax(rubs, fabs(r->end_friction_force[e][k] - (double)end.friction[k]));
+            friction_error =
+                fmax(friction_error, fabs(r->end_friction_force[e][k] - (double)end.friction[k]));
         at_most(judge, "end_force against the half element's balance", off, force);
-        at_most(judge, "end_friction_force against the neighbour's per length", rubs, force);
+        at_most(judge, "end_friction_force against the neighbour's per length", friction_error,
+                force);
         at_most(judge, "end_tension against the size of end_force",
                 fabs(r->end_tension[e] - hypot(hypot(said[0], said[1]), said[2])), force / 1000);
         at_most(judge, "reaction on a held end against what presses there",
@@ -283,7 +285,7 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
     at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
     at_most(judge, "place of an element's contact against the nearest", m->share_error,
             COPY_TOLERANCE * (m->length + m->reach));
-    at_most(judge, "slip against the way from the reference", m->slip_error,
+    at_most(judge, "slip against the path from the reference", m->slip_error,
             COPY_TOLERANCE * (m->length + m->reach));
     at_most(judge, "quarters of a turn of an obstacle in one part", m->quarters, 1 + TURN_ROUNDING);
     at_most(judge, "quarters of a turn of an obstacle by the number of parts",
@@ -418,7 +420,7 @@ static void judge_record(const Source *source, const Record *r, const char *line
                          FILE *log, CheckerReport *report) {
     Judge judge = {log, line, step, 0};
     Measures m = measure_where(source, r, step);
-    const char *way;
+    const char *wrong;
     bool laid;
     report->records++;
     report->outcome[r->outcome]++;
@@ -438,8 +440,8 @@ static void judge_record(const Source *source, const Record *r, const char *line
             laid = source->has_static && step == 0 && is_static(r);
             judge_solved(&judge, source, r, &m, laid);
             judge_bend(&judge, r, &m);
-            way = way_contradiction(source, r, laid);
-            if (way) find(&judge, "%s", way);
+            wrong = passing_contradiction(source, r, laid);
+            if (wrong) find(&judge, "%s", wrong);
             break;
         case OUTCOME_TAUT: judge_taut(&judge, r, &m); break;
         case OUTCOME_INFEASIBLE:

@@ -17,8 +17,9 @@
  * large as this asks: then the last weight that was settled counts, if it leaves no more than
  * ENOUGH. */
 static const Real ACCURACY = 1e-14L, ENOUGH = 1e-10L;
-/* Cones that leave less room than LEAST_ROOM, of rows of order one, are widened by WIDER. */
-static const Real LEAST_ROOM = 1e-9L, WIDER = 1e-13L;
+/* Cones that leave a smaller margin than LEAST_MARGIN, of rows of order one, are widened by WIDER.
+ */
+static const Real LEAST_MARGIN = 1e-9L, WIDER = 1e-13L;
 static const Real GROWTH = 10, LAST_DECREMENT = 1e-3L;
 enum { MOST_NEWTON = 2000, HALVINGS = 40 };
 
@@ -208,13 +209,13 @@ void conic_free(Conic *set) {
     free(set);
 }
 
-/* The largest room r <= 1 with A v + b - r e in K, e the first axes of the cones, as a program in
+/* The largest margin r <= 1 with A v + b - r e in K, e the first axes of the cones, as a program in
  * (v, -r). */
-static Real find_room(Conic *set) {
+static Real find_margin(Conic *set) {
     size_t n = set->unknowns, m = set->rows;
     Program p;
     Conic *wider = conic_create(n + 1, m + 1);
-    Real room = NAN, gap, most = 1;
+    Real margin = NAN, gap, most = 1;
     if (!wider) return NAN;
     for (size_t i = 0; i < m; i++) {
         memcpy(&wider->a[i * (n + 1)], &set->a[i * n], n * sizeof *set->a);
@@ -232,21 +233,21 @@ static Real find_room(Conic *set) {
         p.b = wider->b;
         p.cost[n] = 1;
         p.v[n] = 2 * most;
-        if (minimise(&p, &gap)) room = -p.v[n];
+        if (minimise(&p, &gap)) margin = -p.v[n];
         memcpy(set->centre, p.v, n * sizeof *p.v);
     }
     free(p.v);
     conic_free(wider);
-    return room;
+    return margin;
 }
 
 bool conic_prepare(Conic *set) {
     set->reach = hypotl(set->origin[0], set->origin[1]);
     for (size_t j = 0; j < 2 * set->unknowns; j++) set->reach = hypotl(set->reach, set->map[j]);
     if (set->unknowns == 0) return true;
-    Real room = find_room(set);
-    if (!(room > -WIDER / 2)) return false;
-    if (room < LEAST_ROOM)
+    Real margin = find_margin(set);
+    if (!(margin > -WIDER / 2)) return false;
+    if (margin < LEAST_MARGIN)
         for (size_t i = 0; i < set->rows; i += set->cone[i]) set->b[i] += WIDER;
 
     // the centre: no cost at all

@@ -22,7 +22,7 @@ typedef struct Conic {
 Conic *conic_create(size_t unknowns, size_t rows);
 void conic_free(Conic *set);
 
-/* Find a point inside; where the cones leave no room, they are widened by 1e-13 of their data.
+/* Find a point inside; where the cones leave no margin, they are widened by 1e-13 of their data.
  * False: there is none, or no memory. */
 bool conic_prepare(Conic *set);
 

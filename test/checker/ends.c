@@ -44,8 +44,8 @@ static Real share(const Record *r, size_t j) {
 }
 
 /* friction of the half element on obstacle k, with its normal n and the end's reaction */
-static void rub(const Source *source, const Record *r, size_t j, size_t next, size_t k,
-                const Real *n, Real reaction, const Real *slip, Real *out) {
+static void set_friction(const Source *source, const Record *r, size_t j, size_t next, size_t k,
+                         const Real *n, Real reaction, const Real *slip, Real *out) {
     Real length = 0;
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
     for (size_t c = next; c < r->contacts * r->nodes; c += r->nodes) {
@@ -83,13 +83,13 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
     widen(r->reference[j], reference);
     surface_normal(surface, x, n);
     surface_carry(surface, reference, (Real)r->share * r->turn[k], carried);
-    surface_way(surface, carried, x, slip);
-    surface_way(surface, reference, x, own);
+    surface_slip(surface, carried, x, slip);
+    surface_slip(surface, reference, x, own);
     end.reaction = fmaxl(0, dot(n, end.force));
     const bool neighbour_held = (next == 0 && r->end_kind[0] == END_HELD) ||
                                 (next == r->elements && r->end_kind[1] == END_HELD);
     if (end.reaction > 0 && !neighbour_held)
-        rub(source, r, j, next, k, n, end.reaction, slip, end.friction);
+        set_friction(source, r, j, next, k, n, end.reaction, slip, end.friction);
     for (int i = 0; i < 3; i++) end.force[i] -= end.reaction * n[i] + end.friction[i];
     end.slid = -dot(end.friction, slip);
     end.carried = r->turn[k] != 0 ? dot(end.friction, own) - dot(end.friction, slip) : 0;
@@ -137,10 +137,10 @@ Real ends_work(const Record *r, const Record *before) {
             r->end_kind[e] == END_FREE; // let go from the force it carried, all of it the end's
         for (int i = 0; i < 3; i++) {
             const Real after = (Real)r->end_force[e][i] + r->end_friction_force[e][i],
-                       rubbed = r->end_friction_force[e][i];
+                       stored = r->end_friction_force[e][i];
             const Real first =
                 (Real)before->end_force[e][i] + (free ? 0 : before->end_friction_force[e][i]);
-            work += ((first + after) / 2 - rubbed) * ((Real)r->position[j][i] - r->reference[j][i]);
+            work += ((first + after) / 2 - stored) * ((Real)r->position[j][i] - r->reference[j][i]);
         }
     }
     return work;

@@ -10,7 +10,7 @@ typedef struct End {
     Real friction[3]; /* [N] on its half element */
     Real reaction;    /* [N] of the obstacle on it, where it is held */
     Real slid;        /* [J] that friction dissipates */
-    Real carried;     /* [J] its work on the way of an obstacle that turns */
+    Real carried;     /* [J] its work on the path of an obstacle that turns */
 } End;
 
 /* End e (0: A, 1: B). A held end that touches several obstacles may lie on each of them: of these

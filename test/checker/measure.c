@@ -7,10 +7,10 @@
  *
  *     segment, c > 0   W(e) + W*(p) - p.e = (d - c|p|)^2 / (2 c) + |p| (1 - |e|)^+ + |p||e| - p.e
  *     segment, c = 0   |p| (1 - |e|) + |p||e| - p.e
- *     friction         phi(s) + F.s, s the way on the obstacle (surface.c)
+ *     friction         phi(s) + F.s, s the slip on the obstacle (surface.c)
  *     contact          R (n.u + gap)
  *
- * where |a||b| - a.b = |a||b| |a/|a| - b/|b||^2 / 2. Normals, ways and the axes of friction are
+ * where |a||b| - a.b = |a||b| |a/|a| - b/|b||^2 / 2. Normals, slips and the axes of friction are
  * recomputed from positions, at the configuration reached or at the reference. Absolute values are
  * added, so that a configuration or a force slightly outside its set makes the gap larger and never
  * smaller. */
@@ -50,7 +50,7 @@ static const Real PLACE_MARGIN = 1e-9L;
 
 /* [rad] of a turn */
 static const Real QUARTER = 1.57079632679489661923L;
-/* [rad] So near to half a turn rounding of places takes more than the tolerance of a way's
+/* [rad] So near to half a turn rounding of places takes more than the tolerance of a slip's
  * direction. */
 static const Real HALF_ROUND = 1e-2L;
 
@@ -198,7 +198,7 @@ typedef struct Where {
 typedef struct Seat {
     const Surface *surface; /* NULL without any */
     Triple normal, plane;   /* of the contact, and of the plane in which friction acts */
-    Triple slip, own;       /* own: the node's way, not less that of an obstacle that turns */
+    Triple slip, own;       /* own: the node's path, not less that of an obstacle that turns */
     Real gap;               /* what contact_gap must be */
     Real axes[2][3];
     bool has_axes;
@@ -271,15 +271,15 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     surface_normal(seat.surface, where->frozen ? reference : place, seat.plane);
     const Real turn = (Real)r->share * r->turn[seat.surface - where->source->surface];
     surface_carry(seat.surface, reference, turn, carried);
-    if (turn != 0) surface_way(seat.surface, reference, x, seat.own);
+    if (turn != 0) surface_slip(seat.surface, reference, x, seat.own);
     if (where->reached && !where->frozen) {
         /* half round no way is shorter than all others; where no friction acts none is asked for */
         const bool half = surface_angle(seat.surface, carried, x) > 2 * QUARTER - HALF_ROUND;
-        if (!half || r->friction_bound[c] > 0) surface_way(seat.surface, carried, x, seat.slip);
+        if (!half || r->friction_bound[c] > 0) surface_slip(seat.surface, carried, x, seat.slip);
     } else {
-        Triple way = {x[0] - carried[0], x[1] - carried[1], x[2] - carried[2]};
-        Real rise = dot(way, seat.plane);
-        for (int k = 0; k < 3; k++) seat.slip[k] = way[k] - rise * seat.plane[k];
+        Triple displacement = {x[0] - carried[0], x[1] - carried[1], x[2] - carried[2]};
+        Real rise = dot(displacement, seat.plane);
+        for (int k = 0; k < 3; k++) seat.slip[k] = displacement[k] - rise * seat.plane[k];
     }
     seat.gap = where->reached ? surface_distance(seat.surface, x) - dot(seat.normal, u)
                               : fmaxl(0, surface_distance(seat.surface, reference));
@@ -290,7 +290,7 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     return seat;
 }
 
-/* normal, way and gap on file against those recomputed, and depth below whatever obstacle */
+/* normal, slip and gap on file against those recomputed, and depth below whatever obstacle */
 static void measure_seat(const Where *where, const Record *r, size_t j, size_t c, const Seat *seat,
                          Real margin, Measures *m) {
     Triple n, slip, x;
@@ -317,8 +317,8 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     Triple from;
     widen(r->reference[j], from);
     // frozen friction acts on what has left the surface as well, in the plane of the reference
-    const bool rubs = r->friction_bound[c] > 0 && !(where->frozen && r->reaction[c] == 0);
-    if (rubs) raise_to(&m->gone_quarters, surface_angle(seat->surface, from, x) / QUARTER);
+    const bool acts = r->friction_bound[c] > 0 && !(where->frozen && r->reaction[c] == 0);
+    if (acts) raise_to(&m->gone_quarters, surface_angle(seat->surface, from, x) / QUARTER);
     if (r->contacts > 1 && !in_place(where, r, j, c, margin)) m->misplaced++;
     // a second obstacle that is round is looked for up to half its radius away
     Triple place, reference;
@@ -342,20 +342,20 @@ static void measure_friction(const Record *r, size_t c, const Seat *seat, Measur
     static const Surface none = {.mu = {1, 1}};
     Triple F;
     widen(r->friction[c], F);
-    Real w = r->friction_bound[c], force[2] = {0, 0}, way[2] = {0, 0}, phi;
+    Real w = r->friction_bound[c], force[2] = {0, 0}, displacement[2] = {0, 0}, phi;
     const Surface *surface = seat->surface ? seat->surface : &none;
     if (seat->has_axes)
         for (int a = 0; a < 2; a++) {
             force[a] = dot(F, seat->axes[a]);
-            way[a] = dot(seat->slip, seat->axes[a]);
+            displacement[a] = dot(seat->slip, seat->axes[a]);
         }
     else { /* no direction: nothing but the size can be judged */
         if (surface->set) w *= surface->set->reach;
         surface = &none;
         force[0] = size(F);
-        way[0] = force[0] > 0 ? dot(seat->slip, F) / force[0] : 0;
+        displacement[0] = force[0] > 0 ? dot(seat->slip, F) / force[0] : 0;
     }
-    Real gap = surface_gap(surface, w, force, way, &phi);
+    Real gap = surface_gap(surface, w, force, displacement, &phi);
     add(&s->primal, phi);
     add(&s->scale, phi);
     add(&s->slid, phi);
@@ -363,7 +363,9 @@ static void measure_friction(const Record *r, size_t c, const Seat *seat, Measur
     add(&s->signed_gap, dot(F, seat->slip));
     add(&s->gap, gap);
     add(&s->law, gap);
-    if (surface->set) m->beyond += fmax(0, -(double)(phi + force[0] * way[0] + force[1] * way[1]));
+    if (surface->set)
+        m->beyond +=
+            fmax(0, -(double)(phi + force[0] * displacement[0] + force[1] * displacement[1]));
     add(&s->bound_residual, fabsl(r->friction_bound[c] - (Real)r->mu[c] * r->reaction[c]));
     add(&s->magnitude, phi + size(F) * size(seat->slip));
     add(&s->carried, dot(F, seat->own) - dot(F, seat->slip));
@@ -440,17 +442,17 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     surface_normal(on, x, seat.normal);
     measure_element_plane(r, on, i, where->frozen, t, x, seat.plane, along);
     surface_carry(on, reference, turn, carried);
-    // the point goes round at its own depth: what friction works on is shorter than the way of its
+    // the point goes round at its own depth: what friction works on is shorter than the path of its
     // foot
     Surface within = *on;
     within.radius -= depth;
-    surface_way(&within, carried, x, seat.slip);
+    surface_slip(&within, carried, x, seat.slip);
     if (where->frozen) { // straight, in the plane of the reference
         for (int k = 0; k < 3; k++) seat.slip[k] = x[k] - carried[k];
         const Real rise = dot(seat.slip, seat.plane);
         for (int k = 0; k < 3; k++) seat.slip[k] -= rise * seat.plane[k];
     }
-    surface_way(&within, reference, x, seat.own);
+    surface_slip(&within, reference, x, seat.own);
     if (turn == 0)
         for (int k = 0; k < 3; k++) seat.own[k] = seat.slip[k];
     seat.gap = surface_distance(on, x) + depth - dot(seat.normal, u);
@@ -527,7 +529,7 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     add(&s->magnitude, fabsl(R * gap));
 }
 
-/* the weight of a node, its load less the force on a free end, times its way */
+/* the weight of a node, its load less the force on a free end, times its displacement */
 static void measure_weight(const Record *r, size_t j, Sums *s) {
     Triple weight, u;
     widen(r->load[j], weight);

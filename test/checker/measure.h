@@ -28,7 +28,7 @@ typedef struct Measures {
     double largest_force;    /* [N] */
     double elastic, gravity; /* [J] growth of the energy of elongation and of the weight's potential
                                 from the reference */
-    double carried;          /* [J] work of friction on the way of obstacles that turn */
+    double carried;          /* [J] work of friction on the path of obstacles that turn */
     double bound_residual;   /* [N] sum of |w - mu R| */
     double friction_excess;  /* [N] how far outside its set a friction force is, at most */
     double friction_normal;  /* [N] max |F.n| */
@@ -43,7 +43,7 @@ typedef struct Measures {
     int unwatched;  /* contacts without a contact_gap that should have one; of the reference: or the
                        other way  round */
     double gap_error;  /* [m] max |contact_gap - what it must be| */
-    double slip_error; /* [m] max |slide - way from the carried reference| */
+    double slip_error; /* [m] max |slip - that from the carried reference| */
     double quarters;   /* of a turn by which an obstacle turns in the part that the arrays show, at
                           most */
     double gone_quarters; /* of a turn by which a node with friction has gone round an obstacle in
@@ -70,7 +70,7 @@ typedef struct Measures {
 } Measures;
 
 /* Where contact is seen from: the configuration reached; the reference; or the one reached, but for
- * friction, whose axes and ways are those of the reference. */
+ * friction, whose axes and slips are those of the reference. */
 typedef enum Sight { SIGHT_REACHED, SIGHT_REFERENCE, SIGHT_FROZEN } Sight;
 
 /* Sets record->mu. */

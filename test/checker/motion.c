@@ -40,14 +40,14 @@ static void between(const Record *r, size_t from, size_t to, Real *out) {
  * the line */
 static Real resistance(const Surface *surface, Real factor, const Real *n, const Real *along,
                        const Real *v) {
-    Real axes[2][3], way[2], phi, most = factor * surface_friction(surface);
+    Real axes[2][3], slip[2], phi, most = factor * surface_friction(surface);
     if (!surface_axes(surface, n, along, axes)) {
         Real rise = dot(n, v);
         return sqrtl(fmaxl(0, dot(v, v) - rise * rise)) * most *
                (surface->set ? surface->set->reach : 1);
     }
-    for (int a = 0; a < 2; a++) way[a] = dot(axes[a], v);
-    surface_gap(surface, most, (Real[2]){0, 0}, way, &phi);
+    for (int a = 0; a < 2; a++) slip[a] = dot(axes[a], v);
+    surface_gap(surface, most, (Real[2]){0, 0}, slip, &phi);
     return phi;
 }
 

@@ -34,8 +34,8 @@ static bool taut_in_doubt(const Record *r, double force) {
 /* The contacts of the record for the program; false where they are not of its kind, or in doubt. */
 static bool contacts_of(const Source *source, const Record *r, double length, double force,
                         RestContact *contact, double *friction) {
-    bool rubs = false;
-    for (size_t c = 0; c < r->contacts * r->nodes; c++) rubs = rubs || r->friction_bound[c] > 0;
+    bool rough = false;
+    for (size_t c = 0; c < r->contacts * r->nodes; c++) rough = rough || r->friction_bound[c] > 0;
     for (size_t c = 0; c < r->contacts * r->nodes; c++) {
         const size_t j = c % r->nodes;
         double open = r->gap[c];
@@ -50,10 +50,10 @@ static bool contacts_of(const Source *source, const Record *r, double length, do
         if (surface->set || surface->mu[0] != surface->mu[1]) return false;
         if (!source->consistent && surface->kind != SURFACE_PLANE)
             return false; // friction keeps the plane of the reference
-        friction[c] = !rubs ? 0 : source->consistent ? r->mu[c] : r->friction_bound[c];
-        const double way = length_of(r->slip[c]);
-        if (friction[c] > 0 && way > NONE * length && way < SOME * length) return false;
-        contact[c] = friction[c] > 0 && way > NONE * length ? REST_SLIPS : REST_STICKS;
+        friction[c] = !rough ? 0 : source->consistent ? r->mu[c] : r->friction_bound[c];
+        const double slip_size = length_of(r->slip[c]);
+        if (friction[c] > 0 && slip_size > NONE * length && slip_size < SOME * length) return false;
+        contact[c] = friction[c] > 0 && slip_size > NONE * length ? REST_SLIPS : REST_STICKS;
     }
     return true;
 }

@@ -144,18 +144,18 @@ const char *reach_contradiction(const Source *source, const Record *r, bool stat
     if (!(sense * turn > acosl(R / seen.ra) + acosl(R / seen.rb)))
         return "the obstacle is not in the way";
     const Real level = approach(seen.ra, R, q) + approach(seen.rb, R, q) + q * R * sense * turn,
-               way = hypotl(level, seen.rise);
+               path = hypotl(level, seen.rise);
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
-    *missing = (double)(way - length);
+    *missing = (double)(path - length);
     *off = 0;
-    if (!(way > length)) return "the line is long enough";
+    if (!(path > length)) return "the line is long enough";
     const Real onward = R / seen.ra, inward = sqrtl(fmaxl(0, 1 - onward * onward));
     const bool opposite =
         s->kind == SURFACE_SPHERE && sinl(seen.angle) < 1e-9L; // any way is as long
     for (int k = 0; k < 3; k++) {
         Real expected =
             (level * (sense * onward * seen.v[k] - inward * seen.u[k]) + seen.rise * seen.w[k]) /
-            way;
+            path;
         if (!opposite) *off = fmax(*off, fabs((double)(expected - r->proof[k])));
     }
     return NULL;

@@ -46,37 +46,37 @@ static void put(Conic *set, size_t row, size_t cone, const Force *f, const Real 
 /* The force lies in the cone of contact c; c beyond all contacts: it vanishes. Returns the rows
  * used. */
 static size_t bind(const RestLine *line, Conic *set, size_t row, size_t c, const Force *f,
-                   Real room) {
+                   Real margin) {
     static const Real axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, none[3] = {0, 0, 0};
     if (c >= line->contacts * nodes_of(line)) {
-        put(set, row, 4, f, none, room);
+        put(set, row, 4, f, none, margin);
         for (size_t a = 0; a < 3; a++) put(set, row + 1 + a, 0, f, axis[a], 0);
         return 4;
     }
     const double *n = line->normal[c], *u = line->slip[c];
     const Real normal[3] = {n[0], n[1], n[2]}, mu = line->friction[c];
     const bool slips = line->contact[c] == REST_SLIPS;
-    Real size = sqrtl((Real)u[0] * u[0] + (Real)u[1] * u[1] + (Real)u[2] * u[2]), way[3];
-    for (size_t a = 0; a < 3; a++) way[a] = slips ? -u[a] / size : 0; // where friction points
+    Real size = sqrtl((Real)u[0] * u[0] + (Real)u[1] * u[1] + (Real)u[2] * u[2]), pull[3];
+    for (size_t a = 0; a < 3; a++) pull[a] = slips ? -u[a] / size : 0; // where friction points
     /* along the normal, R; across, F less what slipping makes of it */
     Real bound[3], shift = 0;
     for (size_t a = 0; a < 3; a++) bound[a] = slips || line->frozen ? 0 : mu * normal[a];
     if (slips)
-        shift = room;
+        shift = margin;
     else if (line->frozen)
-        shift = mu / line->force + room;
+        shift = mu / line->force + margin;
     else
-        shift = room;
+        shift = margin;
     put(set, row, 4, f, bound, shift);
     for (size_t a = 0; a < 3; a++) {
         Real w[3];
         for (size_t k = 0; k < 3; k++) {
             w[k] = (a == k) - normal[a] * normal[k];
-            if (slips && !line->frozen) w[k] -= mu * way[a] * normal[k];
+            if (slips && !line->frozen) w[k] -= mu * pull[a] * normal[k];
         }
-        put(set, row + 1 + a, 0, f, w, slips && line->frozen ? -mu / line->force * way[a] : 0);
+        put(set, row + 1 + a, 0, f, w, slips && line->frozen ? -mu / line->force * pull[a] : 0);
     }
-    put(set, row + 4, 1, f, normal, room); /* R >= 0 */
+    put(set, row + 4, 1, f, normal, margin); /* R >= 0 */
     return 5;
 }
 
@@ -107,7 +107,7 @@ static double tangent(const RestLine *line, size_t i, Real out[3]) {
     return (double)(1 - size / line->element_length[i]);
 }
 
-static double extreme(const RestLine *line, size_t element, int sign, double room) {
+static double extreme(const RestLine *line, size_t element, int sign, double margin) {
     enum { MOST_ELEMENTS = 64, MOST_UNKNOWNS = 4 * MOST_ELEMENTS + 3 };
     static Real entries[2][3][MOST_UNKNOWNS];
     static const Real none[3] = {0, 0, 0};
@@ -131,10 +131,10 @@ static double extreme(const RestLine *line, size_t element, int sign, double roo
         const bool taut = tangent(line, i, t[i]) <= TAUT;
         set->cone[row] = 1;
         set->a[row * unknowns + i] = 1;
-        set->b[row++] = room; /* T >= 0 */
+        set->b[row++] = margin; /* T >= 0 */
         set->cone[row] = 1;
         set->a[row * unknowns + i] = -1;
-        set->b[row++] = taut ? REST_MOST : room;
+        set->b[row++] = taut ? REST_MOST : margin;
     }
     for (size_t j = 0; j <= n; j++) {
         size_t which[2], count = touching(line, j, which);
@@ -153,9 +153,9 @@ static double extreme(const RestLine *line, size_t element, int sign, double roo
             put(set, row, 4, &first, none, REST_MOST); // so that the set has an end
             for (size_t a = 0; a < 3; a++) set->a[(row + 1 + a) * unknowns + own - 3 + a] = 1;
             row += 4;
-            row += bind(line, set, row, which[1], &first, room);
+            row += bind(line, set, row, which[1], &first, margin);
         }
-        row += bind(line, set, row, count > 0 ? which[0] : (size_t)-1, &whole, room);
+        row += bind(line, set, row, count > 0 ? which[0] : (size_t)-1, &whole, margin);
     }
     set->map[element] = 1;
     const Real d[2] = {sign, 0};
@@ -165,10 +165,10 @@ static double extreme(const RestLine *line, size_t element, int sign, double roo
     return (double)(sign * value * line->force);
 }
 
-/* By the smallest room from `least` on with which there are forces; `taken_off`: less what it adds
- * in proportion. */
-static double with_room(const RestLine *line, size_t element, int sign, double least,
-                        bool taken_off) {
+/* By the smallest margin from `least` on with which there are forces; `taken_off`: less what it
+ * adds in proportion. */
+static double with_margin(const RestLine *line, size_t element, int sign, double least,
+                          bool taken_off) {
     for (size_t k = 0; k < sizeof ROOMS / sizeof *ROOMS; k++) {
         const double value = ROOMS[k] >= least ? extreme(line, element, sign, ROOMS[k]) : NAN;
         if (isnan(value)) continue;
@@ -178,15 +178,15 @@ static double with_room(const RestLine *line, size_t element, int sign, double l
     return NAN;
 }
 
-/* The room widens a range: a node that turns the line by a shallow angle holds it back by its
- * tension times that angle, so room over angle is added to the tension; where friction stands at
- * its limit all along, the root of the room. The greatest value is a concave function v of the
- * room, as that of any convex program is of what bounds it, so that 2 v(r) - v(2 r) lies between
- * v(0) and v(r): what the room adds in proportion is gone. So with the least one. */
+/* The margin widens a range: a node that turns the line by a shallow angle holds it back by its
+ * tension times that angle, so margin over angle is added to the tension; where friction stands at
+ * its limit all along, the root of the margin. The greatest value is a concave function v of the
+ * margin, as that of any convex program is of what bounds it, so that 2 v(r) - v(2 r) lies between
+ * v(0) and v(r): what the margin adds in proportion is gone. So with the least one. */
 double rest_tension(const RestLine *line, size_t element, int sign) {
-    return with_room(line, element, sign, 0, true);
+    return with_margin(line, element, sign, 0, true);
 }
 
 double rest_tension_about(const RestLine *line, size_t element, int sign) {
-    return with_room(line, element, sign, KNOWN, false);
+    return with_margin(line, element, sign, KNOWN, false);
 }

@@ -69,7 +69,7 @@ size_t describe_on_bed(const SampleLine *line, int again, Field *field) {
     field[n++] = scalar("substeps", 1);
     field[n++] = scalar("share", 1);
     n += imposed(&field[n], line->end_kind, (double[]){0, 0, 0, line->end_b, 0, 0});
-    // the bed carries the half element at A, next to which nothing rubs
+    // the bed carries the half element at A, next to which there is no friction
     field[n++] = (Field){"end_force", 2, 3, {0, 0, 0, line->end_b, 0, 0}};
     field[n++] = (Field){"end_friction_force", 2, 3, {0}};
     field[n++] = (Field){"end_tension", 2, 0, {0, line->end_b}};

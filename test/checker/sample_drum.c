@@ -85,9 +85,9 @@ static size_t describe_wound(const Wound *w, Field *field) {
     }
     /* at A the drum carries what presses there, and the half element takes as large a part of its
      * bound as node 1: all */
-    double held = T[0] * s, rub[3], sense[3], ends = MU * held * SLIP;
+    double held = T[0] * s, end_friction[3], sense[3], ends = MU * held * SLIP;
     spoke(1.57079632679489661923, sense);
-    for (int k = 0; k < 3; k++) rub[k] = -MU * held * sense[k];
+    for (int k = 0; k < 3; k++) end_friction[k] = -MU * held * sense[k];
     reaction->value[0] = held;
     primal += work;
     scale += work + least_scale(largest, length); // nothing moves but the drum
@@ -100,14 +100,15 @@ static size_t describe_wound(const Wound *w, Field *field) {
                  (double[]){place[0], place[1], place[2], pull[0], pull[1], pull[2]});
     field[n] = (Field){"end_force", 2, 3, {0}};
     for (int k = 0; k < 3; k++) {
-        field[n].value[k] = -T[0] * w->chord[k] - held * w->normal[k] - rub[k];
+        field[n].value[k] = -T[0] * w->chord[k] - held * w->normal[k] - end_friction[k];
         field[n].value[3 + k] = load->value[3 * ELEMENTS + k];
     }
     const double *at_a = field[n].value;
     field[n + 1] = (Field){"end_tension", 2, 0, {hypot(hypot(at_a[0], at_a[1]), at_a[2]), largest}};
     n += 2;
     for (int k = 0; k < RANGES; k++) field[n++] = (Field){RANGE_NAME[k], 2, 0, {NAN, NAN}};
-    field[n++] = (Field){"end_friction_force", 2, 3, {rub[0], rub[1], rub[2]}};
+    field[n++] =
+        (Field){"end_friction_force", 2, 3, {end_friction[0], end_friction[1], end_friction[2]}};
     field[n++] = scalar("dissipated", work + ends);
     field[n++] = (Field){"proof", 3, 0, {0}};
     field[n++] = scalar("proof_length", 0);

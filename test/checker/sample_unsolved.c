@@ -105,7 +105,7 @@ static size_t describe_reel(Field *field) {
     const SampleLine line = {.name = "reel", .outcome = 5};
     const double pi = acos(-1), q = 3 / pi, far = hypot(1, 1.5), edge = sqrt(1 - q * q),
                  lead = sqrt(far * far - q * q);
-    const double way = lead - edge + q * (pi + atan(1.5) - atan2(lead, q) + atan2(edge, q));
+    const double path_length = lead - edge + q * (pi + atan(1.5) - atan2(lead, q) + atan2(edge, q));
     size_t n = describe_on_bed(&line, 1, field);
     n += no_elements(&field[n]);
     field[n++] = scalar("proof_obstacle", 0);
@@ -122,7 +122,7 @@ static size_t describe_reel(Field *field) {
             f->value[0] = 0;
             f->value[2] = 1;
         }
-        if (strcmp(f->name, "proof_length") == 0) f->value[0] = way - 4;
+        if (strcmp(f->name, "proof_length") == 0) f->value[0] = path_length - 4;
     }
     return n;
 }

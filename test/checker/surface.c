@@ -35,25 +35,25 @@ void surface_normal(const Surface *s, const Real *x, Real *n) {
 }
 
 Real surface_pierced(const Surface *s, const Real *a, const Real *b, Real l) {
-    Real from[3], to[3], way[3], moment[3];
+    Real from[3], to[3], chord[3], moment[3];
     if (s->kind == SURFACE_PLANE) return -INFINITY;
     arm(s, a, from);
     arm(s, b, to);
-    for (int k = 0; k < 3; k++) way[k] = to[k] - from[k];
+    for (int k = 0; k < 3; k++) chord[k] = to[k] - from[k];
     /* coming nearer at the start and going away at the end */
-    if (!(dot(from, way) < 0 && dot(to, way) > 0)) return -INFINITY;
+    if (!(dot(from, chord) < 0 && dot(to, chord) > 0)) return -INFINITY;
     cross(from, to, moment);
-    return s->radius - surface_allowance(s, l) - size(moment) / size(way);
+    return s->radius - surface_allowance(s, l) - size(moment) / size(chord);
 }
 
 Real surface_allowance(const Surface *s, Real l) { return fminl(l * l / s->radius, s->radius) / 4; }
 
 Real surface_facing(const Surface *s, const Real *a, const Real *b) {
-    Real from[3], to[3], way[3];
+    Real from[3], to[3], chord[3];
     arm(s, a, from);
     arm(s, b, to);
-    for (int k = 0; k < 3; k++) way[k] = to[k] - from[k];
-    return (dot(from, from) - dot(from, to)) / dot(way, way);
+    for (int k = 0; k < 3; k++) chord[k] = to[k] - from[k];
+    return (dot(from, from) - dot(from, to)) / dot(chord, chord);
 }
 
 void surface_carry(const Surface *s, const Real *x, Real angle, Real *out) {
@@ -66,7 +66,7 @@ void surface_carry(const Surface *s, const Real *x, Real angle, Real *out) {
         out[k] = x[k] + sinl(angle) * around[k] - versine * (v[k] - along * s->axis[k]);
 }
 
-void surface_way(const Surface *s, const Real *from, const Real *to, Real *out) {
+void surface_slip(const Surface *s, const Real *from, const Real *to, Real *out) {
     Real n0[3], n1[3], shift[3];
     surface_normal(s, from, n0);
     surface_normal(s, to, n1);
@@ -146,26 +146,26 @@ Real surface_excess(const Surface *s, Real w, const Real F[2]) {
 /* (w - |f|)|u| + |f||u| + f.u >= 0, the second part from the angle between f and -u; absolute
  * values, so that a force outside its set makes it larger */
 static Real disc_gap(Real w, const Real f[2], const Real u[2]) {
-    Real force = hypotl(f[0], f[1]), way = hypotl(u[0], u[1]);
-    if (force == 0 || way == 0) return fabsl(w - force) * way;
-    Real x = f[0] / force + u[0] / way, y = f[1] / force + u[1] / way;
-    return fabsl(w - force) * way + force * way * (x * x + y * y) / 2;
+    Real force = hypotl(f[0], f[1]), slip = hypotl(u[0], u[1]);
+    if (force == 0 || slip == 0) return fabsl(w - force) * slip;
+    Real x = f[0] / force + u[0] / slip, y = f[1] / force + u[1] / slip;
+    return fabsl(w - force) * slip + force * slip * (x * x + y * y) / 2;
 }
 
-Real surface_gap(const Surface *s, Real w, const Real F[2], const Real way[2], Real *phi) {
+Real surface_gap(const Surface *s, Real w, const Real F[2], const Real slip[2], Real *phi) {
     Real ratio[2], f[2], u[2], gap = 0;
     if (s->set) { // phi is max -F.s
-        Real size = hypotl(way[0], way[1]);
+        Real size = hypotl(slip[0], slip[1]);
         *phi = w > 0 && size > 0
-                   ? w * size * conic_support(s->set, (Real[2]){-way[0] / size, -way[1] / size})
+                   ? w * size * conic_support(s->set, (Real[2]){-slip[0] / size, -slip[1] / size})
                    : 0;
-        return fabsl(*phi + F[0] * way[0] + F[1] * way[1]);
+        return fabsl(*phi + F[0] * slip[0] + F[1] * slip[1]);
     }
     half_axes(s, ratio);
     for (int a = 0; a < 2; a++) {
         f[a] = ratio[a] > 0 ? F[a] / ratio[a] : 0;
-        u[a] = ratio[a] * way[a];
-        if (!(ratio[a] > 0)) gap += fabsl(F[a] * way[a]);
+        u[a] = ratio[a] * slip[a];
+        if (!(ratio[a] > 0)) gap += fabsl(F[a] * slip[a]);
     }
     *phi = w * (s->box ? fabsl(u[0]) + fabsl(u[1]) : hypotl(u[0], u[1]));
     if (!s->box) return gap + disc_gap(w, f, u);

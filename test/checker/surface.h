@@ -37,7 +37,7 @@ void surface_normal(const Surface *surface, const Real *x, Real *n);
 void surface_carry(const Surface *surface, const Real *x, Real angle, Real *out);
 /* The shorter geodesic between the feet of two points, as the tangent vector of its length with
  * which it arrives. */
-void surface_way(const Surface *surface, const Real *from, const Real *to, Real *out);
+void surface_slip(const Surface *surface, const Real *from, const Real *to, Real *out);
 /* [rad] Between the normals of a round surface at two points, 0 to pi. 0 of a plane. */
 Real surface_angle(const Surface *surface, const Real *a, const Real *b);
 /* The tangent plane's axes where the normal is n: the grain, or the direction `along`, and across.
@@ -49,7 +49,7 @@ Real surface_friction(const Surface *surface);
 bool surface_follows(const Surface *surface);
 
 /* Friction forces F1, F2 with the bound w of the larger coefficient, or w times the set: how far
- * outside the set [N], and phi(s) + F.s of a way s [J], whose dissipation is *phi. */
+ * outside the set [N], and phi(s) + F.s of a slip s [J], whose dissipation is *phi. */
 Real surface_excess(const Surface *surface, Real w, const Real F[2]);
 Real surface_gap(const Surface *surface, Real w, const Real F[2], const Real s[2], Real *phi);
 

@@ -142,8 +142,8 @@ static const Tamper TAMPER[] = {
 /* the same on the drum; node 2 is at half a radian from the top */
 static const Tamper DRUM_TAMPER[] = {
     {"wound_normal", 6, 0.4, "normal against the obstacle's"},
-    {"wound_slip", 7, 1e-9, "slip against the way"},
-    {"wound_slip", 15 + 7, 1e-9, "slip against the way"},
+    {"wound_slip", 7, 1e-9, "slip against the path"},
+    {"wound_slip", 15 + 7, 1e-9, "slip against the path"},
     {"wound_contact_gap", 2, 1e-9, "contact_gap against the distance"},
     {"wound_contact_gap", 2, INFINITY, "contacts not looked for"},
     {"wound_friction_force", 7, 1, "friction above its bound"},
@@ -151,7 +151,7 @@ static const Tamper DRUM_TAMPER[] = {
     {"wound_reaction", 2, 3.4, "imbalance of forces"},
     {"wound_position", 6, 0.98, "sum of local gaps"},
     {"wound_position", 8, 1.12, "depth below the obstacle"},
-    {"wound_share", 0, 0.5, "slip against the way"},
+    {"wound_share", 0, 0.5, "slip against the path"},
     {"wound_substeps", 0, 0, "senseless number of substeps"},
     {"wound_friction_residual", 0, 1e-6, "claimed friction_residual"},
     {"wound_dissipated", 1, 0, "claimed dissipated"},
@@ -171,7 +171,7 @@ static const Tamper DRUM_TAMPER[] = {
      "mesh too coarse, but friction at one contact holds tensions in the ratio 1.13"},
     {"obstacle_friction_axial", 0, 7.3,
      "certified, but friction at one contact holds tensions in the ratio 23"},
-    {"obstacle_turn", 1, -0.2, "slip against the way"},
+    {"obstacle_turn", 1, -0.2, "slip against the path"},
     {"obstacle_turn", 1, -0.125 - 2 * 3.14159265358979323846,
      "quarters of a turn of an obstacle in one part"},
     {"wound_reference", 8, -1.75, "quarters of a turn that a node with friction went"},
@@ -228,7 +228,7 @@ static const Tamper CORNER_TAMPER[] = {
     {"corner_position", 10, 0.001, "sum of local gaps"},
     {"corner_position", 10, -1e-6, "depth below the obstacle"},
     {"corner_normal_second", 4, 0.999, "normal against the obstacle's"},
-    {"corner_slip_second", 9, 0, "slip against the way"},
+    {"corner_slip_second", 9, 0, "slip against the path"},
     {"corner_contact_gap_second", 1, 1e-6, "contact_gap against the distance"},
     {"corner_contact_gap_second", 1, INFINITY, "contacts not looked for"},
     {"corner_obstacle_second", 2, 2, "contacts that are not with the nearest"},
@@ -260,7 +260,7 @@ static const Tamper POST_TAMPER[] = {
     {"line_element_reaction", 1, -1, "adhesion"},
     {"line_element_reaction", 0, 1, "force without an obstacle"},
     {"line_element_normal", 4, 0.999, "normal against the obstacle's"},
-    {"line_element_slip", 3, 1e-9, "slip against the way"},
+    {"line_element_slip", 3, 1e-9, "slip against the path"},
     {"line_element_contact_gap", 1, 1e-9, "contact_gap against the distance"},
     {"line_element_contact_gap", 1, INFINITY, "force without an obstacle"},
     {"line_element_share", 1, 0.6001, "place of an element's contact"},
@@ -477,22 +477,22 @@ static void supports_and_distances(void **state) {
 }
 
 /* a quarter of a great circle, a quarter of a helix, and a plane's own vector */
-static void ways_are_geodesics(void **state) {
+static void slips_are_geodesics(void **state) {
     (void)state;
     const double pi = 3.14159265358979323846;
     Surface ball = {.kind = SURFACE_SPHERE, .point = {1, 0, 0}, .axis = {0, 0, 1}, .radius = 2};
     Surface pipe = {.kind = SURFACE_CYLINDER, .point = {1, 0, 0}, .axis = {0, 0, 1}, .radius = 2};
     Surface bed = {.kind = SURFACE_PLANE, .axis = {0, 0, 1}};
     const Real east[3] = {3, 0, 0}, north[3] = {1, 2, 0}, higher[3] = {1, 2.5L, 5};
-    Real way[3], carried[3];
-    surface_way(&ball, east, north, way);
-    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}),
+    Real slip[3], carried[3];
+    surface_slip(&ball, east, north, slip);
+    CHECK_VECTOR(((double[]){(double)slip[0], (double)slip[1], (double)slip[2]}),
                  ((double[]){-pi, 0, 0}), 1e-15);
-    surface_way(&pipe, east, higher, way);
-    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}),
+    surface_slip(&pipe, east, higher, slip);
+    CHECK_VECTOR(((double[]){(double)slip[0], (double)slip[1], (double)slip[2]}),
                  ((double[]){-pi, 0, 5}), 1e-15);
-    surface_way(&bed, east, higher, way);
-    CHECK_VECTOR(((double[]){(double)way[0], (double)way[1], (double)way[2]}),
+    surface_slip(&bed, east, higher, slip);
+    CHECK_VECTOR(((double[]){(double)slip[0], (double)slip[1], (double)slip[2]}),
                  ((double[]){-2, 2.5, 0}), 1e-15);
     surface_carry(&pipe, east, pi / 2, carried);
     CHECK_VECTOR(((double[]){(double)carried[0], (double)carried[1], (double)carried[2]}),
@@ -505,7 +505,7 @@ static void ways_are_geodesics(void **state) {
 static void sets_are_ellipse_and_box(void **state) {
     (void)state;
     Surface ellipse = {.mu = {0.5, 0.25}}, box = {.mu = {0.5, 0.25}, .box = true};
-    const Real inside[2] = {2.4L, 1.6L}, corner[2] = {4, 2}, way[2] = {-3, -8};
+    const Real inside[2] = {2.4L, 1.6L}, corner[2] = {4, 2}, slip[2] = {-3, -8};
     Real phi;
     CHECK_NEAR((double)surface_excess(&ellipse, 4, inside), 0, 1e-15); // (0.6, 0.8) on its edge
     CHECK_GREATER((double)surface_excess(&ellipse, 4, corner),
@@ -513,10 +513,10 @@ static void sets_are_ellipse_and_box(void **state) {
     CHECK_NEAR((double)surface_excess(&box, 4, corner), 0, 1e-15);
     CHECK_NEAR((double)surface_gap(&ellipse, 4, (Real[2]){2.4L, 1.6L}, (Real[2]){-3, -8}, &phi), 0,
                1e-15);
-    CHECK_NEAR((double)phi, 20, 1e-15); // sqrt((4 3)^2 + (2 8)^2), and F.way = -7.2 - 12.8
-    CHECK_NEAR((double)surface_gap(&box, 4, corner, way, &phi), 0, 1e-15);
+    CHECK_NEAR((double)phi, 20, 1e-15); // sqrt((4 3)^2 + (2 8)^2), and F.slip = -7.2 - 12.8
+    CHECK_NEAR((double)surface_gap(&box, 4, corner, slip, &phi), 0, 1e-15);
     CHECK_NEAR((double)phi, 28, 1e-15);
-    CHECK_NEAR((double)surface_gap(&box, 4, inside, way, &phi), 28 - 20, 1e-14);
+    CHECK_NEAR((double)surface_gap(&box, 4, inside, slip, &phi), 28 - 20, 1e-14);
 }
 
 static void what_is_no_result_is_refused(void **state) {
@@ -542,7 +542,7 @@ int main(void) {
         cmocka_unit_test(corner_is_certified),
         cmocka_unit_test(post_is_certified),
         cmocka_unit_test(every_change_is_refuted),
-        cmocka_unit_test(ways_are_geodesics),
+        cmocka_unit_test(slips_are_geodesics),
         cmocka_unit_test(sets_are_ellipse_and_box),
         cmocka_unit_test(supports_and_distances),
         cmocka_unit_test(what_is_no_result_is_refused),

@@ -222,7 +222,7 @@ class Suite:
         picture = os.path.join(folder, "law.svg")
         os.mkdir(folder)
 
-        def little_room():
+        def small_files():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
 
@@ -230,10 +230,10 @@ class Suite:
             if earlier:
                 with open(picture, "w", encoding="utf-8") as file:
                     file.write(earlier)
-            os.environ["GCOV_PREFIX"] = folder + "-counts"  # a program built for coverage has no room for its counts either
-            code, _, err = self.run(wheel, "--plot", picture, before=little_room)
+            os.environ["GCOV_PREFIX"] = folder + "-counts"  # a program built for coverage has no space for its counts either
+            code, _, err = self.run(wheel, "--plot", picture, before=small_files)
             del os.environ["GCOV_PREFIX"]
-            self.expect("no room", code == 4 and err == f"capstan: {picture}: cannot write: File too large\n", f"exit {code}: {err}")
+            self.expect("no space", code == 4 and err == f"capstan: {picture}: cannot write: File too large\n", f"exit {code}: {err}")
             self.expect("nothing beside", os.listdir(folder) == (["law.svg"] if earlier else []), os.listdir(folder))
         with open(picture, encoding="utf-8") as file:
             self.expect("earlier picture kept", file.read() == earlier, "changed")

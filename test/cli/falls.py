@@ -27,14 +27,14 @@ def scene(rng):
     radius, length, weight = rng.uniform(0.03, 0.1), rng.uniform(0.6, 1.2), rng.uniform(1, 4)
     angle, before, friction = rng.uniform(0.1, 0.5), rng.uniform(0.7, 0.95), rng.choice(["consistent", "frozen"])
     mu = rng.uniform(0, 0.05)
-    way = [rng.choice([-1, 1])*length*math.sin(angle), rng.choice([-1, 1])*length*math.cos(angle)]
-    way[0] = math.copysign(max(abs(way[0]), 1.2*radius/before), way[0])  # A is beside the post, not above it
-    way[1] = math.copysign(math.sqrt(length**2 - way[0]**2), way[1])
-    a = [-before*way[0], rng.uniform(-1, 1)]
+    along = [rng.choice([-1, 1])*length*math.sin(angle), rng.choice([-1, 1])*length*math.cos(angle)]
+    along[0] = math.copysign(max(abs(along[0]), 1.2*radius/before), along[0])  # A is beside the post, not above it
+    along[1] = math.copysign(math.sqrt(length**2 - along[0]**2), along[1])
+    a = [-before*along[0], rng.uniform(-1, 1)]
     return {"capstan": 1, "friction_policy": friction, "gravity": [0, 0, -9.81],
             "obstacles": {"post": {"cylinder": {"point": [0, 0, 0], "axis": [0, 1, 0], "radius": radius}, "friction": mu}},
             "lines": {"rope": {"length": length, "elements": rng.choice([20, 40]), "weight": weight, "stiffness": 1e4,
-                               "start": {"straight": {"from": [*a, radius], "to": [a[0] + way[0], a[1] + way[1], radius]}},
+                               "start": {"straight": {"from": [*a, radius], "to": [a[0] + along[0], a[1] + along[1], radius]}},
                                "ends": {"A": "held", "B": "free"}}},
             "history": [{"name": "let go", "steps": 1}]}
 

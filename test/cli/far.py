@@ -49,9 +49,9 @@ with tempfile.TemporaryDirectory() as folder:
         checked = subprocess.run([CHECKER, os.path.join(folder, name, "result.nc"), os.path.join(folder, name + ".yaml")],
                                  capture_output=True, text=True, timeout=60)
         check(checked.returncode == 0, f"{name}: checker: {checked.stdout}{checked.stderr}")
-        for way, said in (("regularized", "history.csv"),):
-            done = run(folder, name + ".yaml", name + "-1990", "run", "--method", way)
-            check(done.returncode == 0, f"{name}, {way}: exit code {done.returncode}: {done.stderr}")
+        for method, said in (("regularized", "history.csv"),):
+            done = run(folder, name + ".yaml", name + "-1990", "run", "--method", method)
+            check(done.returncode == 0, f"{name}, {method}: exit code {done.returncode}: {done.stderr}")
 
     # the tables are in the coordinates of the scene: 1e-9 is their last digit
     for out in ("", "-1990"):

@@ -117,7 +117,7 @@ def broken_off():
         go_on(law + "-zones", scene, 1)
         scene["lines"]["rope"]["stiffness"] = ".inf"
         go_on(law + "-inextensible", scene, 1)
-        # an end that is held on the bed, then let go: its half element rubs from then on
+        # an end that is held on the bed, then let go: its half element has friction from then on
         held = [{"rope.B": {"position": [1.5, 0.8, 0]}}, {"rope.B": {"position": [1.2, 1, 0]}}, {"rope.B": {"force": [0, 1, 0]}}]
         scene = {"capstan": 1, "friction_policy": law, "obstacles": {"bed": BED}, "lines": {"rope": rope(STRAIGHT, free, elements=30)}, "history": held}
         go_on(law + "-held", scene, 0)

@@ -13,7 +13,7 @@ EXAMPLE = os.path.join(EXAMPLES, "souza-de-cursi-1990.yaml")
 THREE_LINES = os.path.join(EXAMPLES, "souza-de-cursi-1990-plane.yaml")
 SLACK = os.path.join(EXAMPLES, "souza-de-cursi-1990-slack.yaml")
 
-# The last half rubs three times as much; end B is held on the bed in the fourth step and let go in the last.
+# The last half has three times the friction; end B is held on the bed in the fourth step and let go in the last.
 ZONES = """\
 capstan: 1
 friction_policy: frozen

@@ -300,7 +300,7 @@ def drives():
     says("play", done.stdout, "ends at (-1.5) m, force (1) N", "dissipated 4.5 J", "in the spring 0.25 J")
     says("play", done.stderr, "step 30000 of 30000")
     expect("quiet", run("drive", "play.yaml", "-q").stderr == "")
-    says("no room", run("drive", "play.yaml", "-q", "-p", "none/play.svg", code=4).stderr, "cannot write")
+    says("no space", run("drive", "play.yaml", "-q", "-p", "none/play.svg", code=4).stderr, "cannot write")
     write("rope.yaml", "capstan: 1\nrope: {shape: {polyline: [[0, 0], [4, 0]]}, elements: 200, friction: 0.5, weight: 10, "
                        "ends: {A: free, B: [1, 0]}, path: [[6, 0]], steps: 120}\n")
     done = run("drive", "rope.yaml", "-p", "rope.svg")

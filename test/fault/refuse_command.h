@@ -71,8 +71,8 @@ static bool is_chosen(long k, bool fresh) {
 }
 
 /* How a command with its k-th allocation refused has ended, which had `before` blocks; `there`: its
- * picture. A closed form without room for its scratch hands over to the solver, so a failure may be
- * made good. NULL, or what is wrong. */
+ * picture. A closed form without memory for its scratch hands over to the solver, so a failure may
+ * be made good. NULL, or what is wrong. */
 static const char *judge(int code, long before, bool draws, bool there) {
     if (live != before) return "blocks are lost";
     if (code != EXIT_OK && code != EXIT_LIMIT) return "the exit code is another";

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The parts of a directory of results by themselves: its list, files that give way, files that are
- * synced at the end, sets of files; each of their calls fails, one after the other. */
+/* The parts of a directory of results by themselves: its list, files that are displaced, files that
+ * are synced at the end, sets of files; each of their calls fails, one after the other. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -91,7 +91,7 @@ static bool refuse_call(long k, bool late) {
     return reached;
 }
 
-static void files_give_way(void **state) {
+static void files_are_displaced(void **state) {
     (void)state;
     static const int REASON[] = {EIO, ENOSPC, EINTR, EINVAL, EWOULDBLOCK};
     for (size_t i = 0; i < 2 * sizeof REASON / sizeof *REASON; i++) {
@@ -169,7 +169,7 @@ static void what_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_in_order),
-        cmocka_unit_test_setup_teardown(files_give_way, start, start),
+        cmocka_unit_test_setup_teardown(files_are_displaced, start, start),
         cmocka_unit_test_setup_teardown(files_are_gone, start, start),
         cmocka_unit_test_setup_teardown(sets_of_files, start, start),
         cmocka_unit_test_setup_teardown(what_is_refused, start, start)};

@@ -35,7 +35,7 @@ static const char SWEEP[] =
     "capstan: 1\nsweep: {law: {disc: 1}, stiffness: 1, path: [[2, 0]], steps: 4}\n";
 
 /* answered as JSON, and drawn */
-static void every_way(const char *text) {
+static void all_answers(const char *text) {
     static const char *const ASK[] = {"drive", FILE_NAME, "--json", "--quiet"};
     static const char *const DRAW[] = {"drive", FILE_NAME, "--quiet", "--plot", PICTURE};
     write_file(FILE_NAME, text);
@@ -50,7 +50,7 @@ static void system_maps(void **state) {
     (void)state;
     static const char *const REDUCED[] = {"drive", FILE_NAME, "-e", "-v",   "1,1",
                                           "-f",    "0,200",   "-p", PICTURE};
-    every_way(SYSTEM);
+    all_answers(SYSTEM);
     write_file(FILE_NAME, SYSTEM);
     refuse_in_copies(cmd_drive, FILE_NAME, PICTURE, true, LEAST,
                      (int)(sizeof REDUCED / sizeof *REDUCED), REDUCED);
@@ -68,22 +68,22 @@ static void system_resistance(void **state) {
 
 static void body(void **state) {
     (void)state;
-    every_way(BODY);
+    all_answers(BODY);
 }
 
 static void rope(void **state) {
     (void)state;
-    every_way(ROPE);
+    all_answers(ROPE);
 }
 
 static void planimeter(void **state) {
     (void)state;
-    every_way(METER);
+    all_answers(METER);
 }
 
 static void sweep(void **state) {
     (void)state;
-    every_way(SWEEP);
+    all_answers(SWEEP);
 }
 
 int main(int argc, char **argv) {

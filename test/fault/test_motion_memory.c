@@ -47,8 +47,8 @@ static CpsStatus interval(Made *made, int k, double bound) {
 }
 
 /* phi(a, b) = sqrt(a^2 + b^2) - b of a disc that touches 0 falls to 0 for ever. Beside it c, which
- * rubs, and d = c, which a viscous law damps: both are at rest. The load drives a with 3 N, so that
- * the least power at a = 2 is -6 W. */
+ * has friction, and d = c, which a viscous law damps: both are at rest. The load drives a with 3 N,
+ * so that the least power at a = 2 is -6 W. */
 static CpsStatus ask_not_attained(Made *made, bool *right) {
     TRY(cps_set_ball(2, (const double[]){0, 1}, 1, &made->set[0], &err));
     TRY(cps_law_friction(made->set[0], &made->law[0], &err));
@@ -57,7 +57,8 @@ static CpsStatus ask_not_attained(Made *made, bool *right) {
     TRY(cps_system_create(4, &made->system, &err));
     const CpsEntry own[] = {{0, 0, 1}, {1, 1, 1}}, equal[] = {{0, 2, 1}, {0, 3, -1}};
     TRY(cps_system_add_friction(made->system, "beside", made->law[0], 2, own, &err));
-    TRY(cps_system_add_friction(made->system, "rubs", made->law[1], 1, &(CpsEntry){0, 2, 1}, &err));
+    TRY(cps_system_add_friction(made->system, "friction", made->law[1], 1, &(CpsEntry){0, 2, 1},
+                                &err));
     TRY(cps_system_add_resistance(made->system, "oil", made->resistance, 1, &(CpsEntry){0, 3, 1},
                                   &err));
     TRY(cps_system_add_constraints(made->system, 1, 2, equal, &err));

@@ -182,5 +182,5 @@ static void drives(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(scenes), cmocka_unit_test(laws),
                                        cmocka_unit_test(drives)};
-    return cmocka_run_group_tests_name("readers without room", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("readers without memory", tests, NULL, NULL);
 }

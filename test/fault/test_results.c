@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Results that cannot be written: too little room for any one of the files, a full file system,
+/* Results that cannot be written: too little space for any one of the files, a full file system,
  * directories that cannot be made or written, a target that cannot be replaced. Each time the call
  * fails with CPS_ERR_IO and says why, no temporary file stays, and the results of an earlier run
  * are as they were. */
@@ -82,13 +82,13 @@ static void fresh(const char *directory) {
     assert_int_equal(system(command), 0);
 }
 
-/* for every file of a good run: room for one byte less than it needs */
-static void no_room_for_one_file(void **state) {
+/* for every file of a good run: space for one byte less than it needs */
+static void no_space_for_one_file(void **state) {
     (void)state;
     CpsError err;
-    fresh("fault-room");
-    assert_int_equal(small_run("fault-room", ELEMENTS, &err), CPS_OK);
-    const Listing good = list("fault-room");
+    fresh("fault-space");
+    assert_int_equal(small_run("fault-space", ELEMENTS, &err), CPS_OK);
+    const Listing good = list("fault-space");
     assert_true(good.count > 10);
     off_t largest = 0;
     signal(SIGXFSZ, SIG_IGN);
@@ -99,20 +99,20 @@ static void no_room_for_one_file(void **state) {
         if (good.size[i] > largest) largest = good.size[i];
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &tight), 0);
         CpsError reason = {0};
-        const CpsStatus over = small_run("fault-room", ELEMENTS, &reason);
-        const CpsStatus first = small_run("fault-room-new", ELEMENTS, NULL);
+        const CpsStatus over = small_run("fault-space", ELEMENTS, &reason);
+        const CpsStatus first = small_run("fault-space-new", ELEMENTS, NULL);
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &whole), 0);
         if (over != CPS_ERR_IO || first != CPS_ERR_IO)
-            fail_msg("room for %ld bytes was enough", (long)good.size[i] - 1);
+            fail_msg("space for %ld bytes was enough", (long)good.size[i] - 1);
         if (!strstr(reason.message, "File too large"))
             fail_msg("'%s' gives no reason", reason.message);
-        assert_unchanged("fault-room", &good);
-        assert_int_not_equal(access("fault-room-new", F_OK), 0);
+        assert_unchanged("fault-space", &good);
+        assert_int_not_equal(access("fault-space-new", F_OK), 0);
     }
     /* and the limit itself is not what fails */
     const struct rlimit enough = {(rlim_t)largest + 100000, whole.rlim_max};
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &enough), 0);
-    assert_int_equal(small_run("fault-room", ELEMENTS, &err), CPS_OK);
+    assert_int_equal(small_run("fault-space", ELEMENTS, &err), CPS_OK);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &whole), 0);
 }
 
@@ -223,7 +223,7 @@ static void planted_link_is_not_followed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_room_for_one_file),      cmocka_unit_test(full_disk),
+        cmocka_unit_test(no_space_for_one_file),     cmocka_unit_test(full_disk),
         cmocka_unit_test(impossible_directories),    cmocka_unit_test(read_only_directory),
         cmocka_unit_test(target_cannot_be_replaced), cmocka_unit_test(planted_link_is_not_followed),
     };

@@ -59,8 +59,8 @@ static void every_allocation_may_fail(void **state) {
         const int reached = allowed < 0;
         allowed = -1;
         if (live != before) fail_msg("allocation %ld: %ld blocks lost", k, live - before);
-        /* a closed form without room for its scratch hands over to the solver, so a failure may be
-         * made good */
+        /* a closed form without memory for its scratch hands over to the solver, so a failure may
+         * be made good */
         if (status != CPS_OK && status != CPS_ERR_MEMORY)
             fail_msg("allocation %ld: %s", k, cps_status_name(status));
         if (!reached) {

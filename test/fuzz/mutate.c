@@ -21,9 +21,9 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { ROOM = (1 << 20) - 1, MOST_OF_A_FILE = 1 << 15, FILES = 512, SLOW_SECONDS = 2 };
+enum { SPACE = (1 << 20) - 1, MOST_OF_A_FILE = 1 << 15, FILES = 512, SLOW_SECONDS = 2 };
 
-static uint8_t input[ROOM];
+static uint8_t input[SPACE];
 static size_t length;
 static const char *finding;
 static uint64_t chance;
@@ -45,7 +45,7 @@ static void keep(int number) {
 }
 
 static void put(size_t at, const void *bytes, size_t count) {
-    if (length + count > ROOM || at > length) return;
+    if (length + count > SPACE || at > length) return;
     memmove(input + at + count, input + at, length - at);
     memcpy(input + at, bytes, count);
     length += count;
@@ -103,10 +103,10 @@ static const char *const WORD[] = {":",
  * shows. */
 static void repeat(void) {
     const char *word[3];
-    const size_t words = 1 + below(3), room = below(ROOM - 100);
+    const size_t words = 1 + below(3), space = below(SPACE - 100);
     for (size_t i = 0; i < words; ++i) word[i] = WORD[below(sizeof WORD / sizeof *WORD)];
     length = below(length + 1);
-    for (size_t i = 0; length < room; ++i) put(length, word[i % words], strlen(word[i % words]));
+    for (size_t i = 0; length < space; ++i) put(length, word[i % words], strlen(word[i % words]));
 }
 
 static void mutate(uint8_t *const *file, const size_t *size, int files) {

@@ -209,10 +209,10 @@ static void read_rows(const uint8_t *data, size_t size) {
 /* states --------------------------------------------------------------------------------------- */
 
 /* Places and values, six bytes each, counted from `first`. */
-static void edit(unsigned char *bytes, size_t room, size_t first, const uint8_t *data,
+static void edit(unsigned char *bytes, size_t capacity, size_t first, const uint8_t *data,
                  size_t size) {
     for (; size >= 6; data += 6, size -= 6) {
-        const size_t at = first + ((size_t)data[0] | (size_t)data[1] << 8) % (room - first - 3);
+        const size_t at = first + ((size_t)data[0] | (size_t)data[1] << 8) % (capacity - first - 3);
         memcpy(bytes + at, data + 2, 4);
     }
 }
@@ -260,22 +260,22 @@ enum { STATE_HEAD = 40 };
 static void read_state(const uint8_t *data, size_t size) {
     static CpsEvolution *saved, *loaded;
     static unsigned char *good, *bytes;
-    static size_t room;
+    static size_t capacity;
     if (!saved) {
         saved = evolution_at(WARM);
         must(cps_evolution_line_report(saved, 0).warm_count > 0 &&
              cps_evolution_line_report(saved, 2).warm_count > 0);
         loaded = evolution_at(0);
-        room = cps_evolution_state_size(saved);
-        good = malloc(room);
-        bytes = malloc(room);
+        capacity = cps_evolution_state_size(saved);
+        good = malloc(capacity);
+        bytes = malloc(capacity);
         must(good && bytes);
         cps_evolution_save(saved, good);
     }
-    memcpy(bytes, good, room);
-    edit(bytes, room, STATE_HEAD, data, size);
+    memcpy(bytes, good, capacity);
+    edit(bytes, capacity, STATE_HEAD, data, size);
     CpsError err;
-    const CpsStatus status = cps_evolution_load(loaded, bytes, room, &err);
+    const CpsStatus status = cps_evolution_load(loaded, bytes, capacity, &err);
     must(status == CPS_OK || err.message[0]);
     if (status == CPS_OK) go_on(loaded, steps_on(data, size));
 }
@@ -287,7 +287,7 @@ typedef struct Journaled {
     CpsEvolution *evolution;
     unsigned char *start, *good,
         *bytes; /* its state at the start; a journal of RECORDS steps; that one, edited */
-    size_t state, record, room;
+    size_t state, record, capacity;
 } Journaled;
 
 static Journaled make_journaled(void) {
@@ -297,10 +297,10 @@ static Journaled make_journaled(void) {
     snprintf(path, sizeof path, "%s/.journal", folder());
     made.state = cps_evolution_state_size(made.evolution);
     made.record = RECORD_HEAD + made.state;
-    made.room = JOURNAL_HEAD + RECORDS * made.record;
+    made.capacity = JOURNAL_HEAD + RECORDS * made.record;
     made.start = malloc(made.state);
-    made.good = malloc(made.room);
-    made.bytes = malloc(made.room);
+    made.good = malloc(made.capacity);
+    made.bytes = malloc(made.capacity);
     must(made.start && made.good && made.bytes);
     cps_evolution_save(made.evolution, made.start);
     must(cps_journal_open(folder(), made.evolution, CPS_JOURNAL_NEW, &written, NULL) == CPS_OK);
@@ -308,7 +308,7 @@ static Journaled make_journaled(void) {
         must(cps_evolution_step(made.evolution, NULL) == CPS_OK &&
              cps_journal_append(written, made.evolution, NULL) == CPS_OK);
     const int file = open(path, O_RDONLY | O_CLOEXEC);
-    must(file >= 0 && pread(file, made.good, made.room, 0) == (ssize_t)made.room);
+    must(file >= 0 && pread(file, made.good, made.capacity, 0) == (ssize_t)made.capacity);
     close(file);
     cps_journal_destroy(written);
     return made;
@@ -332,11 +332,11 @@ static void read_journal(const uint8_t *data, size_t size) {
     static Journaled made;
     if (!made.good) made = make_journaled();
     must(cps_evolution_load(made.evolution, made.start, made.state, NULL) == CPS_OK);
-    memcpy(made.bytes, made.good, made.room);
-    if (size > 0) edit(made.bytes, made.room, 0, data + 1, size - 1);
+    memcpy(made.bytes, made.good, made.capacity);
+    if (size > 0) edit(made.bytes, made.capacity, 0, data + 1, size - 1);
     if (size > 0 && data[0] % 2 == 1) mend(&made);
     put_file(".journal", made.bytes,
-             size > 0 && data[0] % 4 == 2 ? made.room / 256 * data[0] : made.room);
+             size > 0 && data[0] % 4 == 2 ? made.capacity / 256 * data[0] : made.capacity);
     CpsJournal *read = NULL;
     CpsError err;
     CpsStatus status = cps_journal_open(folder(), made.evolution, CPS_JOURNAL_RESUME, &read, &err);

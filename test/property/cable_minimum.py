@@ -46,7 +46,7 @@ class Step:
     def tensions(self, x):
         return [self.stiffness * max(0.0, norm(u) - 1) for u in self.slopes(x)]
 
-    def way(self, x, j):
+    def slip(self, x, j):
         """Tangential part of x - x_R at node j, and its height over the plane (None without contact)."""
         u = sub(x[j], self.reference[j])
         across = dot(u, self.normal)
@@ -59,7 +59,7 @@ class Step:
         for u, l in zip(self.slopes(x), self.lengths):
             energy += l * self.stiffness / 2 * max(0.0, norm(u) - 1) ** 2
         for j, b in enumerate(self.load):
-            energy += self.bound[j] * norm(self.way(x, j)[0]) - dot(b, x[j])
+            energy += self.bound[j] * norm(self.slip(x, j)[0]) - dot(b, x[j])
         return energy
 
     def bending_weight(self, i):
@@ -75,7 +75,7 @@ class Step:
             energy += stiff * self.bending_weight(i) * dot(turn, turn) / 2
             before = u
         for j in range(len(x)):
-            slid, height = self.way(x, j)
+            slid, height = self.slip(x, j)
             energy += self.bound[j] * (math.hypot(delta, norm(slid)) - norm(slid))
             if height is not None and height < 0:
                 energy += penalty * self.share[j] * height * height / 2
@@ -117,7 +117,7 @@ def derivatives(step, x, penalty, stiff, delta, second):
                         if q <= p:
                             add(p, q, k * cp * cq, 0, turn)
     for j in range(n):
-        slid, height = step.way(x, j)
+        slid, height = step.slip(x, j)
         if step.bound[j] > 0:
             r = math.hypot(delta, norm(slid))
             k = step.bound[j] / r
@@ -180,7 +180,7 @@ def minimise_at(step, x, penalty, stiff, delta, most=400):
             damping = max(10 * damping, 1e-12)
         slope = sum(a * b for a, b in zip(g, d))
         low, high, t = 0.0, None, 1.0
-        for _ in range(60):  # the slope only rises along the way: halve towards where it is small
+        for _ in range(60):  # the slope only rises along the line: halve towards where it is small
             y = [tuple(c + t * d[3 * j + k] for k, c in enumerate(p)) for j, p in enumerate(x)]
             now = sum(a * b for a, b in zip(derivatives(step, y, penalty, stiff, delta, False)[0], d))
             if abs(now) <= 0.3 * abs(slope) or (now < 0 and high is None):
@@ -213,10 +213,10 @@ def least_energy(step, inextensible=False, penalty=1e9, delta=1e-10):
     value = step.functional(x, penalty, 0.0, delta)
     push = []
     for j in range(len(x)):
-        height = step.way(x, j)[1]
+        height = step.slip(x, j)[1]
         push.append(penalty * step.share[j] * max(0.0, -height) if height is not None else 0.0)
     above = sum(r * r / (2 * penalty * h) for r, h in zip(push, step.share))
     if inextensible:
         above += sum(l * t * t / (2 * step.stiffness) for l, t in zip(step.lengths, step.tensions(x)))
-    slack = 4 * left * len(x)  # a convex function is nearer to its minimum than gradient times way
+    slack = 4 * left * len(x)  # a convex function is nearer to its minimum than gradient times distance
     return x, push, (value - delta * sum(step.bound) - slack, value + above + slack)

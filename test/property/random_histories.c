@@ -31,7 +31,7 @@ static bool chance(double probability) { return uniform(0, 1) < probability; }
 
 /* the scene ------------------------------------------------------------------------------------ */
 
-static void rubbing(CpsObstacle *o) {
+static void add_friction(CpsObstacle *o) {
     o->friction = uniform(0.05, 1);
     if (chance(0.5)) rig_lateral(o, uniform(0.05, 1));
     if (chance(0.3)) o->friction_shape = CPS_FRICTION_SHAPE_BOX;
@@ -44,7 +44,7 @@ static void rubbing(CpsObstacle *o) {
 /* A pipe or a boulder, buried to its middle or a little less, between 0.35 and 0.65 of the way. */
 static void curved(Rig *rig, CpsObstacleKind kind, double span) {
     CpsObstacle *o = rig_obstacle(rig, kind, 0);
-    rubbing(o);
+    add_friction(o);
     o->radius = uniform(0.03, 0.15) * span;
     o->point[0] = uniform(0.35, 0.65) * span;
     o->point[2] = -uniform(0, 0.5) * o->radius;
@@ -93,7 +93,7 @@ static void wound(Rig *rig) {
     rig_begin(rig, n + 2 * lead, chance(0.5) ? 0 : pull * decades(-3, 0),
               chance(0.3) ? INFINITY : pull * decades(2, 6));
     CpsObstacle *drum = rig_obstacle(rig, CPS_OBSTACLE_CYLINDER, 0);
-    rubbing(drum);
+    add_friction(drum);
     double x[3] = {0};
     for (int k = -lead; k <= n + lead; k++) {
         const int on = k < 0 ? 0 : k > n ? n : k;
@@ -138,7 +138,7 @@ static void make(Rig *rig, uint64_t seed) {
     rig->line.start.kind = CPS_START_STATIC;
     double at[3];
     somewhere(length, at);
-    rubbing(rig_obstacle(rig, CPS_OBSTACLE_PLANE, 0));
+    add_friction(rig_obstacle(rig, CPS_OBSTACLE_PLANE, 0));
     int pipe = -1;
     const double span = hypot(at[0], at[1]);
     if (chance(0.6)) {

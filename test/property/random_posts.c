@@ -93,7 +93,7 @@ static CpsSet *friction_set(void) {
     return set;
 }
 
-static void rubbing(Scene *s, CpsObstacle *o) {
+static void add_friction(Scene *s, CpsObstacle *o) {
     if (chance(0.15)) return;
     if (s->sets) {
         o->friction_set = s->set[s->rig.scene.obstacle_count - 1] = friction_set();
@@ -108,7 +108,7 @@ static void rubbing(Scene *s, CpsObstacle *o) {
     }
 }
 
-/* Is there room for a post of this radius at x, y? */
+/* Is there space for a post of this radius at x, y? */
 static bool fits(const Scene *s, double x, double y, double radius) {
     for (int k = 0; k < s->rig.scene.obstacle_count; k++) {
         const CpsObstacle *o = &s->rig.obstacle[k];
@@ -121,14 +121,14 @@ static void stand(Scene *s, double length, double radius) {
     double x = 0, y = 0;
     for (int i = 0;; i++) {
         if (i == 100) return;
-        const double room = 0.48 * length - radius; /* clear of the ways of the ends */
-        x = uniform(-0.75, 0.75) * room;
+        const double clearance = 0.48 * length - radius; /* clear of the paths of the ends */
+        x = uniform(-0.75, 0.75) * clearance;
         y = uniform(0, 0.3) * length;
         if (fits(s, x, y, radius)) break;
     }
     const bool post = chance(0.6);
     CpsObstacle *o = rig_obstacle(&s->rig, post ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE, 0);
-    rubbing(s, o);
+    add_friction(s, o);
     o->radius = radius;
     o->point[0] = x;
     o->point[1] = y;
@@ -243,7 +243,7 @@ static double depth(const Scene *s, const CpsLineView *view) {
     return worst / s->rig.line.length;
 }
 
-/* [rad] by which the straight way from a to b goes round, between -pi and pi */
+/* [rad] by which the straight path from a to b goes round, between -pi and pi */
 static double angle(const double *a, const double *b) {
     return atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
 }
@@ -260,7 +260,7 @@ static double winding(const CpsObstacle *o, const double *x, int elements) {
 }
 
 /* Turns by which the line has come round an obstacle beyond what its ends went, from place `from`
- * to place `to`. A free end's way is straight as long as it is short. */
+ * to place `to`. A free end's path is straight as long as it is short. */
 static double passed(const Scene *s, const double *from, const double *to) {
     const int elements = s->rig.line.element_count;
     double worst = 0;
@@ -358,7 +358,8 @@ static double go(const Scene *s, const char *name, CpsEvolution *evolution, CpsR
     while (cps_evolution_remaining_count(evolution) > 0 && spent <= LATE) {
         memcpy(before, cps_evolution_line_view(evolution, 0).position, size);
         const clock_t begun = clock();
-        if (cps_evolution_step(evolution, &err)) break; /* an end's way leads through an obstacle */
+        if (cps_evolution_step(evolution, &err))
+            break; /* an end's path leads through an obstacle */
         spent += (double)(clock() - begun) / CLOCKS_PER_SEC;
         tally->iterations += cps_evolution_report(evolution).iteration_count;
         judge(s, name, evolution, before, tally);

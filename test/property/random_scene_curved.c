@@ -2,7 +2,7 @@
 /* Random scenes on cylinders, balls and two obstacles at once, on drums that turn, and on planes
  * whose friction has directions, all with consistent friction. Angles of wrap and coefficients are
  * moderate, mu theta up to about 2, and no scene asks for what cannot be: forces pull outwards, and
- * lines are longer than the way over the obstacle. */
+ * lines are longer than the path over the obstacle. */
 #include <math.h>
 #include <string.h>
 
@@ -154,9 +154,9 @@ static void make_drum(Maker *maker, bool hand) {
 
 /* ---- a line laid over a pipe ---- */
 
-/* The shortest way from (a, h) over the top of a circle of radius r around 0 to (b, k); a < 0 <
+/* The shortest path from (a, h) over the top of a circle of radius r around 0 to (b, k); a < 0 <
  * b. */
-static double way_over(double r, double a, double h, double b, double k) {
+static double path_over(double r, double a, double h, double b, double k) {
     const double d1 = hypot(a, h), d2 = hypot(b, k);
     const double between = atan2(h, -a) + acos(r / d1) + atan2(k, b) +
                            acos(r / d2); /* angles above the horizontal and of the tangents */
@@ -183,13 +183,13 @@ static void make_pipe(Maker *maker) {
     line->end[CPS_END_A].kind = line->end[CPS_END_B].kind = CPS_END_KIND_HELD;
     maker_place(&maker->frame, a, line->end[CPS_END_A].value);
     maker_place(&maker->frame, b, line->end[CPS_END_B].value);
-    double longest = way_over(r, a[0], a[2], b[0], b[2]);
+    double longest = path_over(r, a[0], a[2], b[0], b[2]);
     const int stages = 1 + random_below(random, 3);
     for (int s = 0; s < stages; s++) {
         double to[3] = {r * random_uniform(random, 1.3, 4), r * random_uniform(random, -0.5, 0.5),
                         r * random_uniform(random, -2, 0.6)};
         double value[3];
-        longest = fmax(longest, hypot(to[1], way_over(r, a[0], a[2], to[0], to[2])));
+        longest = fmax(longest, hypot(to[1], path_over(r, a[0], a[2], to[0], to[2])));
         maker_place(&maker->frame, to, value);
         maker_stage(maker, 2 + random_below(random, 6));
         maker_change(maker, CPS_END_B, CPS_END_KIND_HELD, value);
@@ -200,8 +200,8 @@ static void make_pipe(Maker *maker) {
 
 /* ---- two obstacles ---- */
 
-/* A bed, and a pipe or ball partly buried in it: the line, hardly longer than the way over it, lies
- * on both. */
+/* A bed, and a pipe or ball partly buried in it: the line, hardly longer than the path over it,
+ * lies on both. */
 static void make_two(Maker *maker) {
     Random *random = &maker->random;
     maker_begin(maker, 0, random_uniform(random, 0.05, 0.8), true);
@@ -222,14 +222,14 @@ static void make_two(Maker *maker) {
     line->end[CPS_END_A].kind = line->end[CPS_END_B].kind = CPS_END_KIND_HELD;
     maker_place(&maker->frame, a, line->end[CPS_END_A].value);
     maker_place(&maker->frame, b, line->end[CPS_END_B].value);
-    double longest = way_over(r, a[0], buried, b[0], b[2] + buried);
+    double longest = path_over(r, a[0], buried, b[0], b[2] + buried);
     const int stages = 1 + random_below(random, 3);
     for (int s = 0; s < stages; s++) {
         const double away = ball ? 0 : r * random_uniform(random, -0.3, 0.3);
         const double to[3] = {b[0] + r * random_uniform(random, -0.1, 0.3), away,
                               r * random_uniform(random, 0, 1.5)};
         double value[3];
-        longest = fmax(longest, hypot(way_over(r, a[0], buried, to[0], to[2] + buried), to[1]));
+        longest = fmax(longest, hypot(path_over(r, a[0], buried, to[0], to[2] + buried), to[1]));
         maker_place(&maker->frame, to, value);
         maker_stage(maker, 2 + random_below(random, 6));
         maker_change(maker, CPS_END_B, CPS_END_KIND_HELD, value);

@@ -145,7 +145,7 @@ class Scene:
         L, w = self.length, self.weight
         vector = lambda v, unit: "[" + ", ".join(repr(c * unit) for c in v) + "]"
         end = self.nodes[-1] if self.nodes else self.place(1, 0, 0)
-        rub = f"friction: {{axial: {self.mu!r}, lateral: {self.mu / 2!r}}}" if "ellipse" in self.features else f"friction: {self.mu!r}"
+        friction = f"friction: {{axial: {self.mu!r}, lateral: {self.mu / 2!r}}}" if "ellipse" in self.features else f"friction: {self.mu!r}"
         lines = ["capstan: 1"]
         if "default_friction" not in self.features or self.verb in ("judge", "complete"):
             lines.append("friction_policy: frozen")
@@ -155,7 +155,7 @@ class Scene:
             lines.append("solver: {path_tolerance: 0.01}")
         if self.verb in ("judge", "complete"):
             lines = [l for l in lines if not l.startswith("solver")]
-        lines += [f"obstacles: {{bed: {{plane: {{point: {vector(self.origin, L)}, normal: {vector(self.normal, 1)}}}, {rub}}}}}",
+        lines += [f"obstacles: {{bed: {{plane: {{point: {vector(self.origin, L)}, normal: {vector(self.normal, 1)}}}, {friction}}}}}",
                   "lines:", "  rope:", f"    length: {L!r}",
                   "" if self.nodes and self.gives_arc else f"    elements: [{', '.join(repr(l * L) for l in self.lengths)}]",
                   f"    weight: {w!r}", f"    stiffness: {'.inf' if 'inextensible' in self.features else repr(self.stiffness * w * L)}"]
@@ -235,7 +235,7 @@ def scale_of(step, x, tolerance):
         total += l * (t + t * t / step.stiffness)
         most = max(most, t)
     for j, b in enumerate(step.load):
-        total += step.bound[j] * norm(step.way(x, j)[0])
+        total += step.bound[j] * norm(step.slip(x, j)[0])
         work += abs(dot(b, sub(x[j], step.reference[j])))
         loads += norm(b)
         moment += norm(b) * norm(sub(x[j], x[0]))
@@ -279,7 +279,7 @@ def check_first_order(scene, step, folder, said):
     rows = table(os.path.join(folder, "out", "first-order.csv"))
     force = scene.length * scene.weight
     reference, u = vectors(rows, "reference", scene.length), vectors(rows, "u", scene.length)
-    rub, push = vectors(rows, "friction_force", force), [float(r["reaction"]) / force for r in rows]
+    friction_force, push = vectors(rows, "friction_force", force), [float(r["reaction"]) / force for r in rows]
     line = said.split("C of (77)")[1].split("\n")[0]
     verdict = next((v for words, v in FIRST_ORDER if words in line), line)
     elements = first_order_forces(step, reference, u)
@@ -299,14 +299,14 @@ def check_first_order(scene, step, folder, said):
         need(pull / far > 0 and quadratic <= 0.02 * pull / far, f"P10.1 said to have no minimum: a ray with power {pull / far}, stiffness {quadratic}")
         return
     for j in free:
-        rest = [b + push[j] * n + f for b, n, f in zip(step.load[j], step.normal, rub[j])]
+        rest = [b + push[j] * n + f for b, n, f in zip(step.load[j], step.normal, friction_force[j])]
         for side in (-1, 1):
             i = j - (side < 0)
             if 0 <= i < len(elements):
                 rest = [a + side * c for a, c in zip(rest, elements[i][0])]
         need(norm(rest) <= 2e-6 * unit, f"P10.1: {rest} left at node {j}")
-        need(norm(rub[j]) <= step.bound[j] * (1 + 1e-6) + 1e-9 * unit, f"P10.1: friction beyond its bound at node {j}")
-        need(step.bound[j] * norm(slid[j]) + dot(rub[j], slid[j]) <= 1e-6 * unit * max(norm(slid[j]), 1e-3), f"P10.1: (81), (82) at node {j}")
+        need(norm(friction_force[j]) <= step.bound[j] * (1 + 1e-6) + 1e-9 * unit, f"P10.1: friction beyond its bound at node {j}")
+        need(step.bound[j] * norm(slid[j]) + dot(friction_force[j], slid[j]) <= 1e-6 * unit * max(norm(slid[j]), 1e-3), f"P10.1: (81), (82) at node {j}")
         need(push[j] >= -1e-9 * unit and (touches[j] or push[j] == 0), f"P10.1: reaction {push[j]} at node {j}")
         need(not touches[j] or (along[j] >= -1e-6 and push[j] * along[j] <= 1e-6 * unit), f"P10.1: (77), (79) at node {j}: {along[j]}")
     least = min([math.inf] + [w for _, e, _, w in elements if e == 0])
@@ -374,7 +374,7 @@ def verdict_of(step, x, y, bounds, tolerance, inextensible):
     excess = step.relaxed(y) - bounds[0]
     spread = bounds[1] - bounds[0]
     stretch = [norm(u) for u in step.slopes(y)]
-    sunk = max([0.0] + [-h for h in (step.way(y, j)[1] for j in range(len(y))) if h is not None])
+    sunk = max([0.0] + [-h for h in (step.slip(y, j)[1] for j in range(len(y))) if h is not None])
     off = max(norm(sub(y[j], p)) for j, p in step.held.items())
     tests = [(off, tolerance, "no"), (sunk, tolerance, "no")]
     if inextensible:
@@ -386,10 +386,10 @@ def verdict_of(step, x, y, bounds, tolerance, inextensible):
     tests.append((max(0.0, excess), gap, "no"))
     tests.append((max(0.0, 1 - min(stretch)), math.sqrt(tolerance), "relaxed"))
     for value, limit, verdict in tests:
-        room = spread if limit == gap else 1e-9
-        if value - room > 3 * limit:
+        margin = spread if limit == gap else 1e-9
+        if value - margin > 3 * limit:
             return verdict, excess
-        if value + room > limit / 3:
+        if value + margin > limit / 3:
             return None, excess
     return "solution", excess
 
@@ -491,7 +491,7 @@ def check_complete(scene, capstan, folder):
     # 1e-6 S: far below what a slack node off the bed or a tension elsewhere costs; later steps add what the one before leaves
     need(excess <= 1e-6 * size * (1 if len(scene.steps) == 1 else 20) + (bounds[1] - bounds[0]), f"{shape}: {excess} above the minimum, S = {size}")
     need(all(norm(sub(y[j], p)) <= 1e-9 for j, p in step.held.items()), f"{shape}: a held end is elsewhere")
-    sunk = [h for h in (step.way(y, j)[1] for j in range(len(y))) if h is not None]
+    sunk = [h for h in (step.slip(y, j)[1] for j in range(len(y))) if h is not None]
     need(min(sunk) >= (-1e-8 if len(scene.steps) == 1 else -1e-6), f"{shape}: {min(sunk)} inside the bed")
     shortest = min(norm(u) for u in step.slopes(y))
     need(not inextensible or max(norm(u) for u in step.slopes(y)) <= 1 + 1e-7, f"{shape}: longer than it is")

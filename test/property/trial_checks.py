@@ -76,7 +76,7 @@ def weight_at(line, j):
     return [share*w for w in line.weight]
 
 
-def way(before, now):
+def displacement(before, now):
     return max(size(minus(point(now, j), point(before, j))) for j in range(len(now)//3))
 
 
@@ -109,8 +109,8 @@ def insane(line, step):
         return bad
     lengths, forces = reach(line.scene, line, step)
     start = line.start(step) or line.get("reference", step)
-    if way(start, line.get("position", step)) > SANE*lengths:
-        bad.append(f"places {way(start, line.get('position', step))/lengths:.1e} lengths away")
+    if displacement(start, line.get("position", step)) > SANE*lengths:
+        bad.append(f"places {displacement(start, line.get('position', step))/lengths:.1e} lengths away")
     if line.compliance > 0 and max(map(abs, line.get("tension", step))) > SANE*forces:
         bad.append(f"tension {max(line.get('tension', step)):.1e} N, of {forces:.1e} N")
     for what in ("primal", "dual", "gap", "dissipated", "ledger_ends", "ledger_elastic", "ledger_gravity", "ledger_obstacles", "ledger_imbalance"):
@@ -122,7 +122,7 @@ def insane(line, step):
 # what nothing moves ----------------------------------------------------------------------------------------------------
 
 def wanders(line, step):
-    """the way of a step in which nothing happens, per length, where that is too far; None: not asked"""
+    """the displacement of a step in which nothing happens, per length, where that is too far; None: not asked"""
     if step < 1 or not (line.certified(step - 1) and line.certified(step)):
         return None
     if line.results.attributes["friction_policy"] == "frozen":
@@ -133,7 +133,7 @@ def wanders(line, step):
             before, now = line.get(bound, step - 1), line.get(bound, step)
             if max(abs(a - b) for a, b in zip(before, now)) > 1e-9*max(line.one("largest_force", step), 1e-300):
                 return None
-    moved = way(line.get("position", step - 1), line.get("position", step))/line.length
+    moved = displacement(line.get("position", step - 1), line.get("position", step))/line.length
     return moved if moved > STILL else 0.0
 
 
@@ -155,7 +155,7 @@ def energy_faults(line, step):
     if before is None or not line.certified(step):
         return bad
     force, parts = line.one("largest_force", step), line.one("substeps", step)
-    extent = max(line.length, way(list(now[:3])*(len(now)//3), now))
+    extent = max(line.length, displacement(list(now[:3])*(len(now)//3), now))
     # places known to 1e-8 of the extent, what the certificate leaves, and a strain of 1e-12 by rounding of coordinates
     noise = 1e-8*parts*max(force, size(line.weight)*line.length)*extent + line.one("gap", step)
     noise += 1e-24*line.length/line.compliance if line.compliance > 0 else 0
@@ -249,9 +249,9 @@ def exchange(scene):
     """every line from B to A"""
     other = {"A": "B", "B": "A"}
     for obstacle in scene.get("obstacles", {}).values():
-        rub = obstacle["friction"]
-        if isinstance(rub, dict) and "set" in rub and "grain" not in rub:
-            rub["set"] = reflected(rub["set"])
+        friction = obstacle["friction"]
+        if isinstance(friction, dict) and "set" in friction and "grain" not in friction:
+            friction["set"] = reflected(friction["set"])
     for line in scene["lines"].values():
         line["ends"] = {other[e]: at for e, at in line["ends"].items()}
         start = line["start"]

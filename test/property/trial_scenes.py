@@ -77,12 +77,12 @@ class Maker:
 
     def two_coefficients(self):
         """along and across, one of them zero now and then; ellipse or box, along the line or along a grain"""
-        rub = {k: self.between(0.02, 1) if self.chance(0.93) else 0.0 for k in ("axial", "lateral")}
+        friction = {k: self.between(0.02, 1) if self.chance(0.93) else 0.0 for k in ("axial", "lateral")}
         if self.chance(0.4):
-            rub["shape"] = "box"
+            friction["shape"] = "box"
         if self.chance(0.4):
-            rub["grain"] = [self.between(-1, 1), self.between(-1, 1), self.between(-0.2, 0.2)]
-        return rub
+            friction["grain"] = [self.between(-1, 1), self.between(-1, 1), self.between(-0.2, 0.2)]
+        return friction
 
     def set_of_forces(self):
         """a rectangle off its middle, a disc with a rib, a disc beside the origin, a rounded box, a triangle, or a segment without any width"""
@@ -94,25 +94,25 @@ class Maker:
                   {"sum": [{"ellipse": [0.5*a, 0.5*c]}, {"box": [[-0.3*d, 0.3*e], 0.2]}]},
                   {"polytope": [[0, -0.3], [0.5, 0.4], [-0.4, 0.5]]},
                   {"segment": [[-0.6*a, 0], [0.6*c, 0]]}][kind]
-        rub = {"set": forces}
+        friction = {"set": forces}
         if self.chance(0.5):
-            rub["grain"] = [b(-1, 1), b(-1, 1), b(-0.2, 0.2)]
-        return rub
+            friction["grain"] = [b(-1, 1), b(-1, 1), b(-0.2, 0.2)]
+        return friction
 
-    def rub(self, kind=None):
+    def draw_friction(self, kind=None):
         return {None: self.coefficient, "two": self.two_coefficients, "set": self.set_of_forces}[kind]()
 
     # obstacles ---------------------------------------------------------------------------------------------------------
 
     def plane(self, name, point=(0.0, 0.0, 0.0), normal=UP, kind=None):
-        self.obstacles[name] = {"plane": {"point": list(point), "normal": list(normal)}, "friction": self.rub(kind)}
+        self.obstacles[name] = {"plane": {"point": list(point), "normal": list(normal)}, "friction": self.draw_friction(kind)}
 
     def cylinder(self, name, point, axis, radius, kind=None):
-        self.obstacles[name] = {"cylinder": {"point": list(point), "axis": list(axis), "radius": radius}, "friction": self.rub(kind)}
+        self.obstacles[name] = {"cylinder": {"point": list(point), "axis": list(axis), "radius": radius}, "friction": self.draw_friction(kind)}
 
     def ball(self, name, centre, radius, kind=None):
         axis = [self.between(-1, 1), self.between(-1, 1), 1.0]
-        self.obstacles[name] = {"sphere": {"centre": list(centre), "radius": radius, "axis": axis}, "friction": self.rub(kind)}
+        self.obstacles[name] = {"sphere": {"centre": list(centre), "radius": radius, "axis": axis}, "friction": self.draw_friction(kind)}
 
     def tilted(self, most):
         angle = self.between(0, most)
@@ -148,9 +148,9 @@ class Maker:
 
     def straight(self, length, start=(0.0, 0.0, 0.0), heading=None, climb=0.0):
         heading = self.between(0, 2*math.pi) if heading is None else heading
-        way = [length*math.cos(heading)*math.cos(climb), length*math.sin(heading)*math.cos(climb), length*math.sin(climb)]
-        up = self.lift([add(start, way, i/500) for i in range(501)])
-        return {"straight": {"from": add(start, UP, up), "to": add(add(start, way), UP, up)}}
+        direction = [length*math.cos(heading)*math.cos(climb), length*math.sin(heading)*math.cos(climb), length*math.sin(climb)]
+        up = self.lift([add(start, direction, i/500) for i in range(501)])
+        return {"straight": {"from": add(start, UP, up), "to": add(add(start, direction), UP, up)}}
 
     def bent(self, length):
         heading, corner, corners = self.between(0, 6.28), [0.0, 0.0, 0.0], [[0.0, 0.0, 0.0]]
@@ -268,8 +268,8 @@ def slope(m):
     m.plane("slope", normal=[math.sin(angle), 0, math.cos(angle)])
     m.obstacles["slope"]["friction"] = mu
     heading = m.between(0, 2*math.pi)
-    way = add(times(math.cos(heading), [math.cos(angle), 0, -math.sin(angle)]), [0, math.sin(heading), 0])
-    m.line("a", m.length, {"straight": {"from": [0.0, 0.0, 0.0], "to": times(m.length, way)}}, A="free" if m.chance(0.15) else "held",
+    direction = add(times(math.cos(heading), [math.cos(angle), 0, -math.sin(angle)]), [0, math.sin(heading), 0])
+    m.line("a", m.length, {"straight": {"from": [0.0, 0.0, 0.0], "to": times(m.length, direction)}}, A="free" if m.chance(0.15) else "held",
            B="held" if m.chance(0.3) else "free")
     m.history.append({"name": "rest", "steps": m.count(1, 2)})
     if m.chance(0.7):
@@ -312,8 +312,8 @@ def drum(m):
     radius, n = m.length/m.between(1, 6), m.count(8, 60)
     angle = 0.9*min(m.length/radius, 6.0)
     m.cylinder("drum", [0, 0, 0], [0, 1, 0], radius, "two" if m.chance(0.3) else None)
-    rub = m.obstacles["drum"]["friction"]
-    mu, length = rub["axial"] if isinstance(rub, dict) else rub, 2*radius*math.sin(angle/2/n)*n
+    friction = m.obstacles["drum"]["friction"]
+    mu, length = friction["axial"] if isinstance(friction, dict) else friction, 2*radius*math.sin(angle/2/n)*n
     arc = {"arc": {"from": [-radius, 0, 0], "centre": [0, 0, 0], "axis": [0, m.random.choice((-1.0, 1.0)), 0]}}
     ratio = math.exp(m.between(-0.85, 0.85)*mu*math.pi) if m.chance(0.75) else m.decade(-1, 1)
     m.line("a", length, arc, elements=n, weight=m.force/length*m.decade(-3, 0.3) if m.chance(0.7) else 0.0,
@@ -527,8 +527,8 @@ def limits(m):
     if kind == 0:
         r = length*m.between(0.1, 0.3)
         m.cylinder("c", [0, 0, 0], [0, 1, 0], r)
-        way = 2*(math.sqrt((0.45*length)**2 - r*r) + r*math.asin(r/(0.45*length)))
-        m.line("a", max(way*m.between(0.97, 1), 0.9001*length), "static", elements=m.count(10, 60), inextensible=True,
+        path = 2*(math.sqrt((0.45*length)**2 - r*r) + r*math.asin(r/(0.45*length)))
+        m.line("a", max(path*m.between(0.97, 1), 0.9001*length), "static", elements=m.count(10, 60), inextensible=True,
                A={"held": [-0.45*length, 0, r]}, B={"held": [0.441*length, 0, r]})
         m.history.append({"name": "down", "steps": m.count(1, 6), "a.A": {"position": [-0.45*length, 0, 0]}, "a.B": {"position": [0.45*length, 0, 0]}})
     elif kind in (1, 2):

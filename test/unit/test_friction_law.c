@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Ellipse and box of friction forces: dissipation is the support function, the gap is phi + F.u and
- * not less than 0, clipped forces are in the set, room keeps them there. */
+ * not less than 0, clipped forces are in the set, the margin keeps them there. */
 #include "cable/line.h"
 
 #include "check.h"
@@ -114,7 +114,7 @@ static void corner(void **state) {
 
 /* What is clipped keeps its direction, and is in the set; what is inside is not touched. Room is a
  * lower bound of what may be added in the force's own direction. */
-static void clip_and_room(void **state) {
+static void clip_and_margin(void **state) {
     (void)state;
     for (size_t k = 0; k < sizeof SHAPE / sizeof *SHAPE; k++) {
         const CpsiFrictionLaw law = make(SHAPE[k][0], SHAPE[k][1], SHAPE[k][2] > 0);
@@ -132,10 +132,11 @@ static void clip_and_room(void **state) {
                 if (!flat) CHECK_NEAR(far[a], on[a], 1e-15);
                 CHECK_NEAR(kept[a], in[a], 0);
             }
-            const double size = hypot(in[0], in[1]), room = cpsi_friction_law_margin(&law, 2.5, in);
-            CHECK_GREATER(room, -1e-300);
-            CHECK_LESS(room, hypot(on[0], on[1]) - size + 1e-15);
-            if (flat) CHECK_NEAR(room, 0, 0);
+            const double size = hypot(in[0], in[1]),
+                         margin = cpsi_friction_law_margin(&law, 2.5, in);
+            CHECK_GREATER(margin, -1e-300);
+            CHECK_LESS(margin, hypot(on[0], on[1]) - size + 1e-15);
+            if (flat) CHECK_NEAR(margin, 0, 0);
             if (!flat) CHECK_NEAR(cpsi_friction_law_margin(&law, 2.5, on), 0, 1e-15);
         }
     }
@@ -149,8 +150,8 @@ static void clip_and_room(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ratios), cmocka_unit_test(support),       cmocka_unit_test(gap),
-        cmocka_unit_test(corner), cmocka_unit_test(clip_and_room),
+        cmocka_unit_test(ratios), cmocka_unit_test(support),         cmocka_unit_test(gap),
+        cmocka_unit_test(corner), cmocka_unit_test(clip_and_margin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

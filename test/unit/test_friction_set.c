@@ -70,8 +70,8 @@ static void polygons(void **unused) {
         cps_set_hull_of_points(2, count, pole[0], &hull, NULL);
         cps_set_polar(hull, &set[3], NULL);
         cps_set_release(hull);
-        for (int way = 0; way < 4; way++) {
-            CpsiFrictionSet *friction = made(set[way]);
+        for (int form = 0; form < 4; form++) {
+            CpsiFrictionSet *friction = made(set[form]);
             for (int look = 0; look < 40; look++) {
                 const double size = exp(splitmix(&stream, -20, 3)),
                              angle = splitmix(&stream, 0, TURN);

@@ -93,11 +93,11 @@ static void bends(const CpsiObstacle *o, Vec3 x, uint64_t *state) {
     CHECK_GREATER(vec3_dot(along, t), 0);
 
     const double step = 1e-4;
-    const Vec3 way[3] = {t, vec3_add(t, b), b}; /* the mixed one by polarisation */
+    const Vec3 direction[3] = {t, vec3_add(t, b), b}; /* the mixed one by polarisation */
     double second[3];
     for (int k = 0; k < 3; k++) {
-        const double up = cpsi_obstacle_gap(o, vec3_axpy(step, way[k], x)),
-                     down = cpsi_obstacle_gap(o, vec3_axpy(-step, way[k], x));
+        const double up = cpsi_obstacle_gap(o, vec3_axpy(step, direction[k], x)),
+                     down = cpsi_obstacle_gap(o, vec3_axpy(-step, direction[k], x));
         second[k] = (up - 2 * cpsi_obstacle_gap(o, x) + down) / (step * step);
     }
     second[1] = 0.5 * (second[1] - second[0] - second[2]);
@@ -111,9 +111,9 @@ static void curvature_is_second_derivative(void **state) {
     everywhere(bends);
 }
 
-/* The way from x to where it moves is what it was moved by, as it arrives: same length, and back
- * again the same way. On a surface of radius r the way is that at the surface, while x moves at its
- * own distance. */
+/* The slip from x to where it moves is what it was moved by, as it arrives: same length, and back
+ * again the same path. On a surface of radius r the slip is that at the surface, while x moves at
+ * its own distance. */
 static void there_and_back(const CpsiObstacle *o, Vec3 x, uint64_t *state) {
     const double distance =
         o->kind == CPS_OBSTACLE_PLANE ? 1 : (o->radius + cpsi_obstacle_gap(o, x)) / o->radius;
@@ -126,19 +126,20 @@ static void there_and_back(const CpsiObstacle *o, Vec3 x, uint64_t *state) {
 
     /* what is straight on a cylinder is not shortened */
     const Vec3 axis = o->frame.axis[2], tangent = vec3_axpy(-rise, n, u),
-               way = cpsi_obstacle_slip(o, x, to);
+               slip = cpsi_obstacle_slip(o, x, to);
     const double straight = o->kind == CPS_OBSTACLE_CYLINDER ? vec3_dot(tangent, axis) : 0;
     const double whole = vec3_norm(tangent),
                  round = sqrt(fmax(0, whole * whole - straight * straight));
-    CHECK_NEAR(vec3_norm(way), hypot(straight, round / distance), 10 * tolerance);
-    CHECK_NEAR(vec3_dot(way, cpsi_obstacle_normal(o, to)), 0, 10 * tolerance);
-    if (o->kind == CPS_OBSTACLE_CYLINDER) CHECK_NEAR(vec3_dot(way, axis), straight, 10 * tolerance);
+    CHECK_NEAR(vec3_norm(slip), hypot(straight, round / distance), 10 * tolerance);
+    CHECK_NEAR(vec3_dot(slip, cpsi_obstacle_normal(o, to)), 0, 10 * tolerance);
+    if (o->kind == CPS_OBSTACLE_CYLINDER)
+        CHECK_NEAR(vec3_dot(slip, axis), straight, 10 * tolerance);
 
     /* back: from the arrival, against the way, to the start */
     const Vec3 along = vec3_scale(straight, axis);
     const double grown =
         o->kind == CPS_OBSTACLE_PLANE ? 1 : (o->radius + cpsi_obstacle_gap(o, to)) / o->radius;
-    const Vec3 rest = o->kind == CPS_OBSTACLE_CYLINDER ? vec3_sub(way, along) : way;
+    const Vec3 rest = o->kind == CPS_OBSTACLE_CYLINDER ? vec3_sub(slip, along) : slip;
     Vec3 back = vec3_scale(-grown, rest);
     if (o->kind == CPS_OBSTACLE_CYLINDER) back = vec3_sub(back, along);
     back = vec3_axpy(-rise, cpsi_obstacle_normal(o, to), back);
@@ -148,7 +149,7 @@ static void there_and_back(const CpsiObstacle *o, Vec3 x, uint64_t *state) {
     CHECK_VECTOR(got, want, 30 * tolerance);
 }
 
-static void move_and_way(void **state) {
+static void move_and_slip(void **state) {
     (void)state;
     everywhere(there_and_back);
 }
@@ -164,7 +165,7 @@ static void still(const CpsiObstacle *o, Vec3 x, uint64_t *state) {
     CHECK_NEAR(vec3_norm(cpsi_obstacle_slip(o, x, up)), 0, 2e-14 * (1 + vec3_norm(x)));
 }
 
-static void no_way(void **state) {
+static void no_slip(void **state) {
     (void)state;
     everywhere(still);
 }
@@ -218,9 +219,9 @@ static void angles(const CpsiObstacle *o, Vec3 x, uint64_t *state) {
     CHECK_NEAR(fabs(cpsi_obstacle_angle(o, n, far)), pi, rounding);
     const Vec3 foot = vec3_axpy(-cpsi_obstacle_gap(o, x), n, x),
                across = vec3_axpy(-2 * o->radius, n, foot);
-    const Vec3 way = cpsi_obstacle_slip(o, foot, across);
-    CHECK_NEAR(vec3_norm(way), pi * o->radius, 1e2 * rounding);
-    CHECK_NEAR(vec3_dot(way, n), 0, 1e2 * rounding);
+    const Vec3 slip = cpsi_obstacle_slip(o, foot, across);
+    CHECK_NEAR(vec3_norm(slip), pi * o->radius, 1e2 * rounding);
+    CHECK_NEAR(vec3_dot(slip, n), 0, 1e2 * rounding);
 }
 
 static void half_round(void **state) {
@@ -233,10 +234,10 @@ static void half_round(void **state) {
         def.kind = (CpsObstacleKind)kind;
         def.radius = 2;
         const CpsiObstacle o = cpsi_obstacle(&def); /* about the y axis */
-        const Vec3 way = cpsi_obstacle_slip(&o, vec3(2, 0, 0), vec3(-2, 0, 0));
-        CHECK_NEAR(vec3_norm(way), 2 * 3.14159265358979323846, 1e-15);
-        CHECK_NEAR(way.x, 0, 0);
-        if (kind == CPS_OBSTACLE_CYLINDER) CHECK_NEAR(way.y, 0, 0);
+        const Vec3 slip = cpsi_obstacle_slip(&o, vec3(2, 0, 0), vec3(-2, 0, 0));
+        CHECK_NEAR(vec3_norm(slip), 2 * 3.14159265358979323846, 1e-15);
+        CHECK_NEAR(slip.x, 0, 0);
+        if (kind == CPS_OBSTACLE_CYLINDER) CHECK_NEAR(slip.y, 0, 0);
     }
 }
 
@@ -344,8 +345,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(normal_is_gradient),
         cmocka_unit_test(curvature_is_second_derivative),
-        cmocka_unit_test(move_and_way),
-        cmocka_unit_test(no_way),
+        cmocka_unit_test(move_and_slip),
+        cmocka_unit_test(no_slip),
         cmocka_unit_test(turn),
         cmocka_unit_test(half_round),
         cmocka_unit_test(has_local_axes),

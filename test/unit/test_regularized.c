@@ -231,7 +231,7 @@ static void first_order_against_differences(void **state) {
     assert_int_equal(cpsi_step_copy(&step.view, &copy, &err), CPS_OK);
     double tangent[3 * ELEMENTS], stretch[ELEMENTS], strain[ELEMENTS], u[COORDINATES] = {0},
                                                                        anchor[COORDINATES] = {0};
-    double rub[COORDINATES], push[NODES], gradient[COORDINATES], x[COORDINATES];
+    double own_friction[COORDINATES], push[NODES], gradient[COORDINATES], x[COORDINATES];
     unsigned seed = 5;
     for (int i = 0; i < ELEMENTS; i++) {
         double square = 0;
@@ -245,18 +245,18 @@ static void first_order_against_differences(void **state) {
         strain[i] = fmax(0, stretch[i] - 1);
     }
     for (int k = 0; k < COORDINATES; k++) {
-        rub[k] = 0.2 * noise(&seed);
+        own_friction[k] = 0.2 * noise(&seed);
         x[k] = 0.3 * noise(&seed);
     }
     for (int j = 0; j < NODES; j++) {
         push[j] = fabs(noise(&seed));
         // friction is tangential
-        double across = 0.6 * rub[3 * j] + 0.8 * rub[3 * j + 2];
-        rub[3 * j] -= 0.6 * across;
-        rub[3 * j + 2] -= 0.8 * across;
+        double across = 0.6 * own_friction[3 * j] + 0.8 * own_friction[3 * j + 2];
+        own_friction[3 * j] -= 0.6 * across;
+        own_friction[3 * j + 2] -= 0.8 * across;
     }
     CpsiFirstOrder f = {&copy,  3 * ELEMENTS, tangent, stretch,  strain, copy.own.gap, u,
-                        anchor, rub,          push,    gradient, 4,      0.3};
+                        anchor, own_friction, push,    gradient, 4,      0.3};
     CpsiSmooth smooth = cpsi_first_order_smooth(&f);
     double g[COORDINATES], before[COORDINATES], after[COORDINATES],
         a[COORDINATES * (CPSI_FIRST_ORDER_BAND + 1)] = {0};

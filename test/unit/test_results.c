@@ -389,7 +389,7 @@ static void both_contacts_are_written(void **state) {
 
 /* a shorter run into the same place leaves nothing of the longer one, and nothing that is not ours
  * is touched */
-static void earlier_files_give_way(void **state) {
+static void earlier_files_are_displaced(void **state) {
     (void)state;
     Fixture f;
     make_scene(&f);
@@ -582,7 +582,7 @@ int main(void) {
         cmocka_unit_test(netcdf_holds_the_last_step),
         cmocka_unit_test(obstacles_are_written),
         cmocka_unit_test(both_contacts_are_written),
-        cmocka_unit_test(earlier_files_give_way),
+        cmocka_unit_test(earlier_files_are_displaced),
         cmocka_unit_test(no_solution_is_written),
         cmocka_unit_test(what_is_not_there_is_refused),
         cmocka_unit_test(misuse_is_refused),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Results of runs that lack something: steps, obstacles, a solution, a place near 0, room for the
+/* Results of runs that lack something: steps, obstacles, a solution, a place near 0, space for the
  * summary. */
 #include <setjmp.h>
 #include <stdarg.h>

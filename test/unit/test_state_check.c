@@ -66,10 +66,10 @@ static int set_up(void **state) {
     s->evolution = evolution_at(STEPS);
     s->other = evolution_at(1);
     s->size = cps_evolution_state_size(s->evolution);
-    unsigned char **const room[] = {&s->good, &s->changed, &s->kept, &s->now};
-    for (size_t i = 0; i < sizeof room / sizeof *room; i++) {
-        *room[i] = malloc(s->size);
-        assert_non_null(*room[i]);
+    unsigned char **const buffer[] = {&s->good, &s->changed, &s->kept, &s->now};
+    for (size_t i = 0; i < sizeof buffer / sizeof *buffer; i++) {
+        *buffer[i] = malloc(s->size);
+        assert_non_null(*buffer[i]);
     }
     cps_evolution_save(s->evolution, s->good);
     cps_evolution_save(s->other, s->kept);

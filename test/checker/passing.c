@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Passing an obstacle (way.h), by the distance of an element from its axis or centre in time.
+/* Passing an obstacle (passing.h), by the distance of an element from its axis or centre in time.
  *
  * The ends of an element go straight and at constant speed, u and v, while t goes from 0 to 1. Its
  * distance from a point or an axis changes by no more than max(|u|, |v|) per unit of t, since each
  * of its points goes by a mean of u and v. So from a distance d it takes at least
  * (d - near)/max(|u|, |v|) until the element is as near as `near`, and t can advance by that. An
  * element passes where it comes as near as half of the radius, or half of its distance before. */
-#include "way.h"
+#include "passing.h"
 
 #include <math.h>
 
@@ -21,7 +21,7 @@ typedef Real Triple[3];
 static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static Real size(const Real *a) { return sqrtl(dot(a, a)); }
 
-/* x relative to the axis or centre, at time t of its way. */
+/* x relative to the axis or centre, at time t of its path. */
 static void arm(const Surface *s, const double *from, const double *to, Real t, Real *out) {
     for (int k = 0; k < 3; k++) out[k] = (1 - t) * from[k] + t * to[k] - s->point[k];
     const Real along = s->kind == SURFACE_CYLINDER ? dot(out, s->axis) : 0;
@@ -30,14 +30,14 @@ static void arm(const Surface *s, const double *from, const double *to, Real t, 
 
 /* Distance of element i from the axis or centre at time t. */
 static Real distance_at(const Surface *s, const Record *r, size_t i, Real t) {
-    Triple a, b, way;
+    Triple a, b, chord;
     arm(s, r->reference[i], r->position[i], t, a);
     arm(s, r->reference[i + 1], r->position[i + 1], t, b);
-    for (int k = 0; k < 3; k++) way[k] = b[k] - a[k];
-    const Real whole = dot(way, way), part = whole > 0 ? -dot(a, way) / whole : 0;
+    for (int k = 0; k < 3; k++) chord[k] = b[k] - a[k];
+    const Real whole = dot(chord, chord), part = whole > 0 ? -dot(a, chord) / whole : 0;
     if (!(part > 0)) return size(a);
     if (part >= 1) return size(b);
-    for (int k = 0; k < 3; k++) a[k] += part * way[k];
+    for (int k = 0; k < 3; k++) a[k] += part * chord[k];
     return size(a);
 }
 
@@ -73,11 +73,11 @@ static const char *claim_contradiction(const Source *source, const Record *r) {
     if (r->proof_obstacle < 0 || r->proof_obstacle >= (int)source->surfaces)
         return "passes an obstacle, but it does not say which";
     if (!passes(&source->surface[r->proof_obstacle], r, CLAIMED))
-        return "passes an obstacle, but its way is clear of it";
+        return "passes an obstacle, but its path is clear of it";
     return NULL;
 }
 
-const char *way_contradiction(const Source *source, const Record *r, bool laid) {
+const char *passing_contradiction(const Source *source, const Record *r, bool laid) {
     if (r->outcome == OUTCOME_PASSES) return claim_contradiction(source, r);
     if (laid || source->consistent || !source->touching_only || !source->follows) return NULL;
     for (size_t k = 0; k < source->surfaces; k++)

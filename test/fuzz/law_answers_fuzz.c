@@ -2,13 +2,12 @@
 /* Fuzzing the law reader: any bytes give a law that answers what it is asked, or an error with a
  * sentence; and every number of an answer is one.
  *
- *   cmake --preset dev -B build/fuzz -DCMAKE_C_COMPILER=clang -DCAPSTAN_FUZZ=ON
- *       -DCAPSTAN_SANITIZE=address,undefined \
- *     -DCMAKE_C_FLAGS=-fsanitize=fuzzer-no-link
- *   cmake --build build/fuzz --target law_fuzz && mkdir corpus bad && python3 test/cli/bad_laws.py
- *       --write bad
- *   ASAN_OPTIONS=detect_leaks=0 build/fuzz/test/fuzz/law_fuzz -max_total_time=300 -timeout=60 \
- *     -max_len=1500 -dict=test/fuzz/law.dict corpus examples/laws bad
+ *   cmake --preset dev -B build/fuzz -DCMAKE_C_COMPILER=clang -DCAPSTAN_FUZZ=ON \
+ *     -DCAPSTAN_SANITIZE=address,undefined -DCMAKE_C_FLAGS=-fsanitize=fuzzer-no-link
+ *   cmake --build build/fuzz --target fuzz_law_answers
+ *   mkdir corpus bad && python3 test/cli/bad_laws.py --write bad
+ *   ASAN_OPTIONS=detect_leaks=0 build/fuzz/test/fuzz/fuzz_law_answers -timeout=60 \
+ *     -max_total_time=300 -max_len=1500 -dict=test/fuzz/law.dict corpus examples/laws bad
  *
  * New inputs go to the first folder. libfyaml leaks on some broken keys, hence the option. */
 #include <math.h>
@@ -63,7 +62,7 @@ static void ask_resistance(const CpsResistance *law) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    char path[] = "/tmp/law_fuzz_XXXXXX";
+    char path[] = "/tmp/law_answers_XXXXXX";
     const int file = mkstemp(path);
     if (file < 0 || write(file, data, size) != (ssize_t)size) abort();
     close(file);

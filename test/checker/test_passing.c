@@ -40,14 +40,14 @@ static int remove_directory(void **state) {
 
 /* Something round in or beside the way of a rope of length L from the origin to L (cos, 0, +-sin).
  */
-typedef struct Way {
+typedef struct Passing {
     double length, angle, radius, x, y; /* [m], [rad]; the centre is at (x, y, 0) */
     bool is_sphere;
     int elements, side; /* B begins above (1) or below (-1) */
-} Way;
+} Passing;
 
 /* The scene of a way into its file; two obstacles, the first one far away. */
-static void write_scene(const Way *w) {
+static void write_scene(const Passing *w) {
     const double c = w->length * cos(w->angle), s = w->length * sin(w->angle) * w->side,
                  far = 50 * w->length, more = 1.001;
     FILE *out = fopen(path, "w");
@@ -94,7 +94,7 @@ static CpsLineReport run(void) {
 }
 
 /* The largest y at which a sphere is passed: half of its radius or of its distance before. */
-static bool is_passed(const Way *w) {
+static bool is_passed(const Passing *w) {
     const double reach = w->length * cos(w->angle);
     if (!w->is_sphere) return w->x < reach;
     const double before = hypot(w->y, w->x * sin(w->angle));
@@ -102,8 +102,8 @@ static bool is_passed(const Way *w) {
 }
 
 /* A random way, clearly passing or clearly not, with clear ends. */
-static Way random_way(uint64_t *state, bool passes) {
-    Way w = {.length = pow(10, splitmix(state, -2, 2)), .angle = splitmix(state, 0.2, 0.6)};
+static Passing random_passing(uint64_t *state, bool passes) {
+    Passing w = {.length = pow(10, splitmix(state, -2, 2)), .angle = splitmix(state, 0.2, 0.6)};
     w.is_sphere = splitmix(state, 0, 1) < 0.5;
     w.elements = (int)splitmix(state, 2, 30);
     w.side = splitmix(state, 0, 1) < 0.5 ? 1 : -1;
@@ -129,7 +129,7 @@ static void what_passes_is_told(void **state) {
     int passed = 0;
     for (int i = 0; i < CASES; i++) {
         const bool passes = i % 2 == 0;
-        const Way w = random_way(&random, passes);
+        const Passing w = random_passing(&random, passes);
         CheckerReport report;
         CHECK_INT(is_passed(&w), passes);
         write_scene(&w);
