@@ -36,25 +36,18 @@ enum {
     X(SCENE_INFEASIBLE, "infeasible")                                                              \
     X(SCENE_UNBOUNDED, "unbounded")                                                                \
     X(SCENE_TAUT, "taut")                                                                          \
-    X(SCENE_CONSISTENT, "consistent") /* friction that follows the reaction: any of common, slope, \
-                                         imposed, history */                                       \
-    X(SCENE_CYLINDER, "cylinder") /* from here on consistent friction; a line round a cylinder,    \
-                                     pulled at its end */                                          \
-    X(SCENE_PIPE, "pipe")         /* laid over a lying cylinder, its ends moved about */           \
-    X(SCENE_SPHERE, "sphere")     /* along a circle on a ball */                                   \
-    X(SCENE_TWO, "two_obstacles") /* a bed and a pipe or ball on it */                             \
-    X(SCENE_DRUM, "drum")         /* a cylinder that turns under the line */                       \
-    X(SCENE_ELLIPSE, "ellipse")   /* on a plane, axial and lateral friction along the line */      \
+    X(SCENE_CONSISTENT, "consistent") /* common, slope, imposed or history, consistent friction */ \
+    X(SCENE_CYLINDER, "cylinder")     /* consistent from here on; round it, pulled at the end */   \
+    X(SCENE_PIPE, "pipe")             /* over a lying cylinder, the ends moved about */            \
+    X(SCENE_SPHERE, "sphere")         /* along a circle on a ball */                               \
+    X(SCENE_TWO, "two_obstacles")     /* a bed and a pipe or ball on it */                         \
+    X(SCENE_DRUM, "drum")             /* a cylinder that turns under the line */                   \
+    X(SCENE_ELLIPSE, "ellipse")       /* on a plane, axial and lateral friction along the line */  \
     X(SCENE_BOX, "box")                                                                            \
-    X(SCENE_GRAIN,                                                                                 \
-      "grain") /* any scene on a plane, the two coefficients in directions of the plane */         \
-    X(SCENE_WINCH,                                                                                 \
-      "winch") /* a drum with a load on one end and a hand on the other: nothing is held */        \
-    X(SCENE_WILD, "wild_directions") /* any scene on a plane, along the line: steps so large that  \
-                                      * its direction turns                                        \
-                                      */                                                           \
-    X(SCENE_SECTIONS, "sections")    /* any of common, imposed, graded, several, hanging or pipe,  \
-                                        with    sections, clumps and buoys */
+    X(SCENE_GRAIN, "grain")          /* on a plane, coefficients in directions of the plane */     \
+    X(SCENE_WINCH, "winch")          /* a drum with a force on both ends: nothing is held */       \
+    X(SCENE_WILD, "wild_directions") /* on a plane, steps so large that its direction turns */     \
+    X(SCENE_SECTIONS, "sections")    /* any with sections, point weights and buoys */
 
 enum {
     SCENE_BEFORE_FIRST = SCENE_EA_CLASSES - 1,
