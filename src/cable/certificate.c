@@ -71,16 +71,18 @@ static void add_outer(double m[9], double scale, Vec3 a, Vec3 b) {
         for (int k = 0; k < 3; k++) m[3 * i + k] += scale * left[i] * right[k];
 }
 
-/* Is the bound of contact c coupled to its reaction? */
-static bool bound_follows(const CpsiLine *line, int c) {
+/* Is the bound of contact c coupled to its reaction? A frozen one is not, also where both are the
+ * same because nothing has changed. */
+static bool bound_follows(const CpsiLine *line, CpsFrictionPolicy friction, int c) {
     const double bound = line->friction_law[c].friction * line->reaction[c];
-    return bound > 0 && fabs(line->friction_bound[c] - bound) <= 1e-12 * bound;
+    return friction == CPS_FRICTION_POLICY_CONSISTENT && bound > 0 &&
+           fabs(line->friction_bound[c] - bound) <= 1e-12 * bound;
 }
 
 /* Distribute the remaining force `rest` on a line free at both ends. With one vector lambda for all
  * contacts, a contact contributes R (n.lambda) n, the friction F (n.lambda) where its bound is
  * coupled to R, and margin lambda_T within its bound; the sum is a 3 x 3 system. */
-static void distribute_excess(CpsiLine *line, Vec3 rest) {
+static void distribute_excess(CpsiLine *line, CpsFrictionPolicy friction, Vec3 rest) {
     double m[9] = {0}, lambda[3] = {-rest.x, -rest.y, -rest.z}, trace = 0;
     int pivot[3];
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
@@ -92,7 +94,8 @@ static void distribute_excess(CpsiLine *line, Vec3 rest) {
             add_outer(m, -margin, cpsi_line_friction_normal(line, c),
                       cpsi_line_friction_normal(line, c));
         }
-        if (bound_follows(line, c)) add_outer(m, 1, vec3_load(&line->friction_force[3 * c]), n);
+        if (bound_follows(line, friction, c))
+            add_outer(m, 1, vec3_load(&line->friction_force[3 * c]), n);
         for (int i = 0; i < 3; i++) m[4 * i] += margin;
         trace += line->reaction[c] + 2 * margin;
     }
@@ -105,7 +108,8 @@ static void distribute_excess(CpsiLine *line, Vec3 rest) {
     if (!(vec3_norm(by) < 1)) return;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const Vec3 n = vec3_load(&line->normal[3 * c]), f = vec3_load(&line->friction_force[3 * c]);
-        const double along = vec3_dot(n, by), follow = bound_follows(line, c) ? 1 + along : 1;
+        const double along = vec3_dot(n, by),
+                     follow = bound_follows(line, friction, c) ? 1 + along : 1;
         /* the force is inside its set before it is scaled with its bound, and so it is after */
         const Vec3 more = vec3_axpy(friction_margin(line, c),
                                     vec3_reject(by, cpsi_line_friction_normal(line, c)), f);
@@ -115,7 +119,7 @@ static void distribute_excess(CpsiLine *line, Vec3 rest) {
     }
 }
 
-void cpsi_balance_forces(CpsiLine *line) {
+void cpsi_balance_forces(CpsiLine *line, CpsFrictionPolicy friction) {
     const int n = line->n, elements = n - 1;
     if (line->end[CPS_END_A].kind == CPS_END_KIND_FREE &&
         line->end[CPS_END_B].kind == CPS_END_KIND_FREE) {
@@ -123,7 +127,7 @@ void cpsi_balance_forces(CpsiLine *line) {
              round++) { /* the second round removes the rounding error of the first */
             Vec3 rest = vec3(0, 0, 0);
             for (int j = 0; j < n; j++) rest = vec3_add(rest, node_force(line, j));
-            distribute_excess(line, rest);
+            distribute_excess(line, friction, rest);
         }
     }
     /* from B to A, starting from zero beyond a free end or from the computed force of the last

@@ -9,8 +9,8 @@
 /* Make the forces of a step balance at every node that is not held, by summation along the line
  * from a free end; the remaining force on a line free at both ends is distributed among friction
  * and reactions that can change. Changes segment_force, and for two free ends friction_force,
- * friction_bound and reaction. */
-void cpsi_balance_forces(CpsiLine *line);
+ * reaction and, where friction follows it, friction_bound. */
+void cpsi_balance_forces(CpsiLine *line, CpsFrictionPolicy friction);
 
 /* Add to `sum` the forces on node j of the contacts of the elements beside it. */
 Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum);

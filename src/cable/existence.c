@@ -9,6 +9,13 @@
 #include "cable/contact.h"
 #include "cable/line_solve.h"
 
+/* A direction leaves a plane by this much more steeply than friction on it asks, which is more than
+ * rounding. */
+static const double ROOM = 1e-9;
+/* [-] Least power of the loads per metre, as a share of the sum of their sizes: forces in a
+ * certified equilibrium balance to less. */
+static const double LEAST_POWER = 1e-6;
+
 /* Ends farther apart than an inextensible line is long: a constant force along the ends is a
  * proof. */
 static bool too_short(CpsiLine *line) {
@@ -26,7 +33,7 @@ static bool too_short(CpsiLine *line) {
 /* No end held: a rigid translation v with B.v > sum w |v_T| lowers the energy for ever, B the sum
  * of loads. The best v has the tangential part of B that friction cannot carry, and the normal part
  * of B where the obstacle does not prevent it. This holds on one plane with isotropic friction, or
- * without obstacles; in other cases the loop finds out. */
+ * without obstacles; for several planes see slips_off. */
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     if (!cpsi_line_both_ends(line, CPS_END_KIND_FREE) || line->has_local_axes) return false;
     Vec3 sum = vec3(0, 0, 0);
@@ -60,6 +67,100 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     const bool frozen =
         options->friction_policy == CPS_FRICTION_POLICY_FROZEN && !options->frictionless;
     if (frozen && along == 0 && pull <= least * -normal) line->report.coulomb = least * -normal;
+    return true;
+}
+
+/* A plane as no friction on it can hold: whatever moves along a unit vector v with n.v >= rise. */
+typedef struct Slope {
+    Vec3 n;
+    double rise;
+} Slope;
+
+/* More planes are not examined, since all pairs of them are. */
+enum { MOST_SLOPES = 16 };
+
+/* The slopes of the obstacles: the sine of the friction angle, by the radius of a disc that
+ * contains all friction forces per unit normal force. 0 where an obstacle is round or has a given
+ * set. */
+static int fill_slopes(const CpsiLine *line, Slope slope[MOST_SLOPES]) {
+    double factor = line->friction_factor ? 0 : 1;
+    if (line->friction_factor)
+        for (int j = 0; j < line->n; j++) factor = fmax(factor, line->friction_factor[j]);
+    if (line->obstacle_count > MOST_SLOPES) return 0;
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const CpsiObstacle *o = &line->obstacle[k];
+        if (o->kind != CPS_OBSTACLE_PLANE || o->has_set) return 0;
+        const double mu =
+            factor * (o->shape == CPS_FRICTION_SHAPE_BOX ? hypot(o->friction[0], o->friction[1])
+                                                         : fmax(o->friction[0], o->friction[1]));
+        slope[k] = (Slope){o->frame.axis[2], mu / hypot(1, mu)};
+    }
+    return line->obstacle_count;
+}
+
+/* The steepest fall found so far: the power of the loads `sum` along a unit vector v. */
+typedef struct Fall {
+    Vec3 sum, v;
+    double power;
+} Fall;
+
+static void consider(const Slope *slope, int count, Vec3 along, Fall *fall) {
+    const Vec3 v = vec3_scale(1 / vec3_norm(along), along);
+    for (int k = 0; k < count; k++)
+        if (!(vec3_dot(slope[k].n, v) >= slope[k].rise)) return;
+    if (!(vec3_dot(fall->sum, v) > fall->power)) return;
+    fall->v = v;
+    fall->power = vec3_dot(fall->sum, v);
+}
+
+/* ... that leaves one plane as steeply as its friction asks, */
+static void consider_one(const Slope *slope, int count, int k, Fall *fall) {
+    const double rise = slope[k].rise + ROOM;
+    const Vec3 n = slope[k].n, t = vec3_axpy(-vec3_dot(fall->sum, n), n, fall->sum);
+    const Vec3 up = vec3_scale(rise * vec3_norm(t), n);
+    consider(slope, count, vec3_axpy(sqrt(fmax(0, 1 - rise * rise)), t, up), fall);
+}
+
+/* ... and two, to either side of the corner between them. */
+static void consider_two(const Slope *slope, int count, int k, int m, Fall *fall) {
+    const Vec3 a = slope[k].n, b = slope[m].n, corner = vec3_cross(a, b);
+    const double p = slope[k].rise + ROOM, q = slope[m].rise + ROOM, cosine = vec3_dot(a, b),
+                 square = vec3_dot(corner, corner);
+    const Vec3 up =
+        vec3_axpy((p - cosine * q) / square, a, vec3_scale((q - cosine * p) / square, b));
+    const double along = sqrt((1 - vec3_dot(up, up)) / square);
+    consider(slope, count, vec3_axpy(along, corner, up), fall);
+    consider(slope, count, vec3_axpy(-along, corner, up), fall);
+}
+
+/* No end held, all obstacles planes, bounds that follow the reactions. Whatever contact forces R (n
+ * + f) there are, wherever the line lies, their power along v is at least 0 if v leaves every plane
+ * at the friction angle or steeper. So B.v > 0 proves that they do not balance the sum of loads B,
+ * and the energy falls by B.v per metre along v, without friction. The best v is the point of the
+ * cone of these directions that is nearest to B: B itself, or one on the boundary of one slope or
+ * of two. */
+static bool slips_off(CpsiLine *line, const CpsiStepOptions *options) {
+    Slope slope[MOST_SLOPES];
+    if (!cpsi_line_both_ends(line, CPS_END_KIND_FREE) || !line->has_local_axes ||
+        options->friction_policy != CPS_FRICTION_POLICY_CONSISTENT || options->frictionless)
+        return false;
+    const int count = fill_slopes(line, slope);
+    Fall fall = {0};
+    double loads = 0;
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 b = vec3_load(&line->load[3 * j]);
+        fall.sum = vec3_add(fall.sum, b);
+        loads += vec3_norm(b);
+    }
+    if (count > 0) consider(slope, count, fall.sum, &fall);
+    for (int k = 0; k < count; k++) {
+        consider_one(slope, count, k, &fall);
+        for (int m = 0; m < k; m++) consider_two(slope, count, k, m, &fall);
+    }
+    if (!(fall.power > LEAST_POWER * loads)) return false;
+    line->report.outcome = CPS_OUTCOME_UNBOUNDED;
+    vec3_store(line->report.proof, fall.v);
+    line->report.proof_force = fall.power;
     return true;
 }
 
@@ -106,7 +207,7 @@ bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *loa
 }
 
 bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options) {
-    if (too_short(line) || runs_away(line, options)) return true;
+    if (too_short(line) || runs_away(line, options) || slips_off(line, options)) return true;
     double direction[3], load;
     if (!cpsi_line_falls_away(line, direction, &load)) return false;
     line->report.outcome = CPS_OUTCOME_UNBOUNDED;

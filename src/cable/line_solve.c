@@ -167,7 +167,7 @@ void cpsi_line_release_open_contacts(CpsiLine *line, const CpsiChainProgram *pro
 }
 
 void cpsi_line_certify(CpsiLine *line, const CpsiStepOptions *options, const CpsiIpmReport *ipm) {
-    cpsi_balance_forces(line);
+    cpsi_balance_forces(line, options->friction_policy);
     line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
     if (options->frictionless) line->report.certificate.friction_residual = 0;
     line->report.outcome = cpsi_line_outcome(line, options, ipm);

@@ -61,7 +61,7 @@ bool cpsi_line_stands_still(CpsiLine *line, const CpsiStepOptions *options,
     /* the loads are the same, but normals turned when the last round moved the line onto the
      * surfaces */
     if (left > CPSI_CLEAN && left <= CPSI_TOUCH) {
-        cpsi_balance_forces(line);
+        cpsi_balance_forces(line, options->friction_policy);
         line->report.certificate = cpsi_certificate(line, options->solver.tolerance);
     }
     if (!friction_holds(line, options)) return false;

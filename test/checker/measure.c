@@ -585,6 +585,25 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     }
 }
 
+/* Does v lead away from every obstacle, a plane, so steeply that no friction on it works against
+ * that, wherever the line is and however large the reactions are? n.v >= mu |v_T| with the radius
+ * mu of a disc that contains all coefficients. */
+static bool leaves_planes(const Source *source, const Record *r, const Real *v) {
+    Real factor = r->factor ? 0 : 1;
+    if (r->factor)
+        for (size_t j = 0; j < r->nodes; j++) factor = fmaxl(factor, r->factor[j]);
+    for (size_t k = 0; k < source->surfaces; k++) {
+        const Surface *on = &source->surface[k];
+        Triple n, across;
+        if (on->kind != SURFACE_PLANE || on->set || !source->consistent) return false;
+        surface_normal(on, v, n);
+        for (int a = 0; a < 3; a++) across[a] = v[a] - dot(n, v) * n[a];
+        const Real mu = on->box ? hypotl(on->mu[0], on->mu[1]) : fmaxl(on->mu[0], on->mu[1]);
+        if (!(dot(n, v) >= factor * mu * size(across))) return false;
+    }
+    return source->surfaces > 0;
+}
+
 /* What proves that nothing can balance: distance of the ends, or the fall of the energy along a
  * rigid motion v, sum b.v - sum w |v_T|, which must not lead into the obstacle. Where bounds follow
  * the reactions, these carry the normal part of the loads and sum w is at most the largest mu times
@@ -621,8 +640,8 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
         }
     }
     if (source->consistent) add(&fall, -steepest * fmaxl(0, total(&press)) * across);
-    if (source->follows) { // round obstacles: nothing may be touched for ever
-        m->meets = !falls_clear(source, r, v);
+    if (source->follows) { // nothing may be touched for ever, or nothing can hold the line
+        m->meets = !leaves_planes(source, r, v) && !falls_clear(source, r, v);
         m->rigid_rise_least = INFINITY;
         fall = (Sum){0, 0};
         for (size_t j = 0; j < r->nodes; j++) {
