@@ -35,6 +35,7 @@
 #include "cable/existence.h"
 #include "cable/line_solve.h"
 #include "cable/mesh_error.h"
+#include "cable/obstacle_side.h"
 #include "cable/report.h"
 #include "cable/rounds.h"
 #include "cable/shortfall.h"
@@ -110,6 +111,11 @@ static const CpsiStrategy STRATEGY[] = {
      .centering = true,
      .drag = true},
 };
+
+/* With contact of the reference, (35) keeps out of an obstacle only what touched it, and so its
+ * solution may lie across one. */
+static const CpsiStrategy ACROSS = {
+    .rounds = 100, .patience = 20, .least_motion = true, .centering = true, .across = true};
 
 static unsigned conditions(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool consistent = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT;
@@ -205,6 +211,20 @@ static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
                       (!line->report.warm_count || found->gap <= CPSI_TARGET * found->scale);
     cpsi_warm_step_note(line, good);
     return good;
+}
+
+/* The straight way from the reference to such a solution tells whether it passes an obstacle. */
+static void solve_across(CpsiLine *line, CpsiChainProgram *program,
+                         const CpsiStepOptions *options) {
+    if (line->has_local_axes) cpsi_contact_reset(line);
+    if (options->least) options->least->chose = false;
+    (void)solve_once(line, program, options, &ACROSS, true, 0);
+    if (line->report.outcome != CPS_OUTCOME_SOLVED) return;
+    const int passed = cpsi_obstacle_passed(line, line->reference, line->position);
+    if (passed == CPS_NO_OBSTACLE) return;
+    line->report.outcome = CPS_OUTCOME_PASSES;
+    line->report.has_proof_obstacle = true;
+    line->report.proof_obstacle = passed;
 }
 
 /* Try the strategies that are of use, until one gives a certified answer; only one if the step is
@@ -380,7 +400,10 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     line->report.certificate = (CpsCertificate){0};
     line->report.outcome = CPS_OUTCOME_SOLVED;
     if (cpsi_line_has_no_equilibrium(line, options)) return;
-    solve_with_fallbacks(line, program, options, guess);
+    if (options->across)
+        solve_across(line, program, options);
+    else
+        solve_with_fallbacks(line, program, options, guess);
     if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
     report_piercing(line);

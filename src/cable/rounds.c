@@ -163,7 +163,8 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
     CpsiRound posed = first_round(options, strategy, bounds);
     CpsiIpmReport ipm = {.outcome = CPSI_IPM_STALLED};
     double turned = line->has_local_axes ? INFINITY : 0, off = 0, best = INFINITY;
-    const bool sides = !options->frictionless; /* a line placed by statics may pass obstacles */
+    /* a line placed by statics may pass obstacles */
+    const bool sides = !options->frictionless && !strategy->across;
     bool arrived = true, scattered = line->has_local_axes;
     int since = 0;
     if (posed.guess == CPSI_GUESS_EXTRAPOLATED && line->has_local_axes &&

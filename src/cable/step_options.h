@@ -11,6 +11,9 @@ typedef struct CpsiStepOptions {
     CpsContactPolicy contact_policy;
     bool frictionless; /* an initial configuration is computed by statics */
     bool fails;        /* the step is known to fail: one strategy shows where */
+    /* contact of the reference and friction that follows it: solve the step's own equations, even
+     * if the answer lies across an obstacle that the line did not touch */
+    bool across;
     /* scratch memory of the rule of least motion; NULL: the rule is not applied */
     CpsiLeastMotion *least;
 } CpsiStepOptions;

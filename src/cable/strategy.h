@@ -23,6 +23,7 @@ typedef struct CpsiStrategy {
         guess; /* of the first round; later ones start from the one before. None: all are cold */
     bool keeps_tangents; /* tangents of isotropic friction are those along the line at the
                             reference, instead of following it */
+    bool across;         /* the moves of the rounds may pass obstacles */
     bool drag;           /* a drag may hold the nodes back from round to round */
 } CpsiStrategy;
 

@@ -495,6 +495,29 @@ static void accept_rest(Advance *substeps, double from, double to, bool tried) {
     keep_part(substeps, &rest);
 }
 
+/* Where friction follows the reactions and only what touched is kept out of obstacles: take the
+ * rest of a portion in one part that may pass obstacles (docs/theory.md 2.6). False where that is
+ * of no use; then the line is restored. */
+static bool accept_across(Advance *substeps, double from, double to) {
+    const CpsiStepOptions *all = substeps->options;
+    if (all->contact_policy != CPS_CONTACT_POLICY_REFERENCE ||
+        all->friction_policy != CPS_FRICTION_POLICY_CONSISTENT || !substeps->line->has_local_axes)
+        return false;
+    CpsiStepOptions options = *all;
+    options.across = true;
+    cpsi_substeps_save(substeps->line, substeps->scratch);
+    substeps->options = &options;
+    Trial rest = {.first = accept(substeps, from, to, substeps->known)};
+    substeps->options = all;
+    if (!converged(&rest.first) && rest.first.report.outcome != CPS_OUTCOME_PASSES) {
+        cpsi_substeps_restore(substeps->line, substeps->scratch);
+        return false;
+    }
+    rest.open = open_energy(substeps, &rest.first, NULL);
+    keep_part(substeps, &rest);
+    return true;
+}
+
 /* The next smaller part after one that was tried, which ended with the portion if it reached beyond
  * what was `left` of it: the same part is not tried twice. */
 static double smaller_part(double part, double left) {
@@ -557,7 +580,8 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
                 at += jump;
                 continue;
             }
-            if (!relax_rest(substeps, from, portion.to))
+            if (!relax_rest(substeps, from, portion.to) &&
+                !accept_across(substeps, from, portion.to))
                 accept_rest(substeps, from, portion.to, at == 0 && end == 1);
             return;
         }

@@ -68,8 +68,8 @@ static bool passes(const Surface *s, const Record *r, Real part) {
 }
 
 static const char *claim_contradiction(const Source *source, const Record *r) {
-    if (source->consistent || !source->touching_only)
-        return "passes an obstacle, but friction or contact is not that of the reference";
+    if (!source->touching_only)
+        return "passes an obstacle, but contact is not that of the reference";
     if (r->proof_obstacle < 0 || r->proof_obstacle >= (int)source->surfaces)
         return "passes an obstacle, but it does not say which";
     if (!passes(&source->surface[r->proof_obstacle], r, CLAIMED))

@@ -126,7 +126,7 @@ static const Tamper TAMPER[] = {
     {"drag_outcome", 0, 6, "mesh too coarse, but friction at one contact"},
     {"drag_outcome", 0, 7, "slides without end, but an end is held"},
     {"loose_outcome", 0, 7, "slides without end, but friction is frozen"},
-    {"drag_outcome", 0, 8, "passes an obstacle, but friction or contact is not"},
+    {"drag_outcome", 0, 8, "passes an obstacle, but contact is not"},
     {"drag_outcome", 0, 9, "unknown outcome"},
     {"tight_end_held_position", 3, 3.999, "distance of the ends - length"},
     {"tight_position", 3, 1.1, "stretch"},

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lines that pass an obstacle within a step of frozen friction with contact of the reference: the
- * outcome says so where they do, and nowhere else; the checker confirms it, and refuses copies
- * whose claim or obstacle is another one.
+/* Lines that pass an obstacle within a step with contact of the reference, with both policies of
+ * friction: the outcome says so where they do, and nowhere else; the checker confirms it, and
+ * refuses copies whose claim or obstacle is another one.
  *
  * A weightless elastic rope without contact stays straight. Its end A is held, and B goes straight
  * from above to below a cylinder or sphere, so the rope sweeps a triangle; every distance follows
@@ -42,8 +42,8 @@ static int remove_directory(void **state) {
  */
 typedef struct Passing {
     double length, angle, radius, x, y; /* [m], [rad]; the centre is at (x, y, 0) */
-    bool is_sphere;
-    int elements, side; /* B begins above (1) or below (-1) */
+    bool is_sphere, follows;            /* friction follows the reactions */
+    int elements, side;                 /* B begins above (1) or below (-1) */
 } Passing;
 
 /* The scene of a way into its file; two obstacles, the first one far away. */
@@ -53,10 +53,10 @@ static void write_scene(const Passing *w) {
     FILE *out = fopen(path, "w");
     assert_non_null(out);
     fprintf(out,
-            "capstan: 1\ncontact_policy: reference\nfriction_policy: frozen\nsolver: {halvings: "
+            "capstan: 1\ncontact_policy: reference\nfriction_policy: %s\nsolver: {halvings: "
             "0}\nobstacles:\n"
             "  far: {sphere: {centre: [0, %.17g, 0], radius: %.17g}, friction: 0.2}\n",
-            far, w->radius);
+            w->follows ? "consistent" : "frozen", far, w->radius);
     if (w->is_sphere)
         fprintf(out, "  near: {sphere: {centre: [%.17g, %.17g, 0]", w->x, w->y);
     else
@@ -101,11 +101,15 @@ static bool is_passed(const Passing *w) {
     return fabs(w->y) < 0.5 * fmin(w->radius, before);
 }
 
-/* A random way, clearly passing or clearly not, with clear ends. */
-static Passing random_passing(uint64_t *state, bool passes) {
-    Passing w = {.length = pow(10, splitmix(state, -2, 2)), .angle = splitmix(state, 0.2, 0.6)};
-    w.is_sphere = splitmix(state, 0, 1) < 0.5;
+/* A random way, clearly passing or clearly not, with clear ends. Where friction follows the
+ * reactions, rounds come as near to a centre as they like, and so pass a sphere beside it. */
+static Passing random_passing(uint64_t *state, bool passes, bool follows) {
+    Passing w = {.follows = follows,
+                 .length = pow(10, splitmix(state, -2, 2)),
+                 .angle = splitmix(state, 0.2, 0.6)};
+    w.is_sphere = splitmix(state, 0, 1) < 0.5 && !follows;
     w.elements = (int)splitmix(state, 2, 30);
+    if (follows) w.elements += 6;
     w.side = splitmix(state, 0, 1) < 0.5 ? 1 : -1;
     const double c = w.length * cos(w.angle);
     w.x = c * (passes || w.is_sphere ? splitmix(state, 0.4, 0.7) : splitmix(state, 1.5, 2));
@@ -126,14 +130,21 @@ static int refused(const char *variable, size_t index, double value) {
 static void what_passes_is_told(void **state) {
     (void)state;
     uint64_t random = 31;
-    int passed = 0;
+    int passed = 0, jumped = 0;
     for (int i = 0; i < CASES; i++) {
         const bool passes = i % 2 == 0;
-        const Passing w = random_passing(&random, passes);
+        const Passing w = random_passing(&random, passes, i % 4 >= 2);
         CheckerReport report;
         CHECK_INT(is_passed(&w), passes);
         write_scene(&w);
         const CpsLineReport line = run();
+        /* nothing holds an overdamped motion that friction follows before the axis: it may come to
+         * rest beyond, which counts as a jump */
+        if (passes && w.follows && line.jump_count > 0) {
+            CHECK_INT(cps_outcome_is_certified(line.outcome), true);
+            jumped++;
+            continue;
+        }
         CHECK_INT(strcmp(cps_outcome_name(line.outcome), passes ? "passes" : "solved"), 0);
         CHECK_INT(cps_outcome_is_certified(line.outcome), !passes);
         CHECK_INT(line.has_proof_obstacle, passes);
@@ -149,12 +160,14 @@ static void what_passes_is_told(void **state) {
         CHECK_INT(refused("rope_proof_obstacle", 0, 0), 1);  /* the other one is far away */
         CHECK_INT(refused("rope_proof_obstacle", 0, -1), 1); /* none */
         CHECK_INT(refused("rope_proof_obstacle", 0, 1), 0);
-        CHECK_INT(refused("rope_outcome", 0, 0), 1); /* certified */
+        /* certified; in rounds the way need not be straight */
+        if (!w.follows) CHECK_INT(refused("rope_outcome", 0, 0), 1);
         CHECK_INT(refused("rope_outcome", 0, 8), 0);
         /* moved out of the way */
         CHECK_INT(refused("obstacle_point", 3, 3 * w.length), 1);
     }
-    CHECK_INT(passed, CASES / 2);
+    CHECK_INT(passed + jumped, CASES / 2);
+    CHECK_INT(jumped <= CASES / 20, true);
 }
 
 int main(void) {

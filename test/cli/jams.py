@@ -33,6 +33,29 @@ history:
   - {{name: turn, rope.B: {{force: {PULL}}}, rough.turn: -25, steps: 1}}
   - {{name: back, rope.B: {{force: [0.08, -0.08, 0]}}, rough.turn: 25, steps: 1}}
 """
+# a soft rope on the bed is drawn into the corner of two pipes; one node is borne by both and the bed
+CORNER = """capstan: 1
+friction_policy: %s
+gravity: [0, 0, -9.81]
+obstacles:
+  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.25}
+  raised: {cylinder: {point: [0.158, -0.358, 0.23], axis: [0.986, -0.125, 0.114], radius: 0.222}, friction: 0.09}
+  buried: {cylinder: {point: [-0.188, 0.246, 0.021], axis: [0.262, 0.96, 0.096], radius: 0.174}, friction: 0.19}
+lines:
+  rope: {length: 1.122, elements: 34, weight: 0.9, stiffness: 3.2, start: {straight: {from: [0, 0, 0], to: [1.122, 0, 0]}}, ends: {A: held, B: free}}
+history:
+  - {name: pull, rope.B: {force: [-4.716, 0.34, -0.694]}}
+"""
+
+
+def corner(folder, friction):
+    """the plane at such a node is no bend, for the checker either"""
+    path, out = os.path.join(folder, "corner.yaml"), os.path.join(folder, friction)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(CORNER % friction)
+    done = subprocess.run([CAPSTAN, "run", path, "--no-paraview", "-o", out], capture_output=True, text=True, check=False)
+    check = subprocess.run([CHECKER, os.path.join(out, "result.nc")], capture_output=True, text=True, check=False)
+    return [] if done.returncode == 0 and check.returncode == 0 else [f"corner, {friction}: {done.stderr} the checker says: {check.stdout}{check.stderr}"]
 
 
 def main():
@@ -55,6 +78,7 @@ def main():
         check = subprocess.run([CHECKER, os.path.join(out, "result.nc")], capture_output=True, text=True, check=False)
         if check.returncode != 0:
             faults.append(f"the checker says: {check.stdout}{check.stderr}")
+        faults += corner(folder, "consistent") + corner(folder, "frozen")
     print("\n".join(faults) or "a rope in the corner of two pipes and the bed comes to rest, certified")
     sys.exit(bool(faults))
 
