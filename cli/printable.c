@@ -6,13 +6,27 @@
 #include <stdarg.h>
 #include <string.h>
 
+/* The bytes of a character at c that controls a terminal: a control character of ASCII or its
+ * second set (U+0080 to U+009F), or one that changes the order or the lines in which text is shown
+ * (U+061C, U+200E, U+200F, U+2028 to U+202E, U+2066 to U+2069). 0 if it is none. */
+static int control_size(const unsigned char *c) {
+    if (*c < 0x20 || *c == 0x7F) return 1;
+    if (c[0] == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0) return 2;
+    if (c[0] == 0xD8 && c[1] == 0x9C) return 2;
+    if (c[0] != 0xE2) return 0;
+    const bool orders =
+        c[1] == 0x80 && (c[2] == 0x8E || c[2] == 0x8F || (c[2] >= 0xA8 && c[2] <= 0xAE));
+    const bool isolates = c[1] == 0x81 && c[2] >= 0xA6 && c[2] <= 0xA9;
+    return orders || isolates ? 3 : 0;
+}
+
 void cli_print_text(FILE *out, const char *text, int width, bool pad) {
     int used = 0;
     for (const unsigned char *c = (const unsigned char *)text; *c && used < width; ++c) {
-        const bool c1 = c[0] == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0;
-        if (*c < 0x20 || *c == 0x7F || c1) {
+        const int control = control_size(c);
+        if (control > 0) {
             fputc('?', out);
-            c += c1;
+            c += control - 1;
         } else {
             fputc(*c, out);
             /* the following bytes of the same character */

@@ -117,6 +117,11 @@ def escapes():
                and b"\xc2\x9b" not in done.stdout, done)
     done = subprocess.run([CAPSTAN, "law", "law.yaml", "-f", "-"], input=b"\x1b[2J\n", capture_output=True, timeout=60)
     expect("control characters of a row on standard input", b"\x1b" not in done.stdout + done.stderr, done)
+    for mark in "\u061c\u200e\u200f\u2028\u2029\u202a\u202e\u2066\u2069":
+        write("title.yaml", SCENE.replace("a rope", f'"a {mark}rope"'))
+        for command in (["check", "title.yaml"], ["check", f"{mark}no.yaml"], [mark]):
+            done = subprocess.run([CAPSTAN, *command], capture_output=True, timeout=60)
+            expect(f"characters that change the direction of text: {command!r}", mark.encode() not in done.stdout + done.stderr, done)
 
 
 def named_files():
