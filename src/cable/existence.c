@@ -11,7 +11,7 @@
 
 /* A direction leaves a plane by this much more steeply than friction on it asks, which is more than
  * rounding. */
-static const double ROOM = 1e-9;
+static const double STEEPER = 1e-9;
 /* [-] Least power of the loads per metre, as a share of the sum of their sizes: forces in a
  * certified equilibrium balance to less. */
 static const double LEAST_POWER = 1e-6;
@@ -115,7 +115,7 @@ static void consider(const Slope *slope, int count, Vec3 along, Fall *fall) {
 
 /* ... that leaves one plane as steeply as its friction asks, */
 static void consider_one(const Slope *slope, int count, int k, Fall *fall) {
-    const double rise = slope[k].rise + ROOM;
+    const double rise = slope[k].rise + STEEPER;
     const Vec3 n = slope[k].n, t = vec3_axpy(-vec3_dot(fall->sum, n), n, fall->sum);
     const Vec3 up = vec3_scale(rise * vec3_norm(t), n);
     consider(slope, count, vec3_axpy(sqrt(fmax(0, 1 - rise * rise)), t, up), fall);
@@ -124,7 +124,7 @@ static void consider_one(const Slope *slope, int count, int k, Fall *fall) {
 /* ... and two, to either side of the corner between them. */
 static void consider_two(const Slope *slope, int count, int k, int m, Fall *fall) {
     const Vec3 a = slope[k].n, b = slope[m].n, corner = vec3_cross(a, b);
-    const double p = slope[k].rise + ROOM, q = slope[m].rise + ROOM, cosine = vec3_dot(a, b),
+    const double p = slope[k].rise + STEEPER, q = slope[m].rise + STEEPER, cosine = vec3_dot(a, b),
                  square = vec3_dot(corner, corner);
     const Vec3 up =
         vec3_axpy((p - cosine * q) / square, a, vec3_scale((q - cosine * p) / square, b));
