@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 typedef struct Vec3 {
     double x, y, z;
@@ -12,6 +13,8 @@ typedef struct Vec3 {
 
 static inline Vec3 vec3(double x, double y, double z) { return (Vec3){x, y, z}; }
 static inline Vec3 vec3_load(const double a[3]) { return (Vec3){a[0], a[1], a[2]}; }
+/* Vector j of an array (.., 3). */
+static inline Vec3 vec3_at(const double *a, int j) { return vec3_load(a + 3 * (ptrdiff_t)j); }
 static inline void vec3_store(double out[3], Vec3 a) {
     out[0] = a.x;
     out[1] = a.y;

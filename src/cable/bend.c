@@ -79,13 +79,12 @@ static bool forces_beside(const CpsiLine *line, int c, Vec3 *before, Vec3 *after
     if (e < 0) {
         const int j = cpsi_line_node(line, c);
         if (j == 0 || j == line->n - 1) return false;
-        *before = vec3_load(&line->segment_force[3 * (j - 1)]);
-        *after = vec3_load(&line->segment_force[3 * j]);
+        *before = vec3_at(line->segment_force, j - 1);
+        *after = vec3_at(line->segment_force, j);
         return true;
     }
-    const Vec3 within = vec3_load(&line->segment_force[3 * e]),
-               f = vec3_load(&line->friction_force[3 * c]);
-    const Vec3 action = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3 * c]), f);
+    const Vec3 within = vec3_at(line->segment_force, e), f = vec3_at(line->friction_force, c);
+    const Vec3 action = vec3_axpy(line->reaction[c], vec3_at(line->normal, c), f);
     *before = vec3_axpy(1 - line->beta[e], action, within);
     *after = vec3_axpy(-line->beta[e], action, within);
     return true;
@@ -111,7 +110,7 @@ static CpsBend bend_of(const CpsiLine *line, int c) {
     const double least = LEAST_FORCE * line->report.certificate.largest_force,
                  p = vec3_norm(before), q = vec3_norm(after);
     if (!(p > least && q > least)) return bend;
-    const Vec3 n = vec3_load(&line->normal[3 * c]), e = vec3_scale(1 / p, before),
+    const Vec3 n = vec3_at(line->normal, c), e = vec3_scale(1 / p, before),
                f = vec3_scale(1 / q, after);
     const double rise = fmax(-1, fmin(1, vec3_dot(e, n))), fall = fmax(-1, fmin(1, vec3_dot(f, n)));
     bend.turn = fmax(0, asin(rise) - asin(fall));

@@ -34,14 +34,14 @@ static const double HALF_ROUND = 2 * CPSI_QUARTER - 1e-2;
 /* Direction of the line at node j, by its neighbours. */
 static Vec3 direction(const CpsiLine *line, const double *x, int j) {
     const int before = j > 0 ? j - 1 : 0, after = j + 1 < line->n ? j + 1 : j;
-    return vec3_sub(vec3_load(&x[3 * after]), vec3_load(&x[3 * before]));
+    return vec3_sub(vec3_at(x, after), vec3_at(x, before));
 }
 
 /* Direction of the line at contact c. */
 static Vec3 direction_at(const CpsiLine *line, const double *x, int c) {
     const int e = cpsi_line_element(line, c);
     if (e < 0) return direction(line, x, cpsi_line_node(line, c));
-    return vec3_sub(vec3_load(&x[3 * (e + 1)]), vec3_load(&x[3 * e]));
+    return vec3_sub(vec3_at(x, e + 1), vec3_at(x, e));
 }
 
 /* Are the tangents of contact c kept? */
@@ -75,8 +75,7 @@ static void set_reference_axes(CpsiLine *line, int c) {
     Vec3 x = cpsi_line_place(line, line->reference, c);
     if (e >= 0 &&
         cpsi_contact_clearance(line, line->reference, e, line->obstacle_index[c], &share, &gap)) {
-        const Vec3 a = vec3_load(&line->reference[3 * e]),
-                   b = vec3_load(&line->reference[3 * (e + 1)]);
+        const Vec3 a = vec3_at(line->reference, e), b = vec3_at(line->reference, e + 1);
         x = vec3_axpy(share, vec3_sub(b, a), a);
     }
     cpsi_obstacle_axes(&line->obstacle[line->obstacle_index[c]], x,
@@ -138,7 +137,7 @@ static void update_winding(CpsiLine *line, int c, Vec3 before) {
     const CpsiObstacle *obstacle = &line->obstacle[k];
     const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER && cpsi_line_element(line, c) < 0;
     const Vec3 from = summed ? before : cpsi_contact_reference_normal(line, k, c);
-    const double angle = cpsi_obstacle_angle(obstacle, from, vec3_load(&line->normal[3 * c]));
+    const double angle = cpsi_obstacle_angle(obstacle, from, vec3_at(line->normal, c));
     line->winding[c] = summed ? line->winding[c] + angle : angle;
     if (summed && fabs(angle) > CPSI_QUARTER)
         line->winding[c] = INFINITY; /* too far in one round for its direction to be known */
@@ -156,11 +155,11 @@ void cpsi_contact_update_geometry(CpsiLine *line) {
     cpsi_line_lay_out_friction(line);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const int k = line->obstacle_index[c];
-        const Vec3 before = vec3_load(&line->normal[3 * c]);
+        const Vec3 before = vec3_at(line->normal, c);
         update_contact(line, c);
         update_winding(line, c, before);
         if (line->keeps_reference_axes) set_reference_axes(line, c);
-        const Vec3 x = cpsi_line_place(line, line->base, c), n = vec3_load(&line->normal[3 * c]);
+        const Vec3 x = cpsi_line_place(line, line->base, c), n = vec3_at(line->normal, c);
         vec3_store(&line->slip[3 * c], slip_to(line, c, x));
         const Vec3 u = vec3_sub(x, cpsi_line_place(line, line->reference, c));
         const double gap =
@@ -281,7 +280,7 @@ double cpsi_contact_shorten(CpsiLine *line, bool sides) {
         const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
         if (!obstacle || obstacle->kind == CPS_OBSTACLE_PLANE) continue;
         const int j = cpsi_line_node(line, c);
-        const Vec3 from = vec3_load(&line->base[3 * j]), to = vec3_load(&line->position[3 * j]);
+        const Vec3 from = vec3_at(line->base, j), to = vec3_at(line->position, j);
         const double distance = vec3_norm(vec3_sub(to, from)),
                      within = obstacle->radius + fmax(0, cpsi_obstacle_gap(obstacle, from));
         if (distance * share > MAX_MOVE * within) share = MAX_MOVE * within / distance;
@@ -295,7 +294,7 @@ double cpsi_contact_shorten(CpsiLine *line, bool sides) {
 
 /* Move node j along the surface of the obstacle with the larger reaction. */
 static void move_along_surface(CpsiLine *line, int j) {
-    const Vec3 from = vec3_load(&line->base[3 * j]), to = vec3_load(&line->position[3 * j]);
+    const Vec3 from = vec3_at(line->base, j), to = vec3_at(line->position, j);
     const int c =
         line->contacts > 1 && line->reaction[j + line->n] > line->reaction[j] ? j + line->n : j;
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
@@ -306,7 +305,7 @@ static void move_along_surface(CpsiLine *line, int j) {
 /* [m] The distance of node j from the obstacles that it may not enter, INFINITY without any: all of
  * them, or with contact of the reference those of its contacts. */
 static double node_clearance(const CpsiLine *line, int j) {
-    const Vec3 to = vec3_load(&line->position[3 * j]);
+    const Vec3 to = vec3_at(line->position, j);
     double least = INFINITY;
     if (line->contact_everywhere) {
         cpsi_line_nearest(line, to, &least);
@@ -340,7 +339,7 @@ static double turn_of_axes(const CpsiLine *line, int c, const double now[9]) {
 /* How far the axes of node j turn from its base to its position. INFINITY where it has penetrated
  * an obstacle: of three equally near obstacles only two are its contacts. */
 static double axes_turn_of_node(const CpsiLine *line, int j) {
-    const Vec3 to = vec3_load(&line->position[3 * j]);
+    const Vec3 to = vec3_at(line->position, j);
     double turned = 0;
     if (node_clearance(line, j) < -0.1 * CPSI_TOUCH * line->length) return INFINITY;
     for (int i = 0; i < line->contacts; i++) {
@@ -361,7 +360,7 @@ static double axes_turn_of_element(const CpsiLine *line, int e) {
     double share, gap, now[9], curvature[3];
     if (!line->active[c] || k < 0 || cpsi_line_is_third(line, c)) return 0;
     if (!cpsi_contact_clearance(line, line->position, e, k, &share, &gap)) return INFINITY;
-    const Vec3 a = vec3_load(&line->position[3 * e]), along = direction_at(line, line->position, c);
+    const Vec3 a = vec3_at(line->position, e), along = direction_at(line, line->position, c);
     cpsi_obstacle_axes(&line->obstacle[k], vec3_axpy(share, along, a), along, now, curvature);
     double turned = fabs(share - line->beta[e]);
     return fmax(turned, turn_of_axes(line, c, now));

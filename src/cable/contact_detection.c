@@ -131,7 +131,7 @@ static SavedContact contact_with(const CpsiLine *line, int j, int k, const Saved
  * that the node would leave without a contact although it was active, or lies below. Third contacts
  * are with planes: if the obstacle left out is round, it takes the place of a plane in `on`. */
 static int third_obstacle(const CpsiLine *line, int j, const SavedContact before[3], int on[2]) {
-    const Vec3 x = vec3_load(&line->base[3 * j]);
+    const Vec3 x = vec3_at(line->base, j);
     int left_out = -1;
     double least = 0;
     for (int k = 0; k < line->obstacle_count; k++) {
@@ -163,7 +163,7 @@ static void detect(CpsiLine *line, int j, bool keep_active) {
                               {.obstacle_index = CPS_NO_OBSTACLE},
                               {.obstacle_index = CPS_NO_OBSTACLE}};
     int on[2], plane = -1;
-    nearest(line, j, vec3_load(&line->base[3 * j]), keep_active, on);
+    nearest(line, j, vec3_at(line->base, j), keep_active, on);
     for (int i = 0; i < line->contacts; i++) before[i] = save_contact(line, j + i * n);
     if (had_third) before[2] = save_contact(line, third);
     if (had_third && third_keeps(line, j, before[2].obstacle_index, keep_active))
@@ -183,7 +183,7 @@ static void detect(CpsiLine *line, int j, bool keep_active) {
 
 bool cpsi_contact_clearance(const CpsiLine *line, const double *x, int e, int k, double *share,
                             double *gap) {
-    const Vec3 a = vec3_load(&x[3 * e]), b = vec3_load(&x[3 * (e + 1)]);
+    const Vec3 a = vec3_at(x, e), b = vec3_at(x, e + 1);
     if (!cpsi_obstacle_faces(&line->obstacle[k], a, b, share)) return false;
     *gap = cpsi_obstacle_gap(&line->obstacle[k], vec3_axpy(*share, vec3_sub(b, a), a)) +
            cpsi_obstacle_allowance(&line->obstacle[k], line->element_length[e]);

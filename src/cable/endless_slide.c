@@ -178,8 +178,7 @@ static bool has_resting_element(const CpsiLine *line) {
     for (int e = 0; e + 1 < line->n; e++)
         for (int k = 0; k < line->obstacle_count; k++) {
             const CpsiObstacle *o = &line->obstacle[k];
-            const Vec3 from = vec3_load(&line->reference[3 * e]),
-                       to = vec3_load(&line->reference[3 * (e + 1)]);
+            const Vec3 from = vec3_at(line->reference, e), to = vec3_at(line->reference, e + 1);
             double share;
             if (!cpsi_obstacle_faces(o, from, to, &share)) continue;
             const double allowance = cpsi_obstacle_allowance(o, line->element_length[e]);

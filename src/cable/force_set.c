@@ -65,9 +65,9 @@ typedef struct Node {
 static bool touches(const CpsiLine *line, int c) {
     if (!isfinite(line->gap[c])) return false;
     const int j = cpsi_line_node(line, c);
-    const Vec3 u = vec3_sub(vec3_load(&line->position[3 * j]), vec3_load(&line->reference[3 * j]));
+    const Vec3 u = vec3_sub(vec3_at(line->position, j), vec3_at(line->reference, j));
     return line->state[c] != CPS_NODE_STATE_FREE ||
-           vec3_dot(vec3_load(&line->normal[3 * c]), u) + line->gap[c] <= CPSI_TOUCH * line->length;
+           vec3_dot(vec3_at(line->normal, c), u) + line->gap[c] <= CPSI_TOUCH * line->length;
 }
 
 static void add_row(Contact *contact, int dim, const double row[3], double h) {
@@ -142,7 +142,7 @@ static bool build_contact(const CpsiLine *line, const CpsiForceLaw *law, double 
     cpsi_frame_to(force, axes, &line->friction_force[3 * c]);
     for (int a = 0; a < 2; a++) force[a] /= unit;
     bool free[2] = {false, false};
-    const Vec3 n = vec3_load(&line->normal[3 * c]);
+    const Vec3 n = vec3_at(line->normal, c);
     if (given && !law->frozen) return false;
     if (law->frozen || !discs) {
         /* R varies by itself; F varies within its fixed bound, which has no unbounded directions */
@@ -160,13 +160,13 @@ static bool build_contact(const CpsiLine *line, const CpsiForceLaw *law, double 
             for (int a = 0; a < 2; a++) {
                 if (free[a]) continue;
                 disc[a] = force[a] / reaction;
-                slip = vec3_axpy(disc[a], vec3_load(&axes[3 * a]), slip);
+                slip = vec3_axpy(disc[a], vec3_at(axes, a), slip);
             }
         add_column(out, slip, 1, disc);
     }
     const bool normal = out->columns > 0;
     for (int a = 0; a < 2; a++)
-        if (free[a]) add_column(out, vec3_load(&axes[3 * a]), 0, (const double[2]){a == 0, a == 1});
+        if (free[a]) add_column(out, vec3_at(axes, a), 0, (const double[2]){a == 0, a == 1});
     const double follow = law->frozen || !discs ? 0 : contact_law->friction;
     add_cones(out, contact_law, free, normal, follow, reaction,
               law->frozen ? line->friction_bound[c] / unit : follow * reaction, force);
@@ -247,12 +247,11 @@ static Relation relate(const Node *node) {
 /* Tangents and tensions of the elements, and which are taut. */
 static void measure_elements(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law) {
     for (int e = 0; e + 1 < line->n; e++) {
-        const Vec3 dx =
-            vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
+        const Vec3 dx = vec3_sub(vec3_at(line->position, e + 1), vec3_at(line->position, e));
         const double size = vec3_norm(dx), missing = 1 - size / line->element_length[e];
         const Vec3 t = size > 0 ? vec3_scale(1 / size, dx) : vec3(0, 0, 0);
         vec3_store(&set->tangent[3 * e], t);
-        set->tension[e] = vec3_dot(vec3_load(&line->segment_force[3 * e]), t);
+        set->tension[e] = vec3_dot(vec3_at(line->segment_force, e), t);
         const bool pulls = !law->exact && set->tension[e] > missing * set->force;
         set->scalar[e] = !law->shares && size > 0 && (missing <= EXACT || pulls) ? 0 : -1;
     }
@@ -426,8 +425,8 @@ void cpsi_force_set_apply(CpsiForceSet *set, CpsiLine *line, const CpsiForceLaw 
         if (set->scalar[e] < 0) continue;
         const double tension =
             fmax(0, set->tension[e] + set->force * set->gain[e] * u[set->scalar[e]]);
-        const Vec3 p = vec3_axpy(tension - set->tension[e], vec3_load(&set->tangent[3 * e]),
-                                 vec3_load(&line->segment_force[3 * e]));
+        const Vec3 p = vec3_axpy(tension - set->tension[e], vec3_at(set->tangent, e),
+                                 vec3_at(line->segment_force, e));
         vec3_store(&line->segment_force[3 * e], p);
         line->tension[e] = tension;
     }

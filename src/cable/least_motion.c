@@ -109,7 +109,7 @@ static void read_solution(const CpsiLine *line, CpsiLeastMotion *least,
 
 /* clusters ------------------------------------------------------------------------------------- */
 
-static Vec3 row(const double *basis, int i) { return vec3_load(&basis[3 * i]); }
+static Vec3 row(const double *basis, int i) { return vec3_at(basis, i); }
 
 /* Remove direction a from the span of the first *freedom rows of the basis. */
 static void remove_direction(double *basis, int *freedom, Vec3 a) {
@@ -183,8 +183,8 @@ static void restrict_slip(const CpsiLine *line, CpsiLeastMotion *least, int c, d
     const Vec3 n = cpsi_line_friction_normal(line, c),
                from =
                    vec3_load(line->has_local_axes ? &line->base[3 * j] : &line->reference[3 * j]);
-    const Vec3 u = vec3_sub(vec3_load(&line->position[3 * j]), from);
-    const Vec3 before = line->has_local_axes ? vec3_load(&line->slip[3 * c]) : vec3(0, 0, 0);
+    const Vec3 u = vec3_sub(vec3_at(line->position, j), from);
+    const Vec3 before = line->has_local_axes ? vec3_at(line->slip, c) : vec3(0, 0, 0);
     const Vec3 slip = vec3_scale(1 / line->length, vec3_add(before, vec3_reject(u, n)));
     Vec3 along[2] = {row(axes, 0), row(axes, 1)};
     bool acts[2] = {law->given || law->ratio[0] > 0, law->given || law->ratio[1] > 0},
@@ -218,12 +218,11 @@ static void restrict_contact(const CpsiLine *line, CpsiLeastMotion *least, int c
                              double *basis, int *freedom) {
     const int j = cpsi_line_node(line, c), mark = least->mark[c];
     const double weight = cpsi_line_share(line, j) / line->length;
-    const Vec3 n = vec3_load(&line->normal[3 * c]);
+    const Vec3 n = vec3_at(line->normal, c);
     if (mark & ACTIVE) {
         remove_direction(basis, freedom, n);
     } else if (isfinite(line->gap[c])) {
-        const Vec3 u =
-            vec3_sub(vec3_load(&line->position[3 * j]), vec3_load(&line->reference[3 * j]));
+        const Vec3 u = vec3_sub(vec3_at(line->position, j), vec3_at(line->reference, j));
         add_half_space(least, j, weight, n, (line->gap[c] + vec3_dot(n, u)) / line->length);
     }
     /* a coupled bound is zero without a reaction */
@@ -247,8 +246,7 @@ static bool build_clusters(const CpsiLine *line, CpsiLeastMotion *least, CpsiBou
         complete(basis, 3);
         for (end = first; end < line->n && (end == first || !least->slack[end]); end++) {
             const double share = cpsi_line_share(line, end);
-            const Vec3 u =
-                vec3_sub(vec3_load(&line->position[3 * end]), vec3_load(&line->reference[3 * end]));
+            const Vec3 u = vec3_sub(vec3_at(line->position, end), vec3_at(line->reference, end));
             least->cluster[end] = count;
             back = vec3_axpy(-share, u, back);
             weight += share;
@@ -262,10 +260,10 @@ static bool build_clusters(const CpsiLine *line, CpsiLeastMotion *least, CpsiBou
         for (int i = 0; i < *freedom; i++)
             shift = vec3_axpy(vec3_dot(row(basis, i), back), row(basis, i), shift);
         for (int j = first; j < end; j++)
-            vec3_store(&least->place[3 * j], vec3_add(vec3_load(&line->position[3 * j]), shift));
+            vec3_store(&least->place[3 * j], vec3_add(vec3_at(line->position, j), shift));
         if (end == first + 1 &&
             *freedom > 0) { /* one node: computed from the reference, with fewer roundings */
-            Vec3 place = vec3_load(&line->reference[3 * first]);
+            Vec3 place = vec3_at(line->reference, first);
             for (int i = *freedom; i < 3; i++)
                 place = vec3_axpy(-vec3_dot(row(basis, i), back), row(basis, i), place);
             vec3_store(&least->place[3 * first], place);
@@ -288,10 +286,8 @@ static double violation(const CpsiLine *line, const CpsiLeastMotion *least) {
     for (int i = 1; i < line->n; i++) {
         if (!least->slack[i]) continue;
         const double l = line->element_length[i - 1];
-        const double over = vec3_norm(vec3_sub(vec3_load(&least->place[3 * i]),
-                                               vec3_load(&least->place[3 * (i - 1)]))) /
-                                l -
-                            1;
+        const double over =
+            vec3_norm(vec3_sub(vec3_at(least->place, i), vec3_at(least->place, i - 1))) / l - 1;
         if (over * l > ROUNDING * l + lost) size = cpsi_max_nan(size, over * l / line->length);
     }
     for (int k = 0; k < half->count; k++)
@@ -309,8 +305,7 @@ static void project_half_spaces(const CpsiLine *line, CpsiLeastMotion *least) {
     for (int k = 0; k < half->count; k++) {
         const int j = half->node[k], cluster = least->cluster[j];
         const Vec3 n = vec3_load(half->normal[k]);
-        const Vec3 shift =
-            vec3_sub(vec3_load(&least->place[3 * j]), vec3_load(&line->position[3 * j]));
+        const Vec3 shift = vec3_sub(vec3_at(least->place, j), vec3_at(line->position, j));
         double own[3] = {0}, size = 0;
         for (int a = 0; a < program->freedom[cluster]; a++) {
             own[a] = vec3_dot(row(&least->basis[9 * cluster], a), n);
@@ -340,9 +335,8 @@ static void fill(const CpsiLine *line, CpsiLeastMotion *least, double size) {
     for (int j = 0; j < line->n; j++) {
         const int k = least->cluster[j];
         if (j > 0 && least->cluster[j - 1] == k) continue;
-        const Vec3 at = vec3_load(&line->position[3 * j]);
-        const Vec3 back =
-            vec3_scale(1 / line->length, vec3_sub(at, vec3_load(&least->place[3 * j])));
+        const Vec3 at = vec3_at(line->position, j);
+        const Vec3 back = vec3_scale(1 / line->length, vec3_sub(at, vec3_at(least->place, j)));
         chain->held[k] = program->freedom[k] == 0;
         for (int a = 0; a < 3; a++)
             chain->base.u[3 * k + a] =
@@ -351,7 +345,7 @@ static void fill(const CpsiLine *line, CpsiLeastMotion *least, double size) {
         const double l = line->element_length[j - 1];
         chain->segment.length[k] = l / line->length;
         vec3_store(&chain->segment.s[k][1],
-                   vec3_scale(1 / l, vec3_sub(at, vec3_load(&line->position[3 * (j - 1)]))));
+                   vec3_scale(1 / l, vec3_sub(at, vec3_at(line->position, j - 1))));
     }
 }
 
@@ -370,7 +364,7 @@ static bool solve(const CpsiLine *line, CpsiLeastMotion *least, double size, int
     if (!(ipm.gap + ipm.residual + ipm.imbalance <= CLEAN)) return false;
     for (int j = 0; j < line->n; j++) {
         const int k = least->cluster[j];
-        Vec3 place = vec3_load(&least->place[3 * j]);
+        Vec3 place = vec3_at(least->place, j);
         for (int a = 0; a < program->freedom[k]; a++)
             place = vec3_axpy(line->length * program->chain.base.u[3 * k + a],
                               row(&least->basis[9 * k], a), place);
@@ -388,9 +382,8 @@ static void accept_places(CpsiLine *line, const CpsiLeastMotion *least) {
         if (least->program.freedom[least->cluster[j]] == 0 || (least->mark[c] & ACTIVE) ||
             !isfinite(line->gap[c]))
             continue;
-        const Vec3 n = vec3_load(&line->normal[3 * c]), x = vec3_load(&line->position[3 * j]);
-        const double gap =
-            line->gap[c] + vec3_dot(n, vec3_sub(x, vec3_load(&line->reference[3 * j])));
+        const Vec3 n = vec3_at(line->normal, c), x = vec3_at(line->position, j);
+        const double gap = line->gap[c] + vec3_dot(n, vec3_sub(x, vec3_at(line->reference, j)));
         if (gap < 0) vec3_store(&line->position[3 * j], vec3_axpy(-gap, n, x));
     }
     for (int i = 1; i < line->n; i++)

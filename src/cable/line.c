@@ -60,8 +60,8 @@ double cpsi_line_least_compliance(const CpsiLine *line) {
 double cpsi_line_largest_displacement(const CpsiLine *line, const double *from) {
     double longest = 0;
     for (int j = 0; j < line->n; j++)
-        longest = cpsi_max_nan(longest, vec3_norm(vec3_sub(vec3_load(&line->position[3 * j]),
-                                                           vec3_load(&from[3 * j]))));
+        longest = cpsi_max_nan(longest,
+                               vec3_norm(vec3_sub(vec3_at(line->position, j), vec3_at(from, j))));
     return longest;
 }
 
@@ -82,8 +82,7 @@ double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *o = &line->obstacle[k];
         for (int e = 0; e + 1 < line->n; e++) {
-            const Vec3 a = vec3_load(&line->position[3 * e]),
-                       b = vec3_load(&line->position[3 * (e + 1)]);
+            const Vec3 a = vec3_at(line->position, e), b = vec3_at(line->position, e + 1);
             double share;
             if (!cpsi_obstacle_faces(o, a, b, &share)) continue;
             const Vec3 nearest = vec3_axpy(share, vec3_sub(b, a), a);
@@ -112,8 +111,7 @@ void cpsi_line_set_arc_length(CpsiLine *line) {
 /* The force K (|x'| - 1)^+ t of element e at `position`; 0 for an inextensible line, whose tension
  * its shape does not determine. */
 static Vec3 start_force(const CpsiLine *line, int e) {
-    const Vec3 dx =
-        vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
+    const Vec3 dx = vec3_sub(vec3_at(line->position, e + 1), vec3_at(line->position, e));
     const double size = vec3_norm(dx), strain = size / line->element_length[e] - 1;
     if (!(line->compliance > 0) || !(strain > 0)) return vec3(0, 0, 0);
     return vec3_scale(strain / (cpsi_line_compliance(line, e) * size), dx);
@@ -123,7 +121,7 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
     for (int j = 0; j < line->n; j++) {
         line->reaction[j] = 0;
         line->state[j] = CPS_NODE_STATE_FREE;
-        const Vec3 x = vec3_load(&line->position[3 * j]);
+        const Vec3 x = vec3_at(line->position, j);
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
         if (!(gap <= touch)) continue;

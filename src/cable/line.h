@@ -204,7 +204,7 @@ static inline double cpsi_line_part(const CpsiLine *line, int e, int j) {
 static inline Vec3 cpsi_line_place(const CpsiLine *line, const double *x, int c) {
     const int e = cpsi_line_element(line, c);
     if (e < 0) return vec3_load(&x[3 * cpsi_line_node(line, c)]);
-    const Vec3 a = vec3_load(&x[3 * e]), b = vec3_load(&x[3 * (e + 1)]);
+    const Vec3 a = vec3_at(x, e), b = vec3_at(x, e + 1);
     return vec3_axpy(line->beta[e], vec3_sub(b, a), a);
 }
 
@@ -248,9 +248,9 @@ static inline Vec3 cpsi_line_friction_normal(const CpsiLine *line, int c) {
 
 /* [m] The slip of contact c on its obstacle in this step. */
 static inline Vec3 cpsi_line_slip(const CpsiLine *line, int c) {
-    if (line->has_local_axes) return vec3_load(&line->slip[3 * c]);
-    const Vec3 u = vec3_sub(vec3_load(&line->position[3 * c]), vec3_load(&line->reference[3 * c]));
-    const Vec3 n = vec3_load(&line->normal[3 * c]);
+    if (line->has_local_axes) return vec3_at(line->slip, c);
+    const Vec3 u = vec3_sub(vec3_at(line->position, c), vec3_at(line->reference, c));
+    const Vec3 n = vec3_at(line->normal, c);
     return vec3_reject(u, n);
 }
 

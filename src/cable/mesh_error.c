@@ -27,7 +27,7 @@ typedef struct Span {
     Vec3 defect;          /* [m] */
 } Span;
 
-static Vec3 force_of(const CpsiLine *line, int e) { return vec3_load(&line->segment_force[3 * e]); }
+static Vec3 force_of(const CpsiLine *line, int e) { return vec3_at(line->segment_force, e); }
 
 /* The contact of node j with the largest reaction, or -1. */
 static int carrying_contact(const CpsiLine *line, int j) {
@@ -72,7 +72,7 @@ static bool add_element(const CpsiLine *line, int e, Span *span) {
 static void add_support(const CpsiLine *line, int j, int e, int inward, Span *span) {
     const int c = carrying_contact(line, j);
     if (cpsi_line_is_held(line, j) || c < 0) return;
-    const Vec3 n = vec3_load(&line->normal[3 * c]), q = cpsi_line_weight_at(line, j),
+    const Vec3 n = vec3_at(line->normal, c), q = cpsi_line_weight_at(line, j),
                p = force_of(line, e);
     const double normal_load = -vec3_dot(q, n), l = line->element_length[e];
     const Vec3 flat = vec3_reject(p, n);

@@ -66,8 +66,8 @@ double cpsi_obstacle_side_share(const CpsiLine *line, const double *from, const 
         Vec3 a = cpsi_obstacle_spoke(obstacle, vec3_load(from)),
              u = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_load(to)), a);
         for (int j = 1; j < line->n; j++) {
-            const Vec3 b = cpsi_obstacle_spoke(obstacle, vec3_load(&from[3 * j]));
-            const Vec3 v = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_load(&to[3 * j])), b);
+            const Vec3 b = cpsi_obstacle_spoke(obstacle, vec3_at(from, j));
+            const Vec3 v = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_at(to, j)), b);
             share = safe_share(obstacle->radius, a, b, u, v, share);
             a = b;
             u = v;
@@ -83,10 +83,10 @@ int cpsi_obstacle_passed(const CpsiLine *line, const double *from, const double 
         const CpsiObstacle *obstacle = &line->obstacle[k];
         if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
         for (int j = 1; j < line->n; j++) {
-            const Vec3 a = cpsi_obstacle_spoke(obstacle, vec3_load(&from[3 * (j - 1)])),
-                       b = cpsi_obstacle_spoke(obstacle, vec3_load(&from[3 * j]));
-            const Vec3 u = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_load(&to[3 * (j - 1)])), a),
-                       v = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_load(&to[3 * j])), b);
+            const Vec3 a = cpsi_obstacle_spoke(obstacle, vec3_at(from, j - 1)),
+                       b = cpsi_obstacle_spoke(obstacle, vec3_at(from, j));
+            const Vec3 u = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_at(to, j - 1)), a),
+                       v = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_at(to, j)), b);
             if (is_passing(obstacle->radius, a, b, u, v, share)) return k;
         }
     }

@@ -68,7 +68,7 @@ static int end_node(const CpsiLine *line, int end) { return end == CPS_END_A ? 0
 Vec3 cpsi_line_end_slip(const CpsiLine *line, int end, int k) {
     const int j = end_node(line, end);
     const CpsiObstacle *obstacle = &line->obstacle[k];
-    const Vec3 from = vec3_load(&line->reference[3 * j]), to = vec3_load(&line->position[3 * j]);
+    const Vec3 from = vec3_at(line->reference, j), to = vec3_at(line->position, j);
     return cpsi_obstacle_slip(obstacle, cpsi_obstacle_turn(obstacle, from, line->turn[k]), to);
 }
 
@@ -94,7 +94,7 @@ static Vec3 half_friction_force(const CpsiLine *line, int end, int k, Vec3 n, do
             line->friction_factor ? line->friction_factor[j] / line->friction_factor[next] : 1;
         const double density = zone * cpsi_line_share(line, j) / cpsi_line_share(line, next);
         const double part = fmin(density, line->friction_law[j].friction * reaction / bound);
-        const Vec3 force = rotate_with_normal(vec3_load(&line->friction_force[3 * c]),
+        const Vec3 force = rotate_with_normal(vec3_at(line->friction_force, c),
                                               cpsi_line_friction_normal(line, c), n);
         const Vec3 slip = cpsi_line_end_slip(line, end, k);
         const bool drives =
@@ -108,7 +108,7 @@ static Vec3 half_friction_force(const CpsiLine *line, int end, int k, Vec3 n, do
  * returns the remainder of `force` for the support. */
 static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     const int j = end_node(line, end);
-    const Vec3 x = vec3_load(&line->position[3 * j]);
+    const Vec3 x = vec3_at(line->position, j);
     double gap;
     const int on = cpsi_line_nearest(line, x, &gap);
     const Vec3 n = on < 0 ? vec3(0, 0, 0) : cpsi_obstacle_normal(&line->obstacle[on], x);
@@ -136,8 +136,8 @@ void cpsi_line_report_ends(CpsiLine *line) {
             /* the force of the support balances the element's tension, the node's weight and the
              * force of the element's contact on the node */
             const Vec3 pull =
-                vec3_scale(end == CPS_END_A ? 1 : -1, vec3_load(&line->segment_force[3 * e]));
-            const Vec3 others = cpsi_add_element_contacts(line, j, vec3_load(&line->load[3 * j]));
+                vec3_scale(end == CPS_END_A ? 1 : -1, vec3_at(line->segment_force, e));
+            const Vec3 others = cpsi_add_element_contacts(line, j, vec3_at(line->load, j));
             force = rest_on_obstacle(line, end, vec3_scale(-1, vec3_add(pull, others)));
         }
         vec3_store(out->force, force);
@@ -191,7 +191,7 @@ static double grounded_part(const CpsiLine *line, int c) {
                after = touches(line, j + 1, obstacle, &density);
     if (before && after) return 1;
     if (obstacle->kind == CPS_OBSTACLE_PLANE)
-        density = -vec3_dot(cpsi_line_weight_at(line, j), vec3_load(&line->normal[3 * c]));
+        density = -vec3_dot(cpsi_line_weight_at(line, j), vec3_at(line->normal, c));
     else if (before == after || !touches(line, before ? j - 2 : j + 2, obstacle, &other))
         return 1;
     const double bears = density * cpsi_line_share(line, j);

@@ -35,7 +35,7 @@ static bool turn_about(const CpsiLine *line, const CpsiObstacle *o, bool statics
     if (statics || o->kind != CPS_OBSTACLE_CYLINDER) return true;
     Vec3 at = a;
     for (int j = 0; j < line->n; j++) {
-        const Vec3 next = vec3_load(&line->position[3 * j]);
+        const Vec3 next = vec3_at(line->position, j);
         if (!add_angle(o, at, next, &sum)) return false;
         at = next;
     }

@@ -35,7 +35,7 @@ static double open_gap(const CpsiLine *line, int c) {
     if (cpsi_line_element(line, c) >= 0) {
         const Vec3 u = vec3_sub(cpsi_line_place(line, line->base, c),
                                 cpsi_line_place(line, line->reference, c));
-        return gap + vec3_dot(vec3_load(&line->normal[3 * c]), u);
+        return gap + vec3_dot(vec3_at(line->normal, c), u);
     }
     if (line->has_local_axes)
         for (int a = 0; a < 3; a++)
@@ -62,8 +62,7 @@ static void fill_axes(const CpsiLine *line, CpsiChainProgram *program, int j) {
     memcpy(axes, &line->axes[9 * j], 9 * sizeof *axes);
     for (int i = 0, c = j; i < 2; i++, c += line->n)
         if (line->contacts < 2 || !(open_gap(line, c) <= CORNER_RANGE * line->length)) return;
-    const Vec3 n = vec3_load(&line->normal[3 * j]),
-               other = vec3_load(&line->normal[3 * (j + line->n)]);
+    const Vec3 n = vec3_at(line->normal, j), other = vec3_at(line->normal, j + line->n);
     const Vec3 corner = vec3_cross(n, other);
     const double sine = vec3_norm(corner);
     if (sine < PARALLEL || line->friction_law[j].given) return;

@@ -140,7 +140,7 @@ static void fill_friction_factor(CpsiLine *line, const CpsLine *def) {
 /* Move the first guess of statics to the free side of the obstacles. */
 static void move_to_free_side(CpsiLine *line) {
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3 * j]);
+        const Vec3 x = vec3_at(line->position, j);
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
         if (gap < 0)

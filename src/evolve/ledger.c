@@ -24,15 +24,14 @@ static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
     double carried = 0; /* [m] */
     *elastic = *gravity = 0;
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3 * j]);
+        const Vec3 x = vec3_at(line->position, j);
         /* relative to the line's own end, so that a distant origin loses no digits; the term of the
          * end itself is added last */
         *gravity -= cpsi_line_weight_length(line, j) * vec3_dot(weight, vec3_sub(x, origin));
         if (line->weight_length) carried += line->weight_length[j];
         if (j == 0 || !(line->compliance > 0)) continue;
         const double l = line->element_length[j - 1];
-        const double strain =
-            vec3_norm(vec3_sub(x, vec3_load(&line->position[3 * (j - 1)]))) / l - 1;
+        const double strain = vec3_norm(vec3_sub(x, vec3_at(line->position, j - 1))) / l - 1;
         if (strain > 0) *elastic += l * strain * (strain / (2 * cpsi_line_compliance(line, j - 1)));
     }
     *gravity -= (line->weight_length ? carried : line->length) * vec3_dot(weight, origin);
@@ -73,9 +72,8 @@ static double end_obstacle_work(const CpsiLine *line) {
         for (int end = 0; end < 2; end++) {
             const int j = end == CPS_END_A ? 0 : line->n - 1, k = line->obstacle_index[j];
             if (!cpsi_line_is_held(line, j) || k < 0 || line->turn[k] == 0) continue;
-            const Vec3 own =
-                cpsi_obstacle_slip(&line->obstacle[k], vec3_load(&line->reference[3 * j]),
-                                   vec3_load(&line->position[3 * j]));
+            const Vec3 own = cpsi_obstacle_slip(&line->obstacle[k], vec3_at(line->reference, j),
+                                                vec3_at(line->position, j));
             work += vec3_dot(vec3_load(line->report.end[end].friction_force),
                              vec3_sub(own, cpsi_line_end_slip(line, end, k)));
         }
@@ -93,8 +91,8 @@ static double obstacle_work(const CpsiLine *line) {
             const Vec3 x = cpsi_line_place(line, line->position, c),
                        from = cpsi_line_place(line, line->reference, c);
             const Vec3 own = cpsi_contact_slip_between(line, c, from, x);
-            work += vec3_dot(vec3_load(&line->friction_force[3 * c]),
-                             vec3_sub(own, cpsi_line_slip(line, c)));
+            work +=
+                vec3_dot(vec3_at(line->friction_force, c), vec3_sub(own, cpsi_line_slip(line, c)));
         }
     return work + end_obstacle_work(line);
 }

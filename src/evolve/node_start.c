@@ -29,8 +29,7 @@ static const double TOUCH = 1e-7, NOTHING = 1e-6;
 static CpsStatus check_lengths(const CpsLine *line, CpsError *err) {
     const bool elastic = cpsi_is_elastic(line);
     for (int e = 0; e < line->element_count; e++) {
-        const Vec3 a = vec3_load(&line->start.point[3 * e]),
-                   b = vec3_load(&line->start.point[3 * (e + 1)]);
+        const Vec3 a = vec3_at(line->start.point, e), b = vec3_at(line->start.point, e + 1);
         const double l = cpsi_element_length(line, e), found = vec3_norm(vec3_sub(b, a));
         if (found <= l * (elastic ? 1 + MAX_STRAIN : 1 + LENGTH_TOLERANCE)) continue;
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -79,8 +78,7 @@ static CpsStatus check_touch(const CpsScene *scene, const CpsLine *line, CpsErro
             double gap = INFINITY;
             for (int k = 0; k < scene->obstacle_count; k++) {
                 const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
-                const double distance =
-                    cpsi_obstacle_gap(&obstacle, vec3_load(&start->point[3 * j]));
+                const double distance = cpsi_obstacle_gap(&obstacle, vec3_at(start->point, j));
                 if (distance < gap) {
                     gap = distance;
                     nearest = &scene->obstacle[k];
@@ -143,8 +141,7 @@ CpsStatus cpsi_node_start_check(const CpsScene *scene, const CpsLine *line, CpsE
 
 /* The force T_R t of element e. */
 static Vec3 force_of(const CpsiLine *line, const CpsLine *def, int e) {
-    const Vec3 dx =
-        vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
+    const Vec3 dx = vec3_sub(vec3_at(line->position, e + 1), vec3_at(line->position, e));
     const double size = vec3_norm(dx), strain = size / line->element_length[e] - 1;
     const double compliance = cpsi_line_compliance(line, e),
                  elastic = compliance > 0 && strain > 0 ? strain / compliance : 0;
@@ -167,7 +164,7 @@ void cpsi_node_start(CpsiLine *line, const CpsLine *def) {
     const CpsStart *start = &def->start;
     for (int e = 0; start->tension && e + 1 < line->n; e++) line->tension[e] = start->tension[e];
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_load(&line->position[3 * j]);
+        const Vec3 x = vec3_at(line->position, j);
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
         line->reaction[j] = 0;

@@ -4,7 +4,7 @@
 
 #include "evolve/ranges.h"
 
-static Vec3 shape_point(const CpsLine *line, int i) { return vec3_load(&line->start.point[3 * i]); }
+static Vec3 shape_point(const CpsLine *line, int i) { return vec3_at(line->start.point, i); }
 
 double cpsi_start_length(const CpsLine *line) {
     if (line->start.kind == CPS_START_ARC || line->start.kind == CPS_START_STATIC)

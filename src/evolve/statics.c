@@ -49,7 +49,7 @@ static Vec3 pushed_out(const CpsiLine *line, Vec3 x) {
 static void raise(CpsiLine *line, Vec3 up, double height) {
     for (int j = 0; j < line->n; j++) {
         const double rise = fmin(height, from_held(line, j));
-        const Vec3 x = vec3_load(&line->position[3 * j]);
+        const Vec3 x = vec3_at(line->position, j);
         if (rise > 0) vec3_store(&line->position[3 * j], pushed_out(line, vec3_axpy(rise, up, x)));
     }
 }

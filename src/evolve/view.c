@@ -21,7 +21,7 @@ void cpsi_view_fill(CpsiViewFill *fill, int n) {
 void cpsi_view_update(CpsiLine *line) {
     if (line->has_local_axes) return;
     for (int j = 0; j < line->n; j++) {
-        const bool slides = vec3_norm(vec3_load(&line->normal[3 * j])) > 0;
+        const bool slides = vec3_norm(vec3_at(line->normal, j)) > 0;
         vec3_store(&line->slip[3 * j], slides ? cpsi_line_slip(line, j) : vec3(0, 0, 0));
     }
 }

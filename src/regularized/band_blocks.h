@@ -7,10 +7,8 @@
 #include "base/vec3.h"
 #include "linalg/band.h"
 
-static inline Vec3 cpsi_at(const double *v, int j) { return vec3_load(v + 3 * (size_t)j); }
-
 static inline void cpsi_add(double *v, int j, double k, Vec3 a) {
-    vec3_store(v + 3 * (size_t)j, vec3_axpy(k, a, cpsi_at(v, j)));
+    vec3_store(v + 3 * (size_t)j, vec3_axpy(k, a, vec3_at(v, j)));
 }
 
 /* Add k I + l d d^T to the block (i, j) of places, i >= j, where both are free; only the lower half

@@ -15,16 +15,16 @@ static const double TOUCH = 1e-9;
 static Vec3 friction_force(const CpsRegularized *regularized, int j) {
     const CpsiCells *c = &regularized->cells;
     const double delta = regularized->f.parameters.delta;
-    const Vec3 u = vec3_sub(cpsi_at(regularized->f.place, j), cpsi_at(c->reference, j)),
-               n = cpsi_at(c->normal, j);
+    const Vec3 u = vec3_sub(vec3_at(regularized->f.place, j), vec3_at(c->reference, j)),
+               n = vec3_at(c->normal, j);
     const Vec3 slip = vec3_reject(u, n);
     return vec3_scale(-c->bound[j] / sqrt(delta * delta + vec3_dot(slip, slip)), slip);
 }
 
 /* The height of the held place j above the plane, from that of its neighbour. */
 static double height(const CpsiCells *c, const double *place, int j, int next) {
-    return c->gap[next] + vec3_dot(cpsi_at(c->normal, next),
-                                   vec3_sub(cpsi_at(place, j), cpsi_at(c->reference, next)));
+    return c->gap[next] + vec3_dot(vec3_at(c->normal, next),
+                                   vec3_sub(vec3_at(place, j), vec3_at(c->reference, next)));
 }
 
 /* The force of the support on the held place j [N]. *up is its component along the normal where j
@@ -33,11 +33,11 @@ static Vec3 support(const CpsRegularized *regularized, int j, double *up) {
     const CpsiCells *c = &regularized->cells;
     const int next = j == 0 ? 1 : j - 1;
     const double *place = regularized->f.place;
-    const Vec3 dx = vec3_sub(cpsi_at(place, next), cpsi_at(place, j));
+    const Vec3 dx = vec3_sub(vec3_at(place, next), vec3_at(place, j));
     const double size = vec3_norm(dx), tension = regularized->tension[j == 0 ? 0 : j - 1];
     const Vec3 pull = vec3_scale(size > 0 ? tension / size : 0, dx);
-    const Vec3 force = vec3_scale(-1, vec3_add(pull, cpsi_at(c->load, j)));
-    const double across = vec3_dot(force, cpsi_at(c->normal, next));
+    const Vec3 force = vec3_scale(-1, vec3_add(pull, vec3_at(c->load, j)));
+    const double across = vec3_dot(force, vec3_at(c->normal, next));
     *up = across > 0 && height(c, place, j, next) <= TOUCH * regularized->step.length ? across : 0;
     return force;
 }
@@ -58,5 +58,5 @@ double cpsi_end_tension(const CpsRegularized *regularized, int end) {
     if (!(up > 0)) return vec3_norm(force);
     const Vec3 half = vec3_scale(cpsi_zone_ratio(c, j, next) * c->share[j] / c->share[next],
                                  friction_force(regularized, next));
-    return vec3_norm(vec3_sub(vec3_axpy(-up, cpsi_at(c->normal, next), force), half));
+    return vec3_norm(vec3_sub(vec3_axpy(-up, vec3_at(c->normal, next), force), half));
 }

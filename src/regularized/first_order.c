@@ -12,13 +12,13 @@ void cpsi_first_order_store(CpsiFirstOrder *f, const double *u) {
 }
 
 static Vec3 slope(const CpsiFirstOrder *f, int i) {
-    return vec3_scale(1 / f->step->own.width[i], vec3_sub(cpsi_at(f->u, i + 1), cpsi_at(f->u, i)));
+    return vec3_scale(1 / f->step->own.width[i], vec3_sub(vec3_at(f->u, i + 1), vec3_at(f->u, i)));
 }
 
 /* (84), plus the tension of the reference */
 static Vec3 tension(const CpsiFirstOrder *f, int i) {
     const double k = 1 / f->step->compliance, s = f->stretch[i], e = f->strain[i];
-    const Vec3 du = slope(f, i), t = cpsi_at(f->tangent, i);
+    const Vec3 du = slope(f, i), t = vec3_at(f->tangent, i);
     return vec3_axpy(k * (e + vec3_dot(t, du) / s), t, vec3_scale(k * e / s, du));
 }
 
@@ -36,10 +36,10 @@ void cpsi_first_order_tension(const CpsiFirstOrder *f, int element, double out[3
  * 0 */
 static Vec3 pressed(const CpsiFirstOrder *f, int j, double *push) {
     const CpsiCells *c = &f->step->own;
-    const Vec3 u = cpsi_at(f->u, j), n = cpsi_at(c->normal, j);
+    const Vec3 u = vec3_at(f->u, j), n = vec3_at(c->normal, j);
     const double across = vec3_dot(u, n), r = f->augment * c->share[j];
     *push = isfinite(f->gap[j]) ? f->push[j] - r * (across + f->gap[j]) : 0;
-    return vec3_axpy(r, vec3_axpy(-across, n, u), cpsi_at(f->friction_force, j));
+    return vec3_axpy(r, vec3_axpy(-across, n, u), vec3_at(f->friction_force, j));
 }
 
 void cpsi_first_order_multipliers(const CpsiFirstOrder *f, int j, double friction_force[3],
@@ -66,11 +66,11 @@ static void gradient(void *user, const double *x, double *g) {
     for (int j = 0; j <= c->cells; ++j) {
         double friction_force[3], push;
         cpsi_first_order_multipliers(f, j, friction_force, &push);
-        cpsi_add(f->gradient, j, -1, cpsi_at(c->load, j));
+        cpsi_add(f->gradient, j, -1, vec3_at(c->load, j));
         cpsi_add(f->gradient, j, 1, vec3_load(friction_force));
-        cpsi_add(f->gradient, j, -push, cpsi_at(c->normal, j));
+        cpsi_add(f->gradient, j, -push, vec3_at(c->normal, j));
         cpsi_add(f->gradient, j, f->anchor * c->share[j],
-                 vec3_sub(cpsi_at(f->u, j), cpsi_at(f->before, j)));
+                 vec3_sub(vec3_at(f->u, j), vec3_at(f->before, j)));
     }
     memcpy(g, f->gradient + 3, (size_t)f->unknowns * sizeof(double));
 }
@@ -85,7 +85,7 @@ static void add_block(const CpsiFirstOrder *f, double *a, int i, int j, double k
 static void node_blocks(const CpsiFirstOrder *f, int j, double *a) {
     const CpsiCells *c = &f->step->own;
     double push;
-    const Vec3 z = pressed(f, j, &push), n = cpsi_at(c->normal, j);
+    const Vec3 z = pressed(f, j, &push), n = vec3_at(c->normal, j);
     const double length = vec3_norm(z), r = f->augment * c->share[j];
     add_block(f, a, j, j, f->anchor * c->share[j], 0, n);
     if (push > 0) add_block(f, a, j, j, 0, r, n);
@@ -103,7 +103,7 @@ static void hessian(void *user, const double *x, double damping, double *a) {
     for (int i = 0; i < c->cells; ++i) {
         const double k = 1 / f->step->compliance / f->stretch[i] / c->width[i];
         const double across = k * f->strain[i] + damping / c->width[i];
-        const Vec3 t = cpsi_at(f->tangent, i);
+        const Vec3 t = vec3_at(f->tangent, i);
         add_block(f, a, i, i, across, k, t);
         add_block(f, a, i + 1, i + 1, across, k, t);
         add_block(f, a, i + 1, i, -across, -k, t);

@@ -88,8 +88,8 @@ static void set_contact(CpsiFirstOrder *f, CpsFirstOrderContact contact) {
 static void set_reference(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
     const CpsiCells *c = &f->step->own;
     for (int i = 0; i < c->cells; ++i) {
-        const Vec3 slope = vec3_scale(1 / c->width[i], vec3_sub(cpsi_at(c->reference, i + 1),
-                                                                cpsi_at(c->reference, i)));
+        const Vec3 slope = vec3_scale(1 / c->width[i], vec3_sub(vec3_at(c->reference, i + 1),
+                                                                vec3_at(c->reference, i)));
         const double s = vec3_norm(slope);
         vec3_store(f->tangent + 3 * (size_t)i, vec3_scale(s > 0 ? 1 / s : 1, slope));
         f->strain[i] = s - 1 > SLACK_STRAIN ? s - 1 : 0;
@@ -98,10 +98,10 @@ static void set_reference(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
         if (s - 1 < -SLACK_STRAIN) r->outside += c->width[i];
     }
     const int last = c->cells;
-    vec3_store(f->u, vec3_sub(cpsi_at(c->position, 0), cpsi_at(c->reference, 0)));
+    vec3_store(f->u, vec3_sub(vec3_at(c->position, 0), vec3_at(c->reference, 0)));
     if (f->step->held)
         vec3_store(f->u + 3 * (size_t)last,
-                   vec3_sub(cpsi_at(c->position, last), cpsi_at(c->reference, last)));
+                   vec3_sub(vec3_at(c->position, last), vec3_at(c->reference, last)));
 }
 
 /* ---- rounds ---- */
@@ -116,10 +116,10 @@ static double accept_solution(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
         double friction_force[3], push;
         cpsi_first_order_multipliers(f, j, friction_force, &push);
         const Vec3 drag =
-            vec3_scale(f->anchor * c->share[j], vec3_sub(cpsi_at(f->u, j), cpsi_at(f->before, j)));
+            vec3_scale(f->anchor * c->share[j], vec3_sub(vec3_at(f->u, j), vec3_at(f->before, j)));
         const double held = vec3_norm(drag);
         change = cpsi_max_nan(change, vec3_norm(vec3_sub(vec3_load(friction_force),
-                                                         cpsi_at(f->friction_force, j))));
+                                                         vec3_at(f->friction_force, j))));
         change = cpsi_max_nan(change, fabs(push - f->push[j]));
         change = cpsi_max_nan(change, held);
         if (held > held_most) {
@@ -138,7 +138,7 @@ static double accept_solution(CpsiFirstOrder *f, CpsFirstOrderReport *r) {
 static double rounding(const CpsiFirstOrder *f) {
     const CpsiCells *c = &f->step->own;
     double far = 0, stiffest = 0;
-    for (int j = 0; j <= c->cells; ++j) far = fmax(far, vec3_norm(cpsi_at(f->u, j)));
+    for (int j = 0; j <= c->cells; ++j) far = fmax(far, vec3_norm(vec3_at(f->u, j)));
     for (int i = 0; i < c->cells; ++i)
         stiffest = fmax(stiffest, 1 / c->width[i] / f->step->compliance);
     return 8 * DBL_EPSILON * far * (stiffest + f->augment * f->step->length);
@@ -188,8 +188,8 @@ static void run_rounds(CpsFirstOrder *s) {
 static Vec3 end_excess(const CpsiFirstOrder *f) {
     const int last = f->step->own.cells;
     if (f->step->held || f->strain[last - 1] > 0) return vec3(0, 0, 0);
-    const Vec3 force = vec3_load(f->step->end_force), t = cpsi_at(f->tangent, last - 1),
-               n = cpsi_at(f->step->own.normal, last);
+    const Vec3 force = vec3_load(f->step->end_force), t = vec3_at(f->tangent, last - 1),
+               n = vec3_at(f->step->own.normal, last);
     const Vec3 rest = vec3_axpy(-fmax(0, vec3_dot(force, t)), t, force);
     const double down = isfinite(f->gap[last]) ? fmin(0, vec3_dot(rest, n)) : 0;
     return vec3_axpy(-down, n, rest);
@@ -216,7 +216,7 @@ static void finish(CpsFirstOrder *s) {
         double slope[3];
         cpsi_first_order_slope(f, i, slope);
         cpsi_first_order_tension(f, i, s->tension + 3 * (size_t)i);
-        s->along[i] = vec3_dot(vec3_load(slope), cpsi_at(f->tangent, i));
+        s->along[i] = vec3_dot(vec3_load(slope), vec3_at(f->tangent, i));
         if (f->strain[i] > 0) continue;
         if (s->along[i] < -tolerance) r->shortened += c->width[i];
         if (s->along[i] < r->least_strain) {
@@ -225,11 +225,11 @@ static void finish(CpsFirstOrder *s) {
         }
     }
     for (int j = 0; j <= c->cells; ++j) {
-        const Vec3 reached = vec3_add(cpsi_at(c->reference, j), cpsi_at(f->u, j));
+        const Vec3 reached = vec3_add(vec3_at(c->reference, j), vec3_at(f->u, j));
         vec3_store(s->friction_force + 3 * (size_t)j,
-                   vec3_scale(-1, cpsi_at(f->friction_force, j)));
+                   vec3_scale(-1, vec3_at(f->friction_force, j)));
         r->against_step =
-            cpsi_max_nan(r->against_step, vec3_norm(vec3_sub(reached, cpsi_at(c->position, j))));
+            cpsi_max_nan(r->against_step, vec3_norm(vec3_sub(reached, vec3_at(c->position, j))));
     }
     if (r->outcome == CPS_FIRST_ORDER_OUTCOME_SOLVED && r->shortened > 0)
         r->outcome = CPS_FIRST_ORDER_OUTCOME_SHORTENS;

@@ -22,8 +22,8 @@ static double push_of(const CpsRegularized *previous, int j, double height) {
 
 /* reference, gap and bound of a node from the last solution */
 static void continue_node(CpsiCells *own, const CpsRegularized *previous, double friction, int j) {
-    const Vec3 from = cpsi_at(own->reference, j), now = cpsi_at(previous->f.place, j),
-               n = cpsi_at(own->normal, j);
+    const Vec3 from = vec3_at(own->reference, j), now = vec3_at(previous->f.place, j),
+               n = vec3_at(own->normal, j);
     vec3_store(own->reference + 3 * (size_t)j, now);
     own->bound[j] = 0;
     if (!isfinite(own->gap[j])) return;

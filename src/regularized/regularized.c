@@ -17,7 +17,7 @@ void cpsi_regularized_store(CpsiRegularized *f, const double *x) {
 
 static Vec3 slope(const CpsiRegularized *f, int cell) {
     return vec3_scale(1 / f->cells->width[cell],
-                      vec3_sub(cpsi_at(f->place, cell + 1), cpsi_at(f->place, cell)));
+                      vec3_sub(vec3_at(f->place, cell + 1), vec3_at(f->place, cell)));
 }
 
 double cpsi_regularized_tension(const CpsiRegularized *f, int cell) {
@@ -38,8 +38,8 @@ static int bend_stencil(const CpsiCells *c, int cell, double coefficient[3]) {
  * it */
 static Vec3 find_slip(const CpsiRegularized *f, int j, double *distance) {
     const CpsiCells *c = f->cells;
-    const Vec3 u = vec3_sub(cpsi_at(f->place, j), cpsi_at(c->reference, j)),
-               n = cpsi_at(c->normal, j);
+    const Vec3 u = vec3_sub(vec3_at(f->place, j), vec3_at(c->reference, j)),
+               n = vec3_at(c->normal, j);
     *distance = vec3_dot(u, n) + c->gap[j];
     return vec3_reject(u, n);
 }
@@ -54,11 +54,11 @@ static void place_gradient(CpsiRegularized *f, int j) {
     const CpsiCells *c = f->cells;
     double distance;
     const Vec3 slip = find_slip(f, j, &distance);
-    cpsi_add(f->gradient, j, -1, cpsi_at(c->load, j));
+    cpsi_add(f->gradient, j, -1, vec3_at(c->load, j));
     if (c->bound[j] > 0) cpsi_add(f->gradient, j, c->bound[j] / smoothed(f, slip), slip);
     if (distance < 0)
         cpsi_add(f->gradient, j, f->parameters.penalty * c->share[j] * distance,
-                 cpsi_at(c->normal, j));
+                 vec3_at(c->normal, j));
 }
 
 static void gradient(void *user, const double *x, double *g) {
@@ -121,7 +121,7 @@ static void bend_blocks(const CpsiRegularized *f, int cell, double *a) {
 static void place_blocks(const CpsiRegularized *f, int j, double *a) {
     const CpsiCells *c = f->cells;
     double distance;
-    const Vec3 slip = find_slip(f, j, &distance), n = cpsi_at(c->normal, j);
+    const Vec3 slip = find_slip(f, j, &distance), n = vec3_at(c->normal, j);
     if (c->bound[j] > 0) {
         const double r = smoothed(f, slip), k = c->bound[j] / r;
         add_block(f, a, j, j, k, -k / (r * r), slip);
@@ -152,7 +152,7 @@ CpsiSmooth cpsi_regularized_smooth(CpsiRegularized *f) {
 double cpsi_regularized_limit(const CpsiRegularized *f) {
     const CpsiCells *c = f->cells;
     double far = 0, stiffest = 0;
-    for (int j = 0; j <= c->cells; ++j) far = fmax(far, vec3_norm(cpsi_at(c->position, j)));
+    for (int j = 0; j <= c->cells; ++j) far = fmax(far, vec3_norm(vec3_at(c->position, j)));
     for (int i = 0; i < c->cells; ++i) {
         const double bend = 4 * f->parameters.stiffness * c->bend[i] / (c->width[i] * c->width[i]);
         stiffest = fmax(stiffest, 1 / f->step->compliance / c->width[i] + bend);

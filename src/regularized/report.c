@@ -12,7 +12,7 @@ static const double BELOW_BOUND = 0.99;
 
 static Vec3 slope(const CpsiRegularized *f, int cell) {
     return vec3_scale(1 / f->cells->width[cell],
-                      vec3_sub(cpsi_at(f->place, cell + 1), cpsi_at(f->place, cell)));
+                      vec3_sub(vec3_at(f->place, cell + 1), vec3_at(f->place, cell)));
 }
 
 /* ---- cells ---- */
@@ -61,7 +61,7 @@ static void measure_compression(const CpsiRegularized *f, CpsRegularizedReport *
  * to carry the loads */
 static double excess(const CpsiRegularized *f, int j, double distance) {
     const CpsiCells *c = f->cells;
-    Vec3 need = vec3_scale(-1, cpsi_at(c->load, j));
+    Vec3 need = vec3_scale(-1, vec3_at(c->load, j));
     for (int side = 0; side < 2; ++side) {
         const int cell = j - 1 + side;
         if (cell < 0 || cell >= c->cells) continue;
@@ -70,7 +70,7 @@ static double excess(const CpsiRegularized *f, int j, double distance) {
         if (length > 1)
             need = vec3_axpy((side ? -1 : 1) * cpsi_regularized_tension(f, cell) / length, u, need);
     }
-    const Vec3 n = cpsi_at(c->normal, j);
+    const Vec3 n = vec3_at(c->normal, j);
     const double push = vec3_dot(need, n), tangential = vec3_norm(vec3_axpy(-push, n, need));
     const bool touches = distance <= 0;
     return hypot(fmax(0, tangential - c->bound[j]), touches ? fmin(0, push) : push);
@@ -78,18 +78,18 @@ static double excess(const CpsiRegularized *f, int j, double distance) {
 
 static void measure_place(const CpsiRegularized *f, int j, CpsRegularizedReport *r) {
     const CpsiCells *c = f->cells;
-    const Vec3 x = cpsi_at(f->place, j), u = vec3_sub(x, cpsi_at(c->reference, j)),
-               n = cpsi_at(c->normal, j);
+    const Vec3 x = vec3_at(f->place, j), u = vec3_sub(x, vec3_at(c->reference, j)),
+               n = vec3_at(c->normal, j);
     const double distance = vec3_dot(u, n) + c->gap[j];
     const double slip = vec3_norm(vec3_reject(u, n)), smooth = hypot(f->parameters.delta, slip);
-    r->potential -= vec3_dot(cpsi_at(c->load, j), x);
+    r->potential -= vec3_dot(vec3_at(c->load, j), x);
     r->friction_energy += c->bound[j] * smooth;
     r->relaxed += c->bound[j] * slip;
     if (distance < 0) r->contact += f->parameters.penalty * c->share[j] * distance * distance / 2;
     if (c->bound[j] > 0 && slip < BELOW_BOUND * smooth) r->creep = cpsi_max_nan(r->creep, slip);
     r->penetration = cpsi_max_nan(r->penetration, -distance);
     r->position_max =
-        cpsi_max_nan(r->position_max, vec3_norm(vec3_sub(x, cpsi_at(c->position, j))));
+        cpsi_max_nan(r->position_max, vec3_norm(vec3_sub(x, vec3_at(c->position, j))));
     const bool fixed = j == 0 || (j == c->cells && f->step->held);
     if (!fixed) r->friction_excess = cpsi_max_nan(r->friction_excess, excess(f, j, distance));
 }

@@ -53,10 +53,10 @@ static double energy_of(const CpsiCells *own, double compliance) {
     for (int i = 0; i < own->cells; ++i)
         energy += own->width[i] * compliance * own->tension[i] * own->tension[i] / 2;
     for (int j = 0; j <= own->cells; ++j) {
-        const Vec3 x = cpsi_at(own->position, j), u = vec3_sub(x, cpsi_at(own->reference, j)),
-                   n = cpsi_at(own->normal, j);
+        const Vec3 x = vec3_at(own->position, j), u = vec3_sub(x, vec3_at(own->reference, j)),
+                   n = vec3_at(own->normal, j);
         const Vec3 slip = vec3_reject(u, n);
-        energy += own->bound[j] * vec3_norm(slip) - vec3_dot(cpsi_at(own->load, j), x);
+        energy += own->bound[j] * vec3_norm(slip) - vec3_dot(vec3_at(own->load, j), x);
     }
     return energy;
 }
@@ -64,7 +64,7 @@ static double energy_of(const CpsiCells *own, double compliance) {
 static double force_of(const CpsiCells *own) {
     double most = 0, sum = 0;
     for (int i = 0; i < own->cells; ++i) most = fmax(most, own->tension[i]);
-    for (int j = 0; j <= own->cells; ++j) sum += vec3_norm(cpsi_at(own->load, j));
+    for (int j = 0; j <= own->cells; ++j) sum += vec3_norm(vec3_at(own->load, j));
     return fmax(most, sum);
 }
 
@@ -147,7 +147,7 @@ static void sample(CpsiCells *c, int j, const CpsiStep *step, int i, double t) {
     mix3(t, own->reference, i, c->reference + k);
     mix3(t, own->position, i, c->position + k);
     mix3(t, own->normal, i, c->normal + k);
-    const Vec3 n = cpsi_at(c->normal, j);
+    const Vec3 n = vec3_at(c->normal, j);
     const double norm = vec3_norm(n);
     if (norm > 0) vec3_store(c->normal + k, vec3_scale(1 / norm, n));
     c->gap[j] = mix(t, own->gap[i], own->gap[i + 1]);

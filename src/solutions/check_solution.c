@@ -76,18 +76,18 @@ static double compliance_of(const CpsLineView *step, int i) {
 static double scale_of(const CpsLineView *step, double tolerance) {
     double scale = 0, work = 0, moment = 0, loads = 0, largest = 0;
     for (int i = 0; i < step->element_count; ++i) {
-        const double force = vec3_norm(cpsi_at(step->segment_force, i));
+        const double force = vec3_norm(vec3_at(step->segment_force, i));
         scale += step->element_length[i] * (force + compliance_of(step, i) * force * force);
         largest = cpsi_max_nan(largest, force);
     }
     for (int j = 0; j <= step->element_count; ++j) {
-        const Vec3 x = cpsi_at(step->position, j), u = vec3_sub(x, cpsi_at(step->reference, j)),
-                   n = cpsi_at(step->normal, j), b = cpsi_at(step->load, j);
+        const Vec3 x = vec3_at(step->position, j), u = vec3_sub(x, vec3_at(step->reference, j)),
+                   n = vec3_at(step->normal, j), b = vec3_at(step->load, j);
         if (!held(step, j)) scale += step->friction_bound[j] * vec3_norm(vec3_reject(u, n));
         work += fabs(vec3_dot(b, u));
         loads += vec3_norm(b);
-        moment += vec3_norm(b) * vec3_norm(vec3_sub(x, cpsi_at(step->position, 0)));
-        largest = cpsi_max_nan(largest, vec3_norm(cpsi_at(step->friction_force, j)));
+        moment += vec3_norm(b) * vec3_norm(vec3_sub(x, vec3_at(step->position, 0)));
+        largest = cpsi_max_nan(largest, vec3_norm(vec3_at(step->friction_force, j)));
         if (!held(step, j)) largest = cpsi_max_nan(largest, step->reaction[j]);
     }
     work += GAP_FLOOR * cpsi_max_nan(loads, largest) * step->arc_length[step->element_count] /
@@ -102,15 +102,15 @@ typedef struct Case {
 static void check_node(const CpsLineView *step, const double *position, int j, Case *c) {
     const double arc = step->arc_length[j];
     if (held(step, j)) {
-        accept(&c->end, vec3_norm(vec3_sub(cpsi_at(position, j), cpsi_at(step->position, j))), arc);
+        accept(&c->end, vec3_norm(vec3_sub(vec3_at(position, j), vec3_at(step->position, j))), arc);
         return;
     }
-    const Vec3 u = vec3_sub(cpsi_at(position, j), cpsi_at(step->reference, j)),
-               n = cpsi_at(step->normal, j);
+    const Vec3 u = vec3_sub(vec3_at(position, j), vec3_at(step->reference, j)),
+               n = vec3_at(step->normal, j);
     const double across = vec3_dot(u, n);
     accept(&c->sliding,
            slip_gap(step->friction_bound[j], vec3_axpy(-across, n, u),
-                    cpsi_at(step->friction_force, j)),
+                    vec3_at(step->friction_force, j)),
            arc);
     if (!isfinite(step->gap[j])) return;
     accept(&c->contact, step->reaction[j] * fmax(0, across + step->gap[j]), arc);
@@ -120,10 +120,10 @@ static void check_node(const CpsLineView *step, const double *position, int j, C
 static void check_nodes(const CpsLineView *step, const double *position, Case *c) {
     for (int i = 0; i < step->element_count; ++i) {
         const double l = step->element_length[i], arc = step->arc_length[i] + l / 2;
-        const Vec3 e = vec3_scale(1 / l, vec3_sub(cpsi_at(position, i + 1), cpsi_at(position, i)));
+        const Vec3 e = vec3_scale(1 / l, vec3_sub(vec3_at(position, i + 1), vec3_at(position, i)));
         const double stretch = vec3_norm(e);
         accept(&c->tension,
-               l * segment_gap(compliance_of(step, i), e, cpsi_at(step->segment_force, i)), arc);
+               l * segment_gap(compliance_of(step, i), e, vec3_at(step->segment_force, i)), arc);
         accept(&c->shorter, fmax(0, 1 - stretch), arc);
         accept(&c->longer, step->compliance > 0 ? 0 : fmax(0, stretch - 1), arc);
     }

@@ -26,12 +26,12 @@ static const double SAME = 1e-6, SLIP = 1e-9;
 double cpsi_slack_force(const CpsLineView *step) {
     double most = 0, sum = 0;
     for (int i = 0; i < step->element_count; ++i) most = cpsi_max_nan(most, step->tension[i]);
-    for (int j = 0; j <= step->element_count; ++j) sum += vec3_norm(cpsi_at(step->load, j));
+    for (int j = 0; j <= step->element_count; ++j) sum += vec3_norm(vec3_at(step->load, j));
     return cpsi_max_nan(most, sum);
 }
 
 double cpsi_element_stretch(const CpsLineView *step, const double *position, int i) {
-    return vec3_norm(vec3_sub(cpsi_at(position, i + 1), cpsi_at(position, i))) /
+    return vec3_norm(vec3_sub(vec3_at(position, i + 1), vec3_at(position, i))) /
            step->element_length[i];
 }
 
@@ -55,15 +55,15 @@ static bool is_loose(const CpsLineView *step, int node, double force) {
 /* the plane of the loose nodes of a piece, if there is one */
 static void find_plane(const CpsLineView *step, double force, CpsiSlackPiece *piece) {
     const int from = piece->first + !piece->open[0], to = piece->last + piece->open[1];
-    const Vec3 a = cpsi_at(step->position, piece->first),
-               b = cpsi_at(step->position, piece->last + 1);
+    const Vec3 a = vec3_at(step->position, piece->first),
+               b = vec3_at(step->position, piece->last + 1);
     piece->foot[0] = a;
     piece->foot[1] = b;
     for (int j = from; j <= to && !piece->grounded; ++j) {
         if (!(step->reaction[j] > NO_PUSH * force) || !isfinite(step->gap[j])) continue;
         piece->grounded = true;
-        piece->normal = cpsi_at(step->normal, j);
-        const double level = vec3_dot(piece->normal, cpsi_at(step->reference, j)) - step->gap[j];
+        piece->normal = vec3_at(step->normal, j);
+        const double level = vec3_dot(piece->normal, vec3_at(step->reference, j)) - step->gap[j];
         for (int side = 0; side < 2; ++side) {
             piece->height[side] = vec3_dot(piece->normal, piece->foot[side]) - level;
             piece->foot[side] = vec3_axpy(-piece->height[side], piece->normal, piece->foot[side]);
@@ -72,7 +72,7 @@ static void find_plane(const CpsLineView *step, double force, CpsiSlackPiece *pi
     if (piece->grounded) return;
     /* in the air without load: any plane through the chord; a level one across the chord unless
      * that is too near to the vertical */
-    const Vec3 chord = vec3_sub(b, a), up = cpsi_at(step->normal, from <= to ? from : piece->first);
+    const Vec3 chord = vec3_sub(b, a), up = vec3_at(step->normal, from <= to ? from : piece->first);
     const Vec3 z = vec3_norm(up) > 0 ? up : vec3(0, 0, 1);
     Vec3 side = vec3_cross(z, chord);
     if (!(vec3_norm(side) > SAME * vec3_norm(chord))) side = vec3_cross(vec3(z.y, z.z, z.x), z);
@@ -115,7 +115,7 @@ bool cpsi_piece_moves(const CpsLineView *step, const CpsiSlackPiece *piece) {
 
 static bool at_bound(const CpsLineView *step, int node) {
     const double bound = step->friction_bound[node];
-    return bound > 0 && vec3_norm(cpsi_at(step->friction_force, node)) >= bound * (1 - AT_BOUND);
+    return bound > 0 && vec3_norm(vec3_at(step->friction_force, node)) >= bound * (1 - AT_BOUND);
 }
 
 static bool is_held(const CpsLineView *step, int node) {
@@ -129,8 +129,8 @@ static bool may_go(const CpsLineView *step, int node, Vec3 v) {
     if (is_held(step, node)) return false;
     if (!(step->friction_bound[node] > 0)) return true;
     if (!at_bound(step, node)) return false;
-    const Vec3 force = cpsi_at(step->friction_force, node), n = cpsi_at(step->normal, node);
-    const Vec3 u = vec3_sub(cpsi_at(step->position, node), cpsi_at(step->reference, node));
+    const Vec3 force = vec3_at(step->friction_force, node), n = vec3_at(step->normal, node);
+    const Vec3 u = vec3_sub(vec3_at(step->position, node), vec3_at(step->reference, node));
     const double along = vec3_dot(force, v), size = vec3_norm(force);
     if (!(vec3_norm(vec3_cross(force, v)) <= SAME * size)) return false;
     const double slip = vec3_norm(vec3_reject(u, n));
@@ -144,7 +144,7 @@ static bool carries(const CpsLineView *step, int node, int side, Vec3 v, double 
     if (!is_slack(step, i, force)) return true;
     const double stretch = cpsi_element_stretch(step, step->position, i);
     if (stretch < 1 - CPSI_FULL) return false;
-    const Vec3 e = vec3_sub(cpsi_at(step->position, node), cpsi_at(step->position, other));
+    const Vec3 e = vec3_sub(vec3_at(step->position, node), vec3_at(step->position, other));
     return !(vec3_dot(e, v) < -SAME * vec3_norm(e));
 }
 
@@ -163,7 +163,7 @@ static bool cluster_goes(const CpsLineView *step, int node, Vec3 v, double force
 
 /* whether a node at its bound can slip on or back */
 static bool may_slip(const CpsLineView *step, int node, double force) {
-    const Vec3 f = cpsi_at(step->friction_force, node);
+    const Vec3 f = vec3_at(step->friction_force, node);
     const double size = vec3_norm(f);
     return at_bound(step, node) && size > 0 &&
            (cluster_goes(step, node, vec3_scale(-1 / size, f), force) ||
