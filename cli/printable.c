@@ -20,19 +20,26 @@ static int control_size(const unsigned char *c) {
     return orders || isolates ? 3 : 0;
 }
 
+/* Length in bytes of the UTF-8 character at c (RFC 3629), 0 if it is not one. */
+static int character_length(const unsigned char *c) {
+    const int length = c[0] < 0x80 ? 1 : c[0] < 0xC2 ? 0 : c[0] < 0xE0 ? 2 : c[0] < 0xF0 ? 3 : 4;
+    for (int i = 1; i < length; ++i)
+        if ((c[i] & 0xC0) != 0x80) return 0;
+    const bool outside = c[0] > 0xF4 || (c[0] == 0xF4 && c[1] > 0x8F) || /* beyond U+10FFFF */
+                         (c[0] == 0xE0 && c[1] < 0xA0) || (c[0] == 0xF0 && c[1] < 0x90) ||
+                         (c[0] == 0xED && c[1] > 0x9F); /* written too long, surrogates */
+    return outside ? 0 : length;
+}
+
 void cli_print_text(FILE *out, const char *text, int width, bool pad) {
     int used = 0;
-    for (const unsigned char *c = (const unsigned char *)text; *c && used < width; ++c) {
-        const int control = control_size(c);
-        if (control > 0) {
-            fputc('?', out);
-            c += control - 1;
-        } else {
-            fputc(*c, out);
-            /* the following bytes of the same character */
-            while (*c >= 0x80 && (c[1] & 0xC0) == 0x80) fputc(*++c, out);
-        }
-        ++used;
+    for (const unsigned char *c = (const unsigned char *)text; *c && used < width; ++used) {
+        const int length = character_length(c);
+        if (length == 0 || control_size(c) > 0)
+            fputc('?', out); /* 0x9B begins a sequence on a terminal of eight bits */
+        else
+            fwrite(c, 1, (size_t)length, out);
+        c += length ? length : 1;
     }
     if (pad)
         while (used++ < width) fputc(' ', out);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Printing text that does not come from the program: names and titles of files, arguments. Control
- * characters, and those that change the direction of text, are replaced, so that none of them can
- * control a terminal or show a text other than it is. */
+ * characters, those that change the direction of text, and bytes that are not UTF-8 are replaced,
+ * so that none of them can control a terminal or show a text other than it is. */
 #ifndef CAPSTAN_CLI_PRINTABLE_H
 #define CAPSTAN_CLI_PRINTABLE_H
 

@@ -315,9 +315,10 @@ static void print_where(const char *directory, const CpsEvolution *evolution, bo
            "step's own problem: it says nothing of the\n"
            "          mesh, nor of what earlier steps have left. mesh: estimated error by the "
            "elements' length, of the step as well\n");
-    printf("\nresults   %s: summary.json, history.csv, result.nc%s\n", directory,
-           paraview ? ", result.pvd (ParaView)" : "");
-    printf(
+    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s\n", directory,
+               paraview ? ", result.pvd (ParaView)" : "");
+    cli_printf(
+        stdout,
         "pictures  %s: plan.svg, elevation.svg, tension.svg, step-*.svg; loop-*.svg where a held "
         "end goes round a closed cycle\n",
         directory);

@@ -195,8 +195,8 @@ static void tell(const History *h, const char *directory) {
            "obstacle (lambda), %.2g m of creep below the bound (delta),\n  %.2g N that nothing "
            "carries; 'off' is from the certified step with frozen friction\n",
            most.compression, most.penetration, most.creep, most.friction_excess);
-    printf("\nresults   %s: summary.json, history.csv\npictures  %s: line-1.svg%s\n", directory,
-           directory, h->lines > 1 ? ", .." : "");
+    cli_printf(stdout, "\nresults   %s: summary.json, history.csv\npictures  %s: line-1.svg%s\n",
+               directory, directory, h->lines > 1 ? ", .." : "");
 }
 
 /* ---- the whole run ---- */

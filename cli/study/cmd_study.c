@@ -218,9 +218,11 @@ static void tell(const CpsStudy *study, const CpsFirstOrder *const *first_order,
     }
     print_first_order(first_order);
     study_print_slack(view, tolerance);
-    printf("\nresults   %s: study.csv, first-order.csv\npictures  %s: study.svg, first-order.svg, "
-           "relaxed.svg\n",
-           directory, directory);
+    cli_printf(
+        stdout,
+        "\nresults   %s: study.csv, first-order.csv\npictures  %s: study.svg, first-order.svg, "
+        "relaxed.svg\n",
+        directory, directory);
 }
 
 /* ---- the whole study ---- */

@@ -141,7 +141,7 @@ static int run_all(Histories *h, const char *directory, bool quiet) {
         regularized_print_steps(h->scene);
         tell(h);
     }
-    if (!quiet) printf("\nresults   %s: methods.csv, methods.svg\n", directory);
+    if (!quiet) cli_printf(stdout, "\nresults   %s: methods.csv, methods.svg\n", directory);
     if (!h->converged) fprintf(stderr, "capstan study: a regularised solve did not converge\n");
     return h->converged ? EXIT_OK : EXIT_NOT_CERTIFIED;
 }

@@ -256,8 +256,8 @@ int study_complete(const CpsLineView *view, CpsCompletion how, double tolerance,
         if (slack[how].left > 0)
             printf("  %.6g m keep |x'| < 1, between nodes held closer than their length\n",
                    slack[how].left);
-        printf("\nresults   %s: completed.csv\npictures  %s: completed.svg\n", directory,
-               directory);
+        cli_printf(stdout, "\nresults   %s: completed.csv\npictures  %s: completed.svg\n",
+                   directory, directory);
     }
     free(all);
     if (status != CPS_OK) return cli_report(&err);

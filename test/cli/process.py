@@ -122,6 +122,20 @@ def escapes():
         for command in (["check", "title.yaml"], ["check", f"{mark}no.yaml"], [mark]):
             done = subprocess.run([CAPSTAN, *command], capture_output=True, timeout=60)
             expect(f"characters that change the direction of text: {command!r}", mark.encode() not in done.stdout + done.stderr, done)
+    # names that are printed where all has gone well: of a scene, and of directories of results
+    write("named\x1b[2J.yaml", SCENE)
+    for command in (["run", "named\x1b[2J.yaml"], ["run", "scene.yaml", "-o", "exact\x1b[2J"], ["run", "frozen.yaml", "-m", "regularized", "-o", "1990\x1b[2J"],
+                    ["study", "frozen.yaml", "-o", "study\x1b[2J"], ["study", "frozen.yaml", "--history", "-o", "methods\x1b[2J"],
+                    ["study", "frozen.yaml", "--complete", "straight", "-o", "completed\x1b[2J"]):
+        done = subprocess.run([CAPSTAN, *command], capture_output=True, timeout=60)
+        expect(f"an escape in a name after {command}", done.returncode == 0 and b"\x1b" not in done.stdout + done.stderr, done)
+    # bytes that are not UTF-8: 0x9b begins a sequence on a terminal of eight bits
+    for text in (b"\x9b2J", b"\xc0\x9b2J", b"\xed\xa0\x80", b"\xf5\x80\x80\x80", b"\xc3"):
+        for command in ([text], [b"check", b"no" + text + b".yaml"], [b"law", b"law.yaml", b"-f", text]):
+            done = subprocess.run([CAPSTAN.encode(), *command], capture_output=True, timeout=60)
+            expect(f"{text} of {command}", text not in done.stdout + done.stderr, done)
+    done = subprocess.run([CAPSTAN, "check", "n\u00e9\u20ac\U0001f600.yaml"], capture_output=True, timeout=60)
+    expect("letters of other languages", "n\u00e9\u20ac\U0001f600.yaml".encode() in done.stderr, done)
 
 
 def named_files():
