@@ -6,9 +6,9 @@
 #include <string.h>
 
 /* A directive is '%YAML 1.2'; empty lines separate sections. For both, libfyaml 0.7 to 0.9 needs
- * quadratic time: 160 kB of '%' take half a minute, and so do 40 kB of line breaks in a block text.
- * Within these limits the time is not measurable. */
-enum { DIRECTIVE_MOST = 80, EMPTY_MOST = 500 };
+ * quadratic time: 160 kB of '%' take half a minute, and so do 40 kB of line breaks in a block text
+ * and 40 000 directives '%TAG'. Within these limits the time is not measurable. */
+enum { DIRECTIVE_MOST = 80, DIRECTIVES_MOST = 100, EMPTY_MOST = 500 };
 
 /* Length of the line break at s, 0: none. YAML 1.1, which a directive can select, also has U+0085,
  * U+2028 and U+2029. */
@@ -23,6 +23,7 @@ static size_t line_break(const char *s, size_t left) {
 
 bool cpsi_yaml_lines(const char *bytes, size_t size, int *line, const char **found) {
     size_t at = size > 2 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0, empty = 0;
+    int directives = 0;
     for (*line = 1; at < size; *line += *line < INT_MAX) {
         const size_t begin = at;
         bool blank = true;
@@ -31,6 +32,8 @@ bool cpsi_yaml_lines(const char *bytes, size_t size, int *line, const char **fou
             blank = blank && (bytes[at] == ' ' || bytes[at] == '\t');
         *found = "a long line that begins with '%': a directive is '%YAML 1.2'";
         if (bytes[begin] == '%' && at - begin > DIRECTIVE_MOST) return false;
+        *found = "more than 100 lines that begin with '%': a directive is '%YAML 1.2'";
+        if (bytes[begin] == '%' && ++directives > DIRECTIVES_MOST) return false;
         *found = "more than 500 empty lines one after another: remove some";
         empty = blank ? empty + 1 : 0;
         if (empty > EMPTY_MOST) return false;
