@@ -189,7 +189,7 @@ ROWS = [
     ("two points", b"1..2,3\n", "1: expected 2 numbers separated by commas, at most 1e100: found '1..2,3'"),
     ("an escape", b"\x1b[2J,1\n", "1: expected 2 numbers separated by commas, at most 1e100: found '?[2J,1'"),
     ("a quote", b'"1",2\n', '1: expected 2 numbers separated by commas, at most 1e100: found \'"1",2\''),
-    ("Latin-1", b"1,2\n\xfc,1\n", "2: expected 2 numbers separated by commas, at most 1e100: found '�,1'"),
+    ("Latin-1", b"1,2\n\xfc,1\n", "2: expected 2 numbers separated by commas, at most 1e100: found '?,1'"),
     ("blank between", b"1 2\n", "1: expected 2 numbers separated by commas, at most 1e100: found '1 2'"),
     ("a unit", b"1 N,2\n", "1: expected 2 numbers separated by commas, at most 1e100: found '1 N,2'"),
     ("a comment behind", b"1,2 # here\n", "1: expected 2 numbers separated by commas, at most 1e100: found '1,2 # here'"),
