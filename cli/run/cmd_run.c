@@ -131,6 +131,27 @@ static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
     }
 }
 
+/* print that the ends are too far apart, or that an element is too long to go round an obstacle */
+static void print_shortfall(const CpsScene *scene, const CpsLineReport *line) {
+    const double *d = line->proof;
+    if (d[0] == 0 && d[1] == 0 && d[2] == 0) {
+        fputs("no configuration: an element is too long to go round obstacle ", stderr);
+        cli_print_text(stderr, scene->obstacle[line->proof_obstacle].name, 80, false);
+        fprintf(stderr,
+                " (wherever its nodes are, it lies %.6g m deeper than a chord may; take shorter "
+                "elements there)",
+                line->proof_length);
+        return;
+    }
+    fprintf(stderr, "%s (by %.6g m along (%.4g, %.4g, %.4g)", cps_outcome_text(line->outcome),
+            line->proof_length, d[0], d[1], d[2]);
+    if (line->has_proof_obstacle) {
+        fputs(", the shortest path round obstacle ", stderr);
+        cli_print_text(stderr, scene->obstacle[line->proof_obstacle].name, 80, false);
+    }
+    fputc(')', stderr);
+}
+
 /* print a sentence with the proof for each outcome other than solved */
 static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
@@ -141,17 +162,12 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         cli_print_text(stderr, step.name, 80, false);
         fputs(", line ", stderr);
         cli_print_text(stderr, cps_evolution_line_view(evolution, i).name, 80, false);
-        fprintf(stderr, ": %s", cps_outcome_text(line.outcome));
+        fputs(": ", stderr);
+        if (line.outcome != CPS_OUTCOME_INFEASIBLE) fputs(cps_outcome_text(line.outcome), stderr);
         const double *d = line.proof;
         const CpsCertificate *c = &line.certificate;
         if (line.outcome == CPS_OUTCOME_INFEASIBLE) {
-            fprintf(stderr, " (by %.6g m along (%.4g, %.4g, %.4g)", line.proof_length, d[0], d[1],
-                    d[2]);
-            if (line.has_proof_obstacle) {
-                fputs(", the shortest path round obstacle ", stderr);
-                cli_print_text(stderr, scene->obstacle[line.proof_obstacle].name, 80, false);
-            }
-            fputc(')', stderr);
+            print_shortfall(scene, &line);
         } else if (line.outcome == CPS_OUTCOME_UNBOUNDED || line.outcome == CPS_OUTCOME_SLIDES) {
             fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_force, d[0], d[1],
                     d[2]);

@@ -190,12 +190,12 @@ typedef struct CpsLineReport {
     int pierced_obstacle;          /* obstacle of the certificate's element_penetration */
     CpsBend bend;                  /* the sharpest of the substeps */
     /* The proof that there is no equilibrium, else 0 0 0. Infeasible: unit vector in which the
-     * shortest path to end B leaves end A; where it is straight, a constant force along it is the
-     * proof. Unbounded: the rigid direction in which the energy falls. Slides: the velocity of the
-     * leading end, of the field `motion` of the view. */
+     * shortest path to end B leaves end A; if straight, a constant force along it is the proof; 0 0
+     * 0: an element is too long to go round. Unbounded: the rigid direction in which the energy
+     * falls. Slides: the velocity of the leading end, of the field `motion` of the view. */
     double proof[3];
-    /* [m] > 0, infeasible: the distance of the ends, or the least length of a line round the
-     * obstacle, less the length of the line; otherwise 0 */
+    /* [m] > 0, infeasible: the distance of the ends, or the least length of a line round an
+     * obstacle, less the line's; or how deep an element stays in one; otherwise 0 */
     double proof_length;
     /* [N] > 0, unbounded: decrease of the energy per metre; slides: least power along the path of
      * the loads, less all that friction can dissipate, per unit of speed; otherwise 0 */

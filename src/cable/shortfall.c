@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Too short to reach round an obstacle (shortfall.h). The line does not pass the obstacle
  * (obstacle_side.h), so its turn about the axis of a cylinder is the turn at the beginning of the
- * step plus the angles of the held ends on their straight paths. */
+ * step plus the angles of the held ends on their straight paths. A single element may be too long
+ * to go round, whatever the side: then the rest of the line does not let it out of the way. */
 #include "cable/shortfall.h"
 
 #include "base/math.h"
+#include "cable/contact.h"
 #include "cable/line_solve.h"
 #include "geometry/shortest_path.h"
 
@@ -13,6 +15,11 @@
 static const double TOO_NEAR = 0.5;
 
 static const double ROUND = 2 * CPSI_PI;
+
+/* Relative rounding error of coordinates about the obstacle: about fifty roundings of 2.2e-16. */
+static const double ROUNDING = 1e-14;
+/* Parts into which a share is narrowed down, each two thirds of the one before. */
+enum { PARTS = 60 };
 
 static Vec3 held_at(const CpsiLine *line, int end) { return vec3_load(line->end[end].value); }
 
@@ -44,6 +51,51 @@ static bool turn_about(const CpsiLine *line, const CpsiObstacle *o, bool statics
     return true;
 }
 
+/* [m] How far the point at a share of an element may be from the axis or centre. The straight line
+ * between the held ends a and b has a point at the same share; each end of the element is no
+ * farther from its end of that line than the elements in between are long. */
+static double farthest(const CpsiObstacle *o, Vec3 a, Vec3 b, const double beside[2],
+                       double share) {
+    const Vec3 x = vec3_axpy(share, vec3_sub(b, a), a);
+    return vec3_norm(cpsi_obstacle_spoke(o, x)) + (1 - share) * beside[0] + share * beside[1];
+}
+
+/* [m] The least of these over the element, by thirds: it is a convex function of the share, and
+ * every value of it is a bound. */
+static double farthest_of_nearest(const CpsiObstacle *o, Vec3 a, Vec3 b, const double beside[2]) {
+    double low = 0, high = 1;
+    for (int i = 0; i < PARTS; i++) {
+        const double third = (high - low) / 3;
+        if (farthest(o, a, b, beside, low + third) < farthest(o, a, b, beside, high - third))
+            high -= third;
+        else
+            low += third;
+    }
+    return farthest(o, a, b, beside, 0.5 * (low + high));
+}
+
+/* Find the element that stays deepest in an obstacle: deeper than elements may, wherever its ends
+ * are (docs/theory.md 5). With the ends outside the obstacle, only an element longer than the slack
+ * of the line, its length less the distance of its ends, can be so. */
+static void find_long_element(const CpsiLine *line, Vec3 a, Vec3 b, CpsiShortfall *out) {
+    const double slack = line->length - vec3_norm(vec3_sub(b, a));
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const CpsiObstacle *o = &line->obstacle[k];
+        if (o->kind == CPS_OBSTACLE_PLANE) continue;
+        const double rounding = ROUNDING * (vec3_norm(vec3_sub(a, o->frame.point)) +
+                                            vec3_norm(vec3_sub(b, o->frame.point)) + o->radius);
+        for (int e = 0; e + 1 < line->n; e++) {
+            const double l = line->element_length[e];
+            if (!(l > slack)) continue;
+            const double beside[2] = {line->arc_length[e], line->length - line->arc_length[e + 1]};
+            const double deep =
+                o->radius - cpsi_obstacle_allowance(o, l) - farthest_of_nearest(o, a, b, beside);
+            if (deep > 2 * CPSI_TOUCH * line->length + rounding && deep > out->missing)
+                *out = (CpsiShortfall){k, deep, vec3(0, 0, 0)};
+        }
+    }
+}
+
 bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
                            CpsiShortfall *out) {
     if (line->compliance > 0 || !cpsi_line_both_ends(line, CPS_END_KIND_HELD) ||
@@ -69,5 +121,6 @@ bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
         if (path.length - path.rounding > allowed && missing > out->missing)
             *out = (CpsiShortfall){k, missing, path.leaves};
     }
+    if (out->obstacle < 0 && line->element_contacts > 0) find_long_element(line, a, b, out);
     return out->obstacle >= 0;
 }

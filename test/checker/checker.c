@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "ends.h"
+#include "long_element.h"
 #include "measure.h"
 #include "motion.h"
 #include "passing.h"
@@ -344,6 +345,21 @@ static void judge_reach(Judge *judge, const Source *source, const Record *r, con
             fabs(hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1), COPY_TOLERANCE);
 }
 
+/* ... or a single element is too long to go round it */
+static void judge_long_element(Judge *judge, const Source *source, const Record *r,
+                               const Measures *m) {
+    double deep;
+    if (r->compliance != 0)
+        find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
+    const char *what = long_element_contradiction(source, r, &deep);
+    if (what) {
+        find(judge, "infeasible, but %s", what);
+        return;
+    }
+    double size = m->length + m->extent + (double)source->surface[r->proof_obstacle].radius;
+    same(judge, "proof_length", r->proof_length, deep, COPY_TOLERANCE * size);
+}
+
 /* a constant force along the unit vector from A to B has the dual value t (distance - length),
  * unbounded in t */
 static void judge_infeasible(Judge *judge, const Record *r, const Measures *m) {
@@ -445,7 +461,9 @@ static void judge_record(const Source *source, const Record *r, const char *line
             break;
         case OUTCOME_TAUT: judge_taut(&judge, r, &m); break;
         case OUTCOME_INFEASIBLE:
-            if (r->proof_obstacle >= 0)
+            if (r->proof_obstacle >= 0 && r->proof[0] == 0 && r->proof[1] == 0 && r->proof[2] == 0)
+                judge_long_element(&judge, source, r, &m);
+            else if (r->proof_obstacle >= 0)
                 judge_reach(&judge, source, r, &m, source->has_static && step == 0);
             else
                 judge_infeasible(&judge, r, &m);

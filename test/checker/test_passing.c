@@ -12,10 +12,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "capstan/io.h"
-#include "capstan/results.h"
 #include "check.h"
 #include "checker.h"
+#include "run_scene.h"
 #include "sample.h"
 #include "splitmix.h"
 
@@ -70,29 +69,6 @@ static void write_scene(const Passing *w) {
     assert_int_equal(fclose(out), 0);
 }
 
-static CpsLineReport run(void) {
-    CpsSceneFile *scene = NULL;
-    CpsError err = {0};
-    CpsEvolution *evolution = NULL;
-    CpsResults *results = NULL;
-    CpsStatus status = cps_scene_read(path, NULL, &scene, &err);
-    if (!status) status = cps_evolution_create(cps_scene_file_scene(scene), &evolution, &err);
-    if (!status) status = cps_results_prepare(directory, true, &err);
-    if (!status)
-        status = cps_results_open(directory, cps_scene_file_scene(scene), evolution, NULL, &results,
-                                  &err);
-    if (!status) status = cps_evolution_step(evolution, &err);
-    if (!status) status = cps_results_append(results, evolution, &err);
-    if (!status) status = cps_results_finish(results, 0, &err);
-    if (status) print_error("%s\n", err.message);
-    assert_int_equal(status, CPS_OK);
-    const CpsLineReport report = cps_evolution_line_report(evolution, 0);
-    cps_results_destroy(results);
-    cps_evolution_destroy(evolution);
-    cps_scene_file_destroy(scene);
-    return report;
-}
-
 /* The largest y at which a sphere is passed: half of its radius or of its distance before. */
 static bool is_passed(const Passing *w) {
     const double reach = w->length * cos(w->angle);
@@ -137,7 +113,7 @@ static void what_passes_is_told(void **state) {
         CheckerReport report;
         CHECK_INT(is_passed(&w), passes);
         write_scene(&w);
-        const CpsLineReport line = run();
+        const CpsLineReport line = run_scene(path, directory);
         /* nothing holds an overdamped motion that friction follows before the axis: it may come to
          * rest beyond, which counts as a jump */
         if (passes && w.follows && line.jump_count > 0) {

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A scene from its file to its results (run_scene.h). */
+#include "run_scene.h"
+
+#include <stdlib.h>
+
+#include "capstan/evolve.h"
+#include "capstan/io.h"
+#include "capstan/results.h"
+#include "check.h"
+
+CpsLineReport run_scene(const char *path, const char *directory) {
+    CpsSceneFile *scene = NULL;
+    CpsError err = {0};
+    CpsEvolution *evolution = NULL;
+    CpsResults *results = NULL;
+    CpsStatus status = cps_scene_read(path, NULL, &scene, &err);
+    if (!status) status = cps_evolution_create(cps_scene_file_scene(scene), &evolution, &err);
+    if (!status) status = cps_results_prepare(directory, true, &err);
+    if (!status)
+        status = cps_results_open(directory, cps_scene_file_scene(scene), evolution, NULL, &results,
+                                  &err);
+    if (!status) status = cps_evolution_step(evolution, &err);
+    if (!status) status = cps_results_append(results, evolution, &err);
+    if (!status) status = cps_results_finish(results, 0, &err);
+    if (status) print_error("%s\n", err.message);
+    assert_int_equal(status, CPS_OK);
+    const CpsLineReport report = cps_evolution_line_report(evolution, 0);
+    cps_results_destroy(results);
+    cps_evolution_destroy(evolution);
+    cps_scene_file_destroy(scene);
+    return report;
+}

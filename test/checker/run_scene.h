@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A scene from its file to its results, within a test program. */
+#ifndef CAPSTAN_CHECKER_RUN_SCENE_H
+#define CAPSTAN_CHECKER_RUN_SCENE_H
+
+#include "capstan/step.h"
+
+/* Take the first step of the scene in the file `path`, write its results to a directory, and return
+ * the report on its first line. What fails on the way fails the test. */
+CpsLineReport run_scene(const char *path, const char *directory);
+
+#endif
