@@ -97,11 +97,11 @@ bool cpsi_line_is_near(const CpsiLine *line) {
     return true;
 }
 
-/* Contact of the reference with frozen friction knows the contacts of the reference only; there the
- * straight path from the reference must not pass an obstacle. */
+/* Contact of the reference knows the contacts of the reference only; there the straight path from
+ * the reference must not pass an obstacle. */
 static bool goes_straight(const CpsiLine *line, const CpsiStepOptions *options) {
-    return line->has_local_axes && options->friction_policy == CPS_FRICTION_POLICY_FROZEN &&
-           !line->keeps_reference_axes && !options->frictionless;
+    return line->has_local_axes && options->contact_policy == CPS_CONTACT_POLICY_REFERENCE &&
+           !options->frictionless;
 }
 
 /* Can the step have moved the line so far, and does the line not penetrate obstacles? */

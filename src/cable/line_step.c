@@ -35,7 +35,6 @@
 #include "cable/existence.h"
 #include "cable/line_solve.h"
 #include "cable/mesh_error.h"
-#include "cable/obstacle_side.h"
 #include "cable/report.h"
 #include "cable/rounds.h"
 #include "cable/shortfall.h"
@@ -213,18 +212,12 @@ static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
     return good;
 }
 
-/* The straight way from the reference to such a solution tells whether it passes an obstacle. */
+/* Solve the step without keeping the line before obstacles. */
 static void solve_across(CpsiLine *line, CpsiChainProgram *program,
                          const CpsiStepOptions *options) {
     if (line->has_local_axes) cpsi_contact_reset(line);
     if (options->least) options->least->chose = false;
     (void)solve_once(line, program, options, &ACROSS, true, 0);
-    if (line->report.outcome != CPS_OUTCOME_SOLVED) return;
-    const int passed = cpsi_obstacle_passed(line, line->reference, line->position);
-    if (passed == CPS_NO_OBSTACLE) return;
-    line->report.outcome = CPS_OUTCOME_PASSES;
-    line->report.has_proof_obstacle = true;
-    line->report.proof_obstacle = passed;
 }
 
 /* Try the strategies that are of use, until one gives a certified answer; only one if the step is

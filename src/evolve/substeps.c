@@ -30,6 +30,7 @@
 #include "base/larger.h"
 #include "cable/bend.h"
 #include "cable/contact.h"
+#include "cable/obstacle_side.h"
 #include "evolve/ledger.h"
 #include "evolve/relaxation.h"
 
@@ -417,6 +418,15 @@ static bool add_slide(Advance *substeps, double from, double to, double margin) 
     return true;
 }
 
+/* Has a motion with contact of the reference taken the line past an obstacle? No contact keeps it
+ * before one, and its time steps may come nearer to the axis without end. */
+static bool creeps_past(const Advance *substeps) {
+    const CpsiLine *line = substeps->line;
+    return substeps->options->contact_policy == CPS_CONTACT_POLICY_REFERENCE &&
+           cpsi_obstacle_passed(line, substeps->scratch->position, line->position) !=
+               CPS_NO_OBSTACLE;
+}
+
 /* Take the part from share `from` to share `to` as overdamped motion, after which the line may have
  * an equilibrium again. False where that is not permitted, or the line does not come to rest; then
  * it is restored. */
@@ -433,7 +443,7 @@ static bool relax(Advance *substeps, double from, double to) {
     const bool rests = cpsi_line_relax(line, substeps->program, substeps->options, before,
                                        substeps->scratch->turn, substeps->known, &done);
     substeps->iterations += done.iterations;
-    if (!rests) {
+    if (!rests || creeps_past(substeps)) {
         cpsi_substeps_restore(line, substeps->scratch);
         return false;
     }

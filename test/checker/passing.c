@@ -79,7 +79,7 @@ static const char *claim_contradiction(const Source *source, const Record *r) {
 
 const char *passing_contradiction(const Source *source, const Record *r, bool laid) {
     if (r->outcome == OUTCOME_PASSES) return claim_contradiction(source, r);
-    if (laid || source->consistent || !source->touching_only || !source->follows) return NULL;
+    if (laid || !source->touching_only || !source->follows) return NULL;
     for (size_t k = 0; k < source->surfaces; k++)
         if (passes(&source->surface[k], r, CLEARLY)) return "certified, but it passes an obstacle";
     return NULL;
