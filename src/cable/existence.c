@@ -70,19 +70,30 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     return true;
 }
 
-/* A plane as no friction on it can hold: whatever moves along a unit vector v with n.v >= rise. */
+/* A plane as friction on it cannot hold: whatever moves along a unit vector v with n.v >= rise, but
+ * for what it takes along its tangential part. */
 typedef struct Slope {
     Vec3 n;
     double rise;
+    double bound; /* [N] friction on it at most, whatever the reactions; 0 if it follows them */
 } Slope;
 
 /* More planes are not examined, since all pairs of them are. */
 enum { MOST_SLOPES = 16 };
 
-/* The slopes of the obstacles: the sine of the friction angle, by the radius of a disc that
- * contains all friction forces per unit normal force. 0 where an obstacle is round or has a given
- * set. */
-static int fill_slopes(const CpsiLine *line, Slope slope[MOST_SLOPES]) {
+/* The radius of a disc that contains all friction forces per unit normal force, over the larger
+ * coefficient. */
+static double disc_factor(const CpsiObstacle *o) {
+    const double most = fmax(o->friction[0], o->friction[1]);
+    return o->shape == CPS_FRICTION_SHAPE_BOX && most > 0
+               ? hypot(o->friction[0], o->friction[1]) / most
+               : 1;
+}
+
+/* The slopes of the obstacles: with bounds that follow the reactions the sine of the friction
+ * angle, with frozen ones 0 and the sum of the bounds. Returns 0 where an obstacle is round or has
+ * a given set. */
+static int fill_slopes(const CpsiLine *line, bool frozen, Slope slope[MOST_SLOPES]) {
     double factor = line->friction_factor ? 0 : 1;
     if (line->friction_factor)
         for (int j = 0; j < line->n; j++) factor = fmax(factor, line->friction_factor[j]);
@@ -90,15 +101,20 @@ static int fill_slopes(const CpsiLine *line, Slope slope[MOST_SLOPES]) {
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *o = &line->obstacle[k];
         if (o->kind != CPS_OBSTACLE_PLANE || o->has_set) return 0;
-        const double mu =
-            factor * (o->shape == CPS_FRICTION_SHAPE_BOX ? hypot(o->friction[0], o->friction[1])
-                                                         : fmax(o->friction[0], o->friction[1]));
-        slope[k] = (Slope){o->frame.axis[2], mu / hypot(1, mu)};
+        const double mu = factor * disc_factor(o) * fmax(o->friction[0], o->friction[1]);
+        slope[k] = (Slope){.n = o->frame.axis[2], .rise = frozen ? 0 : mu / hypot(1, mu)};
+    }
+    const int bounded = frozen ? cpsi_line_all_contacts(line) : 0;
+    for (int c = 0; c < bounded; c++) {
+        const int k = line->obstacle_index[c];
+        if (k != CPS_NO_OBSTACLE)
+            slope[k].bound += disc_factor(&line->obstacle[k]) * line->friction_bound[c];
     }
     return line->obstacle_count;
 }
 
-/* The steepest fall found so far: the power of the loads `sum` along a unit vector v. */
+/* The steepest fall found so far: the power of the loads `sum` along a unit vector v, less what
+ * frozen bounds can take. */
 typedef struct Fall {
     Vec3 sum, v;
     double power;
@@ -106,11 +122,15 @@ typedef struct Fall {
 
 static void consider(const Slope *slope, int count, Vec3 along, Fall *fall) {
     const Vec3 v = vec3_scale(1 / vec3_norm(along), along);
-    for (int k = 0; k < count; k++)
-        if (!(vec3_dot(slope[k].n, v) >= slope[k].rise)) return;
-    if (!(vec3_dot(fall->sum, v) > fall->power)) return;
+    double power = vec3_dot(fall->sum, v);
+    for (int k = 0; k < count; k++) {
+        const double rise = vec3_dot(slope[k].n, v);
+        if (!(rise >= slope[k].rise)) return;
+        power -= slope[k].bound * vec3_norm(vec3_axpy(-rise, slope[k].n, v));
+    }
+    if (!(power > fall->power)) return;
     fall->v = v;
-    fall->power = vec3_dot(fall->sum, v);
+    fall->power = power;
 }
 
 /* ... that leaves one plane as steeply as its friction asks, */
@@ -133,18 +153,17 @@ static void consider_two(const Slope *slope, int count, int k, int m, Fall *fall
     consider(slope, count, vec3_axpy(-along, corner, up), fall);
 }
 
-/* No end held, all obstacles planes, bounds that follow the reactions. Whatever contact forces R (n
- * + f) there are, wherever the line lies, their power along v is at least 0 if v leaves every plane
- * at the friction angle or steeper. So B.v > 0 proves that they do not balance the sum of loads B,
- * and the energy falls by B.v per metre along v, without friction. The best v is the point of the
- * cone of these directions that is nearest to B: B itself, or one on the boundary of one slope or
- * of two. */
-static bool slips_off(CpsiLine *line, const CpsiStepOptions *options) {
+/* No end held, all obstacles planes. With bounds that follow the reactions: whatever contact forces
+ * R (n + f) there are, wherever the line lies, their power along v is at least 0 if v leaves every
+ * plane at the friction angle or steeper. So B.v > 0 proves that they do not balance the sum of
+ * loads B, and the energy falls by B.v per metre along v, without friction. The best v is the point
+ * of the cone of these directions that is nearest to B: B itself, or one on the boundary of one
+ * slope or of two. With frozen bounds w it is enough that v leads into no plane, and the fall is
+ * B.v less the sum of w |v_T|; the same directions are tried, of which none need be the best. */
+static bool slips_off(CpsiLine *line, bool frozen) {
     Slope slope[MOST_SLOPES];
-    if (!cpsi_line_both_ends(line, CPS_END_KIND_FREE) || !line->has_local_axes ||
-        options->friction_policy != CPS_FRICTION_POLICY_CONSISTENT || options->frictionless)
-        return false;
-    const int count = fill_slopes(line, slope);
+    if (!cpsi_line_both_ends(line, CPS_END_KIND_FREE) || !line->has_local_axes) return false;
+    const int count = fill_slopes(line, frozen, slope);
     Fall fall = {0};
     double loads = 0;
     for (int j = 0; j < line->n; j++) {
@@ -206,8 +225,13 @@ bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *loa
     return true;
 }
 
+bool cpsi_line_outruns_frozen_bounds(CpsiLine *line) { return slips_off(line, true); }
+
 bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options) {
-    if (too_short(line) || runs_away(line, options) || slips_off(line, options)) return true;
+    const bool follows =
+        options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT && !options->frictionless;
+    if (too_short(line) || runs_away(line, options) || (follows && slips_off(line, false)))
+        return true;
     double direction[3], load;
     if (!cpsi_line_falls_away(line, direction, &load)) return false;
     line->report.outcome = CPS_OUTCOME_UNBOUNDED;

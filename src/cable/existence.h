@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Proofs that a line has no equilibrium, before anything is solved. */
+/* Proofs that a line has no equilibrium. */
 #ifndef CAPSTAN_SRC_CABLE_EXISTENCE_H
 #define CAPSTAN_SRC_CABLE_EXISTENCE_H
 
@@ -9,6 +9,10 @@
 /* Is there a proof that the step, as it is posed, has no solution?  Then the line's report holds
  * the outcome and the proof. */
 bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options);
+
+/* Is there a proof that a line with two free ends on planes, with the frozen bounds of its
+ * reference, has no equilibrium? Then the line's report holds the outcome and the proof. */
+bool cpsi_line_outruns_frozen_bounds(CpsiLine *line);
 
 /* Does the line fall freely without ever touching an obstacle? `direction` is that of the sum of
  * its loads and `load` [N] its size. Reads position and load. */

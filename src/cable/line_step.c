@@ -351,6 +351,14 @@ bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *opti
     return true;
 }
 
+bool cpsi_line_step_outruns_bounds(CpsiLine *line, const CpsiStepOptions *options) {
+    if (options->friction_policy != CPS_FRICTION_POLICY_FROZEN || options->frictionless)
+        return false;
+    report_initial_ends(line);
+    cpsi_line_set_reference(line, options);
+    return cpsi_line_outruns_frozen_bounds(line);
+}
+
 bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) {
     CpsiShortfall shortfall;
     if (!cpsi_line_falls_short(line, options, &shortfall)) return false;

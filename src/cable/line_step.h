@@ -23,6 +23,11 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
  * consistent friction only, since frozen bounds do not grow with the tension. */
 bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *options, double margin);
 
+/* After a step that finds no solution: is there a proof that the frozen bounds of the reference
+ * cannot hold a line with two free ends (existence.h)? If so it is reported, and position, reaction
+ * and state are not changed. */
+bool cpsi_line_step_outruns_bounds(CpsiLine *line, const CpsiStepOptions *options);
+
 /* Before a step is solved: is the line too short to reach round an obstacle to the imposed
  * positions of its ends (shortfall.h)? If so it is reported, and position, reaction and state are
  * not changed. */

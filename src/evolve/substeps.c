@@ -483,10 +483,25 @@ static double cost_of(const Advance *substeps, int before, bool good) {
     return (double)(substeps->iterations - before) * nodes;
 }
 
-/* As add_slide, from the start of the part; the line is restored if it does not slide. */
-static bool end_in_slide(Advance *substeps, double from, double to) {
+/* If frozen friction cannot hold a line with two free ends from the start of the part to the end of
+ * the portion: add that as the last part. */
+static bool add_escape(Advance *substeps, double from, double to) {
+    impose(substeps, from, to);
+    if (!cpsi_line_step_outruns_bounds(substeps->line, substeps->options)) return false;
+    Part part = {0};
+    part.report = substeps->line->report;
+    part.report.share = to - from;
+    add(substeps, &part);
+    return true;
+}
+
+/* The rest of a portion by a proof that there is no equilibrium; the line is restored if there is
+ * no proof. */
+static bool end_in_proof(Advance *substeps, double from, double to) {
     cpsi_substeps_restore(substeps->line, substeps->scratch);
     if (add_slide(substeps, from, to, SLIDES_LEAST)) return true;
+    cpsi_substeps_restore(substeps->line, substeps->scratch);
+    if (add_escape(substeps, from, to)) return true;
     cpsi_substeps_restore(substeps->line, substeps->scratch);
     return false;
 }
@@ -584,7 +599,7 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
             continue;
         }
         if (!trial.good) { /* it cannot be made smaller */
-            if (end_in_slide(substeps, from, portion.to)) return;
+            if (end_in_proof(substeps, from, portion.to)) return;
             const double jump = fmin(ldexp(part, substeps->relaxed), (1 - LAST_SHARE) * (1 - at));
             if (relax(substeps, from, share_of_step(&portion, at + jump))) {
                 at += jump;

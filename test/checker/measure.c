@@ -585,21 +585,46 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     }
 }
 
+/* By how much a disc that contains the forces of a box is larger than its longer half-axis. */
+static Real disc_factor(const Surface *on) {
+    const Real most = fmaxl(on->mu[0], on->mu[1]);
+    return on->box && most > 0 ? hypotl(on->mu[0], on->mu[1]) / most : 1;
+}
+
+/* The part of v in the surface's tangent plane; returns its part along the normal. */
+static Real split(const Surface *on, const Real *v, Real *across) {
+    Triple n;
+    surface_normal(on, v, n);
+    const Real rise = dot(n, v);
+    for (int a = 0; a < 3; a++) across[a] = v[a] - rise * n[a];
+    return rise;
+}
+
 /* Does v lead away from every obstacle, a plane, so steeply that no friction on it works against
  * that, wherever the line is and however large the reactions are? n.v >= mu |v_T| with the radius
- * mu of a disc that contains all coefficients. */
-static bool leaves_planes(const Source *source, const Record *r, const Real *v) {
+ * mu of a disc that contains all coefficients. Frozen friction does not grow with the reactions:
+ * there n.v >= 0 is enough, and *taken is the most that it can take. */
+static bool leaves_planes(const Source *source, const Record *r, const Real *v, Real *taken) {
     Real factor = r->factor ? 0 : 1;
+    *taken = 0;
     if (r->factor)
         for (size_t j = 0; j < r->nodes; j++) factor = fmaxl(factor, r->factor[j]);
     for (size_t k = 0; k < source->surfaces; k++) {
         const Surface *on = &source->surface[k];
-        Triple n, across;
-        if (on->kind != SURFACE_PLANE || on->set || !source->consistent) return false;
-        surface_normal(on, v, n);
-        for (int a = 0; a < 3; a++) across[a] = v[a] - dot(n, v) * n[a];
-        const Real mu = on->box ? hypotl(on->mu[0], on->mu[1]) : fmaxl(on->mu[0], on->mu[1]);
-        if (!(dot(n, v) >= factor * mu * size(across))) return false;
+        Triple across;
+        if (on->kind != SURFACE_PLANE || on->set) return false;
+        const Real rise = split(on, v, across),
+                   mu = factor * disc_factor(on) * fmaxl(on->mu[0], on->mu[1]);
+        if (!(rise >= (source->consistent ? mu * size(across) : 0))) return false;
+    }
+    if (source->consistent) return source->surfaces > 0;
+    const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
+    for (size_t c = 0; c < contacts; c++) {
+        if (r->obstacle[c] < 0) continue;
+        const Surface *on = &source->surface[(size_t)r->obstacle[c]];
+        Triple across;
+        (void)split(on, v, across);
+        *taken += disc_factor(on) * r->friction_bound[c] * size(across);
     }
     return source->surfaces > 0;
 }
@@ -641,13 +666,16 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
     }
     if (source->consistent) add(&fall, -steepest * fmaxl(0, total(&press)) * across);
     if (source->follows) { // nothing may be touched for ever, or nothing can hold the line
-        m->meets = !leaves_planes(source, r, v) && !falls_clear(source, r, v);
+        Real taken;
+        const bool leaves = leaves_planes(source, r, v, &taken);
+        m->meets = !leaves && !falls_clear(source, r, v);
         m->rigid_rise_least = INFINITY;
         fall = (Sum){0, 0};
         for (size_t j = 0; j < r->nodes; j++) {
             widen(r->load[j], b);
             add(&fall, dot(b, v));
         }
+        if (leaves) add(&fall, -taken);
     }
     m->rigid_fall = (double)total(&fall);
 }

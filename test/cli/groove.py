@@ -7,7 +7,7 @@ and none balance any P where the planes do not jam and mu = 0 (docs/theory.md, 2
 leaves both planes as steeply as friction on them asks: the proof is this direction, and the fall is P cos - W sin. Below P = mu W/cos(slope), which
 friction along the groove holds by itself, the rope is in equilibrium.
 
-With frozen friction the bounds of a step are mu times the reactions of the step before, to the last bits but for the product, also where the
+Beyond that, frozen bounds do not hold the rope: the proof is a direction too, and the fall what is left of the pull. With frozen friction the bounds of a step are mu times the reactions of the step before, to the last bits but for the product, also where the
 reactions hardly change and the forces of a rope with free ends are balanced at last: the checker compares them."""
 import json
 import math
@@ -89,13 +89,32 @@ def frozen(folder, case):
     solve(folder, f"frozen-{case}", scene, "frozen")
 
 
+def outrun(folder, case):
+    """pulled along by more than frozen bounds hold, after a step that they hold; reactions, and bounds, may be those that associated flow allows"""
+    rng = random.Random(f"outrun {SEED} {case}")
+    scene, slope, along = groove(rng, rng.uniform(0.1, 0.9), rng.uniform(0.1, 0.9))
+    rope, most = scene["lines"]["rope"], max(o["friction"] for o in scene["obstacles"].values())
+    hold = most*rope["weight"]*rope["length"]/(math.cos(slope)*math.sqrt(1 - min(0.9, most*math.tan(slope))**2))
+    pulls = [rng.uniform(0.05, 0.2)*hold, rng.uniform(1.02, 3)*hold]
+    scene["friction_policy"] = "frozen"
+    scene["history"] = [{"name": f"pull {k}", "steps": 1, "rope.B": {"force": [pull*x for x in along]}} for k, pull in enumerate(pulls)]
+    if case % 2:
+        rope["stiffness"] = math.inf
+    code, reports = solve(folder, f"outrun-{case}", scene, "outrun")
+    if code != NO_SOLUTION or reports[-1]["outcome"] != "unbounded":
+        faults.append(f"outrun {case}: {pulls[1]/hold:.3g} of what holds: exit {code}, {reports[-1]['outcome']}")
+    elif not pulls[1] - hold <= reports[-1]["proof"]["fall_N"] <= math.hypot(pulls[1], rope["weight"]*rope["length"]):
+        faults.append(f"outrun {case}: falls by {reports[-1]['proof']['fall_N']!r} N/m, at least {pulls[1] - hold!r} expected")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         for case in range(CASES):
             pulled(folder, case)
             frozen(folder, case)
+            outrun(folder, case)
     print("\n".join(faults))
-    print(f"{2*CASES} ropes, {len(faults)} faults")
+    print(f"{3*CASES} scenes, {len(faults)} faults")
     return 1 if faults else 0
 
 
