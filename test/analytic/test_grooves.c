@@ -71,9 +71,9 @@ static bool run_all(const CpsScene *scene,
     cps_evolution_destroy(evolution);
 
     snprintf(path, sizeof path, "%s/result.nc", directory);
-    const int verdict = checker_file(path, &report, stderr);
+    const int result = checker_file(path, &report, stderr);
     CHECK_INT(report.refuted, 0);
-    CHECK_INT(verdict, solved ? 0 : 1);
+    CHECK_INT(result, solved ? 0 : 1);
     snprintf(path, sizeof path, "rm -rf '%s'", directory);
     CHECK_INT(system(path), 0);
     return solved;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The judgement of the checker: the claims of each outcome compared with the recomputed
- * quantities. */
+/* The checks: the claims of each outcome compared with the recomputed quantities. */
 #include "checker.h"
 
 #include <math.h>
@@ -41,37 +40,40 @@ static const double LOCKING_RATIO = 19;
 /* Taut: the distance of the ends equals the length within this part of it. */
 static const double TAUT_TOLERANCE = 1e-12;
 
-/* Ways are the shorter ones round. They are those that were gone where an obstacle turns by a
- * quarter of a turn at most in a part of a step, and a node goes round it by no more: this much is
- * rounding of a quarter that is asked for, and of a node that is carried along by it. */
+/* Paths round an obstacle are the shorter ones. They are those that were taken where an obstacle
+ * turns by a quarter of a turn at most in a part of a step, and a node goes round it by no more:
+ * this much is rounding of a quarter that is asked for, and of a node that is carried along by
+ * it. */
 static const double TURN_ROUNDING = 1e-9, GONE_ROUNDING = 2e-6;
 
-typedef struct Judge {
+typedef struct Findings {
     FILE *log;
     const char *line;
     size_t step;
-    int findings;
-} Judge;
+    int count;
+} Findings;
 
-__attribute__((format(printf, 2, 3))) static void find(Judge *judge, const char *format, ...) {
-    judge->findings++;
-    if (!judge->log) return;
+__attribute__((format(printf, 2, 3))) static void find(Findings *findings, const char *format,
+                                                       ...) {
+    findings->count++;
+    if (!findings->log) return;
     va_list list;
     va_start(list, format);
-    fprintf(judge->log, "step %zu line %s: ", judge->step, judge->line);
-    vfprintf(judge->log, format, list);
-    fprintf(judge->log, "\n");
+    fprintf(findings->log, "step %zu line %s: ", findings->step, findings->line);
+    vfprintf(findings->log, format, list);
+    fprintf(findings->log, "\n");
     va_end(list);
 }
 
 /* value <= bound, with NaN a finding */
-static void at_most(Judge *judge, const char *what, double value, double bound) {
-    if (!(value <= bound)) find(judge, "%s is %.6g, allowed %.3g", what, value, bound);
+static void at_most(Findings *findings, const char *what, double value, double bound) {
+    if (!(value <= bound)) find(findings, "%s is %.6g, allowed %.3g", what, value, bound);
 }
 
-static void same(Judge *judge, const char *what, double claimed, double found, double floor) {
+static void same(Findings *findings, const char *what, double claimed, double found, double floor) {
     if (!(fabs(claimed - found) <= CLAIM_TOLERANCE * fabs(found) + floor + NOTHING)) {
-        find(judge, "claimed %s %.9g, recomputed %.9g (floor %.3g)", what, claimed, found, floor);
+        find(findings, "claimed %s %.9g, recomputed %.9g (floor %.3g)", what, claimed, found,
+             floor);
     }
 }
 
@@ -106,44 +108,44 @@ static double strain_energy_of_rounding(const Record *r, const Measures *m) {
 /* A step in one part that makes energy, more than 5 % of what it dissipates and of the positive
  * work in it and more than places known to 1e-9 leave of it, says how much; one that does not says
  * 0. */
-static void judge_unaccounted(Judge *judge, const Record *r, const Measures *m) {
+static void check_unaccounted(Findings *findings, const Record *r, const Measures *m) {
     static const double MUCH = 0.05;
     const double *entry = r->ledger, made = -entry[LEDGER_IMBALANCE];
     double beside = r->dissipated + fmax(0, entry[LEDGER_ENDS]) + fmax(0, entry[LEDGER_OBSTACLES]) +
                     fmax(0, -entry[LEDGER_ELASTIC]) + fmax(0, -entry[LEDGER_GRAVITY]);
     double least = fmax(MUCH * beside, m->gap + PLACE_TOLERANCE * m->largest_force * m->length +
                                            strain_energy_of_rounding(r, m));
-    if (r->unaccounted != 0) same(judge, "unaccounted", r->unaccounted, made, 0);
+    if (r->unaccounted != 0) same(findings, "unaccounted", r->unaccounted, made, 0);
     if (made > (1 + CLAIM_TOLERANCE) * least && r->unaccounted == 0)
-        find(judge, "energy of %.6g J is made beside %.6g J, and not said to be unaccounted", made,
-             beside);
+        find(findings, "energy of %.6g J is made beside %.6g J, and not said to be unaccounted",
+             made, beside);
     if (made < (1 - CLAIM_TOLERANCE) * least && r->unaccounted != 0)
-        find(judge, "energy of %.6g J is said to be unaccounted beside %.6g J", r->unaccounted,
+        find(findings, "energy of %.6g J is said to be unaccounted beside %.6g J", r->unaccounted,
              beside);
 }
 
 /* The ledger closes, whatever it says; of a step taken in one part its entries are those of the
  * arrays, but for the work of the ends, which needs the forces before. */
-static void judge_ledger(Judge *judge, const Record *r, const Measures *m, double ends_carried,
-                         double floor) {
+static void check_ledger(Findings *findings, const Record *r, const Measures *m,
+                         double ends_carried, double floor) {
     const double *entry = r->ledger;
     double spent = entry[LEDGER_ELASTIC] + entry[LEDGER_GRAVITY] + r->dissipated +
                    entry[LEDGER_IMBALANCE],
            sizes = r->dissipated;
     for (int k = 0; k < LEDGER_ENTRIES; k++) sizes += fabs(entry[k]);
-    at_most(judge, "ledger: ends + obstacles - all else",
+    at_most(findings, "ledger: ends + obstacles - all else",
             fabs(entry[LEDGER_ENDS] + entry[LEDGER_OBSTACLES] - spent),
             COPY_TOLERANCE * sizes + NOTHING);
     if (r->substeps > 1) return;
-    judge_unaccounted(judge, r, m);
-    same(judge, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
-    same(judge, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
-    same(judge, "ledger_obstacles", entry[LEDGER_OBSTACLES], m->carried + ends_carried, floor);
+    check_unaccounted(findings, r, m);
+    same(findings, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
+    same(findings, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
+    same(findings, "ledger_obstacles", entry[LEDGER_OBSTACLES], m->carried + ends_carried, floor);
 }
 
 /* Forces, tensions and friction of the half elements at the ends; the sums of their dissipation and
  * of their work on the path of obstacles that turn. */
-static void judge_ends(Judge *judge, const Source *source, const Record *r, const Measures *m,
+static void check_ends(Findings *findings, const Source *source, const Record *r, const Measures *m,
                        double *slid, double *carried) {
     const double force = FORCE_TOLERANCE * m->largest_force + NOTHING;
     *slid = *carried = 0;
@@ -155,12 +157,12 @@ static void judge_ends(Judge *judge, const Source *source, const Record *r, cons
         for (int k = 0; k < 3; k++)
             friction_error =
                 fmax(friction_error, fabs(r->end_friction_force[e][k] - (double)end.friction[k]));
-        at_most(judge, "end_force against the half element's balance", off, force);
-        at_most(judge, "end_friction_force against the neighbour's per length", friction_error,
+        at_most(findings, "end_force against the half element's balance", off, force);
+        at_most(findings, "end_friction_force against the neighbour's per length", friction_error,
                 force);
-        at_most(judge, "end_tension against the size of end_force",
+        at_most(findings, "end_tension against the size of end_force",
                 fabs(r->end_tension[e] - hypot(hypot(said[0], said[1]), said[2])), force / 1000);
-        at_most(judge, "reaction on a held end against what presses there",
+        at_most(findings, "reaction on a held end against what presses there",
                 fabs(r->reaction[e ? r->elements : 0] - (double)end.reaction), force);
         *slid += (double)end.slid;
         *carried += (double)end.carried;
@@ -183,54 +185,55 @@ static bool is_static(const Record *r) {
 
 /* the figures of the certificate; `ends`: what friction dissipates on the half elements at held
  * ends */
-static void judge_claims(Judge *judge, const Record *r, const Measures *m, double ends) {
+static void check_claims(Findings *findings, const Record *r, const Measures *m, double ends) {
     const double *claim = r->claim;
     double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent +
                     strain_energy_of_rounding(r, m);
     double force = FORCE_FLOOR * m->largest_force;
     bool certified = claims_something(r) || solves_equations_only(r);
-    same(judge, "primal", claim[CLAIM_PRIMAL], m->primal, energy);
-    same(judge, "dual", claim[CLAIM_DUAL], m->dual, energy);
-    same(judge, "scale", claim[CLAIM_SCALE], m->scale, 0);
-    same(judge, "force_residual", claim[CLAIM_FORCE_RESIDUAL], m->force, force);
-    same(judge, "largest_force", claim[CLAIM_LARGEST_FORCE], m->largest_force, force);
-    same(judge, "tension_estimate", claim[CLAIM_TENSION_ESTIMATE], m->tension_estimate, force);
+    same(findings, "primal", claim[CLAIM_PRIMAL], m->primal, energy);
+    same(findings, "dual", claim[CLAIM_DUAL], m->dual, energy);
+    same(findings, "scale", claim[CLAIM_SCALE], m->scale, 0);
+    same(findings, "force_residual", claim[CLAIM_FORCE_RESIDUAL], m->force, force);
+    same(findings, "largest_force", claim[CLAIM_LARGEST_FORCE], m->largest_force, force);
+    same(findings, "tension_estimate", claim[CLAIM_TENSION_ESTIMATE], m->tension_estimate, force);
     // the sum of phi(slip); by -F.slip it would differ by the law residual
-    if (r->substeps == 1) same(judge, "dissipated", r->dissipated, m->slid + ends, energy + m->law);
-    same(judge, "friction_residual", claim[CLAIM_FRICTION_RESIDUAL], claimed_residual(r, m),
+    if (r->substeps == 1)
+        same(findings, "dissipated", r->dissipated, m->slid + ends, energy + m->law);
+    same(findings, "friction_residual", claim[CLAIM_FRICTION_RESIDUAL], claimed_residual(r, m),
          force * (double)r->nodes);
-    same(judge, "penetration", claim[CLAIM_PENETRATION], m->depth,
+    same(findings, "penetration", claim[CLAIM_PENETRATION], m->depth,
          COPY_TOLERANCE * (m->length + m->reach));
-    same(judge, "element_penetration", claim[CLAIM_ELEMENT_PENETRATION], m->pierced,
+    same(findings, "element_penetration", claim[CLAIM_ELEMENT_PENETRATION], m->pierced,
          COPY_TOLERANCE * (m->length + m->reach));
     // what lies outside its set, a force or a place, makes a gap larger here and not everywhere:
     // where that is no more than rounding there must be agreement
     if (!certified) return;
-    same(judge, "gap", claim[CLAIM_GAP], m->gap, energy + m->overlong + m->beyond);
-    same(judge, "element_push", claim[CLAIM_ELEMENT_PUSH], m->push, force);
+    same(findings, "gap", claim[CLAIM_GAP], m->gap, energy + m->overlong + m->beyond);
+    same(findings, "element_push", claim[CLAIM_ELEMENT_PUSH], m->push, force);
     // last bits of the coordinates over the shortest element; an element without any force may be
     // longer by 1e-12, which is none
-    same(judge, "elongation_residual", claim[CLAIM_ELONGATION_RESIDUAL], m->elongation,
+    same(findings, "elongation_residual", claim[CLAIM_ELONGATION_RESIDUAL], m->elongation,
          1e-15 * m->extent * (double)r->nodes / m->length + (m->largest_force > 0 ? 1e-14 : 1e-12));
-    same(judge, "law_residual", claim[CLAIM_LAW_RESIDUAL], m->law, energy + m->beyond);
-    same(judge, "contact_residual", claim[CLAIM_CONTACT_RESIDUAL], m->contact, energy);
+    same(findings, "law_residual", claim[CLAIM_LAW_RESIDUAL], m->law, energy + m->beyond);
+    same(findings, "contact_residual", claim[CLAIM_CONTACT_RESIDUAL], m->contact, energy);
     // sqrt(2 gap / (c L)) of a gap known up to the floor
     double noise = sqrt(2 * (energy + m->beyond + NOTHING) / (r->least_compliance * m->length));
     if (r->compliance > 0 && isnan(claim[CLAIM_TENSION_BOUND])) {
         // no bound is claimed where it would exceed every force
-        at_most(judge, "largest force, without a bound", m->largest_force,
+        at_most(findings, "largest force, without a bound", m->largest_force,
                 m->tension_bound + noise);
     } else if (r->compliance > 0) {
-        same(judge, "tension_bound", claim[CLAIM_TENSION_BOUND], m->tension_bound, noise);
+        same(findings, "tension_bound", claim[CLAIM_TENSION_BOUND], m->tension_bound, noise);
     } else {
-        same(judge, "stretch_residual", fmax(claim[CLAIM_STRETCH_RESIDUAL], 0), fmax(m->stretch, 0),
-             PLACE_TOLERANCE / 10);
+        same(findings, "stretch_residual", fmax(claim[CLAIM_STRETCH_RESIDUAL], 0),
+             fmax(m->stretch, 0), PLACE_TOLERANCE / 10);
     }
 }
 
 /* How near to its breaking load the line is, whatever the outcome: at an element's middle by the
  * force in it, at an end by the force there. */
-static void judge_utilisation(Judge *judge, const Record *r) {
+static void check_utilisation(Findings *findings, const Record *r) {
     if (!r->breaking_load) return;
     const size_t last = r->elements - 1;
     double most = 0, arc = 0, there = 0;
@@ -247,15 +250,15 @@ static void judge_utilisation(Judge *judge, const Record *r) {
         if (fabs(r->utilisation_at - (e ? arc : 0)) <= 1e-9 * arc) there = fmax(there, at_end[e]);
     }
     if (!(fabs(r->utilisation - most) <= 1e-12 * most))
-        find(judge, "utilisation is %.9g, recomputed %.9g", r->utilisation, most);
+        find(findings, "utilisation is %.9g, recomputed %.9g", r->utilisation, most);
     else if (!(there >= (1 - 1e-12) * most))
-        find(judge, "utilisation at %.9g m is %.9g, not the largest, %.9g", r->utilisation_at,
+        find(findings, "utilisation at %.9g m is %.9g, not the largest, %.9g", r->utilisation_at,
              there, most);
 }
 
 /* a solved step: admissible configuration, admissible forces, balance, gap */
-static void judge_solved(Judge *judge, const Source *source, const Record *r, const Measures *m,
-                         bool laid) {
+static void check_solved(Findings *findings, const Source *source, const Record *r,
+                         const Measures *m, bool laid) {
     /* on curved ground elongations are those of the last round and as good as the certified gap
      * says: no element's share (d - c |p|)^2 l/(2 c) exceeds it */
     double tolerance = source->tolerance, element = m->length / (double)r->elements;
@@ -263,141 +266,143 @@ static void judge_solved(Judge *judge, const Source *source, const Record *r, co
                     (source->follows ? sqrt(2 * r->largest_compliance * m->gap / element) : 0);
     double force = FORCE_TOLERANCE * m->largest_force + NOTHING,
            place = PLACE_TOLERANCE * m->length;
-    at_most(judge, "sum of local gaps", m->gap,
+    at_most(findings, "sum of local gaps", m->gap,
             tolerance * m->scale + strain_energy_of_rounding(r, m) + NOTHING);
-    at_most(judge, "primal - dual against the local gaps", fabs(m->identity),
+    at_most(findings, "primal - dual against the local gaps", fabs(m->identity),
             m->identity_noise + NOTHING);
     // an element that pushes with P costs 2 P l of the gap, one too long by x only l x^2/(2c): the
     // tolerance, and its root
-    at_most(judge, "elements that push", m->push, tolerance * m->largest_force + NOTHING);
-    at_most(judge, "elongation that no force explains", m->elongation, sqrt(tolerance));
-    at_most(judge, "imbalance of forces", m->force, force);
-    at_most(judge, "friction above its bound", m->friction_excess, force);
-    at_most(judge, "friction along the normal", m->friction_normal, force);
-    at_most(judge, "force without an obstacle or on a held end", m->stray_force, force);
-    at_most(judge, "adhesion (-R)", -m->reaction_least, 0);
-    at_most(judge, "compression (-T)", -m->tension_least, 0);
-    at_most(judge, "depth below the obstacle", m->penetration, place);
+    at_most(findings, "elements that push", m->push, tolerance * m->largest_force + NOTHING);
+    at_most(findings, "elongation that no force explains", m->elongation, sqrt(tolerance));
+    at_most(findings, "imbalance of forces", m->force, force);
+    at_most(findings, "friction above its bound", m->friction_excess, force);
+    at_most(findings, "friction along the normal", m->friction_normal, force);
+    at_most(findings, "force without an obstacle or on a held end", m->stray_force, force);
+    at_most(findings, "adhesion (-R)", -m->reaction_least, 0);
+    at_most(findings, "compression (-T)", -m->tension_least, 0);
+    at_most(findings, "depth below the obstacle", m->penetration, place);
     // contact of the reference keeps out only what the reference touches
-    if (!source->touching_only) at_most(judge, "depth below an obstacle", m->sunk, place);
+    if (!source->touching_only) at_most(findings, "depth below an obstacle", m->sunk, place);
     if (!source->touching_only)
-        at_most(judge, "depth of an element inside an obstacle", m->pierced, place);
-    at_most(judge, "contacts that are not with the nearest obstacles", m->misplaced, 0);
-    at_most(judge, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
-    at_most(judge, "place of an element's contact against the nearest", m->share_error,
+        at_most(findings, "depth of an element inside an obstacle", m->pierced, place);
+    at_most(findings, "contacts that are not with the nearest obstacles", m->misplaced, 0);
+    at_most(findings, "normal against the obstacle's", m->normal_error, COPY_TOLERANCE);
+    at_most(findings, "place of an element's contact against the nearest", m->share_error,
             COPY_TOLERANCE * (m->length + m->reach));
-    at_most(judge, "slip against the path from the reference", m->slip_error,
+    at_most(findings, "slip against the path from the reference", m->slip_error,
             COPY_TOLERANCE * (m->length + m->reach));
-    at_most(judge, "quarters of a turn of an obstacle in one part", m->quarters, 1 + TURN_ROUNDING);
-    at_most(judge, "quarters of a turn of an obstacle by the number of parts",
+    at_most(findings, "quarters of a turn of an obstacle in one part", m->quarters,
+            1 + TURN_ROUNDING);
+    at_most(findings, "quarters of a turn of an obstacle by the number of parts",
             m->quarters / (r->share * r->substeps), 1 + TURN_ROUNDING);
-    at_most(judge, "quarters of a turn that a node with friction went", m->gone_quarters,
+    at_most(findings, "quarters of a turn that a node with friction went", m->gone_quarters,
             1 + GONE_ROUNDING);
-    at_most(judge, "contact_gap against the distance", m->gap_error,
+    at_most(findings, "contact_gap against the distance", m->gap_error,
             COPY_TOLERANCE * (m->length + m->reach));
     // statics keeps a line out of everything, with contact of the reference as well
     if (!(laid && source->touching_only))
-        at_most(judge, "contacts not looked for", m->unwatched, 0);
-    at_most(judge, "elongation beyond the tension", m->strain_error, strain);
-    at_most(judge, "distance of a held end", m->held_error,
+        at_most(findings, "contacts not looked for", m->unwatched, 0);
+    at_most(findings, "elongation beyond the tension", m->strain_error, strain);
+    at_most(findings, "distance of a held end", m->held_error,
             COPY_TOLERANCE * (m->length + m->extent));
     for (int e = 0; e < 2; e++) {
         char text[160];
         if (range_is_wrong(source, r, e, m->largest_force, text, sizeof text))
-            find(judge, "%s", text);
+            find(findings, "%s", text);
     }
     double slid, carried;
-    judge_ends(judge, source, r, m, &slid, &carried);
-    judge_claims(judge, r, m, slid);
+    check_ends(findings, source, r, m, &slid, &carried);
+    check_claims(findings, r, m, slid);
     if (!laid)
-        judge_ledger(judge, r, m, carried,
+        check_ledger(findings, r, m, carried,
                      ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->reach +
                          strain_energy_of_rounding(r, m));
 }
 
-static void judge_taut(Judge *judge, const Record *r, const Measures *m) {
+static void check_taut(Findings *findings, const Record *r, const Measures *m) {
     if (r->compliance != 0)
-        find(judge, "taut, but the line is elastic (compliance %.3g)", r->compliance);
-    at_most(judge, "distance of the ends - length", fabs(m->ends_distance - m->length),
+        find(findings, "taut, but the line is elastic (compliance %.3g)", r->compliance);
+    at_most(findings, "distance of the ends - length", fabs(m->ends_distance - m->length),
             TAUT_TOLERANCE * m->length + 1e-15 * m->extent);
-    at_most(judge, "stretch", m->strain_error, PLACE_TOLERANCE);
-    at_most(judge, "distance of a held end", m->held_error,
+    at_most(findings, "stretch", m->strain_error, PLACE_TOLERANCE);
+    at_most(findings, "distance of a held end", m->held_error,
             COPY_TOLERANCE * (m->length + m->extent));
-    at_most(judge, "depth below the obstacle", m->penetration, PLACE_TOLERANCE * m->length);
+    at_most(findings, "depth below the obstacle", m->penetration, PLACE_TOLERANCE * m->length);
 }
 
 /* the ends are near enough to each other, but an obstacle is between them */
-static void judge_reach(Judge *judge, const Source *source, const Record *r, const Measures *m,
-                        bool statics) {
+static void check_reach(Findings *findings, const Source *source, const Record *r,
+                        const Measures *m, bool statics) {
     double missing, off;
     if (r->compliance != 0)
-        find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
+        find(findings, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
     const char *what = reach_contradiction(source, r, statics, &missing, &off);
     if (what) {
-        find(judge, "infeasible, but %s", what);
+        find(findings, "infeasible, but %s", what);
         return;
     }
     // the coordinates are about the obstacle there, which may be far larger than the line
     double size = m->length + m->extent + (double)source->surface[r->proof_obstacle].radius;
-    same(judge, "proof_length", r->proof_length, missing, COPY_TOLERANCE * size);
-    at_most(judge, "proof vector off the shortest path", off, CLAIM_TOLERANCE);
-    at_most(judge, "length of the proof vector - 1",
+    same(findings, "proof_length", r->proof_length, missing, COPY_TOLERANCE * size);
+    at_most(findings, "proof vector off the shortest path", off, CLAIM_TOLERANCE);
+    at_most(findings, "length of the proof vector - 1",
             fabs(hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1), COPY_TOLERANCE);
 }
 
 /* ... or a single element is too long to go round it */
-static void judge_long_element(Judge *judge, const Source *source, const Record *r,
+static void check_long_element(Findings *findings, const Source *source, const Record *r,
                                const Measures *m) {
     double deep;
     if (r->compliance != 0)
-        find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
+        find(findings, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
     const char *what = long_element_contradiction(source, r, &deep);
     if (what) {
-        find(judge, "infeasible, but %s", what);
+        find(findings, "infeasible, but %s", what);
         return;
     }
     double size = m->length + m->extent + (double)source->surface[r->proof_obstacle].radius;
-    same(judge, "proof_length", r->proof_length, deep, COPY_TOLERANCE * size);
+    same(findings, "proof_length", r->proof_length, deep, COPY_TOLERANCE * size);
 }
 
 /* a constant force along the unit vector from A to B has the dual value t (distance - length),
  * unbounded in t */
-static void judge_infeasible(Judge *judge, const Record *r, const Measures *m) {
+static void check_infeasible(Findings *findings, const Record *r, const Measures *m) {
     if (r->compliance != 0)
-        find(judge, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
+        find(findings, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
     if (!(m->ends_distance > m->length)) {
-        find(judge, "infeasible, but the ends are %.17g apart and the length is %.17g",
+        find(findings, "infeasible, but the ends are %.17g apart and the length is %.17g",
              m->ends_distance, m->length);
     }
     double excess = m->ends_distance - m->length, along = 0;
     for (int k = 0; k < 3; k++)
         along += r->proof[k] * (r->held_position[1][k] - r->held_position[0][k]);
-    same(judge, "proof_length", r->proof_length, excess, COPY_TOLERANCE * (m->length + m->extent));
-    at_most(judge, "proof vector off the line of the ends", m->ends_distance - along,
+    same(findings, "proof_length", r->proof_length, excess,
+         COPY_TOLERANCE * (m->length + m->extent));
+    at_most(findings, "proof vector off the line of the ends", m->ends_distance - along,
             PLACE_TOLERANCE * m->length);
-    at_most(judge, "proof vector longer than 1",
+    at_most(findings, "proof vector longer than 1",
             hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]) - 1, COPY_TOLERANCE);
 }
 
-static void judge_unbounded(Judge *judge, const Record *r, const Measures *m) {
+static void check_unbounded(Findings *findings, const Record *r, const Measures *m) {
     if (r->end_kind[0] != END_FREE || r->end_kind[1] != END_FREE)
-        find(judge, "unbounded, but an end is held");
+        find(findings, "unbounded, but an end is held");
     double size = hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]);
-    at_most(judge, "length of the rigid motion - 1", fabs(size - 1), PLACE_TOLERANCE);
+    at_most(findings, "length of the rigid motion - 1", fabs(size - 1), PLACE_TOLERANCE);
     if (!(m->rigid_fall > 0))
-        find(judge, "unbounded, but the energy falls by %.3g N along the proof", m->rigid_fall);
-    if (m->meets) find(judge, "unbounded, but the line meets an obstacle on its way");
-    at_most(judge, "rigid motion into the obstacle", -m->rigid_rise_least, COPY_TOLERANCE);
-    same(judge, "proof_force", r->proof_force, m->rigid_fall, FORCE_FLOOR * m->largest_force);
+        find(findings, "unbounded, but the energy falls by %.3g N along the proof", m->rigid_fall);
+    if (m->meets) find(findings, "unbounded, but the line meets an obstacle on its path");
+    at_most(findings, "rigid motion into the obstacle", -m->rigid_rise_least, COPY_TOLERANCE);
+    same(findings, "proof_force", r->proof_force, m->rigid_fall, FORCE_FLOOR * m->largest_force);
 }
 
-static void judge_slides(Judge *judge, const Source *source, const Record *r) {
+static void check_slides(Findings *findings, const Source *source, const Record *r) {
     double power;
     const char *what = motion_contradiction(source, r, &power);
     if (what)
-        find(judge, "slides without end, but %s", what);
+        find(findings, "slides without end, but %s", what);
     else
-        same(judge, "proof_force", r->proof_force, power, 0);
+        same(findings, "proof_force", r->proof_force, power, 0);
 }
 
 /* Contact is seen from where the nodes end up, but from the reference on one plane, where it is the
@@ -416,68 +421,68 @@ static Measures measure_where(const Source *source, const Record *r, size_t step
 
 /* The sharpest bend, and whether the mesh is too coarse for it. Of a step in several parts the
  * sharpest may have been in an earlier one. */
-static void judge_bend(Judge *judge, const Record *r, const Measures *m) {
+static void check_bend(Findings *findings, const Record *r, const Measures *m) {
     const Bend *bend = &m->bend;
     bool coarse = r->outcome == OUTCOME_COARSE, whole = r->substeps == 1;
     if (r->outcome == OUTCOME_SOLVED && bend->ratio > LOCKING_RATIO * (1 + BEND_TOLERANCE))
-        find(judge, "certified, but friction at one contact holds tensions in the ratio %.6g",
+        find(findings, "certified, but friction at one contact holds tensions in the ratio %.6g",
              bend->ratio);
     if (!whole) return;
     if (coarse && bend->ratio < LOCKING_RATIO * (1 - BEND_TOLERANCE))
-        find(judge,
+        find(findings,
              "mesh too coarse, but friction at one contact holds tensions in the ratio %.6g only",
              bend->ratio);
-    same(judge, "bend_turn", r->bend_turn, bend->turn, BEND_TOLERANCE);
-    same(judge, "bend_friction", r->bend_friction, bend->friction, BEND_TOLERANCE);
-    same(judge, "turn at bend_at", r->bend_turn, bend->there, BEND_TOLERANCE);
+    same(findings, "bend_turn", r->bend_turn, bend->turn, BEND_TOLERANCE);
+    same(findings, "bend_friction", r->bend_friction, bend->friction, BEND_TOLERANCE);
+    same(findings, "turn at bend_at", r->bend_turn, bend->there, BEND_TOLERANCE);
 }
 
-static void judge_record(const Source *source, const Record *r, const char *line, size_t step,
+static void check_record(const Source *source, const Record *r, const char *line, size_t step,
                          FILE *log, CheckerReport *report) {
-    Judge judge = {log, line, step, 0};
+    Findings findings = {log, line, step, 0};
     Measures m = measure_where(source, r, step);
     const char *wrong;
     bool laid;
     report->records++;
     report->outcome[r->outcome]++;
     if (m.missing) {
-        find(&judge, "%s holds a value that cannot be (NaN, infinite or negative)", m.missing);
+        find(&findings, "%s holds a value that cannot be (NaN, infinite or negative)", m.missing);
         report->not_finite++;
     } else {
         if (r->proof_length != 0 && r->outcome != OUTCOME_INFEASIBLE)
-            find(&judge, "proof_length of a line that is not infeasible");
+            find(&findings, "proof_length of a line that is not infeasible");
         if (r->proof_force != 0 && r->outcome != OUTCOME_UNBOUNDED && r->outcome != OUTCOME_SLIDES)
-            find(&judge, "proof_force of a line that is neither unbounded nor slides");
-        judge_utilisation(&judge, r);
+            find(&findings, "proof_force of a line that is neither unbounded nor slides");
+        check_utilisation(&findings, r);
         switch (r->outcome) {
         case OUTCOME_SOLVED:
         case OUTCOME_COARSE: // solved as well, but for the mesh
-        case OUTCOME_PASSES: // ... and but for the way
+        case OUTCOME_PASSES: // ... and but for the path
             laid = source->has_static && step == 0 && is_static(r);
-            judge_solved(&judge, source, r, &m, laid);
-            judge_bend(&judge, r, &m);
+            check_solved(&findings, source, r, &m, laid);
+            check_bend(&findings, r, &m);
             wrong = passing_contradiction(source, r, laid);
-            if (wrong) find(&judge, "%s", wrong);
+            if (wrong) find(&findings, "%s", wrong);
             break;
-        case OUTCOME_TAUT: judge_taut(&judge, r, &m); break;
+        case OUTCOME_TAUT: check_taut(&findings, r, &m); break;
         case OUTCOME_INFEASIBLE:
             if (r->proof_obstacle >= 0 && r->proof[0] == 0 && r->proof[1] == 0 && r->proof[2] == 0)
-                judge_long_element(&judge, source, r, &m);
+                check_long_element(&findings, source, r, &m);
             else if (r->proof_obstacle >= 0)
-                judge_reach(&judge, source, r, &m, source->has_static && step == 0);
+                check_reach(&findings, source, r, &m, source->has_static && step == 0);
             else
-                judge_infeasible(&judge, r, &m);
+                check_infeasible(&findings, r, &m);
             break;
-        case OUTCOME_UNBOUNDED: judge_unbounded(&judge, r, &m); break;
-        case OUTCOME_SLIDES: judge_slides(&judge, source, r); break;
+        case OUTCOME_UNBOUNDED: check_unbounded(&findings, r, &m); break;
+        case OUTCOME_SLIDES: check_slides(&findings, source, r); break;
         default:
-            judge_claims(&judge, r, &m,
+            check_claims(&findings, r, &m,
                          (double)(end_measure(source, r, 0).slid + end_measure(source, r, 1).slid));
             break;
         }
     }
     bool claimed = claims_something(r);
-    if (judge.findings > 0) {
+    if (findings.count > 0) {
         report->refuted++;
     } else if (claimed) {
         report->certified++;
@@ -493,18 +498,18 @@ static void judge_record(const Source *source, const Record *r, const char *line
 }
 
 /* The work of the ends needs the forces that they had at the end of the step before. */
-static void judge_work(const Record *r, const Record *before, const Source *source, size_t step,
-                       Judge *judge) {
+static void check_work(const Record *r, const Record *before, const Source *source, size_t step,
+                       Findings *findings) {
     if (r->outcome != OUTCOME_SOLVED || r->substeps > 1 || before->outcome > OUTCOME_TAUT) return;
     const Measures m = measure_where(source, r, step);
     if (m.missing) return;
-    same(judge, "ledger_ends", r->ledger[LEDGER_ENDS], (double)ends_work(r, before),
+    same(findings, "ledger_ends", r->ledger[LEDGER_ENDS], (double)ends_work(r, before),
          ENERGY_FLOOR * m.scale + 1e-13 * m.largest_force * m.reach);
 }
 
 /* The weight before a step in one part is that after the one before, by the load of any node that
  * no end force acts on. */
-static void judge_weight(const Record *r, const Record *before, Judge *judge) {
+static void check_weight(const Record *r, const Record *before, Findings *findings) {
     if (!r->has_weight_before || r->substeps != 1 || r->nodes < 3 || before->outcome > OUTCOME_TAUT)
         return;
     const double share =
@@ -512,7 +517,7 @@ static void judge_weight(const Record *r, const Record *before, Judge *judge) {
     for (int k = 0; k < 3; k++)
         if (!(fabs(share * r->weight_before[k] - before->load[1][k]) <=
               1e-14 * fabs(before->load[1][k]))) {
-            find(judge, "weight_before is not the weight of the step before");
+            find(findings, "weight_before is not the weight of the step before");
             return;
         }
 }
@@ -531,8 +536,8 @@ static double reaction_on(const Record *r, size_t j, double obstacle) {
 
 /* The same of an element's contact, which has no other place where its reaction may have been,
  * unless it is the third contact of a node. */
-static void judge_element_bound(const Record *r, const Record *before, size_t c, double largest,
-                                double shared, bool all, Judge *judge) {
+static void check_element_bound(const Record *r, const Record *before, size_t c, double largest,
+                                double shared, bool all, Findings *findings) {
     const bool third = r->share_of[c - r->contacts * r->nodes] == 1;
     const double w = r->friction_bound[c],
                  R = third ? reaction_on(before, c - r->contacts * r->nodes + 1, r->obstacle[c])
@@ -551,8 +556,8 @@ static void judge_element_bound(const Record *r, const Record *before, size_t c,
     if (r != before && r->factor)
         noise += 1e-9 * fabs(r->factor[i + 1] - r->factor[i]) * R * fmax(1, r->mu[c]);
     if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared))
-        find(judge, "friction bound %.9g on element %zu, expected %.9g times the reaction %.9g", w,
-             i, before->mu[c], R);
+        find(findings, "friction bound %.9g on element %zu, expected %.9g times the reaction %.9g",
+             w, i, before->mu[c], R);
 }
 
 /* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step
@@ -560,8 +565,8 @@ static void judge_element_bound(const Record *r, const Record *before, size_t c,
  * friction takes nodes that carry less than 1e-3 of the largest load or reaction, or 1e-7 of the
  * largest tension, for free, if it likes; a held node has no friction, nor one that no contact is
  * looked for. */
-static void judge_bounds(const Source *source, const Record *r, const Record *before,
-                         Judge *judge) {
+static void check_bounds(const Source *source, const Record *r, const Record *before,
+                         Findings *findings) {
     const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
     double largest = 0;
     for (size_t c = 0; c < contacts; c++) {
@@ -583,7 +588,8 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
     double shared = source->consistent && loose ? FORCE_FLOOR * 10 * largest : 0;
     for (size_t c = 0; c < contacts; c++) {
         if (c >= r->contacts * r->nodes) {
-            judge_element_bound(r, before, c, largest, shared, source->consistent && solved, judge);
+            check_element_bound(r, before, c, largest, shared, source->consistent && solved,
+                                findings);
             continue;
         }
         size_t j = c % r->nodes;
@@ -600,8 +606,8 @@ static void judge_bounds(const Source *source, const Record *r, const Record *be
         // with both
         double noise = r->factor_noise ? r->factor_noise[j] * R * fmax(1, r->mu[c]) : 0;
         if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared)) {
-            find(judge, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g", w,
-                 j, r->mu[c], R);
+            find(findings, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g",
+                 w, j, r->mu[c], R);
             return;
         }
     }
@@ -614,19 +620,19 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
     for (size_t step = 0; step < source->steps && !bad; step++) {
         bad = record_read(source, line, step, &record, log);
         if (bad) break;
-        judge_record(source, &record, line, step, log, report);
-        Judge judge = {log, line, step, 0};
+        check_record(source, &record, line, step, log, report);
+        Findings findings = {log, line, step, 0};
         if (step > 0 && record.substeps == 1 &&
             memcmp(record.reference, previous.position, record.nodes * sizeof(Vector)) != 0)
-            find(&judge, "the reference is not the position of the step before");
-        if (step > 0) judge_work(&record, &previous, source, step, &judge);
-        if (step > 0) judge_weight(&record, &previous, &judge);
+            find(&findings, "the reference is not the position of the step before");
+        if (step > 0) check_work(&record, &previous, source, step, &findings);
+        if (step > 0) check_weight(&record, &previous, &findings);
         // with frozen friction the reactions before a first step, or before the last part of one,
         // are not known
         bool statics = step == 0 && source->has_static && without_friction(&record);
         if (!statics && (source->consistent || (step > 0 && record.substeps == 1)))
-            judge_bounds(source, &record, source->consistent ? &record : &previous, &judge);
-        report->refuted += judge.findings > 0;
+            check_bounds(source, &record, source->consistent ? &record : &previous, &findings);
+        report->refuted += findings.count > 0;
         Record swap = previous;
         previous = record;
         record = swap;

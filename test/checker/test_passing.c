@@ -20,7 +20,7 @@
 
 enum { CASES = 80 };
 
-static char directory[] = "capstan-way-XXXXXX", path[64], result[64];
+static char directory[] = "capstan-passing-XXXXXX", path[64], result[64];
 
 static int make_directory(void **state) {
     (void)state;

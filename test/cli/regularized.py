@@ -81,7 +81,7 @@ with tempfile.TemporaryDirectory() as folder:
     # P3.1 or P4.2 alone, unique or not: Y2 and Y3 in Kin, Y4 and Y5 with slack let down that no friction holds
     said = [line.strip() for line in exact.stdout.splitlines() if "a solution of P" in line]
     check(len(said) == 4 and all("P3.1, the only one" in line for line in said[:2]) and
-          all("outside Kin" in line and "one of many" in line for line in said[2:]), f"verdicts: {said}")
+          all("outside Kin" in line and "one of many" in line for line in said[2:]), f"outcomes: {said}")
     for row, step in list(zip(rows, steps))[:2]:
         tip = step["lines"]["cable"]["B"]["position_m"]
         apart = max(abs(float(row[f"B.{x}"]) - value) for x, value in zip("xyz", tip))

@@ -58,7 +58,7 @@ CpsSet *random_round_zero(int n, int depth);
 
 /* A case ends answered and right; refused for the reason that was due; open
  * (CPS_SET_OUTCOME_INACCURATE); or wrong. */
-typedef enum Verdict { ANSWERED, REFUSED, OPEN, WRONG } Verdict;
+typedef enum Result { ANSWERED, REFUSED, OPEN, WRONG } Result;
 
 /* "--seed S" or "--cases N" from the command line; false where it is neither. */
 bool random_cases(int argc, char **argv, uint64_t *first, uint64_t *count);

@@ -198,8 +198,8 @@ static void keep_worst(Audit *worst, const Audit *a) {
 }
 
 /* One step that has been taken: counted, audited. */
-static void judge(Count *count, const Rig *rig, const CpsEvolution *evolution, const double *turn,
-                  uint64_t seed, bool first) {
+static void check_step(Count *count, const Rig *rig, const CpsEvolution *evolution,
+                       const double *turn, uint64_t seed, bool first) {
     const CpsLineReport report = cps_evolution_line_report(evolution, 0);
     const CpsStepReport step = cps_evolution_report(evolution);
     count->steps++;
@@ -247,7 +247,7 @@ static void run_one(Count *counts, uint64_t seed, int halvings, int class) {
         for (int i = 0;
              i < (now ? now->step_count : 1) && cps_evolution_remaining_count(evolution) > 0; i++) {
             if (cps_evolution_step(evolution, &err) != CPS_OK) abort();
-            judge(count, &rig, evolution, turn, seed, s < 0);
+            check_step(count, &rig, evolution, turn, seed, s < 0);
         }
     }
     cps_evolution_destroy(evolution);

@@ -293,8 +293,8 @@ static bool right(const Audit *a, const CpsCertificate *c) {
            a->law <= c->gap + 1e-12 * a->scale && c->gap <= 1e-8 * c->scale;
 }
 
-static void judge(const Scene *s, const char *name, const CpsEvolution *evolution,
-                  const double *before, Tally *tally) {
+static void check_step(const Scene *s, const char *name, const CpsEvolution *evolution,
+                       const double *before, Tally *tally) {
     static const double still[RIG_OBSTACLES] = {0};
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
     const CpsLineReport report = cps_evolution_line_report(evolution, 0);
@@ -362,7 +362,7 @@ static double go(const Scene *s, const char *name, CpsEvolution *evolution, CpsR
             break; /* an end's path leads through an obstacle */
         spent += (double)(clock() - begun) / CLOCKS_PER_SEC;
         tally->iterations += cps_evolution_report(evolution).iteration_count;
-        judge(s, name, evolution, before, tally);
+        check_step(s, name, evolution, before, tally);
         if (cps_results_append(results, evolution, &err)) {
             print_error("%s: %s\n", name, err.message);
             abort();

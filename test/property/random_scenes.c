@@ -50,7 +50,7 @@ typedef struct Tally {
 
 /* ---- one scene ---- */
 
-typedef enum Verdict { CERTIFIED, NOT_CERTIFIED, WRONG } Verdict;
+typedef enum Result { CERTIFIED, NOT_CERTIFIED, WRONG } Result;
 
 /* run the history; returns a static sentence on failure of a call, NULL otherwise */
 static const char *run_scene(const RandomScene *random, const char *directory, Tally *tally,
@@ -86,8 +86,8 @@ static bool impossible(CpsOutcome outcome, CpsOutcome expected) {
     return decided && outcome != expected;
 }
 
-static Verdict judge_scene(const RandomScene *random, const char *directory, Tally *tally,
-                           FILE *log) {
+static Result check_scene(const RandomScene *random, const char *directory, Tally *tally,
+                          FILE *log) {
     CpsError err = {0};
     CpsOutcome last, before;
     const char *failed = run_scene(random, directory, tally, &last, &before, &err);
@@ -155,13 +155,13 @@ static void run_class(int class_index, const Options *options, const char *direc
         size_t size = 0;
         FILE *log = open_memstream(&text, &size);
         if (!log) exit(6);
-        Verdict verdict = judge_scene(random, directory, tally, log);
+        Result result = check_scene(random, directory, tally, log);
         fclose(log);
         tally->scenes++;
-        tally->certified += verdict == CERTIFIED;
-        tally->wrong += verdict == WRONG;
-        if (verdict != CERTIFIED) {
-            printf("%s --class %s --seed %llu\n%s", verdict == WRONG ? "WRONG" : "not certified",
+        tally->certified += result == CERTIFIED;
+        tally->wrong += result == WRONG;
+        if (result != CERTIFIED) {
+            printf("%s --class %s --seed %llu\n%s", result == WRONG ? "WRONG" : "not certified",
                    random_scene_class_name(class_index), (unsigned long long)seed,
                    options->verbose ? text : "");
         }

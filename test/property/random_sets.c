@@ -43,29 +43,29 @@ static const double TURN = 1e-5;
 
 static double worst[2]; /* largest difference seen: of values, of points */
 
-static Verdict same(double a, double b, double scale) {
+static Result same(double a, double b, double scale) {
     if (a == b) return ANSWERED;
     const double off = fabs(a - b) / scale;
     if (!(off <= worst[0])) worst[0] = off;
     return off <= VALUE ? ANSWERED : WRONG;
 }
 
-static Verdict verdict_of(CpsSetOutcome outcome) {
+static Result result_of(CpsSetOutcome outcome) {
     return outcome == CPS_SET_OUTCOME_ANSWERED     ? ANSWERED
            : outcome == CPS_SET_OUTCOME_INACCURATE ? OPEN
                                                    : REFUSED;
 }
 
 /* Where an answer is due, a refusal is wrong. */
-static Verdict due(CpsSetOutcome outcome) {
-    const Verdict verdict = verdict_of(outcome);
-    return verdict == REFUSED ? WRONG : verdict;
+static Result due(CpsSetOutcome outcome) {
+    const Result result = result_of(outcome);
+    return result == REFUSED ? WRONG : result;
 }
 
-static Verdict both(Verdict a, Verdict b) { return a > b ? a : b; }
+static Result both(Result a, Result b) { return a > b ? a : b; }
 
 /* Two answers to one question. */
-static Verdict compare(const CpsSetAnswer *a, const CpsSetAnswer *b, double scale) {
+static Result compare(const CpsSetAnswer *a, const CpsSetAnswer *b, double scale) {
     if (a->outcome == CPS_SET_OUTCOME_INACCURATE || b->outcome == CPS_SET_OUTCOME_INACCURATE)
         return OPEN;
     if (a->outcome != b->outcome) return WRONG;
@@ -75,12 +75,12 @@ static Verdict compare(const CpsSetAnswer *a, const CpsSetAnswer *b, double scal
     return same(a->value, b->value, scale);
 }
 
-static Verdict inside(const CpsSet *set, const double *x, double scale) {
+static Result inside(const CpsSet *set, const double *x, double scale) {
     CpsSetAnswer answer;
     double nearest[2 * MAX_SPACE];
     DO(cps_set_project(set, x, NULL, nearest, &answer, &err));
-    const Verdict verdict = due(answer.outcome);
-    if (verdict != ANSWERED) return verdict;
+    const Result result = due(answer.outcome);
+    if (result != ANSWERED) return result;
     if (!(answer.value / scale <= worst[1])) worst[1] = answer.value / scale;
     return answer.value <= POINT * scale ? ANSWERED : WRONG;
 }
@@ -132,24 +132,24 @@ static CpsSet *through_form(const CpsSet *set) {
 
 /* ---- support ---- */
 
-static Verdict case_form(int n) {
+static Result case_form(int n) {
     const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(2));
     CpsSet *form = through_form(sample.set);
     CpsSetAnswer a, b;
     double w[MAX_SPACE], x[MAX_SPACE];
-    Verdict verdict = REFUSED;
+    Result result = REFUSED;
     if (direction(&sample, w, x, &a)) {
         DO(cps_set_support(form, w, NULL, &b, &err));
         const double scale = scale_of(sample.set, w, x);
-        verdict = compare(&a, &b, scale);
-        if (verdict == ANSWERED) verdict = inside(form, x, scale / norm(n, w));
+        result = compare(&a, &b, scale);
+        if (result == ANSWERED) result = inside(form, x, scale / norm(n, w));
     }
     cps_set_release(sample.set);
     cps_set_release(form);
-    return verdict;
+    return result;
 }
 
-static Verdict case_sum(int n) {
+static Result case_sum(int n) {
     const Sample one = random_expression(n, below(MAX_DEPTH), below(2)),
                  two = random_expression(n, below(MAX_DEPTH), true);
     CpsSet *set, *form;
@@ -157,23 +157,23 @@ static Verdict case_sum(int n) {
     double w[MAX_SPACE], x[MAX_SPACE];
     DO(cps_set_sum(2, (const CpsSet *[]){one.set, two.set}, &set, &err));
     form = through_form(set);
-    Verdict verdict = REFUSED;
+    Result result = REFUSED;
     if (direction(&one, w, x, &a)) {
         DO(cps_set_support(two.set, w, NULL, &b, &err));
         DO(cps_set_support(form, w, NULL, &c, &err));
-        verdict = both(verdict_of(a.outcome), verdict_of(b.outcome));
+        result = both(result_of(a.outcome), result_of(b.outcome));
         a.value += b.value;
         a.gap += b.gap;
-        if (verdict == ANSWERED) verdict = compare(&a, &c, scale_of(set, w, x));
+        if (result == ANSWERED) result = compare(&a, &c, scale_of(set, w, x));
     }
     cps_set_release(one.set);
     cps_set_release(two.set);
     cps_set_release(set);
     cps_set_release(form);
-    return verdict;
+    return result;
 }
 
-static Verdict case_polar(int n) {
+static Result case_polar(int n) {
     CpsSet *set = random_round_zero(n, below(MAX_DEPTH - 1)), *polar, *twice;
     double w[MAX_SPACE], x[MAX_SPACE];
     CpsSetAnswer a, b, gauge;
@@ -184,96 +184,95 @@ static Verdict case_polar(int n) {
     DO(cps_set_support(twice, w, NULL, &b, &err));
     DO(cps_set_gauge(polar, w, &gauge, &err));
     const double scale = scale_of(set, w, x);
-    Verdict verdict = both(compare(&a, &b, scale), compare(&a, &gauge, scale));
-    if (verdict == ANSWERED) verdict = inside(twice, x, scale / norm(n, w));
+    Result result = both(compare(&a, &b, scale), compare(&a, &gauge, scale));
+    if (result == ANSWERED) result = inside(twice, x, scale / norm(n, w));
     cps_set_release(set);
     cps_set_release(polar);
     cps_set_release(twice);
-    return verdict;
+    return result;
 }
 
 /* ---- faces ---- */
 
 /* Does the face attain h(w) in the set, at its middle and at its ends along the first direction
  * that it has? */
-static Verdict attains(const CpsSet *set, const CpsSet *face, const double *w, double h,
-                       double scale, double *centre) {
+static Result attains(const CpsSet *set, const CpsSet *face, const double *w, double h,
+                      double scale, double *centre) {
     const int n = cps_set_space(set);
     double basis[MAX_SPACE * MAX_SPACE], end[MAX_SPACE];
     CpsSetFacts facts;
     CpsSetAnswer answer;
     DO(cps_set_facts(face, 0, &facts, centre, basis, &err));
-    Verdict verdict = due(facts.outcome);
-    for (int side = 0; verdict == ANSWERED && side <= (facts.dimension > 0 ? 2 : 0); side++) {
+    Result result = due(facts.outcome);
+    for (int side = 0; result == ANSWERED && side <= (facts.dimension > 0 ? 2 : 0); side++) {
         if (side > 0) {
             for (int i = 0; i < n; i++) basis[i] = -basis[i];
             DO(cps_set_support(face, basis, end, &answer, &err));
             if (answer.outcome == CPS_SET_OUTCOME_UNBOUNDED) continue;
-            verdict = due(answer.outcome);
+            result = due(answer.outcome);
         } else
             memcpy(end, centre, (size_t)n * sizeof *end);
         const double far = fmax(1, norm(n, end)); /* unbounded faces have far middles */
-        if (verdict == ANSWERED) verdict = same(dot(n, w, end), h, scale * far);
-        if (verdict == ANSWERED) verdict = inside(set, end, scale / norm(n, w) * far);
+        if (result == ANSWERED) result = same(dot(n, w, end), h, scale * far);
+        if (result == ANSWERED) result = inside(set, end, scale / norm(n, w) * far);
     }
-    return verdict;
+    return result;
 }
 
-static Verdict case_face(int n) {
+static Result case_face(int n) {
     const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(4) > 0);
     CpsSet *face = NULL;
     CpsSetAnswer h, answer;
     double w[MAX_SPACE], x[MAX_SPACE];
-    Verdict verdict = REFUSED;
+    Result result = REFUSED;
     if (direction(&sample, w, x, &h)) {
         DO(cps_set_face(sample.set, w, 0, &face, &answer, &err));
-        verdict = due(answer.outcome);
+        result = due(answer.outcome);
         if (face)
-            verdict = attains(sample.set, face, w, answer.value, scale_of(sample.set, w, x), x);
+            result = attains(sample.set, face, w, answer.value, scale_of(sample.set, w, x), x);
     }
     cps_set_release(sample.set);
     cps_set_release(face);
-    return verdict;
+    return result;
 }
 
-static Verdict case_facet(int n) {
+static Result case_facet(int n) {
     const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(4) > 0);
     CpsSet *face = NULL, *second = NULL;
     CpsSetAnswer h, one, two;
     double w[MAX_SPACE], u[MAX_SPACE], x[MAX_SPACE];
-    Verdict verdict = REFUSED;
+    Result result = REFUSED;
     fill(n, 1, u);
     if (direction(&sample, w, x, &h)) {
         DO(cps_set_face(sample.set, w, 0, &face, &one, &err));
-        verdict = due(one.outcome);
+        result = due(one.outcome);
     }
     if (face) {
         DO(cps_set_face(face, u, 0, &second, &two, &err));
-        verdict = verdict_of(two.outcome);
+        result = result_of(two.outcome);
     }
     if (second) {
-        verdict = attains(face, second, u, two.value, scale_of(sample.set, u, x), x);
-        if (verdict == ANSWERED)
-            verdict = same(dot(n, w, x), one.value, scale_of(sample.set, w, x));
+        result = attains(face, second, u, two.value, scale_of(sample.set, u, x), x);
+        if (result == ANSWERED) result = same(dot(n, w, x), one.value, scale_of(sample.set, w, x));
     }
     cps_set_release(sample.set);
     cps_set_release(face);
     cps_set_release(second);
-    return verdict;
+    return result;
 }
 
 /* ---- intersections ---- */
 
 /* u in N_A(x) with w - u in N_B(x): the point of {u : (u, w - u) in N_A x N_B} next to w/2. */
-static Verdict split_by_cones(int n, const CpsSet *const *part, const double *x, const double *w,
-                              double *u) {
+static Result split_by_cones(int n, const CpsSet *const *part, const double *x, const double *w,
+                             double *u) {
     double map[2 * MAX_SPACE * MAX_SPACE] = {0}, shift[2 * MAX_SPACE] = {0}, middle[MAX_SPACE];
     CpsSet *cone[2] = {NULL, NULL}, *product, *pairs;
-    Verdict verdict = ANSWERED;
+    Result result = ANSWERED;
     CpsSetAnswer answer;
     for (int k = 0; k < 2; k++) {
         DO(cps_set_normal_cone(part[k], x, 1e-8, &cone[k], &answer, &err));
-        verdict = both(verdict, due(answer.outcome));
+        result = both(result, due(answer.outcome));
     }
     for (int i = 0; i < n; i++) {
         map[i * n + i] = 1;
@@ -281,21 +280,21 @@ static Verdict split_by_cones(int n, const CpsSet *const *part, const double *x,
         shift[n + i] = w[i];
         middle[i] = w[i] / 2;
     }
-    if (verdict == ANSWERED) {
+    if (result == ANSWERED) {
         DO(cps_set_product(2, (const CpsSet *const *)cone, &product, &err));
         DO(cps_set_preimage(n, map, shift, product, &pairs, &err));
         DO(cps_set_project(pairs, middle, NULL, u, &answer, &err));
         /* rounding may keep the two cones from meeting */
-        verdict = answer.outcome == CPS_SET_OUTCOME_EMPTY ? OPEN : due(answer.outcome);
+        result = answer.outcome == CPS_SET_OUTCOME_EMPTY ? OPEN : due(answer.outcome);
         cps_set_release(product);
         cps_set_release(pairs);
     }
     cps_set_release(cone[0]);
     cps_set_release(cone[1]);
-    return verdict;
+    return result;
 }
 
-static Verdict case_meet(int n) {
+static Result case_meet(int n) {
     Sample one = random_expression(n, below(MAX_DEPTH), true),
            two = random_expression(n, below(MAX_DEPTH), true);
     double w[MAX_SPACE], x[MAX_SPACE], u[MAX_SPACE], v[MAX_SPACE];
@@ -305,31 +304,31 @@ static Verdict case_meet(int n) {
     const CpsSet *part[2] = {one.set, moved};
     DO(cps_set_intersection(2, part, &set, &err));
     CpsSetAnswer h, a, b;
-    Verdict verdict = REFUSED;
-    if (direction(&(Sample){.set = set}, w, x, &h)) verdict = due(h.outcome);
+    Result result = REFUSED;
+    if (direction(&(Sample){.set = set}, w, x, &h)) result = due(h.outcome);
     /* below: x is in both; above: a splitting */
     const double scale = scale_of(set, w, x);
-    for (int k = 0; verdict == ANSWERED && k < 2; k++)
-        verdict = inside(part[k], x, scale / norm(n, w));
-    if (verdict == ANSWERED) verdict = split_by_cones(n, part, x, w, u);
-    if (verdict == ANSWERED) {
+    for (int k = 0; result == ANSWERED && k < 2; k++)
+        result = inside(part[k], x, scale / norm(n, w));
+    if (result == ANSWERED) result = split_by_cones(n, part, x, w, u);
+    if (result == ANSWERED) {
         for (int i = 0; i < n; i++) v[i] = w[i] - u[i];
         DO(cps_set_support(one.set, u, NULL, &a, &err));
         DO(cps_set_support(moved, v, NULL, &b, &err));
-        verdict = both(due(a.outcome), due(b.outcome));
-        if (verdict == ANSWERED)
-            verdict =
+        result = both(due(a.outcome), due(b.outcome));
+        if (result == ANSWERED)
+            result =
                 same(h.value, a.value + b.value, scale_of(one.set, u, x) + scale_of(moved, v, x));
     }
     cps_set_release(one.set);
     cps_set_release(two.set);
     cps_set_release(moved);
     cps_set_release(set);
-    return verdict;
+    return result;
 }
 
 /* The library finds the maximum, split.c proves it. */
-static Verdict case_split(int n) {
+static Result case_split(int n) {
     SplitPart part[SPLIT_PARTS];
     CpsSet *sets[SPLIT_PARTS], *set;
     const int count = split_random(n, part);
@@ -339,109 +338,109 @@ static Verdict case_split(int n) {
     double w[MAX_SPACE], x[MAX_SPACE];
     fill(n, 1, w);
     DO(cps_set_support(set, w, x, &h, &err));
-    Verdict verdict = due(h.outcome);
-    if (verdict == ANSWERED) {
+    Result result = due(h.outcome);
+    if (result == ANSWERED) {
         const SplitBounds bounds = split_bounds(n, count, part, w, x);
         const double scale = norm(n, w) * fmax(1, norm(n, x));
-        verdict = both(same(h.value, bounds.lower, scale), same(h.value, bounds.upper, scale));
-        if (!(bounds.outside <= POINT * scale)) verdict = WRONG;
-        if (!(bounds.upper - h.value <= h.gap + 1e-10 * scale)) verdict = WRONG;
+        result = both(same(h.value, bounds.lower, scale), same(h.value, bounds.upper, scale));
+        if (!(bounds.outside <= POINT * scale)) result = WRONG;
+        if (!(bounds.upper - h.value <= h.gap + 1e-10 * scale)) result = WRONG;
     }
     for (int k = 0; k < count; k++) cps_set_release(sets[k]);
     cps_set_release(set);
-    return verdict;
+    return result;
 }
 
 /* ---- cones and projections ---- */
 
-static Verdict case_moreau(int n) {
+static Result case_moreau(int n) {
     double rays[2 * MAX_SPACE * MAX_SPACE], p[MAX_SPACE], x[MAX_SPACE], y[MAX_SPACE],
         sum[MAX_SPACE];
     const int count = below(2 * n + 1);
     CpsSet *cone = NULL, *polar;
     CpsSetAnswer a, b;
-    Verdict verdict = ANSWERED;
+    Result result = ANSWERED;
     fill(n, 1, p);
     if (below(2)) {
         fill(count * n, 1, rays);
         DO(cps_set_cone_of_rays(n, count, rays, &cone, &err));
     } else { /* the normal cone where some direction is attained */
         const Sample sample = random_expression(n, below(MAX_DEPTH), true);
-        if (direction(&sample, y, x, &a)) verdict = due(a.outcome);
-        if (verdict == ANSWERED) DO(cps_set_normal_cone(sample.set, x, 0, &cone, &a, &err));
-        if (verdict == ANSWERED) verdict = due(a.outcome);
+        if (direction(&sample, y, x, &a)) result = due(a.outcome);
+        if (result == ANSWERED) DO(cps_set_normal_cone(sample.set, x, 0, &cone, &a, &err));
+        if (result == ANSWERED) result = due(a.outcome);
         cps_set_release(sample.set);
     }
-    if (verdict != ANSWERED) return verdict;
+    if (result != ANSWERED) return result;
     DO(cps_set_polar(cone, &polar, &err));
     DO(cps_set_project(cone, p, NULL, x, &a, &err));
     DO(cps_set_project(polar, p, NULL, y, &b, &err));
-    verdict = both(due(a.outcome), due(b.outcome));
-    if (verdict == ANSWERED) {
+    result = both(due(a.outcome), due(b.outcome));
+    if (result == ANSWERED) {
         /* a distance off by d moves the nearest point by the root of 2 d times the distance */
         const double square = dot(n, p, p), off = sqrt(2 * a.gap * (a.value + a.gap)) +
                                                   sqrt(2 * b.gap * (b.value + b.gap));
         for (int i = 0; i < n; i++) sum[i] = x[i] + y[i] - p[i];
-        verdict = both(same(dot(n, x, y), 0, square),
-                       same(a.value * a.value + b.value * b.value, square, square));
-        if (!(norm(n, sum) <= off + POINT * norm(n, p))) verdict = WRONG;
+        result = both(same(dot(n, x, y), 0, square),
+                      same(a.value * a.value + b.value * b.value, square, square));
+        if (!(norm(n, sum) <= off + POINT * norm(n, p))) result = WRONG;
     }
     cps_set_release(cone);
     cps_set_release(polar);
-    return verdict;
+    return result;
 }
 
-static Verdict case_project(int n) {
+static Result case_project(int n) {
     const Sample sample = random_expression(n, below(MAX_DEPTH + 1), below(2));
     double p[MAX_SPACE], nearest[MAX_SPACE], w[MAX_SPACE];
     CpsSetAnswer answer, h;
     fill(n, 4, p);
     DO(cps_set_project(sample.set, p, NULL, nearest, &answer, &err));
-    Verdict verdict = due(answer.outcome);
+    Result result = due(answer.outcome);
     for (int i = 0; i < n; i++) w[i] = p[i] - nearest[i];
     const double far = fmax(1, norm(n, nearest));
-    if (verdict == ANSWERED) verdict = same(answer.value, norm(n, w), far);
-    if (verdict == ANSWERED && answer.value > 1e-3) {
+    if (result == ANSWERED) result = same(answer.value, norm(n, w), far);
+    if (result == ANSWERED && answer.value > 1e-3) {
         DO(cps_set_support(sample.set, w, NULL, &h, &err));
         /* w is known to rounding: a set that is unbounded across it may say so */
-        verdict = verdict_of(h.outcome);
-        if (verdict == ANSWERED) verdict = same(h.value, dot(n, w, nearest), norm(n, w) * far);
-        if (h.outcome == CPS_SET_OUTCOME_EMPTY) verdict = WRONG;
+        result = result_of(h.outcome);
+        if (result == ANSWERED) result = same(h.value, dot(n, w, nearest), norm(n, w) * far);
+        if (h.outcome == CPS_SET_OUTCOME_EMPTY) result = WRONG;
     }
     cps_set_release(sample.set);
-    return verdict;
+    return result;
 }
 
-static Verdict case_cone(int n) {
+static Result case_cone(int n) {
     const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(4) > 0);
     CpsSet *cone = NULL;
     CpsSetAnswer h, answer;
     CpsSetFacts facts;
     double w[MAX_SPACE], x[MAX_SPACE], y[MAX_SPACE];
-    Verdict verdict = REFUSED;
-    if (direction(&sample, w, x, &h)) verdict = due(h.outcome);
-    if (verdict == ANSWERED) {
+    Result result = REFUSED;
+    if (direction(&sample, w, x, &h)) result = due(h.outcome);
+    if (result == ANSWERED) {
         DO(cps_set_normal_cone(sample.set, x, 1e-8, &cone, &answer, &err));
-        verdict = due(answer.outcome);
+        result = due(answer.outcome);
     }
-    if (verdict == ANSWERED) {
+    if (result == ANSWERED) {
         DO(cps_set_project(cone, w, NULL, y, &answer, &err));
-        verdict = due(answer.outcome);
-        if (verdict == ANSWERED && !(answer.value <= TURN * norm(n, w))) verdict = WRONG;
+        result = due(answer.outcome);
+        if (result == ANSWERED && !(answer.value <= TURN * norm(n, w))) result = WRONG;
     }
-    if (verdict == ANSWERED) { /* what is inside the cone exposes x */
+    if (result == ANSWERED) { /* what is inside the cone exposes x */
         DO(cps_set_facts(cone, 0, &facts, w, NULL, &err));
-        verdict = due(facts.outcome);
+        result = due(facts.outcome);
     }
-    if (verdict == ANSWERED && norm(n, w) > 0) {
+    if (result == ANSWERED && norm(n, w) > 0) {
         DO(cps_set_support(sample.set, w, NULL, &h, &err));
-        verdict = verdict_of(h.outcome); /* an unbounded set and a direction off by rounding */
-        if (verdict == ANSWERED)
-            verdict = same(h.value, dot(n, w, x), TURN / VALUE * scale_of(sample.set, w, x));
+        result = result_of(h.outcome); /* an unbounded set and a direction off by rounding */
+        if (result == ANSWERED)
+            result = same(h.value, dot(n, w, x), TURN / VALUE * scale_of(sample.set, w, x));
     }
     cps_set_release(sample.set);
     cps_set_release(cone);
-    return verdict;
+    return result;
 }
 
 /* ---- preimages ---- */
@@ -484,7 +483,7 @@ static CpsSet *rows_times_map(int n, int m, const double *map, const double *shi
     return set;
 }
 
-static Verdict case_preimage(int n) {
+static Result case_preimage(int n) {
     const bool rows = below(2);
     const int m = rows ? 1 + below(MAX_SPACE) : 1 + below(n);
     double map[MAX_SPACE * MAX_SPACE], shift[MAX_SPACE], u[MAX_SPACE], w[MAX_SPACE], x[MAX_SPACE];
@@ -501,7 +500,7 @@ static Verdict case_preimage(int n) {
         second = eliminated(n, m, map, shift, part.set);
     }
     /* w = L'u is bounded where u is */
-    Verdict verdict = REFUSED;
+    Result result = REFUSED;
     if (second && direction(&part, u, x, &a)) {
         DO(cps_set_preimage(n, map, shift, part.set, &pre, &err));
         times(m, n, map, -1, u, w);
@@ -510,26 +509,26 @@ static Verdict case_preimage(int n) {
         /* endless along what only rounding of L+ has left of w? */
         const bool rounding = b.outcome == CPS_SET_OUTCOME_UNBOUNDED &&
                               dot(n, w, u) < 1e-12 * norm(n, w) * norm(n, u);
-        verdict = rounding
-                      ? REFUSED
-                      : compare(&a, &b,
-                                scale_of(pre, w, a.outcome == CPS_SET_OUTCOME_ANSWERED ? x : NULL));
-        if (m < n && verdict == ANSWERED) { /* but other directions are not */
+        result = rounding
+                     ? REFUSED
+                     : compare(&a, &b,
+                               scale_of(pre, w, a.outcome == CPS_SET_OUTCOME_ANSWERED ? x : NULL));
+        if (m < n && result == ANSWERED) { /* but other directions are not */
             fill(n, 1, w);
             DO(cps_set_support(pre, w, x, &a, &err));
-            if (a.outcome != CPS_SET_OUTCOME_UNBOUNDED || !(dot(n, w, x) > 0)) verdict = WRONG;
+            if (a.outcome != CPS_SET_OUTCOME_UNBOUNDED || !(dot(n, w, x) > 0)) result = WRONG;
         }
         cps_set_release(pre);
     }
     cps_set_release(part.set);
     cps_set_release(second);
-    return verdict;
+    return result;
 }
 
 /* ---- degenerate sets ---- */
 
 /* Does every question about nothing say so? */
-static Verdict check_empty(int n, const CpsSet *set) {
+static Result check_empty(int n, const CpsSet *set) {
     CpsSetAnswer support, face, nearest;
     CpsSetFacts facts;
     double w[MAX_SPACE], x[MAX_SPACE];
@@ -540,37 +539,37 @@ static Verdict check_empty(int n, const CpsSet *set) {
     DO(cps_set_project(set, w, NULL, x, &nearest, &err));
     DO(cps_set_facts(set, 0, &facts, NULL, NULL, &err));
     const CpsSetOutcome all[] = {support.outcome, face.outcome, nearest.outcome, facts.outcome};
-    Verdict verdict = ANSWERED;
+    Result result = ANSWERED;
     for (int k = 0; k < 4; k++)
         if (all[k] != CPS_SET_OUTCOME_EMPTY)
-            verdict = both(verdict, all[k] == CPS_SET_OUTCOME_INACCURATE ? OPEN : WRONG);
-    if (verdict == ANSWERED && (support.value != -INFINITY || facts.has_dimension || out))
-        verdict = WRONG;
-    return verdict;
+            result = both(result, all[k] == CPS_SET_OUTCOME_INACCURATE ? OPEN : WRONG);
+    if (result == ANSWERED && (support.value != -INFINITY || facts.has_dimension || out))
+        result = WRONG;
+    return result;
 }
 
 /* A ∩ (A + d), d longer along u than A is wide */
-static Verdict case_empty(int n, const Sample *sample) {
+static Result case_empty(int n, const Sample *sample) {
     double u[MAX_SPACE], x[MAX_SPACE];
     CpsSetExtent extent;
     CpsSetAnswer h;
     if (!direction(sample, u, x, &h)) return REFUSED;
     DO(cps_set_extent(sample->set, u, &extent, &err));
     if (!extent.low_attained || !extent.high_attained)
-        return verdict_of(extent.outcome) == OPEN ? OPEN : REFUSED;
+        return result_of(extent.outcome) == OPEN ? OPEN : REFUSED;
     const double far = (extent.high - extent.low + uniform(0.01, 1)) / dot(n, u, u);
     for (int i = 0; i < n; i++) u[i] *= far;
     CpsSet *moved, *none;
     DO(cps_set_translate(u, sample->set, &moved, &err));
     DO(cps_set_intersection(2, (const CpsSet *[]){sample->set, moved}, &none, &err));
-    const Verdict verdict = check_empty(n, none);
+    const Result result = check_empty(n, none);
     cps_set_release(moved);
     cps_set_release(none);
-    return verdict;
+    return result;
 }
 
 /* A cut by a hyperplane through its point, or an image in a subspace: flat, and support as ever. */
-static Verdict case_flat(int n, const Sample *sample) {
+static Result case_flat(int n, const Sample *sample) {
     double u[MAX_SPACE], centre[MAX_SPACE];
     CpsSet *plane, *flat;
     CpsSetFacts facts;
@@ -579,20 +578,19 @@ static Verdict case_flat(int n, const Sample *sample) {
     DO(cps_set_strip(n, u, at, at, &plane, &err));
     DO(cps_set_intersection(2, (const CpsSet *[]){sample->set, plane}, &flat, &err));
     DO(cps_set_facts(flat, 0, &facts, centre, NULL, &err));
-    Verdict verdict = due(facts.outcome);
-    if (verdict == ANSWERED &&
-        (!facts.has_dimension || facts.dimension >= n || facts.zero_interior))
-        verdict = WRONG;
-    if (verdict == ANSWERED)
-        verdict = same(dot(n, u, centre), at, norm(n, u) * fmax(1, norm(n, centre)));
-    if (verdict == ANSWERED) verdict = inside(sample->set, centre, fmax(1, norm(n, centre)));
+    Result result = due(facts.outcome);
+    if (result == ANSWERED && (!facts.has_dimension || facts.dimension >= n || facts.zero_interior))
+        result = WRONG;
+    if (result == ANSWERED)
+        result = same(dot(n, u, centre), at, norm(n, u) * fmax(1, norm(n, centre)));
+    if (result == ANSWERED) result = inside(sample->set, centre, fmax(1, norm(n, centre)));
     cps_set_release(plane);
     cps_set_release(flat);
-    return verdict;
+    return result;
 }
 
 /* A + cone of one ray: endless along it, and a ray is given; the other way as A. */
-static Verdict case_unbounded(int n, const Sample *sample) {
+static Result case_unbounded(int n, const Sample *sample) {
     double ray[MAX_SPACE], back[MAX_SPACE], x[MAX_SPACE];
     CpsSet *cone, *set, *form, *face = NULL;
     CpsSetAnswer up, down, of;
@@ -603,24 +601,23 @@ static Verdict case_unbounded(int n, const Sample *sample) {
     form = through_form(set);
     DO(cps_set_support(form, ray, x, &up, &err));
     DO(cps_set_face(form, ray, 0, &face, &of, &err));
-    Verdict verdict = up.outcome == CPS_SET_OUTCOME_INACCURATE ? OPEN : ANSWERED;
-    if (verdict == ANSWERED &&
+    Result result = up.outcome == CPS_SET_OUTCOME_INACCURATE ? OPEN : ANSWERED;
+    if (result == ANSWERED &&
         (up.outcome != CPS_SET_OUTCOME_UNBOUNDED || up.value != INFINITY || face))
-        verdict = WRONG;
-    if (verdict == ANSWERED && !(dot(n, x, ray) > 0.999 * norm(n, x) * norm(n, ray)))
-        verdict = WRONG;
+        result = WRONG;
+    if (result == ANSWERED && !(dot(n, x, ray) > 0.999 * norm(n, x) * norm(n, ray))) result = WRONG;
     DO(cps_set_support(form, back, NULL, &down, &err));
     DO(cps_set_support(sample->set, back, x, &of, &err));
-    if (verdict == ANSWERED) verdict = compare(&down, &of, scale_of(sample->set, back, x));
+    if (result == ANSWERED) result = compare(&down, &of, scale_of(sample->set, back, x));
     cps_set_release(cone);
     cps_set_release(set);
     cps_set_release(form);
     cps_set_release(face);
-    return verdict;
+    return result;
 }
 
 /* A point or a segment, mapped and moved: its dimension, its ends. */
-static Verdict case_thin(int n) {
+static Result case_thin(int n) {
     const int m = 1 + below(MAX_SPACE), count = 1 + below(2);
     double ends[2 * MAX_SPACE], mapped[2 * MAX_SPACE], map[MAX_SPACE * MAX_SPACE], w[MAX_SPACE],
         centre[MAX_SPACE];
@@ -637,32 +634,32 @@ static Verdict case_thin(int n) {
     DO(cps_set_facts(form, 0, &facts, centre, NULL, &err));
     DO(cps_set_support(form, w, NULL, &h, &err));
     const double one = dot(n, w, mapped), two = count > 1 ? dot(n, w, mapped + n) : one;
-    Verdict verdict = both(due(facts.outcome), due(h.outcome));
-    if (verdict == ANSWERED) verdict = same(h.value, fmax(one, two), 4 * norm(n, w));
-    if (verdict == ANSWERED && (facts.dimension != count - 1 || !facts.bounded)) verdict = WRONG;
-    for (int i = 0; verdict == ANSWERED && i < n; i++)
-        verdict = same(centre[i], 0.5 * (mapped[i] + mapped[(count - 1) * n + i]), 4);
+    Result result = both(due(facts.outcome), due(h.outcome));
+    if (result == ANSWERED) result = same(h.value, fmax(one, two), 4 * norm(n, w));
+    if (result == ANSWERED && (facts.dimension != count - 1 || !facts.bounded)) result = WRONG;
+    for (int i = 0; result == ANSWERED && i < n; i++)
+        result = same(centre[i], 0.5 * (mapped[i] + mapped[(count - 1) * n + i]), 4);
     cps_set_release(segment);
     cps_set_release(image);
     cps_set_release(form);
-    return verdict;
+    return result;
 }
 
-static Verdict case_degenerate(int n) {
+static Result case_degenerate(int n) {
     const int kind = below(4);
     if (kind == 3) return case_thin(n);
     const Sample sample = random_expression(n, 1 + below(MAX_DEPTH - 1), true);
-    const Verdict verdict = kind == 0   ? case_empty(n, &sample)
-                            : kind == 1 ? case_flat(n, &sample)
-                                        : case_unbounded(n, &sample);
+    const Result result = kind == 0   ? case_empty(n, &sample)
+                          : kind == 1 ? case_flat(n, &sample)
+                                      : case_unbounded(n, &sample);
     cps_set_release(sample.set);
-    return verdict;
+    return result;
 }
 
 int main(int argc, char **argv) {
     static const struct {
         const char *name;
-        Verdict (*ask)(int n);
+        Result (*ask)(int n);
     } CASE[] = {{"form", case_form},         {"sum", case_sum},
                 {"polar", case_polar},       {"face", case_face},
                 {"facet", case_facet},       {"meet", case_meet},
@@ -678,13 +675,13 @@ int main(int argc, char **argv) {
     for (uint64_t seed = first; seed < first + count; seed++) {
         random_seed(seed);
         const int kind = (int)(seed % KINDS);
-        const Verdict verdict = CASE[kind].ask(1 + below(MAX_SPACE));
-        tally[kind][verdict]++;
-        total[verdict]++;
-        if (verdict == WRONG)
+        const Result result = CASE[kind].ask(1 + below(MAX_SPACE));
+        tally[kind][result]++;
+        total[result]++;
+        if (result == WRONG)
             printf("wrong: seed %llu (%s)\n", (unsigned long long)seed, CASE[kind].name);
-        if (count == 1 && (verdict == OPEN || verdict == REFUSED))
-            printf("%s\n", verdict == OPEN ? "open" : "refused");
+        if (count == 1 && (result == OPEN || result == REFUSED))
+            printf("%s\n", result == OPEN ? "open" : "refused");
     }
     printf("%10s %9s %9s %9s %9s\n", "case", "answered", "refused", "open", "wrong");
     for (int k = 0; k < KINDS; k++) {

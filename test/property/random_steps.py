@@ -281,15 +281,15 @@ def check_first_order(scene, step, folder, said):
     reference, u = vectors(rows, "reference", scene.length), vectors(rows, "u", scene.length)
     friction_force, push = vectors(rows, "friction_force", force), [float(r["reaction"]) / force for r in rows]
     line = said.split("C of (77)")[1].split("\n")[0]
-    verdict = next((v for words, v in FIRST_ORDER if words in line), line)
+    result = next((v for words, v in FIRST_ORDER if words in line), line)
     elements = first_order_forces(step, reference, u)
     free = [j for j in range(len(u)) if j not in step.held]
     unit = max([norm(b) for b in step.load] + [sum(norm(b) for b in step.load)])
     along = [dot(p, step.normal) for p in u]
     slid = [tuple(c - a * n for c, n in zip(p, step.normal)) for p, a in zip(u, along)]
     touches = [h is not None and h <= 1e-9 for h in step.height]
-    need(verdict != "undecided", f"P10.1 not decided: {said}")
-    if verdict == "unbalanced":
+    need(result != "undecided", f"P10.1 not decided: {said}")
+    if result == "unbalanced":
         far = max(norm(p) for p in u)
         quadratic = sum(l * step.stiffness / 2 * (e * dot(d, d) + w * w) for l, (_, e, _, w), d in
                         ((l, q, tuple((b - a) / l for a, b in zip(p1, p2))) for l, q, p1, p2 in zip(step.lengths, elements, u, u[1:]))) / far ** 2
@@ -312,8 +312,8 @@ def check_first_order(scene, step, folder, said):
     least = min([math.inf] + [w for _, e, _, w in elements if e == 0])
     limit = 1e-6 * unit / step.stiffness
     if least < -2 * limit or least > -0.5 * limit:
-        need((least < -limit) == (verdict == "shortens"), f"P10.1: least strain {least} of slack elements, said {verdict}")
-    if verdict != "shortens":
+        need((least < -limit) == (result == "shortens"), f"P10.1: least strain {least} of slack elements, said {result}")
+    if result != "shortens":
         _, e, t, _ = elements[-1]
         over = [0.0, 0.0, 0.0]
         if scene.count not in step.held and e == 0:
@@ -322,7 +322,7 @@ def check_first_order(scene, step, folder, said):
             if touches[-1] and dot(over, step.normal) < 0:
                 over = [c - dot(over, step.normal) * n for c, n in zip(over, step.normal)]
         if not 1e-10 < norm(over) / unit < 1e-8:
-            need((norm(over) > 1e-9 * unit) == (verdict == "mesh"), f"P10.1: {over} across the slack end, said {verdict}")
+            need((norm(over) > 1e-9 * unit) == (result == "mesh"), f"P10.1: {over} across the slack end, said {result}")
 
 
 # ---- the four verbs ----
@@ -368,7 +368,7 @@ def check_history(scene, capstan, folder):
         height = scene.heights(x)
 
 
-def verdict_of(step, x, y, bounds, tolerance, inextensible):
+def result_of(step, x, y, bounds, tolerance, inextensible):
     """'no', 'relaxed' or 'solution', None where it is too near to call; and J** + j above the minimum."""
     gap = tolerance * scale_of(step, x, tolerance)
     excess = step.relaxed(y) - bounds[0]
@@ -385,10 +385,10 @@ def verdict_of(step, x, y, bounds, tolerance, inextensible):
         return None if max(stretch) - 1 < 3 * math.sqrt(tolerance) else "no", None
     tests.append((max(0.0, excess), gap, "no"))
     tests.append((max(0.0, 1 - min(stretch)), math.sqrt(tolerance), "relaxed"))
-    for value, limit, verdict in tests:
+    for value, limit, result in tests:
         margin = spread if limit == gap else 1e-9
         if value - margin > 3 * limit:
-            return verdict, excess
+            return result, excess
         if value + margin > limit / 3:
             return None, excess
     return "solution", excess
@@ -400,7 +400,7 @@ def write_places(scene, folder, y):
             file.write(",".join(repr(c * scene.length) for c in p) + "\n")
 
 
-def said_verdict(text):
+def said_result(text):
     return "no" if ": no solution" in text else "relaxed" if "but not of P3.1" in text else "solution" if "a solution of P3.1" in text else "?"
 
 
@@ -435,11 +435,11 @@ def check_judge(scene, capstan, folder):
     for _ in range(4):
         tolerance = 10 ** scene.draw.uniform(-5 if inextensible or len(scene.steps) > 1 else -6.5, -3)
         y = perturbed(scene, step, x, scene.draw)
-        expected, excess = verdict_of(step, x, y, bounds, tolerance, inextensible)
+        expected, excess = result_of(step, x, y, bounds, tolerance, inextensible)
         write_places(scene, folder, y)
         done = call(capstan, folder, "study", "scene.yaml", "--step", f"s{len(scene.steps) - 1}", "--judge", "places.csv", "--tolerance", repr(tolerance))
         need(done.returncode in (0, 1), f"exit code {done.returncode}: {done.stderr}")
-        said = said_verdict(done.stdout)
+        said = said_result(done.stdout)
         need((done.returncode == 0) == (said == "solution"), f"exit code {done.returncode} with: {done.stdout}")
         need(expected is None or said == expected, f"tolerance {tolerance}, {excess} above {bounds}: expected {expected}, said {done.stdout}")
         size = scale_of(step, x, tolerance)
