@@ -20,7 +20,9 @@ int cmd_schema(int argc, char **argv) {
     for (size_t k = 0; k < sizeof KIND / sizeof KIND[0]; k++) {
         CpsError err;
         if (options.operand && strcmp(options.operand, KIND[k].name) != 0) continue;
-        return KIND[k].write(stdout, &err) == CPS_OK ? EXIT_OK : cli_report(&err);
+        const CpsStatus status = KIND[k].write(stdout, &err);
+        if (status == CPS_ERR_IO) snprintf(err.file, sizeof err.file, "standard output");
+        return status == CPS_OK ? EXIT_OK : cli_report(&err);
     }
     cli_printf(stderr, "capstan schema: found '%s', expected scene, law or drive\n",
                options.operand);

@@ -141,9 +141,12 @@ int main(int argc, char **argv) {
         code = run_command(argc - 1, argv + 1);
     }
 
-    /* a full disk is detected only here */
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        fprintf(stderr, "capstan: cannot write standard output\n");
+    /* a full disk is detected only here, or where a command has reported it with this exit code */
+    errno = 0;
+    const bool failed = fflush(stdout) != 0 || ferror(stdout);
+    if (failed && code != EXIT_IO) {
+        fprintf(stderr, "capstan: cannot write standard output: %s\n",
+                strerror(errno ? errno : EIO));
         if (code == EXIT_OK || code == EXIT_NOT_CERTIFIED) code = EXIT_IO;
     }
     return code;

@@ -53,7 +53,7 @@ static const Option OPTIONS[] = {
     {"complete", 'c', "SHAPE", FOR_STUDY, offsetof(CliOptions, complete), false,
      "lay the slack of the step out, so that |x'| = 1: shortest, straight or meander"},
     {"judge", 'j', "FILE.csv", FOR_STUDY, offsetof(CliOptions, judge), false,
-     "is this configuration a solution of the step, and if not, why"},
+     "is this configuration a solution of the step, and if not, why; - reads standard input"},
     {"tolerance", 0, "TOL", FOR_STUDY, offsetof(CliOptions, tolerance), false,
      "with which configurations are judged: gaps up to TOL times their scale are none (default: "
      "1e-8)"},

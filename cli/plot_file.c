@@ -3,6 +3,9 @@
 #include "plot_file.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "commands.h"
 
@@ -20,10 +23,51 @@ bool law_plot_axes(const char *text, int n, int axis[2]) {
     return axis[0] >= 0 && axis[0] < n && axis[1] >= 0 && axis[1] < n && axis[0] != axis[1];
 }
 
+/* A picture that has been drawn, in memory: a program that is killed while it draws leaves no
+ * file. */
+typedef struct Drawn {
+    char *text;
+    size_t size;
+} Drawn;
+
+static CpsStatus put_drawn(void *user, FILE *out, CpsError *err) {
+    const Drawn *drawn = user;
+    (void)err;
+    fwrite(drawn->text, 1, drawn->size, out);
+    return CPS_OK;
+}
+
+/* Whether a file may be made in the folder of `path`. */
+static bool has_place(const char *path) {
+    char folder[4096];
+    const char *slash = strrchr(path, '/');
+    const size_t length = slash ? (size_t)(slash + 1 - path) : 0;
+    if (length >= sizeof folder) return false;
+    memcpy(folder, path, length);
+    folder[length] = '\0';
+    return access(length > 0 ? folder : ".", W_OK | X_OK) == 0;
+}
+
+static int out_of_memory(void) {
+    fprintf(stderr, "capstan: out of memory\n");
+    return EXIT_LIMIT;
+}
+
 int cli_plot(CpsFileWriter *draw, void *user, const char *path) {
     CpsError err;
+    Drawn drawn = {0};
     fflush(stdout); /* the file may be standard output itself */
-    return cps_write_file(path, draw, user, &err) == CPS_OK ? EXIT_OK : cli_report(&err);
+    /* Where no file can be made, that is found before the drawing, which may take long. */
+    if (!has_place(path))
+        return cps_write_file(path, draw, user, &err) == CPS_OK ? EXIT_OK : cli_report(&err);
+    FILE *out = open_memstream(&drawn.text, &drawn.size);
+    if (!out) return out_of_memory();
+    CpsStatus status = draw(user, out, &err);
+    const bool whole = fclose(out) == 0;
+    if (status == CPS_OK && whole) status = cps_write_file(path, put_drawn, &drawn, &err);
+    free(drawn.text);
+    if (status != CPS_OK) return cli_report(&err);
+    return whole ? EXIT_OK : out_of_memory();
 }
 
 typedef struct LawDrawing {

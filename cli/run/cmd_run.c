@@ -315,8 +315,9 @@ static CpsStatus execute(Run *run, const char *directory, const CliOptions *opti
         cps_journal_remove(run->journal);
     else if (run->journal && wanted.sync_at_end)
         status = status ? status : cps_journal_sync(run->journal, err);
-    if (!status && options->json)
-        status = cps_results_write_summary(run->results, wall, stdout, err);
+    if (status || !options->json) return status;
+    status = cps_results_write_summary(run->results, wall, stdout, err);
+    if (status == CPS_ERR_IO) snprintf(err->file, sizeof err->file, "standard output");
     return status;
 }
 

@@ -6,7 +6,7 @@
  * configuration.
  *
  * The first SIGINT or SIGTERM ends the present computation and keeps the results so far; the second
- * ends the program at once. */
+ * ends the program at once. Where nothing is written, in a judgement, the first one does. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -343,6 +343,12 @@ static bool is_sound(const CliOptions *options) {
               stderr);
         return false;
     }
+    if (options->judge && strcmp(options->judge, "-") == 0 && strcmp(options->operand, "-") == 0) {
+        fputs("capstan study: found '-' for the scene and for --judge, expected one of them from "
+              "standard input\n",
+              stderr);
+        return false;
+    }
     if (!(study_find_tolerance(options->tolerance) > 0)) return false;
     return !options->complete || study_find_completion(options->complete) != CPS_COMPLETION_COUNT;
 }
@@ -354,12 +360,16 @@ int cmd_study(int argc, char **argv) {
     CpsSceneFile *file = NULL;
     CpsError err;
     if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
-    cli_catch_signals();
-    int code;
-    char *directory = cli_destination(&options, "-study", &code);
+    /* a judgement writes no files: it needs no directory, and a signal ends the program at once */
+    int code = EXIT_OK;
+    char *directory = NULL;
+    if (!options.judge) {
+        cli_catch_signals();
+        directory = cli_destination(&options, "-study", &code);
+    }
     if (directory && options.history)
         code = study_methods(cps_scene_file_scene(file), &options, directory);
-    else if (directory)
+    else if (directory || options.judge)
         code = study(cps_scene_file_scene(file), directory, &options);
     free(directory);
     cps_scene_file_destroy(file);

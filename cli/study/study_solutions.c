@@ -164,7 +164,9 @@ static FILE *open_regular(const char *path) {
     return NULL;
 }
 
+/* `path` "-": standard input, which may be a pipe. */
 static int read_configuration(const CpsLineView *view, const char *path, double *position) {
+    if (strcmp(path, "-") == 0) return read_nodes(view, "standard input", stdin, position);
     FILE *file = open_regular(path);
     if (!file) {
         fputs("capstan: ", stderr);
@@ -208,7 +210,7 @@ int study_judge(const CpsLineView *view, const char *path, double tolerance, boo
         code = cli_report(&err);
     else if (code == EXIT_OK) {
         if (!quiet) {
-            cli_print_text(stdout, path, 200, false);
+            cli_print_text(stdout, strcmp(path, "-") == 0 ? "standard input" : path, 200, false);
             printf(": ");
             print_report(&report, tolerance, view->arc_length[view->element_count]);
         }

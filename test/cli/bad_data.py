@@ -171,7 +171,6 @@ NODE_FILES = [
     ("not there", "none.csv", "none.csv: No such file or directory"),
     ("a FIFO", "fifo.csv", "fifo.csv: is not a regular file"),
     ("a device", "/dev/zero", "/dev/zero: is not a regular file"),
-    ("a dash", "-", "-: No such file or directory"),
 ]
 
 # forces asked of a law on standard input, expected after "capstan: standard input:"
@@ -337,6 +336,7 @@ def main():
         expect(f"nodes: {name}", [*judge, "n.csv"], INPUT, f"capstan: {wanted}")
     for name, file, wanted in NODE_FILES:
         expect(f"nodes: {name}", [*judge, file], IO, f"capstan: {wanted}")
+    expect("nodes: nothing on standard input", [*judge, "-"], INPUT, "capstan: standard input: found 0 rows of nodes, expected 3")
     for name, data, wanted in ROWS:
         expect(f"rows: {name}", ["law", "l.yaml", "-f", "-"], INPUT, f"capstan: standard input:{wanted}", data)
     write("c.csv", "1, 0\n1, 1\n0, 1\n")

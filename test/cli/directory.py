@@ -111,6 +111,14 @@ def listed():
     # as a rename that failed leaves it
     write("listed/.capstan", read("listed/.capstan").decode() + "x summary.json\n")
     expect("checker: replaced whole", check().returncode == 0, check())
+    # names of files, and names in them, cannot control a terminal
+    write("listed/escape.json", '{"name": "\x1b[2J", "bytes": 1, "crc32": "0"}\n')
+    for more in (["\x1b[2J.json"], ["\x1b[2J.nc"], ["listed/result.nc", "\x1b[2J.yaml"], ["listed/escape.json"], ["listed/\u202e.nc"], ["\udc9b2J.nc"]):
+        done = subprocess.run([CHECKER, *more], capture_output=True, timeout=60)
+        expect(f"checker {more}: exit code", done.returncode != 0 and done.stderr.endswith(b"\n"), done)
+        for bad in (b"\x1b", "\u202e".encode(), b"\x9b"):
+            expect(f"checker {more}: characters", bad not in done.stdout + done.stderr, done)
+    os.unlink("listed/escape.json")
     os.unlink("listed/summary.json")
     expect("checker: a mixture", check().returncode == 1 and "two runs" in check().stderr, check())
     done = run("-o", "listed")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The edges of the process: closed standard streams, pipes and signals, what reaches a terminal, which files a file may name, files made to take long.
+"""The edges of the process: standard streams that are closed, empty or full, pipes and signals, what reaches a terminal, which files a file may name, files made to take long.
 
 usage: process.py CAPSTAN"""
 import os
@@ -24,6 +24,18 @@ lines:
   rope: {length: 1, elements: 10, weight: 1, stiffness: 100, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: held, B: free}}
 history:
   - {name: pull, rope.B: {force: [0.1, 0.1, 0]}, steps: 12}
+"""
+
+
+SLEDGE = """capstan: 1
+system:
+  parameters: [down, across, turn]
+  laws:
+    - {on: [{down: 1, turn: -0.4}, across], law: {unit_load: {load: 220, of: {box: [0.25, 0.6]}}}}
+    - {on: [{down: 1, turn: 0.4}, across], law: {unit_load: {load: 220, of: {box: [0.25, 0.6]}}}}
+  drive: [across, turn]
+  load: {down: 80}
+  velocity: [[0, 0], [0.1, 0], [0, 0.5]]
 """
 
 
@@ -100,6 +112,83 @@ def pipe_to_judge():
         expect("a pipe to judge", done.returncode == 4 and "regular file" in done.stderr, done)
     except subprocess.TimeoutExpired:
         faults.append("a pipe to judge: it waits")
+
+
+def configuration(name, shift=0.0):
+    """The nodes of the line of SCENE as they lie at the start, the last one moved aside."""
+    rows = [f"{x/10},0,0" for x in range(10)] + [f"1,{shift},0"]
+    write(name, "x,y,z\n" + "\n".join(rows) + "\n")
+
+
+def judge_from_input():
+    """A configuration on standard input is judged as that of a file; nothing is made, and the first signal ends a program that waits for it."""
+    os.mkdir("judging")
+    for shift in (0.0, 0.5):
+        configuration("judging/nodes.csv", shift)
+        told = [subprocess.run([CAPSTAN, "study", "../frozen.yaml", "--judge", name], stdin=open("judging/nodes.csv", "rb"), capture_output=True,
+                               text=True, timeout=60, cwd="judging") for name in ("nodes.csv", "-")]
+        expect(f"--judge -, {shift}: exit code", told[0].returncode == told[1].returncode in (0, 1), told)
+        expect(f"--judge -, {shift}: what is said", told[0].stdout.replace("nodes.csv", "standard input") == told[1].stdout != "", told)
+        expect(f"--judge -, {shift}: files", os.listdir("judging") == ["nodes.csv"], os.listdir("judging"))
+    for given, words in (("", "standard input: found 0 rows"), ("0,0,0\n", "standard input: found 1 rows"), ("0,0,0\nno\n", "standard input:2: ")):
+        done = subprocess.run([CAPSTAN, "study", "frozen.yaml", "--judge", "-"], input=given, capture_output=True, text=True, timeout=60)
+        expect(f"--judge - of {given!r}", done.returncode == 3 and words in done.stderr, done)
+    done = subprocess.run([CAPSTAN, "study", "-", "--judge", "-"], input=SCENE, capture_output=True, text=True, timeout=60)
+    expect("two files from standard input", done.returncode == 2 and "--judge" in done.stderr, done)
+    for number in (signal.SIGTERM, signal.SIGINT):
+        waiting = subprocess.Popen([CAPSTAN, "study", "frozen.yaml", "--judge", "-"], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        time.sleep(0.5)  # it has solved the step and begun to read
+        waiting.send_signal(number)
+        try:
+            expect(f"signal {number} while waiting for a configuration", waiting.wait(10) == -number, waiting.returncode)
+        except subprocess.TimeoutExpired:
+            waiting.kill()
+            faults.append(f"signal {number} while waiting for a configuration: it goes on waiting")
+        waiting.stdin.close()
+
+
+def empty_input():
+    """Standard input that is closed or empty is named as such."""
+    for verb, what in (("run", "scene"), ("check", "scene"), ("study", "scene"), ("law", "law"), ("drive", "driven system")):
+        for how in ("</dev/null", "<&-", "</dev/null 2>&1 | cat"):
+            done = subprocess.run(["sh", "-c", f"exec '{CAPSTAN}' {verb} - {how}"], capture_output=True, text=True, timeout=60)
+            expect(f"{verb} - {how}", f"capstan: standard input is empty or closed: a {what} begins with 'capstan: 1'" in done.stdout + done.stderr, done)
+            expect(f"{verb} - {how}: exit code", done.returncode == (0 if "cat" in how else 3), done)
+
+
+def full_output():
+    """Standard output that cannot be written is reported once, with the reason."""
+    for command in (["schema"], ["schema", "law"], ["schema", "drive"], ["--help"], ["run", "--help"], ["--version"], ["check", "scene.yaml"],
+                    ["run", "scene.yaml", "-q", "--json", "-o", "out"], ["run", "scene.yaml", "-o", "out"], ["study", "frozen.yaml", "-o", "studied"],
+                    ["run", "frozen.yaml", "-q", "--json", "-m", "regularized", "-o", "out-1990"], ["law", "plain-law.yaml", "--json"]):
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([CAPSTAN, *command], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+        said = [line for line in done.stderr.splitlines() if "write" in line]
+        expect(f"{command} on a full disk: exit code", done.returncode == 4, done)
+        expect(f"{command} on a full disk: what is said", len(said) == 1 and said[0].endswith("No space left on device"), done.stderr)
+
+
+def killed_drawing():
+    """A program that is killed while it draws leaves no file."""
+    os.mkdir("drawing")
+    write("sledge.yaml", SLEDGE)
+    command = [CAPSTAN, "drive", "sledge.yaml", "-q", "--plot", "drawing/map.svg"]
+    begun = time.monotonic()
+    done = subprocess.run(command, capture_output=True, timeout=60)
+    took = time.monotonic() - begun
+    expect("drawing: files", done.returncode == 0 and os.listdir("drawing") == ["map.svg"], os.listdir("drawing"))
+    os.unlink("drawing/map.svg")
+    drawing = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(0.3*took)  # nearly all of the time it draws, and it writes the file in the last hundredth
+    drawing.kill()
+    drawing.wait()
+    expect("killed drawing: left", set(os.listdir("drawing")) <= {"map.svg"}, os.listdir("drawing"))
+    # a folder that is not there is found before that
+    begun = time.monotonic()
+    done = subprocess.run([*command[:-1], "no-folder/map.svg"], capture_output=True, text=True, timeout=60)
+    expect("drawing into no folder", done.returncode == 4 and "no-folder/map.svg" in done.stderr, done)
+    expect("drawing into no folder: seconds", time.monotonic() - begun < 0.5*took + 0.2, time.monotonic() - begun)
 
 
 def escapes():
@@ -197,9 +286,10 @@ with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     write("scene.yaml", SCENE)
     write("frozen.yaml", SCENE + "friction_policy: frozen\n")
-    for part in (closed_streams, end_while_waiting, end_within_a_step, pipe_to_judge, escapes, named_files, libraries, slow_lines):
+    write("plain-law.yaml", "capstan: 1\nlaw: {disc: 1}\n")
+    for part in (closed_streams, end_while_waiting, end_within_a_step, pipe_to_judge, judge_from_input, empty_input, full_output, killed_drawing, escapes, named_files, libraries, slow_lines):
         part()
     os.chdir("/")
 
-print("\n".join(faults) or "process: closed streams, signals, pipes, escapes, named files, slow lines")
+print("\n".join(faults) or "process: streams that are closed, empty or full, signals, pipes, escapes, named files, slow lines")
 sys.exit(1 if faults else 0)

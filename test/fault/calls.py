@@ -8,6 +8,7 @@ all of the standard output is there.
 usage: calls.py REFUSE_CALLS CAPSTAN EXAMPLES [STRIDE]"""
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -124,6 +125,8 @@ def sweep(name, command, files=None, given=""):
             what = f"{name}: call {k} of {count}, {mode}"
             if done.returncode not in (usual, 4, 6) or (done.returncode in (4, 6) and not done.stderr.strip()):
                 faults.append(f"{what}: exit code {done.returncode}: {done.stderr[-200:]!r}")
+            if files and done.returncode == 4 and not re.search(r"\bout\b|libnetcdf|standard output|standard input|new\.yaml|frozen\.yaml", done.stderr):
+                faults.append(f"{what}: names no place: {done.stderr!r}")
             if files:
                 files.judge(what, done)
                 files.mend(what)

@@ -4,6 +4,7 @@
  * given back, and no part of a picture stays. Allocations are counted by wrapping them at link
  * time. */
 
+#define REFUSE_TEXT
 #include "refuse_in_copies.h"
 
 /* allocations: a read file, its sets or systems and answers take this many at the very least */

@@ -32,6 +32,10 @@ static CpsStatus parse(CpsiDocument *d, CpsiFileKind kind) {
     CpsiYaml *root = NULL;
     CpsStatus status =
         cpsi_read_file(d->path, d->name, d->limits->max_bytes, &bytes, &size, d->err);
+    if (status == CPS_OK && size == 0 && strcmp(d->path, "-") == 0)
+        status = cpsi_fail(d->err, CPS_ERR_INPUT,
+                           "standard input is empty or closed: a %s begins with 'capstan: 1'",
+                           WHAT[kind]);
     if (status == CPS_OK)
         status = cpsi_yaml_parse(d->name, WHAT[kind], bytes, size, d->limits->max_depth, d->pool,
                                  &root, d->err);

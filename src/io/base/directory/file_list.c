@@ -57,8 +57,8 @@ CpsStatus cpsi_result_list_add(const CpsiDirectory *directory, FILE *out, CpsErr
         const int fd = cpsi_directory_reopen(directory, name);
         if (fd < 0 || !sum_up(fd, table, chunk, &bytes, &crc))
             status =
-                cpsi_fail(err, CPS_ERR_IO, "cannot read %s again: %s; earlier results are kept",
-                          name, strerror(errno));
+                cpsi_fail(err, CPS_ERR_IO, "cannot read %s/%s again: %s; earlier results are kept",
+                          cpsi_directory_path(directory), name, strerror(errno));
         if (fd >= 0) close(fd);
         if (status != CPS_OK) break;
         fputs(i ? ",\n    {\"name\": " : "\n    {\"name\": ", out);

@@ -216,6 +216,8 @@ CpsStatus cpsi_directory_sync(CpsiDirectory *directory, const char *name, CpsErr
     return code ? fail_path(directory, name, code, err) : CPS_OK;
 }
 
+const char *cpsi_directory_path(const CpsiDirectory *directory) { return directory->path; }
+
 size_t cpsi_directory_count(const CpsiDirectory *directory) { return directory->count; }
 
 const char *cpsi_directory_name(const CpsiDirectory *directory, size_t i) {

@@ -39,6 +39,9 @@ CpsStatus cpsi_directory_create(CpsiDirectory *directory, const char *name, FILE
 /* Whether a file of this name has been begun. */
 bool cpsi_directory_has(const CpsiDirectory *directory, const char *name);
 
+/* The directory as it was named when it was opened. */
+const char *cpsi_directory_path(const CpsiDirectory *directory);
+
 /* The files begun, in that order. cpsi_directory_reopen opens one for reading while it has its
  * temporary name; -1 after an error. */
 size_t cpsi_directory_count(const CpsiDirectory *directory);

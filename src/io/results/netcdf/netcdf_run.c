@@ -141,6 +141,7 @@ typedef struct LineIds {
 
 struct CpsiNetcdf {
     CpsiNetcdfFile file;
+    char *folder;    /* for messages */
     bool open, sync; /* sync: after each step */
     unsigned wanted; /* fields.h */
     size_t steps;
@@ -154,7 +155,8 @@ struct CpsiNetcdf {
 static CpsStatus result_of(const CpsiNetcdf *nc, CpsError *err) {
     if (nc->file.status == NC_NOERR) return CPS_OK;
     return cpsi_fail(err, nc->file.status == NC_ENOMEM ? CPS_ERR_MEMORY : CPS_ERR_IO,
-                     "cannot write result.nc: %s", nc->file.library.strerror(nc->file.status));
+                     "cannot write %s/result.nc: %s; earlier results are kept", nc->folder,
+                     nc->file.library.strerror(nc->file.status));
 }
 
 #define OUTCOME_WORD(name, number, key, sentence)   " " key
@@ -546,9 +548,13 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
         nc->sync = !options->sync_at_end;
         nc->line = calloc((size_t)lines, sizeof *nc->line);
         nc->line_count = lines;
+        nc->folder = strdup(path);
+        char *slash = nc->folder ? strrchr(nc->folder, '/') : NULL;
+        if (slash) *slash = '\0'; /* the path of a reserved file has one */
     }
-    if (nc && nc->line && names) status = cpsi_netcdf_library(&nc->file.library, err);
-    if (!status && nc && nc->line && names) {
+    const bool whole = nc && nc->line && nc->folder && names;
+    if (whole) status = cpsi_netcdf_library(&nc->file.library, err);
+    if (!status && whole) {
         pthread_mutex_lock(&library_lock);
         begin(nc, path, scene, evolution, names);
         cpsi_netcdf_free_sets(&nc->obstacles);
@@ -603,6 +609,7 @@ CpsStatus cpsi_netcdf_close(CpsiNetcdf *nc, CpsError *err) {
     }
     const CpsStatus status = result_of(nc, err);
     cpsi_netcdf_library_close(&nc->file.library);
+    free(nc->folder);
     free(nc->line);
     free(nc);
     return status;

@@ -2,6 +2,7 @@
 /* A directory of results: open, append each step, finish. The writers are beside this file, the
  * pictures in ../draw; this file owns the memory, and determines the order of the files and what
  * happens when one of them fails. */
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -302,10 +303,12 @@ CpsStatus cps_results_write_summary(const CpsResults *results, double wall, FILE
     if (!results || !out)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "results and out are both needed");
     const locale_t before = uselocale(results->locale);
+    errno = 0;
     cpsi_summary_write(results, wall, out);
     uselocale(before);
     if (fflush(out) != 0 || ferror(out))
-        return cpsi_fail(err, CPS_ERR_IO, "the summary could not be written");
+        return cpsi_fail(err, CPS_ERR_IO, "cannot write the summary: %s",
+                         strerror(errno ? errno : EIO));
     return CPS_OK;
 }
 

@@ -2,7 +2,9 @@
 /* The JSON schemas (draft 2020-12) of scenes, laws and driven systems, from their tables of keys:
  * one definition for each kind of mapping. They contain everything that does not depend on two
  * values together, as dimensions do. */
+#include <errno.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/status.h"
 #include "capstan/io.h"
@@ -261,6 +263,7 @@ static CpsStatus write_schema(FILE *out, const char *title, const CpsiMapping *f
     if (!out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected an open file");
     if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     collect(&found, file);
+    errno = 0;
     fprintf(out,
             "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
             "  \"title\": \"capstan %s, format version 1\",\n"
@@ -274,7 +277,8 @@ static CpsStatus write_schema(FILE *out, const char *title, const CpsiMapping *f
     fputs("  }\n}\n", out);
     cpsi_numbers_end(&numbers);
     if (fflush(out) != 0 || ferror(out))
-        return cpsi_fail(err, CPS_ERR_IO, "the schema could not be written");
+        return cpsi_fail(err, CPS_ERR_IO, "cannot write the schema: %s",
+                         strerror(errno ? errno : EIO));
     return CPS_OK;
 }
 
