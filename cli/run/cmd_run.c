@@ -18,6 +18,7 @@
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
+#include "run/extremes.h"
 #include "run/regularized_options.h"
 #include "run/regularized_run.h"
 #include "run/warnings.h"
@@ -233,6 +234,7 @@ typedef struct Run {
     CpsJournal *journal;
     Progress progress;
     Warnings warnings;
+    Extremes extremes;
     FILE *table, *solutions;
     CpsOutcome worst;
     bool refused; /* a step could not begin; the steps before it are kept */
@@ -245,6 +247,10 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     const CpsStepReport report = cps_evolution_report(run->evolution);
     progress_step(&run->progress, report.step_count, report.name);
     warnings_note_step(&run->warnings, run->scene, run->evolution);
+    if (!extremes_note_step(&run->extremes, run->evolution)) {
+        *err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
+        return CPS_ERR_MEMORY;
+    }
     const int steps = cps_evolution_step_count(run->evolution);
     if (cli_is_shown(run->scene, steps, report.step_count - 1) ||
         report.outcome != CPS_OUTCOME_SOLVED || cli_interrupted())
@@ -369,6 +375,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     if (whole && !status && !options->json && !options->quiet) {
         fwrite(text, 1, size, stdout);
         if (length > 0) printf("\n%s", said);
+        extremes_print(&run.extremes, run.evolution, stdout);
         print_utilisation(&run.warnings.utilisation);
         print_where(directory, run.evolution, !options->no_paraview);
     }
@@ -377,6 +384,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
                                          : exit_code(run.worst);
     free(text);
     free(said);
+    extremes_free(&run.extremes);
     cps_journal_destroy(run.journal);
     cps_results_destroy(run.results);
     cps_evolution_destroy(run.evolution);

@@ -61,6 +61,28 @@ CPS_API CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err);
 CPS_API CpsStatus cps_evolution_interrupt(CpsEvolution *evolution, bool (*asked)(void *user),
                                           void *user, CpsError *err);
 
+/* ---- extremes over a history ---- */
+
+/* The least and the greatest value of a quantity over the steps that were added, and the first step
+ * that has each, as it was named by the caller. Without a step all are 0. */
+typedef struct CpsExtreme {
+    bool has_values;
+    double least, greatest;
+    int least_step, greatest_step;
+} CpsExtreme;
+
+/* What a designer reads of one line, in the units of CpsLineReport and CpsEndReport. A struct of
+ * zeros is one to which no step has been added. */
+typedef struct CpsExtremes {
+    CpsExtreme tension[2], uplift[2], angle[2], suspended[2]; /* of ends A and B */
+    CpsExtreme grounded, slipping, slack;
+    CpsExtreme utilisation; /* of the steps in which the line has one */
+} CpsExtremes;
+
+/* Add a step of the caller's number to the extremes of a line; one that is not certified is left
+ * out. Nothing happens where an argument is NULL. */
+CPS_API void cps_extremes_add(CpsExtremes *extremes, const CpsLineReport *report, int step);
+
 /* ---- moves that are decided as one goes ----
  *
  * A program that is coupled to another one, a robot or a planner knows its next target only when it

@@ -42,11 +42,9 @@ typedef enum CpsOutcome {
 #undef CPS_OUTCOME_ENUM
 } CpsOutcome;
 
-/* The name of an outcome ("solved") and its sentence; never NULL. */
-CPS_API const char *cps_outcome_name(CpsOutcome outcome);
-CPS_API const char *cps_outcome_text(CpsOutcome outcome);
-/* Whether the answer of a step with this outcome is certified. */
-CPS_API bool cps_outcome_is_certified(CpsOutcome outcome);
+CPS_API const char *cps_outcome_name(CpsOutcome outcome);  /* "solved"; never NULL */
+CPS_API const char *cps_outcome_text(CpsOutcome outcome);  /* its sentence; never NULL */
+CPS_API bool cps_outcome_is_certified(CpsOutcome outcome); /* is the step's answer? */
 /* Whether there is no equilibrium, with a proof in the report. It is the last step of a history. */
 CPS_API bool cps_outcome_is_final(CpsOutcome outcome);
 /* The worse of two outcomes, in the order from solved to infeasible. */
@@ -102,9 +100,8 @@ typedef enum CpsRange {
 #undef CPS_RANGE_ENUM
 } CpsRange;
 
-/* The name of a kind of range ("bounded") and its sentence; never NULL. */
-CPS_API const char *cps_range_name(CpsRange range);
-CPS_API const char *cps_range_text(CpsRange range);
+CPS_API const char *cps_range_name(CpsRange range); /* "bounded"; never NULL */
+CPS_API const char *cps_range_text(CpsRange range); /* its sentence; never NULL */
 
 /* Least and greatest tension (theory 4a) of the element at an end, among all forces that are in
  * equilibrium and obey the laws at the positions and slips found. The first value of each pair is
@@ -126,14 +123,17 @@ typedef enum CpsPlaces {
 
 /* The force at an end of a line. The last half element, of length h/2, has the weight w h/2 and,
  * where a held end lies on an obstacle, its own reaction and friction; so this force differs from
- * the one in the middle of the end element (theory 3). */
+ * the one in the middle of the end element (theory 3). Up is against gravity, or z without. */
 typedef struct CpsEndReport {
     double position[3]; /* [m] in the coordinates of the scene */
     double force[3];    /* [N] on the line at this end */
     double tension;     /* [N] |force|, the tension at this end */
     double work;        /* [J] of that force in this step; the two ends' are `ends` of the ledger */
     double friction_force[3]; /* [N] on the half element beside a held end on an obstacle */
-    CpsTensionRange range;    /* of the end element, at the last step of a stage */
+    double uplift; /* [N] vertical part of the line's force on what holds this end, up positive */
+    double angle;  /* [rad] at which the line leaves this end, above the horizontal; 0: no force */
+    double suspended;      /* [m] natural length from this end to the first contact; all, if none */
+    CpsTensionRange range; /* of the end element, at the last step of a stage */
 } CpsEndReport;
 
 /* The contact at which the mesh changes the law of friction most. A node on a cylinder or sphere,

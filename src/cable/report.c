@@ -145,6 +145,17 @@ void cpsi_line_report_ends(CpsiLine *line) {
     }
 }
 
+void cpsi_line_report_uplift(CpsiLine *line, const double gravity[3]) {
+    const double size = vec3_norm(vec3_load(gravity));
+    const Vec3 up = size > 0 ? vec3_scale(-1 / size, vec3_load(gravity)) : vec3(0, 0, 1);
+    for (int end = 0; end < 2; end++) {
+        CpsEndReport *out = &line->report.end[end];
+        const Vec3 pull = vec3_scale(-1, vec3_load(out->force));
+        out->uplift = vec3_dot(pull, up);
+        out->angle = atan2(out->uplift, vec3_norm(vec3_reject(pull, up)));
+    }
+}
+
 /* Keep the larger utilisation, by a tension at an arc length. */
 static void raise_utilisation(CpsLineReport *report, double tension, double breaking_load,
                               double arc_length) {
@@ -206,14 +217,37 @@ static bool has_slipped(const CpsiLine *line, int c) {
     return vec3_norm(cpsi_line_end_slip(line, end, k)) > CPSI_TOUCH * line->length;
 }
 
+/* The share of its length with which node j lies on any obstacle; 0 of a node without contact. */
+static double touching_part(const CpsiLine *line, int j) {
+    double part = 0;
+    for (int c = j; c < cpsi_line_contacts(line); c += line->n)
+        if (line->state[c] != CPS_NODE_STATE_FREE) part = fmax(part, grounded_part(line, c));
+    return part;
+}
+
+/* [m] The length from an end to the first contact, which begins between nodes as a grounded piece
+ * does; what a single node does not ground is off the obstacle on both sides. */
+static double suspended(const CpsiLine *line, int end) {
+    const int first = end_node(line, end), towards = end == CPS_END_A ? 1 : -1;
+    double length = 0;
+    for (int j = first; j >= 0 && j < line->n; j += towards) {
+        const double part = touching_part(line, j), share = cpsi_line_share(line, j);
+        if (part > 0 && j == first) return 0;
+        const int next = j + towards;
+        const bool goes_on = next < 0 || next >= line->n || touching_part(line, next) > 0;
+        if (part > 0) return length + (goes_on ? 1 - part : 0.5 * (1 - part)) * share;
+        length += share;
+    }
+    return line->length;
+}
+
 void cpsi_line_report_lengths(CpsiLine *line) {
     line->report.has_slipping = true;
     for (int j = 0; j < line->n; j++) {
-        double part = 0;
+        const double part = touching_part(line, j);
         bool slips = false;
         for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
             if (line->state[c] == CPS_NODE_STATE_FREE) continue;
-            part = fmax(part, grounded_part(line, c));
             slips = slips || has_slipped(line, c);
             if (line->state[c] == CPS_NODE_STATE_UNRESOLVED) line->report.has_slipping = false;
         }
@@ -221,4 +255,5 @@ void cpsi_line_report_lengths(CpsiLine *line) {
         if (slips) line->report.slipping += part * cpsi_line_share(line, j);
     }
     if (!line->report.has_slipping) line->report.slipping = 0;
+    for (int end = 0; end < 2; end++) line->report.end[end].suspended = suspended(line, end);
 }

@@ -12,7 +12,12 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program);
 /* Forces and tensions at the ends, and what the friction of their half elements dissipates. */
 void cpsi_line_report_ends(CpsiLine *line);
 
-/* Lengths that lie on an obstacle and that slid there, the ends having been reported. */
+/* The vertical parts and angles of the forces at the ends, these having been reported; against
+ * gravity is up, or z without gravity. */
+void cpsi_line_report_uplift(CpsiLine *line, const double gravity[3]);
+
+/* Lengths that lie on an obstacle and that slid there, and those from the ends to the first
+ * contact, the ends having been reported. */
 void cpsi_line_report_lengths(CpsiLine *line);
 
 /* The largest tension over the breaking load, where the line has one, the ends having been

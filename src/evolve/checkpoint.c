@@ -24,7 +24,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', 'n', '8'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', 'n', '9'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -53,7 +53,7 @@ static void pass_flag(Tape *tape, bool *flag) {
 _Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 6 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
                "add the new field to pass_energies or pass_end_report, then its size here");
-_Static_assert(sizeof(CpsEndReport) == 11 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
+_Static_assert(sizeof(CpsEndReport) == 14 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
                "add the new field to pass_end_report or pass_bend, then its size here");
 _Static_assert(sizeof(CpsLineReport) == 24 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
                                             2 * sizeof(CpsEndReport) + sizeof(CpsBend),

@@ -59,6 +59,7 @@ static void step_line(void *data, int workspace_index, int i) {
                            &workspace->scratch, evolution->done + evolution->move_count > 0);
     }
     if (evolution->part == 0) find_range(line, &options);
+    cpsi_line_report_uplift(line, evolution->gravity);
     cpsi_line_report_utilisation(line);
 }
 

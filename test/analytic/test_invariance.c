@@ -109,6 +109,7 @@ static void drum_scene(Rig *rig, const View *view) {
 
 typedef struct Found {
     double place[3 * (N + 1)], tension[N];
+    double uplift[2], angle[2], suspended[2]; /* suspended over the length of the line */
 } Found;
 
 static void run_it(void (*make)(Rig *, const View *), const View *view, Found *found) {
@@ -120,6 +121,12 @@ static void run_it(void (*make)(Rig *, const View *), const View *view, Found *f
         turn_back(view, &run.view.position[3 * (view->reversed ? N - j : j)], &found->place[3 * j]);
     for (int e = 0; e < N; e++)
         found->tension[e] = rig_tension(&run.view, view->reversed ? N - 1 - e : e) / view->force;
+    for (int end = 0; end < 2; end++) {
+        const CpsEndReport *of = &run.report.end[view->reversed ? 1 - end : end];
+        found->uplift[end] = of->uplift / view->force;
+        found->angle[end] = of->angle;
+        found->suspended[end] = of->suspended / run.view.arc_length[N];
+    }
     rig_close(&run);
 }
 
@@ -154,6 +161,11 @@ static void compare(const char *name, void (*make)(Rig *, const View *)) {
         CHECK_LESS(rig_show(name, figure, 0, place), tolerance);
         snprintf(figure, sizeof figure, "%s: tensions", view[k].name);
         CHECK_LESS(rig_show(name, figure, 0, tension / most), tolerance);
+        for (int end = 0; end < 2; end++) {
+            CHECK_NEAR(other.uplift[end], first.uplift[end], tolerance * most);
+            CHECK_NEAR(other.angle[end], first.angle[end], tolerance);
+            CHECK_NEAR(other.suspended[end], first.suspended[end], tolerance);
+        }
     }
 }
 

@@ -20,7 +20,7 @@ def no_constant(name):
 def check_summary(directory):
     with open(os.path.join(directory, "summary.json"), encoding="utf-8") as file:
         summary = json.load(file, parse_constant=no_constant)
-    assert set(summary) == {"capstan", "title", "outcome", "wall_s", "steps", "files"}, set(summary)
+    assert set(summary) == {"capstan", "title", "outcome", "wall_s", "extremes", "steps", "files"}, set(summary)
     listed = {entry["name"]: (entry["bytes"], entry["crc32"]) for entry in summary["files"]}
     for name, entry in listed.items():
         with open(os.path.join(directory, name), "rb") as file:
@@ -37,7 +37,7 @@ def check_summary(directory):
         assert set(step["energy"]) == {"primal_J", "dual_J", "gap_J", "scale_J"}
         for name, line in step["lines"].items():
             assert set(line) - {"proof", "bend"} == LINE_KEYS, set(line)
-            assert set(line["A"]) == {"position_m", "force_N", "tension_N", "tension_range_N"} and len(line["B"]["force_N"]) == 3
+            assert set(line["A"]) == {"position_m", "force_N", "tension_N", "uplift_N", "angle_rad", "suspended_m", "tension_range_N"} and len(line["B"]["force_N"]) == 3
             assert name in step["tension_bound_rms_N"]
     assert "\x1b[31m" in summary["title"] and "</title>" in summary["title"], summary["title"]
     if directory.endswith("infeasible"):

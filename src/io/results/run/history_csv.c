@@ -33,7 +33,10 @@ static const CpsiColumn STEP_COLUMN[] = {
     {letter ".x", "m", LINE(end[e].position[0])}, {letter ".y", "m", LINE(end[e].position[1])},   \
         {letter ".z", "m", LINE(end[e].position[2])}, {letter ".fx", "N", LINE(end[e].force[0])}, \
         {letter ".fy", "N", LINE(end[e].force[1])}, {letter ".fz", "N", LINE(end[e].force[2])},   \
-        {letter ".tension", "N", LINE(end[e].tension)}, RANGE_COLUMN(letter, e, least),           \
+        {letter ".tension", "N", LINE(end[e].tension)},                                           \
+        {letter ".uplift", "N", LINE(end[e].uplift)},                                             \
+        {letter ".angle", "rad", LINE(end[e].angle)},                                             \
+        {letter ".suspended", "m", LINE(end[e].suspended)}, RANGE_COLUMN(letter, e, least),       \
         RANGE_COLUMN(letter, e, least_bound), RANGE_COLUMN(letter, e, greatest),                  \
         RANGE_COLUMN(letter, e, greatest_bound)
 

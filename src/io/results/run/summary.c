@@ -51,7 +51,10 @@ static void write_end(FILE *out, const char *key, const CpsEndReport *end, const
     fputc('{', out);
     write_vector(out, "position_m", end->position, ", ");
     write_vector(out, "force_N", end->force, ", ");
-    write_number(out, "tension_N", end->tension, "");
+    write_number(out, "tension_N", end->tension, ", ");
+    write_number(out, "uplift_N", end->uplift, ", ");
+    write_number(out, "angle_rad", end->angle, ", ");
+    write_number(out, "suspended_m", end->suspended, "");
     write_range(out, &end->range);
     fputs(after, out);
 }
@@ -164,6 +167,45 @@ static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row)
     fputs("      }\n    }", out);
 }
 
+static void write_extreme(FILE *out, const char *key, const CpsExtreme *extreme,
+                          const char *after) {
+    write_key(out, key);
+    if (!extreme->has_values) {
+        fprintf(out, "null%s", after);
+        return;
+    }
+    fputc('{', out);
+    write_number(out, "least", extreme->least, ", ");
+    fprintf(out, "\"least_step\": %d, ", extreme->least_step);
+    write_number(out, "greatest", extreme->greatest, ", ");
+    fprintf(out, "\"greatest_step\": %d}%s", extreme->greatest_step, after);
+}
+
+/* The extremes of line `i` over the certified steps; they are numbered as those of `steps`. */
+static void write_line_extremes(FILE *out, const CpsResults *results, int i, const char *after) {
+    CpsExtremes of = {0};
+    for (int r = 0; r < results->row_count; ++r)
+        cps_extremes_add(&of, &results->row[r].line[i].report, r);
+    fputs("    ", out);
+    write_key(out, results->line_name[i]);
+    fputs("{\n", out);
+    for (int end = 0; end < 2; ++end) {
+        fputs("      ", out);
+        write_key(out, end == CPS_END_A ? "A" : "B");
+        fputc('{', out);
+        write_extreme(out, "tension_N", &of.tension[end], ",\n        ");
+        write_extreme(out, "uplift_N", &of.uplift[end], ",\n        ");
+        write_extreme(out, "angle_rad", &of.angle[end], ",\n        ");
+        write_extreme(out, "suspended_m", &of.suspended[end], "},\n");
+    }
+    fputs("      ", out);
+    write_extreme(out, "grounded_m", &of.grounded, ",\n      ");
+    write_extreme(out, "slipping_m", &of.slipping, ",\n      ");
+    write_extreme(out, "slack_m", &of.slack, ",\n      ");
+    write_extreme(out, "utilisation", &of.utilisation, "\n    }");
+    fputs(after, out);
+}
+
 static void write_run(const CpsResults *results, double wall, FILE *out) {
     fputs("{\n  ", out);
     write_string(out, "capstan", cps_version(), ",\n  ");
@@ -171,7 +213,10 @@ static void write_run(const CpsResults *results, double wall, FILE *out) {
     const double *o = results->origin; /* written where it is not 0 */
     if (o[0] != 0 || o[1] != 0 || o[2] != 0) write_vector(out, "origin_m", o, ",\n  ");
     write_string(out, "outcome", cps_outcome_name(cpsi_results_outcome(results)), ",\n  ");
-    write_number(out, "wall_s", wall, ",\n  \"steps\": [");
+    write_number(out, "wall_s", wall, ",\n  \"extremes\": {\n");
+    for (int i = 0; i < results->line_count; ++i)
+        write_line_extremes(out, results, i, i + 1 < results->line_count ? ",\n" : "\n");
+    fputs("  },\n  \"steps\": [", out);
     for (int i = 0; i < results->row_count; ++i) {
         fputs(i ? ",\n" : "\n", out);
         write_step(out, results, &results->row[i]);

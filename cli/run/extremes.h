@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The least and the greatest tensions, loads and lengths of each line over the steps of a run. */
+#ifndef CAPSTAN_CLI_RUN_EXTREMES_H
+#define CAPSTAN_CLI_RUN_EXTREMES_H
+
+#include <stdio.h>
+
+#include "capstan/evolve.h"
+
+typedef struct Extremes {
+    int line_count, step_count, capacity;
+    CpsExtremes *line;     /* (line_count) */
+    char (*step_name)[96]; /* (step_count) */
+} Extremes;
+
+/* Add the step that has just been solved. False: out of memory. */
+bool extremes_note_step(Extremes *extremes, const CpsEvolution *evolution);
+
+/* Print the table, unless fewer than two steps were added. */
+void extremes_print(const Extremes *extremes, const CpsEvolution *evolution, FILE *out);
+
+void extremes_free(Extremes *extremes);
+
+#endif
