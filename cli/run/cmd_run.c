@@ -340,11 +340,11 @@ static void print_where(const char *directory, const CpsEvolution *evolution, bo
            "elements' length, of the step as well\n");
     cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s\n", directory,
                paraview ? ", result.pvd (ParaView)" : "");
-    cli_printf(
-        stdout,
-        "pictures  %s: plan.svg, elevation.svg, tension.svg, step-*.svg; loop-*.svg where a held "
-        "end goes round a closed cycle\n",
-        directory);
+    cli_printf(stdout,
+               "pictures  %s: plan.svg, elevation.svg, tension.svg, history.svg, step-*.svg; "
+               "loop-*.svg where "
+               "a held end goes round a closed cycle\n",
+               directory);
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
     const double *o = view.origin;
     if (o[0] != 0 || o[1] != 0 || o[2] != 0)

@@ -2,6 +2,8 @@
 """Pictures of what is long, many, without a bound or without a direction: each is well formed, and says what it leaves out.
 
 usage: pictures.py CAPSTAN"""
+import csv
+import json
 import os
 import subprocess
 import sys
@@ -24,6 +26,16 @@ LOOPS = "obstacles: {bed: {plane: {}, friction: 0.5}}\nlines:\n  " + \
         "".join(f"  - {{name: {name}, steps: 2, rope.B: {{move: [{x}, 0, 0]}}}}\n"
                 for name, x in 2*(("out", 0.02), ("'home / again?'", -0.02))) + "  - {name: aside, rope.B: {move: [0, 0.1, 0]}}\n"
 SIDEWAYS = "gravity: [-9.81, 0, 0]\nlines:\n  " + ROPE % "static, ends: {A: {held: [0, 0, 0]}, B: {held: [0, 8, 0]}}"
+# five steps with contact; the last has no equilibrium; the second line touches nothing
+STEPS = """obstacles: {bed: {plane: {}, friction: 0.5}}
+lines:
+  rope: {length: 10, elements: 20, weight: 5, stiffness: 1e4, start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}}, ends: {A: held, B: held}}
+  wire: {length: 4, elements: 8, weight: 2, stiffness: 1e4, start: static, ends: {A: {held: [0, 5, 3]}, B: {held: [3, 5, 4]}}}
+history:
+  - {name: up, steps: 3, rope.B: {move: [-1, 0, 2]}}
+  - {name: off, steps: 1, rope.A: {force: [0, 0, 9]}, rope.B: {force: [5, 0, 80]}}
+"""
+CURVES = (("A.tension", "B.tension"), ("A.uplift", "B.uplift"), ("grounded", "slipping"))
 TWO = """system:
   parameters: [a, b]
   laws: [{name: x, on: [a], law: {interval: 1}}, {name: y, on: [b], law: {interval: [0, .inf]}}]
@@ -49,11 +61,44 @@ def read(name):
     return words
 
 
+def check_over_steps(directory, lines):
+    """The curves of history.svg against history.csv: places on the sheet are linear in the step and in the value."""
+    with open(directory + "/history.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))[1:]
+    with open(directory + "/summary.json", encoding="utf-8") as file:
+        steps = json.load(file)["steps"]
+    solved = {line: [step["lines"][line]["outcome"] == "solved" for step in steps] for line in lines}
+    found = [[tuple(map(float, point.split(","))) for point in element.get("points").split()]
+             for element in xml.parse(directory + "/history.svg").iter() if element.tag.endswith("polyline")]
+    wanted = [[float(row[f"{line}.{curve}"]) for row, counts in zip(rows, solved[line]) if counts]
+              for pair in CURVES for line in lines for curve in pair]
+    expect("history.svg: number of curves", len(found) == len(wanted), (len(found), len(wanted)))
+    scale = []  # of each frame: the values that its curves have farthest apart, and their places
+    for number, (curve, values) in enumerate(zip(found, wanted)):
+        if number % (2*len(lines)) == 0:
+            both = [pair for c, v in list(zip(found, wanted))[number:number + 2*len(lines)] for pair in zip(v, (y for _, y in c))]
+            scale = [min(both), max(both)]
+        (low, bottom), (high, top) = scale
+        expect("history.svg: steps at equal distances", len(curve) == len(values) and all(
+            abs((x - curve[0][0])*(len(values) - 1) - i*(curve[-1][0] - curve[0][0])) < 0.2*len(values) for i, (x, _) in enumerate(curve)), curve)
+        for (_, y), value in zip(curve, values):  # places are rounded to a tenth
+            expect("history.svg: a value", abs(bottom + (value - low)/(high - low)*(top - bottom) - y) < 0.11, (number, value, y))
+
+
 def main():
+    run("run", STEPS, "-o", "steps", "--no-paraview", code=5)
+    check_over_steps("steps", ("rope", "wire"))
+    words = read("steps/history.svg")
+    expect("history.svg: what the curves are", all(word in words for word in ("tension (N)", "uplift (N)", "length (m)", "end A", "slipping", "rope", "wire")), words)
+    run("run", LOOPS, "-o", "flat", "--no-paraview")
+    expect("history.svg: no uplift along a bed", "uplift" not in read("flat/history.svg"), "uplift is drawn")
+    run("run", SIDEWAYS, "-o", "one", "--no-paraview")
+    expect("one step has no history", not os.path.exists("one/history.svg"), os.listdir("one"))
     run("run", LINES, "-o", "lines")
     words = read("lines/plan.svg")
     expect("a long title is cut", "\u2026" in words and LONG.strip() not in words.replace("\n", ""), words[:300])
-    expect("many lines", "the first 6 lines" in read("lines/tension.svg"), read("lines/tension.svg")[:300])
+    for name in ("lines/tension.svg", "lines/history.svg"):
+        expect("many lines", "the first 6 lines" in read(name), read(name)[:300])
     run("run", LOOPS, "-o", "loops")
     names = sorted(name for name in os.listdir("loops") if name.startswith("loop-"))
     # each way out and home is a loop that begins and ends at the same place

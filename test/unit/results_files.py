@@ -156,7 +156,7 @@ def check_directory(directory):
         assert not [e for e in root.iter() if e.tag.endswith("script")], "text became an element"
         with open(os.path.join(directory, name), encoding="utf-8") as file:
             assert not re.search(r"\b(nan|inf)\b|href|url\((?!#)", file.read()), name
-    for name in ("plan.svg", "elevation.svg", "tension.svg", "step-00000-plan.svg", "step-00000-elevation.svg"):
+    for name in ("plan.svg", "elevation.svg", "tension.svg", "history.svg", "step-00000-plan.svg", "step-00000-elevation.svg"):
         assert name in files, name
     if not directory.endswith("infeasible"):
         check_loop(directory)

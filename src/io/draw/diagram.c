@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Parts of pictures of driven systems (see diagram.h). */
+/* Parts shared by pictures (diagram.h). */
 #include "io/draw/diagram.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Parts shared by pictures of driven systems: frames of equal scales, curves, arrows; lengths are
+/* Parts shared by pictures: frames of equal scales, curves, arrows, driven bodies; lengths are
  * in data units. */
 #ifndef CAPSTAN_SRC_IO_DRAW_DIAGRAM_H
 #define CAPSTAN_SRC_IO_DRAW_DIAGRAM_H

@@ -40,6 +40,10 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
 /* Tension along the lines, all steps. */
 void cpsi_picture_tension(const CpsResults *results, FILE *out);
 
+/* Tensions and uplift at the ends, grounded and slipping length, over the steps. False: memory does
+ * not suffice. */
+bool cpsi_picture_over_steps(const CpsResults *results, FILE *out);
+
 /* All pictures of a run, as files of its directory. */
 CpsStatus cpsi_pictures_write(CpsResults *results, CpsError *err);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* All SVG pictures of a run. */
+#include "base/status.h"
 #include "io/draw/run/run_picture.h"
 
 static CpsStatus write_steps(CpsResults *results, const CpsiView *view, CpsError *err) {
@@ -27,6 +28,19 @@ static CpsStatus write_steps(CpsResults *results, const CpsiView *view, CpsError
     return cpsi_directory_close_file(results->directory, out, err);
 }
 
+/* The picture over the steps, of a history that has more than one. */
+static CpsStatus write_over_steps(CpsResults *results, CpsError *err) {
+    FILE *out = NULL;
+    if (results->row_count < 2) return CPS_OK;
+    CpsStatus status = cpsi_directory_create(results->directory, "history.svg", &out, err);
+    if (status) return status;
+    const bool whole = cpsi_picture_over_steps(results, out);
+    status = cpsi_directory_close_file(results->directory, out, err);
+    if (!status && !whole)
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while drawing history.svg");
+    return status;
+}
+
 CpsStatus cpsi_pictures_write(CpsResults *results, CpsError *err) {
     if (results->snapshot_count == 0) return CPS_OK;
     const CpsiView plan = cpsi_view_plan(results), elevation = cpsi_view_elevation(results);
@@ -39,5 +53,6 @@ CpsStatus cpsi_pictures_write(CpsResults *results, CpsError *err) {
     if (status) return status;
     cpsi_picture_tension(results, out);
     status = cpsi_directory_close_file(results->directory, out, err);
+    if (!status) status = write_over_steps(results, err);
     return status ? status : cpsi_pictures_loops(results, err);
 }
