@@ -144,6 +144,15 @@ static void print_shortfall(const CpsScene *scene, const CpsLineReport *line) {
                 line->proof_length);
         return;
     }
+    if (line->has_proof_plane) {
+        fputs("no configuration: the line is caught between obstacles ", stderr);
+        cli_print_text(stderr, scene->obstacle[line->proof_obstacle].name, 80, false);
+        fputs(" and ", stderr);
+        cli_print_text(stderr, scene->obstacle[line->proof_plane].name, 80, false);
+        fprintf(stderr, ", and at least %.6g m too short for the way between them",
+                line->proof_length);
+        return;
+    }
     fprintf(stderr, "%s (by %.6g m along (%.4g, %.4g, %.4g)", cps_outcome_text(line->outcome),
             line->proof_length, d[0], d[1], d[2]);
     if (line->has_proof_obstacle) {

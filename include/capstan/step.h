@@ -190,9 +190,9 @@ typedef struct CpsLineReport {
     int pierced_obstacle;          /* obstacle of the certificate's element_penetration */
     CpsBend bend;                  /* the sharpest of the substeps */
     /* The proof that there is no equilibrium, else 0 0 0. Infeasible: unit vector in which the
-     * shortest path to end B leaves end A; if straight, a constant force along it is the proof; 0 0
-     * 0: an element is too long to go round. Unbounded: the rigid direction in which the energy
-     * falls. Slides: the velocity of the leading end, of the field `motion` of the view. */
+     * shortest path to end B leaves end A (if straight, that of a force, the proof); 0 0 0: an
+     * element is too long; caught: from the centre to the gate. Unbounded: the rigid direction in
+     * which the energy falls. Slides: the velocity of the leading end, of `motion` of the view. */
     double proof[3];
     /* [m] > 0, infeasible: the distance of the ends, or the least length of a line round an
      * obstacle, less the line's; or how deep an element stays in one; otherwise 0 */
@@ -200,8 +200,8 @@ typedef struct CpsLineReport {
     /* [N] > 0, unbounded: decrease of the energy per metre; slides: least power along the path of
      * the loads, less all that friction can dissipate, per unit of speed; otherwise 0 */
     double proof_force;
-    bool has_proof_obstacle;
-    int proof_obstacle; /* with the flag: infeasible, not reached round; passes, the one passed */
+    bool has_proof_obstacle, has_proof_plane; /* infeasible: not reached round, or caught */
+    int proof_obstacle, proof_plane;          /* between the two; passes: the one passed */
     /* [N] unbounded with frozen friction: the friction that Coulomb's law allows under these loads,
      * where that is enough to hold the line; otherwise 0 */
     double coulomb;

@@ -28,6 +28,7 @@
 #include <string.h>
 
 #include "cable/bend.h"
+#include "cable/caught.h"
 #include "cable/certificate.h"
 #include "cable/contact.h"
 #include "cable/contact_detection.h"
@@ -357,6 +358,20 @@ bool cpsi_line_step_outruns_bounds(CpsiLine *line, const CpsiStepOptions *option
     report_initial_ends(line);
     cpsi_line_set_reference(line, options);
     return cpsi_line_outruns_frozen_bounds(line);
+}
+
+bool cpsi_line_step_is_caught(CpsiLine *line, const CpsiStepOptions *options) {
+    CpsiCatch caught;
+    if (!cpsi_line_is_caught(line, options, &caught)) return false;
+    report_initial_ends(line);
+    cpsi_line_set_reference(line, options);
+    line->report.outcome = CPS_OUTCOME_INFEASIBLE;
+    vec3_store(line->report.proof, caught.gate);
+    line->report.proof_length = caught.missing;
+    line->report.has_proof_obstacle = line->report.has_proof_plane = true;
+    line->report.proof_obstacle = caught.ball;
+    line->report.proof_plane = caught.plane;
+    return true;
 }
 
 bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) {

@@ -28,6 +28,11 @@ bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *opti
  * and state are not changed. */
 bool cpsi_line_step_outruns_bounds(CpsiLine *line, const CpsiStepOptions *options);
 
+/* Before a step is solved: is the line caught between a sphere and a plane, so that it cannot
+ * follow its ends (caught.h)? If so it is reported, and position, reaction and state are not
+ * changed. */
+bool cpsi_line_step_is_caught(CpsiLine *line, const CpsiStepOptions *options);
+
 /* Before a step is solved: is the line too short to reach round an obstacle to the imposed
  * positions of its ends (shortfall.h)? If so it is reported, and position, reaction and state are
  * not changed. */

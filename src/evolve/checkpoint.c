@@ -24,7 +24,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', 'n', '9'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '0'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -55,7 +55,7 @@ _Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 6 * 8 &&
                "add the new field to pass_energies or pass_end_report, then its size here");
 _Static_assert(sizeof(CpsEndReport) == 14 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
                "add the new field to pass_end_report or pass_bend, then its size here");
-_Static_assert(sizeof(CpsLineReport) == 24 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
+_Static_assert(sizeof(CpsLineReport) == 25 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
                                             2 * sizeof(CpsEndReport) + sizeof(CpsBend),
                "add the new field to pass_line_report, then its size here");
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
@@ -128,6 +128,8 @@ static void pass_line_report(Tape *tape, CpsLineReport *report) {
     PASS(tape, report->proof_force);
     pass_flag(tape, &report->has_proof_obstacle);
     PASS(tape, report->proof_obstacle);
+    pass_flag(tape, &report->has_proof_plane);
+    PASS(tape, report->proof_plane);
     PASS(tape, report->coulomb);
 }
 

@@ -72,6 +72,7 @@ static bool is_line_report(const CpsLineReport *report, int obstacles) {
                  report->warm_count >= 0 && report->jump_count >= 0 &&
                  is_obstacle(report->has_pierced_obstacle, report->pierced_obstacle, obstacles) &&
                  is_obstacle(report->has_proof_obstacle, report->proof_obstacle, obstacles) &&
+                 is_obstacle(report->has_proof_plane, report->proof_plane, obstacles) &&
                  within(report->bend.obstacle, 0, bends || obstacles > 0 ? obstacles - 1 : 0);
     for (int end = 0; end < 2; end++)
         sound = sound && within(report->end[end].range.kind, 0, RANGES - 1) &&

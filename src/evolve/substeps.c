@@ -210,7 +210,8 @@ static void add(Advance *substeps, const Part *part) {
     /* the last part must show that the line passes an obstacle */
     if (before.outcome == CPS_OUTCOME_PASSES && part->report.outcome != CPS_OUTCOME_PASSES)
         whole->outcome = cps_outcome_worse(CPS_OUTCOME_STALLED, whole->outcome);
-    if (whole->outcome != part->report.outcome) whole->has_proof_obstacle = false;
+    if (whole->outcome != part->report.outcome)
+        whole->has_proof_obstacle = whole->has_proof_plane = false;
     if (before.places > whole->places) whole->places = before.places;
     if (cpsi_bend_is_sharper(&before.bend, &whole->bend)) whole->bend = before.bend;
     whole->iteration_count = substeps->iterations;
@@ -495,6 +496,18 @@ static bool add_escape(Advance *substeps, double from, double to) {
     return true;
 }
 
+/* If the line, where it is at share `from`, is caught on the rest of the step: add that as the last
+ * part. Otherwise the line is not changed. */
+static bool add_catch(Advance *substeps, double from) {
+    impose(substeps, from, 1);
+    if (!cpsi_line_step_is_caught(substeps->line, substeps->options)) return false;
+    Part part = {0};
+    part.report = substeps->line->report;
+    part.report.share = 1 - from;
+    add(substeps, &part);
+    return true;
+}
+
 /* The rest of a portion by a proof that there is no equilibrium; the line is restored if there is
  * no proof. */
 static bool end_in_proof(Advance *substeps, double from, double to) {
@@ -582,6 +595,7 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
                      middle = share_of_step(&portion, at + 0.5 * (end - at));
         const double from = share_of_step(&portion, at), to = share_of_step(&portion, end);
         const int before = substeps->iterations;
+        if (add_catch(substeps, from)) return;
         const Trial trial = try_part(substeps, from, middle, to, part > least);
         if (cps_outcome_is_final(trial.first.report.outcome)) {
             add(substeps, &trial.first);

@@ -32,6 +32,13 @@ static double chord_per_arc(double radius, CpsiPolygon polygon) {
     return sine > 0 ? sine / asin(sine) : 1;
 }
 
+/* [m] The least length of a curve outside the circle of radius R that meets it, turns by `turn`
+ * from the distance ra to rb, and whose parts on the circle count r/R times. */
+static double length_round(double R, double r, double ra, double rb, double turn) {
+    const double arc = turn - angle(r, ra) - angle(r, rb) + 2 * angle(r, R);
+    return tangent(r, ra) + tangent(r, rb) - 2 * tangent(r, R) + r * arc;
+}
+
 /* The tangent to the surface at the unit vector e, across the axis in the sense of the turn, or on
  * a ball towards b. */
 static Vec3 forward_tangent(const CpsiObstacle *o, Vec3 e, Vec3 b, double turn) {
@@ -56,8 +63,7 @@ bool cpsi_shortest_path(const CpsiObstacle *o, Vec3 a, Vec3 b, double turn, Cpsi
         ball ? atan2(vec3_norm(vec3_cross(from, to)), vec3_dot(from, to)) : fabs(turn);
     if (!(round > angle(R, ra) + angle(R, rb))) return false;
     const double q = chord_per_arc(R, polygon), r = q * R;
-    const double arc = round - angle(r, ra) - angle(r, rb) + 2 * angle(r, R);
-    const double level = tangent(r, ra) + tangent(r, rb) - 2 * tangent(r, R) + r * arc;
+    const double level = length_round(R, r, ra, rb, round);
     const double rise = ball ? 0 : vec3_dot(vec3_sub(b, a), o->frame.axis[2]);
     const Vec3 e = vec3_scale(1 / ra, from),
                leaves = vec3_axpy(-tangent(R, ra) / ra, e,
@@ -67,5 +73,20 @@ bool cpsi_shortest_path(const CpsiObstacle *o, Vec3 a, Vec3 b, double turn, Cpsi
                                 vec3_norm(vec3_sub(b, o->frame.point)) + R * round);
     out->leaves =
         vec3_scale(1 / out->length, vec3_axpy(rise, o->frame.axis[2], vec3_scale(level, leaves)));
+    return true;
+}
+
+/* The polygon, its parts inside pushed out, meets the half-line at a distance d >= R. Its two
+ * pieces turn by the angles between e and the ends, a right angle or more each, so both are longer
+ * the larger d is: the least is that of d = R. */
+bool cpsi_shortest_path_across(const CpsiObstacle *ball, Vec3 a, Vec3 b, Vec3 e,
+                               CpsiPolygon polygon, double *length) {
+    const Vec3 from = cpsi_obstacle_spoke(ball, a), to = cpsi_obstacle_spoke(ball, b);
+    const double ra = vec3_norm(from), rb = vec3_norm(to), R = fmin(ball->radius, fmin(ra, rb));
+    if (!(R > 0 && polygon.nearest > 0 && vec3_dot(from, e) <= 0 && vec3_dot(to, e) <= 0))
+        return false;
+    const double turn = atan2(vec3_norm(vec3_cross(from, e)), vec3_dot(from, e)) +
+                        atan2(vec3_norm(vec3_cross(to, e)), vec3_dot(to, e));
+    *length = length_round(R, chord_per_arc(R, polygon) * R, ra, rb, turn);
     return true;
 }

@@ -24,4 +24,10 @@ typedef struct CpsiShortestPath {
 bool cpsi_shortest_path(const CpsiObstacle *obstacle, Vec3 a, Vec3 b, double turn,
                         CpsiPolygon polygon, CpsiShortestPath *out);
 
+/* [m] The least length of a polygon from a to b that meets the half-line from the centre of a ball
+ * in direction e, a unit vector, from `polygon.nearest` on outwards. It has a rounding error as
+ * above. False where an end is seen from the centre at less than a right angle to e. */
+bool cpsi_shortest_path_across(const CpsiObstacle *ball, Vec3 a, Vec3 b, Vec3 e,
+                               CpsiPolygon polygon, double *length);
+
 #endif

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "caught.h"
 #include "ends.h"
 #include "long_element.h"
 #include "measure.h"
@@ -364,6 +365,21 @@ static void check_long_element(Findings *findings, const Source *source, const R
     same(findings, "proof_length", r->proof_length, deep, COPY_TOLERANCE * size);
 }
 
+/* ... or the line cannot get out from between the obstacle and a plane */
+static void check_caught(Findings *findings, const Source *source, const Record *r,
+                         const Measures *m) {
+    double missing;
+    if (r->compliance != 0)
+        find(findings, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
+    const char *what = caught_contradiction(source, r, &missing);
+    if (what) {
+        find(findings, "infeasible, but %s", what);
+        return;
+    }
+    double size = m->length + m->extent + (double)source->surface[r->proof_obstacle].radius;
+    same(findings, "proof_length", r->proof_length, missing, COPY_TOLERANCE * size);
+}
+
 /* a constant force along the unit vector from A to B has the dual value t (distance - length),
  * unbounded in t */
 static void check_infeasible(Findings *findings, const Record *r, const Measures *m) {
@@ -451,6 +467,8 @@ static void check_record(const Source *source, const Record *r, const char *line
     } else {
         if (r->proof_length != 0 && r->outcome != OUTCOME_INFEASIBLE)
             find(&findings, "proof_length of a line that is not infeasible");
+        if (r->proof_plane >= 0 && r->outcome != OUTCOME_INFEASIBLE)
+            find(&findings, "proof_plane of a line that is not infeasible");
         if (r->proof_force != 0 && r->outcome != OUTCOME_UNBOUNDED && r->outcome != OUTCOME_SLIDES)
             find(&findings, "proof_force of a line that is neither unbounded nor slides");
         check_utilisation(&findings, r);
@@ -466,7 +484,10 @@ static void check_record(const Source *source, const Record *r, const char *line
             break;
         case OUTCOME_TAUT: check_taut(&findings, r, &m); break;
         case OUTCOME_INFEASIBLE:
-            if (r->proof_obstacle >= 0 && r->proof[0] == 0 && r->proof[1] == 0 && r->proof[2] == 0)
+            if (r->proof_plane >= 0)
+                check_caught(&findings, source, r, &m);
+            else if (r->proof_obstacle >= 0 && r->proof[0] == 0 && r->proof[1] == 0 &&
+                     r->proof[2] == 0)
                 check_long_element(&findings, source, r, &m);
             else if (r->proof_obstacle >= 0)
                 check_reach(&findings, source, r, &m, source->has_static && step == 0);

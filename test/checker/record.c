@@ -628,19 +628,19 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
     return bad;
 }
 
-/* Files from before lines slid have none. */
-static int read_proof_obstacle(const Source *source, const char *line, size_t step, Record *record,
-                               FILE *log) {
+/* Files from before there was such a proof have none. */
+static int read_proof_obstacle(const Source *source, const char *line, const char *which,
+                               size_t step, int *obstacle, FILE *log) {
     char name[512];
     double value;
     int id;
-    record->proof_obstacle = -1;
-    snprintf(name, sizeof name, "%s_proof_obstacle", line);
+    *obstacle = -1;
+    snprintf(name, sizeof name, "%s_%s", line, which);
     if (nc_inq_varid(source->nc, name, &id) != NC_NOERR) return 0;
-    if (read_step(source, line, "proof_obstacle", step, 0, 0, &value, log)) return -1;
+    if (read_step(source, line, which, step, 0, 0, &value, log)) return -1;
     if (!(value >= -1 && value < (double)source->surfaces))
         return complain(log, "unknown obstacle of the proof in line", line, 0);
-    record->proof_obstacle = (int)value;
+    *obstacle = (int)value;
     return 0;
 }
 
@@ -679,7 +679,8 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
         read_step(source, line, "segment_force", step, elements, 3, record->segment_force[0], log);
     bad |= read_step(source, line, "tension", step, elements, 0, record->tension, log);
     bad |= read_motion(source, line, step, record, log);
-    bad |= read_proof_obstacle(source, line, step, record, log);
+    bad |= read_proof_obstacle(source, line, "proof_obstacle", step, &record->proof_obstacle, log);
+    bad |= read_proof_obstacle(source, line, "proof_plane", step, &record->proof_plane, log);
     bad |= read_weight_before(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }

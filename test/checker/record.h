@@ -98,8 +98,8 @@ typedef struct Record {
     Vector end_force[2], end_friction_force[2], proof;
     double end_tension[2], end_range[RANGES][2];
     double bend_turn, bend_friction,
-        bend_at;        /* [rad], [-], [m] of the sharpest bend round an obstacle */
-    int proof_obstacle; /* -1: none, or the file does not say */
+        bend_at;                     /* [rad], [-], [m] of the sharpest bend round an obstacle */
+    int proof_obstacle, proof_plane; /* -1: none, or the file does not say */
     double proof_length, proof_force, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES],
         unaccounted;
 } Record;

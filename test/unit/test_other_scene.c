@@ -263,6 +263,7 @@ static void flags_of_a_changed_state_are_flags(void **state) {
                 assert_flag(&report.has_utilisation);
                 assert_flag(&report.has_pierced_obstacle);
                 assert_flag(&report.has_proof_obstacle);
+                assert_flag(&report.has_proof_plane);
                 assert_flag(&report.certificate.has_tension_bound);
                 for (int end = 0; end < 2; end++) assert_flag(&report.end[end].range.has_values);
             }

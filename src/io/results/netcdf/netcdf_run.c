@@ -130,7 +130,7 @@ typedef struct LineIds {
     int contacts;      /* of a node, as in the view */
     int compliance, state[CONTACTS], obstacle[CONTACTS], end_kind, end_held_position,
         end_applied_force, end_force, end_friction_force, end_tension, end_range[RANGES], outcome,
-        iterations, substeps, jumps, places, proof, proof_obstacle, weight_before;
+        iterations, substeps, jumps, places, proof, proof_obstacle, proof_plane, weight_before;
     int field[FIELDS][CONTACTS];         /* unused where a view has no such array */
     int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
@@ -366,6 +366,9 @@ static void define_line(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
                              "infeasible: the obstacle that the line does not reach round, passes: "
                              "that it passes; -1: none",
                              "1");
+    ids->proof_plane = cpsi_netcdf_variable(
+        &nc->file, view->name, "proof_plane", NC_INT, 1, &nc->step,
+        "infeasible: the plane between which and proof_obstacle it is caught; -1: none", "1");
     ids->weight_before =
         cpsi_netcdf_variable(&nc->file, view->name, "weight_before", NC_DOUBLE, 2, vectors,
                              "weight per natural length where the step, or its last part, began",
@@ -449,6 +452,8 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     cpsi_netcdf_int(&nc->file, ids->places, start, (int)report->places);
     cpsi_netcdf_int(&nc->file, ids->proof_obstacle, start,
                     report->has_proof_obstacle ? report->proof_obstacle : CPS_NO_OBSTACLE);
+    cpsi_netcdf_int(&nc->file, ids->proof_plane, start,
+                    report->has_proof_plane ? report->proof_plane : CPS_NO_OBSTACLE);
     for (int i = 0; i < NUMBERS; ++i) {
         const double number = cpsi_member(report, NUMBER[i].member);
         cpsi_netcdf_doubles(&nc->file, ids->number[i], start, ONE, &number);

@@ -65,6 +65,7 @@ static void write_proof(FILE *out, const CpsLineReport *report) {
     fputs("          \"proof\": {", out);
     write_vector(out, "direction", report->proof, ", ");
     if (report->has_proof_obstacle) fprintf(out, "\"obstacle\": %d, ", report->proof_obstacle);
+    if (report->has_proof_plane) fprintf(out, "\"plane\": %d, ", report->proof_plane);
     if (report->coulomb > 0) write_number(out, "coulomb_N", report->coulomb, ", ");
     if (report->outcome == CPS_OUTCOME_INFEASIBLE)
         write_number(out, "excess_m", report->proof_length, "},\n");
