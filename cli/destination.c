@@ -7,7 +7,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "capstan/results.h"
 #include "commands.h"
 #include "printable.h"
 
@@ -40,7 +39,10 @@ static bool print_mixed(const char *directory, CpsError *err) {
     return true;
 }
 
-char *cli_destination(const CliOptions *options, const char *more, int *code) {
+char *cli_destination(const CliOptions *options, CpsResultsKind kind, int line_count, int *code) {
+    const char *more = kind == CPS_RESULTS_KIND_RUN           ? ""
+                       : kind == CPS_RESULTS_KIND_REGULARIZED ? "-regularized"
+                                                              : "-study";
     char *directory =
         options->output ? strdup(options->output) : default_directory(options->operand, more);
     CpsError err;
@@ -54,7 +56,8 @@ char *cli_destination(const CliOptions *options, const char *more, int *code) {
         fprintf(stderr, "capstan: cannot make the directory results: %s; choose another with -o\n",
                 strerror(errno));
         *code = EXIT_IO;
-    } else if (cps_results_prepare(directory, options->overwrite, &err) != CPS_OK ||
+    } else if (cps_results_prepare(directory, kind, line_count, options->overwrite, &err) !=
+                   CPS_OK ||
                !print_mixed(directory, &err)) {
         *code = cli_report(&err);
     } else {

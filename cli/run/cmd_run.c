@@ -474,7 +474,8 @@ int cmd_run(int argc, char **argv) {
         return EXIT_USAGE;
     }
     int code;
-    char *directory = cli_destination(&options, regularized ? "-regularized" : "", &code);
+    const CpsResultsKind kind = regularized ? CPS_RESULTS_KIND_REGULARIZED : CPS_RESULTS_KIND_RUN;
+    char *directory = cli_destination(&options, kind, scene.line_count, &code);
     if (directory)
         code = regularized ? run_regularized(&scene, directory, &options)
                            : run(&scene, directory, &options);

@@ -365,7 +365,10 @@ int cmd_study(int argc, char **argv) {
     char *directory = NULL;
     if (!options.judge) {
         cli_catch_signals();
-        directory = cli_destination(&options, "-study", &code);
+        const CpsResultsKind kind = options.history    ? CPS_RESULTS_KIND_METHODS
+                                    : options.complete ? CPS_RESULTS_KIND_COMPLETED
+                                                       : CPS_RESULTS_KIND_STUDY;
+        directory = cli_destination(&options, kind, cps_scene_file_scene(file)->line_count, &code);
     }
     if (directory && options.history)
         code = study_methods(cps_scene_file_scene(file), &options, directory);

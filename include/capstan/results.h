@@ -41,26 +41,34 @@ CPS_API CpsStatus cps_results_check_options(const CpsResultsOptions *options, Cp
 /* Open `directory`, which is created if missing (one level), for the results of `evolution`. Files
  * that are there remain until cps_results_finish renames each finished file into place. The file
  * .capstan in the directory lists what capstan has written there: a directory that is not empty and
- * has no such file is refused, and only listed files are replaced or removed.
- *
- *   options  NULL: everything
- *   out      a handle, which the caller destroys
- *
- * Returns CPS_OK, CPS_ERR_ARGUMENT (also for a field that there is not), CPS_ERR_IO or
- * CPS_ERR_MEMORY. */
+ * has no such file is refused, as is one in which a name of the results is taken by a directory or
+ * by an unlisted file, and only listed files are replaced or removed. `options` NULL: everything;
+ * the caller destroys *out. Returns CPS_OK, CPS_ERR_ARGUMENT (also for a field that there is not),
+ * CPS_ERR_IO or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
                                    const CpsEvolution *evolution, const CpsResultsOptions *options,
                                    CpsResults **out, CpsError *err);
 
-/* Check before a computation whether results can be written to `directory`. A directory that is not
- * empty and that capstan has not written to is refused; with `force` it is taken over, and files in
- * it with names of results may be replaced from then on. A missing directory is created later.
- * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_IO or CPS_ERR_MEMORY. */
-CPS_API CpsStatus cps_results_prepare(const char *directory, bool force, CpsError *err);
+/* What is to be written; each by the function of that name. */
+typedef enum CpsResultsKind {
+    CPS_RESULTS_KIND_RUN = 0,
+    CPS_RESULTS_KIND_REGULARIZED = 1, /* line_count lines */
+    CPS_RESULTS_KIND_STUDY = 2,
+    CPS_RESULTS_KIND_METHODS = 3,
+    CPS_RESULTS_KIND_COMPLETED = 4
+} CpsResultsKind;
+
+/* Check before a computation whether results can be written to `directory`. Refused are: one that
+ * is not empty and that capstan has not written to; unfinished files, .NAME.part, that no killed
+ * run has listed in .capstan.run; names of these results (of a run: by cps_results_open) that a
+ * directory or an unlisted file has. With `force` files in it with names of results may be replaced
+ * from then on, and such .NAME.part are removed. After a refusal it is as before; a missing one is
+ * created later. Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_IO or CPS_ERR_MEMORY. */
+CPS_API CpsStatus cps_results_prepare(const char *directory, CpsResultsKind kind, int line_count,
+                                      bool force, CpsError *err);
 
 /* Find out whether the files in `directory` belong to two runs because their replacement was
- * interrupted. Then the summary, which is renamed last, is missing: `missing` is its name,
- * otherwise
+ * interrupted. Then the summary, which is renamed last, is missing: `missing` is its name, else
  * "". Writing the files once more replaces them all. Returns CPS_OK, also where there is no such
  * directory, CPS_ERR_ARGUMENT for NULL or an empty name, CPS_ERR_IO or CPS_ERR_MEMORY. */
 enum { CPS_RESULT_NAME = 256 };
@@ -72,13 +80,10 @@ CPS_API CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *ev
                                      CpsError *err);
 
 /* Write what needs the whole history (summary, pictures), close all files and rename them into
- * place.
- *
- *   wall   [s] time of the whole run, for the summary
- *
- * On failure temporary files are removed, and the files that were there before remain. Where a file
- * could not be renamed after others were, the message says that the files belong to two runs, and
- * summary.json is missing (cps_results_missing). */
+ * place. `wall`: [s] time of the whole run, for the summary. On failure temporary files are
+ * removed, and the files that were there before remain. Where a file could not be renamed after
+ * others were, the message says that the files belong to two runs, and summary.json is missing
+ * (cps_results_missing). */
 CPS_API CpsStatus cps_results_finish(CpsResults *results, double wall, CpsError *err);
 
 /* Free the handle, also after cps_results_finish; unfinished files are removed. Accepts NULL. */

@@ -16,7 +16,7 @@ CpsLineReport run_scene(const char *path, const char *directory) {
     CpsResults *results = NULL;
     CpsStatus status = cps_scene_read(path, NULL, &scene, &err);
     if (!status) status = cps_evolution_create(cps_scene_file_scene(scene), &evolution, &err);
-    if (!status) status = cps_results_prepare(directory, true, &err);
+    if (!status) status = cps_results_prepare(directory, CPS_RESULTS_KIND_RUN, 0, true, &err);
     if (!status)
         status = cps_results_open(directory, cps_scene_file_scene(scene), evolution, NULL, &results,
                                   &err);

@@ -68,7 +68,9 @@ static CpsStatus run(const char *text, const char *where, CpsSceneFile **read, i
     if (!out || fputs(text, out) < 0 || fclose(out) != 0) return CPS_ERR_IO;
     CpsStatus status = cps_scene_read(yaml, NULL, read, &err);
     if (!status) status = cps_evolution_create(cps_scene_file_scene(*read), &evolution, &err);
-    if (!status) status = cps_results_prepare(where, true, &err); /* the scene lies there */
+    if (!status)
+        status = cps_results_prepare(where, CPS_RESULTS_KIND_RUN, 0, true,
+                                     &err); /* the scene lies there */
     if (!status)
         status =
             cps_results_open(where, cps_scene_file_scene(*read), evolution, NULL, &results, &err);

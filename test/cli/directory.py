@@ -4,6 +4,7 @@
 usage: directory.py CAPSTAN CHECKER"""
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -66,6 +67,111 @@ def foreign():
     expect("a link as a marker", read("scene.yaml").startswith(b"capstan: 1"))
 
 
+def is_refused(what, folder, command, *words):
+    """Is the command refused before it computes anything, and the directory left as it was?"""
+    before = tree(folder)
+    done = subprocess.run([CAPSTAN, *command, "-o", folder], capture_output=True, text=True, timeout=120)
+    expect(f"{what}: exit code {done.returncode}, expected 4", done.returncode == 4, done)
+    expect(f"{what}: why", all(word in done.stderr for word in words), done.stderr)
+    expect(f"{what}: computed before it was refused", not re.search("step [0-9]+ of", done.stderr) and not done.stdout, done)
+    expect(f"{what}: changed", tree(folder) == before, sorted(set(tree(folder)) ^ set(before)))
+
+
+def tree(folder):
+    paths = {name: os.path.join(folder, name) for name in os.listdir(folder)}
+    return {name: os.readlink(path) if os.path.islink(path) else sorted(os.listdir(path)) if os.path.isdir(path) else read(path)
+            for name, path in paths.items()}
+
+
+def forced():
+    """What --force does not take over is refused before anything is written."""
+    run = ["run", "short.yaml", "--force"]
+    for name in (".capstan", ".capstan.run", ".journal"):
+        for make in (lambda path: write(path, "mine"), os.mkdir, lambda path: os.symlink("nowhere", path)):
+            fresh("mine")
+            write("mine/plan.svg", "mine")
+            make(f"mine/{name}")
+            is_refused(f"--force, {name}", "mine", run, f"mine/{name}")
+    for name in ("plan.svg", "step-00001.vtp", ".result.nc.part"):
+        fresh("mine")
+        write("mine/tension.svg", "mine")
+        os.mkdir(f"mine/{name}")
+        is_refused(f"--force, a directory {name}", "mine", run, f"mine/{name}", "directory")
+    # a study has no journal, and one that is there is none of its business
+    fresh("mine")
+    write("mine/.journal", "mine")
+    done = subprocess.run([CAPSTAN, "study", "frozen.yaml", "-q", "--force", "-o", "mine"], capture_output=True, text=True, timeout=120)
+    expect("study --force beside a file .journal", done.returncode == 0 and read("mine/.journal") == b"mine", done)
+
+
+def remove(path):
+    """True where there was such a file."""
+    there = os.path.lexists(path)
+    if there:
+        os.unlink(path)
+    return there
+
+
+def fresh(folder):
+    shutil.rmtree(folder, ignore_errors=True)
+    os.mkdir(folder)
+
+
+def parts():
+    """Unfinished files that no run has listed are somebody else's: they are refused, and removed with --force alone."""
+    run("-o", "parts", scene="short.yaml")
+    for name in (".result.nc.part", ".summary.json.part", ".plan.svg.part", ".step-00099-plan.svg.part", ".loop-mine.svg.part", ".study.csv.part"):
+        for make in (lambda path: write(path, "mine"), lambda path: os.symlink("../scene.yaml", path)):
+            make(f"parts/{name}")
+            for more in ([], ["--resume"]):
+                is_refused(f"{name} {more}", "parts", ["run", "short.yaml", *more], f"parts/{name}", "--force")
+            is_refused(f"{name}, study", "parts", ["study", "frozen.yaml"], f"parts/{name}", "--force")
+            run("-o", "parts", "--force", scene="short.yaml")
+            expect(f"{name}: left after --force", not remove(f"parts/{name}"))
+    expect("a link as an unfinished file", read("scene.yaml").startswith(b"capstan: 1"))
+    for name in (".mine.part", ".plan.svg.12.part", "plan.svg.part", ".capstan.part.part"):
+        write(f"parts/{name}", "mine")
+    run("-o", "parts", scene="short.yaml")
+    run("-o", "parts", "--force", scene="short.yaml")
+    for name in (".mine.part", ".plan.svg.12.part", "plan.svg.part", ".capstan.part.part"):
+        expect(f"{name} is lost", read(f"parts/{name}") == b"mine")
+    # listed ones are those of a run that was killed
+    write("parts/.capstan.run", "capstan directory 1\np plan.svg\np result.nc\n")
+    for name in (".plan.svg.part", ".result.nc.part", ".tension.svg.part"):
+        write(f"parts/{name}", "left")
+    is_refused("listed and not listed", "parts", ["run", "short.yaml"], "parts/.tension.svg.part", "--force")
+    remove("parts/.tension.svg.part")
+    run("-o", "parts", scene="short.yaml")
+    expect("listed ones are cleared", not {".plan.svg.part", ".result.nc.part", ".capstan.run"} & set(os.listdir("parts")), os.listdir("parts"))
+
+
+def taken():
+    """The name of a result that is taken by a directory, or by a file that is not listed, is found before anything is computed."""
+    for command in (["run", "short.yaml"], ["run", "turn.yaml"], ["run", "frozen.yaml", "--method", "regularized"], ["study", "frozen.yaml"],
+                    ["study", "frozen.yaml", "--history"], ["study", "frozen.yaml", "--complete", "straight"]):
+        shutil.rmtree("whole", ignore_errors=True)
+        done = subprocess.run([CAPSTAN, *command, "-o", "whole"], capture_output=True, text=True, timeout=120)
+        names = [name for name in os.listdir("whole") if name != ".capstan" and not name.startswith("loop-")]
+        expect(f"{command}: files", done.returncode == 0 and len(names) > 2, (done, names))
+        for name in names:
+            for make in (lambda path: write(path, "mine"), os.mkdir, lambda path: os.symlink("nowhere", path)):
+                fresh("taken")
+                write("taken/.capstan", "capstan directory 1\n")
+                make(f"taken/{name}")
+                is_refused(f"{command}: {name} is taken", "taken", command, f"taken/{name}")
+    # what a run does not write may be there
+    for command, name in ((["run", "short.yaml"], "step-00002.vtp"), (["run", "short.yaml", "--no-paraview"], "step-00001.vtp"),
+                          (["run", "short.yaml"], "step-00001-obstacles.vtp"), (["run", "short.yaml"], "study.csv"), (["run", "short.yaml"], "line-1.svg"),
+                          (["run", "frozen.yaml", "--method", "regularized"], "line-2.svg"), (["study", "frozen.yaml"], "methods.csv")):
+        for make in (lambda path: write(path, "mine"), os.mkdir):
+            fresh("taken")
+            write("taken/.capstan", "capstan directory 1\n")
+            make(f"taken/{name}")
+            before = tree("taken")[name]
+            done = subprocess.run([CAPSTAN, *command, "-q", "-o", "taken"], capture_output=True, text=True, timeout=120)
+            expect(f"{command}: {name} is there", done.returncode == 0 and tree("taken")[name] == before, done)
+
+
 def again():
     """Into a directory of capstan's without a word; what it did not write there stays, and is not written over."""
     run("-o", "out")
@@ -87,7 +193,7 @@ def again():
     expect("my own step: why", "step-00003.vtp was not written by capstan" in done.stderr, done.stderr)
     after = files("out")
     expect("my own step: changed", {name: after[name] for name in before} == before)
-    run("-o", "out", "--resume", "--force")  # the steps are not computed again
+    run("-o", "out", "--force")
     expect("my own step: not replaced with --force", read("out/step-00003.vtp") != b"mine")
     expect("my own step: journal", not os.path.exists("out/.journal"))
 
@@ -197,7 +303,9 @@ with tempfile.TemporaryDirectory() as folder:
     write("grab.yaml", SCENE.replace("STEPS", "1").replace("A: held, B: held", "A: held, B: free").replace("rope.B: {position: [1.1, 0, 0]}",
           "rope.B: {force: [0.1, 0, 0]}").replace("bed:", "post: {cylinder: {point: [1.5, 0, 0], axis: [0, 0, 1], radius: 0.2}, friction: 0.1}\n  bed:")
           .replace("[1, 0, 0]}, steps", "[2, 0, 0]}, steps"))
-    for part in (foreign, again, listed, studies, killed, names):
+    write("turn.yaml", SCENE.replace("STEPS", "1").replace("bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}",
+          "drum: {cylinder: {point: [0, 0, -9], axis: [0, 1, 0], radius: 1}, friction: 0.5}").replace("{name: out,", "{name: out, drum.turn: 20,"))
+    for part in (foreign, forced, parts, taken, again, listed, studies, killed, names):
         part()
     os.chdir("/")
 

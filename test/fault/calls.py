@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every system call on files fails once, and from then on, at every place of a run, a resume and every other verb.
+"""Every system call on files fails once, and from then on, at every place of a run, a resume and every other verb; and what writes a set of files
+is killed before each of them.
 
 After each: the exit code is one of the documented ones and a message says why; in the directory is the old set of files, the new set, or a
 mixture that capstan itself recognises; and the same command once more ends with the new set and clears all that was left. Where it ends well
@@ -111,7 +112,7 @@ def sweep(name, command, files=None, given=""):
     global tried
     plain = None if files else capstan(*command, given=given)
     usual = 0 if files else plain.returncode
-    for mode, code in (("once", EIO), ("on", ENOSPC)):
+    for mode, code in (("once", EIO), ("on", ENOSPC), *([("kill", EIO)] if files else [])):
         k = 1
         while True:
             if files:
@@ -123,7 +124,10 @@ def sweep(name, command, files=None, given=""):
             if count < k:
                 break
             what = f"{name}: call {k} of {count}, {mode}"
-            if done.returncode not in (usual, 4, 6) or (done.returncode in (4, 6) and not done.stderr.strip()):
+            if mode == "kill":
+                if done.returncode != 128 + 9:
+                    faults.append(f"{what}: exit code {done.returncode}")
+            elif done.returncode not in (usual, 4, 6) or (done.returncode in (4, 6) and not done.stderr.strip()):
                 faults.append(f"{what}: exit code {done.returncode}: {done.stderr[-200:]!r}")
             if files and done.returncode == 4 and not re.search(r"\bout\b|libnetcdf|standard output|standard input|new\.yaml|frozen\.yaml", done.stderr):
                 faults.append(f"{what}: names no place: {done.stderr!r}")
@@ -160,13 +164,14 @@ def sweep_sets():
     assert capstan("run", "old.yaml", "-q", "-o", "old").returncode == 0
     again = Set(run, earlier="old")
     sweep("a run over an earlier one", again.command, again)
-    # a run that could not put its files in place has left its journal
-    shutil.copytree("old", "stopped")
-    os.unlink("stopped/plan.svg")
-    os.mkdir("stopped/plan.svg")
-    assert capstan(*run, "-q", "-o", "stopped").returncode == 4 and os.path.exists("stopped/.journal")
-    os.rmdir("stopped/plan.svg")
-    shutil.copy("old/plan.svg", "stopped/plan.svg")
+    # a run that could not put its files in place has left its journal: one of its last calls was refused
+    k = refused(0, "once", EIO, [*run, "-q", "-o", "stopped"])[1]
+    while contents("stopped") != contents("old") or not os.path.exists("stopped/.journal"):
+        shutil.rmtree("stopped")
+        shutil.copytree("old", "stopped")
+        refused(k, "once", EIO, [*run, "-q", "-o", "stopped"])
+        k -= 1
+    assert k > 0
     on = Set([*run, "--resume"], earlier="stopped")
     sweep("a run that goes on", on.command, on)
     for words, summary in ((["run", "--method", "regularized"], "summary.json"), (["study"], "study.json"),

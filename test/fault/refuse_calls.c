@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Run a program and let one of its system calls fail: the K-th after it has begun of those that
- * open, read, write, list or remove files, or that one and all behind it.
+ * open, read, write, list or remove files, or that one and all behind it. Or kill it before that
+ * call.
  *
- *     refuse_calls K once|on ERRNO COUNT_FILE PROGRAM ARGUMENTS..
+ *     refuse_calls K once|on|kill ERRNO COUNT_FILE PROGRAM ARGUMENTS..
  *
  * Calls are counted from the program's first fcntl, with which capstan begins, so that those of the
  * dynamic linker are not among them. The number of calls counted goes to COUNT_FILE; the exit code
@@ -53,7 +54,8 @@ static bool opens_counts(pid_t child, unsigned long long path) {
 }
 
 /* The traced program from its start to its end; the exit code. */
-static int trace(pid_t child, long k, bool on, long code, long *count) {
+static int trace(pid_t child, long k, const char *mode, long code, long *count) {
+    const bool on = strcmp(mode, "on") == 0, kills = strcmp(mode, "kill") == 0;
     int status;
     bool inside = false, refused = false, begun = false, ended = false;
     if (waitpid(child, &status, 0) != child || !WIFSTOPPED(status)) return 77;
@@ -82,6 +84,11 @@ static int trace(pid_t child, long k, bool on, long code, long *count) {
                 ++*count;
                 refused = *count == k || (on && *count > k && k > 0);
             }
+            if (refused && kills) {
+                kill(child, SIGKILL);
+                waitpid(child, &status, 0);
+                return 128 + SIGKILL;
+            }
             if (refused) {
                 regs.orig_rax = (unsigned long long)-1;
                 ptrace(PTRACE_SETREGS, child, 0, &regs);
@@ -103,8 +110,8 @@ int main(int argc, char **argv) {
         _exit(77);
     }
     long count = 0;
-    const int code = trace(child, strtol(argv[1], NULL, 10), strcmp(argv[2], "on") == 0,
-                           strtol(argv[3], NULL, 10), &count);
+    const int code =
+        trace(child, strtol(argv[1], NULL, 10), argv[2], strtol(argv[3], NULL, 10), &count);
     FILE *out = fopen(argv[4], "w");
     if (!out || fprintf(out, "%ld\n", count) < 0 || fclose(out) != 0) return 2;
     return code;

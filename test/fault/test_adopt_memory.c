@@ -48,7 +48,7 @@ static void each_allocation(void **state) {
         CpsError err = {0};
         const long before = live;
         allowed = tried;
-        const CpsStatus status = cpsi_marker_adopt(&marker, folder, &err);
+        const CpsStatus status = cpsi_marker_adopt(&marker, folder, path, &err);
         reached = allowed < 0;
         allowed = -1;
         if (reached) {

@@ -40,7 +40,8 @@ static bool refuse_call(long k, bool earlier, bool forced) {
     if (earlier) assert_int_equal(small_run(OUT, 3, &err), CPS_OK);
     calls = 0;
     fails_at = k;
-    CpsStatus status = forced ? cps_results_prepare(OUT, true, &err) : CPS_OK;
+    CpsStatus status =
+        forced ? cps_results_prepare(OUT, CPS_RESULTS_KIND_RUN, 0, true, &err) : CPS_OK;
     if (!status) status = small_run(OUT, 3, &err);
     const bool reached = calls > k;
     fails_at = -1;

@@ -149,8 +149,22 @@ static void what_is_refused(void **state) {
     assert_int_equal(cpsi_directory_open(OUT, &directory, &err), CPS_OK);
     assert_int_equal(cpsi_directory_create(directory, "notes.txt", &out, &err), CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "no name of a file of results"));
+    /* an unfinished file that somebody else has put there since: it stays */
+    char *path = NULL;
+    static const char *const MINE[] = {"directory-parts/.loop-a.svg.part",
+                                       "directory-parts/.result.nc.part"};
+    for (size_t i = 0; i < 2; i++) {
+        FILE *mine = fopen(MINE[i], "w");
+        assert_true(mine && fclose(mine) == 0);
+        assert_int_equal(i == 0 ? cpsi_directory_create(directory, "loop-a.svg", &out, &err)
+                                : cpsi_directory_reserve(directory, "result.nc", &path, &err),
+                         CPS_ERR_IO);
+        assert_non_null(strstr(err.message, MINE[i]));
+        assert_null(i == 0 ? (void *)out : (void *)path);
+    }
     assert_int_equal(cpsi_directory_commit(directory, is_loop, &err), CPS_OK); /* of nothing */
     cpsi_directory_destroy(directory);
+    for (size_t i = 0; i < 2; i++) assert_int_equal(unlink(MINE[i]), 0);
     /* a list that waits for a file, which is there: the disk had not confirmed its name */
     assert_int_equal(put("a", false, &err), CPS_OK);
     FILE *list = fopen("directory-parts/.capstan", "a");

@@ -212,7 +212,8 @@ static void planted_link_is_not_followed(void **state) {
     assert_int_equal(symlink("../fault-victim", "fault-link/.history.csv.part"), 0);
     assert_int_equal(symlink("../fault-victim", "fault-link/summary.json"), 0);
     assert_io_error("fault-link", "not written by capstan");
-    assert_int_equal(cps_results_prepare("fault-link", true, &err), CPS_OK);
+    assert_int_equal(cps_results_prepare("fault-link", CPS_RESULTS_KIND_RUN, 0, true, &err),
+                     CPS_OK);
     assert_int_equal(small_run("fault-link", ELEMENTS, &err), CPS_OK);
     struct stat found;
     assert_int_equal(stat("fault-victim", &found), 0);

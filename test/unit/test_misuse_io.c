@@ -73,8 +73,12 @@ static void results(void **state) {
     REFUSED(cps_results_open("results-misuse-io", &scene, NULL, &options, NULL, &err));
     REFUSED(cps_results_check_options(&options, &err));
     GIVES(cps_results_check_options(NULL, &err) == CPS_OK);
-    REFUSED(cps_results_prepare(NULL, false, &err));
-    REFUSED(cps_results_prepare("", true, &err));
+    REFUSED(cps_results_prepare(NULL, CPS_RESULTS_KIND_RUN, 0, false, &err));
+    REFUSED(cps_results_prepare("", CPS_RESULTS_KIND_RUN, 0, true, &err));
+    REFUSED(cps_results_prepare("results-misuse-io", (CpsResultsKind)-1, 0, false, &err));
+    REFUSED(cps_results_prepare("results-misuse-io", (CpsResultsKind)5, 0, false, &err));
+    REFUSED(
+        cps_results_prepare("results-misuse-io", CPS_RESULTS_KIND_REGULARIZED, -1, false, &err));
     REFUSED(cps_results_append(NULL, NULL, &err));
     REFUSED(cps_results_finish(NULL, 0, &err));
     RUNS(cps_results_destroy(NULL));

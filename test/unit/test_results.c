@@ -105,7 +105,7 @@ static CpsEvolution *run_into(const char *directory, const CpsScene *scene) {
     CpsError err;
     CpsResults *results = NULL;
     CpsEvolution *evolution = evolution_of(scene);
-    must(cps_results_prepare(directory, true, &err),
+    must(cps_results_prepare(directory, CPS_RESULTS_KIND_RUN, 0, true, &err),
          &err); /* of an earlier run of this test, of whatever version */
     must(cps_results_open(directory, scene, evolution, NULL, &results, &err), &err);
     while (cps_evolution_remaining_count(evolution) > 0) {
@@ -448,7 +448,7 @@ static void what_is_not_there_is_refused(void **state) {
         assert_null(cps_evolution_line_view(NULL, absent[i]).position);
     }
     CpsResults *results = NULL;
-    must(cps_results_prepare("results-misuse", true, &err), &err);
+    must(cps_results_prepare("results-misuse", CPS_RESULTS_KIND_RUN, 0, true, &err), &err);
     must(cps_results_open("results-misuse", &f.scene, evolution, NULL, &results, &err), &err);
     must(cps_evolution_step(other, &err), &err);
     assert_int_equal(cps_results_append(results, other, &err), CPS_ERR_ARGUMENT);
@@ -459,7 +459,8 @@ static void what_is_not_there_is_refused(void **state) {
     assert_int_equal(cps_results_missing("results-misuse", NULL, &err), CPS_ERR_ARGUMENT);
     must(cps_results_missing("results-nowhere", missing, &err), &err);
     assert_string_equal(missing, "");
-    assert_int_equal(cps_results_prepare("", false, &err), CPS_ERR_ARGUMENT);
+    assert_int_equal(cps_results_prepare("", CPS_RESULTS_KIND_RUN, 0, false, &err),
+                     CPS_ERR_ARGUMENT);
 
     CpsJournal *journal = NULL;
     bool found;
@@ -532,7 +533,7 @@ static void wrong_calls_are_refused(void **state) {
                      CPS_ERR_ARGUMENT);
     assert_int_equal(cps_results_open(DIRECTORY, &f.scene, evolution, &zeros, &results, &err),
                      CPS_ERR_ARGUMENT);
-    must(cps_results_prepare(DIRECTORY, true, &err), &err);
+    must(cps_results_prepare(DIRECTORY, CPS_RESULTS_KIND_RUN, 0, true, &err), &err);
     must(cps_results_open(DIRECTORY, &f.scene, evolution, NULL, &results, &err), &err);
     must(cps_evolution_step(evolution, &err), &err);
     assert_int_equal(cps_results_append(results, NULL, &err), CPS_ERR_ARGUMENT);

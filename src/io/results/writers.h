@@ -15,6 +15,13 @@ void cpsi_summary_write(const CpsResults *results, double wall, FILE *out);
 CpsStatus cpsi_summary_file(const CpsResults *results, double wall, FILE *out, CpsError *err);
 void cpsi_history_write(const CpsResults *results, FILE *out);
 
+/* run_names.c: whether the run, which is a CpsResults, writes a file of this name if it takes all
+ * its steps. Pictures of loops are not among them: what they are called is known at the end. */
+bool cpsi_results_writes(const void *results, const char *name);
+
+/* journal.c: refuse a file .journal in the directory that is no journal. */
+CpsStatus cpsi_journal_check(const char *directory, CpsError *err);
+
 /* netcdf_run.c: result.nc. `turn` is (obstacles) [rad], their turns in the step. */
 CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution,
                            const CpsResultsOptions *options, CpsiNetcdf **out, CpsError *err);

@@ -147,18 +147,49 @@ bool cpsi_marker_is_alone(int folder) {
     return whole;
 }
 
-CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, CpsError *err) {
+CpsStatus cpsi_marker_each(int folder, const char *path, CpsiNameCall *call, void *user,
+                           CpsError *err) {
     CpsStatus status = CPS_OK;
     DIR *listing = list_folder(folder);
     const char *name;
     if (listing)
         while (status == CPS_OK && (name = next_name(listing)) != NULL)
-            if (cpsi_marker_knows(name)) status = cpsi_names_add(&marker->written, name, err);
+            status = call(user, name, err);
     if (status == CPS_OK && errno != 0)
         status =
-            cpsi_fail(err, CPS_ERR_IO, "cannot list the directory of results: %s", strerror(errno));
+            cpsi_fail(err, CPS_ERR_IO, "cannot list the files of %s: %s", path, strerror(errno));
     if (listing) closedir(listing);
     return status;
+}
+
+static bool is_folder(int folder, const char *name) {
+    struct stat found;
+    return fstatat(folder, name, &found, AT_SYMLINK_NOFOLLOW) == 0 && S_ISDIR(found.st_mode);
+}
+
+static CpsStatus refuse_folder(const char *path, const char *name, CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_IO,
+                     "%s/%s is a directory where a file of results may go: move it away, or choose "
+                     "another directory for results",
+                     path, name);
+}
+
+typedef struct Adoption {
+    CpsiMarker *marker;
+    int folder;
+    const char *path;
+} Adoption;
+
+static CpsStatus adopt(void *user, const char *name, CpsError *err) {
+    const Adoption *adoption = user;
+    if (!cpsi_marker_knows(name)) return CPS_OK;
+    if (is_folder(adoption->folder, name)) return refuse_folder(adoption->path, name, err);
+    return cpsi_names_add(&adoption->marker->written, name, err);
+}
+
+CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, const char *path, CpsError *err) {
+    Adoption adoption = {marker, folder, path};
+    return cpsi_marker_each(folder, path, adopt, &adoption, err);
 }
 
 const char *cpsi_marker_missing(const CpsiMarker *marker, int folder) {
@@ -250,23 +281,82 @@ CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *pa
     return status;
 }
 
-CpsStatus cpsi_marker_begin(int folder, const char *path, int *notes, CpsError *err) {
-    *notes = -1;
+/* unfinished files ----------------------------------------------------------------------------- */
+
+/* The files that .capstan.run lists, under their temporary names. It is empty where a run was
+ * killed just after it had begun the list. */
+static CpsStatus read_notes(int folder, const char *path, CpsiNames *parts, CpsError *err) {
+    struct stat about;
+    if (fstatat(folder, NOTES, &about, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(about.st_mode) &&
+        about.st_size == 0)
+        return CPS_OK;
     CpsStatus status;
     FILE *list = open_list(folder, path, NOTES, &status, err);
+    if (!list) return status;
     char letter, name[CPSI_NAME_SIZE], part[CPSI_NAME_SIZE + 8];
-    if (list)
-        while (next_line(list, &letter, name)) {
-            if (letter != 'p') continue;
-            snprintf(part, sizeof part, ".%s.part", name);
-            unlinkat(folder, part, 0);
-        }
-    if (list) fclose(list);
-    /* an empty file was left by a run that was killed just after its beginning */
-    struct stat about;
-    const bool empty = fstatat(folder, NOTES, &about, AT_SYMLINK_NOFOLLOW) == 0 &&
-                       S_ISREG(about.st_mode) && about.st_size == 0;
-    if (status != CPS_OK && !empty) return status;
+    while (status == CPS_OK && next_line(list, &letter, name)) {
+        if (letter != 'p') continue;
+        snprintf(part, sizeof part, ".%s.part", name);
+        status = cpsi_names_add(parts, part, err);
+    }
+    fclose(list);
+    return status;
+}
+
+/* Whether the name is .NAME.part, NAME being a name of results. */
+static bool is_part(const char *name) {
+    char inner[CPSI_NAME_SIZE];
+    const size_t length = strlen(name), around = sizeof "..part" - 1;
+    if (name[0] != '.' || length <= around || length >= CPSI_NAME_SIZE || !ends_with(name, ".part"))
+        return false;
+    memcpy(inner, name + 1, length - around);
+    inner[length - around] = '\0';
+    return cpsi_marker_knows(inner);
+}
+
+typedef struct PartSearch {
+    int folder;
+    const char *path;
+    bool force;
+    CpsiNames listed, *parts;
+} PartSearch;
+
+static CpsStatus search(void *user, const char *name, CpsError *err) {
+    const PartSearch *in = user;
+    if (!is_part(name) || cpsi_names_have(&in->listed, name)) return CPS_OK;
+    if (is_folder(in->folder, name)) return refuse_folder(in->path, name, err);
+    if (in->force) return cpsi_names_add(in->parts, name, err);
+    return cpsi_fail(err, CPS_ERR_IO,
+                     "%s/%s has the name of an unfinished file, and no run has listed it there: "
+                     "move it away, or add --force to remove it",
+                     in->path, name);
+}
+
+CpsStatus cpsi_marker_parts(int folder, const char *path, bool force, CpsiNames *parts,
+                            CpsError *err) {
+    PartSearch in = {.folder = folder, .path = path, .force = force, .parts = parts};
+    CpsStatus status = read_notes(folder, path, &in.listed, err);
+    if (status == CPS_OK) status = cpsi_marker_each(folder, path, search, &in, err);
+    cpsi_names_free(&in.listed);
+    return status;
+}
+
+CpsStatus cpsi_marker_remove_parts(int folder, const char *path, const CpsiNames *parts,
+                                   CpsError *err) {
+    for (size_t i = 0; i < parts->count; ++i)
+        if (unlinkat(folder, parts->name[i], 0) != 0 && errno != ENOENT)
+            return cpsi_fail(err, CPS_ERR_IO, "cannot remove the unfinished file %s/%s: %s", path,
+                             parts->name[i], strerror(errno));
+    return CPS_OK;
+}
+
+CpsStatus cpsi_marker_begin(int folder, const char *path, int *notes, CpsError *err) {
+    *notes = -1;
+    CpsiNames left = {0};
+    CpsStatus status = read_notes(folder, path, &left, err);
+    if (status == CPS_OK) status = cpsi_marker_remove_parts(folder, path, &left, err);
+    cpsi_names_free(&left);
+    if (status != CPS_OK) return status;
     unlinkat(folder, NOTES, 0);
     *notes = openat(folder, NOTES, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC,
                     0666);
@@ -285,10 +375,10 @@ CpsStatus cpsi_marker_note(int notes, const char *path, const char *name, CpsErr
     return fail_name(path, name, err);
 }
 
-void cpsi_marker_end(int folder, int notes) {
+void cpsi_marker_end(int folder, int notes, bool keep) {
     if (notes < 0) return;
     close(notes);
-    unlinkat(folder, NOTES, 0);
+    if (!keep) unlinkat(folder, NOTES, 0);
 }
 
 void cpsi_marker_remove(int folder) { unlinkat(folder, MARKER, 0); }

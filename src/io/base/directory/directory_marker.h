@@ -3,10 +3,10 @@
  * there. Only these are ever replaced or removed.
  *
  * While a run writes, .capstan.run lists the files that it has begun, so that the next run can
- * remove the .NAME.part files of a killed one. While finished files are renamed into place,
- * .capstan names the one that is renamed last, the summary of the set. If that one is missing
- * afterwards, the files of the set belong to two runs. Both files are text, with a letter and a
- * name in each line. */
+ * remove the .NAME.part files of a killed one, and no others. While finished files are renamed into
+ * place, .capstan names the one that is renamed last, the summary of the set. If that one is
+ * missing afterwards, the files of the set belong to two runs. Both files are text, with a letter
+ * and a name in each line. */
 #ifndef CAPSTAN_SRC_IO_BASE_DIRECTORY_DIRECTORY_MARKER_H
 #define CAPSTAN_SRC_IO_BASE_DIRECTORY_DIRECTORY_MARKER_H
 
@@ -45,8 +45,24 @@ bool cpsi_marker_knows(const char *name);
 CpsStatus cpsi_marker_read(int folder, const char *path, CpsiMarker *out, CpsError *err);
 void cpsi_marker_free(CpsiMarker *marker);
 
-/* Add all files of the directory whose names are names of results. */
-CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, CpsError *err);
+/* Call a function with each name in the directory, until it fails. */
+typedef CpsStatus CpsiNameCall(void *user, const char *name, CpsError *err);
+CpsStatus cpsi_marker_each(int folder, const char *path, CpsiNameCall *call, void *user,
+                           CpsError *err);
+
+/* Add all files of the directory whose names are names of results. A directory of such a name is
+ * refused: CPS_ERR_IO. */
+CpsStatus cpsi_marker_adopt(CpsiMarker *marker, int folder, const char *path, CpsError *err);
+
+/* Find the .NAME.part files, NAME being a name of results, that .capstan.run does not list. Without
+ * `force` the first one is refused; with it they are added to `parts`, and only one that is a
+ * directory is refused. Returns CPS_OK, CPS_ERR_IO, also where .capstan.run was not written by
+ * capstan, or CPS_ERR_MEMORY. */
+CpsStatus cpsi_marker_parts(int folder, const char *path, bool force, CpsiNames *parts,
+                            CpsError *err);
+/* Remove these. */
+CpsStatus cpsi_marker_remove_parts(int folder, const char *path, const CpsiNames *parts,
+                                   CpsError *err);
 
 /* Replace .capstan completely or not at all; `sync`: written to the disk before it gets its
  * name. */
@@ -57,12 +73,13 @@ CpsStatus cpsi_marker_write(const CpsiMarker *marker, int folder, const char *pa
  * where none is missing. */
 const char *cpsi_marker_missing(const CpsiMarker *marker, int folder);
 
-/* Remove the unfinished files of a killed run, and begin the list of this one. *notes is its
- * descriptor. */
+/* Remove the unfinished files that a killed run has listed, and begin the list of this one. *notes
+ * is its descriptor. Where one cannot be removed the list remains: CPS_ERR_IO. */
 CpsStatus cpsi_marker_begin(int folder, const char *path, int *notes, CpsError *err);
 /* To be called before .NAME.part is created. */
 CpsStatus cpsi_marker_note(int notes, const char *path, const char *name, CpsError *err);
-void cpsi_marker_end(int folder, int notes);
+/* End the list; `keep` it where a file that it lists could not be removed. */
+void cpsi_marker_end(int folder, int notes, bool keep);
 
 /* Remove the marker of a directory in which no results remain. */
 void cpsi_marker_remove(int folder);

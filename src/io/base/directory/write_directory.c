@@ -39,6 +39,21 @@ static CpsStatus fail_path(const CpsiDirectory *directory, const char *name, int
                      directory->path, name, strerror(code));
 }
 
+/* What lies under a name that is to be written; *there: a file that may be replaced. */
+static CpsStatus look_at(const CpsiDirectory *directory, const char *name, bool *there,
+                         CpsError *err) {
+    struct stat found;
+    *there = fstatat(directory->fd, name, &found, AT_SYMLINK_NOFOLLOW) == 0;
+    if (!*there) return CPS_OK;
+    if (S_ISDIR(found.st_mode)) return fail_path(directory, name, EISDIR, err);
+    if (cpsi_names_have(&directory->marker.written, name)) return CPS_OK;
+    return cpsi_fail(
+        err, CPS_ERR_IO,
+        "%s/%s was not written by capstan: move it away, or add --force to replace it (and "
+        "--resume to go on from the journal); earlier results are kept",
+        directory->path, name);
+}
+
 static void temporary_name(char out[TEMPORARY_SIZE], const char *name) {
     snprintf(out, TEMPORARY_SIZE, ".%s.part", name);
 }
@@ -81,12 +96,14 @@ static CpsStatus open_folder(const char *path, bool make, CpsiDirectory **out, C
     return CPS_OK;
 }
 
-/* Check that capstan has written to the directory before, or that it is empty. */
+/* Check that capstan has written to the directory before, or that it is empty, and that unfinished
+ * files in it are capstan's. */
 static CpsStatus look_round(CpsiDirectory *directory, CpsError *err) {
     const CpsStatus status =
         cpsi_marker_read(directory->fd, directory->path, &directory->marker, err);
-    if (status != CPS_OK || directory->marker.found || cpsi_marker_is_alone(directory->fd))
-        return status;
+    if (status != CPS_OK) return status;
+    if (directory->marker.found || cpsi_marker_is_alone(directory->fd))
+        return cpsi_marker_parts(directory->fd, directory->path, false, NULL, err);
     return cpsi_fail(err, CPS_ERR_IO,
                      "%s is not empty and was not written by capstan: choose another directory, or "
                      "add --force to replace the files in it that have names of results",
@@ -109,18 +126,48 @@ CpsStatus cpsi_directory_open(const char *path, CpsiDirectory **out, CpsError *e
     return status;
 }
 
-CpsStatus cpsi_directory_prepare(const char *path, bool force, CpsError *err) {
+typedef struct Check {
+    const CpsiDirectory *directory;
+    CpsiIsWritten *is_written;
+    const void *user;
+} Check;
+
+static CpsStatus check_name(void *user, const char *name, CpsError *err) {
+    const Check *check = user;
+    bool there;
+    if (!cpsi_marker_knows(name) || !check->is_written(check->user, name)) return CPS_OK;
+    return look_at(check->directory, name, &there, err);
+}
+
+CpsStatus cpsi_directory_check(const CpsiDirectory *directory, CpsiIsWritten *is_written,
+                               const void *user, CpsError *err) {
+    Check check = {directory, is_written, user};
+    return cpsi_marker_each(directory->fd, directory->path, check_name, &check, err);
+}
+
+/* All that may be refused comes before the marker is written. */
+static CpsStatus take_over(CpsiDirectory *directory, CpsError *err) {
+    CpsiMarker *marker = &directory->marker;
+    CpsiNames parts = {0};
+    CpsStatus status = cpsi_marker_read(directory->fd, directory->path, marker, err);
+    if (status == CPS_OK) status = cpsi_marker_adopt(marker, directory->fd, directory->path, err);
+    if (status == CPS_OK)
+        status = cpsi_marker_parts(directory->fd, directory->path, true, &parts, err);
+    if (status == CPS_OK)
+        status = cpsi_marker_write(marker, directory->fd, directory->path, true, err);
+    if (status == CPS_OK)
+        status = cpsi_marker_remove_parts(directory->fd, directory->path, &parts, err);
+    cpsi_names_free(&parts);
+    return status;
+}
+
+CpsStatus cpsi_directory_prepare(const char *path, bool force, CpsiIsWritten *is_written,
+                                 const void *user, CpsError *err) {
     CpsiDirectory *directory;
     CpsStatus status = open_folder(path, false, &directory, err);
     if (status != CPS_OK || !directory) return status;
-    if (!force) {
-        status = look_round(directory, err);
-    } else {
-        status = cpsi_marker_read(directory->fd, path, &directory->marker, err);
-        if (status == CPS_OK) status = cpsi_marker_adopt(&directory->marker, directory->fd, err);
-        if (status == CPS_OK)
-            status = cpsi_marker_write(&directory->marker, directory->fd, path, true, err);
-    }
+    status = force ? take_over(directory, err) : look_round(directory, err);
+    if (status == CPS_OK) status = cpsi_directory_check(directory, is_written, user, err);
     cpsi_directory_destroy(directory);
     return status;
 }
@@ -148,10 +195,6 @@ bool cpsi_directory_has(const CpsiDirectory *directory, const char *name) {
 
 /* record a name, so that its temporary file is removed or renamed later */
 static CpsStatus remember(CpsiDirectory *directory, const char *name, CpsError *err) {
-    if (!cpsi_marker_knows(name))
-        return cpsi_fail(
-            err, CPS_ERR_ARGUMENT,
-            "'%s' is no name of a file of results: add it to those in directory_marker.c", name);
     if (directory->count == directory->capacity) {
         const size_t capacity = directory->capacity ? 2 * directory->capacity : 64;
         char **grown = realloc(directory->name, capacity * sizeof *grown);
@@ -162,27 +205,45 @@ static CpsStatus remember(CpsiDirectory *directory, const char *name, CpsError *
     char *copy = strdup(name);
     if (!copy) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while writing %s", name);
     directory->name[directory->count++] = copy;
-    const CpsStatus status = cpsi_marker_note(directory->notes, directory->path, name, err);
-    if (status != CPS_OK) return status;
-
-    /* remove the file of a killed run */
-    char temporary[TEMPORARY_SIZE];
-    temporary_name(temporary, name);
-    unlinkat(directory->fd, temporary, 0);
     return CPS_OK;
+}
+
+static CpsStatus fail_part(const CpsiDirectory *directory, const char *temporary, CpsError *err) {
+    return cpsi_fail(err, CPS_ERR_IO,
+                     "%s/%s is there and was not begun by this run: move it away; earlier results "
+                     "are kept",
+                     directory->path, temporary);
+}
+
+/* Begin a file: its temporary name, which must be free, is listed before it is remembered, so that
+ * only files of this run are removed at its end. */
+static CpsStatus begin_file(CpsiDirectory *directory, const char *name,
+                            char temporary[TEMPORARY_SIZE], CpsError *err) {
+    struct stat found;
+    if (!cpsi_marker_knows(name))
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "'%s' is no name of a file of results: add it to those in directory_marker.c", name);
+    temporary_name(temporary, name);
+    if (fstatat(directory->fd, temporary, &found, AT_SYMLINK_NOFOLLOW) == 0)
+        return fail_part(directory, temporary, err);
+    const CpsStatus status = cpsi_marker_note(directory->notes, directory->path, name, err);
+    return status == CPS_OK ? remember(directory, name, err) : status;
 }
 
 CpsStatus cpsi_directory_create(CpsiDirectory *directory, const char *name, FILE **out,
                                 CpsError *err) {
     *out = NULL;
-    const CpsStatus status = remember(directory, name, err);
-    if (status) return status;
-
     char temporary[TEMPORARY_SIZE];
-    temporary_name(temporary, name);
+    const CpsStatus status = begin_file(directory, name, temporary, err);
+    if (status) return status;
     const int fd = openat(directory->fd, temporary,
                           O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (fd < 0) return fail_path(directory, name, errno, err);
+    if (fd < 0) {
+        const int code = errno;
+        free(directory->name[--directory->count]); /* there is no such file of this run */
+        return fail_path(directory, name, code, err);
+    }
     *out = fdopen(fd, "w");
     if (*out) return CPS_OK;
     close(fd);
@@ -197,12 +258,13 @@ CpsStatus cpsi_directory_close_file(CpsiDirectory *directory, FILE *stream, CpsE
 CpsStatus cpsi_directory_reserve(CpsiDirectory *directory, const char *name, char **path,
                                  CpsError *err) {
     *path = NULL;
-    const CpsStatus status = remember(directory, name, err);
+    char temporary[TEMPORARY_SIZE];
+    const CpsStatus status = begin_file(directory, name, temporary, err);
     if (status) return status;
     const size_t size = strlen(directory->path) + 1 + TEMPORARY_SIZE;
     *path = malloc(size);
     if (!*path) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while writing %s", name);
-    snprintf(*path, size, "%s/.%s.part", directory->path, name);
+    snprintf(*path, size, "%s/%s", directory->path, temporary);
     return CPS_OK;
 }
 
@@ -256,17 +318,10 @@ static bool sync_folder(const CpsiDirectory *directory) {
 static CpsStatus look_ahead(const CpsiDirectory *directory, bool *replaces, CpsError *err) {
     *replaces = false;
     for (size_t i = 0; i < directory->count; ++i) {
-        const char *name = directory->name[i];
-        struct stat found;
-        if (fstatat(directory->fd, name, &found, AT_SYMLINK_NOFOLLOW) != 0) continue;
-        if (S_ISDIR(found.st_mode)) return fail_path(directory, name, EISDIR, err);
-        if (!cpsi_names_have(&directory->marker.written, name))
-            return cpsi_fail(
-                err, CPS_ERR_IO,
-                "%s/%s was not written by capstan: move it away, or add --force to replace it (and "
-                "--resume to go on from the journal); earlier results are kept",
-                directory->path, name);
-        *replaces = true;
+        bool there;
+        const CpsStatus status = look_at(directory, directory->name[i], &there, err);
+        if (status != CPS_OK) return status;
+        *replaces = *replaces || there;
     }
     return CPS_OK;
 }
@@ -352,12 +407,14 @@ CpsStatus cpsi_directory_commit(CpsiDirectory *directory, bool (*stale)(const ch
 void cpsi_directory_destroy(CpsiDirectory *directory) {
     if (!directory) return;
     char temporary[TEMPORARY_SIZE];
+    bool left = false;
     for (size_t i = 0; i < directory->count; ++i) {
         temporary_name(temporary, directory->name[i]);
-        unlinkat(directory->fd, temporary, 0); /* does nothing where it has been renamed */
+        /* does nothing where it has been renamed */
+        if (unlinkat(directory->fd, temporary, 0) != 0 && errno != ENOENT) left = true;
         free(directory->name[i]);
     }
-    cpsi_marker_end(directory->fd, directory->notes);
+    cpsi_marker_end(directory->fd, directory->notes, left);
     if (directory->marked && !directory->committed && cpsi_marker_is_alone(directory->fd))
         cpsi_marker_remove(directory->fd);
     cpsi_marker_free(&directory->marker);

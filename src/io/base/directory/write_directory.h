@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A set of files that appears in a directory completely or not at all.
  *
- * Every file NAME is written as .NAME.part, synced, and renamed at the commit, after all of them
- * are complete. A commit that is interrupted leaves files of two runs, which the marker detects
- * (directory_marker.h). Closing without a commit removes the temporary files, and the directory too
- * if it was made for them. There is one writer at a time: the open directory has an advisory lock,
- * which also ends when the process is killed. */
+ * Every file NAME is listed in .capstan.run, written as .NAME.part, synced, and renamed at the
+ * commit, after all of them are complete. A commit that is interrupted leaves files of two runs,
+ * which the marker detects (directory_marker.h). Closing without a commit removes the temporary
+ * files, and the directory too if it was made for them. There is one writer at a time: the open
+ * directory has an advisory lock, which also ends when the process is killed. */
 #ifndef CAPSTAN_SRC_IO_BASE_DIRECTORY_WRITE_DIRECTORY_H
 #define CAPSTAN_SRC_IO_BASE_DIRECTORY_WRITE_DIRECTORY_H
 
@@ -20,9 +20,20 @@ typedef struct CpsiDirectory CpsiDirectory;
  * (directory_marker.h) is refused. Returns CPS_OK, CPS_ERR_IO or CPS_ERR_MEMORY. */
 CpsStatus cpsi_directory_open(const char *path, CpsiDirectory **out, CpsError *err);
 
-/* Check whether the directory would be accepted. With `force`, its files with names of results
- * count as capstan's from then on, and may be replaced. A missing directory is not made. */
-CpsStatus cpsi_directory_prepare(const char *path, bool force, CpsError *err);
+/* Whether a file of this name is to be written. */
+typedef bool CpsiIsWritten(const void *user, const char *name);
+
+/* Check whether the directory would be accepted, and the names that are to be written are free
+ * (cpsi_directory_check). With `force`, its files with names of results count as capstan's from
+ * then on, and may be replaced, and its .NAME.part files are removed. After a failure it is as it
+ * was. A missing directory is not made. */
+CpsStatus cpsi_directory_prepare(const char *path, bool force, CpsiIsWritten *is_written,
+                                 const void *user, CpsError *err);
+
+/* Find a name that is to be written but belongs to a directory, or to a file that the marker does
+ * not list: CPS_ERR_IO. A commit finds the same, but after the computation. */
+CpsStatus cpsi_directory_check(const CpsiDirectory *directory, CpsiIsWritten *is_written,
+                               const void *user, CpsError *err);
 
 /* The last file of a set whose replacement was interrupted, so that the others belong to two runs;
  * "" where none is missing, or where the directory is missing. Returns CPS_OK, CPS_ERR_IO or

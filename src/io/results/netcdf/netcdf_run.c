@@ -484,7 +484,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
                   const CpsEvolution *evolution, const char *names) {
     int before = 0;
     cpsi_netcdf_keep(&nc->file,
-                     nc->file.library.create(path, NC_CLOBBER | NC_64BIT_OFFSET, &nc->file.id));
+                     nc->file.library.create(path, NC_NOCLOBBER | NC_64BIT_OFFSET, &nc->file.id));
     nc->open = nc->file.status == NC_NOERR;
     /* everything is written once, so nothing need be filled before */
     if (nc->open)

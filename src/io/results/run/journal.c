@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include "base/status.h"
-#include "capstan/results.h"
+#include "io/results/writers.h"
 
 static const char NAME[] = ".journal";
 
@@ -95,12 +95,29 @@ static CpsStatus fail(const CpsJournal *journal, const char *what, CpsError *err
 }
 
 /* refuse the journal, which remains unchanged */
+static CpsStatus refuse_file(const char *directory, CpsStatus status, const char *why,
+                             CpsError *err) {
+    return cpsi_fail(err, status, "%s/%s %s", directory, NAME, why);
+}
+
 static CpsStatus refuse(const CpsJournal *journal, CpsStatus status, const char *why,
                         CpsError *err) {
-    return cpsi_fail(err, status, "%s/%s %s", journal->directory, NAME, why);
+    return refuse_file(journal->directory, status, why, err);
 }
 
 /* open ----------------------------------------------------------------------------------------- */
+
+enum { HOW = O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC };
+
+static const char NO_FILE[] =
+    "is not a file but a link or a device: move it away, or choose another directory";
+static const char NO_JOURNAL[] =
+    "is no journal of capstan: move it away, or choose another directory";
+
+/* Whether this is the beginning of a journal, or of the head of one that was not completed. */
+static bool is_magic(const char *found, size_t got) {
+    return memcmp(found, MAGIC, got < sizeof MAGIC ? got : sizeof MAGIC) == 0;
+}
 
 static JournalHead make_head(const CpsJournal *journal) {
     JournalHead head = {.build = checksum(CHECKSUM_BEGINS, PROGRAM, sizeof PROGRAM),
@@ -129,9 +146,7 @@ static CpsStatus begin(CpsJournal *journal, CpsError *err) {
 /* Accept what is there as a journal as far as it is complete: `got` bytes of its head. */
 static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const JournalHead *found,
                          size_t got, CpsError *err) {
-    if (memcmp(found->magic, MAGIC, got < sizeof MAGIC ? got : sizeof MAGIC) != 0)
-        return refuse(journal, CPS_ERR_IO,
-                      "is no journal of capstan: move it away, or choose another directory", err);
+    if (!is_magic(found->magic, got)) return refuse(journal, CPS_ERR_IO, NO_JOURNAL, err);
     struct stat about;
     if (fstat(journal->file, &about) != 0) return fail(journal, "read", err);
     const JournalHead own = make_head(journal);
@@ -162,23 +177,39 @@ static CpsStatus take_up(CpsJournal *journal, CpsJournalMode mode, const Journal
 
 /* The file in the directory itself, never the target of a link. */
 static CpsStatus open_file(CpsJournal *journal, CpsJournalMode mode, CpsError *err) {
-    enum { HOW = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC };
     journal->folder = open(journal->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (journal->folder < 0) return fail(journal, "open", err);
-    journal->file = openat(journal->folder, NAME, HOW | O_CREAT | O_EXCL, 0666);
+    journal->file = openat(journal->folder, NAME, HOW | O_RDWR | O_CREAT | O_EXCL, 0666);
     if (journal->file >= 0) return begin(journal, err);
     if (errno != EEXIST) return fail(journal, "open", err);
     struct stat about;
-    journal->file = openat(journal->folder, NAME, HOW);
+    journal->file = openat(journal->folder, NAME, HOW | O_RDWR);
     if (journal->file < 0 && errno != ELOOP) return fail(journal, "open", err);
     if (journal->file < 0 || fstat(journal->file, &about) != 0 || !S_ISREG(about.st_mode))
-        return refuse(
-            journal, CPS_ERR_IO,
-            "is not a file but a link or a device: move it away, or choose another directory", err);
+        return refuse(journal, CPS_ERR_IO, NO_FILE, err);
     JournalHead found = {0};
     size_t got;
     if (!read_at(journal->file, &found, sizeof found, 0, &got)) return fail(journal, "read", err);
     return take_up(journal, mode, &found, got, err);
+}
+
+CpsStatus cpsi_journal_check(const char *directory, CpsError *err) {
+    const int folder = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return CPS_OK; /* the directory itself is another matter */
+    struct stat about;
+    char magic[sizeof MAGIC];
+    size_t got;
+    const int file = openat(folder, NAME, HOW | O_RDONLY);
+    const bool missing = file < 0 && errno == ENOENT;
+    close(folder);
+    if (missing) return CPS_OK;
+    CpsStatus status = CPS_OK;
+    if (file < 0 || fstat(file, &about) != 0 || !S_ISREG(about.st_mode))
+        status = refuse_file(directory, CPS_ERR_IO, NO_FILE, err);
+    else if (!read_at(file, magic, sizeof magic, 0, &got) || !is_magic(magic, got))
+        status = refuse_file(directory, CPS_ERR_IO, NO_JOURNAL, err);
+    if (file >= 0) close(file);
+    return status;
 }
 
 CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution,

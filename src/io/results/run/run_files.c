@@ -84,18 +84,14 @@ static CpsStatus open_files(CpsResults *results, const char *directory, const Cp
                             CpsError *err) {
     CpsStatus status = cpsi_directory_open(directory, &results->directory, err);
     if (status) return status;
+    status = cpsi_directory_check(results->directory, cpsi_results_writes, results, err);
+    if (status) return status;
     if (options->sync_at_end) cpsi_directory_sync_late(results->directory);
     char *path = NULL;
     status = cpsi_directory_reserve(results->directory, "result.nc", &path, err);
     if (!status) status = cpsi_netcdf_open(path, scene, evolution, options, &results->netcdf, err);
     free(path);
     return status;
-}
-
-CpsStatus cps_results_prepare(const char *directory, bool force, CpsError *err) {
-    if (!directory || !*directory)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory is NULL or empty");
-    return cpsi_directory_prepare(directory, force, err);
 }
 
 CpsStatus cps_results_missing(const char *directory, char missing[CPS_RESULT_NAME], CpsError *err) {

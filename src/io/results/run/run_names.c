@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Before a computation: whether its results can be written to a directory, and under which names
+ * they will be. Names that are taken are found here, and not when everything has been computed. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "io/results/writers.h"
+
+/* the most names of a kind that are always the same */
+enum { PLAIN_NAMES = 6 };
+
+static const char *const PLAIN[][PLAIN_NAMES] = {
+    [CPS_RESULTS_KIND_RUN] = {"summary.json", "history.csv", "result.nc", "plan.svg",
+                              "elevation.svg", "tension.svg"},
+    [CPS_RESULTS_KIND_REGULARIZED] = {"summary.json", "history.csv"},
+    [CPS_RESULTS_KIND_STUDY] = {"study.csv", "study.svg", "first-order.csv", "first-order.svg",
+                                "relaxed.svg", "study.json"},
+    [CPS_RESULTS_KIND_METHODS] = {"methods.csv", "methods.svg", "methods.json"},
+    [CPS_RESULTS_KIND_COMPLETED] = {"completed.csv", "completed.svg", "completed.json"}};
+
+enum { KINDS = sizeof PLAIN / sizeof *PLAIN };
+
+static bool is_plain(CpsResultsKind kind, const char *name) {
+    for (int i = 0; i < PLAIN_NAMES && PLAIN[kind][i]; ++i)
+        if (strcmp(name, PLAIN[kind][i]) == 0) return true;
+    return false;
+}
+
+/* A name of step-00000.vtp and its like, which begins with the number. */
+static bool writes_of_step(const CpsResults *results, const char *name) {
+    char own[64];
+    const long step = strtol(name + sizeof "step-" - 1, NULL, 10);
+    if (step < 0 || step >= results->planned_steps) return false;
+    snprintf(own, sizeof own, "step-%05ld.vtp", step);
+    if (strcmp(name, own) == 0) return results->paraview;
+    cpsi_paraview_obstacles_name((int)step, own);
+    if (strcmp(name, own) == 0)
+        return results->paraview && cpsi_paraview_obstacles_turn(results, (int)step);
+    if (!cpsi_results_pictured(results, (int)step)) return false;
+    snprintf(own, sizeof own, "step-%05ld-plan.svg", step);
+    if (strcmp(name, own) == 0) return true;
+    snprintf(own, sizeof own, "step-%05ld-elevation.svg", step);
+    return strcmp(name, own) == 0;
+}
+
+bool cpsi_results_writes(const void *run, const char *name) {
+    const CpsResults *results = run;
+    if (is_plain(CPS_RESULTS_KIND_RUN, name)) return true;
+    if (strcmp(name, "result.pvd") == 0) return results->paraview;
+    if (strcmp(name, "obstacles.vtp") == 0) return results->paraview && results->obstacle_count > 0;
+    return strncmp(name, "step-", 5) == 0 && writes_of_step(results, name);
+}
+
+typedef struct Wanted {
+    CpsResultsKind kind;
+    int lines;
+} Wanted;
+
+/* Of a run the names depend on its history, and are checked where it is opened. */
+static bool is_wanted(const void *user, const char *name) {
+    const Wanted *wanted = user;
+    if (wanted->kind == CPS_RESULTS_KIND_RUN) return false;
+    if (is_plain(wanted->kind, name)) return true;
+    if (wanted->kind != CPS_RESULTS_KIND_REGULARIZED || strncmp(name, "line-", 5) != 0)
+        return false;
+    const long line = strtol(name + sizeof "line-" - 1, NULL, 10);
+    return line >= 1 && line <= wanted->lines;
+}
+
+CpsStatus cps_results_prepare(const char *directory, CpsResultsKind kind, int line_count,
+                              bool force, CpsError *err) {
+    if (!directory || !*directory)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory is NULL or empty");
+    if ((int)kind < 0 || (int)kind >= KINDS || line_count < 0)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "there is no such kind of results, or the number of lines is negative");
+    if (force && kind == CPS_RESULTS_KIND_RUN) {
+        const CpsStatus status = cpsi_journal_check(directory, err);
+        if (status != CPS_OK) return status;
+    }
+    const Wanted wanted = {kind, line_count};
+    return cpsi_directory_prepare(directory, force, is_wanted, &wanted, err);
+}
