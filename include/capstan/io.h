@@ -76,7 +76,9 @@ typedef struct CpsSuggestion {
 CPS_API void cps_suggest(CpsSuggestion *suggestion, const char *candidate);
 
 /* Write one file completely or not at all: it is written under another name beside `path`, synced
- * and renamed, so that an old file remains after a failure. A device or pipe is written directly.
+ * and renamed, so that an old file remains after a failure. A program that is killed meanwhile
+ * leaves the other file, .NAME.PID.part. A device or pipe is written directly, as is standard
+ * output by a link to it (/dev/stdout).
  *
  *   write   writes to the open file; after a status other than CPS_OK nothing remains
  *   user    argument of `write`

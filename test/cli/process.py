@@ -105,6 +105,12 @@ def end_within_a_step():
     expect("signal in a step: time of the processor until the end", after - before < SLOWER, after - before)
 
 
+def children():
+    """Seconds of the processor of all children that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def pipe_to_judge():
     os.mkfifo("pipe")
     try:
@@ -171,24 +177,38 @@ def full_output():
 
 def killed_drawing():
     """A program that is killed while it draws leaves no file."""
-    os.mkdir("drawing")
     write("sledge.yaml", SLEDGE)
-    command = [CAPSTAN, "drive", "sledge.yaml", "-q", "--plot", "drawing/map.svg"]
-    begun = time.monotonic()
-    done = subprocess.run(command, capture_output=True, timeout=60)
-    took = time.monotonic() - begun
-    expect("drawing: files", done.returncode == 0 and os.listdir("drawing") == ["map.svg"], os.listdir("drawing"))
-    os.unlink("drawing/map.svg")
-    drawing = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    time.sleep(0.3*took)  # nearly all of the time it draws, and it writes the file in the last hundredth
-    drawing.kill()
-    drawing.wait()
-    expect("killed drawing: left", set(os.listdir("drawing")) <= {"map.svg"}, os.listdir("drawing"))
-    # a folder that is not there is found before that
-    begun = time.monotonic()
-    done = subprocess.run([*command[:-1], "no-folder/map.svg"], capture_output=True, text=True, timeout=60)
-    expect("drawing into no folder", done.returncode == 4 and "no-folder/map.svg" in done.stderr, done)
-    expect("drawing into no folder: seconds", time.monotonic() - begun < 0.5*took + 0.2, time.monotonic() - begun)
+    command = [CAPSTAN, "drive", "sledge.yaml", "-q", "--plot"]
+    # in memory where there is such a place, so that the file is written in no time
+    with tempfile.TemporaryDirectory(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None) as drawing:
+        begun, before = time.monotonic(), children()
+        done = subprocess.run([*command, f"{drawing}/map.svg"], capture_output=True, timeout=60)
+        took, used = time.monotonic() - begun, children() - before
+        expect("drawing: files", done.returncode == 0 and os.listdir(drawing) == ["map.svg"], os.listdir(drawing))
+        os.unlink(f"{drawing}/map.svg")
+        killed = subprocess.Popen([*command, f"{drawing}/map.svg"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(0.2*took)  # nearly all of the time it draws, and it writes the file in the last hundredth
+        killed.kill()
+        killed.wait()
+        expect("killed drawing: left", set(os.listdir(drawing)) <= {"map.svg"}, os.listdir(drawing))
+        # a folder that is not there is found before anything is drawn
+        before = children()
+        done = subprocess.run([*command, f"{drawing}/none/map.svg"], capture_output=True, text=True, timeout=60)
+        expect("drawing into no folder", done.returncode == 4 and "none/map.svg" in done.stderr, done)
+        expect("drawing into no folder: seconds of the processor", children() - before < 0.5*used, (children() - before, used))
+
+
+def picture_on_output():
+    """A link to standard output is not replaced where that is a file: the picture goes behind what is printed."""
+    os.symlink("/proc/self/fd/1", "output")  # as /dev/stdout is
+    if not os.path.exists("/proc/self/fd/1"):
+        return
+    with open("printed.txt", "wb") as file:
+        done = subprocess.run([CAPSTAN, "law", "plain-law.yaml", "--plot", "output"], stdout=file, stderr=subprocess.PIPE, text=True, timeout=60)
+    with open("printed.txt", encoding="utf-8") as file:
+        printed = file.read()
+    expect("picture on standard output: the link", os.path.islink("output"))
+    expect("picture on standard output", done.returncode == 0 and printed.startswith("friction law") and printed.endswith("</svg>\n"), (done, printed[:80]))
 
 
 def escapes():
@@ -287,7 +307,7 @@ with tempfile.TemporaryDirectory() as folder:
     write("scene.yaml", SCENE)
     write("frozen.yaml", SCENE + "friction_policy: frozen\n")
     write("plain-law.yaml", "capstan: 1\nlaw: {disc: 1}\n")
-    for part in (closed_streams, end_while_waiting, end_within_a_step, pipe_to_judge, judge_from_input, empty_input, full_output, killed_drawing, escapes, named_files, libraries, slow_lines):
+    for part in (closed_streams, end_while_waiting, end_within_a_step, pipe_to_judge, judge_from_input, empty_input, full_output, killed_drawing, picture_on_output, escapes, named_files, libraries, slow_lines):
         part()
     os.chdir("/")
 

@@ -69,15 +69,25 @@ static CpsStatus write_beside(const char *path, CpsFileWriter *write, void *user
     return status == CPS_OK && code != 0 ? fail(path, code, err) : status;
 }
 
+/* Whether `path` is a link to the file that is open as standard output, as /dev/stdout is. The link
+ * must not be replaced. */
+static bool leads_to_output(const char *path, const struct stat *found) {
+    struct stat link, output;
+    return lstat(path, &link) == 0 && S_ISLNK(link.st_mode) && fstat(STDOUT_FILENO, &output) == 0 &&
+           output.st_dev == found->st_dev && output.st_ino == found->st_ino;
+}
+
 CpsStatus cps_write_file(const char *path, CpsFileWriter *write, void *user, CpsError *err) {
     if (!path || !write) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or write is NULL");
     struct stat found;
     const bool there = stat(path, &found) == 0;
     if (there && S_ISDIR(found.st_mode)) return fail(path, EISDIR, err);
-    if (!there || S_ISREG(found.st_mode)) return write_beside(path, write, user, err);
+    const bool output = there && S_ISREG(found.st_mode) && leads_to_output(path, &found);
+    if (!there || (S_ISREG(found.st_mode) && !output)) return write_beside(path, write, user, err);
 
-    /* a device or pipe, perhaps standard output itself */
-    const int fd = open(path, O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    /* a device or pipe, or standard output itself, which goes on behind what has been printed */
+    const int fd = output ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+                          : open(path, O_WRONLY | O_CLOEXEC | O_NOCTTY);
     if (fd < 0) return fail(path, errno, err);
     int code = 0;
     const CpsStatus status = write_and_close(write, user, fd, false, &code, err);
