@@ -48,6 +48,7 @@ static bool writes_of_step(const CpsResults *results, const char *name) {
 bool cpsi_results_writes(const void *run, const char *name) {
     const CpsResults *results = run;
     if (is_plain(CPS_RESULTS_KIND_RUN, name)) return true;
+    if (strcmp(name, "history.svg") == 0) return results->planned_steps > 1;
     if (strcmp(name, "result.pvd") == 0) return results->paraview;
     if (strcmp(name, "obstacles.vtp") == 0) return results->paraview && results->obstacle_count > 0;
     return strncmp(name, "step-", 5) == 0 && writes_of_step(results, name);
