@@ -521,7 +521,9 @@ static void check_record(const Source *source, const Record *r, const char *line
 /* The work of the ends needs the forces that they had at the end of the step before. */
 static void check_work(const Record *r, const Record *before, const Source *source, size_t step,
                        Findings *findings) {
-    if (r->outcome != OUTCOME_SOLVED || r->substeps > 1 || before->outcome > OUTCOME_TAUT) return;
+    if ((r->outcome != OUTCOME_SOLVED && !solves_equations_only(r)) || r->substeps > 1 ||
+        before->outcome > OUTCOME_TAUT)
+        return;
     const Measures m = measure_where(source, r, step);
     if (m.missing) return;
     same(findings, "ledger_ends", r->ledger[LEDGER_ENDS], (double)ends_work(r, before),

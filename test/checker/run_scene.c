@@ -20,8 +20,10 @@ CpsLineReport run_scene(const char *path, const char *directory) {
     if (!status)
         status = cps_results_open(directory, cps_scene_file_scene(scene), evolution, NULL, &results,
                                   &err);
-    if (!status) status = cps_evolution_step(evolution, &err);
-    if (!status) status = cps_results_append(results, evolution, &err);
+    while (!status && cps_evolution_remaining_count(evolution) > 0) {
+        status = cps_evolution_step(evolution, &err);
+        if (!status) status = cps_results_append(results, evolution, &err);
+    }
     if (!status) status = cps_results_finish(results, 0, &err);
     if (status) print_error("%s\n", err.message);
     assert_int_equal(status, CPS_OK);

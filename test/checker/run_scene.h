@@ -5,8 +5,8 @@
 
 #include "capstan/step.h"
 
-/* Take the first step of the scene in the file `path`, write its results to a directory, and return
- * the report on its first line. What fails on the way fails the test. */
+/* Take the steps of the scene in the file `path`, write their results to a directory, and return
+ * the last report on its first line. What fails on the way fails the test. */
 CpsLineReport run_scene(const char *path, const char *directory);
 
 #endif

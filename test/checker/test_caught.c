@@ -70,13 +70,13 @@ static double lacking(const Boulder *b) {
 static Boulder random_boulder(uint64_t *state, int kind) {
     Boulder b = {.size = pow(10, splitmix(state, -2, 2)), .kind = kind};
     const double R = b.size, pi = acos(-1);
-    b.height = R * splitmix(state, 0.12, 0.3);
+    b.height = R * splitmix(state, 0.16, 0.3);
     b.off = R * splitmix(state, 1.03, 1.08);
     b.before = R * splitmix(state, 1.5, 3);
     b.after = R * splitmix(state, 1.5, 3);
     b.heading = splitmix(state, 0, 2 * pi);
     b.friction = splitmix(state, 0, 0.5);
-    b.elements = (int)splitmix(state, 36, 60);
+    b.elements = (int)splitmix(state, 32, 44);
     const double corner = b.off / cos(pi / 2 / CORNERS);
     for (int i = 0; i < POINTS; i++) {
         const double angle = pi * ((i - 0.5) / CORNERS - 0.5);

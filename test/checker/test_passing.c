@@ -43,6 +43,7 @@ typedef struct Passing {
     double length, angle, radius, x, y; /* [m], [rad]; the centre is at (x, y, 0) */
     bool is_sphere, follows;            /* friction follows the reactions */
     int elements, side;                 /* B begins above (1) or below (-1) */
+    bool rests;                         /* nothing happens in a step before */
 } Passing;
 
 /* The scene of a way into its file; two obstacles, the first one far away. */
@@ -64,8 +65,9 @@ static void write_scene(const Passing *w) {
             ", radius: %.17g}, friction: 0.3}\nlines:\n  rope: {length: %.17g, elements: %d, "
             "weight: 0, stiffness: 1000, start: {straight: {from: [0, 0, 0], to: [%.17g, 0, "
             "%.17g]}}, ends: {A: held, B: held}}\n"
-            "history:\n  - {name: across, steps: 1, rope.B: {position: [%.17g, 0, %.17g]}}\n",
-            w->radius, w->length, w->elements, c, s, more * c, -more * s);
+            "history:\n%s  - {name: across, steps: 1, rope.B: {position: [%.17g, 0, %.17g]}}\n",
+            w->radius, w->length, w->elements, c, s, w->rests ? "  - {name: rest}\n" : "", more * c,
+            -more * s);
     assert_int_equal(fclose(out), 0);
 }
 
@@ -147,7 +149,29 @@ static void what_passes_is_told(void **state) {
     CHECK_INT(passed, CASES / 2);
 }
 
+/* The work of the ends is that of the forces before and after, as in a solved step; the imbalance
+ * follows it. */
+static void its_work_is_checked(void **state) {
+    (void)state;
+    uint64_t random = 37;
+    for (int i = 0; i < 4; i++) {
+        Passing w = random_passing(&random, true, i % 2);
+        w.rests = true;
+        write_scene(&w);
+        const CpsLineReport line = run_scene(path, directory);
+        const double ends = line.ledger.ends, imbalance = line.ledger.imbalance,
+                     more = 0.01 * fabs(ends);
+        CHECK_INT(strcmp(cps_outcome_name(line.outcome), "passes"), 0);
+        CHECK_INT(line.substep_count, 1);
+        CHECK_GREATER(more, 0);
+        CHECK_INT(refused("rope_ledger_ends", 1, ends), 0);
+        CHECK_INT(sample_poke(result, "rope_ledger_ends", 1, ends + more), 0);
+        CHECK_INT(refused("rope_ledger_imbalance", 1, imbalance + more), 1);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_passes_is_told)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_passes_is_told),
+                                       cmocka_unit_test(its_work_is_checked)};
     return cmocka_run_group_tests(tests, make_directory, remove_directory);
 }
