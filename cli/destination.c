@@ -34,7 +34,8 @@ static bool print_mixed(const char *directory, CpsError *err) {
     if (*missing)
         cli_printf(stderr,
                    "capstan: the files in %s are not all of one run: putting them in place was "
-                   "interrupted, and %s is missing; the same command once more replaces them\n",
+                   "interrupted, and %s is missing; the same command replaces them, `run` with "
+                   "--resume or --force\n",
                    directory, missing);
     return true;
 }

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -125,6 +126,7 @@ static bool hold_standard_streams(void) {
 
 int main(int argc, char **argv) {
     if (!hold_standard_streams()) return EXIT_IO;
+    signal(SIGXFSZ, SIG_IGN); /* a file over the limit of size is an error as a full disk is */
     /* without a command: --help, --version, or a usage error */
     int code;
     if (argc < 2) {

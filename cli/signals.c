@@ -23,7 +23,6 @@ void cli_catch_signals(void) {
     action.sa_flags = SA_RESTART;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    signal(SIGXFSZ, SIG_IGN);
 }
 
 int cli_interrupted(void) { return stop_signal; }

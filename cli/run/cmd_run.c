@@ -6,6 +6,7 @@
  * ends the program at once. A journal of the steps is kept beside the results until the run is
  * finished: after an interruption of any kind, --resume continues from there. */
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -302,6 +303,22 @@ static CpsStatus take_steps(Run *run, CpsError *err) {
     return CPS_OK;
 }
 
+/* The results are complete without the journal, but the next run would take it for that of an
+ * interrupted one. */
+static void remove_journal(CpsJournal *journal) {
+    CpsError err;
+    if (cps_journal_remove(journal, &err) == CPS_OK) return;
+    fputs("capstan: the run is complete, but the next one into this directory needs --force: ",
+          stderr);
+    cli_print_text(stderr, err.message, INT_MAX, false);
+    fputc('\n', stderr);
+}
+
+/* Whether a signal has ended the run; one that came after the last step has not. */
+static bool was_stopped(const CpsEvolution *evolution) {
+    return cli_interrupted() && cps_evolution_remaining_count(evolution) > 0;
+}
+
 /* Open the results, solve the steps, finish. */
 static CpsStatus execute(Run *run, const char *directory, const CliOptions *options,
                          CpsError *err) {
@@ -327,7 +344,7 @@ static CpsStatus execute(Run *run, const char *directory, const CliOptions *opti
         cps_results_finish(run->results, wall, &none);
     if (!status) status = cps_results_finish(run->results, wall, err);
     if (!status && cps_evolution_remaining_count(run->evolution) == 0)
-        cps_journal_remove(run->journal);
+        remove_journal(run->journal);
     else if (run->journal && wanted.sync_at_end)
         status = status ? status : cps_journal_sync(run->journal, err);
     if (status || !options->json) return status;
@@ -339,7 +356,7 @@ static CpsStatus execute(Run *run, const char *directory, const CliOptions *opti
 static void print_where(const char *directory, const CpsEvolution *evolution, bool paraview) {
     const int steps = cps_evolution_step_count(evolution),
               left = cps_evolution_remaining_count(evolution);
-    if (cli_interrupted())
+    if (was_stopped(evolution))
         fprintf(stderr,
                 "capstan: stopped by a signal after %d of %d steps; --resume goes on from there\n",
                 steps - left, steps);
@@ -388,9 +405,9 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
         print_utilisation(&run.warnings.utilisation);
         print_where(directory, run.evolution, !options->no_paraview);
     }
-    const int code = status              ? cli_report(&err)
-                     : cli_interrupted() ? 128 + cli_interrupted()
-                                         : exit_code(run.worst);
+    const int code = status                       ? cli_report(&err)
+                     : was_stopped(run.evolution) ? 128 + cli_interrupted()
+                                                  : exit_code(run.worst);
     free(text);
     free(said);
     extremes_free(&run.extremes);

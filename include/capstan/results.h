@@ -103,7 +103,7 @@ CPS_API void cps_results_destroy(CpsResults *results);
  *         cps_journal_append(journal, evolution, &err);
  *         cps_results_append(results, evolution, &err);
  *     }
- *     cps_journal_remove(journal);
+ *     cps_journal_remove(journal, &err);
  *
  * A journal is of one version and build of the program and of one scene with its settings. */
 typedef struct CpsJournal CpsJournal;
@@ -134,7 +134,7 @@ CPS_API CpsStatus cps_journal_append(CpsJournal *journal, const CpsEvolution *ev
 CPS_API void cps_journal_sync_late(CpsJournal *journal);
 CPS_API CpsStatus cps_journal_sync(CpsJournal *journal, CpsError *err);
 /* Remove the file after its run has finished; the journal must still be destroyed. */
-CPS_API void cps_journal_remove(CpsJournal *journal);
+CPS_API CpsStatus cps_journal_remove(CpsJournal *journal, CpsError *err);
 /* Free the journal; the file of one without steps is removed. Accepts NULL. */
 CPS_API void cps_journal_destroy(CpsJournal *journal);
 

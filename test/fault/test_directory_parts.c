@@ -129,13 +129,13 @@ static void sets_of_files(void **state) {
         assert_int_equal(start(NULL), 0);
         calls = 0;
         fails_at = k;
-        const CpsStatus status = cpsi_file_set_write(OUT, file, 2, &summary, &err);
+        const CpsStatus status = cpsi_file_set_write(OUT, file, 2, &summary, NULL, &err);
         reached = calls > k;
         fails_at = -1;
         if (status && status != CPS_ERR_IO && status != CPS_ERR_MEMORY)
             fail_msg("call %ld: %s", k, cps_status_name(status));
         if (!status && !is_there("study.json")) fail_msg("call %ld: nothing is there", k);
-        if (cpsi_file_set_write(OUT, file, 2, &summary, &err) != CPS_OK)
+        if (cpsi_file_set_write(OUT, file, 2, &summary, NULL, &err) != CPS_OK)
             fail_msg("call %ld: the next: %s", k, err.message);
     }
 }

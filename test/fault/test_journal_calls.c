@@ -115,7 +115,7 @@ static CpsStatus go_on(CpsJournalMode mode, int to, int *had, bool late, CpsErro
         status = cps_journal_append(journal, evolution, err);
     }
     if (!status && late) status = cps_journal_sync(journal, err);
-    if (!status && to == STEPS) cps_journal_remove(journal);
+    if (!status && to == STEPS) status = cps_journal_remove(journal, err);
     cps_journal_destroy(journal);
     cps_evolution_destroy(evolution);
     return status;
@@ -188,7 +188,7 @@ static void nothing(void **state) {
     assert_int_equal(cps_journal_next(journal, NULL, &found, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(cps_journal_next(journal, evolution, NULL, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(cps_journal_sync(NULL, &err), CPS_ERR_ARGUMENT);
-    cps_journal_remove(NULL);
+    assert_int_equal(cps_journal_remove(NULL, &err), CPS_ERR_ARGUMENT);
     cps_journal_destroy(NULL);
     cps_journal_destroy(journal);
     cps_evolution_destroy(evolution);
@@ -203,18 +203,19 @@ static void replaced(void **state) {
     snprintf(path, sizeof path, "%s/.journal", folder);
     assert_int_equal(cps_journal_open(folder, evolution, CPS_JOURNAL_NEW, &journal, NULL), CPS_OK);
     assert_int_equal(unlink(path), 0);
-    cps_journal_remove(journal); /* nothing has its name */
+    /* nothing has its name */
+    assert_int_equal(cps_journal_remove(journal, NULL), CPS_OK);
     const int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     assert_true(file >= 0);
     close(file);
-    cps_journal_remove(journal);
+    cps_journal_remove(journal, NULL);
     assert_int_equal(access(path, F_OK), 0);
     cps_journal_destroy(journal);
     assert_int_equal(unlink(path), 0);
     /* as is one of the same number on another device */
     assert_int_equal(cps_journal_open(folder, evolution, CPS_JOURNAL_NEW, &journal, NULL), CPS_OK);
     elsewhere = true;
-    cps_journal_remove(journal);
+    cps_journal_remove(journal, NULL);
     elsewhere = false;
     assert_int_equal(access(path, F_OK), 0);
     cps_journal_destroy(journal);

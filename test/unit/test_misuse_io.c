@@ -90,7 +90,7 @@ static void results(void **state) {
     REFUSED(cps_journal_append(NULL, NULL, &err));
     REFUSED(cps_journal_sync(NULL, &err));
     RUNS(cps_journal_sync_late(NULL));
-    RUNS(cps_journal_remove(NULL));
+    RUNS(cps_journal_remove(NULL, NULL));
     RUNS(cps_journal_destroy(NULL));
 }
 

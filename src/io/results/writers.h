@@ -19,8 +19,14 @@ void cpsi_history_write(const CpsResults *results, FILE *out);
  * its steps. Pictures of loops are not among them: what they are called is known at the end. */
 bool cpsi_results_writes(const void *results, const char *name);
 
-/* journal.c: refuse a file .journal in the directory that is no journal. */
-CpsStatus cpsi_journal_check(const char *directory, CpsError *err);
+/* run_names.c: whether a file of this name belongs to the set of a run by any method, so that a run
+ * which does not write it removes it. */
+bool cpsi_results_replaces(const char *name);
+
+/* journal.c: before a run, refuse a file .journal in the directory that is no journal. Before
+ * results of the `other` method, which take the place of the run's, refuse the journal of an
+ * interrupted run, or with `force` remove it. */
+CpsStatus cpsi_journal_check(const char *directory, bool other, bool force, CpsError *err);
 
 /* netcdf_run.c: result.nc. `turn` is (obstacles) [rad], their turns in the step. */
 CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution,

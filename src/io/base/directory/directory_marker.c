@@ -142,9 +142,11 @@ bool cpsi_marker_is_alone(int folder) {
     const char *name;
     do name = next_name(listing);
     while (name && is_own(name));
-    const bool whole = !name && errno == 0; /* what could not be listed may be anybody's */
+    const int code = name ? 0 : errno; /* what could not be listed may be anybody's */
+    const bool alone = !name && code == 0;
     closedir(listing);
-    return whole;
+    errno = code;
+    return alone;
 }
 
 CpsStatus cpsi_marker_each(int folder, const char *path, CpsiNameCall *call, void *user,
@@ -209,12 +211,19 @@ static FILE *open_list(int folder, const char *path, const char *name, CpsStatus
     *status = CPS_OK;
     const int fd = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (fd < 0 && errno == ENOENT) return NULL;
+    if (fd < 0 && errno != ELOOP && errno != ENXIO) {
+        *status = cpsi_fail(err, CPS_ERR_IO, "cannot open %s/%s: %s", path, name, strerror(errno));
+        return NULL;
+    }
     const bool regular =
         fd >= 0 && fstat(fd, &about) == 0 && S_ISREG(about.st_mode) && about.st_size <= MARKER_MOST;
     FILE *list = regular ? fdopen(fd, "r") : NULL;
     if (!list && fd >= 0) close(fd);
     if (regular && !list) *status = no_memory(err);
+    errno = 0;
     if (list && fgets(line, sizeof line, list) && strcmp(line, FIRST_LINE) == 0) return list;
+    if (list && ferror(list))
+        *status = cpsi_fail(err, CPS_ERR_IO, "cannot read %s/%s: %s", path, name, strerror(errno));
     if (list) fclose(list);
     if (*status == CPS_OK)
         *status =
@@ -350,6 +359,18 @@ CpsStatus cpsi_marker_remove_parts(int folder, const char *path, const CpsiNames
     return CPS_OK;
 }
 
+/* Write all bytes; a call that was interrupted or that wrote only a part is continued. */
+static bool write_whole(int file, const char *bytes, size_t size) {
+    for (size_t done = 0; done < size;) {
+        const ssize_t n = write(file, bytes + done, size - done);
+        if (n < 0 && errno == EINTR) continue;
+        if (n == 0) errno = ENOSPC;
+        if (n <= 0) return false;
+        done += (size_t)n;
+    }
+    return true;
+}
+
 CpsStatus cpsi_marker_begin(int folder, const char *path, int *notes, CpsError *err) {
     *notes = -1;
     CpsiNames left = {0};
@@ -361,18 +382,14 @@ CpsStatus cpsi_marker_begin(int folder, const char *path, int *notes, CpsError *
     *notes = openat(folder, NOTES, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC,
                     0666);
     if (*notes < 0) return fail_name(path, NOTES, err);
-    if (write(*notes, FIRST_LINE, sizeof FIRST_LINE - 1) == (ssize_t)sizeof FIRST_LINE - 1)
-        return CPS_OK;
-    return fail_name(path, NOTES, err);
+    return write_whole(*notes, FIRST_LINE, sizeof FIRST_LINE - 1) ? CPS_OK
+                                                                  : fail_name(path, NOTES, err);
 }
 
 CpsStatus cpsi_marker_note(int notes, const char *path, const char *name, CpsError *err) {
     char line[CPSI_NAME_SIZE + 8];
     const int length = snprintf(line, sizeof line, "p %s\n", name);
-    errno = 0;
-    if (write(notes, line, (size_t)length) == length) return CPS_OK;
-    if (errno == 0) errno = ENOSPC;
-    return fail_name(path, name, err);
+    return write_whole(notes, line, (size_t)length) ? CPS_OK : fail_name(path, name, err);
 }
 
 void cpsi_marker_end(int folder, int notes, bool keep) {

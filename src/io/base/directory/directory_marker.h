@@ -84,7 +84,8 @@ void cpsi_marker_end(int folder, int notes, bool keep);
 /* Remove the marker of a directory in which no results remain. */
 void cpsi_marker_remove(int folder);
 
-/* Whether the directory contains nothing but the files of this module. */
+/* Whether the directory contains nothing but the files of this module. After a failure, which errno
+ * then says, false; otherwise errno is 0. */
 bool cpsi_marker_is_alone(int folder);
 
 #endif

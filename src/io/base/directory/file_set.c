@@ -34,21 +34,24 @@ static CpsStatus write_file(CpsiDirectory *directory, const CpsiFile *file, bool
 }
 
 static CpsStatus write_all(CpsiDirectory *directory, const CpsiFile *file, int count,
-                           const CpsiFile *summary, CpsError *err) {
+                           const CpsiFile *summary, bool (*stale)(const char *name),
+                           CpsError *err) {
     CpsStatus status = CPS_OK;
     for (int i = 0; i < count && status == CPS_OK; ++i)
         status = write_file(directory, &file[i], false, err);
     if (status == CPS_OK) status = write_file(directory, summary, true, err);
-    return status == CPS_OK ? cpsi_directory_commit(directory, nothing_stale, err) : status;
+    return status == CPS_OK ? cpsi_directory_commit(directory, stale ? stale : nothing_stale, err)
+                            : status;
 }
 
 CpsStatus cpsi_file_set_write(const char *directory, const CpsiFile *file, int count,
-                              const CpsiFile *summary, CpsError *err) {
+                              const CpsiFile *summary, bool (*stale)(const char *name),
+                              CpsError *err) {
     CpsiNumbers numbers;
     if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     CpsiDirectory *open = NULL;
     CpsStatus status = cpsi_directory_open(directory, &open, err);
-    if (status == CPS_OK) status = write_all(open, file, count, summary, err);
+    if (status == CPS_OK) status = write_all(open, file, count, summary, stale, err);
     cpsi_directory_destroy(open);
     cpsi_numbers_end(&numbers);
     return status;

@@ -104,6 +104,9 @@ static CpsStatus look_round(CpsiDirectory *directory, CpsError *err) {
     if (status != CPS_OK) return status;
     if (directory->marker.found || cpsi_marker_is_alone(directory->fd))
         return cpsi_marker_parts(directory->fd, directory->path, false, NULL, err);
+    if (errno != 0)
+        return cpsi_fail(err, CPS_ERR_IO, "cannot list the files of %s: %s", directory->path,
+                         strerror(errno));
     return cpsi_fail(err, CPS_ERR_IO,
                      "%s is not empty and was not written by capstan: choose another directory, or "
                      "add --force to replace the files in it that have names of results",

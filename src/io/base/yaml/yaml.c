@@ -3,8 +3,10 @@
  * of open collections. */
 #include "io/base/yaml/yaml.h"
 
+#include <errno.h>
 #include <libfyaml.h>
 #include <limits.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -101,15 +103,23 @@ const CpsiYaml *cpsi_yaml_at(const CpsiYaml *root, const char *place) {
 
 static const char *skip_digits(const char *s) { return s + strspn(s, "0123456789"); }
 
+/* Read the number that the text is; false if it is too large for a double, or so small that it
+ * would be 0. */
+static bool in_range(const char *text, double *number) {
+    errno = 0;
+    *number = strtod(text, NULL);
+    return errno != ERANGE || (isfinite(*number) && *number != 0);
+}
+
 bool cpsi_yaml_number(const char *text, double *number) {
     static const char HEX[] = "0123456789abcdefABCDEF", OCTAL[] = "01234567";
     if (text[0] == '0' && text[1] == 'x') {
-        *number = strtod(text, NULL);
-        return text[2] && !text[2 + strspn(text + 2, HEX)];
+        return text[2] && !text[2 + strspn(text + 2, HEX)] && in_range(text, number);
     }
     if (text[0] == '0' && text[1] == 'o') {
+        errno = 0;
         *number = (double)strtoull(text + 2, NULL, 8);
-        return text[2] && !text[2 + strspn(text + 2, OCTAL)];
+        return text[2] && !text[2 + strspn(text + 2, OCTAL)] && errno != ERANGE;
     }
     if (strcmp(text, ".nan") == 0 || strcmp(text, ".NaN") == 0 || strcmp(text, ".NAN") == 0) {
         *number = strtod("nan", NULL);
@@ -135,8 +145,7 @@ bool cpsi_yaml_number(const char *text, double *number) {
         after = skip_digits(s);
         if (after == s) return false;
     }
-    *number = strtod(text, NULL);
-    return !*after;
+    return !*after && in_range(text, number);
 }
 
 /* ---- characters ---- */

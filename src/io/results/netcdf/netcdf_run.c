@@ -479,12 +479,25 @@ static void write_sections(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView
     cpsi_netcdf_doubles(&nc->file, ids->weight_length, &first, &nodes, view->weight_length);
 }
 
+/* Make the file. libnetcdf strips blanks at the beginning of a path and takes one with "://" for an
+ * address: it is given the same path from the working directory with single slashes. */
+static int create(CpsiNetcdf *nc, const char *path) {
+    char *own = malloc(strlen(path) + sizeof "./"), *to = own;
+    if (!own) return NC_ENOMEM;
+    if (path[0] != '/') to = stpcpy(own, "./");
+    for (const char *from = path; *from; ++from)
+        if (from[0] != '/' || from[1] != '/') *to++ = *from;
+    *to = '\0';
+    const int status = nc->file.library.create(own, NC_NOCLOBBER | NC_64BIT_OFFSET, &nc->file.id);
+    free(own);
+    return status;
+}
+
 /* all definitions, then the fields that never change */
 static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
                   const CpsEvolution *evolution, const char *names) {
     int before = 0;
-    cpsi_netcdf_keep(&nc->file,
-                     nc->file.library.create(path, NC_NOCLOBBER | NC_64BIT_OFFSET, &nc->file.id));
+    cpsi_netcdf_keep(&nc->file, create(nc, path));
     nc->open = nc->file.status == NC_NOERR;
     /* everything is written once, so nothing need be filled before */
     if (nc->open)

@@ -111,12 +111,16 @@ enum { HOW = O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC };
 
 static const char NO_FILE[] =
     "is not a file but a link or a device: move it away, or choose another directory";
+static const char OTHER_NAMES[] =
+    "has other names as well (hard links), whose content would change: copy it instead, or choose "
+    "another directory";
 static const char NO_JOURNAL[] =
     "is no journal of capstan: move it away, or choose another directory";
 
-/* Whether this is the beginning of a journal, or of the head of one that was not completed. */
+/* Whether this is the beginning of a journal; a run that was killed before it wrote anything leaves
+ * an empty file. */
 static bool is_magic(const char *found, size_t got) {
-    return memcmp(found, MAGIC, got < sizeof MAGIC ? got : sizeof MAGIC) == 0;
+    return got == 0 || (got >= sizeof MAGIC && memcmp(found, MAGIC, sizeof MAGIC) == 0);
 }
 
 static JournalHead make_head(const CpsJournal *journal) {
@@ -187,28 +191,47 @@ static CpsStatus open_file(CpsJournal *journal, CpsJournalMode mode, CpsError *e
     if (journal->file < 0 && errno != ELOOP) return fail(journal, "open", err);
     if (journal->file < 0 || fstat(journal->file, &about) != 0 || !S_ISREG(about.st_mode))
         return refuse(journal, CPS_ERR_IO, NO_FILE, err);
+    if (about.st_nlink > 1) return refuse(journal, CPS_ERR_IO, OTHER_NAMES, err);
     JournalHead found = {0};
     size_t got;
     if (!read_at(journal->file, &found, sizeof found, 0, &got)) return fail(journal, "read", err);
     return take_up(journal, mode, &found, got, err);
 }
 
-CpsStatus cpsi_journal_check(const char *directory, CpsError *err) {
-    const int folder = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0) return CPS_OK; /* the directory itself is another matter */
+/* The file .journal of a directory; *there: it is one that keeps steps. */
+static CpsStatus look_at(int folder, const char *directory, bool *there, CpsError *err) {
     struct stat about;
     char magic[sizeof MAGIC];
     size_t got;
+    *there = false;
     const int file = openat(folder, NAME, HOW | O_RDONLY);
-    const bool missing = file < 0 && errno == ENOENT;
-    close(folder);
-    if (missing) return CPS_OK;
+    if (file < 0 && errno == ENOENT) return CPS_OK;
     CpsStatus status = CPS_OK;
     if (file < 0 || fstat(file, &about) != 0 || !S_ISREG(about.st_mode))
         status = refuse_file(directory, CPS_ERR_IO, NO_FILE, err);
     else if (!read_at(file, magic, sizeof magic, 0, &got) || !is_magic(magic, got))
         status = refuse_file(directory, CPS_ERR_IO, NO_JOURNAL, err);
+    else
+        *there = about.st_size > (off_t)sizeof(JournalHead);
     if (file >= 0) close(file);
+    return status;
+}
+
+CpsStatus cpsi_journal_check(const char *directory, bool other, bool force, CpsError *err) {
+    const int folder = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return CPS_OK; /* the directory itself is another matter */
+    bool there;
+    CpsStatus status = look_at(folder, directory, &there, err);
+    if (other && status != CPS_OK) status = CPS_OK; /* a file that is not touched */
+    if (other && there && !force)
+        status = refuse_file(directory, CPS_ERR_IO,
+                             "keeps the steps of a run that was interrupted: go on with it "
+                             "(run --resume), choose another directory, or give them up (--force)",
+                             err);
+    if (other && there && force && unlinkat(folder, NAME, 0) != 0)
+        status = cpsi_fail(err, CPS_ERR_IO, "cannot remove the journal %s/%s: %s", directory, NAME,
+                           strerror(errno));
+    close(folder);
     return status;
 }
 
@@ -220,6 +243,8 @@ CpsStatus cps_journal_open(const char *directory, const CpsEvolution *evolution,
     *out = NULL;
     if (!directory || !evolution)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "directory and evolution are both needed");
+    if (mode != CPS_JOURNAL_NEW && mode != CPS_JOURNAL_RESUME && mode != CPS_JOURNAL_REPLACE)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%d is no mode of a journal", (int)mode);
     if (cps_evolution_report(evolution).step_count > 0)
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
@@ -317,18 +342,21 @@ CpsStatus cps_journal_sync(CpsJournal *journal, CpsError *err) {
 
 /* Remove only the file that was opened (every journal that a caller has is open): a file that has
  * replaced it belongs to someone else. */
-void cps_journal_remove(CpsJournal *journal) {
+CpsStatus cps_journal_remove(CpsJournal *journal, CpsError *err) {
     struct stat own, named;
-    if (journal && fstat(journal->file, &own) == 0 &&
-        fstatat(journal->folder, NAME, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
-        own.st_dev == named.st_dev && own.st_ino == named.st_ino)
-        unlinkat(journal->folder, NAME, 0);
+    if (!journal) return cpsi_fail(err, CPS_ERR_ARGUMENT, "journal is NULL");
+    if (fstat(journal->file, &own) == 0 &&
+        fstatat(journal->folder, NAME, &named, AT_SYMLINK_NOFOLLOW) == 0) {
+        if (own.st_dev != named.st_dev || own.st_ino != named.st_ino) return CPS_OK;
+        if (unlinkat(journal->folder, NAME, 0) == 0) return CPS_OK;
+    }
+    return errno == ENOENT ? CPS_OK : fail(journal, "remove", err);
 }
 
 void cps_journal_destroy(CpsJournal *journal) {
     if (!journal) return;
     if (journal->begun && journal->steps == 0)
-        cps_journal_remove(journal); /* there are no steps to continue from */
+        cps_journal_remove(journal, NULL); /* there are no steps to continue from */
     if (journal->file >= 0) close(journal->file);
     if (journal->folder >= 0) close(journal->folder);
     free(journal->directory);

@@ -261,13 +261,6 @@ static CpsStatus write_summary(CpsResults *results, double wall, CpsError *err) 
     return listed ? listed : closed;
 }
 
-/* Names of files of which an earlier run may have written more than this one. The marker knows no
- * other names that begin so (directory_marker.h). */
-static bool is_step_or_loop(const char *name) {
-    return strcmp(name, "obstacles.vtp") == 0 || strcmp(name, "result.pvd") == 0 ||
-           strncmp(name, "loop-", 5) == 0 || strncmp(name, "step-", 5) == 0;
-}
-
 static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     CpsiNetcdf *netcdf = results->netcdf;
     results->netcdf = NULL;
@@ -279,7 +272,7 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     if (!status) status = write_history(results, err);
     /* last: when there is a new summary, all files that it lists are in place */
     if (!status) status = write_summary(results, wall, err);
-    return status ? status : cpsi_directory_commit(results->directory, is_step_or_loop, err);
+    return status ? status : cpsi_directory_commit(results->directory, cpsi_results_replaces, err);
 }
 
 CpsStatus cps_results_finish(CpsResults *results, double wall, CpsError *err) {

@@ -54,6 +54,14 @@ bool cpsi_results_writes(const void *run, const char *name) {
     return strncmp(name, "step-", 5) == 0 && writes_of_step(results, name);
 }
 
+bool cpsi_results_replaces(const char *name) {
+    static const char *const BEGINNING[] = {"obstacles.vtp", "result.pvd", "history.svg",
+                                            "loop-",         "step-",      "line-"};
+    for (size_t i = 0; i < sizeof BEGINNING / sizeof *BEGINNING; ++i)
+        if (strncmp(name, BEGINNING[i], strlen(BEGINNING[i])) == 0) return true;
+    return is_plain(CPS_RESULTS_KIND_RUN, name) || is_plain(CPS_RESULTS_KIND_REGULARIZED, name);
+}
+
 typedef struct Wanted {
     CpsResultsKind kind;
     int lines;
@@ -77,10 +85,13 @@ CpsStatus cps_results_prepare(const char *directory, CpsResultsKind kind, int li
     if ((int)kind < 0 || (int)kind >= KINDS || line_count < 0)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "there is no such kind of results, or the number of lines is negative");
-    if (force && kind == CPS_RESULTS_KIND_RUN) {
-        const CpsStatus status = cpsi_journal_check(directory, err);
-        if (status != CPS_OK) return status;
-    }
+    const bool other = kind == CPS_RESULTS_KIND_REGULARIZED;
+    CpsStatus status = CPS_OK;
+    if (force && kind == CPS_RESULTS_KIND_RUN)
+        status = cpsi_journal_check(directory, false, force, err);
     const Wanted wanted = {kind, line_count};
-    return cpsi_directory_prepare(directory, force, is_wanted, &wanted, err);
+    if (status == CPS_OK)
+        status = cpsi_directory_prepare(directory, force, is_wanted, &wanted, err);
+    if (status == CPS_OK && other) status = cpsi_journal_check(directory, true, force, err);
+    return status;
 }

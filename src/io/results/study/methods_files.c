@@ -69,7 +69,7 @@ CpsStatus cps_methods_write(const char *directory, const char *title, int method
     const CpsiFile set[] = {{"methods.csv", methods_table, &m},
                             {"methods.svg", methods_picture, &m}};
     const CpsiFile summary = {"methods.json", cpsi_file_set_title, title};
-    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, &summary, err);
+    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, &summary, NULL, err);
 }
 
 /* ---- slack laid out ---- */
@@ -154,5 +154,5 @@ CpsStatus cps_completed_write(const char *directory, const CpsCompletedLine *lin
     const CpsiFile set[] = {{"completed.csv", completed_table, line},
                             {"completed.svg", completed_picture, line}};
     const CpsiFile summary = {"completed.json", cpsi_file_set_title, line->title};
-    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, &summary, err);
+    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, &summary, NULL, err);
 }

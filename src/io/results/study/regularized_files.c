@@ -7,6 +7,7 @@
 #include "io/base/text/columns.h"
 #include "io/base/text/escape.h"
 #include "io/draw/study/methods_picture.h"
+#include "io/results/writers.h"
 
 /* the text that replaces a certificate */
 static const char *const WARRANT =
@@ -212,7 +213,8 @@ CpsStatus cps_regularized_write(const char *directory, const CpsRegularizedRun *
             set[1 + i] = (CpsiFile){portraits[i].name, portrait, &portraits[i]};
         }
         const CpsiFile last = {"summary.json", summary, run};
-        status = cpsi_file_set_write(directory, set, run->line_count + 1, &last, err);
+        status = cpsi_file_set_write(directory, set, run->line_count + 1, &last,
+                                     cpsi_results_replaces, err);
     } else {
         status = cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     }

@@ -112,5 +112,5 @@ CpsStatus cps_study_write(const char *directory, const CpsStudyFiles *files, Cps
                             {"first-order.svg", first_order_picture, files},
                             {"relaxed.svg", relaxed_picture, files}};
     const CpsiFile summary = {"study.json", cpsi_file_set_title, files->title};
-    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, &summary, err);
+    return cpsi_file_set_write(directory, set, sizeof set / sizeof *set, &summary, NULL, err);
 }
