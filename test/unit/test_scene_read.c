@@ -257,16 +257,41 @@ static void knows_numbers(void **state) {
         const char *text;
         double value;
     } GOOD[] = {
-        {"0", 0},     {"-0", 0},     {"+12", 12},         {"1.5", 1.5},         {".5", 0.5},
-        {"5.", 5},    {"1e3", 1000}, {"1E-3", 0.001},     {"-1.e+2", -100},     {"0x1F", 31},
-        {"0o17", 15}, {"012", 12},   {"1e400", INFINITY}, {"-.inf", -INFINITY}, {"+.INF", INFINITY},
+        {"0", 0},     {"-0", 0},     {"+12", 12},        {"1.5", 1.5},         {".5", 0.5},
+        {"5.", 5},    {"1e3", 1000}, {"1E-3", 0.001},    {"-1.e+2", -100},     {"0x1F", 31},
+        {"0o17", 15}, {"012", 12},   {"1e-310", 1e-310}, {"-.inf", -INFINITY}, {"+.INF", INFINITY},
         {"0.1", 0.1}};
-    static const char *const BAD[] = {"",      " 1",   "1 ",       "e3",   "1e",
-                                      "1e+",   ".",    "-",        "--1",  "1.2.3",
-                                      "1_000", "1,5",  "0x",       "0o8",  "0x1g",
-                                      "inf",   "nan",  "infinity", "1d3",  "1f",
-                                      "0b1",   "-0x1", ".infx",    "1:30", "\xef\xbc\x91",
-                                      "0x1p3", "5 m"};
+    static const char *const BAD[] = {"",
+                                      " 1",
+                                      "1 ",
+                                      "e3",
+                                      "1e",
+                                      "1e+",
+                                      ".",
+                                      "-",
+                                      "--1",
+                                      "1.2.3",
+                                      "1_000",
+                                      "1,5",
+                                      "0x",
+                                      "0o8",
+                                      "0x1g",
+                                      "inf",
+                                      "nan",
+                                      "infinity",
+                                      "1d3",
+                                      "1f",
+                                      "0b1",
+                                      "-0x1",
+                                      ".infx",
+                                      "1:30",
+                                      "\xef\xbc\x91",
+                                      "0x1p3",
+                                      "5 m",
+                                      "1e400",
+                                      "-1e400",
+                                      "1e-400",
+                                      "0o7777777777777777777777"};
     for (size_t i = 0; i < sizeof GOOD / sizeof GOOD[0]; i++) {
         double x = NAN;
         if (!cpsi_yaml_number(GOOD[i].text, &x)) fail_msg("'%s' is a number", GOOD[i].text);
