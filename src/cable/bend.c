@@ -31,9 +31,16 @@ static double log_ratio_held(double friction, double turn) {
     return t < 1 ? 2 * atanh(t) : INFINITY;
 }
 
+/* Half turns below this have their excess from the first terms of its series: the next one is
+ * 1e-12 of it, and the difference of two logarithms would be rounding. */
+static const double SMALL_HALF_TURN = 1e-3;
+
 /* ln of the quotient of the ratios that the node and a smooth line hold. */
 static double excess(const CpsBend *bend) {
-    return log_ratio_held(bend->friction, bend->turn) - bend->friction * bend->turn;
+    const double x = 0.5 * bend->turn, mu = bend->friction, m = mu * mu;
+    if (x < SMALL_HALF_TURN && mu * x < SMALL_HALF_TURN)
+        return 2 * mu * x * x * x * ((1 + m) / 3 + x * x * (2.0 / 15 + m / 3 + m * m / 5));
+    return log_ratio_held(mu, bend->turn) - mu * bend->turn;
 }
 
 bool cpsi_bend_locks(const CpsBend *bend) {
