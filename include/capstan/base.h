@@ -13,10 +13,11 @@
  *   - A call with a status returns CPS_ERR_ARGUMENT for a handle or an array that is NULL where its
  *     description does not allow it, for a count or a size below the stated range, and for a number
  *     outside an enumeration; CPS_ERR_LIMIT for what is too large. A refused call changes nothing.
- *     A call without a status returns 0, NULL, false or a struct of zeros in these cases, and for
- *     an index that does not exist.
- *   - The name of a number of things, entries of an array or steps taken, ends in `_count`; that of
- *     the largest number allowed begins with `max_`.
+ *     A call without a status returns 0, NULL or false in these cases, and for an index that does
+ *     not exist; or a struct whose numbers are 0, whose names are "" or NULL, and whose outcome is
+ *     none of success.
+ *   - In a struct or the name of a call the number of things, entries of an array or steps taken,
+ *     ends in `_count`; that of the largest number allowed begins with `max_`.
  *   - Where a value may be missing, a flag `has_..` or an enumeration says so, and the value is 0;
  *     only residuals of laws (law.h) are NaN instead. An array of indices needs an entry for
  *     `none` beside 0, so as to stay one array; it has a name, CPS_NO_OBSTACLE (step.h), which is
@@ -63,10 +64,10 @@ typedef enum CpsStatus {
 #undef CPS_STATUS_ENUM
 } CpsStatus;
 
-/* Where and why a call failed. `file` is empty and line, column are 0 when no input file is
- * concerned; otherwise lines and columns count from 1. `where` is the place in what was given, by
- * the names that a scene file uses: "lines.cable.length", "history[2].cable.B", entries counted
- * from 1; empty when no part of it is meant. */
+/* Where and why a call failed. `file` is empty when no input file is concerned; line and column are
+ * 0 then, and where a file cannot be opened; otherwise they count from 1. `where` is the place in
+ * what was given, by the names that a scene file uses: "lines.cable.length", "history[2].cable.B",
+ * entries counted from 1; empty when no part of it is meant. */
 typedef struct CpsError {
     CpsStatus status;
     int line, column;

@@ -90,7 +90,7 @@ static void results(void **state) {
     REFUSED(cps_journal_append(NULL, NULL, &err));
     REFUSED(cps_journal_sync(NULL, &err));
     RUNS(cps_journal_sync_late(NULL));
-    RUNS(cps_journal_remove(NULL, NULL));
+    REFUSED(cps_journal_remove(NULL, &err));
     RUNS(cps_journal_destroy(NULL));
 }
 
@@ -259,6 +259,13 @@ static void laws(void **state) {
         REFUSED(cps_law_draw(disc, &axes, out, &err));
         REFUSED(cps_resistance_draw(resistance, &axes, out, &err));
     }
+    CpsLawPicture negative = cps_law_picture_default();
+    negative.axis[1] = 1;
+    negative.velocity_count = -1;
+    REFUSED(cps_law_draw(disc, &negative, out, &err));
+    negative.velocity_count = 0;
+    negative.force_count = INT_MIN;
+    REFUSED(cps_resistance_draw(resistance, &negative, out, &err));
     REFUSED(cps_law_draw(disc, &missing, out, &err));
     REFUSED(cps_law_draw(disc, &forces, out, &err));
     REFUSED(cps_resistance_draw(resistance, &missing, out, &err));

@@ -178,7 +178,8 @@ CpsStatus cpsi_directory_prepare(const char *path, bool force, CpsiIsWritten *is
 CpsStatus cpsi_directory_missing(const char *path, char missing[CPSI_NAME_SIZE], CpsError *err) {
     missing[0] = '\0';
     const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0) return CPS_OK;
+    if (folder < 0 && (errno == ENOENT || errno == ENOTDIR)) return CPS_OK;
+    if (folder < 0) return cpsi_fail(err, CPS_ERR_IO, "cannot open %s: %s", path, strerror(errno));
     CpsiMarker marker;
     const CpsStatus status = cpsi_marker_read(folder, path, &marker, err);
     const char *name = status == CPS_OK ? cpsi_marker_missing(&marker, folder) : NULL;
@@ -298,11 +299,12 @@ int cpsi_directory_reopen(const CpsiDirectory *directory, const char *name) {
 /* commit --------------------------------------------------------------------------------------- */
 
 static CpsStatus fail_mixed(const CpsiDirectory *directory, const char *name, CpsError *err) {
-    return cpsi_fail(err, CPS_ERR_IO,
-                     "cannot put %s/%s in its place: %s; the files there are now of two runs, and "
-                     "%s is missing: run again into this directory (--resume goes on from the "
-                     "journal) to replace them all",
-                     directory->path, name, strerror(errno), directory->name[directory->count - 1]);
+    return cpsi_fail(
+        err, CPS_ERR_IO,
+        "cannot put %s/%s in its place: %s; the files there are now of two runs, or not "
+        "all of one, and %s is missing: the same command again replaces them all "
+        "(--resume of run goes on from the journal)",
+        directory->path, name, strerror(errno), directory->name[directory->count - 1]);
 }
 
 static CpsStatus fail_late(const CpsiDirectory *directory, CpsError *err) {

@@ -258,6 +258,7 @@ CpsStatus cps_drive_draw_body(const CpsDriveFile *file, int count, const double 
                               const double *ends, FILE *out, CpsError *err) {
     if (!file || file->kind != CPS_DRIVE_BODY)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "the file holds no body");
+    if (count < 0) return cpsi_fail(err, CPS_ERR_ARGUMENT, "the number of poses is %d", count);
     BodyPicture picture = {file, &file->body, poses && ends ? count : 0, poses, ends};
     return cpsi_draw_plain(draw_body, &picture, out, err);
 }

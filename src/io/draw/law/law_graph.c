@@ -288,6 +288,10 @@ CpsStatus cpsi_law_picture_check(const CpsLawPicture *picture, int n, CpsError *
     if (picture->cookie != PICTURE_COOKIE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "the picture was not made by cps_law_picture_default()");
+    if (picture->velocity_count < 0 || picture->force_count < 0)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%d velocities and %d forces: no number may be negative",
+                         picture->velocity_count, picture->force_count);
     if ((picture->velocity_count > 0 && !picture->velocity) ||
         (picture->force_count > 0 && !picture->force))
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "velocities or forces are counted, and NULL");
