@@ -90,6 +90,19 @@ def other_method():
     message = run("run", "scene.yaml", "-q", "--method", "regularized", "-o", "half", code=4)
     expect("the steps of an interrupted run are kept", "keeps the steps" in message and os.path.exists("half/.journal"), message)
     expect("and nothing is written", "summary.json" not in os.listdir("half"), os.listdir("half"))
+    os.mkdir("own")
+    write("own/.capstan", "capstan directory 1\n")
+    others = (".journal", "line-0.svg", "line-7.svg", "loop-mine.svg")
+    for name in others:  # none is in the way of these results
+        write("own/" + name, "mine")
+    run("run", "scene.yaml", "-q", "--method", "regularized", "-o", "own")
+    expect("files of others stay", all(read("own/" + name) == b"mine" for name in others), os.listdir("own"))
+    os.remove("own/.journal")
+    others = ("step-99999.vtp", "step-00001-obstacles.vtp", "line-7.svg")
+    for name in others:  # nor of these: four steps without ParaView
+        write("own/" + name, "mine")
+    run("run", "scene.yaml", "-q", "--no-paraview", "-o", "own")
+    expect("files of others stay beside a run", all(read("own/" + name) == b"mine" for name in others), os.listdir("own"))
     run("run", "scene.yaml", "-q", "--method", "regularized", "-o", "half", "--force")
     expect("unless they are given up", not os.path.exists("half/.journal"), os.listdir("half"))
 

@@ -94,6 +94,13 @@ def outrun(folder, case):
     rng = random.Random(f"outrun {SEED} {case}")
     scene, slope, along = groove(rng, rng.uniform(0.1, 0.9), rng.uniform(0.1, 0.9))
     rope, most = scene["lines"]["rope"], max(o["friction"] for o in scene["obstacles"].values())
+    if case % 4 == 1:  # zones of more and of less friction; hold is what the greatest of them would
+        rope["friction_zones"] = [{"from": 0, "to": 0.3*rope["length"], "factor": 1.4}, {"from": 0.5*rope["length"], "to": rope["length"], "factor": 0.9}]
+        most *= 1.4
+    if case % 4 == 3:  # the disc round a box
+        for plane in scene["obstacles"].values():
+            plane["friction"] = {"axial": plane["friction"], "lateral": plane["friction"], "shape": "box"}
+        most *= math.sqrt(2)
     hold = most*rope["weight"]*rope["length"]/(math.cos(slope)*math.sqrt(1 - min(0.9, most*math.tan(slope))**2))
     pulls = [rng.uniform(0.05, 0.2)*hold, rng.uniform(1.02, 3)*hold]
     scene["friction_policy"] = "frozen"
