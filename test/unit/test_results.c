@@ -473,9 +473,10 @@ static void what_is_not_there_is_refused(void **state) {
     assert_int_equal(cps_journal_next(journal, other, &found, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(cps_journal_sync(NULL, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(cps_journal_remove(NULL, NULL), CPS_ERR_ARGUMENT);
-    assert_int_equal(cps_journal_open("results-misuse", evolution, (CpsJournalMode)7, &journal,
-                                      &err),
+    CpsJournal *none = NULL;
+    assert_int_equal(cps_journal_open("results-misuse", evolution, (CpsJournalMode)7, &none, &err),
                      CPS_ERR_ARGUMENT);
+    assert_null(none);
     cps_journal_sync_late(NULL);
     cps_journal_destroy(NULL);
     cps_journal_destroy(journal);
