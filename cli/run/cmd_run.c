@@ -368,8 +368,7 @@ static void print_where(const char *directory, const CpsEvolution *evolution, bo
                paraview ? ", result.pvd (ParaView)" : "");
     cli_printf(stdout,
                "pictures  %s: plan.svg, elevation.svg, tension.svg, history.svg, step-*.svg; "
-               "loop-*.svg where "
-               "a held end goes round a closed cycle\n",
+               "loop-*.svg where a held end goes round a closed cycle\n",
                directory);
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
     const double *o = view.origin;

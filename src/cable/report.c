@@ -233,9 +233,11 @@ static double suspended(const CpsiLine *line, int end) {
     for (int j = first; j >= 0 && j < line->n; j += towards) {
         const double part = touching_part(line, j), share = cpsi_line_share(line, j);
         if (part > 0 && j == first) return 0;
-        const int next = j + towards;
-        const bool goes_on = next < 0 || next >= line->n || touching_part(line, next) > 0;
-        if (part > 0) return length + (goes_on ? 1 - part : 0.5 * (1 - part)) * share;
+        if (part > 0) {
+            const int next = j + towards;
+            const bool goes_on = next < 0 || next >= line->n || touching_part(line, next) > 0;
+            return length + (goes_on ? 1 - part : 0.5 * (1 - part)) * share;
+        }
         length += share;
     }
     return line->length;
