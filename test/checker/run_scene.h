@@ -5,8 +5,14 @@
 
 #include "capstan/step.h"
 
-/* Take the steps of the scene in the file `path`, write their results to a directory, and return
- * the last report on its first line. What fails on the way fails the test. */
-CpsLineReport run_scene(const char *path, const char *directory);
+/* The scene's file, and result.nc, in a directory that these make before the tests of a program and
+ * remove after them. */
+extern char scene_path[64], scene_result[64];
+int make_scene_directory(void **state);
+int remove_scene_directory(void **state);
+
+/* Take the steps of the scene in scene_path, write their results beside it, and return the last
+ * report on its first line. What fails on the way fails the test. */
+CpsLineReport run_scene(void);
 
 #endif

@@ -12,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "check.h"
 #include "checker.h"
@@ -21,23 +20,6 @@
 #include "splitmix.h"
 
 enum { CASES = 14, CORNERS = 8, POINTS = CORNERS + 2 };
-
-static char directory[] = "capstan-caught-XXXXXX", path[64], result[64];
-
-static int make_directory(void **state) {
-    (void)state;
-    if (!mkdtemp(directory)) return -1;
-    snprintf(path, sizeof path, "%s/scene.yaml", directory);
-    snprintf(result, sizeof result, "%s/result.nc", directory);
-    return 0;
-}
-
-static int remove_directory(void **state) {
-    (void)state;
-    char command[80];
-    snprintf(command, sizeof command, "rm -r '%s'", directory);
-    return system(command);
-}
 
 /* A ball of radius `size`, its centre above the origin. The line goes along y = -off from x =
  * -before to 0, half round the origin and back along y = off to x = -after; then B is drawn back by
@@ -105,7 +87,7 @@ static void print_point(FILE *out, const Boulder *b, double x, double y) {
 }
 
 static void write_scene(const Boulder *b) {
-    FILE *out = fopen(path, "w");
+    FILE *out = fopen(scene_path, "w");
     assert_non_null(out);
     // the line beside: the ball is on the other side of it
     const double x = b->kind == BESIDE ? 5 * b->size : 0;
@@ -130,8 +112,8 @@ static void write_scene(const Boulder *b) {
 
 static int refused(const char *variable, size_t index, double value) {
     CheckerReport report;
-    CHECK_INT(sample_poke(result, variable, index, value), 0);
-    (void)checker_file(result, &report, NULL);
+    CHECK_INT(sample_poke(scene_result, variable, index, value), 0);
+    (void)checker_file(scene_result, &report, NULL);
     return report.refuted;
 }
 
@@ -156,15 +138,16 @@ static void look_at_copies(const Boulder *b, const CpsLineReport *line) {
     refuse("rope_end_kind", 1, 1, 0);
     refuse("rope_outcome", 0, 0, 5);
     /* the half-line on the other side of the ball */
-    for (int k = 0; k < 2; k++) CHECK_INT(sample_poke(result, "rope_proof", (size_t)k, -e[k]), 0);
+    for (int k = 0; k < 2; k++)
+        CHECK_INT(sample_poke(scene_result, "rope_proof", (size_t)k, -e[k]), 0);
     CHECK_INT(refused("rope_proof", 2, -e[2]), 1);
-    for (size_t k = 0; k < 3; k++) CHECK_INT(sample_poke(result, "rope_proof", k, e[k]), 0);
+    for (size_t k = 0; k < 3; k++) CHECK_INT(sample_poke(scene_result, "rope_proof", k, e[k]), 0);
     /* longer than 1 */
     refuse("rope_proof", 2, e[2] + 0.1, e[2]);
     /* end B not drawn back */
-    CHECK_INT(sample_poke(result, "rope_end_held_position", 3, held[0] * 0.7), 0);
+    CHECK_INT(sample_poke(scene_result, "rope_end_held_position", 3, held[0] * 0.7), 0);
     CHECK_INT(refused("rope_end_held_position", 4, held[1] * 0.7), 1);
-    CHECK_INT(sample_poke(result, "rope_end_held_position", 3, held[0]), 0);
+    CHECK_INT(sample_poke(scene_result, "rope_end_held_position", 3, held[0]), 0);
     CHECK_INT(refused("rope_end_held_position", 4, held[1]), 0);
     /* a longer element, a node inside the ball, a smaller ball, one clear of the bed, a bed below
      */
@@ -183,13 +166,13 @@ static void what_is_caught_is_told(void **state) {
         const Boulder b = random_boulder(&random, i % 2 ? CAUGHT : i / 2 % KINDS);
         CheckerReport report;
         write_scene(&b);
-        const CpsLineReport line = run_scene(path, directory);
+        const CpsLineReport line = run_scene();
         const bool is_caught = line.outcome == CPS_OUTCOME_INFEASIBLE && line.has_proof_plane;
         printf("%s: %s, lacks %.3g R, proved %.3g R, height %.3g R, %d parts\n", KIND[b.kind],
                cps_outcome_name(line.outcome), b.missing / b.size, line.proof_length / b.size,
                b.height / b.size, line.substep_count);
         CHECK_INT(is_caught, b.kind == CAUGHT);
-        (void)checker_file(result, &report, stdout);
+        (void)checker_file(scene_result, &report, stdout);
         CHECK_INT(report.refuted, 0);
         tried[b.kind]++;
         if (b.kind == LONG) CHECK_INT(cps_outcome_is_certified(line.outcome), true);
@@ -207,5 +190,5 @@ static void what_is_caught_is_told(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_caught_is_told)};
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, make_scene_directory, remove_scene_directory);
 }

@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "check.h"
 #include "checker.h"
@@ -20,23 +19,6 @@
 #include "splitmix.h"
 
 enum { CASES = 100, SHARES = 2000, TRIES = 3000 };
-
-static char directory[] = "capstan-long-XXXXXX", path[64], result[64];
-
-static int make_directory(void **state) {
-    (void)state;
-    if (!mkdtemp(directory)) return -1;
-    snprintf(path, sizeof path, "%s/scene.yaml", directory);
-    snprintf(result, sizeof result, "%s/result.nc", directory);
-    return 0;
-}
-
-static int remove_directory(void **state) {
-    (void)state;
-    char command[80];
-    snprintf(command, sizeof command, "rm -r '%s'", directory);
-    return system(command);
-}
 
 /* End A at the origin, B at (span, 0, 0); the axis or centre at (x, 0, -below). */
 typedef struct Barrier {
@@ -133,7 +115,7 @@ static Barrier random_barrier(uint64_t *state, double margin) {
 
 static void write_scene(const Barrier *b) {
     const double length = b->before + b->length + b->after;
-    FILE *out = fopen(path, "w");
+    FILE *out = fopen(scene_path, "w");
     assert_non_null(out);
     fprintf(out, "capstan: 1\nsolver: {halvings: 0, max_iterations: 2}\nobstacles:\n"
                  "  far: {plane: {point: [0, 0, -1000], normal: [0, 0, 1]}, friction: 0.2}\n");
@@ -157,8 +139,8 @@ static void write_scene(const Barrier *b) {
 
 static int refused(const char *variable, size_t index, double value) {
     CheckerReport report;
-    CHECK_INT(sample_poke(result, variable, index, value), 0);
-    (void)checker_file(result, &report, NULL);
+    CHECK_INT(sample_poke(scene_result, variable, index, value), 0);
+    (void)checker_file(scene_result, &report, NULL);
     return report.refuted;
 }
 
@@ -175,7 +157,7 @@ static void what_cannot_go_round_is_told(void **state) {
         CHECK_INT(blocked && round, false);
         found_round += round;
         write_scene(&b);
-        const CpsLineReport line = run_scene(path, directory);
+        const CpsLineReport line = run_scene();
         const bool infeasible = line.outcome == CPS_OUTCOME_INFEASIBLE,
                    by_element =
                        infeasible && line.proof[0] == 0 && line.proof[1] == 0 && line.proof[2] == 0;
@@ -185,7 +167,7 @@ static void what_cannot_go_round_is_told(void **state) {
         if (round || b.elastic) CHECK_INT(infeasible, false);
         if (blocked && !b.elastic) CHECK_INT(infeasible, true);
         if (!blocked) CHECK_INT(by_element, false);
-        (void)checker_file(result, &report, stdout);
+        (void)checker_file(scene_result, &report, stdout);
         CHECK_INT(report.refuted, 0);
         too_short += infeasible && !by_element;
         proved += by_element;
@@ -214,5 +196,5 @@ static void what_cannot_go_round_is_told(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_cannot_go_round_is_told)};
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, make_scene_directory, remove_scene_directory);
 }

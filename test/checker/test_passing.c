@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "check.h"
 #include "checker.h"
@@ -19,23 +18,6 @@
 #include "splitmix.h"
 
 enum { CASES = 80 };
-
-static char directory[] = "capstan-passing-XXXXXX", path[64], result[64];
-
-static int make_directory(void **state) {
-    (void)state;
-    if (!mkdtemp(directory)) return -1;
-    snprintf(path, sizeof path, "%s/scene.yaml", directory);
-    snprintf(result, sizeof result, "%s/result.nc", directory);
-    return 0;
-}
-
-static int remove_directory(void **state) {
-    (void)state;
-    char command[80];
-    snprintf(command, sizeof command, "rm -r '%s'", directory);
-    return system(command);
-}
 
 /* Something round in or beside the way of a rope of length L from the origin to L (cos, 0, +-sin).
  */
@@ -50,7 +32,7 @@ typedef struct Passing {
 static void write_scene(const Passing *w) {
     const double c = w->length * cos(w->angle), s = w->length * sin(w->angle) * w->side,
                  far = 50 * w->length, more = 1.001;
-    FILE *out = fopen(path, "w");
+    FILE *out = fopen(scene_path, "w");
     assert_non_null(out);
     fprintf(out,
             "capstan: 1\ncontact_policy: reference\nfriction_policy: %s\nsolver: {halvings: "
@@ -98,8 +80,8 @@ static Passing random_passing(uint64_t *state, bool passes, bool follows) {
 
 static int refused(const char *variable, size_t index, double value) {
     CheckerReport report;
-    CHECK_INT(sample_poke(result, variable, index, value), 0);
-    (void)checker_file(result, &report, NULL);
+    CHECK_INT(sample_poke(scene_result, variable, index, value), 0);
+    (void)checker_file(scene_result, &report, NULL);
     return report.refuted;
 }
 
@@ -113,12 +95,12 @@ static void what_passes_is_told(void **state) {
         CheckerReport report;
         CHECK_INT(is_passed(&w), passes);
         write_scene(&w);
-        const CpsLineReport line = run_scene(path, directory);
+        const CpsLineReport line = run_scene();
         CHECK_INT(strcmp(cps_outcome_name(line.outcome), passes ? "passes" : "solved"), 0);
         CHECK_INT(cps_outcome_is_certified(line.outcome), !passes);
         CHECK_INT(line.has_proof_obstacle, passes);
         if (passes) CHECK_INT(line.proof_obstacle, 1);
-        (void)checker_file(result, &report, stdout);
+        (void)checker_file(scene_result, &report, stdout);
         CHECK_INT(report.refuted, 0);
         CHECK_INT(passes ? report.uncertified : report.certified, 1);
         passed += passes;
@@ -158,14 +140,14 @@ static void its_work_is_checked(void **state) {
         Passing w = random_passing(&random, true, i % 2);
         w.rests = true;
         write_scene(&w);
-        const CpsLineReport line = run_scene(path, directory);
+        const CpsLineReport line = run_scene();
         const double ends = line.ledger.ends, imbalance = line.ledger.imbalance,
                      more = 0.01 * fabs(ends);
         CHECK_INT(strcmp(cps_outcome_name(line.outcome), "passes"), 0);
         CHECK_INT(line.substep_count, 1);
         CHECK_GREATER(more, 0);
         CHECK_INT(refused("rope_ledger_ends", 1, ends), 0);
-        CHECK_INT(sample_poke(result, "rope_ledger_ends", 1, ends + more), 0);
+        CHECK_INT(sample_poke(scene_result, "rope_ledger_ends", 1, ends + more), 0);
         CHECK_INT(refused("rope_ledger_imbalance", 1, imbalance + more), 1);
     }
 }
@@ -173,5 +155,5 @@ static void its_work_is_checked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_passes_is_told),
                                        cmocka_unit_test(its_work_is_checked)};
-    return cmocka_run_group_tests(tests, make_directory, remove_directory);
+    return cmocka_run_group_tests(tests, make_scene_directory, remove_scene_directory);
 }
