@@ -3,6 +3,7 @@
  * recursively. */
 #include "io/read/law/set_build.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "base/status.h"
@@ -10,6 +11,12 @@
 #include "io/schema/tables/set_keys.h"
 
 /* ---- sizes ---- */
+
+/* The most components, points and rows of sets over which conic programs are solved, where one of
+ * them has this many components. */
+static int most_solved(int components) {
+    return (int)cbrt((double)CPSI_LAW_MOST_WORK / components);
+}
 
 /* Check that a set just made from a word with `items` points or rows is not too large for
  * queries.
@@ -20,12 +27,16 @@ static CpsStatus weigh(CpsiSetBuild *b, const CpsiYaml *node, int components, in
         return cpsi_document_fail(b->d, CPS_ERR_LIMIT, node,
                                   "'%.64s': a set of %d components, at most %d", node->key,
                                   components, (int)CPSI_LAW_MOST_COMPONENTS);
-    if (solved && (b->solved_size += components + items) > CPSI_LAW_MOST_SOLVED)
+    if (!solved) return CPS_OK;
+    b->solved_size += components + items;
+    if (components > b->solved_components) b->solved_components = components;
+    const int most = most_solved(b->solved_components);
+    if (b->solved_size > most)
         return cpsi_document_fail(
             b->d, CPS_ERR_LIMIT, node,
             "'%.64s': the sets up to here that are not answered in closed form have %d components, "
-            "points and rows together, at most %d",
-            node->key, b->solved_size, (int)CPSI_LAW_MOST_SOLVED);
+            "points and rows together, at most %d with sets of %d components",
+            node->key, b->solved_size, most, b->solved_components);
     return CPS_OK;
 }
 

@@ -11,8 +11,9 @@
 /* A file being built, and the weakest condition of the composition rule found so far. */
 typedef struct CpsiSetBuild {
     const CpsiDocument *d;
-    int solved_depth; /* number of enclosing words for which a conic program is solved */
-    int solved_size;  /* components, points and rows of all sets inside such words */
+    int solved_depth;      /* number of enclosing words for which a conic program is solved */
+    int solved_size;       /* components, points and rows of all sets inside such words */
+    int solved_components; /* most components of one of them */
     bool has_preimage;
     CpsComposition composition;
     int composition_line;

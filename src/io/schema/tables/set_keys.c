@@ -248,7 +248,7 @@ WORD_KEYS(TABLE,
 
 /* Each row: word, value, function that makes it, help. SOLVED are words over parts or rows whose
  * queries solve a conic program over all of them, so that their size is limited more strictly
- * (CPSI_LAW_MOST_SOLVED). A single set with a conic form of fixed size, as the friction cone, is
+ * (CPSI_LAW_MOST_WORK). A single set with a conic form of fixed size, as the friction cone, is
  * MADE. */
 #define MADE(function)   .make = function
 #define SOLVED(function) .make = function, .solved = true

@@ -58,9 +58,11 @@ typedef struct CpsiLawFileValues {
 extern const CpsiMapping cpsi_set_words, cpsi_law_words, cpsi_term_words;
 extern const CpsiMapping cpsi_contact, cpsi_law_file;
 
-/* Limits chosen so that no file takes the program more than about a minute: components of one set,
- * and components, points and rows together of all sets over which a conic program is solved. */
-enum { CPSI_LAW_MOST_COMPONENTS = 32, CPSI_LAW_MOST_SOLVED = 300, CPSI_LAW_LONGEST_TITLE = 255 };
+/* Limits of a set: its components, and the components, points and rows together of all sets over
+ * which a conic program is solved. A program over k of them takes k^3 operations, and as many
+ * programs are solved as there are components: so that a file below 1 MB is read in 2 s,
+ * k^3 x components is at most CPSI_LAW_MOST_WORK. */
+enum { CPSI_LAW_MOST_COMPONENTS = 32, CPSI_LAW_MOST_WORK = 20000000, CPSI_LAW_LONGEST_TITLE = 255 };
 
 /* Fails, at the value, unless `found` equals `expected`: "'map': found 3 columns, expected 2, as
  * many as .." */
