@@ -12,7 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -164,6 +166,15 @@ static void no_list(void **state) {
         if (small_run(OUT, 3, &err) != CPS_ERR_IO) fail_msg("%s: is accepted", MAKE[i]);
         assert_non_null(strstr(err.message, "no list of capstan's"));
     }
+    /* a socket */
+    assert_int_equal(system("rm -rf directory-calls"), 0);
+    assert_int_equal(mkdir(OUT, 0777), 0);
+    const struct sockaddr_un at = {.sun_family = AF_UNIX, .sun_path = "directory-calls/.capstan"};
+    const int plug = socket(AF_UNIX, SOCK_STREAM, 0);
+    assert_true(plug >= 0 && bind(plug, (const struct sockaddr *)&at, sizeof at) == 0);
+    assert_int_equal(small_run(OUT, 3, &err), CPS_ERR_IO);
+    assert_non_null(strstr(err.message, "no list of capstan's"));
+    close(plug);
     /* of a run that was killed in its first moment */
     assert_int_equal(system("rm -rf directory-calls"), 0);
     assert_int_equal(mkdir(OUT, 0777), 0);

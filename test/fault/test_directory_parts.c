@@ -172,6 +172,9 @@ static void what_is_refused(void **state) {
     assert_int_equal(cps_results_missing(OUT, missing, &err), CPS_OK);
     assert_string_equal(missing, "");
     assert_int_equal(unlink("directory-parts/summary.json"), 0);
+    /* no directory at all has nothing missing, nor has what is none */
+    assert_int_equal(cps_results_missing("directory-parts/none", missing, &err), CPS_OK);
+    assert_int_equal(cps_results_missing("directory-parts/loop-a.svg", missing, &err), CPS_OK);
     assert_int_equal(cps_results_missing(OUT, missing, &err), CPS_OK);
     assert_string_equal(missing, "summary.json");
     /* a list far longer than any */

@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "io/results/writers.h"
 #include "small_run.h"
 
 ssize_t __real_pread(int file, void *to, size_t size, off_t at);
@@ -29,6 +30,8 @@ int __wrap_fstat(int file, struct stat *about);
 int __wrap_fsync(int file);
 int __wrap_fdatasync(int file);
 int __wrap_ftruncate(int file, off_t size);
+int __real_unlinkat(int at, const char *path, int how);
+int __wrap_unlinkat(int at, const char *path, int how);
 int __real_openat(int at, const char *path, int how, ...);
 int __wrap_openat(int at, const char *path, int how, ...);
 
@@ -57,6 +60,10 @@ int __wrap_fstat(int file, struct stat *about) {
 int __wrap_fsync(int file) { return fails() ? -1 : __real_fsync(file); }
 int __wrap_fdatasync(int file) { return fails() ? -1 : __real_fdatasync(file); }
 int __wrap_ftruncate(int file, off_t size) { return fails() ? -1 : __real_ftruncate(file, size); }
+
+int __wrap_unlinkat(int at, const char *path, int how) {
+    return fails() ? -1 : __real_unlinkat(at, path, how);
+}
 
 int __wrap_openat(int at, const char *path, int how, ...) {
     return fails() ? -1 : __real_openat(at, path, how, 0666);
@@ -263,6 +270,51 @@ static void another_order(void **state) {
     assert_int_equal(unlink(path), 0);
 }
 
+/* What a run finds under the journal's name before it computes, when each call fails; and a run of
+ * another kind, whose results the journal is not of, with and without the order to give it up. */
+static void looked_at(void **state) {
+    (void)state;
+    CpsError err = {0};
+    char path[64];
+    int had;
+    why = EIO;
+    snprintf(path, sizeof path, "%s/.journal", folder);
+    for (int order = 0; order < 4; order++) {
+        const bool other = order & 1, force = order & 2;
+        for (int k = 0; k < 5; k++) {
+            assert_int_equal(go_on(CPS_JOURNAL_REPLACE, FIRST, &had, false, &err), CPS_OK);
+            calls = 0;
+            fails_at = k;
+            const CpsStatus status = cpsi_journal_check(folder, other, force, &err);
+            const bool reached = calls > k;
+            fails_at = -1;
+            if (status) assert_non_null(strstr(err.message, ".journal"));
+            if (!reached && !other) assert_int_equal(status, CPS_OK);
+            /* no steps are given up but by that order, and not by a run of the same kind */
+            if (!other || !force || status) assert_int_equal(access(path, F_OK), 0);
+            if (!reached && other && force) assert_int_not_equal(access(path, F_OK), 0);
+        }
+    }
+    unlink(path);
+    /* no journal, and a head without steps */
+    assert_int_equal(cpsi_journal_check(folder, true, true, &err), CPS_OK);
+    CpsEvolution *evolution = make_evolution();
+    CpsJournal *journal = NULL;
+    assert_int_equal(cps_journal_open(folder, evolution, CPS_JOURNAL_NEW, &journal, NULL), CPS_OK);
+    assert_int_equal(cpsi_journal_check(folder, true, false, &err), CPS_OK);
+    assert_int_equal(access(path, F_OK), 0);
+    /* a journal that cannot be removed says so */
+    for (int k = 0; k < 2; k++) {
+        calls = 0;
+        fails_at = k; /* fstat, unlinkat */
+        assert_int_equal(cps_journal_remove(journal, &err), CPS_ERR_IO);
+        assert_non_null(strstr(err.message, "remove"));
+    }
+    fails_at = -1;
+    cps_journal_destroy(journal);
+    cps_evolution_destroy(evolution);
+}
+
 static int begin(void **state) {
     (void)state;
     CpsEvolution *evolution = make_evolution();
@@ -280,9 +332,9 @@ static int end(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(broken_disk),  cmocka_unit_test(full_disk),
-                                       cmocka_unit_test(interrupted),  cmocka_unit_test(no_sync),
-                                       cmocka_unit_test(nothing),      cmocka_unit_test(replaced),
-                                       cmocka_unit_test(another_order)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(broken_disk),   cmocka_unit_test(full_disk), cmocka_unit_test(interrupted),
+        cmocka_unit_test(no_sync),       cmocka_unit_test(nothing),   cmocka_unit_test(replaced),
+        cmocka_unit_test(another_order), cmocka_unit_test(looked_at)};
     return cmocka_run_group_tests(tests, begin, end);
 }

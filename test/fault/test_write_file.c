@@ -173,6 +173,41 @@ static void impossible_places(void **state) {
     assert_int_equal(remove("write-file-here"), 0);
 }
 
+/* What is open as standard output is written to and goes on behind what has been printed; a link to
+ * any other file is replaced, on whatever device the file is, and with standard output closed. */
+static void links(void **state) {
+    (void)state;
+    static const char LINK[] = "write-file/link", OUTPUT[] = "write-file/output";
+    void *text = (void *)(uintptr_t) "new";
+    CpsError err;
+    struct stat about;
+    char far[] = "/dev/shm/write-file-XXXXXX";
+    const int file = mkstemp(far), before = dup(STDOUT_FILENO);
+    assert_true(file >= 0 && before >= 0);
+    fflush(stdout);
+    const int output = __real_open(OUTPUT, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    assert_true(output >= 0);
+    for (int k = 0; k < 4; k++) {
+        const char *to[] = {"output", "one", far, "one"};
+        assert_int_equal(symlink(to[k], LINK), 0);
+        if (k < 3) assert_true(dup2(output, STDOUT_FILENO) >= 0);
+        if (k == 3) close(STDOUT_FILENO);
+        const CpsStatus status = cps_write_file(LINK, write_text, text, &err);
+        const bool linked = lstat(LINK, &about) == 0 && S_ISLNK(about.st_mode);
+        dup2(before, STDOUT_FILENO);
+        assert_int_equal(status, CPS_OK);
+        assert_int_equal(linked, k == 0);
+        assert_int_equal(remove(LINK), 0);
+    }
+    assert_int_equal(fstat(output, &about), 0);
+    assert_int_equal(about.st_size, strlen(text));
+    assert_text("old");
+    close(output);
+    close(before);
+    close(file);
+    assert_int_equal(remove(far), 0);
+}
+
 static int clear(void **state) {
     (void)state;
     return system("rm -rf write-file");
@@ -181,6 +216,7 @@ static int clear(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test_setup(each_call_fails, start),
                                        cmocka_unit_test_setup(writers_that_fail, start),
-                                       cmocka_unit_test_setup(impossible_places, start)};
+                                       cmocka_unit_test_setup(impossible_places, start),
+                                       cmocka_unit_test_setup(links, start)};
     return cmocka_run_group_tests_name("one file that cannot be written", tests, NULL, clear);
 }

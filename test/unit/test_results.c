@@ -559,6 +559,11 @@ static void wrong_calls_are_refused(void **state) {
         assert_int_equal(cps_results_write_summary(results, 0, full, &err), CPS_ERR_IO);
         fclose(full);
     }
+    FILE *failed = fopen("failed-before.json", "w"); /* the reason has been forgotten */
+    assert_true(failed && fgetc(failed) == EOF);
+    assert_int_equal(cps_results_write_summary(results, 0, failed, &err), CPS_ERR_IO);
+    fclose(failed);
+    remove("failed-before.json");
     must(cps_results_finish(results, 1, &err), &err);
     assert_int_equal(cps_results_finish(results, 1, &err), CPS_ERR_ARGUMENT);
     assert_int_equal(cps_results_append(results, evolution, &err), CPS_ERR_ARGUMENT);

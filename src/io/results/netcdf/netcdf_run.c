@@ -567,8 +567,7 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
         nc->line = calloc((size_t)lines, sizeof *nc->line);
         nc->line_count = lines;
         nc->folder = strdup(path);
-        char *slash = nc->folder ? strrchr(nc->folder, '/') : NULL;
-        if (slash) *slash = '\0'; /* the path of a reserved file has one */
+        if (nc->folder) *strrchr(nc->folder, '/') = '\0'; /* the path of a reserved file has one */
     }
     const bool whole = nc && nc->line && nc->folder && names;
     if (whole) status = cpsi_netcdf_library(&nc->file.library, err);

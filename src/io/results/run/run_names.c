@@ -31,17 +31,17 @@ static bool is_plain(CpsResultsKind kind, const char *name) {
 /* A name of step-00000.vtp and its like, which begins with the number. */
 static bool writes_of_step(const CpsResults *results, const char *name) {
     char own[64];
-    const long step = strtol(name + sizeof "step-" - 1, NULL, 10);
-    if (step < 0 || step >= results->planned_steps) return false;
-    snprintf(own, sizeof own, "step-%05ld.vtp", step);
+    const unsigned long step = strtoul(name + sizeof "step-" - 1, NULL, 10);
+    if (step >= (unsigned long)results->planned_steps) return false;
+    snprintf(own, sizeof own, "step-%05lu.vtp", step);
     if (strcmp(name, own) == 0) return results->paraview;
     cpsi_paraview_obstacles_name((int)step, own);
     if (strcmp(name, own) == 0)
         return results->paraview && cpsi_paraview_obstacles_turn(results, (int)step);
     if (!cpsi_results_pictured(results, (int)step)) return false;
-    snprintf(own, sizeof own, "step-%05ld-plan.svg", step);
+    snprintf(own, sizeof own, "step-%05lu-plan.svg", step);
     if (strcmp(name, own) == 0) return true;
-    snprintf(own, sizeof own, "step-%05ld-elevation.svg", step);
+    snprintf(own, sizeof own, "step-%05lu-elevation.svg", step);
     return strcmp(name, own) == 0;
 }
 
@@ -59,7 +59,7 @@ bool cpsi_results_replaces(const char *name) {
                                             "loop-",         "step-",      "line-"};
     for (size_t i = 0; i < sizeof BEGINNING / sizeof *BEGINNING; ++i)
         if (strncmp(name, BEGINNING[i], strlen(BEGINNING[i])) == 0) return true;
-    return is_plain(CPS_RESULTS_KIND_RUN, name) || is_plain(CPS_RESULTS_KIND_REGULARIZED, name);
+    return is_plain(CPS_RESULTS_KIND_RUN, name); /* which has the names of the other method too */
 }
 
 typedef struct Wanted {
