@@ -2,8 +2,8 @@
 /* Passes over elements take eight at a time: the numbers of eight elements stand side by side in
  * lanes, and a plain loop over the lanes is what the compiler makes wide instructions of. Files
  * with such loops are compiled once per width of the processor's registers (ipm/width.h). No
- * operation joins two lanes but a maximum, so every width gives the same bits, those of one element
- * after another.
+ * operation joins two lanes but a maximum and, at the end of a pass, the sums of the eight lanes in
+ * their order (lane_sums.h), so every width gives the same bits.
  *
  * What a loop over lanes may contain: arithmetic, square roots and a choice between two numbers by
  * one comparison. Indices by an array, and what differs from element to element in kind, stand in
@@ -39,6 +39,12 @@ static inline void cpsi_lanes_load_some(const int n, CpsiLane *out, const double
 static inline void cpsi_lanes_store_some(const int n, double *to, CpsiLane *x, int count) {
     for (int l = 0; l < count; l++)
         for (int a = 0; a < n; a++) to[n * l + a] = x[a][l];
+}
+
+/* Weights of `count` elements: 0 in the lanes that repeat the last, so that sums do not count it
+ * again. */
+static inline void cpsi_lanes_load_weights(CpsiLane out, const double *from, int count) {
+    CPSI_FOR_LANES(l) out[l] = l < count ? from[l] : 0;
 }
 
 /* The n numbers of each of `count` elements, which follow one another in `from`. */
