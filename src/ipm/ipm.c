@@ -138,20 +138,10 @@ static bool primal_infeasible(const CpsiProgram *program, const CpsiSums *sums) 
     return sums->ray > RAY * neglected;
 }
 
-/* The largest |x| of n numbers, NaN if any is. */
-static double largest(int n, const double *x) {
-    CpsiLane most = {0};
-    int i = 0;
-    for (; i + CPSI_LANES <= n; i += CPSI_LANES)
-        CPSI_FOR_LANES(l) most[l] = cpsi_max_nan(most[l], fabs(x[i + l]));
-    for (; i < n; i++) most[0] = cpsi_max_nan(most[0], fabs(x[i]));
-    return cpsi_lanes_largest(0, most);
-}
-
 /* Whether u is a ray along which the gain of the loads exceeds the energy of the elements without
  * bound. */
 static bool dual_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
-    const double size = largest(program->size, program->u);
+    const double size = cpsi_lanes_size((size_t)program->size, program->u);
     if (!(size > FAR)) return false;
     double gain = 0;
     for (int i = 0; i < program->size; i++) gain += program->load[i] * program->u[i];

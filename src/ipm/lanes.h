@@ -11,6 +11,9 @@
 #ifndef CAPSTAN_SRC_IPM_LANES_H
 #define CAPSTAN_SRC_IPM_LANES_H
 
+#include <math.h>
+#include <stddef.h>
+
 #include "base/larger.h"
 
 enum { CPSI_LANES = 8 };
@@ -72,6 +75,16 @@ static inline double cpsi_lanes_largest(double start, const CpsiLane x) {
     double largest = start;
     CPSI_FOR_LANES(l) largest = cpsi_max_nan(largest, x[l]);
     return largest;
+}
+
+/* The largest |x| of n numbers; NaN if any is. */
+static inline double cpsi_lanes_size(size_t n, const double *x) {
+    CpsiLane most = {0};
+    size_t i = 0;
+    for (; i + CPSI_LANES <= n; i += CPSI_LANES)
+        CPSI_FOR_LANES(l) most[l] = cpsi_max_nan(most[l], fabs(x[i + (size_t)l]));
+    for (; i < n; i++) most[0] = cpsi_max_nan(most[0], fabs(x[i]));
+    return cpsi_lanes_largest(0, most);
 }
 
 #endif
