@@ -6,8 +6,9 @@ import subprocess
 
 
 def warm_steps(program):
-    """What the test prints of oc3-sway and of the examples, but for those without a history."""
-    scenes = [os.path.join(program.root, "bench", "oc3-sway.yaml"), *sorted(glob.glob(os.path.join(program.root, "examples", "*.yaml")))]
+    """What the test prints of the two cases of sway and of the examples, but for those without a history."""
+    bench = [os.path.join(program.root, "bench", name) for name in ("oc3-sway.yaml", "oc3-sway-set.yaml")]
+    scenes = [*bench, *sorted(glob.glob(os.path.join(program.root, "examples", "*.yaml")))]
     command = [os.path.join(program.build, "test", "property", "warm_steps"), "--table", *scenes]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
 

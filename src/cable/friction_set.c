@@ -17,6 +17,7 @@
 
 #include "base/arena.h"
 #include "base/status.h"
+#include "cable/friction_boundary.h"
 #include "conic/dense_program.h"
 #include "ipm/cones.h"
 #include "ipm/soc.h"
@@ -41,6 +42,7 @@ struct CpsiFrictionSet {
     CpsSet *closed; /* the set, where its support function is a formula; else NULL */
     double *centre, *cost;
     double *last; /* (3) u and phi(u) of the last small program */
+    CpsiFrictionShape boundary;
     CpsiConicProgram *program;
 };
 
@@ -308,7 +310,9 @@ static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, 
     if (!status) status = find_centre(set, name, err);
     if (status) return status;
     describe(set, reach);
-    return find_closed(of, set, err);
+    status = find_closed(of, set, err);
+    if (!status && set->closed) cpsi_friction_boundary_find(set->closed, reach, &set->boundary);
+    return status;
 }
 
 CpsStatus cpsi_friction_set_make(const CpsSet *set, const char *name, CpsiFrictionSet **out,
@@ -340,6 +344,10 @@ void cpsi_friction_set_free(CpsiFrictionSet *set) {
 }
 
 const CpsiConicSet *cpsi_friction_set_conic(const CpsiFrictionSet *set) { return &set->shape; }
+
+const CpsiFrictionShape *cpsi_friction_set_shape(const CpsiFrictionSet *set) {
+    return set->boundary.count > 0 ? &set->boundary : NULL;
+}
 
 double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]) {
     const double size = hypot(u[0], u[1]), against[2] = {-u[0], -u[1]};

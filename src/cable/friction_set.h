@@ -20,6 +20,8 @@ CpsStatus cpsi_friction_set_make(const CpsSet *set, const char *name, CpsiFricti
 void cpsi_friction_set_free(CpsiFrictionSet *set);
 
 const CpsiConicSet *cpsi_friction_set_conic(const CpsiFrictionSet *set);
+/* Its boundary as edges, corners and arcs; NULL where it is not made of these. */
+const CpsiFrictionShape *cpsi_friction_set_shape(const CpsiFrictionSet *set);
 
 /* phi(u) = max -<u, F> over the set: by a formula for polygons and for what is made of points,
  * discs, ellipses and boxes by sums, hulls and linear maps; else to about 1e-13 of reach |u| by a

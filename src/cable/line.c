@@ -151,7 +151,8 @@ CpsiFrictionLaw cpsi_line_friction_law(const CpsiLine *line, int c) {
         obstacle && obstacle->has_set ? line->friction_set[obstacle - line->obstacle] : NULL;
     if (!obstacle || (obstacle->has_set && !given)) return (CpsiFrictionLaw){.ratio = {1, 1}};
     const double factor = zone_factor(line, c);
-    if (obstacle->has_set) return (CpsiFrictionLaw){.friction = factor, .given = given};
+    if (obstacle->has_set)
+        return (CpsiFrictionLaw){.friction = factor, .ratio = {1, 1}, .given = given};
     const double *mu = obstacle->friction, friction = fmax(mu[0], mu[1]),
                  by = friction > 0 ? 1 / friction : 0;
     return (

@@ -265,7 +265,9 @@ static bool is_unique(CpsiLine *line, const CpsiChainProgram *program, const Cps
 static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
                                 const CpsiStepScale *scale, const CpsiRound *round,
                                 int max_iterations) {
-    cpsi_step_program_fill(line, program, scale);
+    CpsiStepScale by_newton = *scale;
+    by_newton.by_newton = true;
+    cpsi_step_program_fill(line, program, &by_newton);
     CpsiIpmReport newton = cpsi_warm_step_solve(line, program, scale, round->guess, max_iterations);
     line->report.iteration_count += newton.iterations;
     line->newton.tried++;

@@ -179,6 +179,7 @@ static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
                 for (int b = 0; b < 3; b++) disc->map[k][3 * a + b] = ratio * axes[3 * a + b];
                 disc->offset[k][a] = ratio * slip[a] / line->length;
             }
+        if (disc->shape) disc->shape[k] = law->given ? cpsi_friction_set_shape(law->given) : NULL;
     }
 }
 
@@ -217,7 +218,8 @@ static void fill_contact(const CpsiLine *line, CpsiChainProgram *program, int c,
     const bool discs = scale->bounds == CPSI_BOUNDS_FIXED
                            ? line->friction_bound[c] >= LEAST_FRICTION * scale->force
                            : watched && line->friction_law[c].friction > 0;
-    if (discs && line->friction_law[c].given)
+    const CpsiFrictionSet *given = line->friction_law[c].given;
+    if (discs && given && !(scale->by_newton && cpsi_friction_set_shape(given)))
         fill_conic(line, program, c, scale);
     else if (discs)
         fill_discs(line, program, c, scale);

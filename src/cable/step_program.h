@@ -23,6 +23,7 @@ typedef struct CpsiStepScale {
     CpsiBounds bounds;
     bool reaction_stiffness; /* the reactions turn with the normals */
     double drag; /* [-] viscous drag, in units of force and displacement per length of the line */
+    bool by_newton; /* general sets are discs with a shape, where that is known */
 } CpsiStepScale;
 
 /* Write the step into the program. */

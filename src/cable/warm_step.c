@@ -65,13 +65,15 @@ static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
 }
 
 /* Does the method treat all contacts that the line has now? Not those of elements, second ones, and
- * those with boxes and given sets. */
+ * those with boxes and sets whose boundary is not known. */
 static bool treats_contacts(const CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
         if (!obstacle || line->state[c] == CPS_NODE_STATE_FREE) continue;
-        if (c >= line->n || obstacle->has_set || obstacle->shape == CPS_FRICTION_SHAPE_BOX)
+        if (c >= line->n || (!obstacle->has_set && obstacle->shape == CPS_FRICTION_SHAPE_BOX))
             return false;
+        const CpsiFrictionSet *given = cpsi_line_friction_law(line, c).given;
+        if (given && !cpsi_friction_set_shape(given)) return false;
     }
     return true;
 }
@@ -146,6 +148,13 @@ static bool is_at_bound(const CpsiLine *line, int c, double share) {
     double f[3], inside[3];
     const double bound = line->friction_bound[c];
     cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
+    if (line->friction_law[c].given) {
+        const CpsiFrictionShape *shape = cpsi_friction_set_shape(line->friction_law[c].given);
+        const double over = bound > 0 ? 1 / ((1 - share) * bound) : 0;
+        const double x[2] = {over * f[0], over * f[1]};
+        int piece;
+        return shape && cpsi_friction_shape_beyond(shape, x, &piece) > 0;
+    }
     memcpy(inside, f, sizeof f);
     cpsi_friction_law_clip(&line->friction_law[c], bound, (1 - share) * bound, inside);
     return inside[0] != f[0] || inside[1] != f[1];
@@ -176,7 +185,15 @@ static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const C
             guess == CPSI_GUESS_BASE ? line->active[c] : line->state[c] != CPS_NODE_STATE_FREE;
         unilateral->z[k] = closed ? line->reaction[c] / (scale->force * unilateral->weight[k]) : 0;
     }
-    for (int d = 0; d < disc->count; d++) disc->s[d][0] = slipped(line, disc->contact[d], guess);
+    for (int d = 0; d < disc->count; d++) {
+        const int c = disc->contact[d];
+        const double over = line->friction_bound[c] > 0 ? 1 / line->friction_bound[c] : 0;
+        disc->s[d][0] = slipped(line, c, guess);
+        if (!disc->shape || !disc->shape[d]) continue;
+        double f[3];
+        cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
+        for (int a = 0; a < 2; a++) disc->z[d][1 + a] = over * f[a];
+    }
 }
 
 CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,

@@ -87,6 +87,48 @@ static double prepare(CpsiNewton *newton, bool first) {
     return cpsi_max_nan(newton->strain_error, newton->force_error / newton->force);
 }
 
+/* Friction at which disc d slips, on its piece of the boundary of its set. */
+static void finish_on_piece(const CpsiShapePiece *piece, const CpsiNodeFriction *now, double f[2]) {
+    const double slip = cpsi_newton_size(now->s);
+    if (piece->is_edge) {
+        double t[2];
+        cpsi_newton_tangent(piece, t);
+        const double from = cpsi_newton_dot(piece->at[0], t), to = cpsi_newton_dot(piece->at[1], t);
+        const double along =
+            fmin(now->bound * to, fmax(now->bound * from, cpsi_newton_dot(now->f, t)));
+        const double *n = piece->normal[0], out = now->bound * cpsi_newton_dot(piece->at[0], n);
+        for (int a = 0; a < 2; a++) f[a] = out * n[a] + along * t[a];
+    } else if (piece->radius == 0 || slip > CPSI_LEAST_SLIP) {
+        for (int a = 0; a < 2; a++)
+            f[a] =
+                now->bound * (piece->centre[a] - (slip > 0 ? piece->radius * now->s[a] / slip : 0));
+    }
+}
+
+/* The pair of disc d with a general set: A is a number that |F| reaches where it slips. */
+static void finish_shaped(const CpsiNewton *newton, int d) {
+    const CpsiChainProgram *program = newton->program;
+    const CpsiFrictionDisc *disc = &program->disc;
+    const CpsiNodeFriction now = cpsi_newton_friction(program, d);
+    const bool slips = !(newton->status[disc->node[d]] & CPSI_STICKS);
+    double *s = disc->s[d], *z = disc->z[d], f[2] = {now.f[0], now.f[1]};
+    const double size = cpsi_newton_size(f);
+    s[0] = slips ? cpsi_newton_size(now.s) : 0;
+    if (slips) finish_on_piece(cpsi_newton_piece(newton, d), &now, f);
+    if (!slips && size > 0) {
+        const double none[2] = {0, 0}, q[2] = {f[0] / size, f[1] / size};
+        z[0] = now.bound * cpsi_friction_shape_reach(disc->shape[d], none, q);
+        const double keep = size > z[0] ? (1 - 4 * DBL_EPSILON) * z[0] / size : 1;
+        for (int a = 0; a < 2; a++) f[a] *= keep;
+    } else {
+        z[0] = slips ? cpsi_newton_size(f) : now.bound;
+    }
+    for (int a = 0; a < 2; a++) {
+        s[1 + a] = slips ? now.s[a] : 0;
+        z[1 + a] = f[a];
+    }
+}
+
 /* The pair (s, z) of disc d. */
 static void finish_friction(const CpsiNewton *newton, int d) {
     const CpsiChainProgram *program = newton->program;
@@ -95,6 +137,10 @@ static void finish_friction(const CpsiNewton *newton, int d) {
     if (!cpsi_newton_has_friction(newton, d)) {
         memset(s, 0, sizeof disc->s[d]);
         if (program->bounds_coupled) memset(z, 0, sizeof disc->z[d]);
+        return;
+    }
+    if (cpsi_newton_shape(program, d)) {
+        finish_shaped(newton, d);
         return;
     }
     const CpsiNodeFriction now = cpsi_newton_friction(program, d);
@@ -165,16 +211,18 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
     CpsiMatrix *matrix = &program->matrix;
     const CpsiMatrixSecond *second = matrix->second;
     const double *share = matrix->share;
-    unsigned char *bytes = (unsigned char *)program->segment.w;
+    unsigned char *bytes = (unsigned char *)program->segment.w; /* 32 n */
     CpsiNewton newton = {.program = program,
                          .status = bytes,
                          .held = bytes + n,
-                         .taut = bytes + 2 * n};
+                         .taut = bytes + 2 * n,
+                         .piece = (int *)(bytes + 4 * n),
+                         .frame = program->disc.shape ? program->conic.frame : NULL};
     set_rounding(&newton);
     cpsi_newton_begin(&newton);
     if (newton.lost) return (CpsiIpmReport){.outcome = CPSI_IPM_STALLED};
     matrix->held = newton.held;
-    matrix->frame = program->frame;
+    matrix->frame = newton.frame ? newton.frame : program->frame;
     matrix->second = NULL;
     matrix->share = NULL;
     const CpsiIpmReport report =

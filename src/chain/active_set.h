@@ -16,6 +16,7 @@
  *     segment.z[i][0]         tension; 0: the element is slack
  *     unilateral.z[k]         reaction; 0: the contact is open
  *     disc.s[k][0]            0: friction sticks
+ *     disc.z[k][1..2]         friction per bound, of a general set
  *
  * Where it returns CPSI_IPM_SOLVED, u and all pairs (s, z) are the solution, with complementary
  * parts that are exactly 0, and forces that balance to rounding. Otherwise the program holds

@@ -69,11 +69,22 @@ static void stick(CpsiNewton *newton, int d) {
     move_node(newton, j, -now.s[0] / now.b[0], -now.s[1] / now.b[1], 0);
 }
 
+/* Move the node of disc d back to where it has not slipped along an edge of its set. */
+static void stop_along(CpsiNewton *newton, int d, const CpsiShapePiece *edge) {
+    const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
+    double t[2];
+    cpsi_newton_tangent(edge, t);
+    const double by = -cpsi_newton_dot(now.s, t);
+    move_node(newton, newton->program->disc.node[d], by * t[0], by * t[1], 0);
+}
+
 /* Is the map of disc d diagonal and regular, and the disc the only one of its node? */
-static bool is_plain(const CpsiFrictionDisc *disc, int d) {
+static bool is_plain(const CpsiChainProgram *program, int d) {
+    const CpsiFrictionDisc *disc = &program->disc;
     if (d > 0 && disc->node[d - 1] == disc->node[d]) return false;
     if (!disc->map) return true;
     const double *b = disc->map[d];
+    if (cpsi_newton_shape(program, d) && (b[0] != 1 || b[4] != 1)) return false;
     return b[0] > 0 && b[4] > 0 && b[1] == 0 && b[2] == 0 && b[3] == 0 && b[5] == 0;
 }
 
@@ -86,15 +97,51 @@ static void note_held(CpsiNewton *newton) {
     }
 }
 
+/* The piece of the boundary of its set at which disc d slips: that of the point nearest to the
+ * force f, per bound, with a long pull against the slip; -1 where there is none. */
+static int piece_of_slip(const CpsiNewton *newton, int d, const double f[2]) {
+    static const double FAR = 100;
+    const CpsiFrictionShape *shape = newton->program->disc.shape[d];
+    const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
+    const double slip = cpsi_newton_size(now.s), pull = slip > 0 ? FAR * shape->reach / slip : 0;
+    const double x[2] = {f[0] - pull * now.s[0], f[1] - pull * now.s[1]};
+    int piece;
+    (void)cpsi_friction_shape_beyond(shape, x, &piece);
+    return piece;
+}
+
+/* Disc d slips on a piece of the boundary of its set. */
+static void put_on_piece(CpsiNewton *newton, int d, int piece) {
+    const CpsiFrictionDisc *disc = &newton->program->disc;
+    newton->piece[disc->node[d]] = piece;
+    for (int a = 0; a < 2; a++) disc->w[d][1 + a] = disc->shape[d]->piece[piece].normal[0][a];
+}
+
+/* ... in the guess; it sticks where there is none. */
+static void begin_piece(CpsiNewton *newton, int d) {
+    const CpsiFrictionDisc *disc = &newton->program->disc;
+    const int piece = piece_of_slip(newton, d, &disc->z[d][1]);
+    if (piece < 0) {
+        stick(newton, d);
+        return;
+    }
+    put_on_piece(newton, d, piece);
+    if (disc->shape[d]->piece[piece].is_edge) stop_along(newton, d, &disc->shape[d]->piece[piece]);
+}
+
 /* The status of friction that the guess gives. False where it is of a kind that is not treated. */
 static bool begin_friction(CpsiNewton *newton, int d) {
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
     if (cpsi_newton_is_other(program, disc->node[d], disc->unilateral[d]))
         return program->bounds_coupled;
-    if (!is_plain(disc, d)) return false;
+    if (!is_plain(program, d)) return false;
     newton->status[disc->node[d]] |= CPSI_HAS_FRICTION;
-    if (cpsi_newton_has_friction(newton, d) && !(disc->s[d][0] > 0)) stick(newton, d);
+    if (!cpsi_newton_has_friction(newton, d)) return true;
+    if (!(disc->s[d][0] > 0))
+        stick(newton, d);
+    else if (cpsi_newton_shape(program, d))
+        begin_piece(newton, d);
     return true;
 }
 
@@ -104,6 +151,7 @@ void cpsi_newton_begin(CpsiNewton *newton) {
     const CpsiFrictionDisc *disc = &program->disc;
     newton->lost = program->conic.count > 0 || program->drag > 0;
     memset(newton->status, 0, (size_t)program->n);
+    memset(newton->piece, 0, (size_t)program->n * sizeof *newton->piece);
     memset(disc->w, 0, (size_t)disc->count * sizeof *disc->w);
     for (int i = 1; i < program->n; i++) newton->taut[i] = program->segment.z[i][0] > 0;
     for (int k = 0; k < unilateral->count && !newton->lost; k++) {
@@ -150,18 +198,27 @@ static void decide_contacts(CpsiNewton *newton) {
     }
 }
 
-/* Let disc d slip in the direction of -f. */
+/* Let disc d slip in the direction of -f, or where f is nearest to its set. */
 static void release(CpsiNewton *newton, int d, const double f[2]) {
+    const CpsiChainProgram *program = newton->program;
+    const CpsiFrictionDisc *disc = &program->disc;
     const double size = cpsi_newton_size(f);
-    unsigned char *status = &newton->status[newton->program->disc.node[d]];
+    const int j = disc->node[d];
+    unsigned char *status = &newton->status[j];
+    if (cpsi_newton_shape(program, d)) {
+        int piece;
+        const CpsiNodeFriction now = cpsi_newton_friction(program, d);
+        if (!(cpsi_newton_beyond(program, d, now.bound, f, &piece) > 0)) return;
+        newton->piece[j] = piece;
+    }
     *status = (*status & (unsigned char)~CPSI_STICKS) | CPSI_RELEASED;
-    for (int a = 0; a < 2; a++) newton->program->disc.w[d][1 + a] = f[a] / size;
+    for (int a = 0; a < 2; a++) disc->w[d][1 + a] = f[a] / size;
     newton->changed = true;
 }
 
 /* The force on disc d, which sticks, exceeds its bound: the excess will be carried by what its
  * neighbours can still take in its direction q, at most l with |f + l q| = A, and those that cannot
- * take it slip too. */
+ * take it slip too. Not so general sets: with corners and edges fewer slip than that says. */
 static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction *now) {
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
@@ -170,7 +227,9 @@ static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction
         double left = disc->weight[d] * (size - now->bound);
         for (int e = d + side; e >= 0 && e < disc->count; e += side) {
             const int j = disc->node[e];
-            if (j != disc->node[e - side] + side || !(newton->status[j] & CPSI_STICKS)) break;
+            if (j != disc->node[e - side] + side || !(newton->status[j] & CPSI_STICKS) ||
+                cpsi_newton_shape(program, e))
+                break;
             const CpsiNodeFriction next = cpsi_newton_friction(program, e);
             const double along = next.f[0] * q[0] + next.f[1] * q[1],
                          across = next.f[1] * q[0] - next.f[0] * q[1],
@@ -183,9 +242,12 @@ static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction
     }
 }
 
-/* F.s of disc d: what slips is pushed by its friction where this is positive. */
+/* F.s of disc d, or n.s at an edge with normal n: what slips is pushed by its friction where this
+ * is positive. */
 static double push(const CpsiNewton *newton, int d) {
     const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
+    const CpsiShapePiece *piece = cpsi_newton_piece(newton, d);
+    if (piece && piece->is_edge) return cpsi_newton_dot(now.s, piece->normal[0]);
     return now.s[0] * now.f[0] + now.s[1] * now.f[1];
 }
 
@@ -235,6 +297,44 @@ static void stop_friction(CpsiNewton *newton) {
     }
 }
 
+/* The piece of the boundary of its set at which disc d slips: from an edge to what is beside it,
+ * where the force has gone past its end; from an arc or a corner to where the slip points. */
+static void decide_piece(CpsiNewton *newton, int d) {
+    const CpsiFrictionDisc *disc = &newton->program->disc;
+    const CpsiFrictionShape *shape = disc->shape[d];
+    const int j = disc->node[d], from = newton->piece[j];
+    const CpsiShapePiece *here = &shape->piece[from];
+    const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
+    int to = from;
+    if (newton->status[j] & CPSI_LANDS) {
+        static const double NONE[2] = {0, 0};
+        const int lands = piece_of_slip(newton, d, NONE);
+        to = lands < 0 ? from : lands;
+    } else if (here->is_edge) {
+        double t[2];
+        cpsi_newton_tangent(here, t);
+        if (newton->status[j] & CPSI_STOPS) {
+            newton->status[j] &= (unsigned char)~CPSI_STOPS;
+            stop_along(newton, d, here);
+            newton->changed = true;
+        }
+        const double along = cpsi_newton_dot(now.f, t),
+                     past = newton->noise * newton->force / disc->weight[d];
+        if (along < now.bound * cpsi_newton_dot(here->at[0], t) - past)
+            to = from > 0 ? from - 1 : shape->count - 1;
+        else if (along > now.bound * cpsi_newton_dot(here->at[1], t) + past)
+            to = from + 1 < shape->count ? from + 1 : 0;
+    } else {
+        const double slip = cpsi_newton_size(now.s), q[2] = {-now.s[0] / slip, -now.s[1] / slip};
+        if (slip > CPSI_LEAST_SLIP)
+            to = cpsi_friction_shape_turn(shape, from, q, newton->rounding / slip);
+    }
+    if (to == from) return;
+    put_on_piece(newton, d, to);
+    newton->changed = true;
+    if (shape->piece[to].is_edge) newton->status[j] |= CPSI_STOPS;
+}
+
 /* Where friction sticks. A node that lands slips at first. */
 static void decide_friction(CpsiNewton *newton) {
     const CpsiChainProgram *program = newton->program;
@@ -242,18 +342,22 @@ static void decide_friction(CpsiNewton *newton) {
     for (int d = 0; d < disc->count; d++) {
         if (!cpsi_newton_has_friction(newton, d)) continue;
         unsigned char *status = &newton->status[disc->node[d]];
-        if (!(*status & CPSI_STICKS)) continue;
+        if (!(*status & CPSI_STICKS)) {
+            if (cpsi_newton_shape(program, d)) decide_piece(newton, d);
+            continue;
+        }
         const CpsiNodeFriction now = cpsi_newton_friction(program, d);
         if (*status & CPSI_STOPS) {
             *status &= (unsigned char)~CPSI_STOPS;
             stick(newton, d);
             newton->changed = true;
         }
-        if (disc->weight[d] * (cpsi_newton_size(now.f) - now.bound) <=
+        int piece;
+        if (disc->weight[d] * cpsi_newton_beyond(program, d, now.bound, now.f, &piece) <=
             newton->noise * newton->force)
             continue;
         release(newton, d, now.f);
-        release_neighbours(newton, d, &now);
+        if (!cpsi_newton_shape(program, d)) release_neighbours(newton, d, &now);
     }
     stop_friction(newton);
 }

@@ -2,6 +2,8 @@
 /* The linear system of Newton's method on the active set (active_set.c), for the equations of the
  * present set. Nodes that stick are held, the normal of a closed contact is stiff, and friction
  * that follows its reaction is the part without symmetry. */
+#include <string.h>
+
 #include "base/larger.h"
 #include "chain/newton.h"
 
@@ -70,21 +72,59 @@ static Direction direction_of(const CpsiNewton *newton, int d, const CpsiNodeFri
     }
     if (slip > 0 && now->s[0] * last[0] + now->s[1] * last[1] <= 0)
         for (int a = 0; a < 2; a++) out.q[a] = -now->s[a] / slip;
-    out.across = slip > now->bound / RIGID ? now->bound / slip : RIGID;
+    if (now->bound > 0) out.across = slip > now->bound / RIGID ? now->bound / slip : RIGID;
     return out;
 }
 
-/* The rows of a node whose friction slips: f - A q = 0. Along q it is A, which may follow the
- * reaction; across, a change of the slip turns q. */
+/* The rows of a node that slips against an edge with normal n of the set of its friction, in axes
+ * along n and the edge: along n the force is what the edge allows, along the edge nothing slips. */
+static void load_edge(CpsiNewton *newton, int d, const CpsiShapePiece *edge) {
+    CpsiChainProgram *program = newton->program;
+    const CpsiFrictionDisc *disc = &program->disc;
+    const int j = disc->node[d];
+    const CpsiNodeFriction now = cpsi_newton_friction(program, d);
+    const double *n = edge->normal[0], most = cpsi_newton_dot(edge->at[0], n);
+    const double error = cpsi_newton_dot(now.f, n) - now.bound * most;
+    const bool stops = newton->status[j] & CPSI_STOPS;
+    double t[2], own[6], *diagonal = &program->matrix.diagonal[6 * j],
+                         *f = &program->base.du[3 * j];
+    double *axes = &newton->frame[9 * j];
+    cpsi_newton_tangent(edge, t);
+    memcpy(own, axes, sizeof own);
+    for (int a = 0; a < 3; a++) {
+        axes[a] = n[0] * own[a] + n[1] * own[3 + a];
+        axes[3 + a] = t[0] * own[a] + t[1] * own[3 + a];
+    }
+    diagonal[2] = stops ? PULLING : RIGID;
+    f[0] = -disc->weight[d] * error;
+    f[1] = stops ? -PULLING * cpsi_newton_dot(now.s, t) : 0;
+    if (program->bounds_coupled)
+        program->matrix.skew[2 * j] = most * disc->friction[d] * diagonal[5];
+    newton->force_error = cpsi_max_nan(newton->force_error, disc->weight[d] * fabs(error));
+    for (int a = 0; a < 2; a++) disc->w[d][1 + a] = n[a];
+}
+
+/* The rows of a node whose friction slips: f - A (c + r q) = 0 on an arc of its set, with centre 0
+ * and radius 1 of a disc. Along q it is A r, which may follow the reaction; across, a change of the
+ * slip turns q. */
 static void load_slip(CpsiNewton *newton, int d) {
     CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
     const int j = disc->node[d];
     const double weight = disc->weight[d];
-    const CpsiNodeFriction now = cpsi_newton_friction(program, d);
+    const CpsiShapePiece *piece = cpsi_newton_piece(newton, d);
+    CpsiNodeFriction now = cpsi_newton_friction(program, d);
+    double centre[2] = {0, 0}, radius = 1;
+    if (piece) {
+        memcpy(centre, piece->centre, sizeof centre);
+        radius = piece->radius;
+    }
+    for (int a = 0; a < 2; a++) now.f[a] -= now.bound * centre[a];
+    now.bound *= radius;
     const Direction to = direction_of(newton, d, &now);
     const double *q = to.q, *b = now.b, along = now.f[0] * q[0] + now.f[1] * q[1];
-    const double slip = cpsi_newton_size(now.s), certain = slip / (slip + CPSI_LEAST_SLIP);
+    const double slip = cpsi_newton_size(now.s),
+                 certain = radius > 0 ? slip / (slip + CPSI_LEAST_SLIP) : 1;
     const double stiffness = weight * to.across;
     double *diagonal = &program->matrix.diagonal[6 * j], *f = &program->base.du[3 * j];
     diagonal[0] = stiffness * b[0] * b[0] * q[1] * q[1];
@@ -96,7 +136,8 @@ static void load_slip(CpsiNewton *newton, int d) {
         newton->force_error =
             cpsi_max_nan(newton->force_error, weight * b[a] * fabs(error + certain * rest));
         if (program->bounds_coupled)
-            program->matrix.skew[2 * j + a] = b[a] * q[a] * disc->friction[d] * diagonal[5];
+            program->matrix.skew[2 * j + a] =
+                b[a] * (centre[a] + radius * q[a]) * disc->friction[d] * diagonal[5];
         disc->w[d][1 + a] = q[a];
     }
 }
@@ -135,8 +176,12 @@ static void load_contacts(CpsiNewton *newton) {
     for (int d = 0; d < disc->count; d++) {
         const int j = disc->node[d];
         if (newton->held[j < program->n ? j : 0] || !cpsi_newton_has_friction(newton, d)) continue;
+        const CpsiShapePiece *piece = cpsi_newton_piece(newton, d);
         if (!(newton->status[j] & CPSI_STICKS)) {
-            load_slip(newton, d);
+            if (piece && piece->is_edge)
+                load_edge(newton, d, piece);
+            else
+                load_slip(newton, d);
         } else if (newton->status[j] & CPSI_STOPS) {
             const CpsiNodeFriction now = cpsi_newton_friction(program, d);
             for (int a = 0; a < 2; a++) f[3 * j + a] = -PULLING * now.s[a] / now.b[a];
@@ -152,16 +197,35 @@ static void load_contacts(CpsiNewton *newton) {
 }
 
 void cpsi_newton_assemble(CpsiNewton *newton) {
+    const CpsiChainProgram *program = newton->program;
     newton->strain_error = 0;
+    if (newton->frame)
+        memcpy(newton->frame, program->frame, 9 * (size_t)program->n * sizeof *newton->frame);
     load_elements(newton);
     load_nodes(newton);
     load_contacts(newton);
+}
+
+/* Turn the direction of a node that slips against an edge to its own axes. */
+static void turn_back(const CpsiNewton *newton, int d) {
+    const CpsiChainProgram *program = newton->program;
+    const int j = program->disc.node[d];
+    if (!cpsi_newton_has_friction(newton, d) || newton->held[j] ||
+        (newton->status[j] & CPSI_STICKS))
+        return;
+    const CpsiShapePiece *piece = cpsi_newton_piece(newton, d);
+    if (!piece || !piece->is_edge) return;
+    double t[2], *x = &program->base.du[3 * j];
+    const double *n = piece->normal[0], out = x[0], along = x[1];
+    cpsi_newton_tangent(piece, t);
+    for (int a = 0; a < 2; a++) x[a] = out * n[a] + along * t[a];
 }
 
 void cpsi_newton_advance(CpsiNewton *newton) {
     CpsiChainProgram *program = newton->program;
     CpsiSegment *st = &program->segment;
     double before[3] = {0};
+    for (int d = 0; newton->frame && d < program->disc.count; d++) turn_back(newton, d);
     for (int j = 0; j < program->n; j++) {
         double *x = &program->base.du[3 * j], v[3] = {x[0], x[1], x[2]};
         for (int a = 0; a < 3; a++) program->base.u[3 * j + a] += x[a];

@@ -244,6 +244,7 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
         .base = {.kind = cpsi_chain_kinds(),
                  .kind_count = largest ? CPSI_CHAIN_KINDS : CPSI_KIND_FRICTION_CONIC}};
     if (largest) cpsi_friction_conic_layout(&program->conic, arena, places, stops, largest);
+    if (largest) CPSI_PLACE(arena, program->disc.shape, 2 * (size_t)stops);
     if (contacts > 0) layout_own(program, arena, n, contacts, points);
     cpsi_chain_layout(program, arena, n, stops, contacts > 0 ? 2 * stops : n, contacts > 1, points,
                       ops);

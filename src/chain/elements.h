@@ -6,6 +6,7 @@
 #define CAPSTAN_SRC_CHAIN_ELEMENTS_H
 
 #include "chain/chain_system.h"
+#include "chain/friction_shape.h"
 #include "ipm/program.h"
 
 /* Two groups of arrays lie in memory that serves something else at other times (chain_program.c):
@@ -46,6 +47,9 @@ typedef struct CpsiFrictionDisc {
     double (*map)[6]; /* (count) B_k (2, 3) row by row; NULL: the first two rows of the identity */
     int *unilateral;  /* (count) the contact whose reaction bounds it, where bounds are coupled */
     double *friction; /* (count) [-] bound over reaction, where bounds are coupled */
+    /* (count) forces lie in A times this set, NULL: the unit disc; only in programs for Newton's
+     * method. The array is NULL where no obstacle has a general set */
+    const CpsiFrictionShape **shape;
     double (*w)[3];
     double *g;
     double (*q)[3], (*ds)[3], (*dz)[3];

@@ -26,7 +26,7 @@
 
 #include "chain/elements.h"
 #include "ipm/cone.h"
-#include "ipm/lanes.h"
+#include "ipm/lane_sums.h"
 #include "ipm/width.h"
 
 /* The direction of the bound f R of disc k: before the solution, without the part that is linear
@@ -91,18 +91,6 @@ static void start(CpsiProgram *base, double mu, double margin) {
     }
 }
 
-static void measure(CpsiProgram *base, CpsiSums *sums) {
-    const CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
-    for (int k = 0; k < disc->count; k++) {
-        const double *s = disc->s[k], *z = disc->z[k], weight = disc->weight[k];
-        sums->weight += weight;
-        sums->sz += weight * (s[0] * z[0] + s[1] * z[1] + s[2] * z[2]);
-        sums->scale += weight * s[0] * z[0];
-        sums->bound += weight * z[0];
-        add_to_node(disc, k, &z[1], &base->residual[3 * disc->node[k]]);
-    }
-}
-
 /* What the passes read and write of eight discs. */
 typedef struct DiscLanes {
     CpsiLane s[3], z[3], weight, w[3], g, q[3], ds[3], dz[3];
@@ -127,6 +115,31 @@ static inline void load_scaled(const CpsiChainProgram *program, int k, int count
 /* The three numbers of lane l. */
 #define THREE(x, l) \
     { (x)[0][l], (x)[1][l], (x)[2][l] }
+
+CPSI_LANES_FUNCTION void measure_lanes(const DiscLanes *restrict x, CpsiLaneSums *restrict sums) {
+    CPSI_FOR_LANES(l) {
+        const double s[3] = THREE(x->s, l), z[3] = THREE(x->z, l), weight = x->weight[l];
+        sums->weight[l] += weight;
+        sums->sz[l] += weight * (s[0] * z[0] + s[1] * z[1] + s[2] * z[2]);
+        sums->scale[l] += weight * s[0] * z[0];
+        sums->bound[l] += weight * z[0];
+    }
+}
+
+static void measure(CpsiProgram *base, CpsiSums *sums) {
+    const CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
+    CpsiLaneSums lane_sums = {.weight = {0}};
+    DiscLanes x;
+    for (int k = 0; k < disc->count; k += CPSI_LANES) {
+        const int count = cpsi_lanes_count(disc->count - k);
+        load_pairs(disc, k, count, &x);
+        cpsi_lanes_load_weights(x.weight, &disc->weight[k], count);
+        measure_lanes(&x, &lane_sums);
+        for (int i = k; i < k + count; i++)
+            add_to_node(disc, i, &disc->z[i][1], &base->residual[3 * disc->node[i]]);
+    }
+    cpsi_lane_sums_add(sums, &lane_sums);
+}
 
 CPSI_LANES_FUNCTION void scale_lanes(DiscLanes *restrict x) {
     CPSI_FOR_LANES(l) {

@@ -13,8 +13,8 @@
 #define CPSI_LEAST_SLIP 1e-9
 
 /* Bits of a node's status: its contact is closed; friction may act; friction sticks; the node has
- * just landed, or stopped, and is not yet where that wants it; it was released and has not yet
- * slipped in the direction of its pull. */
+ * just landed, or stopped (one that slips against an edge of its set: along that), and is not yet
+ * where that wants it; it was released and has not yet slipped in the direction of its pull. */
 enum {
     CPSI_CLOSED = 1,
     CPSI_HAS_FRICTION = 2,
@@ -30,6 +30,10 @@ typedef struct CpsiNewton {
     unsigned char *status;            /* (n) */
     unsigned char *held;              /* (n) the node cannot move in this set */
     unsigned char *taut;              /* (n) element i */
+    int *piece;                       /* (n) where the friction of a general set is on its boundary
+                                         at a node that slips */
+    double *frame;                    /* (n, 9) the axes of the nodes in the linear system, those
+                                         along an edge turned; NULL: as they are */
     double rounding;                  /* of an elongation, and of a force per largest force */
     double noise;                     /* the same of a force between nodes at rest */
     double force;                     /* the largest force */
@@ -72,6 +76,38 @@ static inline CpsiNodeFriction cpsi_newton_friction(const CpsiChainProgram *prog
                     ? disc->friction[d] * program->unilateral.z[disc->unilateral[d]]
                     : disc->z[d][0];
     return out;
+}
+
+/* The boundary of the set of disc d; NULL: it is a disc. */
+static inline const CpsiFrictionShape *cpsi_newton_shape(const CpsiChainProgram *program, int d) {
+    return program->disc.shape ? program->disc.shape[d] : NULL;
+}
+
+/* By how much the force f exceeds the bound of disc d or, where that has a general set, its
+ * distance from A times this; then also the piece of the boundary beside it, else -1. */
+static inline double cpsi_newton_beyond(const CpsiChainProgram *program, int d, double bound,
+                                        const double f[2], int *piece) {
+    const CpsiFrictionShape *shape = cpsi_newton_shape(program, d);
+    *piece = -1;
+    if (!shape) return cpsi_newton_size(f) - bound;
+    const double by = bound > 0 ? 1 / bound : 1e30, x[2] = {by * f[0], by * f[1]};
+    return cpsi_friction_shape_beyond(shape, x, piece) / by;
+}
+
+/* The piece of the boundary at which disc d slips; NULL: the circle of the bound itself. */
+static inline const CpsiShapePiece *cpsi_newton_piece(const CpsiNewton *newton, int d) {
+    const CpsiFrictionShape *shape = cpsi_newton_shape(newton->program, d);
+    return shape ? &shape->piece[newton->piece[newton->program->disc.node[d]]] : NULL;
+}
+
+static inline double cpsi_newton_dot(const double a[2], const double b[2]) {
+    return a[0] * b[0] + a[1] * b[1];
+}
+
+/* The counterclockwise tangent of an edge. */
+static inline void cpsi_newton_tangent(const CpsiShapePiece *edge, double t[2]) {
+    t[0] = -edge->normal[0][1];
+    t[1] = edge->normal[0][0];
 }
 
 /* Is this the contact of an element, or the second one of its node? */

@@ -22,7 +22,7 @@
 #include "chain/elements.h"
 #include "chain/frame.h"
 #include "ipm/cone.h"
-#include "ipm/lanes.h"
+#include "ipm/lane_sums.h"
 #include "ipm/width.h"
 
 /* 1 - c g is kept this far from 0, so that a stays finite: the step is inexact by as much. */
@@ -86,27 +86,6 @@ static void start(CpsiProgram *base, double mu, double margin) {
     }
 }
 
-static void measure(CpsiProgram *base, CpsiSums *sums) {
-    CpsiChainProgram *program = cpsi_chain(base);
-    const CpsiSegment *st = &program->segment;
-    double *residual = base->residual;
-    for (int i = 1; i < program->n; i++) {
-        const double *s = st->s[i], *z = st->z[i], c = cpsi_segment_compliance(st, i);
-        const double rho = fabs(1 + c * z[0] - s[0]);
-        sums->weight += st->length[i];
-        const double work = s[1] * z[1] + s[2] * z[2] + s[3] * z[3];
-        sums->sz += st->length[i] * (s[0] * z[0] + work);
-        sums->scale += st->length[i] * s[0] * z[0];
-        sums->ray -= st->length[i] * (z[0] + work);
-        sums->ray_cost += st->length[i] * c * z[0] * z[0];
-        sums->residual = cpsi_max_nan(sums->residual, rho);
-        if (z[0] > sums->largest) sums->largest = z[0];
-        /* the force p = -z1 pulls node i-1 towards i and node i back */
-        add_force(program, residual, i - 1, -1, &z[1]);
-        add_force(program, residual, i, 1, &z[1]);
-    }
-}
-
 /* What the passes read and write of eight segments. */
 typedef struct Lanes {
     CpsiLane s[4], z[4], length, c, w[4], g, inverse_w, q[4], ds[4], dz[4];
@@ -137,6 +116,41 @@ static inline void load_scaled(const CpsiSegment *st, int i, int count, Lanes *x
 /* The four numbers of lane l. */
 #define FOUR(x, l) \
     { (x)[0][l], (x)[1][l], (x)[2][l], (x)[3][l] }
+
+CPSI_LANES_FUNCTION void measure_lanes(const Lanes *restrict x, CpsiLaneSums *restrict sums) {
+    CPSI_FOR_LANES(l) {
+        const double s[4] = FOUR(x->s, l), z[4] = FOUR(x->z, l), length = x->length[l], c = x->c[l];
+        const double rho = fabs(1 + c * z[0] - s[0]);
+        const double work = s[1] * z[1] + s[2] * z[2] + s[3] * z[3];
+        sums->weight[l] += length;
+        sums->sz[l] += length * (s[0] * z[0] + work);
+        sums->scale[l] += length * s[0] * z[0];
+        sums->ray[l] -= length * (z[0] + work);
+        sums->ray_cost[l] += length * c * z[0] * z[0];
+        sums->residual[l] = cpsi_max_nan(sums->residual[l], rho);
+        sums->largest[l] = z[0] > sums->largest[l] ? z[0] : sums->largest[l];
+    }
+}
+
+static void measure(CpsiProgram *base, CpsiSums *sums) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    const CpsiSegment *st = &program->segment;
+    CpsiLaneSums lane_sums = {.weight = {0}};
+    Lanes x;
+    for (int i = 1; i < program->n; i += CPSI_LANES) {
+        const int count = cpsi_lanes_count(program->n - i);
+        load_pairs(st, i, count, &x);
+        load_elements(st, i, count, &x);
+        cpsi_lanes_load_weights(x.length, &st->length[i], count);
+        measure_lanes(&x, &lane_sums);
+        /* the force p = -z1 pulls node j-1 towards j and node j back */
+        for (int j = i; j < i + count; j++) {
+            add_force(program, base->residual, j - 1, -1, &st->z[j][1]);
+            add_force(program, base->residual, j, 1, &st->z[j][1]);
+        }
+    }
+    cpsi_lane_sums_add(sums, &lane_sums);
+}
 
 CPSI_LANES_FUNCTION void scale_lanes(Lanes *restrict x) {
     CPSI_FOR_LANES(l) {

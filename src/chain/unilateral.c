@@ -13,7 +13,7 @@
 #include "base/larger.h"
 #include "chain/elements.h"
 #include "ipm/cone.h"
-#include "ipm/lanes.h"
+#include "ipm/lane_sums.h"
 #include "ipm/width.h"
 
 static void start(CpsiProgram *base, double mu, double margin) {
@@ -33,28 +33,6 @@ static inline void add_to_node(const CpsiUnilateral *unilateral, int k, double b
         f[2] += by;
     else
         for (int a = 0; a < 3; a++) f[a] += by * unilateral->normal[k][a];
-}
-
-static void measure(CpsiProgram *base, CpsiSums *sums) {
-    CpsiChainProgram *program = cpsi_chain(base);
-    const CpsiUnilateral *unilateral = &program->unilateral;
-    for (int k = 0; k < unilateral->count; k++) {
-        const double rho = fabs(cpsi_unilateral_residual(program, k));
-        sums->weight += unilateral->weight[k];
-        sums->sz += unilateral->weight[k] * unilateral->s[k] * unilateral->z[k];
-        sums->ray -= unilateral->weight[k] * unilateral->z[k] *
-                     (unilateral->s[k] + cpsi_unilateral_residual(program, k));
-        sums->residual = cpsi_max_nan(sums->residual, rho);
-        if (unilateral->z[k] > sums->largest) sums->largest = unilateral->z[k];
-        add_to_node(unilateral, k, unilateral->weight[k] * unilateral->z[k], base->residual);
-        if (unilateral->curvature) {
-            const double *b = unilateral->curvature[k], *u = &base->u[3 * unilateral->node[k]];
-            double *residual = &base->residual[3 * unilateral->node[k]];
-            residual[0] += unilateral->weight[k] * (b[0] * u[0] + b[1] * u[1] + b[3] * u[2]);
-            residual[1] += unilateral->weight[k] * (b[1] * u[0] + b[2] * u[1] + b[4] * u[2]);
-            residual[2] += unilateral->weight[k] * (b[3] * u[0] + b[4] * u[1] + b[5] * u[2]);
-        }
-    }
 }
 
 static void scale(CpsiProgram *base) {
@@ -97,14 +75,62 @@ typedef struct UnilateralLanes {
     CpsiLane second, change; /* 1 for a second contact, else 0; w (z/s) n.du */
 } UnilateralLanes;
 
+static inline void load_residuals(const CpsiChainProgram *program, int k, int count, double keep,
+                                  UnilateralLanes *x) {
+    CPSI_FOR_LANES(l)
+    x->rho[l] = keep * cpsi_unilateral_residual(program, k + (l < count ? l : count - 1));
+}
+
 static inline void load_pairs(const CpsiChainProgram *program, int k, int count, double keep,
                               UnilateralLanes *x) {
     const CpsiUnilateral *unilateral = &program->unilateral;
     cpsi_lanes_load(1, &x->s, &unilateral->s[k], count);
     cpsi_lanes_load(1, &x->z, &unilateral->z[k], count);
     cpsi_lanes_load(1, &x->q, &unilateral->q[k], count);
-    CPSI_FOR_LANES(l)
-    x->rho[l] = keep * cpsi_unilateral_residual(program, k + (l < count ? l : count - 1));
+    load_residuals(program, k, count, keep, x);
+}
+
+CPSI_LANES_FUNCTION void measure_lanes(const UnilateralLanes *restrict x,
+                                       CpsiLaneSums *restrict sums) {
+    CPSI_FOR_LANES(l) {
+        const double s = x->s[l], z = x->z[l], weight = x->weight[l], rho = x->rho[l];
+        sums->weight[l] += weight;
+        sums->sz[l] += weight * s * z;
+        sums->ray[l] -= weight * z * (s + rho);
+        sums->residual[l] = cpsi_max_nan(sums->residual[l], fabs(rho));
+        sums->largest[l] = z > sums->largest[l] ? z : sums->largest[l];
+    }
+}
+
+/* The force that reaction k gains as the node moves along a curved surface. */
+static inline void add_curvature(const CpsiUnilateral *unilateral, int k, const double *u,
+                                 double *force) {
+    const double *b = unilateral->curvature[k], weight = unilateral->weight[k];
+    force[0] += weight * (b[0] * u[0] + b[1] * u[1] + b[3] * u[2]);
+    force[1] += weight * (b[1] * u[0] + b[2] * u[1] + b[4] * u[2]);
+    force[2] += weight * (b[3] * u[0] + b[4] * u[1] + b[5] * u[2]);
+}
+
+static void measure(CpsiProgram *base, CpsiSums *sums) {
+    CpsiChainProgram *program = cpsi_chain(base);
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    CpsiLaneSums lane_sums = {.weight = {0}};
+    UnilateralLanes x;
+    for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
+        const int count = cpsi_lanes_count(unilateral->count - k);
+        cpsi_lanes_load(1, &x.s, &unilateral->s[k], count);
+        cpsi_lanes_load(1, &x.z, &unilateral->z[k], count);
+        load_residuals(program, k, count, 1, &x);
+        cpsi_lanes_load_weights(x.weight, &unilateral->weight[k], count);
+        measure_lanes(&x, &lane_sums);
+        for (int i = k; i < k + count; i++) {
+            const int node = unilateral->node[i];
+            add_to_node(unilateral, i, unilateral->weight[i] * unilateral->z[i], base->residual);
+            if (unilateral->curvature)
+                add_curvature(unilateral, i, &base->u[3 * node], &base->residual[3 * node]);
+        }
+    }
+    cpsi_lane_sums_add(sums, &lane_sums);
 }
 
 CPSI_LANES_FUNCTION void load_lanes(UnilateralLanes *restrict x, double keep) {
@@ -127,28 +153,42 @@ static void load(CpsiProgram *base, double keep) {
     }
 }
 
-/* The direction of R, and of s, where the linear system gives n.du; and where it gives w (z/s)
- * n.du, as n is oblique to the axes of du and n.du has too few digits. */
-CPSI_LANES_FUNCTION void direct_lanes(UnilateralLanes *restrict x, double *restrict inverse) {
+/* The direction of R, and of s, where the linear system gives n.du; and, if there may be second
+ * contacts, where it gives w (z/s) n.du, as n is oblique to the axes of du and n.du has too few
+ * digits. */
+CPSI_LANES_PART void direct_lanes(UnilateralLanes *restrict x, const bool seconds,
+                                  double *restrict inverse) {
     CPSI_FOR_LANES(l) {
         const double s = x->s[l], z = x->z[l], q = x->q[l], stiffness = z / s;
-        const double ds = x->rise[l] + x->rho[l], dz = q - stiffness * ds;
-        const double other_dz = q - x->change[l] / x->weight[l] - stiffness * x->rho[l],
-                     other_ds = (q - other_dz) * (s / z);
-        const double other = z > s ? x->second[l] : 0;
-        x->ds[l] = other > 0 ? other_ds : ds;
-        x->dz[l] = other > 0 ? other_dz : dz;
-        x->q[l] = x->ds[l] * x->dz[l] / s; /* the second-order term of a predictor */
-        const double step_s = -x->ds[l] / s, step_z = -x->dz[l] / z;
+        double ds = x->rise[l] + x->rho[l], dz = q - stiffness * ds;
+        if (seconds) {
+            const double other_dz = q - x->change[l] / x->weight[l] - stiffness * x->rho[l],
+                         other_ds = (q - other_dz) * (s / z);
+            const double other = z > s ? x->second[l] : 0;
+            ds = other > 0 ? other_ds : ds;
+            dz = other > 0 ? other_dz : dz;
+        }
+        x->ds[l] = ds;
+        x->dz[l] = dz;
+        x->q[l] = ds * dz / s; /* the second-order term of a predictor */
+        const double step_s = -ds / s, step_z = -dz / z;
         inverse[l] = cpsi_max_nan(inverse[l], cpsi_max_nan(step_s, step_z));
     }
+}
+
+CPSI_LANES_FUNCTION void first_lanes(UnilateralLanes *restrict x, double *restrict inverse) {
+    direct_lanes(x, false, inverse);
+}
+
+CPSI_LANES_FUNCTION void second_lanes(UnilateralLanes *restrict x, double *restrict inverse) {
+    direct_lanes(x, true, inverse);
 }
 
 static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiUnilateral *unilateral = &program->unilateral;
     CpsiLane inverse = {0};
-    UnilateralLanes x = {.second = {0}};
+    UnilateralLanes x;
     for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
         const int count = cpsi_lanes_count(unilateral->count - k);
         load_pairs(program, k, count, keep, &x);
@@ -156,12 +196,14 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         CPSI_FOR_LANES(l) {
             const int at = k + (l < count ? l : count - 1);
             x.rise[l] = cpsi_unilateral_rise(unilateral, at, base->du);
-            const bool second = program->matrix.second && unilateral->second[at];
-            x.second[l] = second;
-            if (second)
-                x.change[l] = program->node_frames.second_reaction_change[unilateral->node[at]];
+            if (!program->matrix.second) continue;
+            x.second[l] = unilateral->second[at];
+            x.change[l] = program->node_frames.second_reaction_change[unilateral->node[at]];
         }
-        direct_lanes(&x, inverse);
+        if (program->matrix.second)
+            second_lanes(&x, inverse);
+        else
+            first_lanes(&x, inverse);
         cpsi_lanes_store(1, &unilateral->ds[k], &x.ds, count);
         cpsi_lanes_store(1, &unilateral->dz[k], &x.dz, count);
         if (predictor) cpsi_lanes_store(1, &unilateral->q[k], &x.q, count);

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "ipm/lanes.h"
 
 /* Initial complementarity, and distance of the initial point from the boundary of the cones; all
  * data are of order one. */
@@ -140,12 +141,11 @@ static bool primal_infeasible(const CpsiProgram *program, const CpsiSums *sums) 
 /* Whether u is a ray along which the gain of the loads exceeds the energy of the elements without
  * bound. */
 static bool dual_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
-    double size = 0, gain = 0;
-    for (int i = 0; i < program->size; i++) {
-        gain += program->load[i] * program->u[i];
-        size = cpsi_max_nan(size, fabs(program->u[i]));
-    }
-    return size > FAR && gain > sums->scale + size / FAR;
+    const double size = cpsi_lanes_size((size_t)program->size, program->u);
+    if (!(size > FAR)) return false;
+    double gain = 0;
+    for (int i = 0; i < program->size; i++) gain += program->load[i] * program->u[i];
+    return gain > sums->scale + size / FAR;
 }
 
 CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options) {

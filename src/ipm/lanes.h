@@ -2,14 +2,17 @@
 /* Passes over elements take eight at a time: the numbers of eight elements stand side by side in
  * lanes, and a plain loop over the lanes is what the compiler makes wide instructions of. Files
  * with such loops are compiled once per width of the processor's registers (ipm/width.h). No
- * operation joins two lanes but a maximum, so every width gives the same bits, those of one element
- * after another.
+ * operation joins two lanes but a maximum and, at the end of a pass, the sums of the eight lanes in
+ * their order (lane_sums.h), so every width gives the same bits.
  *
  * What a loop over lanes may contain: arithmetic, square roots and a choice between two numbers by
  * one comparison. Indices by an array, and what differs from element to element in kind, stand in
  * loops of their own before or after it. */
 #ifndef CAPSTAN_SRC_IPM_LANES_H
 #define CAPSTAN_SRC_IPM_LANES_H
+
+#include <math.h>
+#include <stddef.h>
 
 #include "base/larger.h"
 
@@ -41,6 +44,12 @@ static inline void cpsi_lanes_store_some(const int n, double *to, CpsiLane *x, i
         for (int a = 0; a < n; a++) to[n * l + a] = x[a][l];
 }
 
+/* Weights of `count` elements: 0 in the lanes that repeat the last, so that sums do not count it
+ * again. */
+static inline void cpsi_lanes_load_weights(CpsiLane out, const double *from, int count) {
+    CPSI_FOR_LANES(l) out[l] = l < count ? from[l] : 0;
+}
+
 /* The n numbers of each of `count` elements, which follow one another in `from`. */
 CPSI_LANES_PART void cpsi_lanes_load(const int n, CpsiLane *out, const double *from, int count) {
     if (count < CPSI_LANES) {
@@ -66,6 +75,16 @@ static inline double cpsi_lanes_largest(double start, const CpsiLane x) {
     double largest = start;
     CPSI_FOR_LANES(l) largest = cpsi_max_nan(largest, x[l]);
     return largest;
+}
+
+/* The largest |x| of n numbers; NaN if any is. */
+static inline double cpsi_lanes_size(size_t n, const double *x) {
+    CpsiLane most = {0};
+    size_t i = 0;
+    for (; i + CPSI_LANES <= n; i += CPSI_LANES)
+        CPSI_FOR_LANES(l) most[l] = cpsi_max_nan(most[l], fabs(x[i + (size_t)l]));
+    for (; i < n; i++) most[0] = cpsi_max_nan(most[0], fabs(x[i]));
+    return cpsi_lanes_largest(0, most);
 }
 
 #endif

@@ -3,7 +3,11 @@
  *
  * Row k of L solves L y = column k of A above the diagonal. The nonzeros of y are the unknowns on
  * the paths in the elimination tree from the nonzeros of the column to the root k; the parent of i
- * is the row of the first nonzero below the diagonal in column i of L. */
+ * is the row of the first nonzero below the diagonal in column i of L.
+ *
+ * Neighbouring columns often have their nonzeros in the same rows (a supernode), each its first one
+ * in the next column. Up to four of them are used at once, so that each row is looked up once for
+ * all four. */
 #include "linalg/sparse_ldl.h"
 
 #include <math.h>
@@ -26,12 +30,25 @@ struct CpsiLdl {
     double *pivot;            /* (n) */
     double *y;                /* (n) one row */
     int *count, *path, *mark; /* (n) */
+    bool *joined; /* (n) the column before has its nonzeros in the same rows and in this one */
 };
+
+/* Supernode that are used at once, where they have so many nonzeros that it pays. */
+enum { MOST_TOGETHER = 4, LONG = 12 };
+
+/* Neighbouring columns with their nonzeros in the same `length` rows beyond the columns
+ * themselves. */
+typedef struct Supernode {
+    int first, width;
+    size_t length;
+    const int *row;                      /* (length) */
+    const double *factor[MOST_TOGETHER]; /* (length) each; beyond `width` those of the last */
+} Supernode;
 
 void cpsi_ldl_free(CpsiLdl *ldl) {
     if (!ldl) return;
     void *part[] = {ldl->place, ldl->column, ldl->row,    ldl->value, ldl->order,
-                    ldl->start, ldl->index,  ldl->factor, ldl->pivot};
+                    ldl->start, ldl->index,  ldl->factor, ldl->pivot, ldl->joined};
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) free(part[k]);
     free(ldl);
 }
@@ -89,8 +106,9 @@ static bool allocate_matrix(CpsiLdl *ldl) {
     ldl->start = malloc((n + 1) * sizeof *ldl->start);
     ldl->order = malloc((5 * n + 1) * sizeof *ldl->order);
     ldl->pivot = calloc(2 * n + 1, sizeof *ldl->pivot);
+    ldl->joined = calloc(n + 1, sizeof *ldl->joined);
     if (!ldl->place || !ldl->column || !ldl->row || !ldl->value || !ldl->start || !ldl->order ||
-        !ldl->pivot)
+        !ldl->pivot || !ldl->joined)
         return false;
     ldl->parent = ldl->order + n;
     ldl->count = ldl->parent + n;
@@ -106,7 +124,11 @@ static bool allocate_factor(CpsiLdl *ldl) {
     ldl->factor = malloc((ldl->factor_entries + 1) * sizeof *ldl->factor);
     if (!ldl->index || !ldl->factor) return false;
     ldl->start[0] = 0;
-    for (int k = 0; k < ldl->n; k++) ldl->start[k + 1] = ldl->start[k] + (size_t)ldl->count[k];
+    for (int k = 0; k < ldl->n; k++) {
+        ldl->start[k + 1] = ldl->start[k] + (size_t)ldl->count[k];
+        ldl->joined[k] = k > 0 && ldl->parent[k - 1] == k &&
+                         ldl->count[k - 1] == ldl->count[k] + 1 && ldl->count[k] >= LONG;
+    }
     return true;
 }
 
@@ -153,6 +175,38 @@ static double scatter_row(CpsiLdl *ldl, int k, int *top) {
     return diagonal;
 }
 
+/* The columns from `first` on, `width` of them. `length`: how many nonzeros the first one has. */
+static inline Supernode columns_of(const CpsiLdl *ldl, int first, int width, size_t length) {
+    Supernode columns = {.first = first, .width = width, .length = length - (size_t)(width - 1)};
+    for (int a = 0; a < MOST_TOGETHER; a++) {
+        const int c = a < width ? a : width - 1;
+        columns.factor[a] = &ldl->factor[ldl->start[first + c] + (size_t)(width - 1 - c)];
+    }
+    columns.row = &ldl->index[ldl->start[first] + (size_t)(width - 1)];
+    return columns;
+}
+
+/* L of column b of the columns, in the row of their column a > b. */
+static inline double between(const Supernode *columns, int a, int b) {
+    return columns->factor[b][a - columns->width];
+}
+
+/* Finish y in the columns themselves, each in turn, and subtract their multiples from y in the rows
+ * beyond. x: y of the columns, 0 beyond `width`. */
+static inline void eliminate(const Supernode *columns, double *y, double x[MOST_TOGETHER]) {
+    for (int a = 0; a < MOST_TOGETHER; a++) {
+        x[a] = a < columns->width ? y[columns->first + a] : 0;
+        for (int b = 0; b < a && a < columns->width; b++) x[a] -= between(columns, a, b) * x[b];
+    }
+    const double *const *f = columns->factor;
+    if (columns->width == 1)
+        for (size_t e = 0; e < columns->length; e++) y[columns->row[e]] -= f[0][e] * x[0];
+    else
+        for (size_t e = 0; e < columns->length; e++)
+            y[columns->row[e]] -=
+                (f[0][e] * x[0] + f[1][e] * x[1]) + (f[2][e] * x[2] + f[3][e] * x[3]);
+}
+
 bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign, double least) {
     for (size_t e = 0; e < ldl->entries; e++) ldl->value[ldl->place[e]] = values[e];
     for (int k = 0; k < ldl->n; k++) {
@@ -163,16 +217,24 @@ bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign
     for (int k = 0; k < ldl->n; k++) {
         int top;
         double pivot = scatter_row(ldl, k, &top);
-        for (; top < ldl->n; top++) {
+        while (top < ldl->n) {
             const int i = ldl->path[top];
-            const double y = ldl->y[i], l = y / ldl->pivot[i];
-            const size_t begin = ldl->start[i], end = begin + (size_t)ldl->count[i];
-            ldl->y[i] = 0;
-            for (size_t e = begin; e < end; e++) ldl->y[ldl->index[e]] -= ldl->factor[e] * y;
-            pivot -= l * y;
-            ldl->index[end] = k;
-            ldl->factor[end] = l;
-            ldl->count[i]++;
+            int width = 1;
+            while (width < MOST_TOGETHER && top + width < ldl->n && ldl->joined[i + width] &&
+                   ldl->path[top + width] == i + width)
+                width++;
+            double y[MOST_TOGETHER];
+            const Supernode columns = columns_of(ldl, i, width, (size_t)ldl->count[i]);
+            eliminate(&columns, ldl->y, y);
+            for (int a = 0; a < width; a++) {
+                const double l = y[a] / ldl->pivot[i + a];
+                const size_t end = ldl->start[i + a] + (size_t)ldl->count[i + a]++;
+                ldl->y[i + a] = 0;
+                pivot -= l * y[a];
+                ldl->index[end] = k;
+                ldl->factor[end] = l;
+            }
+            top += width;
         }
         const double s = sign[ldl->order[k]];
         if (!isfinite(pivot)) return false;
@@ -181,17 +243,50 @@ bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign
     return true;
 }
 
+/* As many columns as may be used at once from k on. */
+static inline Supernode columns_from(const CpsiLdl *ldl, int k) {
+    int width = 1;
+    while (width < MOST_TOGETHER && k + width < ldl->n && ldl->joined[k + width]) width++;
+    return columns_of(ldl, k, width, ldl->start[k + 1] - ldl->start[k]);
+}
+
+/* Subtract from y in the columns what y in the rows beyond contributes, then each from those before
+ * it. */
+static inline void substitute(const CpsiLdl *ldl, const Supernode *columns, double *y) {
+    double x[MOST_TOGETHER] = {0};
+    const double *const *f = columns->factor;
+    if (columns->width == 1)
+        for (size_t e = 0; e < columns->length; e++) x[0] += f[0][e] * y[columns->row[e]];
+    else
+        for (size_t e = 0; e < columns->length; e++) {
+            const double there = y[columns->row[e]];
+            for (int a = 0; a < MOST_TOGETHER; a++) x[a] += f[a][e] * there;
+        }
+    for (int b = columns->width - 1; b >= 0; b--) {
+        double *own = &y[columns->first + b];
+        *own = *own / ldl->pivot[columns->first + b] - x[b];
+        for (int a = b + 1; a < columns->width; a++)
+            *own -= between(columns, a, b) * y[columns->first + a];
+    }
+}
+
 void cpsi_ldl_solve(const CpsiLdl *ldl, double *x) {
     const int n = ldl->n;
-    double *y = ldl->y;
+    double *y = ldl->y, own[MOST_TOGETHER];
     for (int k = 0; k < n; k++) y[k] = x[ldl->order[k]];
-    for (int k = 0; k < n; k++)
-        for (size_t e = ldl->start[k]; e < ldl->start[k + 1]; e++)
-            y[ldl->index[e]] -= ldl->factor[e] * y[k];
-    for (int k = n - 1; k >= 0; k--) {
-        y[k] /= ldl->pivot[k];
-        for (size_t e = ldl->start[k]; e < ldl->start[k + 1]; e++)
-            y[k] -= ldl->factor[e] * y[ldl->index[e]];
+    for (int k = 0; k < n;) {
+        const Supernode columns = columns_from(ldl, k);
+        eliminate(&columns, y, own);
+        for (int a = 0; a < columns.width; a++) y[k + a] = own[a];
+        k += columns.width;
+    }
+    for (int k = n; k > 0;) {
+        int first = k - 1;
+        while (k - first < MOST_TOGETHER && ldl->joined[first]) first--;
+        const Supernode columns =
+            columns_of(ldl, first, k - first, ldl->start[first + 1] - ldl->start[first]);
+        substitute(ldl, &columns, y);
+        k = first;
     }
     for (int k = 0; k < n; k++) {
         x[ldl->order[k]] = y[k];

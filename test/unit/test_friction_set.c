@@ -153,8 +153,86 @@ static void cut_disc(void **unused) {
     cpsi_friction_set_free(friction);
 }
 
+/* A disc, a segment and a polygon about 0, alone or one after the other in a hull or a sum. */
+static CpsSet *of_pieces(uint64_t *stream, int trial) {
+    double corner[9][2], side[9][2], offset[9];
+    const int count = polygon(stream, corner, side, offset);
+    const double x = splitmix(stream, 0.1, 0.9), y = splitmix(stream, -0.9, 0.9),
+                 radius = splitmix(stream, 0.1, 0.7);
+    CpsSet *part[3], *out = NULL;
+    cps_set_ball(2, (const double[]){0.5 * radius, 0}, radius, &part[0], NULL);
+    cps_set_segment(2, (const double[]){-x, -y}, (const double[]){0.5 * x, 0.5 * y}, &part[1],
+                    NULL);
+    cps_set_hull_of_points(2, count, corner[0], &part[2], NULL);
+    const int from = trial % 3, parts = trial % 5 == 0 && from != 1 ? 1 : 3 - (from == 2);
+    const CpsSet *chosen[3] = {part[from], part[(from + 1) % 3], part[(from + 2) % 3]};
+    if (parts == 1)
+        out = cps_set_retain(chosen[0]);
+    else
+        (trial % 2 ? cps_set_hull : cps_set_sum)(parts, chosen, &out, NULL);
+    for (int k = 0; k < 3; k++) cps_set_release(part[k]);
+    return out;
+}
+
+/* The boundary as edges, corners and arcs: distances and gauges of points against those of the
+ * expression, and each piece against the support function. */
+static void boundaries(void **unused) {
+    (void)unused;
+    uint64_t stream = 8;
+    for (int trial = 0; trial < 60; trial++) {
+        CpsSet *set = of_pieces(&stream, trial);
+        cps_set_retain(set);
+        CpsiFrictionSet *friction = made(set);
+        const CpsiFrictionShape *shape = cpsi_friction_set_shape(friction);
+        assert_non_null(shape);
+        for (int look = 0; look < 40; look++) {
+            const double angle = splitmix(&stream, 0, TURN), size = splitmix(&stream, 0, 4);
+            const double q[2] = {cos(angle), sin(angle)}, x[2] = {size * q[0], size * q[1]},
+                         zero[2] = {0, 0};
+            double nearest[2];
+            CpsSetAnswer distance, gauge;
+            int piece;
+            assert_int_equal(cps_set_project(set, x, NULL, nearest, &distance, NULL), CPS_OK);
+            assert_int_equal(cps_set_gauge(set, q, &gauge, NULL), CPS_OK);
+            CHECK_NEAR(cpsi_friction_shape_beyond(shape, x, &piece), distance.value, 1e-7);
+            assert_int_equal(piece >= 0, gauge.value * size > 1);
+            CHECK_NEAR(cpsi_friction_shape_reach(shape, zero, q) * gauge.value, 1, 1e-9);
+        }
+        for (int i = 0; i < shape->count; i++) {
+            const CpsiShapePiece *piece = &shape->piece[i],
+                                 *next = &shape->piece[(i + 1) % shape->count];
+            for (int a = 0; a < 2; a++) CHECK_NEAR(piece->at[1][a], next->at[0][a], 1e-13);
+            for (int end = 0; end < 2; end++) {
+                const double *n = piece->normal[end], against[2] = {-n[0], -n[1]};
+                CHECK_NEAR(n[0] * piece->at[end][0] + n[1] * piece->at[end][1],
+                           cpsi_friction_set_phi(friction, against), 1e-14);
+            }
+        }
+        cps_set_release(set);
+        cpsi_friction_set_free(friction);
+    }
+}
+
+/* Sets with other boundaries have none: an ellipse, a part of a disc. */
+static void other_boundaries(void **unused) {
+    (void)unused;
+    CpsSet *set[2], *disc, *half;
+    cps_set_ellipsoid(2, NULL, (const double[]){1, 0, 0, 0.25}, &set[0], NULL);
+    cps_set_ball(2, NULL, 0.5, &disc, NULL);
+    cps_set_half_space(2, (const double[]){0, 1}, 0.3, &half, NULL);
+    cps_set_intersection(2, (const CpsSet *const[]){disc, half}, &set[1], NULL);
+    cps_set_release(disc);
+    cps_set_release(half);
+    for (int k = 0; k < 2; k++) {
+        CpsiFrictionSet *friction = made(set[k]);
+        assert_null(cpsi_friction_set_shape(friction));
+        cpsi_friction_set_free(friction);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(polygons), cmocka_unit_test(round_sets),
-                                       cmocka_unit_test(cut_disc)};
+                                       cmocka_unit_test(cut_disc), cmocka_unit_test(boundaries),
+                                       cmocka_unit_test(other_boundaries)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
