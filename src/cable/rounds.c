@@ -20,6 +20,9 @@ static const double AXES_CONVERGING = 1e-2;
 enum { GIVEN_UP = 2 };
 /* The rounds end when no touching node's axes turned by more than this [rad] in the last. */
 static const double AXES_TOL = 1e-10;
+/* ... or, without having halved it, by no more than this: solutions of programs that differ by less
+ * differ by what the loop leaves. */
+static const double AXES_ROUNDING = 2e-9;
 /* Below this angle [rad] the error after a round is linear in the error before it. */
 static const double AXES_LINEAR = 0.1;
 /* Rounds in which the axes turn by more than this [rad] find no direction for a line that nothing
@@ -201,10 +204,15 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
         if (turned <= AXES_CONVERGING && most < MAX_CONVERGING_ROUNDS &&
             (strategy->guess == CPSI_GUESS_NONE || line->newton.failed == 0))
             most = MAX_CONVERGING_ROUNDS;
-        if (turned < 0.5 * best) {
+        const bool is_halved = turned < 0.5 * best;
+        if (is_halved) {
             best = turned;
             since = round;
         }
+        /* what is left is rounding: ask for the certificate */
+        if (!is_halved && turned <= AXES_ROUNDING && off <= BOUND_TOL && cpsi_line_is_clean(&ipm) &&
+            arrived && certify_last_round(line, program, options, posed.bounds, &ipm))
+            return false;
         if (!watched) continue;
         if (round >= since + strategy->patience) break;
         if (arrived && posed.bounds != CPSI_BOUNDS_TRIAL && (round + 1) % strategy->patience == 0 &&

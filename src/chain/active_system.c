@@ -122,7 +122,8 @@ static void load_slip(CpsiNewton *newton, int d) {
     for (int a = 0; a < 2; a++) now.f[a] -= now.bound * centre[a];
     now.bound *= radius;
     const Direction to = direction_of(newton, d, &now);
-    const double *q = to.q, *b = now.b, along = now.f[0] * q[0] + now.f[1] * q[1];
+    const double *q = to.q, *b = now.b, along = now.f[0] * q[0] + now.f[1] * q[1],
+                 aside = now.f[1] * q[0] - now.f[0] * q[1];
     const double slip = cpsi_newton_size(now.s),
                  certain = radius > 0 ? slip / (slip + CPSI_LEAST_SLIP) : 1;
     const double stiffness = weight * to.across;
@@ -131,7 +132,7 @@ static void load_slip(CpsiNewton *newton, int d) {
     diagonal[1] = -stiffness * b[0] * b[1] * q[0] * q[1];
     diagonal[2] = stiffness * b[1] * b[1] * q[0] * q[0];
     for (int a = 0; a < 2; a++) {
-        const double rest = now.f[a] - along * q[a], error = (along - now.bound) * q[a];
+        const double rest = aside * (a ? q[0] : -q[1]), error = (along - now.bound) * q[a];
         f[a] = -weight * b[a] * (error + to.by * rest);
         newton->force_error =
             cpsi_max_nan(newton->force_error, weight * b[a] * fabs(error + certain * rest));

@@ -181,23 +181,27 @@ void cpsi_complete_rows(int rank, int n, double *q) {
 
 /* ---- Q R ---- */
 
+/* The largest entry of a row. */
+static double row_size(int n, const double *row) {
+    double most = 0;
+    for (int j = 0; j < n; j++)
+        if (fabs(row[j]) > most) most = fabs(row[j]);
+    return most;
+}
+
 /* Rows by decreasing size. */
 static void sort_rows(int m, int n, double *a, int *row) {
     const size_t w = (size_t)n;
     for (int i = 0; i < m; i++) row[i] = i;
-    for (int i = 1; i < m; i++)
-        for (int k = i; k > 0; k--) {
-            double above = 0, here = 0;
-            for (int j = 0; j < n; j++) {
-                above = fmax(above, fabs(a[(size_t)(k - 1) * w + (size_t)j]));
-                here = fmax(here, fabs(a[(size_t)k * w + (size_t)j]));
-            }
-            if (!(here > above)) break;
+    for (int i = 1; i < m; i++) {
+        const double size = row_size(n, &a[(size_t)i * w]);
+        for (int k = i; k > 0 && size > row_size(n, &a[(size_t)(k - 1) * w]); k--) {
             swap_rows(n, &a[(size_t)k * w], &a[(size_t)(k - 1) * w]);
             const int keep = row[k];
             row[k] = row[k - 1];
             row[k - 1] = keep;
         }
+    }
 }
 
 /* |column j below row k|^2 */
