@@ -192,7 +192,8 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             off = bound_mismatch(line);
             next_bounds(line, program, cpsi_line_unit_force(line, posed.bounds));
         }
-        if (posed.guess == CPSI_GUESS_BASE && line->has_local_axes) cpsi_warm_step_note_round(line);
+        if (posed.guess == CPSI_GUESS_BASE && line->has_local_axes)
+            cpsi_warm_step_note_round(line, program);
         if (line->has_local_axes) arrived = cpsi_rounds_refresh_axes(line, sides, &turned);
         scattered &= turned > AXES_SCATTERED && isfinite(turned);
         if (cpsi_interrupt_seen(program->base.interrupt)) break;

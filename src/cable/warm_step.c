@@ -17,9 +17,7 @@ static const double MOST_RATIO = 4;
 static const double LEAST_TENSION = 0.5;
 /* Failures that are counted where the method has been of use before. */
 enum { USEFUL_PATIENCE = 3 };
-/* A force is at its bound up to rounding of the interior-point loop. */
-static const double AT_BOUND = 1e-9;
-/* ... and of one that stopped at the tolerance. */
+/* A force is at its bound up to what a loop that stopped at the tolerance leaves. */
 static const double ROUGHLY = 1e-2;
 
 /* The increments of the loads in the substep. */
@@ -160,9 +158,18 @@ static bool is_at_bound(const CpsiLine *line, int c, double share) {
     return inside[0] != f[0] || inside[1] != f[1];
 }
 
-void cpsi_warm_step_note_round(CpsiLine *line) {
-    for (int c = 0; c < cpsi_line_all_contacts(line); c++)
-        line->at_bound[c] = is_at_bound(line, c, AT_BOUND);
+void cpsi_warm_step_note_round(CpsiLine *line, const CpsiChainProgram *program) {
+    const CpsiFrictionDisc *disc = &program->disc;
+    const CpsiFrictionConic *conic = &program->conic;
+    memset(line->at_bound, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->at_bound);
+    for (int d = 0; d < disc->count; d++) {
+        const double *s = disc->s[d], *z = disc->z[d];
+        if (hypot(s[1], s[2]) * z[0] > z[0] - hypot(z[1], z[2]))
+            line->at_bound[disc->contact[d]] = true;
+    }
+    for (int k = 0; k < conic->count; k++)
+        line->at_bound[conic->contact[k]] =
+            cpsi_friction_conic_slip(program, k) > cpsi_friction_conic_margin(conic, k);
 }
 
 /* Did friction slip at contact c in the last step or round? */

@@ -30,9 +30,10 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
  * posed on the tangent planes at this place. */
 void cpsi_warm_step_predict(CpsiLine *line, const CpsiChainProgram *program);
 
-/* After a round, in the axes with which it was solved: note where friction is at its bound, for the
- * guess of the next round. */
-void cpsi_warm_step_note_round(CpsiLine *line);
+/* After a round: note where friction slips in its solution, for the guess of the next round. Of
+ * slip and of what the force lacks of its bound, both without dimension, the larger one is not
+ * zero. */
+void cpsi_warm_step_note_round(CpsiLine *line, const CpsiChainProgram *program);
 
 /* Solve the program of a round, which has been written, from a guess. The places are unique. */
 CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,

@@ -184,6 +184,7 @@ static CpsiIpmReport iterate(CpsiNewton *newton, int most) {
     int waited = 0;
     for (int step = 0; step <= most; step++) {
         report.residual = prepare(newton, step == 0);
+        newton->residual = report.residual;
         if (newton->lost || !isfinite(report.residual)) break;
         if (step > 0 && !newton->changed && report.residual <= newton->rounding) {
             report.outcome = CPSI_IPM_SOLVED;

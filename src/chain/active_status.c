@@ -8,6 +8,9 @@
 
 /* An element that may not go slack has this share of the largest force. */
 static const double LEAST_TENSION = 1e-3;
+/* While the equations have errors, a force that exceeds its bound by less than this share of them
+ * may be at it: nodes at rest with such forces are not released yet. */
+static const double SIGNIFICANT = 1e-4;
 
 /* elements ------------------------------------------------------------------------------------- */
 
@@ -354,7 +357,7 @@ static void decide_friction(CpsiNewton *newton) {
         }
         int piece;
         if (disc->weight[d] * cpsi_newton_beyond(program, d, now.bound, now.f, &piece) <=
-            newton->noise * newton->force)
+            fmax(newton->noise, SIGNIFICANT * newton->residual) * newton->force)
             continue;
         release(newton, d, now.f);
         if (!cpsi_newton_shape(program, d)) release_neighbours(newton, d, &now);

@@ -37,6 +37,7 @@ typedef struct CpsiNewton {
     double rounding;                  /* of an elongation, and of a force per largest force */
     double noise;                     /* the same of a force between nodes at rest */
     double force;                     /* the largest force */
+    double residual;                  /* errors of the equations at the iterate before */
     int slackened;                    /* how often an element between nodes that move went slack */
     double strain_error, force_error; /* of the equations, at most */
     bool changed;                     /* the active set has changed */
