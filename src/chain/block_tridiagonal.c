@@ -224,7 +224,9 @@ static bool factor_point(CpsiChainFactor *chain, const CpsiMatrix *a, const Cpsi
     for (int i = 0; i < 3; i++) m[i] = border->m[i][0];
     if (!cpsi_chain_point_factor(&chain->point[j], a, j, own, c, m)) return false;
     cpsi_chain_point_compliance(&chain->point[j], c);
-    for (int i = 0; i < 9; i++) chain->block[at->passed].c[i] = cpsi_halves(c[i], c[i]);
+    CpsiChainBlock *block = &chain->block[at->passed];
+    *block = (CpsiChainBlock){.tt = {0, 0}}; /* c alone is used */
+    for (int i = 0; i < 9; i++) block->c[i] = cpsi_halves(c[i], c[i]);
     return true;
 }
 
