@@ -137,7 +137,9 @@ static bool certify_last_round(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options, CpsiBounds bounds,
                                const CpsiIpmReport *ipm) {
     if (bounds != CPSI_BOUNDS_FIXED) cpsi_rounds_couple_bounds(line);
-    if (bounds != CPSI_BOUNDS_FIXED || line->keeps_reference_axes)
+    /* not of frozen friction, which may act on what is open */
+    const bool smooth = options->frictionless && line->has_local_axes;
+    if (bounds != CPSI_BOUNDS_FIXED || line->keeps_reference_axes || smooth)
         cpsi_line_release_open_contacts(line, program);
     cpsi_line_certify(line, options, ipm);
     return cps_outcome_is_certified(line->report.outcome);
