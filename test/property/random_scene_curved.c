@@ -122,6 +122,11 @@ static void make_wound(Maker *maker, CpsObstacleKind kind) {
     }
 }
 
+/* The angle by which a drum may carry along the end that a hand holds: the hand pulls in its
+ * direction, so that its pull along the drum falls by the cosine, which must cost less than the
+ * ratio exp(mu angle/6) of the wrap. */
+static double most_carried(double mu, double angle) { return acos(exp(-mu * angle / 6)); }
+
 /* A load at B, and at A a hook or a hand that holds within the capstan ratio; then the drum turns
  * to and fro, by so little that a line without hook stays wound far enough. */
 static void make_drum(Maker *maker, bool hand) {
@@ -145,7 +150,8 @@ static void make_drum(Maker *maker, bool hand) {
     for (int s = 0; s < stages; s++) {
         maker_stage(maker, 1 + random_below(random, 4));
         CpsStage *stage = &maker->out->stage[maker->out->scene.stage_count - 1];
-        const double most = hand ? 0.07 * arc.angle : 0.3;
+        const double most =
+            hand ? least(0.07 * arc.angle, most_carried(mu, arc.angle) / stages) : 0.3;
         maker->out->turn[maker->out->scene.stage_count - 1][0] =
             (CpsTurn){0, random_uniform(random, -most, most)};
         stage->turn_count = 1;
