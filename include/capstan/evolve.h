@@ -20,6 +20,7 @@
 
 #include "capstan/scene.h"
 #include "capstan/step.h"
+#include "capstan/stiffness.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -136,6 +137,14 @@ CPS_API CpsStepReport cps_evolution_report(const CpsEvolution *evolution);
 CPS_API int cps_evolution_line_count(const CpsEvolution *evolution);
 CPS_API CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line);
 CPS_API CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line);
+
+/* The stiffness of an end of a line after the last step, all else as in that step: the other end
+ * stays, or keeps its force. An end with a given force is taken as one that is held where the step
+ * has left it. A step of several substeps (CpsLineReport) is that of its last one. Sliding forces
+ * on a sphere are those at the arc slid in the step. Allocates nothing and changes nothing that
+ * another call can see. Returns CPS_OK, also where nothing is found, or CPS_ERR_ARGUMENT. */
+CPS_API CpsStatus cps_evolution_stiffness(const CpsEvolution *evolution, int line, int end,
+                                          CpsStiffnessKind kind, CpsStiffness *out, CpsError *err);
 
 /* ---- all solutions of a step (S90 results 4.3, 4.4, theorem 6.3, formula (55)) ----
  *

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/stiffness.h: how the force at an end of a line changes with the place of that end, after
+ * a load step (theory 6c); cps_evolution_stiffness of evolve.h finds it. Summed over the lines of a
+ * mooring it is the stiffness that holds what they are tied to.
+ *
+ *     CpsStiffness found;
+ *     cps_evolution_stiffness(evolution, 0, CPS_END_B, CPS_STIFFNESS_STEP, &found, &err);
+ *     if (found.outcome == CPS_STIFFNESS_OUTCOME_FOUND) surge = found.matrix[0];
+ *
+ * With dry friction a force has no one derivative: a node that slides goes on or sticks, depending
+ * on where the end moves. Two stiffnesses are defined. Both are exact derivatives of the discrete
+ * line; where the line lifts off the ground node by node they change by jumps with the mesh. */
+#ifndef CAPSTAN_STIFFNESS_H
+#define CAPSTAN_STIFFNESS_H
+
+#include "capstan/step.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Of the step: the derivative of the force that the step finds by the place to which it moves the
+ * end, from the same reference. Sliding nodes go on, and those at rest stay. Of a small cycle:
+ * every node and element that touches an obstacle stays where it is, as when the load turns round.
+ */
+#define CPS_STIFFNESS_LIST(X)                                                     \
+    X(CPS_STIFFNESS_STEP, 0, "step", "of the step: what slides goes on to slide") \
+    X(CPS_STIFFNESS_STICK, 1, "stick", "of a small cycle: all that touches stays put")
+
+typedef enum CpsStiffnessKind {
+#define CPS_STIFFNESS_ENUM(name, number, key, sentence) name = number,
+    CPS_STIFFNESS_LIST(CPS_STIFFNESS_ENUM)
+#undef CPS_STIFFNESS_ENUM
+} CpsStiffnessKind;
+
+CPS_API const char *cps_stiffness_name(CpsStiffnessKind kind); /* "step"; never NULL */
+CPS_API const char *cps_stiffness_text(CpsStiffnessKind kind); /* its sentence; never NULL */
+
+/* Whether there is such a matrix. */
+#define CPS_STIFFNESS_OUTCOME_LIST(X)                                                        \
+    X(CPS_STIFFNESS_OUTCOME_FOUND, 0, "found", "found")                                      \
+    X(CPS_STIFFNESS_OUTCOME_NO_STEP, 1, "no_step",                                           \
+      "no certified load step, or a taut line that "                                         \
+      "cannot stretch")                                                                      \
+    X(CPS_STIFFNESS_OUTCOME_TOUCHES, 2, "touches",                                           \
+      "the end touches an obstacle, whose force on it may be any within a bound")            \
+    X(CPS_STIFFNESS_OUTCOME_LOOSE, 3, "loose",                                               \
+      "a loose part of the line has no one place, and no stiffness")                         \
+    X(CPS_STIFFNESS_OUTCOME_NOT_GIVEN, 4, "not_given",                                       \
+      "an element slides on an obstacle, a node slides in a corner, with a box or a set of " \
+      "friction forces or by axes of the reference, or states are not resolved: not looked into")
+
+typedef enum CpsStiffnessOutcome {
+#define CPS_STIFFNESS_OUTCOME_ENUM(name, number, key, sentence) name = number,
+    CPS_STIFFNESS_OUTCOME_LIST(CPS_STIFFNESS_OUTCOME_ENUM)
+#undef CPS_STIFFNESS_OUTCOME_ENUM
+} CpsStiffnessOutcome;
+
+CPS_API const char *cps_stiffness_outcome_name(CpsStiffnessOutcome outcome);
+CPS_API const char *cps_stiffness_outcome_text(CpsStiffnessOutcome outcome);
+
+typedef struct CpsStiffness {
+    CpsStiffnessOutcome outcome;
+    /* [N/m] d(force[i])/d(position[j]) at 3 i + j, force and position as in CpsEndReport: what it
+     * takes to move the end, positive where the line pulls it back; all 0 unless found */
+    double matrix[9];
+} CpsStiffness;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The stiffness of an end of a line (stiffness.h): one linear system of the chain, at the state
+ * that the step has left, for the three directions in which the end may move.
+ *
+ * The force in a taut element, p = T t with T = (|x'| - 1)/c, changes by
+ *
+ *     dp = (T/|x'|) (1 - t t')/l d + (1/(c l)) t t' d,      d the difference of its nodes' moves.
+ *
+ * A node that touches keeps to its surface, whose normal turns by K v as the node moves by v, K the
+ * curvature: the reaction R turns with it, by R K v, and friction F stays tangential, which takes
+ * -F.K v off the normal force. A node that sticks stays. One that slides by s has the friction
+ * F = -A B B s/|B s|, with the ratios B of an ellipse and A = mu R,
+ *
+ *     dF = -A B (1 - q q') B ds/|B s| + mu B q dR,      q = -B s/|B s|,
+ *
+ * and on a sphere of radius r, where the slip is along a great circle, its direction turns with the
+ * place by 1/(r tan(|s|/r)) in place of 1/|s|. Lengths are in units of the line's, forces in those
+ * of its largest force. */
+#include "cable/stiffness.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "chain/frame.h"
+
+/* The stiffness of a direction in which a node is held, beside which those of the line vanish. */
+static const double RIGID = 1e30;
+/* The compliance of an element that cannot stretch, or between nodes that are held. */
+static const double LEAST_COMPLIANCE = 1e-30;
+
+/* The line, the program that lends its arrays, and the units. */
+typedef struct Tangent {
+    const CpsiLine *line;
+    CpsiChainProgram *program;
+    CpsiMatrix *matrix;
+    bool pinned;     /* all that touches stays where it is */
+    bool consistent; /* friction follows the reaction */
+    bool curved;     /* contact follows the surface */
+    int end_node;    /* that moves */
+    double force;    /* [N] its unit */
+} Tangent;
+
+static bool touches(const CpsiLine *line, int c) { return line->state[c] != CPS_NODE_STATE_FREE; }
+
+/* Does friction hold contact c, if there is any? */
+static bool sticks(const Tangent *t, int c) {
+    return t->pinned || t->line->state[c] == CPS_NODE_STATE_STICK;
+}
+
+/* ... and in all directions of the surface? */
+static bool rests(const Tangent *t, int c) {
+    const CpsiFrictionLaw law = cpsi_line_friction_law(t->line, c);
+    return touches(t->line, c) && sticks(t, c) && t->line->friction_bound[c] > 0 &&
+           law.ratio[0] > 0 && law.ratio[1] > 0;
+}
+
+/* The contact that node j has, -1: none; *both: it has two. */
+static int contact_of(const CpsiLine *line, int j, bool *both) {
+    const bool first = touches(line, j), second = line->contacts > 1 && touches(line, j + line->n);
+    *both = first && second;
+    return first ? j : second ? j + line->n : -1;
+}
+
+/* matrix --------------------------------------------------------------------------------------- */
+
+static void load_elements(Tangent *t) {
+    const CpsiLine *line = t->line;
+    for (int i = 1; i < line->n; i++) {
+        const Vec3 dx = vec3_sub(vec3_at(line->position, i), vec3_at(line->position, i - 1));
+        const double tension = line->tension[i - 1] / t->force, size = vec3_norm(dx);
+        const double stretch = size / line->element_length[i - 1];
+        const double l = line->element_length[i - 1] / line->length;
+        const double c = cpsi_line_compliance(line, i - 1) * t->force;
+        const double share = 1 - c * tension / stretch;
+        double along[3];
+        vec3_store(along, vec3_scale(size > 0 ? 1 / size : 0, dx));
+        cpsi_frame_to(&t->matrix->direction[3 * i], line->common_axes, along);
+        const bool taut = tension > 1 + c * tension - stretch && share > 0; /* as in report.c */
+        t->matrix->stiffness[i] = taut ? tension / (stretch * l) : 0;
+        t->matrix->compliance[i] = taut ? fmax(c * l / share, LEAST_COMPLIANCE) : RIGID;
+    }
+}
+
+/* The surface at a contact of a node, at the position that the step has left, and what acts there
+ * in its axes. */
+typedef struct Surface {
+    double axes[9], curvature[3]; /* (obstacle.h) */
+    double slip[3], friction[3];
+    CpsiFrictionLaw law;
+} Surface;
+
+static Surface surface_of(const CpsiLine *line, int c) {
+    Surface out = {.law = cpsi_line_friction_law(line, c)};
+    const int j = cpsi_line_node(line, c);
+    double slip[3];
+    memcpy(out.axes, line->common_axes, sizeof out.axes);
+    if (line->has_local_axes) {
+        const Vec3 before = vec3_at(line->position, j > 0 ? j - 1 : j),
+                   after = vec3_at(line->position, j + 1 < line->n ? j + 1 : j);
+        cpsi_obstacle_axes(cpsi_line_obstacle(line, c), vec3_at(line->position, j),
+                           vec3_sub(after, before), out.axes, out.curvature);
+    }
+    vec3_store(slip, cpsi_line_slip(line, c));
+    cpsi_frame_to(out.slip, out.axes, slip);
+    cpsi_frame_to(out.friction, out.axes, &line->friction_force[3 * c]);
+    return out;
+}
+
+/* [1/m] By how much the direction of a slip turns with the place across it. */
+static double turn_of(const Tangent *t, int c, double slip) {
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(t->line, c);
+    if (!obstacle || obstacle->kind != CPS_OBSTACLE_SPHERE) return 1 / slip;
+    return 1 / (obstacle->radius * tan(slip / obstacle->radius));
+}
+
+/* The rows of node j, which slides at contact c. */
+static void load_slip(Tangent *t, int j, int c, const Surface *at) {
+    double *diagonal = &t->matrix->diagonal[6 * j], q[2];
+    const double *b = at->law.ratio, bound = t->line->friction_bound[c] / t->force;
+    for (int a = 0; a < 2; a++) q[a] = -b[a] * at->slip[a];
+    const double size = sqrt(q[0] * q[0] + q[1] * q[1]);
+    const double across = bound * t->line->length * turn_of(t, c, size);
+    for (int a = 0; a < 2; a++) q[a] /= size;
+    diagonal[0] += across * b[0] * b[0] * q[1] * q[1];
+    diagonal[1] -= across * b[0] * b[1] * q[0] * q[1];
+    diagonal[2] += across * b[1] * b[1] * q[0] * q[0];
+    const double follows = t->consistent ? at->law.friction * RIGID : 0;
+    for (int a = 0; a < 2; a++) t->matrix->skew[2 * j + a] = b[a] * q[a] * follows;
+}
+
+/* What turns with the surface as node j moves along it: the reaction and friction of contact c. */
+static void load_curvature(Tangent *t, int j, int c, const Surface *at) {
+    const double *k = at->curvature, *f = at->friction, length = t->line->length;
+    double *diagonal = &t->matrix->diagonal[6 * j], *skew = &t->matrix->skew[2 * j];
+    for (int a = 0; a < 3; a++) diagonal[a] -= t->line->reaction[c] / t->force * length * k[a];
+    for (int a = 0; a < 2; a++) {
+        const double turned = length * (k[a] * f[0] + k[a + 1] * f[1]) / t->force;
+        diagonal[3 + a] += turned; /* of row z alone */
+        skew[a] -= turned;
+    }
+}
+
+/* The rows of node j at its contact c. */
+static void load_contact(Tangent *t, int j, int c) {
+    const CpsiLine *line = t->line;
+    const Surface at = surface_of(line, c);
+    double *diagonal = &t->matrix->diagonal[6 * j];
+    if (line->has_local_axes) memcpy(&t->program->frame[9 * j], at.axes, sizeof at.axes);
+    if (line->reaction[c] > 0) diagonal[5] = RIGID;
+    if (line->friction_bound[c] > 0 && !sticks(t, c)) load_slip(t, j, c, &at);
+    if (line->friction_bound[c] > 0 && sticks(t, c))
+        for (int a = 0; a < 2; a++) diagonal[2 * a] = at.law.ratio[a] > 0 ? RIGID : 0;
+    if (t->curved) load_curvature(t, j, c, &at);
+}
+
+static void load_nodes(Tangent *t) {
+    const CpsiLine *line = t->line;
+    const size_t places = t->matrix->share ? 2 * (size_t)line->n : (size_t)line->n;
+    memset(t->matrix->diagonal, 0, 6 * places * sizeof *t->matrix->diagonal);
+    memset(t->matrix->skew, 0, 2 * places * sizeof *t->matrix->skew);
+    for (int j = 0; j < line->n; j++) {
+        bool both;
+        const int c = contact_of(line, j, &both);
+        t->program->held[j] =
+            j == t->end_node || cpsi_line_is_held(line, j) || both || (c >= 0 && rests(t, c));
+        if (line->has_local_axes)
+            memcpy(&t->program->frame[9 * j], line->common_axes, sizeof line->common_axes);
+        if (c >= 0 && !t->program->held[j]) load_contact(t, j, c);
+    }
+}
+
+/* The points at which elements touch stay where they are. */
+static void load_points(Tangent *t) {
+    const CpsiLine *line = t->line;
+    const int n = line->n, nodes = cpsi_line_contacts(line);
+    t->matrix->share = NULL;
+    if (line->element_contacts == 0) return;
+    for (int i = 1; i < n; i++) {
+        const int c = nodes + i - 1;
+        t->program->node_frames.share[i] = touches(line, c) ? line->beta[i - 1] : 0;
+        if (!(t->program->node_frames.share[i] > 0)) continue;
+        t->matrix->share = t->program->node_frames.share;
+        memcpy(&t->program->frame[9 * (n + i)], line->common_axes, sizeof line->common_axes);
+    }
+}
+
+static void hold_points(const Tangent *t) {
+    if (!t->matrix->share) return;
+    for (int i = 1; i < t->line->n; i++) {
+        double *diagonal = &t->matrix->diagonal[6 * (t->line->n + i)];
+        if (t->matrix->share[i] > 0) diagonal[0] = diagonal[2] = diagonal[5] = RIGID;
+    }
+}
+
+/* what there is no matrix for ------------------------------------------------------------------ */
+
+/* Do the directions of friction turn with the line? */
+static bool turns_with_line(const CpsiLine *line, int c, const CpsiFrictionLaw *law) {
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    const bool is_disc = law->ratio[0] == law->ratio[1] && !law->box && !law->given;
+    return !is_disc && obstacle && !obstacle->has_grain;
+}
+
+/* Is contact c one whose change of force is known? Frozen friction may act on what is open. */
+static bool is_treated(const Tangent *t, int c) {
+    const CpsiLine *line = t->line;
+    const CpsiFrictionLaw law = cpsi_line_friction_law(line, c);
+    const bool is_node = cpsi_line_element(line, c)<0, rubs = line->friction_bound[c]> 0,
+               whole = law.ratio[0] > 0 && law.ratio[1] > 0;
+    if (!touches(line, c)) return t->pinned || t->consistent || !rubs;
+    if (!rubs) return is_node;
+    if (sticks(t, c)) return whole || (is_node && !turns_with_line(line, c, &law));
+    return is_node && line->state[c] == CPS_NODE_STATE_SLIP && !law.given && !law.box &&
+           (t->consistent || !t->curved || !line->has_local_axes) &&
+           !turns_with_line(line, c, &law);
+}
+
+static bool all_are_treated(const Tangent *t) {
+    const CpsiLine *line = t->line;
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++)
+        if (!is_treated(t, c)) return false;
+    for (int j = 0; j < line->n; j++) {
+        bool both;
+        if (contact_of(line, j, &both) >= 0 && both && !rests(t, j) && !rests(t, j + line->n))
+            return false;
+    }
+    return true;
+}
+
+/* Is there a node that nothing holds: one between elements without tension that touches nothing? */
+static bool is_loose(const Tangent *t) {
+    const CpsiLine *line = t->line;
+    for (int j = 0; j < line->n; j++) {
+        const bool before = j > 0 && t->matrix->stiffness[j] > 0,
+                   after = j + 1 < line->n && t->matrix->stiffness[j + 1] > 0;
+        if (!t->program->held[j] && !before && !after) return true;
+    }
+    return false;
+}
+
+/* solution ------------------------------------------------------------------------------------- */
+
+/* The force on the line at its end, by a move of it in the direction `a` of the common axes. */
+static void solve(const Tangent *t, int end, int a, double force[3]) {
+    const int n = t->line->n, i = end == CPS_END_A ? 1 : n - 1, j = end == CPS_END_A ? 1 : n - 2;
+    const CpsiMatrix *matrix = t->matrix;
+    const double sign = end == CPS_END_A ? -1 : 1, *m = &matrix->direction[3 * i];
+    double *x = t->program->base.du, *tension = t->program->dt, move[3] = {0}, to[3];
+    memset(x, 0, 3 * (size_t)(matrix->share ? 2 * n : n) * sizeof *x);
+    memset(tension, 0, (size_t)n * sizeof *tension);
+    move[a] = matrix->stiffness[i];
+    if (t->program->frame)
+        cpsi_frame_to(to, &t->program->frame[9 * j], move);
+    else
+        memcpy(to, move, sizeof to);
+    if (!t->program->held[j]) memcpy(&x[3 * j], to, sizeof to);
+    tension[i] = -sign * m[a];
+    t->program->ops->solve(t->program->linsys, matrix, x, tension, NULL);
+    if (t->program->frame)
+        cpsi_frame_from(to, &t->program->frame[9 * j], &x[3 * j]);
+    else
+        memcpy(to, &x[3 * j], sizeof to);
+    if (t->program->held[j]) memset(to, 0, sizeof to);
+    for (int b = 0; b < 3; b++)
+        force[b] = matrix->stiffness[i] * ((b == a) - to[b]) + sign * m[b] * tension[i];
+}
+
+CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program,
+                                 const CpsiStepOptions *options, CpsStiffnessKind kind, int end) {
+    CpsStiffness out = {.outcome = CPS_STIFFNESS_OUTCOME_NO_STEP};
+    bool both;
+    Tangent t = {.line = line,
+                 .program = program,
+                 .matrix = &program->matrix,
+                 .pinned = kind == CPS_STIFFNESS_STICK,
+                 .consistent = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
+                 .curved = options->contact_policy != CPS_CONTACT_POLICY_REFERENCE,
+                 .end_node = end == CPS_END_A ? 0 : line->n - 1,
+                 .force = line->report.certificate.largest_force};
+    if (line->report.outcome != CPS_OUTCOME_SOLVED || !(t.force > 0)) return out;
+    out.outcome = CPS_STIFFNESS_OUTCOME_TOUCHES;
+    if (contact_of(line, t.end_node, &both) >= 0) return out;
+    out.outcome = CPS_STIFFNESS_OUTCOME_NOT_GIVEN;
+    if (!all_are_treated(&t)) return out;
+    cpsi_chain_program_resize(program, line->n, line->has_local_axes);
+    t.matrix->held = program->held;
+    t.matrix->frame = program->frame;
+    t.matrix->second = NULL;
+    load_elements(&t);
+    load_points(&t);
+    load_nodes(&t);
+    hold_points(&t);
+    out.outcome = CPS_STIFFNESS_OUTCOME_LOOSE;
+    if (is_loose(&t) || !program->ops->factor(program->linsys, t.matrix)) return out;
+    double k[9], own[9];
+    for (int a = 0; a < 3; a++) {
+        double force[3];
+        solve(&t, end, a, force);
+        for (int b = 0; b < 3; b++) k[3 * b + a] = force[b] * t.force / line->length;
+    }
+    /* from the common axes to those of the scene: Q'K Q */
+    for (int i = 0; i < 9; i++) own[i] = line->common_axes[3 * (i % 3) + i / 3];
+    cpsi_frame_turn(k, own, k);
+    for (int i = 0; i < 9; i++)
+        if (!isfinite(k[i])) return out;
+    memcpy(out.matrix, k, sizeof k);
+    out.outcome = CPS_STIFFNESS_OUTCOME_FOUND;
+    return out;
+}
