@@ -31,6 +31,8 @@ static const Option OPTIONS[] = {
      "write into a directory that is not capstan's, or begin a run anew where one was interrupted"},
     {"no-paraview", 0, NULL, FOR_RUN, offsetof(CliOptions, no_paraview), false,
      "write no .vtp and .pvd files"},
+    {"stiffness", 0, NULL, FOR_RUN, offsetof(CliOptions, stiffness), false,
+     "write stiffness.csv: stiffness of the ends of all lines after each step"},
     {"fields", 0, "NAME,..", FOR_RUN, offsetof(CliOptions, fields), false,
      "fields along the lines in result.nc, or none (default: all, which the checker needs)"},
     {"sync", 0, "WHEN", FOR_RUN, offsetof(CliOptions, sync), false,

@@ -222,6 +222,7 @@ static int exit_code(CpsOutcome worst) {
 static CpsResultsOptions wanted_results(const CliOptions *options) {
     CpsResultsOptions wanted = cps_results_options_default();
     wanted.no_paraview = options->no_paraview;
+    wanted.stiffness = options->stiffness;
     wanted.sync_at_end = options->sync && strcmp(options->sync, "end") == 0;
     wanted.fields = options->fields;
     return wanted;
@@ -353,7 +354,8 @@ static CpsStatus execute(Run *run, const char *directory, const CliOptions *opti
     return status;
 }
 
-static void print_where(const char *directory, const CpsEvolution *evolution, bool paraview) {
+static void print_where(const char *directory, const CpsEvolution *evolution,
+                        const CliOptions *options) {
     const int steps = cps_evolution_step_count(evolution),
               left = cps_evolution_remaining_count(evolution);
     if (was_stopped(evolution))
@@ -364,8 +366,9 @@ static void print_where(const char *directory, const CpsEvolution *evolution, bo
            "step's own problem: it says nothing of the\n"
            "          mesh, nor of what earlier steps have left. mesh: estimated error by the "
            "elements' length, of the step as well\n");
-    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s\n", directory,
-               paraview ? ", result.pvd (ParaView)" : "");
+    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s\n", directory,
+               options->stiffness ? ", stiffness.csv" : "",
+               options->no_paraview ? "" : ", result.pvd (ParaView)");
     cli_printf(stdout,
                "pictures  %s: plan.svg, elevation.svg, tension.svg, history.svg, step-*.svg; "
                "loop-*.svg where a held end goes round a closed cycle\n",
@@ -402,7 +405,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
         if (length > 0) printf("\n%s", said);
         extremes_print(&run.extremes, run.evolution, stdout);
         print_utilisation(&run.warnings.utilisation);
-        print_where(directory, run.evolution, !options->no_paraview);
+        print_where(directory, run.evolution, options);
     }
     const int code = status                       ? cli_report(&err)
                      : was_stopped(run.evolution) ? 128 + cli_interrupted()
@@ -455,11 +458,12 @@ static bool is_sound(const CliOptions *options, bool *regularized) {
                    options->method);
     else if (!*regularized && regularized_options_given(options))
         fputs("capstan run: --lambda, --n and --delta are those of --method regularized\n", stderr);
-    else if (*regularized && (options->resume || options->path_tolerance || options->no_paraview ||
-                              options->fields || options->sync || options->threads))
+    else if (*regularized &&
+             (options->resume || options->path_tolerance || options->no_paraview ||
+              options->stiffness || options->fields || options->sync || options->threads))
         fputs("capstan run: --method regularized: takes the steps as given, without "
               "--path-tolerance, "
-              "--threads and --resume, and writes no fields\n",
+              "--threads and --resume, and writes no fields and no stiffness\n",
               stderr);
     else if (options->sync && strcmp(options->sync, "step") != 0 &&
              strcmp(options->sync, "end") != 0)

@@ -16,8 +16,6 @@
 extern "C" {
 #endif
 
-/* ---- results of a run ---- */
-
 /* A directory of results: summary.json, history.csv, result.nc, one .vtp per step with a .pvd, SVG
  * pictures. */
 typedef struct CpsResults CpsResults;
@@ -26,6 +24,7 @@ typedef struct CpsResults CpsResults;
 typedef struct CpsResultsOptions {
     uint32_t cookie;  /* of cps_results_options_default(): options made otherwise are refused */
     bool no_paraview; /* no .vtp and .pvd files */
+    bool stiffness;   /* stiffness.csv: both stiffnesses of all ends after each step */
     /* files are synced at the end only: a power cut, though not a kill, may lose the whole run, and
      * result.nc cannot be read before the end */
     bool sync_at_end;

@@ -26,6 +26,7 @@ typedef struct CpsiRow {
     char *name;
     double open_reaction; /* [N] largest over the lines */
     CpsiLineRow *line;
+    CpsStiffness (*stiffness)[2][2]; /* (lines) of ends A and B, by kind; NULL: not asked for */
 } CpsiRow;
 
 /* A state in addition to CpsNodeState: no contact, but friction. */
@@ -58,8 +59,9 @@ struct CpsResults {
     CpsiNetcdf *netcdf;
     /* "C": numbers are written with a decimal point whatever the program's locale */
     locale_t locale;
-    bool paraview; /* .vtp and .pvd files are written */
-    bool failed;   /* a call has failed, so nothing may be committed */
+    bool paraview;  /* .vtp and .pvd files are written */
+    bool stiffness; /* ... and stiffness.csv */
+    bool failed;    /* a call has failed, so nothing may be committed */
 
     char *title; /* "" when the scene has none */
     double gravity[3];

@@ -135,6 +135,7 @@ CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
     CpsResults *results = calloc(1, sizeof *results);
     if (!results) return fail_memory(err);
     results->paraview = !options->no_paraview;
+    results->stiffness = options->stiffness;
     results->locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     if (!results->locale || !copy_scene(results, scene, evolution)) status = fail_memory(err);
     if (!status) status = open_files(results, directory, scene, evolution, options, err);
@@ -167,6 +168,20 @@ static double open_reaction(const CpsLineView *view) {
     return worst;
 }
 
+static void free_row(CpsiRow *row) {
+    free(row->name);
+    free(row->line);
+    free(row->stiffness);
+}
+
+/* Both stiffnesses of both ends of line i. */
+static void find_stiffness(const CpsEvolution *evolution, int i, CpsStiffness found[2][2]) {
+    for (int end = 0; end < 2; ++end)
+        for (int kind = 0; kind < 2; ++kind)
+            cps_evolution_stiffness(evolution, i, end, (CpsStiffnessKind)kind, &found[end][kind],
+                                    NULL);
+}
+
 static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
     if (results->row_count == results->row_capacity) {
         const size_t capacity = results->row_capacity ? 2 * (size_t)results->row_capacity : 64;
@@ -179,9 +194,10 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
     row.name = copy_text(row.report.name);
     row.report.name = row.name;
     row.line = calloc((size_t)results->line_count, sizeof *row.line);
-    if (!row.name || !row.line) {
-        free(row.name);
-        free(row.line);
+    if (results->stiffness)
+        row.stiffness = calloc((size_t)results->line_count, sizeof *row.stiffness);
+    if (!row.name || !row.line || (results->stiffness && !row.stiffness)) {
+        free_row(&row);
         return false;
     }
     for (int i = 0; i < results->line_count; ++i) {
@@ -191,6 +207,7 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         line->open_reaction = open_reaction(&view);
         for (int e = 0; e < 2; ++e) line->held[e] = view.end[e].kind == CPS_END_KIND_HELD;
         if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
+        if (row.stiffness) find_stiffness(evolution, i, row.stiffness[i]);
     }
     results->row[results->row_count++] = row;
     return true;
@@ -243,11 +260,12 @@ CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution,
 }
 
 /* one text file of the directory, written by a function */
-static CpsStatus write_history(CpsResults *results, CpsError *err) {
+static CpsStatus write_table(CpsResults *results, const char *name,
+                             void (*write)(const CpsResults *results, FILE *out), CpsError *err) {
     FILE *out = NULL;
-    const CpsStatus status = cpsi_directory_create(results->directory, "history.csv", &out, err);
+    const CpsStatus status = cpsi_directory_create(results->directory, name, &out, err);
     if (status) return status;
-    cpsi_history_write(results, out);
+    write(results, out);
     return cpsi_directory_close_file(results->directory, out, err);
 }
 
@@ -269,7 +287,9 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     if (!status && results->paraview) status = cpsi_paraview_list(results, err);
     if (!status && results->paraview) status = cpsi_paraview_obstacles(results, err);
     if (!status) status = cpsi_pictures_write(results, err);
-    if (!status) status = write_history(results, err);
+    if (!status) status = write_table(results, "history.csv", cpsi_history_write, err);
+    if (!status && results->stiffness)
+        status = write_table(results, "stiffness.csv", cpsi_stiffness_write, err);
     /* last: when there is a new summary, all files that it lists are in place */
     if (!status) status = write_summary(results, wall, err);
     return status ? status : cpsi_directory_commit(results->directory, cpsi_results_replaces, err);
@@ -305,10 +325,7 @@ void cps_results_destroy(CpsResults *results) {
     if (!results) return;
     cpsi_netcdf_close(results->netcdf, NULL);
     cpsi_directory_destroy(results->directory);
-    for (int i = 0; i < results->row_count; ++i) {
-        free(results->row[i].name);
-        free(results->row[i].line);
-    }
+    for (int i = 0; i < results->row_count; ++i) free_row(&results->row[i]);
     for (int i = 0; i < results->snapshot_count; ++i) cpsi_snapshot_free(&results->snapshot[i]);
     for (int i = 0; i < results->stage_count; ++i) {
         free(results->stage[i].name);

@@ -49,6 +49,7 @@ bool cpsi_results_writes(const void *run, const char *name) {
     const CpsResults *results = run;
     if (is_plain(CPS_RESULTS_KIND_RUN, name)) return true;
     if (strcmp(name, "history.svg") == 0) return results->planned_steps > 1;
+    if (strcmp(name, "stiffness.csv") == 0) return results->stiffness;
     if (strcmp(name, "result.pvd") == 0) return results->paraview;
     if (strcmp(name, "obstacles.vtp") == 0) return results->paraview && results->obstacle_count > 0;
     return strncmp(name, "step-", 5) == 0 && writes_of_step(results, name);
@@ -56,7 +57,8 @@ bool cpsi_results_writes(const void *run, const char *name) {
 
 bool cpsi_results_replaces(const char *name) {
     static const char *const BEGINNING[] = {"obstacles.vtp", "result.pvd", "history.svg",
-                                            "loop-",         "step-",      "line-"};
+                                            "stiffness.csv", "loop-",      "step-",
+                                            "line-"};
     for (size_t i = 0; i < sizeof BEGINNING / sizeof *BEGINNING; ++i)
         if (strncmp(name, BEGINNING[i], strlen(BEGINNING[i])) == 0) return true;
     return is_plain(CPS_RESULTS_KIND_RUN, name); /* which has the names of the other method too */
