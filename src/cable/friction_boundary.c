@@ -71,9 +71,9 @@ static Arc circle(const Sample *from, const Sample *to) {
 /* Join an arc to the last one, if one of the two circles, that with the larger angle, passes
  * through both. */
 static bool join(BoundarySearch *search, const Arc *next) {
+    if (search->count == 0) return false;
     Arc *last = &search->arc[search->count - 1];
-    if (search->count == 0 || last->is_edge || next->is_edge ||
-        next->end[1].angle - last->end[0].angle > MOST_TURN)
+    if (last->is_edge || next->is_edge || next->end[1].angle - last->end[0].angle > MOST_TURN)
         return false;
     const bool longer =
         next->end[1].angle - next->end[0].angle > last->end[1].angle - last->end[0].angle;
