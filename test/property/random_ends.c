@@ -50,6 +50,22 @@ static void turn_round(double *point, int count) {
         }
 }
 
+/* Sections and point weights from the other end. */
+static void turn_sections_round(CpsLine *line, CpsSection *section, CpsPointWeight *weight) {
+    for (int k = 0, last = line->section_count - 1; k < last - k; k++) {
+        const CpsSection keep = section[k];
+        section[k] = section[last - k];
+        section[last - k] = keep;
+    }
+    for (int k = 0; k < line->point_weight_count; k++)
+        weight[k].arc_length = line->length - weight[k].arc_length;
+    for (int k = 0, last = line->point_weight_count - 1; k < last - k; k++) {
+        const CpsPointWeight keep = weight[k];
+        weight[k] = weight[last - k];
+        weight[last - k] = keep;
+    }
+}
+
 /* The same scene, its lines from B to A; arcs are given as nodes and have been turned round. */
 static void exchange(RandomScene *s) {
     for (int i = 0; i < s->scene.line_count; i++) {
@@ -60,6 +76,7 @@ static void exchange(RandomScene *s) {
         if (line->start.point == s->point[i])
             turn_round(s->point[i],
                        line->start.kind == CPS_START_STRAIGHT ? 2 : line->start.point_count);
+        turn_sections_round(line, s->section[i], s->point_weight[i]);
         double *length = s->element_length[i];
         if (line->element_length)
             for (int k = 0, last = line->element_count - 1; k < last - k; k++) {
