@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The parts of a directory of results by themselves: its list, files that are displaced, files that
  * are synced at the end, sets of files; each of their calls fails, one after the other. */
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -93,7 +94,7 @@ static bool refuse_call(long k, bool late) {
 
 static void files_are_displaced(void **state) {
     (void)state;
-    static const int REASON[] = {EIO, ENOSPC, EINTR, EINVAL, EWOULDBLOCK};
+    static const int REASON[] = {EIO, ENOSPC, EINTR, EINVAL, EWOULDBLOCK, NOTHING_WRITTEN};
     for (size_t i = 0; i < 2 * sizeof REASON / sizeof *REASON; i++) {
         why = REASON[i / 2];
         long k = 0;
@@ -101,6 +102,25 @@ static void files_are_displaced(void **state) {
         if (k == 0) skip();           /* built as shared libraries they cannot be reached */
         assert_in_range(k, 20, 1000); /* three files are at least opened, synced, renamed */
     }
+}
+
+/* A folder that has taken a name since the directory was opened: nothing is replaced. */
+static void name_is_taken(void **state) {
+    (void)state;
+    CpsError err = {0};
+    CpsiDirectory *directory = NULL;
+    FILE *out = NULL;
+    assert_int_equal(put("ab", false, &err), CPS_OK);
+    assert_int_equal(cpsi_directory_open(OUT, &directory, &err), CPS_OK);
+    assert_int_equal(cpsi_directory_create(directory, "loop-a.svg", &out, &err), CPS_OK);
+    assert_int_equal(cpsi_directory_close_file(directory, out, &err), CPS_OK);
+    assert_int_equal(unlink("directory-parts/loop-a.svg"), 0);
+    assert_int_equal(mkdir("directory-parts/loop-a.svg", 0777), 0);
+    assert_int_equal(cpsi_directory_commit(directory, is_loop, &err), CPS_ERR_IO);
+    assert_non_null(strstr(err.message, strerror(EISDIR)));
+    cpsi_directory_destroy(directory);
+    assert_true(is_there("loop-b.svg") && is_there("summary.json"));
+    assert_int_equal(rmdir("directory-parts/loop-a.svg"), 0);
 }
 
 /* A file that somebody has removed is no longer in the list. */
@@ -165,6 +185,14 @@ static void what_is_refused(void **state) {
     assert_int_equal(cpsi_directory_commit(directory, is_loop, &err), CPS_OK); /* of nothing */
     cpsi_directory_destroy(directory);
     for (size_t i = 0; i < 2; i++) assert_int_equal(unlink(MINE[i]), 0);
+    /* an unfinished file that somebody has removed meanwhile */
+    CpsiNames parts = {0};
+    assert_int_equal(cpsi_names_add(&parts, ".loop-z.svg.part", &err), CPS_OK);
+    const int folder = open(OUT, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    assert_true(folder >= 0);
+    assert_int_equal(cpsi_marker_remove_parts(folder, OUT, &parts, &err), CPS_OK);
+    close(folder);
+    cpsi_names_free(&parts);
     /* a list that waits for a file, which is there: the disk had not confirmed its name */
     assert_int_equal(put("a", false, &err), CPS_OK);
     FILE *list = fopen("directory-parts/.capstan", "a");
@@ -175,6 +203,11 @@ static void what_is_refused(void **state) {
     /* no directory at all has nothing missing, nor has what is none */
     assert_int_equal(cps_results_missing("directory-parts/none", missing, &err), CPS_OK);
     assert_int_equal(cps_results_missing("directory-parts/loop-a.svg", missing, &err), CPS_OK);
+    /* what cannot be opened for another reason is an error */
+    char endless[6000];
+    memset(endless, 'x', sizeof endless - 1);
+    endless[sizeof endless - 1] = 0;
+    assert_int_equal(cps_results_missing(endless, missing, &err), CPS_ERR_IO);
     assert_int_equal(cps_results_missing(OUT, missing, &err), CPS_OK);
     assert_string_equal(missing, "summary.json");
     /* a list far longer than any */
@@ -187,6 +220,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_in_order),
         cmocka_unit_test_setup_teardown(files_are_displaced, start, start),
+        cmocka_unit_test_setup_teardown(name_is_taken, start, start),
         cmocka_unit_test_setup_teardown(files_are_gone, start, start),
         cmocka_unit_test_setup_teardown(sets_of_files, start, start),
         cmocka_unit_test_setup_teardown(what_is_refused, start, start)};

@@ -72,6 +72,33 @@ static void every_allocation_may_fail(void **state) {
     assert_in_range(k, 20, 100000);
 }
 
+/* A directory in which a run was killed lists unfinished files, whose names take memory. */
+static void a_list_without_memory(void **state) {
+    (void)state;
+    CpsError err;
+    assert_int_equal(system("rm -rf memory-list && mkdir memory-list"), 0);
+    assert_int_equal(system("printf 'capstan directory 1\n' > memory-list/.capstan"), 0);
+    assert_int_equal(system("printf 'capstan directory 1\np result.nc\np history.csv\n' > "
+                            "memory-list/.capstan.run"),
+                     0);
+    long k = 0;
+    for (;; k++) {
+        allowed = k;
+        const CpsStatus status =
+            cps_results_prepare("memory-list", CPS_RESULTS_KIND_RUN, 0, false, &err);
+        const int reached = allowed < 0;
+        allowed = -1;
+        if (!reached) {
+            assert_int_equal(status, CPS_OK);
+            break;
+        }
+        assert_int_equal(status, CPS_ERR_MEMORY);
+    }
+    assert_int_equal(system("rm -r memory-list"), 0);
+    if (k == 0) skip();
+    assert_in_range(k, 3, 1000); /* the directory, its list, a name */
+}
+
 /* The same of a journal that is opened: it says so, and there is none. */
 static void a_journal_without_memory(void **state) {
     (void)state;
@@ -141,6 +168,7 @@ static void a_summary_without_a_locale(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation_may_fail),
+                                       cmocka_unit_test(a_list_without_memory),
                                        cmocka_unit_test(a_journal_without_memory),
                                        cmocka_unit_test(a_summary_without_a_locale)};
     /* of an earlier run of this test */

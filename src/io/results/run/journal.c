@@ -217,20 +217,25 @@ static CpsStatus look_at(int folder, const char *directory, bool *there, CpsErro
     return status;
 }
 
+/* Give the steps of an interrupted run up, if `force` says so. */
+static CpsStatus give_up(int folder, const char *directory, bool force, CpsError *err) {
+    if (!force)
+        return refuse_file(directory, CPS_ERR_IO,
+                           "keeps the steps of a run that was interrupted: go on with it "
+                           "(run --resume), choose another directory, or give them up (--force)",
+                           err);
+    if (unlinkat(folder, NAME, 0) == 0) return CPS_OK;
+    return cpsi_fail(err, CPS_ERR_IO, "cannot remove the journal %s/%s: %s", directory, NAME,
+                     strerror(errno));
+}
+
 CpsStatus cpsi_journal_check(const char *directory, bool other, bool force, CpsError *err) {
     const int folder = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) return CPS_OK; /* the directory itself is another matter */
     bool there;
     CpsStatus status = look_at(folder, directory, &there, err);
-    if (other && status != CPS_OK) status = CPS_OK; /* a file that is not touched */
-    if (other && there && !force)
-        status = refuse_file(directory, CPS_ERR_IO,
-                             "keeps the steps of a run that was interrupted: go on with it "
-                             "(run --resume), choose another directory, or give them up (--force)",
-                             err);
-    if (other && there && force && unlinkat(folder, NAME, 0) != 0)
-        status = cpsi_fail(err, CPS_ERR_IO, "cannot remove the journal %s/%s: %s", directory, NAME,
-                           strerror(errno));
+    if (other) status = CPS_OK; /* a file that is not touched */
+    if (other && there) status = give_up(folder, directory, force, err);
     close(folder);
     return status;
 }
