@@ -227,6 +227,18 @@ static void check_step(Count *count, const Rig *rig, const CpsEvolution *evoluti
            audit.open, audit.bound, audit.outside, audit.law, audit.dissipated, audit.node_law);
 }
 
+/* A history that a step refuses to go on with. An end that is free may be where an obstacle is in
+ * the way of what grabs it; nothing else may be refused. */
+static void end_early(Count *count, uint64_t seed, CpsStatus status, const CpsError *err) {
+    const bool grabbed = status == CPS_ERR_ARGUMENT && strstr(err->message, "is grabbed at");
+    printf("seed %llu: %s: %s\n", (unsigned long long)seed, grabbed ? "ends early" : "WRONG",
+           err->message);
+    if (grabbed)
+        count->ended++;
+    else
+        count->wrong++;
+}
+
 static void run_one(Count *counts, uint64_t seed, int halvings, int class) {
     static Rig rig;
     make(&rig, seed);
@@ -246,10 +258,9 @@ static void run_one(Count *counts, uint64_t seed, int halvings, int class) {
         if (now && now->turn_count) turn[now->turn->obstacle] = now->turn->angle / now->step_count;
         for (int i = 0;
              i < (now ? now->step_count : 1) && cps_evolution_remaining_count(evolution) > 0; i++) {
-            /* an end that is free may be where an obstacle is in the way of what grabs it */
-            if (cps_evolution_step(evolution, &err) == CPS_ERR_ARGUMENT && now && i == 0) {
-                printf("seed %llu: ends early: %s\n", (unsigned long long)seed, err.message);
-                count->ended++;
+            const CpsStatus status = cps_evolution_step(evolution, &err);
+            if (status != CPS_OK) {
+                end_early(count, seed, status, &err);
                 cps_evolution_destroy(evolution);
                 return;
             }
