@@ -33,7 +33,7 @@ struct CpsiLdl {
     bool *joined; /* (n) the column before has its nonzeros in the same rows and in this one */
 };
 
-/* Supernode that are used at once, where they have so many nonzeros that it pays. */
+/* Columns of a supernode that are used at once, and the nonzeros from which on that pays. */
 enum { MOST_TOGETHER = 4, LONG = 12 };
 
 /* Neighbouring columns with their nonzeros in the same `length` rows beyond the columns

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The stiffness of the ends as CSV (RFC 4180): a row of names, a row of units, then a row per step,
  * line, end and kind. Without a matrix its cells are empty, and the outcome says why. */
+#include <math.h>
+
+#include "io/base/text/columns.h"
 #include "io/base/text/escape.h"
 #include "io/results/writers.h"
 
 static void write_matrix(FILE *out, const CpsStiffness *found) {
+    const bool given = found->outcome == CPS_STIFFNESS_OUTCOME_FOUND;
     fprintf(out, ",%s", cps_stiffness_outcome_name(found->outcome));
-    for (int i = 0; i < 9; ++i) {
-        fputc(',', out);
-        if (found->outcome == CPS_STIFFNESS_OUTCOME_FOUND)
-            cpsi_write_csv_number(out, found->matrix[i]);
-    }
+    for (int i = 0; i < 9; ++i) cpsi_csv_next(out, given ? found->matrix[i] : NAN);
     fputc('\n', out);
 }
 
