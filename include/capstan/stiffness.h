@@ -20,12 +20,12 @@ extern "C" {
 #endif
 
 /* Of the step: the derivative of the force that the step finds by the place to which it moves the
- * end, from the same reference. Sliding nodes go on, and those at rest stay. Of a small cycle:
- * every node and element that touches an obstacle stays where it is, as when the load turns round.
- */
+ * end, from the same reference (of a step in several substeps: by the last one). Sliding nodes go
+ * on, and those at rest stay. Of a small cycle: every node that friction can hold stays where it
+ * is, as when the load turns round; one that touches without friction slides in both. */
 #define CPS_STIFFNESS_LIST(X)                                                     \
     X(CPS_STIFFNESS_STEP, 0, "step", "of the step: what slides goes on to slide") \
-    X(CPS_STIFFNESS_STICK, 1, "stick", "of a small cycle: all that touches stays put")
+    X(CPS_STIFFNESS_STICK, 1, "stick", "of a small cycle: what friction can hold stays put")
 
 typedef enum CpsStiffnessKind {
 #define CPS_STIFFNESS_ENUM(name, number, key, sentence) name = number,
@@ -36,19 +36,19 @@ typedef enum CpsStiffnessKind {
 CPS_API const char *cps_stiffness_name(CpsStiffnessKind kind); /* "step"; never NULL */
 CPS_API const char *cps_stiffness_text(CpsStiffnessKind kind); /* its sentence; never NULL */
 
-/* Whether there is such a matrix. */
-#define CPS_STIFFNESS_OUTCOME_LIST(X)                                                        \
-    X(CPS_STIFFNESS_OUTCOME_FOUND, 0, "found", "found")                                      \
-    X(CPS_STIFFNESS_OUTCOME_NO_STEP, 1, "no_step",                                           \
-      "no certified load step, or a taut line that "                                         \
-      "cannot stretch")                                                                      \
-    X(CPS_STIFFNESS_OUTCOME_TOUCHES, 2, "touches",                                           \
-      "the end touches an obstacle, whose force on it may be any within a bound")            \
-    X(CPS_STIFFNESS_OUTCOME_LOOSE, 3, "loose",                                               \
-      "a loose part of the line has no one place, and no stiffness")                         \
-    X(CPS_STIFFNESS_OUTCOME_NOT_GIVEN, 4, "not_given",                                       \
-      "an element slides on an obstacle, a node slides in a corner, with a box or a set of " \
-      "friction forces or by axes of the reference, or states are not resolved: not looked into")
+/* Whether there is such a matrix. There is none either where a node rests by a set of friction
+ * forces that has 0 on its boundary, or a boundary not made of edges, corners and arcs. */
+#define CPS_STIFFNESS_OUTCOME_LIST(X)                                                   \
+    X(CPS_STIFFNESS_OUTCOME_FOUND, 0, "found", "found")                                 \
+    X(CPS_STIFFNESS_OUTCOME_NO_STEP, 1, "no_step",                                      \
+      "no certified load step, or a taut line that cannot stretch")                     \
+    X(CPS_STIFFNESS_OUTCOME_TOUCHES, 2, "touches",                                      \
+      "the end touches an obstacle, whose force on it may be any within a bound")       \
+    X(CPS_STIFFNESS_OUTCOME_LOOSE, 3, "loose",                                          \
+      "a loose part of the line has no one place, and no stiffness")                    \
+    X(CPS_STIFFNESS_OUTCOME_NOT_GIVEN, 4, "not_given",                                  \
+      "an element touches, a node slides in a corner, with a box or a set of friction " \
+      "forces, or by axes that change, or states are not resolved: not looked into")
 
 typedef enum CpsStiffnessOutcome {
 #define CPS_STIFFNESS_OUTCOME_ENUM(name, number, key, sentence) name = number,

@@ -33,7 +33,7 @@ typedef struct Tangent {
     const CpsiLine *line;
     CpsiChainProgram *program;
     CpsiMatrix *matrix;
-    bool pinned;     /* all that touches stays where it is */
+    bool pinned;     /* what friction can hold stays where it is */
     bool consistent; /* friction follows the reaction */
     bool curved;     /* contact follows the surface */
     int end_node;    /* that moves */
@@ -47,11 +47,19 @@ static bool sticks(const Tangent *t, int c) {
     return t->pinned || t->line->state[c] == CPS_NODE_STATE_STICK;
 }
 
-/* ... and in all directions of the surface? */
+/* Does friction resist in all directions: is 0 inside its set? Of a set whose boundary is not known
+ * piece by piece that is not known. */
+static bool holds_all_ways(const CpsiFrictionLaw *law) {
+    if (!law->given) return law->ratio[0] > 0 && law->ratio[1] > 0;
+    const CpsiFrictionShape *shape = cpsi_friction_set_shape(law->given);
+    return shape && shape->inner > 0;
+}
+
+/* Is contact c held in all directions of the surface? */
 static bool rests(const Tangent *t, int c) {
     const CpsiFrictionLaw law = cpsi_line_friction_law(t->line, c);
     return touches(t->line, c) && sticks(t, c) && t->line->friction_bound[c] > 0 &&
-           law.ratio[0] > 0 && law.ratio[1] > 0;
+           holds_all_ways(&law);
 }
 
 /* The contact that node j has, -1: none; *both: it has two. */
@@ -155,9 +163,9 @@ static void load_contact(Tangent *t, int j, int c) {
 
 static void load_nodes(Tangent *t) {
     const CpsiLine *line = t->line;
-    const size_t places = t->matrix->share ? 2 * (size_t)line->n : (size_t)line->n;
-    memset(t->matrix->diagonal, 0, 6 * places * sizeof *t->matrix->diagonal);
-    memset(t->matrix->skew, 0, 2 * places * sizeof *t->matrix->skew);
+    const size_t n = (size_t)line->n;
+    memset(t->matrix->diagonal, 0, 6 * n * sizeof *t->matrix->diagonal);
+    memset(t->matrix->skew, 0, 2 * n * sizeof *t->matrix->skew);
     for (int j = 0; j < line->n; j++) {
         bool both;
         const int c = contact_of(line, j, &both);
@@ -166,29 +174,6 @@ static void load_nodes(Tangent *t) {
         if (line->has_local_axes)
             memcpy(&t->program->frame[9 * j], line->common_axes, sizeof line->common_axes);
         if (c >= 0 && !t->program->held[j]) load_contact(t, j, c);
-    }
-}
-
-/* The points at which elements touch stay where they are. */
-static void load_points(Tangent *t) {
-    const CpsiLine *line = t->line;
-    const int n = line->n, nodes = cpsi_line_contacts(line);
-    t->matrix->share = NULL;
-    if (line->element_contacts == 0) return;
-    for (int i = 1; i < n; i++) {
-        const int c = nodes + i - 1;
-        t->program->node_frames.share[i] = touches(line, c) ? line->beta[i - 1] : 0;
-        if (!(t->program->node_frames.share[i] > 0)) continue;
-        t->matrix->share = t->program->node_frames.share;
-        memcpy(&t->program->frame[9 * (n + i)], line->common_axes, sizeof line->common_axes);
-    }
-}
-
-static void hold_points(const Tangent *t) {
-    if (!t->matrix->share) return;
-    for (int i = 1; i < t->line->n; i++) {
-        double *diagonal = &t->matrix->diagonal[6 * (t->line->n + i)];
-        if (t->matrix->share[i] > 0) diagonal[0] = diagonal[2] = diagonal[5] = RIGID;
     }
 }
 
@@ -201,18 +186,23 @@ static bool turns_with_line(const CpsiLine *line, int c, const CpsiFrictionLaw *
     return !is_disc && obstacle && !obstacle->has_grain;
 }
 
-/* Is contact c one whose change of force is known? Frozen friction may act on what is open. */
+/* Does friction keep the axes of the reference, while contact follows the surface? */
+static bool keeps_reference_axes(const Tangent *t) {
+    return !t->consistent && t->curved && t->line->has_local_axes;
+}
+
+/* Is contact c one whose change of force is known? Frozen friction may act on what is open. An
+ * element turns about the point at which it touches. */
 static bool is_treated(const Tangent *t, int c) {
     const CpsiLine *line = t->line;
     const CpsiFrictionLaw law = cpsi_line_friction_law(line, c);
-    const bool is_node = cpsi_line_element(line, c)<0, rubs = line->friction_bound[c]> 0,
-               whole = law.ratio[0] > 0 && law.ratio[1] > 0;
+    const bool rubs = line->friction_bound[c] > 0;
     if (!touches(line, c)) return t->pinned || t->consistent || !rubs;
-    if (!rubs) return is_node;
-    if (sticks(t, c)) return whole || (is_node && !turns_with_line(line, c, &law));
-    return is_node && line->state[c] == CPS_NODE_STATE_SLIP && !law.given && !law.box &&
-           (t->consistent || !t->curved || !line->has_local_axes) &&
-           !turns_with_line(line, c, &law);
+    if (cpsi_line_element(line, c) >= 0) return false;
+    if (!rubs || (sticks(t, c) && holds_all_ways(&law))) return true;
+    if (law.given || turns_with_line(line, c, &law)) return false;
+    return sticks(t, c) ||
+           (line->state[c] == CPS_NODE_STATE_SLIP && !law.box && !keeps_reference_axes(t));
 }
 
 static bool all_are_treated(const Tangent *t) {
@@ -246,7 +236,7 @@ static void solve(const Tangent *t, int end, int a, double force[3]) {
     const CpsiMatrix *matrix = t->matrix;
     const double sign = end == CPS_END_A ? -1 : 1, *m = &matrix->direction[3 * i];
     double *x = t->program->base.du, *tension = t->program->dt, move[3] = {0}, to[3];
-    memset(x, 0, 3 * (size_t)(matrix->share ? 2 * n : n) * sizeof *x);
+    memset(x, 0, 3 * (size_t)n * sizeof *x);
     memset(tension, 0, (size_t)n * sizeof *tension);
     move[a] = matrix->stiffness[i];
     if (t->program->frame)
@@ -287,9 +277,7 @@ CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program
     t.matrix->frame = program->frame;
     t.matrix->second = NULL;
     load_elements(&t);
-    load_points(&t);
     load_nodes(&t);
-    hold_points(&t);
     out.outcome = CPS_STIFFNESS_OUTCOME_LOOSE;
     if (is_loose(&t) || !program->ops->factor(program->linsys, t.matrix)) return out;
     double k[9], own[9];
