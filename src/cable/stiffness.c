@@ -23,8 +23,9 @@
 
 #include "chain/frame.h"
 
-/* The stiffness of a direction in which a node is held, beside which those of the line vanish. */
-static const double RIGID = 1e30;
+/* The stiffness of a direction in which a node is held, beside which those of the line vanish. The
+ * dense system takes what is smaller by the square of the rounding for 0. */
+static const double RIGID = 1e20;
 /* The compliance of an element that cannot stretch, or between nodes that are held. */
 static const double LEAST_COMPLIANCE = 1e-30;
 
@@ -35,7 +36,7 @@ typedef struct Tangent {
     CpsiMatrix *matrix;
     bool pinned;     /* what friction can hold stays where it is */
     bool consistent; /* friction follows the reaction */
-    bool curved;     /* contact follows the surface */
+    bool curved;     /* contact follows the surface; else it is that of the reference (S90 (35)) */
     int end_node;    /* that moves */
     double force;    /* [N] its unit */
 } Tangent;
@@ -55,11 +56,16 @@ static bool holds_all_ways(const CpsiFrictionLaw *law) {
     return shape && shape->inner > 0;
 }
 
+/* Does friction act at contact c? Cycles about where the line is have it also where the step has
+ * none: one of statics, or with the bound of a reference that did not touch. */
+static bool rubs(const Tangent *t, int c, const CpsiFrictionLaw *law) {
+    return t->pinned ? law->friction > 0 : t->line->friction_bound[c] > 0;
+}
+
 /* Is contact c held in all directions of the surface? */
 static bool rests(const Tangent *t, int c) {
     const CpsiFrictionLaw law = cpsi_line_friction_law(t->line, c);
-    return touches(t->line, c) && sticks(t, c) && t->line->friction_bound[c] > 0 &&
-           holds_all_ways(&law);
+    return touches(t->line, c) && sticks(t, c) && rubs(t, c, &law) && holds_all_ways(&law);
 }
 
 /* The contact that node j has, -1: none; *both: it has two. */
@@ -155,8 +161,8 @@ static void load_contact(Tangent *t, int j, int c) {
     double *diagonal = &t->matrix->diagonal[6 * j];
     if (line->has_local_axes) memcpy(&t->program->frame[9 * j], at.axes, sizeof at.axes);
     if (line->reaction[c] > 0) diagonal[5] = RIGID;
-    if (line->friction_bound[c] > 0 && !sticks(t, c)) load_slip(t, j, c, &at);
-    if (line->friction_bound[c] > 0 && sticks(t, c))
+    if (rubs(t, c, &at.law) && !sticks(t, c)) load_slip(t, j, c, &at);
+    if (rubs(t, c, &at.law) && sticks(t, c))
         for (int a = 0; a < 2; a++) diagonal[2 * a] = at.law.ratio[a] > 0 ? RIGID : 0;
     if (t->curved) load_curvature(t, j, c, &at);
 }
@@ -179,11 +185,15 @@ static void load_nodes(Tangent *t) {
 
 /* what there is no matrix for ------------------------------------------------------------------ */
 
-/* Do the directions of friction turn with the line? */
-static bool turns_with_line(const CpsiLine *line, int c, const CpsiFrictionLaw *law) {
+static bool is_round(const CpsiObstacle *obstacle) {
+    return obstacle && obstacle->kind != CPS_OBSTACLE_PLANE;
+}
+
+/* Do the directions of friction turn with the line or, by a grain, with a round surface? */
+static bool axes_turn(const CpsiLine *line, int c, const CpsiFrictionLaw *law) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     const bool is_disc = law->ratio[0] == law->ratio[1] && !law->box && !law->given;
-    return !is_disc && obstacle && !obstacle->has_grain;
+    return !is_disc && obstacle && (!obstacle->has_grain || is_round(obstacle));
 }
 
 /* Does friction keep the axes of the reference, while contact follows the surface? */
@@ -196,11 +206,12 @@ static bool keeps_reference_axes(const Tangent *t) {
 static bool is_treated(const Tangent *t, int c) {
     const CpsiLine *line = t->line;
     const CpsiFrictionLaw law = cpsi_line_friction_law(line, c);
-    const bool rubs = line->friction_bound[c] > 0;
-    if (!touches(line, c)) return t->pinned || t->consistent || !rubs;
+    const bool has_friction = rubs(t, c, &law);
+    if (!touches(line, c)) return t->pinned || t->consistent || !has_friction;
     if (cpsi_line_element(line, c) >= 0) return false;
-    if (!rubs || (sticks(t, c) && holds_all_ways(&law))) return true;
-    if (law.given || turns_with_line(line, c, &law)) return false;
+    if (!t->curved && is_round(cpsi_line_obstacle(line, c))) return false;
+    if (!has_friction || (sticks(t, c) && holds_all_ways(&law))) return true;
+    if (law.given || axes_turn(line, c, &law)) return false;
     return sticks(t, c) ||
            (line->state[c] == CPS_NODE_STATE_SLIP && !law.box && !keeps_reference_axes(t));
 }
@@ -264,7 +275,8 @@ CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program
                  .matrix = &program->matrix,
                  .pinned = kind == CPS_STIFFNESS_STICK,
                  .consistent = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
-                 .curved = options->contact_policy != CPS_CONTACT_POLICY_REFERENCE,
+                 .curved = options->contact_policy != CPS_CONTACT_POLICY_REFERENCE ||
+                           options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
                  .end_node = end == CPS_END_A ? 0 : line->n - 1,
                  .force = line->report.certificate.largest_force};
     if (line->report.outcome != CPS_OUTCOME_SOLVED || !(t.force > 0)) return out;

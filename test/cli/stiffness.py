@@ -71,8 +71,8 @@ def against_history(folder, out):
         for x in "xyz":
             wanted = float(after["mooring.B.f" + x]) - float(now["mooring.B.f" + x])
             got = sum(float(row[x + y]) * d for y, d in zip("xyz", way))
-            # the second derivative over 1e-4 m, and what sliding anew in every step leaves
-            check(f"step {step}, {x}", abs(got - wanted) <= 2e-2 * abs(wanted) + 1e-6, f"{got} N, expected {wanted} N")
+            # the second derivative over 1e-4 m: 3e-5 to 8e-5 of the change; forces are known to 1e-6 N
+            check(f"step {step}, {x}", abs(got - wanted) <= 2e-4 * abs(wanted) + 1e-6, f"{got} N, expected {wanted} N")
             compared += 1
     check("compared", compared >= 6, compared)
 

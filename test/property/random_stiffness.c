@@ -4,7 +4,8 @@
  *
  * Random mooring lines, on a bed or a slope, over a pipe on it, round a post or over a ball,
  * elastic or not, uniform or in two sections, with friction that is the same in all directions or
- * not, or of a set, go by random moves of their upper end. After the last one:
+ * not, differs along the line, or is of a set, go by random moves of their upper end. After the
+ * last one:
  *
  *   step   the same move is taken again from the saved state before it, to targets beside its own;
  *   stick  a scene that begins where the line now is, with three times the friction, so that all of
@@ -41,6 +42,7 @@ typedef struct Mooring {
     CpsSet *friction_set; /* of the bed; NULL: none */
     CpsLine line;
     CpsSection section[2];
+    CpsFrictionZone zone[2];
     double point[3 * (ELEMENTS + 1)];
     CpsScene scene;
     int end;     /* that moves, and whose stiffness is compared */
@@ -110,6 +112,11 @@ static void make_ground(Mooring *m) {
     other->friction = uniform(0.05, 0.6);
     other->axis[1] = m->ground == POST ? 0 : 1;
     other->axis[2] = m->ground == POST ? 1 : 0;
+    if (uniform(0, 1) < 0.2) {
+        other->has_friction_lateral = true;
+        other->friction_lateral = uniform(0.05, 0.6);
+        for (int a = 0; a < 3; a++) other->grain[a] = uniform(-1, 1);
+    }
     other->point[0] = uniform(30, 50);
     other->point[1] = m->ground == POST ? -other->radius : 0;
     other->point[2] = m->ground == POST ? 0 : uniform(-0.9, 0.2) * other->radius;
@@ -136,6 +143,12 @@ static void make_line(Mooring *m) {
         line->section_count = 2;
         line->section = m->section;
     }
+    if (uniform(0, 1) < 0.2) { /* without friction, and with more of it */
+        m->zone[0] = (CpsFrictionZone){.from = uniform(5, 20), .to = uniform(20, 35), .factor = 0};
+        m->zone[1] = (CpsFrictionZone){.from = 40, .to = 70, .factor = uniform(0.5, 2)};
+        line->zone_count = 2;
+        line->zone = m->zone;
+    }
     line->start.kind = CPS_START_STATIC;
     const double depth = uniform(10, 40), reach = uniform(0.75, 0.98) * sqrt(1e4 - depth * depth);
     line->end[CPS_END_A] = (CpsEnd){CPS_END_KIND_HELD, {0, 0, 0.05}};
@@ -156,6 +169,8 @@ static void make_mooring(uint64_t seed, Mooring *m) {
     m->scene.line_count = 1;
     m->scene.line = &m->line;
     if (uniform(0, 1) < 0.3) m->scene.friction_policy = CPS_FRICTION_POLICY_FROZEN;
+    if (uniform(0, 1) < 0.2) m->scene.contact_policy = CPS_CONTACT_POLICY_REFERENCE;
+    if (uniform(0, 1) < 0.01) m->scene.solver.linear_system = CPS_LINEAR_SYSTEM_DENSE;
     m->scene.solver.max_halvings = 0; /* the step is one substep, or it is not compared */
 }
 
@@ -166,12 +181,16 @@ static CpsEvolution *prepare(const CpsScene *scene) {
     return out;
 }
 
-static CpsStatus go_to(CpsEvolution *evolution, int end, const CpsEnd *to) {
+static bool is_solved(const CpsEvolution *evolution) {
+    return cps_evolution_report(evolution).outcome == CPS_OUTCOME_SOLVED;
+}
+
+static CpsStatus go_to(CpsEvolution *evolution, int end, const CpsEnd *to, CpsError *err) {
     const CpsChange change = {.line = 0, .end = end, .to = *to};
     CpsStage move = cps_stage_default();
     move.change_count = 1;
     move.change = &change;
-    return cps_evolution_move(evolution, &move, NULL);
+    return cps_evolution_move(evolution, &move, err);
 }
 
 /* differences ---------------------------------------------------------------------------------- */
@@ -205,7 +224,7 @@ static bool force_at(const Origin *from, int a, double by, const Contacts *same,
     CpsEnd to = from->to;
     to.value[a] += by;
     if (cps_evolution_load(from->evolution, from->saved, from->size, NULL) != CPS_OK) exit(1);
-    if (go_to(from->evolution, from->end, &to) != CPS_OK) return false;
+    if (go_to(from->evolution, from->end, &to, NULL) != CPS_OK) return false;
     const CpsLineReport report = cps_evolution_line_report(from->evolution, 0);
     const Contacts now = contacts_of(from->evolution);
     memcpy(force, report.end[from->end].force, sizeof report.end[from->end].force);
@@ -344,14 +363,22 @@ static void note_contacts(const CpsEvolution *evolution, const CpsStiffness foun
 }
 
 /* Frozen friction holds what has been lifted, and nothing holds that in a scene that begins there:
- * only consistent friction is compared. */
-static void compare_stick(Mooring *m, const CpsEvolution *now, const CpsStiffness *found,
-                          uint64_t seed, Tally *tally) {
+ * a step to the same place lets go of it. Then it is compared on planes, where contact with the
+ * reference stays, and one contact of a node has all of the reaction at the start. */
+static void compare_stick(Mooring *m, CpsEvolution *now, const CpsStiffness *of_step, uint64_t seed,
+                          Tally *tally) {
+    CpsStiffness found = *of_step;
+    if (m->scene.friction_policy == CPS_FRICTION_POLICY_FROZEN) {
+        if (m->ground > SLOPE || go_to(now, m->end, &m->last, NULL) != CPS_OK) return;
+        if (!is_solved(now)) return;
+        cps_evolution_stiffness(now, 0, m->end, CPS_STIFFNESS_STICK, &found, NULL);
+    }
     Origin rest = {.evolution = stuck(m, now), .end = m->end, .to = m->last};
     rest.saved = save(rest.evolution, &rest.size);
-    if (go_to(rest.evolution, rest.end, &rest.to) != CPS_OK) exit(1);
+    CpsError err;
+    need(go_to(rest.evolution, rest.end, &rest.to, &err), &err);
     const Contacts sticking = contacts_of(rest.evolution);
-    compare(&rest, &sticking, CPS_STIFFNESS_STICK, found, seed, tally);
+    compare(&rest, &sticking, CPS_STIFFNESS_STICK, &found, seed, tally);
     free(rest.saved);
     cps_evolution_destroy(rest.evolution);
 }
@@ -363,14 +390,14 @@ static void try_mooring(uint64_t seed, Tally *tally) {
     tally->lines++;
     cps_evolution_step(from.evolution, NULL);
     m.last = m.line.end[m.end];
+    CpsError err;
     const int moves = 1 + (int)uniform(0, MOVES);
-    for (int k = 0; k < moves; k++) {
+    for (int k = 0; k < moves && is_solved(from.evolution); k++) {
         for (int a = 0; a < 3; a++) m.last.value[a] += uniform(-2, 2);
         if (m.end == CPS_END_A) m.last.value[2] = uniform(5.5, 7);
         free(from.saved);
         from.saved = save(from.evolution, &from.size);
-        if (go_to(from.evolution, m.end, &m.last) != CPS_OK) exit(1);
-        if (cps_evolution_report(from.evolution).outcome != CPS_OUTCOME_SOLVED) break;
+        need(go_to(from.evolution, m.end, &m.last, &err), &err);
     }
     from.end = m.end;
     from.to = m.last;
@@ -390,8 +417,7 @@ static void try_mooring(uint64_t seed, Tally *tally) {
             tally->failures++;
             fprintf(stderr, "seed %llu: other bits after a load\n", (unsigned long long)seed);
         }
-        if (m.scene.friction_policy == CPS_FRICTION_POLICY_CONSISTENT)
-            compare_stick(&m, from.evolution, &found[1], seed, tally);
+        compare_stick(&m, from.evolution, &found[1], seed, tally);
         compare(&from, &same, CPS_STIFFNESS_STEP, &found[0], seed, tally);
     }
     free(from.saved);
