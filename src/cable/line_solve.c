@@ -290,7 +290,8 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
     line->is_rough = false;
     if (!(force > 0) && round->least && rests_unloaded(line, program, options, round))
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
-    CpsiStepScale scale = {.force = force > 0 ? force : 1,
+    CpsiStepScale scale = {.length = line->length,
+                           .force = force > 0 ? force : 1,
                            .longer = taut ? 1 + TAUT_SLACK : 1,
                            .bounds = round->bounds,
                            .reaction_stiffness = round->reaction_stiffness,

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* From a step to a program and back (step_program.h).
  *
- * Lengths are divided by the line's length L, forces by a force F0 of the size of the tension to
- * come. The unknowns are displacements from `base` (the reference, or where the last round ended),
- * in axes whose third is the normal of the obstacle: common axes for a line on one plane, else axes
- * of each node. */
+ * Lengths are divided by a length L, that of the line or of its network, forces by a force F0 of
+ * the size of the tension to come. The unknowns are displacements from `base` (the reference, or
+ * where the last round ended), in axes whose third is the normal of the obstacle: common axes for a
+ * line on one plane, else axes of each node. */
 #include "cable/step_program.h"
 
 #include <string.h>
@@ -77,7 +77,8 @@ static const double *node_axes(const CpsiLine *line, const CpsiChainProgram *pro
 
 /* The first guess: the base with its held ends at their imposed positions and the other nodes moved
  * by linear interpolation. */
-static void initial_guess(const CpsiLine *line, CpsiChainProgram *program) {
+static void initial_guess(const CpsiLine *line, CpsiChainProgram *program,
+                          const CpsiStepScale *scale) {
     double shift[2][3] = {{0}};
     const int last = line->n - 1;
     const double *base = base_of(line);
@@ -85,7 +86,7 @@ static void initial_guess(const CpsiLine *line, CpsiChainProgram *program) {
         if (line->end[end].kind != CPS_END_KIND_HELD) continue;
         for (int a = 0; a < 3; a++)
             shift[end][a] =
-                (line->end[end].value[a] - base[3 * (end ? last : 0) + a]) / line->length;
+                (line->end[end].value[a] - base[3 * (end ? last : 0) + a]) / scale->length;
     }
     for (int j = 0; j < line->n; j++) {
         const double b = line->arc_length[j] / line->length;
@@ -136,7 +137,7 @@ static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
     CpsiFrictionConic *conic = &program->conic;
     const CpsiFrictionLaw *law = &line->friction_law[c];
     const int j = node_of(line, c), k = conic->count++;
-    const double share = cpsi_line_contact_share(line, c) / line->length;
+    const double share = cpsi_line_contact_share(line, c) / scale->length;
     double slip[3], axes[9];
     cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slip[3 * c]);
     friction_axes(line, program, c, axes);
@@ -150,7 +151,7 @@ static void fill_conic(const CpsiLine *line, CpsiChainProgram *program, int c,
     conic->unilateral[k] = isfinite(line->gap[c]) ? program->unilateral.count - 1 : -1;
     conic->friction[k] = law->friction;
     conic->bound[k] = trial_bound_or(scale, line->friction_bound[c] / (scale->force * share));
-    for (int a = 0; a < 2; a++) conic->offset[k][a] = slip[a] / line->length;
+    for (int a = 0; a < 2; a++) conic->offset[k][a] = slip[a] / scale->length;
     memcpy(conic->tangent[k], axes, sizeof conic->tangent[k]);
 }
 
@@ -161,7 +162,7 @@ static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
     CpsiFrictionDisc *disc = &program->disc;
     const CpsiFrictionLaw *law = &line->friction_law[c];
     const int j = node_of(line, c), count = line->has_local_axes && law->box ? 2 : 1;
-    const double share = cpsi_line_contact_share(line, c) / line->length;
+    const double share = cpsi_line_contact_share(line, c) / scale->length;
     double slip[3] = {0}, axes[9];
     if (line->has_local_axes) cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slip[3 * c]);
     friction_axes(line, program, c, axes);
@@ -177,7 +178,7 @@ static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
             for (int a = 0; a < 2; a++) {
                 const double ratio = !law->box || i == a ? law->ratio[a] : 0;
                 for (int b = 0; b < 3; b++) disc->map[k][3 * a + b] = ratio * axes[3 * a + b];
-                disc->offset[k][a] = ratio * slip[a] / line->length;
+                disc->offset[k][a] = ratio * slip[a] / scale->length;
             }
         if (disc->shape) disc->shape[k] = law->given ? cpsi_friction_set_shape(law->given) : NULL;
     }
@@ -195,19 +196,19 @@ static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int
                             const CpsiStepScale *scale) {
     CpsiUnilateral *unilateral = &program->unilateral;
     const int j = node_of(line, c), k = unilateral->count++;
-    const double share = cpsi_line_contact_share(line, c) / line->length;
+    const double share = cpsi_line_contact_share(line, c) / scale->length;
     unilateral->node[k] = j;
     unilateral->contact[k] = c;
     unilateral->second[k] = is_second(line, c);
     unilateral->weight[k] = share;
-    unilateral->gap[k] = open_gap(line, c) / line->length;
+    unilateral->gap[k] = open_gap(line, c) / scale->length;
     if (!line->has_local_axes) return;
     double axes[9];
     contact_axes(line, program, c, axes);
     memcpy(unilateral->normal[k], &axes[6], sizeof unilateral->normal[k]);
     turn_curvature(unilateral->curvature[k], axes, &line->curvature[3 * c],
                    scale->reaction_stiffness && j < line->n
-                       ? line->reaction[c] * line->length / (scale->force * share)
+                       ? line->reaction[c] * scale->length / (scale->force * share)
                        : 0);
 }
 
@@ -277,7 +278,7 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program,
         cpsi_frame_to(e, line->common_axes, dx);
         in_common_axes(program, i, far);
         in_common_axes(program, i - 1, near);
-        st->length[i] = l / line->length;
+        st->length[i] = l / scale->length;
         for (int a = 0; a < 3; a++) st->s[i][1 + a] = e[a] + (far[a] - near[a]) / st->length[i];
     }
 }
@@ -288,7 +289,7 @@ void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program,
     program->drag = scale->drag;
     if (line->has_local_axes)
         for (int j = 0; j < line->n; j++) fill_axes(line, program, j);
-    initial_guess(line, program);
+    initial_guess(line, program, scale);
     fill_nodes(line, program, scale);
     if (line->element_contacts > 0) fill_points(line, program, scale);
     fill_elements(line, program, scale);
@@ -306,11 +307,12 @@ void cpsi_step_program_clear(const CpsiLine *line, CpsiChainProgram *program) {
 
 /* unpack --------------------------------------------------------------------------------------- */
 
-static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program) {
+static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program,
+                             const CpsiStepScale *scale) {
     const double *base = base_of(line);
     for (int j = 0; j < line->n; j++) {
         double u[3], shift[3];
-        for (int a = 0; a < 3; a++) u[a] = line->length * program->base.u[3 * j + a];
+        for (int a = 0; a < 3; a++) u[a] = scale->length * program->base.u[3 * j + a];
         if (!line->has_local_axes && isfinite(line->gap[j]) && u[2] < -line->gap[j])
             u[2] = -line->gap[j];
         cpsi_frame_from(shift, node_axes(line, program, j), u);
@@ -380,7 +382,7 @@ static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program,
 
 void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program,
                               const CpsiStepScale *scale) {
-    unpack_positions(line, program);
+    unpack_positions(line, program, scale);
     unpack_reactions(line, program, scale);
     unpack_friction(line, program, scale);
     for (int i = 1; i < line->n; i++) {

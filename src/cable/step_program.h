@@ -18,12 +18,13 @@ typedef enum CpsiBounds {
 } CpsiBounds;
 
 typedef struct CpsiStepScale {
+    double length; /* [m] */
     double force;  /* [N] */
     double longer; /* factor of the elements' lengths */
     CpsiBounds bounds;
     bool reaction_stiffness; /* the reactions turn with the normals */
-    double drag; /* [-] viscous drag, in units of force and displacement per length of the line */
-    bool by_newton; /* general sets are discs with a shape, where that is known */
+    double drag;             /* [-] viscous drag, in units of force and displacement per `length` */
+    bool by_newton;          /* general sets are discs with a shape, where that is known */
 } CpsiStepScale;
 
 /* Write the step into the program. */

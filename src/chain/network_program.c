@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Chains that meet at joints (network_program.h). Every pass goes through the chains, and then
+ * gathers at the joints what has come to their nodes. */
+#include "chain/network_program.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/larger.h"
+#include "chain/frame.h"
+#include "linalg/dense.h"
+
+static CpsiNetworkProgram *network_of(CpsiProgram *program) {
+    return (CpsiNetworkProgram *)program;
+}
+
+/* A node at a joint, the one next to it, the element between, and the sign of its direction. */
+typedef struct Tie {
+    int joint, node, next, element;
+    double sign;
+} Tie;
+
+/* The tie of an end node of chain k; false where there is none. */
+static bool tie_of(const CpsiNetworkProgram *network, int k, int end, Tie *out) {
+    const int n = network->chain[k].n;
+    if (network->joint[k][end] == CPSI_NO_JOINT || (n == 1 && end == CPSI_LAST_NODE)) return false;
+    *out = end == CPSI_FIRST_NODE ? (Tie){network->joint[k][end], 0, 1, 1, -1}
+                                  : (Tie){network->joint[k][end], n - 1, n - 2, n - 1, 1};
+    return true;
+}
+
+static size_t numbers(const CpsiChainProgram *chain) { return (size_t)chain->base.size; }
+
+/* v in the axes of node j, and in the common axes. */
+static void to_node(const CpsiChainProgram *chain, int j, const double v[3], double out[3]) {
+    if (chain->frame)
+        cpsi_frame_to(out, &chain->frame[9 * j], v);
+    else
+        memcpy(out, v, 3 * sizeof *out);
+}
+static void from_node(const CpsiChainProgram *chain, int j, const double v[3], double out[3]) {
+    if (chain->frame)
+        cpsi_frame_from(out, &chain->frame[9 * j], v);
+    else
+        memcpy(out, v, 3 * sizeof *out);
+}
+
+/* Move what an array of chain k holds at its ties to that of the joints. */
+static void gather(const CpsiNetworkProgram *network, int k, double *from, double *joints) {
+    Tie tie;
+    for (int end = 0; end < CPSI_END_NODES; end++) {
+        if (!tie_of(network, k, end, &tie)) continue;
+        double own[3];
+        from_node(&network->chain[k], tie.node, &from[3 * tie.node], own);
+        for (int a = 0; a < 3; a++) {
+            joints[3 * tie.joint + a] += own[a];
+            from[3 * tie.node + a] = 0;
+        }
+    }
+}
+
+/* ... and set an array of chain k at its ties to that of the joints. */
+static void scatter(const CpsiNetworkProgram *network, int k, const double *joints, double *to) {
+    Tie tie;
+    for (int end = 0; end < CPSI_END_NODES; end++)
+        if (tie_of(network, k, end, &tie))
+            to_node(&network->chain[k], tie.node, &joints[3 * tie.joint], &to[3 * tie.node]);
+}
+
+/* passes --------------------------------------------------------------------------------------- */
+
+static void start(CpsiProgram *program, double mu, double margin) {
+    CpsiNetworkProgram *network = network_of(program);
+    for (int k = 0; k < network->count; k++) {
+        CpsiChainProgram *chain = &network->chain[k];
+        for (int i = 0; i < chain->base.kind_count; i++)
+            if (chain->base.kind[i]->start) chain->base.kind[i]->start(&chain->base, mu, margin);
+    }
+}
+
+static void measure(CpsiProgram *program, CpsiSums *sums) {
+    CpsiNetworkProgram *network = network_of(program);
+    for (int k = 0; k < network->count; k++) {
+        CpsiProgram *chain = &network->chain[k].base;
+        memcpy(chain->residual, chain->load, numbers(&network->chain[k]) * sizeof(double));
+        for (int i = 0; i < chain->kind_count; i++) chain->kind[i]->measure(chain, sums);
+        gather(network, k, chain->residual, program->residual);
+    }
+}
+
+static void scale(CpsiProgram *program) {
+    CpsiNetworkProgram *network = network_of(program);
+    for (int k = 0; k < network->count; k++) {
+        CpsiProgram *chain = &network->chain[k].base;
+        chain->clear(chain);
+        for (int i = 0; i < chain->kind_count; i++) chain->kind[i]->scale(chain);
+    }
+}
+
+static void predict(CpsiProgram *program) {
+    CpsiNetworkProgram *network = network_of(program);
+    for (int k = 0; k < network->count; k++) {
+        CpsiProgram *chain = &network->chain[k].base;
+        for (int i = 0; i < chain->kind_count; i++)
+            if (chain->kind[i]->predict) chain->kind[i]->predict(chain);
+    }
+}
+
+static void load(CpsiProgram *program, double keep) {
+    CpsiNetworkProgram *network = network_of(program);
+    for (int k = 0; k < network->count; k++) {
+        CpsiProgram *chain = &network->chain[k].base;
+        for (int i = 0; i < chain->size; i++) chain->du[i] = keep * chain->residual[i];
+        for (int i = 0; i < chain->kind_count; i++)
+            if (chain->kind[i]->load) chain->kind[i]->load(chain, keep);
+        gather(network, k, chain->du, program->du);
+    }
+}
+
+static void direct(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums) {
+    CpsiNetworkProgram *network = network_of(program);
+    for (int k = 0; k < network->count; k++) {
+        CpsiProgram *chain = &network->chain[k].base;
+        for (int i = 0; i < chain->kind_count; i++)
+            if (chain->kind[i]->direct) chain->kind[i]->direct(chain, keep, predictor, sums);
+    }
+}
+
+static void aim(CpsiProgram *program, double target, bool second_order) {
+    CpsiNetworkProgram *network = network_of(program);
+    for (int k = 0; k < network->count; k++) {
+        CpsiProgram *chain = &network->chain[k].base;
+        for (int i = 0; i < chain->kind_count; i++)
+            if (chain->kind[i]->aim) chain->kind[i]->aim(chain, target, second_order);
+    }
+}
+
+static void advance(CpsiProgram *program, double alpha) {
+    CpsiNetworkProgram *network = network_of(program);
+    for (int k = 0; k < network->count; k++) {
+        CpsiProgram *chain = &network->chain[k].base;
+        for (int i = 0; i < chain->size; i++) chain->u[i] += alpha * chain->du[i];
+        for (int i = 0; i < chain->kind_count; i++)
+            if (chain->kind[i]->advance) chain->kind[i]->advance(chain, alpha);
+    }
+}
+
+static const CpsiKind NETWORK = {start, measure, scale, predict, load, direct, aim, advance};
+static const CpsiKind *const KINDS[] = {&NETWORK};
+
+/* the linear system ---------------------------------------------------------------------------- */
+
+/* Solve chain k for the right-hand side in its du and dt, the nodes at joints held. */
+static void solve_chain(CpsiChainProgram *chain) {
+    if (chain->n == 1) return;
+    cpsi_friction_conic_turn(&chain->conic, chain->base.du);
+    chain->ops->solve(chain->linsys, &chain->matrix, chain->base.du, chain->dt,
+                      chain->matrix.second ? chain->node_frames.second_reaction_change : NULL);
+    cpsi_friction_conic_turn_back(&chain->conic, chain->base.du);
+}
+
+/* Add to the right-hand side of chain k what a displacement x of its tie does to the equations of
+ * the node and the element beside it. */
+static void move_tie(CpsiChainProgram *chain, const Tie *tie, const double x[3]) {
+    if (chain->n == 1) return;
+    const CpsiMatrix *matrix = &chain->matrix;
+    const double *m = &matrix->direction[3 * tie->element];
+    double pull[3], own[3];
+    for (int a = 0; a < 3; a++) pull[a] = matrix->stiffness[tie->element] * x[a];
+    to_node(chain, tie->next, pull, own);
+    for (int a = 0; a < 3 && !chain->held[tie->next]; a++)
+        chain->base.du[3 * tie->next + a] += own[a];
+    chain->dt[tie->element] -= tie->sign * (m[0] * x[0] + m[1] * x[1] + m[2] * x[2]);
+}
+
+/* The force of the solved chain on its tie, which moves by x. `other` is the displacement of the
+ * next node where that is held. */
+static void force_on_tie(const CpsiChainProgram *chain, const Tie *tie, const double x[3],
+                         const double other[3], double out[3]) {
+    if (chain->n == 1) return;
+    const CpsiMatrix *matrix = &chain->matrix;
+    const double *m = &matrix->direction[3 * tie->element];
+    double next[3];
+    if (chain->held[tie->next])
+        memcpy(next, other, sizeof next);
+    else
+        from_node(chain, tie->next, &chain->base.du[3 * tie->next], next);
+    for (int a = 0; a < 3; a++)
+        out[a] = matrix->stiffness[tie->element] * (x[a] - next[a]) +
+                 tie->sign * m[a] * chain->dt[tie->element];
+}
+
+/* Add the block of a chain of one node, in the common axes. */
+static void add_node(CpsiNetworkProgram *network, const CpsiChainProgram *chain, int joint) {
+    const CpsiMatrix *matrix = &chain->matrix;
+    const double *d = matrix->diagonal, *s = matrix->skew;
+    double block[9] = {d[0], d[1], d[3] + s[0], d[1], d[2], d[4] + s[1], d[3], d[4], d[5]};
+    if (cpsi_second_is_set(matrix->second, 0))
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++)
+                block[3 * a + b] += matrix->second->column[a] * matrix->second->row[b] /
+                                    matrix->second->compliance[0];
+    if (chain->frame) {
+        double own[9];
+        for (int i = 0; i < 9; i++) own[i] = chain->frame[3 * (i % 3) + i / 3];
+        cpsi_frame_turn(block, own, block);
+    }
+    const size_t n = 3 * (size_t)network->joints;
+    for (size_t a = 0; a < 3; a++)
+        for (size_t b = 0; b < 3; b++)
+            network->matrix[(3 * (size_t)joint + a) * n + 3 * (size_t)joint + b] +=
+                block[3 * a + b];
+}
+
+/* Add the columns of chain k: the forces on its ties by a unit displacement of each. */
+static void add_chain(CpsiNetworkProgram *network, CpsiChainProgram *chain, int k) {
+    static const double zero[3] = {0, 0, 0};
+    const size_t n = 3 * (size_t)network->joints;
+    Tie from, to;
+    for (int end = 0; end < CPSI_END_NODES; end++) {
+        if (!tie_of(network, k, end, &from)) continue;
+        for (int a = 0; a < 3; a++) {
+            const double unit[3] = {a == 0, a == 1, a == 2};
+            memset(chain->base.du, 0, numbers(chain) * sizeof(double));
+            memset(chain->dt, 0, (size_t)chain->n * sizeof(double));
+            move_tie(chain, &from, unit);
+            solve_chain(chain);
+            for (int other = 0; other < CPSI_END_NODES; other++) {
+                if (!tie_of(network, k, other, &to)) continue;
+                double force[3];
+                force_on_tie(chain, &to, other == end ? unit : zero, other == end ? zero : unit,
+                             force);
+                for (size_t b = 0; b < 3; b++)
+                    network->matrix[(3 * (size_t)to.joint + b) * n + 3 * (size_t)from.joint +
+                                    (size_t)a] += force[b];
+            }
+        }
+    }
+}
+
+static void clear(CpsiProgram *program) { (void)program; /* `scale` clears the chains */ }
+
+static bool factor(CpsiProgram *program) {
+    CpsiNetworkProgram *network = network_of(program);
+    const size_t n = 3 * (size_t)network->joints;
+    memset(network->matrix, 0, n * n * sizeof *network->matrix);
+    for (int k = 0; k < network->count; k++) {
+        CpsiChainProgram *chain = &network->chain[k];
+        if (chain->n == 1) {
+            add_node(network, chain, network->joint[k][CPSI_FIRST_NODE]);
+            continue;
+        }
+        if (!chain->base.factor(&chain->base)) return false;
+        add_chain(network, chain, k);
+    }
+    return cpsi_lu_factor((int)n, network->matrix, network->pivot);
+}
+
+/* Each chain with its ties held gives the forces on the joints; these give the displacements of the
+ * joints; with them each chain is solved again. */
+static void solve(CpsiProgram *program) {
+    static const double zero[3] = {0, 0, 0};
+    CpsiNetworkProgram *network = network_of(program);
+    Tie tie;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int k = 0; k < network->count; k++) {
+            CpsiChainProgram *chain = &network->chain[k];
+            const size_t bytes = numbers(chain) * sizeof(double);
+            memset(chain->dt, 0, (size_t)chain->n * sizeof(double));
+            if (pass == 0) memcpy(network->kept, chain->base.du, bytes);
+            if (pass == 1)
+                for (int end = 0; end < CPSI_END_NODES; end++)
+                    if (tie_of(network, k, end, &tie))
+                        move_tie(chain, &tie, &program->du[3 * tie.joint]);
+            solve_chain(chain);
+            if (pass == 1) {
+                scatter(network, k, program->du, chain->base.du);
+                continue;
+            }
+            for (int end = 0; end < CPSI_END_NODES && chain->n > 1; end++) {
+                double force[3];
+                if (!tie_of(network, k, end, &tie)) continue;
+                force_on_tie(chain, &tie, zero, zero, force);
+                for (int a = 0; a < 3; a++) program->du[3 * tie.joint + a] -= force[a];
+            }
+            memcpy(chain->base.du, network->kept, bytes);
+        }
+        if (pass == 0)
+            cpsi_lu_solve(3 * network->joints, network->matrix, network->pivot, program->du);
+    }
+}
+
+static double imbalance(const CpsiProgram *program) {
+    const CpsiNetworkProgram *network = (const CpsiNetworkProgram *)program;
+    double largest = 0;
+    for (int i = 0; i < program->size; i++)
+        largest = cpsi_max_nan(largest, fabs(program->residual[i]));
+    for (int k = 0; k < network->count; k++)
+        largest = cpsi_max_nan(largest, network->chain[k].base.imbalance(&network->chain[k].base));
+    return largest;
+}
+
+void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chains, int n,
+                         int joints) {
+    const size_t unknowns = 3 * (size_t)joints;
+    *network = (CpsiNetworkProgram){.base = {.size = 3 * joints,
+                                             .kind = KINDS,
+                                             .kind_count = 1,
+                                             .clear = clear,
+                                             .factor = factor,
+                                             .solve = solve,
+                                             .imbalance = imbalance},
+                                    .count = chains,
+                                    .joints = joints};
+    CPSI_PLACE(arena, network->base.load, unknowns);
+    CPSI_PLACE(arena, network->base.u, unknowns);
+    CPSI_PLACE(arena, network->base.du, unknowns);
+    CPSI_PLACE(arena, network->base.residual, unknowns);
+    CPSI_PLACE(arena, network->chain, chains);
+    CPSI_PLACE(arena, network->joint, chains);
+    CPSI_PLACE(arena, network->matrix, unknowns * unknowns);
+    CPSI_PLACE(arena, network->kept, 3 * (size_t)n);
+    CPSI_PLACE(arena, network->pivot, unknowns);
+}
