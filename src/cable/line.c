@@ -135,6 +135,13 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
     }
 }
 
+Vec3 cpsi_line_start_pull(const CpsiLine *line, int end) {
+    const int j = end == CPS_END_A ? 0 : line->n - 1;
+    const Vec3 weight = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
+    return end == CPS_END_A ? vec3_add(weight, start_force(line, 0))
+                            : vec3_sub(weight, start_force(line, j - 1));
+}
+
 /* The factor of the friction zones at contact c: that of its node, or between those of its
  * element's nodes. */
 static double zone_factor(const CpsiLine *line, int c) {

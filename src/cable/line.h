@@ -61,6 +61,8 @@ typedef struct CpsiLine {
                                the arrays (contacts, n) have as many more rows */
     double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
     CpsEnd end[2];          /* imposed now */
+    /* the end is held at a point of the scene, which bears what obstacles do to its half element */
+    bool is_at_point[2];
     double *arc_length;     /* (n) [m] */
     double *element_length; /* (n - 1) [m] element e joins nodes e and e + 1 */
     double *breaking_load;  /* (n - 1) [N] INFINITY where there is none; NULL: none anywhere */
@@ -272,6 +274,8 @@ double cpsi_line_pierces(const CpsiLine *line, int *obstacle);
  * from its own strain (S90 section 2 d 2). Sets reaction and state at `position`; nodes nearer than
  * `touch` [m] touch. */
 void cpsi_line_start_reaction(CpsiLine *line, double touch);
+/* ... and the force of the line on what holds an end of it there. */
+Vec3 cpsi_line_start_pull(const CpsiLine *line, int end);
 
 /* The law of contact c of a line, by the obstacle that it is with and its place on the line. */
 CpsiFrictionLaw cpsi_line_friction_law(const CpsiLine *line, int c);

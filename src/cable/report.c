@@ -138,7 +138,8 @@ void cpsi_line_report_ends(CpsiLine *line) {
             const Vec3 pull =
                 vec3_scale(end == CPS_END_A ? 1 : -1, vec3_at(line->segment_force, e));
             const Vec3 others = cpsi_add_element_contacts(line, j, vec3_at(line->load, j));
-            force = rest_on_obstacle(line, end, vec3_scale(-1, vec3_add(pull, others)));
+            force = vec3_scale(-1, vec3_add(pull, others));
+            if (!line->is_at_point[end]) force = rest_on_obstacle(line, end, force);
         }
         vec3_store(out->force, force);
         out->tension = vec3_norm(force);

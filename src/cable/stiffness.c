@@ -307,3 +307,113 @@ CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program
     out.outcome = CPS_STIFFNESS_OUTCOME_FOUND;
     return out;
 }
+
+/* the tangent of both ends ----------------------------------------------------------------------
+ */
+
+/* Hold what is_treated does not know, and nodes that nothing holds. */
+static void hold_others(Tangent *t) {
+    const CpsiLine *line = t->line;
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+        const int e = cpsi_line_element(line, c);
+        if (e < 0 && touches(line, c) && !is_treated(t, c))
+            t->program->held[cpsi_line_node(line, c)] = 1;
+        if (e >= 0 && e + 1 < line->n && touches(line, c))
+            t->program->held[e] = t->program->held[e + 1] = 1;
+    }
+    for (int j = 0; j < line->n; j++) {
+        const bool before = j > 0 && t->matrix->stiffness[j] > 0,
+                   after = j + 1 < line->n && t->matrix->stiffness[j + 1] > 0;
+        if (!before && !after) t->program->held[j] = 1;
+    }
+}
+
+/* v of the common axes in those of node j, and back. */
+static void to_node(const Tangent *t, int j, const double v[3], double out[3]) {
+    if (t->program->frame)
+        cpsi_frame_to(out, &t->program->frame[9 * j], v);
+    else
+        memcpy(out, v, 3 * sizeof *out);
+}
+static void from_node(const Tangent *t, int j, const double v[3], double out[3]) {
+    if (t->program->frame)
+        cpsi_frame_from(out, &t->program->frame[9 * j], v);
+    else
+        memcpy(out, v, 3 * sizeof *out);
+}
+
+/* An end: its node, the next one, the element between and the sign of its direction. */
+typedef struct EndPlace {
+    int node, next, element;
+    double sign;
+} EndPlace;
+
+static EndPlace place_of(const CpsiLine *line, int end) {
+    const int n = line->n;
+    return end == CPS_END_A ? (EndPlace){0, 1, 1, -1} : (EndPlace){n - 1, n - 2, n - 1, 1};
+}
+
+/* Column 3 end + a of the tangent, in the common axes and in units of the program. */
+static void solve_ends(const Tangent *t, int end, int a, double column[6]) {
+    const int n = t->line->n;
+    const CpsiMatrix *matrix = t->matrix;
+    const EndPlace from = place_of(t->line, end);
+    double *x = t->program->base.du, *tension = t->program->dt, move[3] = {0};
+    memset(x, 0, 3 * (size_t)n * sizeof *x);
+    memset(tension, 0, (size_t)n * sizeof *tension);
+    move[a] = matrix->stiffness[from.element];
+    if (!t->program->held[from.next]) to_node(t, from.next, move, &x[3 * from.next]);
+    tension[from.element] = -from.sign * matrix->direction[3 * from.element + a];
+    t->program->ops->solve(t->program->linsys, matrix, x, tension, NULL);
+    for (int to = 0; to < 2; to++) {
+        const EndPlace at = place_of(t->line, to);
+        const double *m = &matrix->direction[3 * at.element];
+        double next[3] = {0};
+        if (!t->program->held[at.next]) from_node(t, at.next, &x[3 * at.next], next);
+        for (int b = 0; b < 3; b++) {
+            const double own = to == end && b == a, other = n == 2 && to != end && b == a;
+            column[3 * to + b] = matrix->stiffness[at.element] * (own - other - next[b]) +
+                                 at.sign * m[b] * tension[at.element];
+        }
+    }
+}
+
+void cpsi_line_tangent(const CpsiLine *line, CpsiChainProgram *program,
+                       const CpsiStepOptions *options, double tangent[36]) {
+    Tangent t = {.line = line,
+                 .program = program,
+                 .matrix = &program->matrix,
+                 .consistent = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
+                 .curved = options->contact_policy != CPS_CONTACT_POLICY_REFERENCE,
+                 .end_node = -1,
+                 .force = line->report.certificate.largest_force};
+    memset(tangent, 0, 36 * sizeof *tangent);
+    if (!(t.force > 0)) return;
+    cpsi_chain_program_resize(program, line->n, line->has_local_axes);
+    t.matrix->held = program->held;
+    t.matrix->frame = program->frame;
+    t.matrix->second = NULL;
+    t.matrix->share = NULL;
+    load_elements(&t);
+    load_nodes(&t);
+    hold_others(&t);
+    if (!program->ops->factor(program->linsys, t.matrix)) return;
+    double own[9], block[9];
+    for (int i = 0; i < 9; i++) own[i] = line->common_axes[3 * (i % 3) + i / 3];
+    for (int end = 0; end < 2; end++) {
+        double column[3][6] = {{0}};
+        if (line->end[end].kind != CPS_END_KIND_HELD) continue;
+        for (int a = 0; a < 3; a++) solve_ends(&t, end, a, column[a]);
+        for (int to = 0; to < 2; to++) {
+            if (line->end[to].kind != CPS_END_KIND_HELD) continue;
+            for (int b = 0; b < 3; b++)
+                for (int a = 0; a < 3; a++) block[3 * b + a] = column[a][3 * to + b];
+            cpsi_frame_turn(block, own, block);
+            for (int b = 0; b < 3; b++)
+                for (int a = 0; a < 3; a++) {
+                    const double k = block[3 * b + a] * t.force / line->length;
+                    tangent[6 * (3 * to + b) + 3 * end + a] = isfinite(k) ? k : 0;
+                }
+        }
+    }
+}

@@ -12,4 +12,11 @@
 CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program,
                                  const CpsiStepOptions *options, CpsStiffnessKind kind, int end);
 
+/* A derivative of the forces on the line at its ends A and B by their places, (6, 6) [N/m], that of
+ * the step where cpsi_line_stiffness would find it. Elsewhere what is not looked into there counts
+ * as held, and so do loose nodes: for Newton's method on the places of the ends. All 0 where there
+ * is none, and for a free end. */
+void cpsi_line_tangent(const CpsiLine *line, CpsiChainProgram *program,
+                       const CpsiStepOptions *options, double tangent[36]);
+
 #endif
