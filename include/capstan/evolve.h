@@ -138,6 +138,11 @@ CPS_API int cps_evolution_line_count(const CpsEvolution *evolution);
 CPS_API CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line);
 CPS_API CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line);
 
+/* The points of the scene (point.h): how many there are, and the report on one after the last step,
+ * of what is no point one of zeros. */
+CPS_API int cps_evolution_point_count(const CpsEvolution *evolution);
+CPS_API CpsPointReport cps_evolution_point_report(const CpsEvolution *evolution, int point);
+
 /* The stiffness of an end of a line after the last step, all else as in that step: the other end
  * stays, or keeps its force. An end with a given force is taken as one that is held where the step
  * has left it. A step of several substeps (CpsLineReport) is that of its last one. Sliding forces

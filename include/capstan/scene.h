@@ -9,6 +9,7 @@
 #ifndef CAPSTAN_SCENE_H
 #define CAPSTAN_SCENE_H
 
+#include "capstan/point.h"
 #include "capstan/set.h"
 
 #ifdef __cplusplus
@@ -62,7 +63,9 @@ typedef enum CpsEndKind {
     CPS_END_KIND_FREE, /* `value` is the force applied to the end [N] (S90 (9)) */
     /* held where the start of the line places it, which must not be static; `value` is not read.
      * For lines only, not for changes */
-    CPS_END_KIND_AT_START
+    CPS_END_KIND_AT_START,
+    CPS_END_KIND_POINT /* at a point of the scene (`end_point` of the line); `value` is not read.
+                          For lines only, not for changes */
 } CpsEndKind;
 
 typedef struct CpsEnd {
@@ -152,6 +155,7 @@ typedef struct CpsLine {
     /* Default: A is held where the start places it, B is free without a force. The position of a
      * held end must be that of the start. */
     CpsEnd end[2];
+    int end_point[2]; /* of ends at points: the index in the scene; default 0 */
 } CpsLine;
 
 /* A new imposed position or force of one end of one line, reached in equal increments over the
@@ -178,6 +182,8 @@ typedef struct CpsStage {
     const CpsChange *change;
     int turn_count;
     const CpsTurn *turn;
+    int point_change_count; /* default 0 */
+    const CpsPointChange *point_change;
     bool gravity_changes; /* default false: gravity stays as it is */
     /* [m/s2] with the flag: the gravity at the end of the stage. The weight of a line changes with
      * it, in proportion to the scene's. */
@@ -233,6 +239,8 @@ typedef struct CpsScene {
     const CpsObstacle *obstacle;
     int line_count; /* >= 1 */
     const CpsLine *line;
+    int point_count; /* >= 0, default 0 */
+    const CpsPoint *point;
     int stage_count; /* >= 0 */
     const CpsStage *stage;
     CpsFrictionPolicy friction_policy;

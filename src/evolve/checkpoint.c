@@ -60,6 +60,8 @@ _Static_assert(sizeof(CpsLineReport) == 25 * 8 + sizeof(CpsCertificate) + sizeof
                "add the new field to pass_line_report, then its size here");
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
                "add the new field to pass_step_report, then its size here");
+_Static_assert(sizeof(CpsPointReport) == 29 * 8,
+               "add the new field to pass_point, then its size here");
 _Static_assert(sizeof(CpsEnd) == 4 * 8, "add the new field to pass_end, then its size here");
 #endif
 
@@ -176,6 +178,42 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     pass_line_report(tape, &line->report);
 }
 
+static void pass_point(Tape *tape, CpsiPoint *point) {
+    CpsPointReport *report = &point->report;
+    PASS(tape, point->kind);
+    PASS(tape, point->position);
+    PASS(tape, point->force);
+    PASS(tape, point->from);
+    PASS(tape, point->before);
+    PASS(tape, point->move);
+    PASS(tape, report->state);
+    PASS(tape, report->position);
+    PASS(tape, report->lines);
+    PASS(tape, report->load);
+    PASS(tape, report->support);
+    PASS(tape, report->reaction);
+    PASS(tape, report->normal);
+    PASS(tape, report->friction);
+    PASS(tape, report->slip);
+    PASS(tape, report->residual);
+    PASS(tape, report->dissipated);
+    PASS(tape, report->obstacle);
+    PASS(tape, report->trial_count);
+    pass_flag(tape, &report->has_place);
+}
+
+size_t cpsi_line_state_size(const CpsiLine *line) {
+    Tape tape = {0};
+    pass_line(&tape, (CpsiLine *)(uintptr_t)line); /* counts only */
+    return tape.at;
+}
+
+void cpsi_line_keep(const CpsiLine *line, void *state) {
+    pass_line(&(Tape){.out = state}, (CpsiLine *)(uintptr_t)line); /* only read */
+}
+
+void cpsi_line_restore(CpsiLine *line, const void *state) { pass_line(&(Tape){.in = state}, line); }
+
 static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     tape->at = sizeof(Head);
     pass_step_report(tape, &evolution->report);
@@ -188,6 +226,7 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     PASS(tape, evolution->gravity_from);
     for (int i = 0; i < 2 * evolution->line_count; i++) pass_end(tape, &evolution->from[i]);
     for (int i = 0; i < evolution->line_count; i++) pass_line(tape, &evolution->line[i]);
+    for (int i = 0; i < evolution->points.count; i++) pass_point(tape, &evolution->points.point[i]);
     return tape->at;
 }
 
@@ -238,6 +277,12 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
         hash_bytes(hash, what, sizeof what);
         hash_numbers(hash, 3, change->to.value);
     }
+    for (int i = 0; i < stage->point_change_count; i++) {
+        const CpsPointChange *change = &stage->point_change[i];
+        const int what[2] = {change->point, (int)change->kind};
+        hash_bytes(hash, what, sizeof what);
+        hash_numbers(hash, 3, change->value);
+    }
     for (int i = 0; i < stage->turn_count; i++) {
         hash_bytes(hash, &stage->turn[i].obstacle, sizeof stage->turn[i].obstacle);
         hash_numbers(hash, 1, &stage->turn[i].angle);
@@ -265,6 +310,20 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     hash_numbers(hash, 2, form->origin);
 }
 
+static void hash_points(uint64_t *hash, const CpsEvolution *evolution) {
+    const CpsiPoints *points = &evolution->points;
+    hash_bytes(hash, points->tie, 2 * (size_t)evolution->line_count * sizeof *points->tie);
+    for (int i = 0; i < points->count; i++) {
+        const CpsiPoint *point = &points->point[i];
+        const int kind = (int)point->kind;
+        hash_bytes(hash, point->name, strlen(point->name) + 1);
+        hash_bytes(hash, &kind, sizeof kind);
+        hash_numbers(hash, 3, point->position);
+        hash_numbers(hash, 3, point->force);
+        hash_numbers(hash, 1, &point->mass);
+    }
+}
+
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     uint64_t hash = HASH_START;
     const CpsSolverOptions *solver = &evolution->options.solver;
@@ -281,6 +340,7 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     hash_numbers(&hash, 3, evolution->origin);
     hash_numbers(&hash, 3, evolution->gravity);
     for (int i = 0; i < evolution->line_count; i++) hash_line(&hash, &evolution->line[i]);
+    if (evolution->points.count > 0) hash_points(&hash, evolution);
     CpsiFrictionSet **set = evolution->workspace[0].friction_sets.set;
     for (int k = 0; k < evolution->obstacle_count; k++)
         hash_obstacle(&hash, &evolution->obstacle[k], set ? set[k] : NULL);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The history of a scene: load steps in sequence, each line solved on its own; and moves beside it.
  *
- * The lines do not act on each other, so a step is one program per line and the report adds them
- * up. */
+ * Lines act on each other only at points (balance.h), so a step is one program per line and the
+ * report adds them up. */
 #define _POSIX_C_SOURCE 200809L
 #include "capstan/evolve.h"
 
@@ -15,6 +15,7 @@
 #include "base/status.h"
 #include "cable/report.h"
 #include "cable/tension_field.h"
+#include "evolve/balance.h"
 #include "evolve/checkpoint.h"
 #include "evolve/ledger.h"
 #include "evolve/stage_check.h"
@@ -148,7 +149,7 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
         evolution->part = 0;
         evolution->current++;
     }
-    cpsi_workers_run(evolution->workers, step_line, evolution, evolution->line_count);
+    cpsi_balance_step(evolution, step_line);
     evolution->is_kept = is_move;
     if (was_interrupted(evolution)) {
         return_to_kept(evolution);
@@ -220,6 +221,11 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
                            move->step_count);
     if (status == CPS_OK) status = prepare_move(evolution, err);
     if (status != CPS_OK) return status;
+    for (int i = 0; i < move->point_change_count; i++)
+        if (move->point_change[i].kind == CPS_POINT_KIND_FREE && !evolution->points.balance)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%s: point '%s' cannot be free: an obstacle's friction has directions",
+                             what, evolution->points.point[move->point_change[i].point].name);
     if (cpsi_move_failed(evolution)) return_to_kept(evolution);
     cpsi_stage_fill(&evolution->live, move, evolution->origin);
     evolution->live.name = move->name ? move->name : "move";
@@ -258,5 +264,18 @@ CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line)
         for (int a = 0; a < 3; a++)
             if (evolution->origin[a] != 0)
                 report.end[end].position[a] += evolution->origin[a]; /* 0 keeps its sign */
+    return report;
+}
+
+int cps_evolution_point_count(const CpsEvolution *evolution) {
+    return evolution ? evolution->points.count : 0;
+}
+
+CpsPointReport cps_evolution_point_report(const CpsEvolution *evolution, int point) {
+    if (point < 0 || point >= cps_evolution_point_count(evolution))
+        return (CpsPointReport){.obstacle = CPS_NO_OBSTACLE};
+    CpsPointReport report = evolution->points.point[point].report;
+    for (int a = 0; a < 3; a++)
+        if (evolution->origin[a] != 0) report.position[a] += evolution->origin[a];
     return report;
 }

@@ -6,6 +6,7 @@
 
 #include "base/status.h"
 #include "capstan/evolve.h"
+#include "evolve/balance.h"
 #include "evolve/checkpoint.h"
 #include "evolve/friction_zone.h"
 #include "evolve/node_start.h"
@@ -102,9 +103,16 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     for (int i = 0; i < scene->stage_count; i++) {
         CpsiEvolutionStage *stage = real ? &evolution->stage[i] : &none;
         stage->name = copy_name(arena, scene->stage[i].name);
-        cpsi_stage_layout(stage, arena, scene->stage[i].change_count, scene->stage[i].turn_count);
+        cpsi_stage_layout(stage, arena, scene->stage[i].change_count,
+                          scene->stage[i].point_change_count, scene->stage[i].turn_count);
     }
-    cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->obstacle_count);
+    cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->point_count,
+                      scene->obstacle_count);
+    cpsi_points_layout(&evolution->points, arena, scene);
+    for (int i = 0; i < scene->point_count; i++) {
+        const char *name = copy_name(arena, scene->point[i].name);
+        if (real) evolution->points.point[i].name = name;
+    }
     cpsi_view_layout(&evolution->fill, arena, size.nodes);
     if (real) cpsi_view_fill(&evolution->fill, size.nodes);
     evolution->workspace_count = workspace_count(scene);
@@ -212,7 +220,6 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     for (int i = 0; i < evolution->workspace_count; i++)
         cpsi_workspace_connect(&evolution->workspace[i]);
     evolution->report = (CpsStepReport){.name = evolution->step_name};
-    evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
     cpsi_evolution_hash_stages(evolution);
 }
 
@@ -227,7 +234,30 @@ static void fill_given(CpsEvolution *evolution, const CpsScene *scene) {
     }
     for (int i = 0; i < scene->line_count; i++)
         evolution->given_line[i] =
-            (CpsLine){.name = evolution->line[i].name, .length = scene->line[i].length};
+            (CpsLine){.name = evolution->line[i].name,
+                      .length = scene->line[i].length,
+                      .end = {scene->line[i].end[CPS_END_A], scene->line[i].end[CPS_END_B]},
+                      .end_point = {scene->line[i].end_point[0], scene->line[i].end_point[1]}};
+}
+
+/* The points, and the memory to find those that are free: with friction that has directions none
+ * may be. */
+static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, const CpsScene *local,
+                             CpsError *err) {
+    cpsi_points_fill(&evolution->points, scene, local);
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++)
+            evolution->line[i].is_at_point[end] =
+                evolution->points.tie[2 * i + end] != CPSI_NO_POINT;
+    bool isotropic = true;
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        isotropic = isotropic && cpsi_obstacle_is_isotropic(&evolution->obstacle[k]);
+    if (scene->point_count == 0 || !isotropic) return CPS_OK;
+    evolution->points.balance = cpsi_balance_create(evolution);
+    cpsi_balance_start(evolution);
+    return evolution->points.balance
+               ? CPS_OK
+               : cpsi_fail(err, CPS_ERR_MEMORY, "no memory for %d points", scene->point_count);
 }
 
 /* Give each workspace its friction sets and start the threads. `first` are the sets of the first
@@ -273,7 +303,9 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
     CpsStatus status = cps_scene_check(scene, err);
     if (status == CPS_OK) status = cpsi_friction_sets_make(scene, &sets, &sizes, err);
     if (status != CPS_OK) return status;
-    status = cpsi_local_scene(scene, &local, err);
+    CpsiHeldScene held;
+    status = cpsi_held_scene(scene, &held, err);
+    if (status == CPS_OK) status = cpsi_local_scene(&held.scene, &local, err);
     if (status == CPS_OK) {
         status = place(&local, sets.set ? &sizes : NULL, &evolution, err);
         if (status == CPS_OK) {
@@ -282,10 +314,13 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
             if (status == CPS_OK) {
                 fill_given(evolution, scene);
                 fill(evolution, &local.scene);
+                status = fill_points(evolution, scene, &local.scene, err);
+                evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
             }
         }
         cpsi_local_scene_free(&local);
     }
+    free(held.block);
     cpsi_friction_sets_free(&sets);
     if (status == CPS_OK)
         *out = evolution;
@@ -300,6 +335,7 @@ void cps_evolution_destroy(CpsEvolution *evolution) {
     for (int i = 0; i < evolution->workspace_count; i++)
         cpsi_friction_sets_free(&evolution->workspace[i].friction_sets);
     free(evolution->before);
+    cpsi_balance_free(evolution->points.balance);
     CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
     cpsi_arena_free(&arena);
 }

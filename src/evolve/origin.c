@@ -37,6 +37,7 @@ static Box places_of(const CpsScene *scene) {
         for (int end = 0; end < 2; end++)
             if (line->end[end].kind == CPS_END_KIND_HELD) include(&box, line->end[end].value);
     }
+    for (int i = 0; i < scene->point_count; i++) include(&box, scene->point[i].position);
     return box;
 }
 
@@ -71,11 +72,13 @@ static void *copy(char *block, size_t *used, const void *from, size_t size) {
 static size_t size_of(const CpsScene *scene) {
     size_t size = (size_t)scene->obstacle_count * sizeof(CpsObstacle) +
                   (size_t)scene->line_count * sizeof(CpsLine) +
-                  (size_t)scene->stage_count * sizeof(CpsStage);
+                  (size_t)scene->stage_count * sizeof(CpsStage) +
+                  (size_t)scene->point_count * sizeof(CpsPoint);
     for (int i = 0; i < scene->line_count; i++)
         size += (size_t)scene->line[i].start.point_count * 3 * sizeof(double);
     for (int i = 0; i < scene->stage_count; i++)
-        size += (size_t)scene->stage[i].change_count * sizeof(CpsChange);
+        size += (size_t)scene->stage[i].change_count * sizeof(CpsChange) +
+                (size_t)scene->stage[i].point_change_count * sizeof(CpsPointChange);
     return size;
 }
 
@@ -105,7 +108,15 @@ CpsStatus cpsi_local_scene(const CpsScene *scene, CpsiLocalScene *out, CpsError 
             copy(block, &used, stage[i].change, (size_t)stage[i].change_count * sizeof *change);
         for (int k = 0; k < stage[i].change_count; k++) shift_end(&change[k].to, origin);
         stage[i].change = change;
+        const int count = stage[i].point_change_count;
+        CpsPointChange *at = copy(block, &used, stage[i].point_change, (size_t)count * sizeof *at);
+        for (int k = 0; k < count; k++)
+            if (at[k].kind == CPS_POINT_KIND_HELD) shift(at[k].value, origin);
+        stage[i].point_change = at;
     }
+    CpsPoint *point = copy(block, &used, scene->point, (size_t)scene->point_count * sizeof *point);
+    for (int i = 0; i < scene->point_count; i++) shift(point[i].position, origin);
+    out->scene.point = point;
     out->scene.obstacle = obstacle;
     out->scene.line = line;
     out->scene.stage = stage;

@@ -9,6 +9,7 @@
 
 #include "base/status.h"
 #include "evolve/origin.h"
+#include "evolve/points.h"
 #include "evolve/ranges.h"
 #include "evolve/start.h"
 #include "geometry/obstacle.h"
@@ -29,26 +30,65 @@ static double path_depth(const CpsiObstacle *obstacle, Vec3 from, Vec3 to, doubl
     return depth > fmax(touch, -cpsi_obstacle_gap(obstacle, from)) ? depth : 0;
 }
 
+/* Check the path of `name`, an end or a point, of lines up to `length` [m] long. */
+static CpsStatus check_path(const CpsScene *scene, const char *name, double length,
+                            const double from[3], const double to[3], bool grabbed,
+                            const char *what, CpsError *err) {
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
+        const double touch = PATH_TOUCH * length + cpsi_place_rounding(length, vec3_load(to));
+        const double depth = path_depth(&obstacle, vec3_load(from), vec3_load(to), touch);
+        if (!(depth > 0)) continue;
+        cpsi_fail(err, CPS_ERR_ARGUMENT,
+                  "%s: %s %s (%g, %g, %g) m %s (%g, %g, %g) m, through obstacle '%s', up to %g m "
+                  "deep: add way points around it",
+                  what, name, grabbed ? "is grabbed at" : "goes straight from", from[0], from[1],
+                  from[2], grabbed ? "and goes straight to" : "to", to[0], to[1], to[2],
+                  scene->obstacle[k].name, depth);
+        return cpsi_fail_inside(err, CPS_ERR_ARGUMENT, "%s", name);
+    }
+    return CPS_OK;
+}
+
 CpsStatus cpsi_path_check_change(const CpsScene *scene, const CpsChange *change,
                                  const double from[3], bool grabbed, const char *what,
                                  CpsError *err) {
     const CpsLine *line = &scene->line[change->line];
-    const double *to = change->to.value;
-    for (int k = 0; k < scene->obstacle_count; k++) {
-        const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
-        const double touch =
-            PATH_TOUCH * line->length + cpsi_place_rounding(line->length, vec3_load(to));
-        const double depth = path_depth(&obstacle, vec3_load(from), vec3_load(to), touch);
-        if (!(depth > 0)) continue;
-        const char *end = cpsi_end_letter(change->end);
-        cpsi_fail(
-            err, CPS_ERR_ARGUMENT,
-            "%s: %s.%s %s (%g, %g, %g) m %s (%g, %g, %g) m, through obstacle '%s', up to %g m "
-            "deep: add way points around it",
-            what, line->name, end, grabbed ? "is grabbed at" : "goes straight from", from[0],
-            from[1], from[2], grabbed ? "and goes straight to" : "to", to[0], to[1], to[2],
-            scene->obstacle[k].name, depth);
-        return cpsi_fail_inside(err, CPS_ERR_ARGUMENT, "%s.%s", line->name, end);
+    char name[80];
+    snprintf(name, sizeof name, "%s.%s", line->name, cpsi_end_letter(change->end));
+    return check_path(scene, name, line->length, from, change->to.value, grabbed, what, err);
+}
+
+CpsStatus cpsi_path_check_point(const CpsScene *scene, const CpsPointChange *change, double length,
+                                const double from[3], bool grabbed, const char *what,
+                                CpsError *err) {
+    char name[80];
+    snprintf(name, sizeof name, "%s.point", scene->point[change->point].name);
+    return check_path(scene, name, length, from, change->value, grabbed, what, err);
+}
+
+CpsStatus cpsi_path_check_points(const CpsScene *scene, CpsError *err) {
+    if (scene->obstacle_count == 0) return CPS_OK;
+    for (int i = 0; i < scene->point_count; i++) {
+        double at[3];
+        bool known = scene->point[i].kind == CPS_POINT_KIND_HELD;
+        memcpy(at, scene->point[i].position, sizeof at);
+        for (int k = 0; k < scene->stage_count; k++)
+            for (int c = 0; c < scene->stage[k].point_change_count; c++) {
+                const CpsPointChange *change = &scene->stage[k].point_change[c];
+                if (change->point != i) continue;
+                const bool held = change->kind == CPS_POINT_KIND_HELD;
+                char what[32];
+                snprintf(what, sizeof what, "stage %d", k + 1);
+                const CpsStatus status =
+                    held && known
+                        ? cpsi_path_check_point(scene, change, cpsi_longest_line(scene, i), at,
+                                                false, what, err)
+                        : CPS_OK;
+                if (status != CPS_OK) return cpsi_fail_inside(err, status, "history[%d]", k + 1);
+                known = held;
+                memcpy(at, change->value, sizeof at);
+            }
     }
     return CPS_OK;
 }

@@ -20,9 +20,17 @@ CpsStatus cpsi_path_check_change(const CpsScene *scene, const CpsChange *change,
                                  const double from[3], bool grabbed, const char *what,
                                  CpsError *err);
 
+/* The same for a point that is to be held; `length` [m] is that of its longest line. */
+CpsStatus cpsi_path_check_point(const CpsScene *scene, const CpsPointChange *change, double length,
+                                const double from[3], bool grabbed, const char *what,
+                                CpsError *err);
+
 /* Check the changes of a history whose initial points are known before anything is solved: those of
  * ends that are already held. The scene has passed all other checks. Returns CPS_OK,
  * CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. */
 CpsStatus cpsi_path_check(const CpsScene *scene, CpsError *err);
+
+/* The same for points, in the scene as it was given: one that is free is at no known place. */
+CpsStatus cpsi_path_check_points(const CpsScene *scene, CpsError *err);
 
 #endif

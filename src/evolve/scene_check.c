@@ -3,16 +3,19 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
 #include "base/vec3.h"
 #include "cable/friction_set.h"
 #include "capstan/scene.h"
+#include "evolve/names.h"
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
 #include "evolve/path_check.h"
 #include "evolve/places.h"
+#include "evolve/points.h"
 #include "evolve/ranges.h"
 #include "evolve/sections.h"
 #include "evolve/stage_check.h"
@@ -69,22 +72,6 @@ CpsObstacle cps_obstacle_default(void) {
  *
  * A message begins with the object and its key. The error also contains the path of the key as
  * data: a check names the key, and its caller the enclosing object: "length" in "lines.cable". */
-
-/* Names are file and column names elsewhere: a letter, then letters, digits, _ and -, 64 in all. */
-static bool name_is_valid(const char *name) {
-    static const char LETTERS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
-    static const char OTHERS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
-    return name && name[0] && strchr(LETTERS, name[0]) && strnlen(name, 65) <= 64 &&
-           strspn(name, OTHERS) == strlen(name);
-}
-
-static CpsStatus check_name(const char *what, int index, const char *name, CpsError *err) {
-    if (name_is_valid(name)) return CPS_OK;
-    return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                     "%s %d: its name is '%.80s', expected a letter followed by letters, digits, "
-                     "'_' or '-', at most 64 in all",
-                     what, index + 1, name ? name : "(none)");
-}
 
 static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
     if (o->kind < CPS_OBSTACLE_PLANE || o->kind > CPS_OBSTACLE_SPHERE)
@@ -155,7 +142,7 @@ static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
         if (!o || o->cookie != OBSTACLE_COOKIE)
             return CPSI_FAIL_AT("obstacles", err, CPS_ERR_ARGUMENT,
                                 "obstacle %d: not made by cps_obstacle_default()", k + 1);
-        CpsStatus status = check_name("obstacle", k, o->name, err);
+        CpsStatus status = cpsi_name_check("obstacle", k, o->name, err);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "obstacles[%d]", k + 1);
         for (int i = 0; i < k && status == CPS_OK; i++)
             if (strcmp(scene->obstacle[i].name, o->name) == 0)
@@ -404,7 +391,7 @@ static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
     if (line->cookie != LINE_COOKIE)
         return CPSI_FAIL_AT("lines", err, CPS_ERR_ARGUMENT,
                             "line %d: not made by cps_line_default()", index + 1);
-    CpsStatus status = check_name("line", index, line->name, err);
+    CpsStatus status = cpsi_name_check("line", index, line->name, err);
     if (status != CPS_OK) return cpsi_fail_inside(err, status, "lines[%d]", index + 1);
     for (int i = 0; i < index && status == CPS_OK; i++)
         if (strcmp(scene->line[i].name, line->name) == 0)
@@ -509,10 +496,15 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
                                 "lines: %lld elements or more together, the limit is %lld",
                                 (long long)elements, (long long)MAX_ELEMENTS);
     }
-    for (int i = 0; i < scene->line_count; i++) {
-        status = check_line(scene, i, err);
-        if (status != CPS_OK) return status;
-    }
-    status = check_history(scene, err);
-    return status == CPS_OK ? cpsi_path_check(scene, err) : status;
+    status = cpsi_points_check(scene, err);
+    if (status != CPS_OK) return status;
+    CpsiHeldScene held;
+    status = cpsi_held_scene(scene, &held, err);
+    for (int i = 0; i < scene->line_count && status == CPS_OK; i++)
+        status = check_line(&held.scene, i, err);
+    if (status == CPS_OK) status = check_history(scene, err);
+    if (status == CPS_OK) status = cpsi_path_check(&held.scene, err);
+    if (status == CPS_OK) status = cpsi_path_check_points(scene, err);
+    free(held.block);
+    return status;
 }

@@ -8,6 +8,7 @@
 #include "base/math.h"
 #include "base/status.h"
 #include "evolve/places.h"
+#include "evolve/points.h"
 #include "evolve/ranges.h"
 
 enum { STAGE_COOKIE = 0x57a9e004 };
@@ -38,6 +39,10 @@ static CpsStatus check_change(const CpsScene *scene, const CpsStage *stage, int 
                                 line->name, letter);
     }
     const double *v = change->to.value;
+    if (cpsi_point_of(line, change->end) != CPSI_NO_POINT)
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "%s: %s.%s is at a point: change the point instead", what, line->name,
+                            letter);
     if (change->to.kind != CPS_END_KIND_HELD && change->to.kind != CPS_END_KIND_FREE)
         return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT, "%s: %s.%s has the unknown kind %d", what,
                             line->name, letter, (int)change->to.kind);
@@ -106,5 +111,5 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
     CpsStatus status = check_turns(scene, stage, what, err);
     for (int i = 0; i < stage->change_count && status == CPS_OK; i++)
         status = check_change(scene, stage, i, what, err);
-    return status;
+    return status == CPS_OK ? cpsi_point_changes_check(scene, stage, what, err) : status;
 }

@@ -7,8 +7,10 @@
 
 #include "evolve/path_check.h"
 
-void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int turns) {
+void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
+                       int turns) {
     CPSI_PLACE(arena, stage->change, changes);
+    CPSI_PLACE(arena, stage->point_change, points);
     CPSI_PLACE(arena, stage->turn, turns);
 }
 
@@ -20,6 +22,13 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
         *change = from->change[k];
         if (change->to.kind == CPS_END_KIND_HELD)
             for (int a = 0; a < 3; a++) change->to.value[a] -= origin[a];
+    }
+    stage->point_change_count = from->point_change_count;
+    for (int k = 0; k < from->point_change_count; k++) {
+        CpsPointChange *change = &stage->point_change[k];
+        *change = from->point_change[k];
+        if (change->kind == CPS_POINT_KIND_HELD)
+            for (int a = 0; a < 3; a++) change->value[a] -= origin[a];
     }
     stage->turn_count = from->turn_count;
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
@@ -42,7 +51,9 @@ CpsScene cpsi_stage_scene(const CpsEvolution *evolution) {
     return (CpsScene){.obstacle_count = evolution->obstacle_count,
                       .obstacle = evolution->given_obstacle,
                       .line_count = evolution->line_count,
-                      .line = evolution->given_line};
+                      .line = evolution->given_line,
+                      .point_count = evolution->points.count,
+                      .point = evolution->points.given};
 }
 
 CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
@@ -62,6 +73,20 @@ CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolut
             cpsi_path_check_change(&scene, &change, from.value, grabbed, what, err);
         if (status) return status;
     }
+    for (int i = 0; i < stage->point_change_count; i++) {
+        CpsPointChange change = stage->point_change[i];
+        const CpsiPoint *point = &evolution->points.point[change.point];
+        const bool grabbed = point->kind == CPS_POINT_KIND_FREE;
+        if (change.kind != CPS_POINT_KIND_HELD || !(grabbed || all)) continue;
+        double from[3];
+        for (int a = 0; a < 3; a++) {
+            from[a] = point->position[a] + evolution->origin[a];
+            change.value[a] += evolution->origin[a];
+        }
+        const CpsStatus status =
+            cpsi_path_check_point(&scene, &change, point->length, from, grabbed, what, err);
+        if (status) return status;
+    }
     return CPS_OK;
 }
 
@@ -79,6 +104,37 @@ static CpsEnd end_at(const CpsEvolution *evolution, const CpsiEvolutionStage *st
     CpsEnd end = change->to;
     value_at(from->value, change->to.value, part, stage->steps, end.value);
     return end;
+}
+
+/* What is imposed on the points at the end of step `part`, and on the ends at those that are
+ * held. */
+static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+    CpsiPoints *points = &evolution->points;
+    for (int i = 0; i < points->count; i++) {
+        CpsiPoint *point = &points->point[i];
+        memcpy(point->before, point->position, sizeof point->before);
+        point->is_moving = part > 0 && point->report.has_place;
+    }
+    for (int k = 0; k < stage->point_change_count; k++) {
+        const CpsPointChange *change = &stage->point_change[k];
+        CpsiPoint *point = &points->point[change->point];
+        const bool held = change->kind == CPS_POINT_KIND_HELD;
+        if (part == 0) {
+            const double *load =
+                point->kind == CPS_POINT_KIND_FREE ? point->force : point->report.support;
+            memcpy(point->from, held ? point->position : load, sizeof point->from);
+            point->kind = change->kind;
+        }
+        value_at(point->from, change->value, part + 1, stage->steps,
+                 held ? point->position : point->force);
+    }
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const int at = points->tie[2 * i + end];
+            if (at != CPSI_NO_POINT)
+                memcpy(evolution->move[i].to[end].value, points->point[at].position,
+                       sizeof points->point[at].position);
+        }
 }
 
 /* [N/m] The weights of the lines at `part` of a stage. */
@@ -111,6 +167,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
         move->from[change->end] = end_at(evolution, stage, change, part);
         move->to[change->end] = end_at(evolution, stage, change, part + 1);
     }
+    plan_points(evolution, stage, part);
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int k = 0; k < stage->turn_count; k++)
         evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
@@ -130,4 +187,5 @@ void cpsi_stage_plan_statics(CpsEvolution *evolution) {
         for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
     }
+    plan_points(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);
 }

@@ -5,6 +5,7 @@
 
 #include "base/workers.h"
 #include "capstan/evolve.h"
+#include "evolve/points.h"
 #include "evolve/workspace.h"
 
 enum { CPSI_STEP_NAME = 96 };
@@ -12,8 +13,9 @@ enum { CPSI_STEP_NAME = 96 };
 /* A stage; positions are relative to the origin. */
 typedef struct CpsiEvolutionStage {
     const char *name;
-    int steps, change_count, turn_count;
+    int steps, change_count, point_change_count, turn_count;
     CpsChange *change;
+    CpsPointChange *point_change;
     CpsTurn *turn;
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */
@@ -36,10 +38,11 @@ struct CpsEvolution {
     CpsiStepOptions options;
     int line_count, stage_count, step_count;
     int obstacle_count;
-    CpsiObstacle *obstacle;    /* (obstacle_count) */
-    double *angle;             /* (obstacle_count) [rad] by which each turns in the step */
-    CpsiMove *move;            /* (line_count) the change of each line in the step */
-    CpsiLine *line;            /* (line_count) */
+    CpsiObstacle *obstacle; /* (obstacle_count) */
+    double *angle;          /* (obstacle_count) [rad] by which each turns in the step */
+    CpsiMove *move;         /* (line_count) the change of each line in the step */
+    CpsiLine *line;         /* (line_count) */
+    CpsiPoints points;
     CpsiEvolutionStage *stage; /* (stage_count) */
     CpsiEvolutionStage live;   /* of a move that the history does not hold */
     /* what stages are checked against, in the coordinates of the scene */

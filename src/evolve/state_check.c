@@ -116,6 +116,17 @@ static bool are_fields(const CpsiLine *line) {
            all_finite(line->tension, n - 1) && all_finite(line->beta, n);
 }
 
+static bool is_point(const CpsiPoint *point, int obstacles) {
+    const CpsPointReport *report = &point->report;
+    return within(point->kind, CPS_POINT_KIND_HELD, CPS_POINT_KIND_FREE) &&
+           within(report->state, CPS_POINT_STATE_HELD, CPS_POINT_STATE_SLIP) &&
+           within(report->obstacle, CPS_NO_OBSTACLE, obstacles - 1) && report->trial_count >= 0 &&
+           all_finite(point->position, 3) && all_finite(point->force, 3) &&
+           all_finite(point->from, 3) && all_finite(point->before, 3) &&
+           all_finite(point->move, 3) && all_finite(report->support, 3) &&
+           all_finite(&report->reaction, 1);
+}
+
 const char *cpsi_state_fault(const CpsEvolution *evolution) {
     if (!is_place_in_history(evolution))
         return "it stands at a step that the history does not have";
@@ -134,5 +145,8 @@ const char *cpsi_state_fault(const CpsEvolution *evolution) {
             return "a contact is with an obstacle that there is not, or in no state";
         if (!are_fields(line)) return "a number is not finite";
     }
+    for (int i = 0; i < evolution->points.count; i++)
+        if (!is_point(&evolution->points.point[i], evolution->obstacle_count))
+            return "a point is of no kind, in no state or at no place";
     return NULL;
 }

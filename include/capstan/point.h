@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/point.h: points where lines meet. A line whose end has the kind CPS_END_KIND_POINT ends
+ * at a point of the scene (scene.h), and all lines that end there pull on it. A point is held, or
+ * free: then each load step finds the place at which the forces on it balance, together with the
+ * lines, each of which is certified there (docs/theory.md 6d).
+ *
+ *     CpsPoint point[2] = {cps_point_default(), cps_point_default()};
+ *     point[0].name = "anchor";
+ *     point[1].name = "knot";
+ *     point[1].kind = CPS_POINT_KIND_FREE;
+ *     line.end[CPS_END_B].kind = CPS_END_KIND_POINT;
+ *     line.end_point[CPS_END_B] = 1;
+ *
+ * These are plain structs like those of scene.h. */
+#ifndef CAPSTAN_POINT_H
+#define CAPSTAN_POINT_H
+
+#include <stdbool.h>
+
+#include "capstan/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum CpsPointKind {
+    CPS_POINT_KIND_HELD, /* at its position, to which stages may move it */
+    CPS_POINT_KIND_FREE  /* where the forces on it balance */
+} CpsPointKind;
+
+typedef struct CpsPoint {
+    uint32_t cookie;
+    const char *name;
+    CpsPointKind kind; /* default held */
+    /* [m] where it is, or where a free one begins; default 0 0 0. Lines that end there begin there:
+     * where they all start by statics, that of a free point is a first guess */
+    double position[3];
+    double force[3]; /* [N] on a free point, beside its lines and its weight; default 0 0 0 */
+    /* [N] along gravity, with which it changes (submerged weight): of a clump; negative of a buoy,
+     * which lifts; default 0 */
+    double weight;
+} CpsPoint;
+
+CPS_API CpsPoint cps_point_default(void);
+
+/* What a stage changes at a point, reached in equal increments over the stage: the position of one
+ * that is held then, or the force on one that is free then. A held point that becomes free is
+ * released, and the force on it begins with that which held it; a free one that is to be held is
+ * moved from where it is. */
+typedef struct CpsPointChange {
+    int point; /* index in the scene */
+    CpsPointKind kind;
+    double value[3]; /* [m] or [N] */
+} CpsPointChange;
+
+/* How a point touches the obstacles. */
+typedef enum CpsPointState {
+    CPS_POINT_STATE_HELD = 0,
+    CPS_POINT_STATE_FREE = 1,  /* off all obstacles */
+    CPS_POINT_STATE_STICK = 2, /* at rest on one */
+    CPS_POINT_STATE_SLIP = 3   /* sliding on one, with friction at its bound */
+} CpsPointState;
+
+/* The report on a point. Forces are on the point. On an obstacle the point bears all that the lines
+ * bring there, the halves of their last elements included. */
+typedef struct CpsPointReport {
+    CpsPointState state;
+    double position[3]; /* [m] in the coordinates of the scene */
+    double lines[3];    /* [N] sum of the lines that end here */
+    double load[3];     /* [N] force and weight of a free point; 0 of a held one */
+    double support[3];  /* [N] what holds a held point; 0 of a free one */
+    double reaction;    /* [N] R >= 0 of the obstacle that it touches, along `normal` */
+    double normal[3];   /* [-] 0 0 0 where it touches none */
+    double friction[3]; /* [N] |F| <= mu R */
+    double slip[3];     /* [m] on the obstacle in this step */
+    double residual[3]; /* [N] sum of all these: what nothing balances */
+    double dissipated;  /* [J] by its friction in this step */
+    int obstacle;       /* index in the scene; CPS_NO_OBSTACLE where it touches none */
+    int trial_count;    /* places tried in this step, each with a step of every line; of all points
+                           the same */
+    bool has_place;     /* the residual is no larger than the tolerance times the largest force */
+} CpsPointReport;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The data of points and their check (points.h). */
+#include "evolve/points.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "evolve/names.h"
+#include "evolve/origin.h"
+#include "evolve/places.h"
+#include "evolve/ranges.h"
+#include "geometry/obstacle.h"
+
+enum { POINT_COOKIE = 0x5017e005, MAX_POINTS = 500 };
+
+CpsPoint cps_point_default(void) { return (CpsPoint){.cookie = POINT_COOKIE}; }
+
+/* check ---------------------------------------------------------------------------------------- */
+
+double cpsi_longest_line(const CpsScene *scene, int point) {
+    double longest = 0;
+    for (int i = 0; i < scene->line_count; i++)
+        for (int end = 0; end < 2; end++)
+            if (cpsi_point_of(&scene->line[i], end) == point)
+                longest = fmax(longest, scene->line[i].length);
+    return longest;
+}
+
+/* [m] By how much x lies below an obstacle, beyond rounding, and its name; else 0. */
+static double depth_below(const CpsScene *scene, double length, const double x[3],
+                          const char **name) {
+    const CpsLine longest = {.length = length};
+    const double above = cpsi_scene_height(scene, vec3_load(x), name);
+    return above >= -cpsi_place_tolerance(&longest, vec3_load(x)) ? 0 : -above;
+}
+
+static CpsStatus check_name(const CpsScene *scene, int index, CpsError *err) {
+    const char *name = scene->point[index].name;
+    const CpsStatus status = cpsi_name_check("point", index, name, err);
+    if (status != CPS_OK) return status;
+    const char *other = NULL;
+    for (int i = 0; i < index; i++)
+        if (strcmp(scene->point[i].name, name) == 0) other = "point";
+    for (int i = 0; i < scene->line_count; i++)
+        if (scene->line[i].name && strcmp(scene->line[i].name, name) == 0) other = "line";
+    for (int i = 0; i < scene->obstacle_count; i++)
+        if (strcmp(scene->obstacle[i].name, name) == 0) other = "obstacle";
+    if (!other) return CPS_OK;
+    return cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': %s %s has the same name", name,
+                     strcmp(other, "obstacle") == 0 ? "an" : "a", other);
+}
+
+/* Friction of a point on an obstacle is Coulomb's law, the same in all directions. */
+static CpsStatus check_friction(const CpsScene *scene, const CpsPoint *point, CpsError *err) {
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
+        if (!cpsi_obstacle_is_isotropic(&obstacle))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "point '%s': it may come to rest on obstacle '%s', whose friction has "
+                             "directions: a free point needs one coefficient of friction",
+                             point->name, scene->obstacle[k].name);
+    }
+    return CPS_OK;
+}
+
+static CpsStatus check_point(const CpsScene *scene, int index, bool may_be_free, CpsError *err) {
+    const CpsPoint *point = &scene->point[index];
+    if (point->cookie != POINT_COOKIE)
+        return CPSI_FAIL_AT("points", err, CPS_ERR_ARGUMENT,
+                            "point %d: not made by cps_point_default()", index + 1);
+    CpsStatus status = check_name(scene, index, err);
+    if (status != CPS_OK) return cpsi_fail_inside(err, status, "points[%d]", index + 1);
+    const double length = cpsi_longest_line(scene, index);
+    const char *below = "";
+    const double *v = point->position, *f = point->force;
+    if (point->kind != CPS_POINT_KIND_HELD && point->kind != CPS_POINT_KIND_FREE)
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': unknown kind %d", point->name,
+                           (int)point->kind);
+    else if (!cpsi_are_usable(v))
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "point '%s': it is at (%g, %g, %g) m, expected finite numbers",
+                           point->name, v[0], v[1], v[2]);
+    else if (!cpsi_are_usable(f) || !cpsi_is_usable(point->weight))
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "point '%s': force (%g, %g, %g) N and weight %g N, expected finite "
+                           "numbers",
+                           point->name, f[0], f[1], f[2], point->weight);
+    else if (point->kind == CPS_POINT_KIND_HELD && (f[0] != 0 || f[1] != 0 || f[2] != 0))
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "point '%s': a force of (%g, %g, %g) N acts on it, but it is held: "
+                           "leave the force out, or let the point be free",
+                           point->name, f[0], f[1], f[2]);
+    else if (!(length > 0))
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "point '%s': no line ends there: let an end of a line be at it, or "
+                           "leave it out",
+                           point->name);
+    else if (depth_below(scene, length, v, &below) > 0)
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': it is %g m below obstacle '%s'",
+                           point->name, depth_below(scene, length, v, &below), below);
+    else if (may_be_free)
+        status = check_friction(scene, point, err);
+    return cpsi_fail_inside(err, status, "points.%s", point->name);
+}
+
+static CpsStatus check_ties(const CpsScene *scene, CpsError *err) {
+    for (int i = 0; i < scene->line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const CpsLine *line = &scene->line[i];
+            const int point = cpsi_point_of(line, end);
+            if (line->end[end].kind != CPS_END_KIND_POINT ||
+                (point >= 0 && point < scene->point_count))
+                continue;
+            return CPSI_FAIL_AT("lines", err, CPS_ERR_ARGUMENT,
+                                "line %d: end %s is at point %d: there are %d, the first is 0",
+                                i + 1, cpsi_end_letter(end), point, scene->point_count);
+        }
+    return CPS_OK;
+}
+
+CpsStatus cpsi_points_check(const CpsScene *scene, CpsError *err) {
+    if (scene->point_count < 0 || (scene->point_count > 0 && !scene->point))
+        return CPSI_FAIL_AT("points", err, CPS_ERR_ARGUMENT, "points: found %d, expected 0 or more",
+                            scene->point_count);
+    if (scene->point_count > MAX_POINTS)
+        return CPSI_FAIL_AT("points", err, CPS_ERR_LIMIT, "points: found %d, the limit is %d",
+                            scene->point_count, (int)MAX_POINTS);
+    CpsStatus status = check_ties(scene, err);
+    for (int i = 0; i < scene->point_count && status == CPS_OK; i++)
+        status = check_point(scene, i, scene->point[i].kind == CPS_POINT_KIND_FREE, err);
+    return status;
+}
+
+static CpsStatus check_change(const CpsScene *scene, const CpsStage *stage, int index,
+                              const char *what, CpsError *err) {
+    const CpsPointChange *change = &stage->point_change[index];
+    if (change->point < 0 || change->point >= scene->point_count)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: change %d names point %d: there are %d", what,
+                         index + 1, change->point, scene->point_count);
+    const CpsPoint *point = &scene->point[change->point];
+    const double *v = change->value;
+    const char *below = "";
+    const double length = cpsi_longest_line(scene, change->point);
+    CpsStatus status = CPS_OK;
+    for (int i = 0; i < index; i++)
+        if (stage->point_change[i].point == change->point)
+            status = cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: point '%s' is changed twice", what,
+                               point->name);
+    if (status != CPS_OK) return cpsi_fail_inside(err, status, "%s.point", point->name);
+    if (change->kind != CPS_POINT_KIND_HELD && change->kind != CPS_POINT_KIND_FREE)
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: point '%s' gets the unknown kind %d", what,
+                           point->name, (int)change->kind);
+    else if (!cpsi_are_usable(v))
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "%s: point '%s' gets (%g, %g, %g), expected finite numbers", what,
+                           point->name, v[0], v[1], v[2]);
+    else if (change->kind == CPS_POINT_KIND_FREE)
+        status = check_friction(scene, point, err);
+    else if (depth_below(scene, length, v, &below) > 0)
+        status =
+            cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: point '%s' is moved to %g m below obstacle '%s'",
+                      what, point->name, depth_below(scene, length, v, &below), below);
+    return cpsi_fail_inside(err, status, "%s.point", point->name);
+}
+
+CpsStatus cpsi_point_changes_check(const CpsScene *scene, const CpsStage *stage, const char *what,
+                                   CpsError *err) {
+    if (stage->point_change_count < 0 || (stage->point_change_count > 0 && !stage->point_change))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s: found %d changes of points, expected 0 or more", what,
+                         stage->point_change_count);
+    CpsStatus status = CPS_OK;
+    for (int i = 0; i < stage->point_change_count && status == CPS_OK; i++)
+        status = check_change(scene, stage, i, what, err);
+    return status;
+}
+
+/* data ----------------------------------------------------------------------------------------- */
+
+CpsStatus cpsi_held_scene(const CpsScene *scene, CpsiHeldScene *out, CpsError *err) {
+    *out = (CpsiHeldScene){.scene = *scene};
+    if (scene->point_count == 0) return CPS_OK;
+    CpsLine *line = out->block = malloc((size_t)scene->line_count * sizeof *line);
+    if (!line)
+        return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the ends of %d lines",
+                         scene->line_count);
+    memcpy(line, scene->line, (size_t)scene->line_count * sizeof *line);
+    for (int i = 0; i < scene->line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const int point = cpsi_point_of(&line[i], end);
+            if (point == CPSI_NO_POINT) continue;
+            line[i].end[end] = (CpsEnd){.kind = CPS_END_KIND_HELD};
+            memcpy(line[i].end[end].value, scene->point[point].position,
+                   sizeof line[i].end[end].value);
+        }
+    out->scene.line = line;
+    return CPS_OK;
+}
+
+void cpsi_points_layout(CpsiPoints *points, CpsiArena *arena, const CpsScene *scene) {
+    CPSI_PLACE(arena, points->point, scene->point_count);
+    CPSI_PLACE(arena, points->given, scene->point_count);
+    CPSI_PLACE(arena, points->tie, 2 * (size_t)scene->line_count);
+}
+
+void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene *local) {
+    const double pull = vec3_norm(vec3_load(scene->gravity));
+    points->count = scene->point_count;
+    for (int i = 0; i < scene->line_count; i++)
+        for (int end = 0; end < 2; end++)
+            points->tie[2 * i + end] = cpsi_point_of(&scene->line[i], end);
+    for (int i = 0; i < scene->point_count; i++) {
+        const CpsPoint *from = &scene->point[i];
+        CpsiPoint *point = &points->point[i];
+        point->kind = from->kind;
+        memcpy(point->position, local->point[i].position, sizeof point->position);
+        memcpy(point->before, point->position, sizeof point->before);
+        memcpy(point->force, from->force, sizeof point->force);
+        point->mass = pull > 0 ? from->weight / pull : 0;
+        point->length = cpsi_longest_line(scene, i);
+        point->report =
+            (CpsPointReport){.obstacle = CPS_NO_OBSTACLE,
+                             .has_place = true,
+                             .state = from->kind == CPS_POINT_KIND_HELD ? CPS_POINT_STATE_HELD
+                                                                        : CPS_POINT_STATE_FREE};
+        memcpy(point->report.position, point->position, sizeof point->position);
+        points->given[i] = *from;
+        points->given[i].name = point->name;
+    }
+}

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Points where lines meet (capstan/point.h): their data, their check, and what a step imposes on
+ * them. The places of free ones are found by balance.c. */
+#ifndef CAPSTAN_SRC_EVOLVE_POINTS_H
+#define CAPSTAN_SRC_EVOLVE_POINTS_H
+
+#include "base/arena.h"
+#include "capstan/evolve.h"
+
+/* At no point. */
+enum { CPSI_NO_POINT = -1 };
+
+/* A point; positions are relative to the origin of the evolution. */
+typedef struct CpsiPoint {
+    const char *name;
+    CpsPointKind kind;      /* now */
+    double position[3];     /* [m] now */
+    double force[3];        /* [N] on it while it is free, beside its weight */
+    double from[3];         /* [m] or [N] what the stage under way changes, when it began */
+    double before[3];       /* [m] the place where the step began */
+    double move[3];         /* [m] of the last step */
+    double reaction_before; /* [N] on it where the step began */
+    bool is_moving;         /* the step under way goes on as the last one did */
+    double mass;            /* [kg] weight per gravity */
+    double length;          /* [m] of the longest line that ends here */
+    CpsPointReport report;  /* its position relative to the origin */
+} CpsiPoint;
+
+/* Memory of the search for the places of free points. */
+typedef struct CpsiBalance CpsiBalance;
+
+typedef struct CpsiPoints {
+    int count;
+    CpsiPoint *point;     /* (count) */
+    CpsPoint *given;      /* (count) names and kinds, against which stages are checked */
+    int *tie;             /* (lines, 2) the point of an end, or CPSI_NO_POINT */
+    CpsiBalance *balance; /* NULL: no point is ever free */
+} CpsiPoints;
+
+/* The point of an end of a scene's line, or CPSI_NO_POINT. */
+static inline int cpsi_point_of(const CpsLine *line, int end) {
+    return line->end[end].kind == CPS_END_KIND_POINT ? line->end_point[end] : CPSI_NO_POINT;
+}
+
+/* [m] The length of the longest line that ends at a point; 0: none does. */
+double cpsi_longest_line(const CpsScene *scene, int point);
+
+/* Check the points, and which ends are at which. */
+CpsStatus cpsi_points_check(const CpsScene *scene, CpsError *err);
+/* ... and what a stage changes at them. */
+CpsStatus cpsi_point_changes_check(const CpsScene *scene, const CpsStage *stage, const char *what,
+                                   CpsError *err);
+
+/* The scene in which every end at a point is held where the point begins. Its lines lie in `block`,
+ * to be freed by the caller; NULL where no end is at a point. Returns CPS_OK or CPS_ERR_MEMORY. */
+typedef struct CpsiHeldScene {
+    CpsScene scene;
+    void *block;
+} CpsiHeldScene;
+CpsStatus cpsi_held_scene(const CpsScene *scene, CpsiHeldScene *out, CpsError *err);
+
+/* Place the arrays; `scene` may have ends at points. */
+void cpsi_points_layout(CpsiPoints *points, CpsiArena *arena, const CpsScene *scene);
+/* Fill them but for names; positions are those of `local`, relative to the origin. */
+void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene *local);
+
+/* [N] Weight and force on a free point. */
+static inline void cpsi_point_load(const CpsiPoint *point, const double gravity[3],
+                                   double load[3]) {
+    for (int a = 0; a < 3; a++) load[a] = point->force[a] + point->mass * gravity[a];
+}
+
+#endif
