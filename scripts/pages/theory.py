@@ -40,6 +40,12 @@ def mesh_error_moved(p):
     return list(re.search(r"moved with friction.*; (\d+) of (\d+) within", p.output("test", "analytic", "test_mesh_error")).groups())
 
 
+def balanced(p):
+    """What is left of the forces on points, per largest force, and in units of the tolerance."""
+    times = number("evolve/balance.c", "BALANCED")(p)
+    return [short(float(times) * 1e-8), times]
+
+
 def strategy(field, begins):
     """A number of the rows that begin so in the table of strategies; of several the same in all."""
     return lambda p: p.constant("cable/line_step.c", begins + r"[^}]*?\." + field + r" = (\d+)\b")
@@ -91,6 +97,7 @@ SENTENCES = [
     ("After {} linear systems, or {} without progress,", numbers(("chain/active_set.c", "MOST_STEPS"), ("chain/active_set.c", "PATIENCE"))),
     ("moreover its gap must be at most {} of its scale", number("cable/line_solve.h", "CPSI_TARGET")),
     ("A node slips where it has moved by more than {} L on", number(".h", "CPS_TOUCH")),
+    ("Points count as found up to {} of the largest force (at the default tolerance; {} times the tolerance)", balanced),
     ("its friction is at its bound to {};", number("cable/report.c", "AT_BOUND")),
     ("= 0.0255 x 1 x 9.81 = {} N/m", lambda p: f"{0.0255 * 9.81:.6f}"),
     ("and {} eps of all terms are added", number("drive/certificate.c", "ROUNDING")),

@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Lines that meet at points: stars, trees, rings and nets, checked from the places alone.
+ *                                              usage: random_graphs [--scenes N] [--seed S]
+ * [--class C]
+ *
+ * The tension of an element follows from the distance of its nodes, T = EA (|x'| - 1)^+. With half
+ * the weight of the end elements, what the points carry and what acts on them, the forces on every
+ * free point are added up anew; they must balance with a reaction and a friction force on the
+ * obstacle that obey Coulomb's law at the slip that the places before and after tell. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "capstan/evolve.h"
+#include "splitmix.h"
+
+enum { MOST_LINES = 120, MOST_POINTS = 80, STAGES = 2, CLASSES = 5 };
+typedef enum Class { STAR, TREE, RING, NET, CLUMPS } Class;
+static const char *const CLASS[CLASSES] = {"star", "tree", "ring", "net", "clumps"};
+
+/* What is left of the forces on a point, per largest force: points balance to 1e-6. A tension is
+ * told by the places to three times CPS_TOUCH times EA, and to what the line's certificate says of
+ * its strains and tensions, which are to be known to STRAIN and TENSION. */
+static const double LEFT = 2e-6, STRAIN = 1e-7, TENSION = 1e-4;
+/* Share of the steps of a class that may be open: what is slack and dragged over a rough bed may
+ * have several answers, between which the search goes to and fro. */
+static const double OPEN_SHARE = 0.015;
+
+typedef struct Tally {
+    int scenes, steps, open, trials, most_trials, touching, sliding, wrong;
+    double left;
+} Tally;
+
+static uint64_t state;
+
+static double uniform(double low, double high) { return splitmix(&state, low, high); }
+static int whole(int low, int high) { return (int)floor(uniform(low, high + 1)); }
+static bool chance(double share) { return uniform(0, 1) < share; }
+
+typedef struct Graph {
+    CpsObstacle obstacle[2];
+    CpsLine line[MOST_LINES];
+    CpsPoint point[MOST_POINTS];
+    char name[MOST_LINES + MOST_POINTS][12];
+    CpsPointChange change[STAGES][MOST_POINTS];
+    CpsStage stage[STAGES];
+    CpsScene scene;
+    double size, weight, stiffness;
+} Graph;
+
+static int add_point(Graph *g, CpsPointKind kind, double x, double y, double z) {
+    const int i = g->scene.point_count++;
+    CpsPoint *point = &g->point[i];
+    *point = cps_point_default();
+    snprintf(g->name[MOST_LINES + i], sizeof g->name[0], "p%d", i);
+    point->name = g->name[MOST_LINES + i];
+    point->kind = kind;
+    point->position[0] = x;
+    point->position[1] = y;
+    point->position[2] = fmax(z, 0);
+    return i;
+}
+
+/* A line between two points, `longer` times as long as their distance. */
+static void add_line(Graph *g, int from, int to, double longer, int elements) {
+    const int i = g->scene.line_count++;
+    CpsLine *line = &g->line[i];
+    double distance = 0;
+    for (int a = 0; a < 3; a++)
+        distance += pow(g->point[from].position[a] - g->point[to].position[a], 2);
+    *line = cps_line_default();
+    snprintf(g->name[i], sizeof g->name[0], "l%d", i);
+    line->name = g->name[i];
+    line->length = longer * sqrt(distance);
+    line->element_count = elements;
+    line->weight = g->weight * uniform(0.5, 1.5);
+    line->stiffness = g->stiffness * uniform(0.5, 1.5);
+    line->start.kind = CPS_START_STATIC;
+    const bool turned = chance(0.5);
+    line->end[turned].kind = CPS_END_KIND_POINT;
+    line->end_point[turned] = from;
+    line->end[!turned].kind = CPS_END_KIND_POINT;
+    line->end_point[!turned] = to;
+}
+
+static int anchor(Graph *g, double angle, double height) {
+    return add_point(g, CPS_POINT_KIND_HELD, g->size * cos(angle), g->size * sin(angle), height);
+}
+
+static void make_star(Graph *g) {
+    const int lines = whole(2, 6);
+    const int knot = add_point(g, CPS_POINT_KIND_FREE, uniform(-0.3, 0.3) * g->size,
+                               uniform(-0.3, 0.3) * g->size, uniform(0.1, 1) * g->size);
+    for (int k = 0; k < lines; k++)
+        add_line(g, anchor(g, 6.28 * k / lines + uniform(-0.3, 0.3), uniform(-0.3, 1) * g->size),
+                 knot, uniform(0.95, 1.6), whole(3, 30));
+    if (chance(0.5)) g->point[knot].weight = uniform(-2, 1) * g->weight * g->size;
+}
+
+static void make_tree(Graph *g) {
+    const int knots = whole(2, 8);
+    const int first = anchor(g, 0, g->size);
+    for (int k = 0; k < knots; k++) {
+        const int from = k == 0 ? first : whole(0, 1) ? first + k : whole(first, first + k);
+        const double *x = g->point[from].position;
+        const int to =
+            add_point(g, CPS_POINT_KIND_FREE, x[0] + uniform(-0.6, 0.6) * g->size,
+                      x[1] + uniform(-0.6, 0.6) * g->size, x[2] + uniform(-0.8, 0.3) * g->size);
+        add_line(g, from, to, uniform(1, 1.3), whole(2, 20));
+        if (chance(0.3)) g->point[to].weight = uniform(-0.5, 1) * g->weight * g->size;
+        if (chance(0.3))
+            add_line(g, anchor(g, uniform(-3, 3), uniform(0, 1) * g->size), to, uniform(1, 1.5),
+                     whole(2, 20));
+    }
+}
+
+static void make_ring(Graph *g) {
+    const int knots = whole(3, 10), first = g->scene.point_count;
+    for (int k = 0; k < knots; k++) {
+        const double angle = 6.28 * k / knots;
+        add_point(g, CPS_POINT_KIND_FREE, 0.5 * g->size * cos(angle), 0.5 * g->size * sin(angle),
+                  uniform(0.3, 0.8) * g->size);
+    }
+    for (int k = 0; k < knots; k++)
+        add_line(g, first + k, first + (k + 1) % knots, uniform(0.9, 1.4), whole(1, 10));
+    const int held = whole(2, 4);
+    for (int k = 0; k < held; k++)
+        add_line(g, anchor(g, 6.28 * k / held, uniform(0.5, 1.5) * g->size),
+                 first + k * knots / held, uniform(0.95, 1.4), whole(2, 20));
+}
+
+static void make_net(Graph *g) {
+    const int a = whole(3, 6), b = whole(3, 6), first = g->scene.point_count;
+    for (int i = 0; i < a; i++)
+        for (int j = 0; j < b; j++) {
+            const bool corner = (i == 0 || i == a - 1) && (j == 0 || j == b - 1);
+            add_point(g, corner ? CPS_POINT_KIND_HELD : CPS_POINT_KIND_FREE, g->size * i / (a - 1),
+                      g->size * j / (b - 1), 0.6 * g->size);
+        }
+    for (int i = 0; i < a; i++)
+        for (int j = 0; j < b; j++) {
+            const int at = first + i * b + j;
+            if (i + 1 < a) add_line(g, at, at + b, uniform(0.98, 1.2), whole(1, 3));
+            if (j + 1 < b) add_line(g, at, at + 1, uniform(0.98, 1.2), whole(1, 3));
+        }
+}
+
+/* A line of pieces with clumps at their joints, on the bed. */
+static void make_clumps(Graph *g) {
+    const int pieces = whole(2, 5);
+    int from = anchor(g, 0, 0);
+    for (int k = 1; k <= pieces; k++) {
+        const double x = g->size * (1 - 1.5 * k / pieces);
+        const int to = add_point(g, k < pieces ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_HELD, x,
+                                 uniform(-0.1, 0.1) * g->size, k < pieces ? 0 : 0.4 * g->size);
+        if (k < pieces) g->point[to].weight = uniform(0, 2) * g->weight * g->size;
+        add_line(g, from, to, uniform(1, 1.15), whole(3, 25));
+        from = to;
+    }
+}
+
+static void make_stages(Graph *g) {
+    for (int k = 0; k < STAGES; k++) {
+        CpsStage *stage = &g->stage[k];
+        *stage = cps_stage_default();
+        stage->name = "stage";
+        stage->step_count = whole(1, 3);
+        stage->point_change = g->change[k];
+        for (int i = 0; i < g->scene.point_count; i++) {
+            if (!chance(0.3)) continue;
+            CpsPointChange *change = &g->change[k][stage->point_change_count++];
+            *change = (CpsPointChange){.point = i, .kind = g->point[i].kind};
+            for (int a = 0; a < 3; a++)
+                change->value[a] =
+                    g->point[i].kind == CPS_POINT_KIND_FREE
+                        ? uniform(-1, 1) * g->weight * g->size
+                        : fmax(a == 2 ? 0 : -INFINITY,
+                               g->point[i].position[a] + uniform(-0.1, 0.1) * g->size);
+        }
+    }
+}
+
+static void make(Graph *g, Class class, uint64_t seed) {
+    static void (*const MAKE[CLASSES])(Graph *) = {make_star, make_tree, make_ring, make_net,
+                                                   make_clumps};
+    memset(g, 0, sizeof *g);
+    state = 0x9b05688c2b3e6c1fu * (seed + 1) + (uint64_t) class;
+    g->scene = cps_scene_default();
+    g->size = pow(10, uniform(-0.5, 3));
+    g->weight = pow(10, uniform(-1, 4));
+    g->stiffness = g->weight * g->size * pow(10, uniform(1, 4.5));
+    if (class == CLUMPS || chance(0.6)) {
+        g->obstacle[0] = cps_obstacle_default();
+        g->obstacle[0].name = "bed";
+        g->obstacle[0].friction = chance(0.2) ? 0 : uniform(0.05, 1.2);
+        g->scene.obstacle_count = 1;
+        g->scene.obstacle = g->obstacle;
+    }
+    MAKE[class](g);
+    make_stages(g);
+    g->scene.line = g->line;
+    g->scene.point = g->point;
+    g->scene.stage = g->stage;
+    g->scene.stage_count = STAGES;
+}
+
+/* [N] The force on the point at an end of a line, from the places of its nodes. */
+static void add_pull(const CpsLineView *view, double stiffness, int end, const double weight[3],
+                     double sum[3], double *largest) {
+    const int e = end == CPS_END_A ? 0 : view->element_count - 1;
+    const int near = end == CPS_END_A ? 0 : e + 1, far = end == CPS_END_A ? 1 : e;
+    double d[3], size = 0;
+    for (int a = 0; a < 3; a++) {
+        d[a] = view->position[3 * far + a] - view->position[3 * near + a];
+        size += d[a] * d[a];
+    }
+    size = sqrt(size);
+    const double l = view->element_length[e], tension = stiffness * fmax(0, size / l - 1);
+    for (int a = 0; a < 3; a++)
+        sum[a] += (size > 0 ? tension * d[a] / size : 0) + 0.5 * l * weight[a];
+    *largest = fmax(*largest, tension);
+}
+
+static double norm(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/* Check a free point after a step; returns what is left of its forces over the largest. */
+static double check_point(const Graph *g, const CpsEvolution *evolution, int i,
+                          const double before[3], const double load[3], bool smooth, bool *wrong,
+                          Tally *tally) {
+    const CpsPointReport report = cps_evolution_point_report(evolution, i);
+    const double down[3] = {0, 0, -1};
+    double sum[3], largest = norm(load), known = 0, friction[3], slip[3] = {0};
+    for (int a = 0; a < 3; a++) sum[a] = load[a] + g->point[i].weight * down[a];
+    for (int k = 0; k < g->scene.line_count; k++) {
+        const CpsLineView view = cps_evolution_line_view(evolution, k);
+        for (int end = 0; end < 2; end++) {
+            if (g->line[k].end_point[end] != i) continue;
+            const double weight[3] = {0, 0, -g->line[k].weight};
+            add_pull(&view, g->line[k].stiffness, end, weight, sum, &largest);
+            const CpsCertificate line = cps_evolution_line_report(evolution, k).certificate;
+            known +=
+                g->line[k].stiffness * (3 * CPS_TOUCH + fmin(line.elongation_residual, STRAIN)) +
+                fmin(line.tension_estimate, TENSION * line.largest_force);
+        }
+    }
+    for (int k = 0; k < g->scene.line_count; k++) {
+        const CpsLineReport line = cps_evolution_line_report(evolution, k);
+        largest = fmax(largest, line.certificate.largest_force);
+    }
+    const double mu = g->scene.obstacle_count > 0 && !smooth ? g->obstacle[0].friction : 0;
+    const double allowed = LEFT * largest + known;
+    for (int a = 0; a < 2; a++) slip[a] = report.position[a] - before[a];
+    memcpy(friction, report.friction, sizeof friction);
+    for (int a = 0; a < 3; a++) sum[a] += report.reaction * report.normal[a] + friction[a];
+    const bool below = g->scene.obstacle_count > 0 &&
+                       report.position[2]<-1e-8 * g->size, floats = report.reaction> 0 &&
+                       report.position[2] > 1e-8 * g->size,
+               pulls = report.reaction < 0 || (report.reaction > 0 && report.normal[2] != 1),
+               over = norm(friction) > mu * report.reaction + allowed || friction[2] != 0;
+    bool lazy = false;
+    if (norm(slip) > 1e-6 * g->size)
+        for (int a = 0; a < 3; a++)
+            lazy = lazy ||
+                   fabs(friction[a] + mu * report.reaction * slip[a] / norm(slip)) > 10 * allowed;
+    tally->touching += report.reaction > 0;
+    tally->sliding += report.reaction > 0 && norm(slip) > 1e-6 * g->size;
+    *wrong = *wrong || below || floats || pulls || over || lazy || !(norm(sum) <= allowed);
+    if (below || floats || pulls || over || lazy || !(norm(sum) <= allowed))
+        printf("  point %d: below %d floats %d pulls %d over %d lazy %d left %g allowed %g\n", i,
+               below, floats, pulls, over, lazy, norm(sum), allowed);
+    return norm(sum) / largest;
+}
+
+static void fail(uint64_t seed, const CpsError *err) {
+    printf("seed %llu: %s\n", (unsigned long long)seed, err->message);
+    exit(1);
+}
+
+/* [N] The given force on a point after `step` of the scene, of which the first is the statics. */
+static void load_at(const Graph *g, int point, int step, double load[3]) {
+    double from[3] = {0};
+    int at = 1;
+    memcpy(load, from, sizeof from);
+    for (int k = 0; k < STAGES; k++) {
+        const CpsStage *stage = &g->stage[k];
+        double to[3];
+        memcpy(to, from, sizeof to);
+        for (int i = 0; i < stage->point_change_count; i++)
+            if (g->change[k][i].point == point) memcpy(to, g->change[k][i].value, sizeof to);
+        for (int part = 1; part <= stage->step_count; part++, at++)
+            if (at == step)
+                for (int a = 0; a < 3; a++)
+                    load[a] = from[a] + (to[a] - from[a]) * part / stage->step_count;
+        memcpy(from, to, sizeof from);
+    }
+}
+
+static void run(Class class, uint64_t seed, Tally *tally) {
+    static Graph graph;
+    make(&graph, class, seed);
+    CpsError err;
+    CpsEvolution *evolution = NULL;
+    if (cps_evolution_create(&graph.scene, &evolution, &err) != CPS_OK) fail(seed, &err);
+    double before[MOST_POINTS][3];
+    bool sound = true;
+    tally->scenes++;
+    for (int step = 0; sound && cps_evolution_remaining_count(evolution) > 0; step++) {
+        for (int i = 0; i < graph.scene.point_count; i++)
+            memcpy(before[i], cps_evolution_point_report(evolution, i).position, sizeof before[i]);
+        if (cps_evolution_step(evolution, &err) != CPS_OK) fail(seed, &err);
+        const CpsStepReport report = cps_evolution_report(evolution);
+        tally->steps++;
+        sound = cps_outcome_is_certified(report.outcome);
+        bool wrong = false;
+        for (int i = 0; i < graph.scene.point_count; i++) {
+            double load[3];
+            if (graph.point[i].kind != CPS_POINT_KIND_FREE) continue;
+            const int trials = cps_evolution_point_report(evolution, i).trial_count;
+            if (trials > tally->most_trials) tally->most_trials = trials;
+            if (i == 0 || graph.point[i - 1].kind != CPS_POINT_KIND_FREE) tally->trials += trials;
+            load_at(&graph, i, step, load);
+            if (sound)
+                tally->left = fmax(tally->left, check_point(&graph, evolution, i, before[i], load,
+                                                            step == 0, &wrong, tally));
+        }
+        tally->wrong += wrong;
+        tally->open += !sound;
+        if (wrong || !sound)
+            printf("%s seed %llu step %d: %s%s\n", CLASS[class], (unsigned long long)seed, step,
+                   cps_outcome_name(report.outcome), wrong ? ", refuted" : "");
+    }
+    cps_evolution_destroy(evolution);
+}
+
+int main(int argc, char **argv) {
+    int scenes = 20, only = -1;
+    uint64_t first = 0;
+    for (int i = 1; i + 1 < argc; i += 2) {
+        if (strcmp(argv[i], "--scenes") == 0) scenes = atoi(argv[i + 1]);
+        if (strcmp(argv[i], "--class") == 0) only = atoi(argv[i + 1]);
+        if (strcmp(argv[i], "--seed") == 0) {
+            first = strtoull(argv[i + 1], NULL, 10);
+            scenes = 1;
+        }
+    }
+    bool failed = false;
+    for (int class = 0; class < CLASSES; class ++) {
+        if (only >= 0 && class != only) continue;
+        Tally t = {0};
+        for (int i = 0; i < scenes; i++) run((Class) class, first + (uint64_t)i, &t);
+        printf(
+            "%-6s %d scenes, %d steps: %d open, %d wrong; %.1f trials a step, at most %d; left of "
+            "the forces up to %.2g; %d points touch, %d slide\n",
+            CLASS[class], t.scenes, t.steps, t.open, t.wrong, (double)t.trials / t.steps,
+            t.most_trials, t.left, t.touching, t.sliding);
+        /* one of few may be open */
+        failed = failed || t.wrong > 0 || t.open > fmax(1, OPEN_SHARE * t.steps);
+    }
+    return failed;
+}
