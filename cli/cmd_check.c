@@ -51,9 +51,24 @@ static void print_obstacle(const CpsObstacle *o) {
     print_friction(o);
 }
 
-static void print_end(char letter, const CpsEnd *end) {
+static void print_point(const CpsPoint *point) {
+    const double *x = point->position, *f = point->force;
+    const bool is_free = point->kind == CPS_POINT_KIND_FREE;
+    printf("point %s: %s (%g, %g, %g) m", point->name, is_free ? "free, begins at" : "held at",
+           x[0], x[1], x[2]);
+    if (point->weight != 0)
+        printf(", %s of %g N", point->weight < 0 ? "buoy" : "clump", fabs(point->weight));
+    if (is_free) printf(", force (%g, %g, %g) N", f[0], f[1], f[2]);
+    putchar('\n');
+}
+
+static void print_end(const CpsScene *scene, const CpsLine *line, int e) {
+    const CpsEnd *end = &line->end[e];
+    const char letter = e == CPS_END_A ? 'A' : 'B';
     const double *v = end->value;
-    if (end->kind == CPS_END_KIND_FREE)
+    if (end->kind == CPS_END_KIND_POINT)
+        printf("  end %c: at point %s\n", letter, scene->point[line->end_point[e]].name);
+    else if (end->kind == CPS_END_KIND_FREE)
         printf("  end %c: free, force (%g, %g, %g) N\n", letter, v[0], v[1], v[2]);
     else if (end->kind == CPS_END_KIND_AT_START)
         printf("  end %c: held where the start puts it\n", letter);
@@ -70,7 +85,7 @@ static void print_make(double weight, double stiffness, bool breaks, double brea
     if (breaks) printf(", breaks at %g N", breaking_load);
 }
 
-static void print_line(const CpsLine *line) {
+static void print_line(const CpsScene *scene, const CpsLine *line) {
     static const char *const START[] = {"straight", "polyline", "arc", "static equilibrium",
                                         "from given nodes"};
     printf("line %s: %g m, %d %selement%s, ", line->name, line->length, line->element_count,
@@ -96,8 +111,8 @@ static void print_line(const CpsLine *line) {
     for (int k = 0; k < line->zone_count; k++)
         printf("  friction from %g m to %g m: %g times\n", line->zone[k].from, line->zone[k].to,
                line->zone[k].factor);
-    print_end('A', &line->end[CPS_END_A]);
-    print_end('B', &line->end[CPS_END_B]);
+    print_end(scene, line, CPS_END_A);
+    print_end(scene, line, CPS_END_B);
 }
 
 static void print_scene(const CpsScene *scene) {
@@ -107,7 +122,8 @@ static void print_scene(const CpsScene *scene) {
     }
     printf("gravity (%g, %g, %g) m/s2\n", scene->gravity[0], scene->gravity[1], scene->gravity[2]);
     for (int i = 0; i < scene->obstacle_count; i++) print_obstacle(&scene->obstacle[i]);
-    for (int i = 0; i < scene->line_count; i++) print_line(&scene->line[i]);
+    for (int i = 0; i < scene->point_count; i++) print_point(&scene->point[i]);
+    for (int i = 0; i < scene->line_count; i++) print_line(scene, &scene->line[i]);
 
     /* number of steps as a run counts them: a start that is statically placed is a step */
     int steps = 0;

@@ -51,6 +51,26 @@ static const char SCENE[] =
     "  - {name: pull, steps: 2, gravity: [0, 0, -9], one.B: {force: [2, 0, 0]}, post.turn: 5}\n"
     "  - {one.A: {move: [1, 0, 0]}, two.A: {position: [0, 6, 0]}}\n";
 
+/* Points where lines meet: beside obstacles whose friction has no directions. */
+static const char POINTS_SCENE[] =
+    "capstan: 1\n"
+    "water_density: 900\n"
+    "obstacles: {bed: {plane: {point: [0, 0, -9]}, friction: 0.3}}\n"
+    "points:\n"
+    "  anchor: {held: [0, 0, 0]}\n"
+    "  ring: {held: [8, 4, 0], weight: 2}\n"
+    "  knot: {free: [4, 0, -3], force: [1, 0, 0], mass: 3, volume: 0.001}\n"
+    "lines:\n"
+    "  one: {length: 5.5, elements: 4, mass: 2, stiffness: 1000, start: static,"
+    " ends: {A: {point: anchor}, B: {point: knot}}}\n"
+    "  two: {length: 7, elements: 4, mass: 2, stiffness: 1000, start: static,"
+    " ends: {A: {point: knot}, B: {point: ring}}}\n"
+    "  far: {length: 9, elements: 4, mass: 2, stiffness: 1000, start: static,"
+    " ends: {A: {held: [4, 8, 0]}, B: {point: knot}}}\n"
+    "history:\n"
+    "  - {name: pull, steps: 2, knot.point: {force: [2, 0, 0]}}\n"
+    "  - {anchor.point: {move: [1, 0, 0]}, ring.point: {position: [8, 5, 0]}}\n";
+
 /* The key, what is written of it, and what else could be. */
 static const struct Change {
     const char *key, *from, *to;
@@ -131,10 +151,46 @@ static const struct Change {
     {"position", "position: [0, 6, 0]", "position: [0, 7, 0]"},
 };
 
+static const struct Change POINT_CHANGE[] = {
+    {"points",
+     "  ring: {held: [8, 4, 0], weight: 2}\n  knot: {free: [4, 0, -3], force: [1, 0, 0], mass: 3,"
+     " volume: 0.001}\n",
+     "  knot: {free: [4, 0, -3], force: [1, 0, 0], mass: 3, volume: 0.001}\n"
+     "  ring: {held: [8, 4, 0], weight: 2}\n"},
+    {"held", "held: [8, 4, 0]", "held: [8, 4.5, 0]"},
+    {"held", "held: [8, 4, 0]", "free: [8, 4, 0]"},
+    {"free", "free: [4, 0, -3]", "free: [4, 0, -3.5]"},
+    {"free", "free: [4, 0, -3], force: [1, 0, 0]", "held: [4, 0, -3]"},
+    {"force", "force: [1, 0, 0]", "force: [1, 0, 1]"},
+    {"weight", "weight: 2", "weight: 2.5"},
+    {"mass", "mass: 3", "mass: 3.5"},
+    {"volume", "volume: 0.001", "volume: 0.002"},
+    {"point", "{A: {point: anchor}, B: {point: knot}}", "{A: {point: knot}, B: {point: anchor}}"},
+    {"point", "{A: {held: [4, 8, 0]}", "{A: {point: ring}"},
+    {"POINT.point", "knot.point: {", "ring.point: {"},
+    {"force", "force: [2, 0, 0]", "force: [2, 0, 1]"},
+    {"position", "position: [8, 5, 0]", "position: [8, 6, 0]"},
+    {"move", "move: [1, 0, 0]", "move: [1, 1, 0]"},
+};
+
 /* Keys that change no answer, and a file of places, which is a start as good as any. */
 static const char *const LEFT_OUT[] = {"capstan", "title", "nodes"};
 
-enum { CHANGES = sizeof CHANGE / sizeof *CHANGE, LEFT = sizeof LEFT_OUT / sizeof *LEFT_OUT };
+enum {
+    CHANGES = sizeof CHANGE / sizeof *CHANGE,
+    POINT_CHANGES = sizeof POINT_CHANGE / sizeof *POINT_CHANGE,
+    LEFT = sizeof LEFT_OUT / sizeof *LEFT_OUT
+};
+
+/* A scene and its changes. */
+typedef struct Suite {
+    const char *scene;
+    const struct Change *change;
+    int count;
+} Suite;
+
+static const Suite ALL = {SCENE, CHANGE, CHANGES},
+                   POINTS = {POINTS_SCENE, POINT_CHANGE, POINT_CHANGES};
 
 static CpsEvolution *evolution_of(const char *text) {
     char path[] = "other_scene_test_XXXXXX";
@@ -157,42 +213,44 @@ static CpsEvolution *evolution_of(const char *text) {
     return evolution;
 }
 
-static void changed(const struct Change *change, char *text, size_t size) {
-    const char *at = strstr(SCENE, change->from);
+static void changed(const char *scene, const struct Change *change, char *text, size_t size) {
+    const char *at = strstr(scene, change->from);
     if (!at) fail_msg("'%s' is not in the scene", change->from);
-    const int before = (int)(at - SCENE);
+    const int before = (int)(at - scene);
     const int length =
-        snprintf(text, size, "%.*s%s%s", before, SCENE, change->to, at + strlen(change->from));
+        snprintf(text, size, "%.*s%s%s", before, scene, change->to, at + strlen(change->from));
     assert_true(length > 0 && (size_t)length < size);
 }
 
 /* Where in the scene a change is. */
-static size_t place_of(const char *text) { return (size_t)(strstr(SCENE, text) - SCENE); }
+static size_t place_of(const char *scene, const char *text) {
+    return (size_t)(strstr(scene, text) - scene);
+}
 
 /* The state after `steps` steps, loaded by every changed scene: only changes of stages that have
  * not begun, which are written from `future` on, are of no account. */
-static void expect_refused(int steps, size_t future) {
-    CpsEvolution *evolution = evolution_of(SCENE), *same = evolution_of(SCENE);
+static void expect_refused(const Suite *suite, int steps, size_t future) {
+    CpsEvolution *evolution = evolution_of(suite->scene), *same = evolution_of(suite->scene);
     const size_t size = cps_evolution_state_size(evolution);
     unsigned char *saved = malloc(size);
     assert_non_null(saved);
     for (int i = 0; i < steps; i++) assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
     cps_evolution_save(evolution, saved);
     assert_int_equal(cps_evolution_load(same, saved, size, NULL), CPS_OK);
-    for (int i = 0; i < CHANGES; i++) {
+    for (int i = 0; i < suite->count; i++) {
+        const struct Change *change = &suite->change[i];
         char text[2 * sizeof SCENE];
-        changed(&CHANGE[i], text, sizeof text);
+        changed(suite->scene, change, text, sizeof text);
         CpsEvolution *other = evolution_of(text);
         CpsError err = {0};
-        const bool is_to_come = place_of(CHANGE[i].from) >= future,
+        const bool is_to_come = place_of(suite->scene, change->from) >= future,
                    is_accepted = cps_evolution_load(other, saved, size, &err) == CPS_OK;
         if (is_accepted != is_to_come)
-            fail_msg("after %d steps %s: '%s' for '%s' is %s; %s", steps, CHANGE[i].key,
-                     CHANGE[i].to, CHANGE[i].from, is_accepted ? "accepted" : "refused",
-                     err.message);
+            fail_msg("after %d steps %s: '%s' for '%s' is %s; %s", steps, change->key, change->to,
+                     change->from, is_accepted ? "accepted" : "refused", err.message);
         if (!is_accepted && !strstr(err.message, "another scene") &&
             !strstr(err.message, "that the history does not have"))
-            fail_msg("%s: %s", CHANGE[i].key, err.message);
+            fail_msg("%s: %s", change->key, err.message);
         cps_evolution_destroy(other);
     }
     free(saved);
@@ -202,10 +260,18 @@ static void expect_refused(int steps, size_t future) {
 
 static void every_change_makes_another_scene(void **state) {
     (void)state;
-    expect_refused(0, place_of("{name: pull"));
-    expect_refused(1, place_of("  - {one.A"));
-    expect_refused(2, place_of("  - {one.A"));
-    expect_refused(3, sizeof SCENE);
+    expect_refused(&ALL, 0, place_of(SCENE, "{name: pull"));
+    expect_refused(&ALL, 1, place_of(SCENE, "  - {one.A"));
+    expect_refused(&ALL, 2, place_of(SCENE, "  - {one.A"));
+    expect_refused(&ALL, 3, sizeof SCENE);
+}
+
+static void every_change_of_points_makes_another_scene(void **state) {
+    (void)state;
+    expect_refused(&POINTS, 0, place_of(POINTS_SCENE, "{name: pull"));
+    expect_refused(&POINTS, 1, place_of(POINTS_SCENE, "{name: pull")); /* after the static start */
+    expect_refused(&POINTS, 2, place_of(POINTS_SCENE, "  - {anchor.point"));
+    expect_refused(&POINTS, 4, sizeof POINTS_SCENE);
 }
 
 /* Whether a key is changed above or left out; found: the changes of keys that there are. */
@@ -213,6 +279,7 @@ static bool is_tried(const char *key, bool found[CHANGES]) {
     bool tried = false;
     for (int i = 0; i < CHANGES; i++)
         if (strcmp(CHANGE[i].key, key) == 0) tried = found[i] = true;
+    for (int i = 0; i < POINT_CHANGES; i++) tried = tried || strcmp(POINT_CHANGE[i].key, key) == 0;
     for (int i = 0; i < LEFT; i++) tried = tried || strcmp(LEFT_OUT[i], key) == 0;
     return tried;
 }
@@ -277,6 +344,7 @@ static void flags_of_a_changed_state_are_flags(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_change_makes_another_scene),
+                                       cmocka_unit_test(every_change_of_points_makes_another_scene),
                                        cmocka_unit_test(flags_of_a_changed_state_are_flags),
                                        cmocka_unit_test(every_key_is_changed)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -169,6 +169,66 @@ static void reads_obstacles(void **state) {
     cps_scene_file_destroy(file);
 }
 
+/* points, ends at them and their changes: moves add up, weights are those in water */
+static void reads_points(void **state) {
+    (void)state;
+    CpsSceneFile *file = read_good(
+        "capstan: 1\nwater_density: 1000\ngravity: [0, 0, -10]\npoints:\n"
+        "  zulu: {held: [1, 2, 3]}\n"
+        "  knot: {free: [4, 5, 6], force: [7, 8, 9], mass: 5, volume: 0.001}\n"
+        "  anchor: {held: [-1, 0, 3], weight: -2}\n"
+        "lines:\n"
+        "  a: {length: 9, mass: 1, stiffness: 1e6, start: static, ends: {A: {point: anchor}, B: "
+        "{point: knot}}}\n"
+        "  b: {length: 9, mass: 1, stiffness: 1e6, start: static, ends: {A: {point: zulu}, B: "
+        "{held: [0, 1, 0]}}}\n"
+        "history:\n"
+        "- {anchor.point: {move: [1, 0, 0]}, knot.point: {force: [3, 2, 1]}, b.B: {move: [0, 0, "
+        "1]}}\n"
+        "- {anchor.point: {move: [1, 0, 1]}, knot.point: {position: [4, 4, 4]}}\n"
+        "- {anchor.point: {force: [0, 0, 5]}, knot.point: {move: [0, 0, 2]}}\n");
+    const CpsScene *scene = cps_scene_file_scene(file);
+    const CpsPoint *point = scene->point;
+    assert_int_equal(scene->point_count, 3);
+    assert_string_equal(point[0].name, "zulu");
+    assert_string_equal(point[1].name, "knot");
+    assert_string_equal(point[2].name, "anchor");
+    assert_int_equal(point[0].kind, CPS_POINT_KIND_HELD);
+    assert_int_equal(point[1].kind, CPS_POINT_KIND_FREE);
+    CHECK_VECTOR(point[0].position, ((double[]){1, 2, 3}), 0);
+    CHECK_VECTOR(point[1].position, ((double[]){4, 5, 6}), 0);
+    CHECK_VECTOR(point[1].force, ((double[]){7, 8, 9}), 0);
+    CHECK_VECTOR(point[2].force, ((double[]){0, 0, 0}), 0);
+    assert_true(point[0].weight == 0 && point[1].weight == 40 && point[2].weight == -2);
+
+    const CpsLine *line = scene->line;
+    assert_int_equal(line[0].end[0].kind, CPS_END_KIND_POINT);
+    assert_int_equal(line[0].end_point[0], 2);
+    assert_int_equal(line[0].end_point[1], 1);
+    assert_int_equal(line[1].end_point[0], 0);
+    assert_int_equal(line[1].end[1].kind, CPS_END_KIND_HELD);
+
+    const CpsStage *stage = scene->stage;
+    const CpsPointChange *change = stage[0].point_change;
+    assert_int_equal(stage[0].change_count, 1);
+    for (int i = 0; i < 3; i++) assert_int_equal(stage[i].point_change_count, 2);
+    assert_int_equal(change[0].point, 2);
+    assert_int_equal(change[0].kind, CPS_POINT_KIND_HELD);
+    CHECK_VECTOR(change[0].value, ((double[]){0, 0, 3}), 0);
+    assert_int_equal(change[1].point, 1);
+    assert_int_equal(change[1].kind, CPS_POINT_KIND_FREE);
+    CHECK_VECTOR(change[1].value, ((double[]){3, 2, 1}), 0);
+    change = stage[1].point_change;
+    CHECK_VECTOR(change[0].value, ((double[]){1, 0, 4}), 0);
+    assert_int_equal(change[1].kind, CPS_POINT_KIND_HELD);
+    CHECK_VECTOR(change[1].value, ((double[]){4, 4, 4}), 0);
+    change = stage[2].point_change;
+    assert_int_equal(change[0].kind, CPS_POINT_KIND_FREE);
+    CHECK_VECTOR(change[0].value, ((double[]){0, 0, 5}), 0);
+    CHECK_VECTOR(change[1].value, ((double[]){4, 4, 6}), 0);
+    cps_scene_file_destroy(file);
+}
+
 /* sets in the words of law files, the scene file holds them; stretches of a line */
 static void reads_friction_sets_and_zones(void **state) {
     (void)state;
@@ -370,10 +430,15 @@ static void ignores_the_locale(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_defaults),        cmocka_unit_test(reads_every_key),
-        cmocka_unit_test(reads_obstacles),       cmocka_unit_test(reads_friction_sets_and_zones),
-        cmocka_unit_test(reads_graded_elements), cmocka_unit_test(adds_moves),
-        cmocka_unit_test(knows_numbers),         cmocka_unit_test(keeps_limits),
+        cmocka_unit_test(reads_defaults),
+        cmocka_unit_test(reads_every_key),
+        cmocka_unit_test(reads_obstacles),
+        cmocka_unit_test(reads_points),
+        cmocka_unit_test(reads_friction_sets_and_zones),
+        cmocka_unit_test(reads_graded_elements),
+        cmocka_unit_test(adds_moves),
+        cmocka_unit_test(knows_numbers),
+        cmocka_unit_test(keeps_limits),
         cmocka_unit_test(ignores_the_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

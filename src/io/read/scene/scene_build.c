@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/math.h"
@@ -12,6 +13,12 @@
 #include "io/read/law/set_build.h"
 #include "io/read/scene/node_file.h"
 #include "io/read/scene/section_build.h"
+
+/* A point of the scene, found by its name. */
+typedef struct NamedPoint {
+    const char *name;
+    int index; /* in the scene */
+} NamedPoint;
 
 typedef struct Build {
     const CpsiDocument *d;
@@ -24,6 +31,8 @@ typedef struct Build {
     /* (lines) [m] position at which each end is held after the preceding entry; NaN: not held, or
      * not known */
     double (*held)[2][3];
+    double (*held_point)[3]; /* (points) [m] likewise */
+    NamedPoint *by_name;     /* (points) by name */
 } Build;
 
 static const char *copy_text(const Build *b, const char *text) {
@@ -147,6 +156,64 @@ static CpsStatus build_nodes(Build *b, const CpsiLineValues *values, CpsLine *li
     return status;
 }
 
+/* ---- points ---- */
+
+static int by_name(const void *a, const void *b) {
+    const NamedPoint *left = a, *right = b;
+    return strcmp(left->name, right->name);
+}
+
+static CpsStatus build_points(Build *b, const CpsiList *points) {
+    const CpsiScenePointValues *values = points->item;
+    if (points->count == 0) return CPS_OK;
+    CpsPoint *point = CPSI_POOL_TAKE(b->pool, points->count, CpsPoint);
+    b->held_point = CPSI_POOL_TAKE(b->d->pool, points->count, double[3]);
+    b->by_name = CPSI_POOL_TAKE(b->d->pool, points->count, NamedPoint);
+    if (!point || !b->held_point || !b->by_name) return cpsi_document_no_memory(b->d);
+    b->scene->point = point;
+    b->scene->point_count = points->count;
+    for (int k = 0; k < points->count; k++) {
+        point[k] = values[k].point;
+        point[k].weight = cpsi_weight_in_water(&b->materials, values[k].mass, values[k].volume,
+                                               values[k].point.weight);
+        point[k].name = copy_text(b, values[k].node->key);
+        if (!point[k].name) return cpsi_document_no_memory(b->d);
+        copy_vector(b->held_point[k], point[k].position);
+        if (point[k].kind == CPS_POINT_KIND_FREE) b->held_point[k][0] = NAN;
+        b->by_name[k] = (NamedPoint){point[k].name, k};
+    }
+    qsort(b->by_name, (size_t)points->count, sizeof *b->by_name, by_name);
+    return CPS_OK;
+}
+
+/* The index of the point whose name is the node's text. */
+static CpsStatus find_point(const Build *b, const CpsiYaml *node, int *index) {
+    const int count = b->scene->point_count;
+    const NamedPoint wanted = {.name = node->text},
+                     *found = count > 0 ? bsearch(&wanted, b->by_name, (size_t)count, sizeof wanted,
+                                                  by_name)
+                                        : NULL;
+    if (found) {
+        *index = found->index;
+        return CPS_OK;
+    }
+    CpsSuggestion suggestion = {.word = node->text};
+    for (int k = 0; k < count; k++) cps_suggest(&suggestion, b->scene->point[k].name);
+    if (count == 0)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, node,
+                                  "'point': found '%.64s', but the scene has no 'points': give it "
+                                  "there, held or free",
+                                  node->text);
+    if (suggestion.best)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, node,
+                                  "'point': there is no point '%.64s'; did you mean '%.64s'?",
+                                  node->text, suggestion.best);
+    return cpsi_document_fail(b->d, CPS_ERR_INPUT, node,
+                              "'point': found '%.64s', expected the name of one of the %d points "
+                              "of the scene",
+                              node->text, count);
+}
+
 /* ---- lines ---- */
 
 static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsStart *start) {
@@ -178,13 +245,18 @@ static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsS
 }
 
 /* `held`: at its initial position, `free`: without force; or at a given position, or with a given
- * force. */
-static CpsEnd build_end(const CpsiEndValues *values) {
+ * force; or at a point. */
+static CpsStatus build_end(const Build *b, const CpsiEndValues *values, CpsEnd *end, int *point) {
     const bool is_free = values->word == CPSI_END_FREE;
-    if (!is_free && !values->node) return (CpsEnd){.kind = CPS_END_KIND_AT_START};
-    CpsEnd end = {.kind = is_free ? CPS_END_KIND_FREE : CPS_END_KIND_HELD};
-    copy_vector(end.value, values->value);
-    return end;
+    *end = (CpsEnd){.kind = CPS_END_KIND_AT_START};
+    if (!is_free && !values->node) return CPS_OK;
+    if (values->word == CPSI_END_AT_POINT) {
+        end->kind = CPS_END_KIND_POINT;
+        return find_point(b, cpsi_yaml_child(values->node, "point"), point);
+    }
+    end->kind = is_free ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
+    copy_vector(end->value, values->value);
+    return CPS_OK;
 }
 
 /* Initial position of a held end. NaN of a free one, and for the end of an arc, which only the
@@ -227,12 +299,11 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
     if (status == CPS_OK)
         status = values->start.nodes ? build_nodes(b, values, line)
                                      : build_start(b, &values->start, &line->start);
-    if (status != CPS_OK) return status;
-    for (int end = 0; end < 2; end++) {
-        line->end[end] = build_end(&values->end[end]);
+    for (int end = 0; end < 2 && status == CPS_OK; end++) {
+        status = build_end(b, &values->end[end], &line->end[end], &line->end_point[end]);
         first_position(line, end, held[end]);
     }
-    return CPS_OK;
+    return status;
 }
 
 static CpsStatus build_lines(Build *b, const CpsiList *lines) {
@@ -297,30 +368,84 @@ static int find_obstacle(const Build *b, const char *key) {
     return i;
 }
 
+/* The position or force that a change asks for; `held` is where what it changes is held before it,
+ * NaN: not known, and becomes where it is held after it. */
+static void build_value(const CpsiChangeValues *values, double held[3], double out[3]) {
+    const bool move = values->kind == CPSI_CHANGE_MOVE, force = values->kind == CPSI_CHANGE_FORCE;
+    for (int i = 0; i < 3; i++) {
+        out[i] = values->value[i];
+        if (move) out[i] += held[i];
+        held[i] = force ? NAN : out[i];
+    }
+}
+
+/* The index of the point of POINT.point, likewise. */
+static int find_owner_point(const Build *b, const char *key) {
+    int i = 0;
+    while (i + 1 < b->scene->point_count && !is_owner(b->scene->point[i].name, key)) i++;
+    return i;
+}
+
 static CpsStatus build_change(const Build *b, const CpsiChangeValues *values, CpsChange *change) {
     const char *key = values->node->key;
-    const bool move = values->kind == CPSI_CHANGE_MOVE, force = values->kind == CPSI_CHANGE_FORCE;
     change->line = find_line(b, key);
     change->end = key[strlen(key) - 1] == 'A' ? CPS_END_A : CPS_END_B;
-    change->to.kind = force ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
+    change->to.kind = values->kind == CPSI_CHANGE_FORCE ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
+    const CpsLine *line = &b->line[change->line];
+    const char *point = line->end[change->end].kind == CPS_END_KIND_POINT
+                            ? b->scene->point[line->end_point[change->end]].name
+                            : NULL;
     double *held = b->held[change->line][change->end];
-    if (move && isnan(held[0]))
+    if (point)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': this end is at the point '%s', expected a change of the "
+                                  "point: write '%s.point'",
+                                  key, point, point);
+    if (values->kind == CPSI_CHANGE_MOVE && isnan(held[0]))
         return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
                                   "'%s': found a move, but the end's position before it is not "
                                   "known (it is free, or held at "
                                   "the end of an arc): give a position instead",
                                   key);
-    for (int i = 0; i < 3; i++) {
-        change->to.value[i] = values->value[i];
-        if (move) change->to.value[i] += held[i];
-        held[i] = force ? NAN : change->to.value[i];
-    }
+    build_value(values, held, change->to.value);
     return CPS_OK;
+}
+
+static CpsStatus build_point_change(const Build *b, const CpsiChangeValues *values,
+                                    CpsPointChange *change) {
+    const char *key = values->node->key;
+    change->point = find_owner_point(b, key);
+    change->kind = values->kind == CPSI_CHANGE_FORCE ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_HELD;
+    double *held = b->held_point[change->point];
+    if (values->kind == CPSI_CHANGE_MOVE && isnan(held[0]))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
+                                  "'%s': found a move, but the point's position before it is not "
+                                  "known (it is free): give a position instead",
+                                  key);
+    build_value(values, held, change->value);
+    return CPS_OK;
+}
+
+static CpsStatus build_changes(const Build *b, const CpsiStageValues *values, CpsStage *stage) {
+    const int count = values->changes.count, point_count = values->point_changes.count;
+    const CpsiChangeValues *from = values->changes.item, *point_from = values->point_changes.item;
+    CpsChange *change = CPSI_POOL_TAKE(b->pool, count, CpsChange);
+    CpsPointChange *point_change = CPSI_POOL_TAKE(b->pool, point_count, CpsPointChange);
+    if (!change || !point_change) return cpsi_document_no_memory(b->d);
+    stage->change = change;
+    stage->change_count = count;
+    stage->point_change = point_change;
+    stage->point_change_count = point_count;
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < count && status == CPS_OK; k++)
+        status = build_change(b, &from[k], &change[k]);
+    for (int k = 0; k < point_count && status == CPS_OK; k++)
+        status = build_point_change(b, &point_from[k], &point_change[k]);
+    return status;
 }
 
 static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int index,
                              CpsStage *stage) {
-    const CpsiChangeValues *changes = values->changes.item;
     const CpsiNumberItem *turns = values->turns.item;
     char number[32];
     snprintf(number, sizeof number, "entry %d", index + 1);
@@ -329,20 +454,14 @@ static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int 
     stage->gravity_changes = !isnan(stage->gravity[0]);
     if (!stage->gravity_changes) stage->gravity[0] = 0;
 
-    CpsChange *change = CPSI_POOL_TAKE(b->pool, values->changes.count, CpsChange);
     CpsTurn *turn = CPSI_POOL_TAKE(b->pool, values->turns.count, CpsTurn);
-    if (!stage->name || !change || !turn) return cpsi_document_no_memory(b->d);
-    stage->change = change;
-    stage->change_count = values->changes.count;
+    if (!stage->name || !turn) return cpsi_document_no_memory(b->d);
     stage->turn = turn;
     stage->turn_count = values->turns.count;
     for (int k = 0; k < stage->turn_count; k++)
         turn[k] = (CpsTurn){.obstacle = find_obstacle(b, turns[k].node->key),
                             .angle = turns[k].number * CPSI_DEGREE};
-    CpsStatus status = CPS_OK;
-    for (int k = 0; k < stage->change_count && status == CPS_OK; k++)
-        status = build_change(b, &changes[k], &change[k]);
-    return status;
+    return build_changes(b, values, stage);
 }
 
 static CpsStatus build_history(const Build *b, const CpsiList *history) {
@@ -378,6 +497,7 @@ CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values,
     if (values->scene.title && !scene->title) return cpsi_document_no_memory(d);
     CpsStatus status = cpsi_materials_sort(&b.materials, &values->types);
     if (status == CPS_OK) status = build_obstacles(&b, &values->obstacles);
+    if (status == CPS_OK) status = build_points(&b, &values->points);
     if (status == CPS_OK) status = build_lines(&b, &values->lines);
     return status ? status : build_history(&b, &values->history);
 }

@@ -131,17 +131,20 @@ CpsStatus cpsi_sections_build(const CpsiMaterials *m, const CpsiLineValues *valu
 
 /* ---- point weights ---- */
 
+double cpsi_weight_in_water(const CpsiMaterials *m, double mass, double volume, double weight) {
+    return isnan(mass) ? weight : (mass - m->water * volume) * m->gravity;
+}
+
 CpsStatus cpsi_point_weights_build(const CpsiMaterials *m, const CpsiList *points, CpsLine *line) {
     const CpsiPointWeightValues *values = points->item;
     if (points->count == 0) return CPS_OK;
     CpsPointWeight *point = CPSI_POOL_TAKE(m->pool, points->count, CpsPointWeight);
     if (!point) return cpsi_document_no_memory(m->d);
-    for (int k = 0; k < points->count; k++) {
-        const double mass = values[k].mass - m->water * values[k].volume;
-        point[k] = (CpsPointWeight){.arc_length = values[k].at,
-                                    .weight = isnan(values[k].mass) ? values[k].weight
-                                                                    : mass * m->gravity};
-    }
+    for (int k = 0; k < points->count; k++)
+        point[k] =
+            (CpsPointWeight){.arc_length = values[k].at,
+                             .weight = cpsi_weight_in_water(m, values[k].mass, values[k].volume,
+                                                            values[k].weight)};
     line->point_weight = point;
     line->point_weight_count = points->count;
     return CPS_OK;

@@ -33,6 +33,11 @@ double cpsi_section_elements(const CpsiList *sections);
 CpsStatus cpsi_sections_build(const CpsiMaterials *materials, const CpsiLineValues *values,
                               CpsLine *line);
 
+/* [N] The weight of a clump or a buoy of this mass [kg], NaN: not given, and volume [m3]; else
+ * `weight`. */
+double cpsi_weight_in_water(const CpsiMaterials *materials, double mass, double volume,
+                            double weight);
+
 CpsStatus cpsi_point_weights_build(const CpsiMaterials *materials, const CpsiList *points,
                                    CpsLine *line);
 

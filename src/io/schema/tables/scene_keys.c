@@ -74,6 +74,33 @@ static void begin_obstacle(void *values) {
 static const CpsiMapping OBSTACLE = {"obstacle", KEYS(OBSTACLE_KEYS), INTO(Obstacle),
                                      .begin = begin_obstacle, WHICH(Obstacle, obstacle.kind)};
 
+/* ---- points ---- */
+
+static const CpsiKey SCENE_POINT_KEYS[] = {
+    {"held", ONE_OF, POINT(ScenePoint, point.position, 3), ANY, .unit = "m",
+     .help = "held at this position"},
+    {"free", ONE_OF, POINT(ScenePoint, point.position, 3), ANY, .unit = "m",
+     .help = "free: each step finds where the forces on it balance; it begins at this position, "
+             "which is a first guess where all lines that end there start static"},
+    {"force", OPTIONAL, POINT(ScenePoint, point.force, 3), ANY, .unit = "N", .with = "free",
+     .fallback = "[0, 0, 0]", .help = "force on it, besides its weight and its lines"},
+    {"mass", OPTIONAL, NUMBER(ScenePoint, mass), NOT_NEGATIVE, .unit = "kg", .unless = "weight",
+     .help = "mass; its weight is mass times gravity, less that of the water it displaces"},
+    {"weight", OPTIONAL, NUMBER(ScenePoint, point.weight), ANY, .unit = "N", .fallback = "0",
+     .help = "weight (in water: the submerged one), instead of mass; negative: a buoy"},
+    {"volume", OPTIONAL, NUMBER(ScenePoint, volume), NOT_NEGATIVE, .unit = "m3", .with = "mass",
+     .fallback = "0", .help = "of the water it displaces"},
+};
+
+static void begin_scene_point(void *values) {
+    CpsiScenePointValues *point = values;
+    point->point = cps_point_default();
+    point->mass = NAN;
+}
+
+static const CpsiMapping SCENE_POINT = {"point", KEYS(SCENE_POINT_KEYS), INTO(ScenePoint),
+                                        .begin = begin_scene_point, WHICH(ScenePoint, point.kind)};
+
 /* ---- lines ---- */
 
 static const CpsiKey STRAIGHT_KEYS[] = {
@@ -111,6 +138,8 @@ static const CpsiKey END_KEYS[] = {
      .help = "held at this position, which must be that of the start shape"},
     {"force", ONE_OF, POINT(End, value, 3), ANY, .unit = "N",
      .help = "free, pulled with this force"},
+    {"point", ONE_OF, TEXT(End, point, 0),
+     .help = "name of one of the scene's points, at which the line ends with others"},
 };
 static const CpsiMapping END = {"end", KEYS(END_KEYS), INTO(End), WHICH(End, word)};
 
@@ -265,6 +294,17 @@ static const CpsiKey CHANGE_KEYS[] = {
 };
 static const CpsiMapping CHANGE = {"change", KEYS(CHANGE_KEYS), INTO(Change), WHICH(Change, kind)};
 
+static const CpsiKey POINT_CHANGE_KEYS[] = {
+    {"position", ONE_OF, POINT(Change, value, 3), ANY, .unit = "m",
+     .help = "move the point to this position; a free one is grabbed where it is"},
+    {"move", ONE_OF, POINT(Change, value, 3), ANY, .unit = "m",
+     .help = "move it by this much from where the entry before has put it"},
+    {"force", ONE_OF, POINT(Change, value, 3), ANY, .unit = "N",
+     .help = "pull it with this force; a held one is let go, from the force that holds it"},
+};
+static const CpsiMapping POINT_CHANGE = {"change", KEYS(POINT_CHANGE_KEYS), INTO(Change),
+                                         .definition = "point_change", WHICH(Change, kind)};
+
 static const CpsiKey STAGE_KEYS[] = {
     {"name", OPTIONAL, TEXT(Stage, stage.name, 0),
      .help = "name of the entry in the results; by default its number"},
@@ -280,6 +320,10 @@ static const CpsiKey STAGE_KEYS[] = {
      .after = "turn", .unit = "degrees",
      .help = "turn a cylinder or ball by so much in this entry, as in drum.turn, by the "
              "right-hand rule about its axis"},
+    {"POINT.point", OPTIONAL, OWNED(Stage, point_changes), .owner = "points", .after = "point",
+     .inside = &POINT_CHANGE,
+     .help = "what happens to a point where lines meet, as in knot.point; all others stay as they "
+             "are"},
 };
 
 static void begin_stage(void *values) {
@@ -306,6 +350,8 @@ static const CpsiKey SCENE_KEYS[] = {
     {"obstacles", OPTIONAL, NAMED(Scene, obstacles), .inside = &OBSTACLE, .fallback = "{}",
      .help = "what the lines lie on, by name; each node rests on the nearest one, or on the two "
              "nearest"},
+    {"points", OPTIONAL, NAMED(Scene, points), .inside = &SCENE_POINT, .fallback = "{}",
+     .help = "where ends of lines meet, by name: anchors, knots, clumps and buoys on joints"},
     {"lines", REQUIRED, NAMED(Scene, lines), .inside = &LINE,
      .help = "the lines by name; they do not touch one another"},
     {"friction_policy", OPTIONAL, WORD(Scene, scene.friction_policy), .words = "frozen consistent",
@@ -320,7 +366,7 @@ static const CpsiKey SCENE_KEYS[] = {
     {"solver", OPTIONAL, AROUND, .inside = &SOLVER, .fallback = "{}",
      .help = "how steps are solved"},
     {"history", OPTIONAL, LIST(Scene, history, 0), .inside = &STAGE, .fallback = "[]",
-     .help = "what happens to the lines' ends and to obstacles that turn, in turn"},
+     .help = "what happens to the lines' ends, to points and to obstacles that turn, in turn"},
 };
 
 static void begin_scene(void *values) { ((CpsiSceneValues *)values)->scene = cps_scene_default(); }

@@ -14,6 +14,7 @@ typedef struct CpsiSceneValues {
     double water;       /* [kg/m3] 0: in air */
     CpsiList types;     /* CpsiTypeValues */
     CpsiList obstacles; /* CpsiObstacleValues */
+    CpsiList points;    /* CpsiScenePointValues */
     CpsiList lines;     /* CpsiLineValues */
     CpsiList history;   /* CpsiStageValues */
 } CpsiSceneValues;
@@ -23,6 +24,13 @@ typedef struct CpsiObstacleValues {
     CpsObstacle obstacle;
     const CpsiYaml *set; /* set of friction forces */
 } CpsiObstacleValues;
+
+/* A point at which lines end. */
+typedef struct CpsiScenePointValues {
+    const CpsiYaml *node; /* the key is the name */
+    CpsPoint point;
+    double mass, volume; /* mass: NaN: not given */
+} CpsiScenePointValues;
 
 typedef struct CpsiZoneValues {
     const CpsiYaml *node;
@@ -67,13 +75,14 @@ typedef struct CpsiStartValues {
     const char *nodes; /* name of a file */
 } CpsiStartValues;
 
-/* An end of a line: `held` or `free` as a word, or with its position or force. */
-typedef enum CpsiEndWord { CPSI_END_HELD, CPSI_END_FREE } CpsiEndWord;
+/* An end of a line: `held` or `free` as a word, or with its position or force; or at a point. */
+typedef enum CpsiEndWord { CPSI_END_HELD, CPSI_END_FREE, CPSI_END_AT_POINT } CpsiEndWord;
 
 typedef struct CpsiEndValues {
     const CpsiYaml *node; /* NULL: a word */
     int word;             /* CpsiEndWord, in either form */
     double value[3];
+    const char *point; /* its name */
 } CpsiEndValues;
 
 typedef struct CpsiLineValues {
@@ -89,7 +98,7 @@ typedef struct CpsiLineValues {
     CpsiEndValues end[2];
 } CpsiLineValues;
 
-/* Kinds of changes at an end of a line. */
+/* Kinds of changes at an end of a line, or at a point. */
 typedef enum CpsiChangeKind {
     CPSI_CHANGE_POSITION,
     CPSI_CHANGE_MOVE,
@@ -97,16 +106,17 @@ typedef enum CpsiChangeKind {
 } CpsiChangeKind;
 
 typedef struct CpsiChangeValues {
-    const CpsiYaml *node; /* the key is LINE.END */
+    const CpsiYaml *node; /* the key is LINE.END or POINT.point */
     int kind;             /* CpsiChangeKind */
     double value[3];
 } CpsiChangeValues;
 
 typedef struct CpsiStageValues {
     const CpsiYaml *node;
-    CpsStage stage;   /* gravity is NaN where not given */
-    CpsiList changes; /* CpsiChangeValues */
-    CpsiList turns;   /* CpsiNumberItem, with the key OBSTACLE.turn */
+    CpsStage stage;         /* gravity is NaN where not given */
+    CpsiList changes;       /* CpsiChangeValues */
+    CpsiList point_changes; /* CpsiChangeValues, with the key POINT.point */
+    CpsiList turns;         /* CpsiNumberItem, with the key OBSTACLE.turn */
 } CpsiStageValues;
 
 extern const CpsiMapping cpsi_scene_file;
