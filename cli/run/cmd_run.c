@@ -103,6 +103,17 @@ static void print_solution(FILE *solutions, const char *step, const CpsLineRepor
             line->places == CPS_PLACES_UNIQUE ? "the only one" : "one of many places");
 }
 
+/* A free point whose forces do not balance at any of the places tried. */
+static void print_unbalanced(FILE *out, const char *name, const CpsPointReport *point) {
+    const double *f = point->residual;
+    fputs("point ", out);
+    cli_print_text(out, name, 80, false);
+    fprintf(out,
+            ": no place found where the forces on it balance (%.4g N are left after "
+            "%d trials)\n",
+            sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]), point->trial_count);
+}
+
 static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
                        const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
@@ -130,6 +141,12 @@ static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         if (solved && scene->friction_policy == CPS_FRICTION_POLICY_FROZEN && view.one_plane)
             print_solution(solutions, step.name, &line, &view);
+    }
+    for (int i = 0; i < cps_evolution_point_count(evolution); ++i) {
+        const CpsPointReport point = cps_evolution_point_report(evolution, i);
+        if (point.has_place) continue;
+        fprintf(table, "%*s", NAME_WIDTH + 1, "");
+        print_unbalanced(table, scene->point[i].name, &point);
     }
 }
 
@@ -201,6 +218,14 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
             fprintf(stderr, " (gap %.2e of the scale, force residual %.2e of the largest force)",
                     c->gap / c->scale, c->force_residual / c->largest_force);
         fputc('\n', stderr);
+    }
+    for (int i = 0; i < cps_evolution_point_count(evolution); ++i) {
+        const CpsPointReport point = cps_evolution_point_report(evolution, i);
+        if (point.has_place) continue;
+        fputs("capstan: step ", stderr);
+        cli_print_text(stderr, step.name, 80, false);
+        fputs(", ", stderr);
+        print_unbalanced(stderr, scene->point[i].name, &point);
     }
 }
 
@@ -366,7 +391,8 @@ static void print_where(const char *directory, const CpsEvolution *evolution,
            "step's own problem: it says nothing of the\n"
            "          mesh, nor of what earlier steps have left. mesh: estimated error by the "
            "elements' length, of the step as well\n");
-    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s\n", directory,
+    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s%s\n", directory,
+               cps_evolution_point_count(evolution) > 0 ? ", points.csv" : "",
                options->stiffness ? ", stiffness.csv" : "",
                options->no_paraview ? "" : ", result.pvd (ParaView)");
     cli_printf(stdout,
@@ -492,6 +518,13 @@ int cmd_run(int argc, char **argv) {
     if (!adjust(&scene, &options)) {
         cps_scene_file_destroy(file);
         return EXIT_USAGE;
+    }
+    if (regularized && scene.point_count > 0) {
+        fputs("capstan run: --method regularized: the scene has points where lines meet, which the "
+              "method of 1990 does not know\n",
+              stderr);
+        cps_scene_file_destroy(file);
+        return EXIT_INPUT;
     }
     int code;
     const CpsResultsKind kind = regularized ? CPS_RESULTS_KIND_REGULARIZED : CPS_RESULTS_KIND_RUN;

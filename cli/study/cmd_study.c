@@ -360,6 +360,14 @@ int cmd_study(int argc, char **argv) {
     CpsSceneFile *file = NULL;
     CpsError err;
     if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
+    if (options.history && cps_scene_file_scene(file)->point_count > 0) {
+        fputs(
+            "capstan study: --history: the scene has points where lines meet, which the methods of "
+            "1990 do not know\n",
+            stderr);
+        cps_scene_file_destroy(file);
+        return EXIT_INPUT;
+    }
     /* a judgement writes no files: it needs no directory, and a signal ends the program at once */
     int code = EXIT_OK;
     char *directory = NULL;

@@ -16,8 +16,8 @@
 extern "C" {
 #endif
 
-/* A directory of results: summary.json, history.csv, result.nc, one .vtp per step with a .pvd, SVG
- * pictures. */
+/* A directory of results: summary.json, history.csv, result.nc, of a scene with points points.csv,
+ * one .vtp per step with a .pvd, SVG pictures. */
 typedef struct CpsResults CpsResults;
 
 /* What is written of a run. */

@@ -2,6 +2,8 @@
 /* Queries of the history of a run (see history.h). */
 #include "io/history.h"
 
+#include <math.h>
+
 enum {
     SHORT_HISTORY = 14, /* every step of a history up to this length is drawn */
     EVEN_SELECTION = 12
@@ -32,6 +34,18 @@ double cpsi_results_turned(const CpsResults *results, int step, int obstacle) {
             ((step < stage->last ? step : stage->last) - stage->first + 1) * stage->turn[obstacle];
     }
     return sum;
+}
+
+const char *cpsi_point_state(CpsPointState state) {
+    static const char *const NAME[] = {[CPS_POINT_STATE_HELD] = "held",
+                                       [CPS_POINT_STATE_FREE] = "free",
+                                       [CPS_POINT_STATE_STICK] = "stick",
+                                       [CPS_POINT_STATE_SLIP] = "slip"};
+    return NAME[state];
+}
+
+double cpsi_point_residual(const CpsPointReport *report) {
+    return hypot(hypot(report->residual[0], report->residual[1]), report->residual[2]);
 }
 
 CpsOutcome cpsi_results_outcome(const CpsResults *results) {

@@ -17,7 +17,7 @@ typedef struct CpsiNetcdf CpsiNetcdf;
 
 typedef struct CpsiLineRow {
     CpsLineReport report;
-    bool held[2];         /* whether the position of this end was imposed */
+    bool held[2];         /* whether the position of this end, or of its point, was imposed */
     double open_reaction; /* [N] largest reaction on a node without contact */
 } CpsiLineRow;
 
@@ -26,8 +26,12 @@ typedef struct CpsiRow {
     char *name;
     double open_reaction; /* [N] largest over the lines */
     CpsiLineRow *line;
+    CpsPointReport *point;           /* (points) NULL without points */
     CpsStiffness (*stiffness)[2][2]; /* (lines) of ends A and B, by kind; NULL: not asked for */
 } CpsiRow;
+
+/* Of an end that is at no point. */
+enum { CPSI_AT_NO_POINT = -1 };
 
 /* A state in addition to CpsNodeState: no contact, but friction. */
 enum { CPSI_SHAPE_IN_AIR = 4 };
@@ -67,12 +71,15 @@ struct CpsResults {
     double gravity[3];
     double origin[3]; /* [m] origin of the views */
     int obstacle_count;
-    /* (obstacle_count), without names and friction sets, relative to the origin of the views */
+    /* (obstacle_count), without friction sets, relative to the origin of the views */
     CpsObstacle *obstacle;
     int line_count;
     char **line_name;
     double *line_length; /* [m] */
     int *line_elements;
+    int (*line_point)[2]; /* (line_count) the point of each end; CPSI_AT_NO_POINT: none */
+    int point_count;
+    CpsPoint *point; /* (point_count) */
     int stage_count;
     CpsiStage *stage;
     int planned_steps;
@@ -91,6 +98,10 @@ bool cpsi_results_pictured(const CpsResults *results, int step);
 /* [rad] Turn of an obstacle in one step; and since the start, at the end of that step. */
 double cpsi_results_turn(const CpsResults *results, int step, int obstacle);
 double cpsi_results_turned(const CpsResults *results, int step, int obstacle);
+
+/* The point in words: held, free, stick, slip; and how large a force nothing balances there [N]. */
+const char *cpsi_point_state(CpsPointState state);
+double cpsi_point_residual(const CpsPointReport *report);
 
 /* Worst outcome so far. */
 CpsOutcome cpsi_results_outcome(const CpsResults *results);

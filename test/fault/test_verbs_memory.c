@@ -44,6 +44,18 @@ static const char EVERYTHING_TEXT[] =
     "  - {name: out, rope.B: {force: [0, 2, 0]}, wire.B: {move: [0, 0.1, 0]}, gravity: [0, 0, -5], "
     "drum.turn: 20, steps: 2}\n"
     "  - {hang.B: {position: [0, 0, 6]}, hang.A: {force: [0, 0, 0]}}\n";
+/* Points where lines meet, which need obstacles without directions of friction. */
+static const char POINTS[] = "memory-points.yaml";
+static const char POINTS_TEXT[] =
+    "capstan: 1\nobstacles: {bed: {plane: {}, friction: 0.5}}\npoints:\n"
+    "  post: {held: [0, 0, 0]}\n"
+    "  knot: {free: [0.9, 0, 0], weight: 1, force: [1, 0, 0]}\n"
+    "lines:\n"
+    "  one: {length: 0.9, elements: 3, weight: 1, stiffness: 100, start: static, ends: {A: {point: "
+    "post}, B: {point: knot}}}\n"
+    "  two: {length: 0.5, elements: 2, weight: 1, stiffness: 100, start: static, ends: {A: {point: "
+    "knot}, B: {held: [1.2, 0.3, 0]}}}\n"
+    "history: [{knot.point: {force: [1, -1, 0]}, post.point: {move: [0, 0.1, 0]}}]\n";
 static const char EVERY_NODE_TEXT[] =
     "x,y,z,arc_length,tension,reaction\nm,m,m,m,N,N\n# a remark\n0,9,0,0,,0.5\n0.5,9,0,0.5,1,1\n"
     "1,9,0,1,1,0.5\n";
@@ -102,6 +114,10 @@ static void others(void **state) {
     INTO_DIRECTORY(cmd_run, "run", EVERYTHING, "-q", "-o", OUT, "--force");
     remove(EVERYTHING);
     remove(EVERY_NODE);
+    write_file(POINTS, POINTS_TEXT);
+    INTO_DIRECTORY(cmd_check, "check", POINTS);
+    INTO_DIRECTORY(cmd_run, "run", POINTS, "-q", "-o", OUT, "--force");
+    remove(POINTS);
     static const char *const WHAT[] = {"scene", "law", "drive"};
     for (int i = 0; i < 3; ++i) {
         bool reached;

@@ -14,8 +14,9 @@ void cpsi_summary_write(const CpsResults *results, double wall, FILE *out);
 /* The same with the list of the run's files. */
 CpsStatus cpsi_summary_file(const CpsResults *results, double wall, FILE *out, CpsError *err);
 void cpsi_history_write(const CpsResults *results, FILE *out);
-/* stiffness_csv.c */
+/* stiffness_csv.c, points_csv.c */
 void cpsi_stiffness_write(const CpsResults *results, FILE *out);
+void cpsi_points_write(const CpsResults *results, FILE *out);
 
 /* run_names.c: whether the run, which is a CpsResults, writes a file of this name if it takes all
  * its steps. Pictures of loops are not among them: what they are called is known at the end. */

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The obstacles of a scene in result.nc: their numbers, friction sets and turns. */
+/* The obstacles of a scene in result.nc: their numbers, friction sets and turns; and its points
+ * (netcdf_points.c). */
 #ifndef CAPSTAN_SRC_IO_RESULTS_NETCDF_NETCDF_OBSTACLES_H
 #define CAPSTAN_SRC_IO_RESULTS_NETCDF_NETCDF_OBSTACLES_H
 
-#include "capstan/scene.h"
+#include "capstan/evolve.h"
 #include "capstan/set.h"
 #include "io/results/netcdf/netcdf_file.h"
 
@@ -26,5 +27,22 @@ void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles
                                  const CpsScene *scene, const double origin[3]);
 /* Free the conic forms of the sets. */
 void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
+
+enum { CPSI_POINT_VECTORS = 8, CPSI_POINT_NUMBERS = 2, CPSI_POINT_INTS = 4 };
+
+typedef struct CpsiNetcdfPoints {
+    int count;
+    int dimension, kind, weight; /* these and the next ones are unused without points */
+    int vector[CPSI_POINT_VECTORS], number[CPSI_POINT_NUMBERS], whole[CPSI_POINT_INTS];
+} CpsiNetcdfPoints;
+
+/* Define the variables; write what does not change; and what the last step has found, as step
+ * number `step`, relative to the origin of the lines' coordinates. */
+void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *out, const CpsScene *scene,
+                               int step, int xyz);
+void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points,
+                              const CpsScene *scene);
+void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
+                               const CpsEvolution *evolution, const double origin[3]);
 
 #endif

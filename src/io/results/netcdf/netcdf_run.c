@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* result.nc: every field of every step, classic netCDF with 64-bit offsets (CDF-2) and CF
- * attributes: the run and its lines. Obstacles are in netcdf_obstacles.c.
+ * attributes: the run and its lines. Obstacles are in netcdf_obstacles.c, points in
+ * netcdf_points.c.
  *
  * The layout is two tables, of the arrays in a line's view (fields.c) and of the numbers in its
  * report; docs/results.md describes the file. nc_sync after each step leaves a file that can be
@@ -137,6 +138,7 @@ typedef struct LineIds {
     int zone[ZONES];                      /* unused without zones */
     int compliance_factor, weight_length; /* unused where the line is uniform */
     int breaking_load;                    /* unused where there is none */
+    int end_point;                        /* unused without points */
 } LineIds;
 
 struct CpsiNetcdf {
@@ -148,6 +150,7 @@ struct CpsiNetcdf {
     int step, xyz, end, name_length; /* dimensions */
     int step_name, outcome, wall;
     CpsiNetcdfObstacles obstacles;
+    CpsiNetcdfPoints points;
     int line_count;
     LineIds *line;
 };
@@ -216,6 +219,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     nc->wall = cpsi_netcdf_variable(&nc->file, "", "wall", NC_DOUBLE, 1, &nc->step,
                                     "time taken by the step", "s");
     cpsi_netcdf_define_obstacles(&nc->file, &nc->obstacles, scene, nc->step, nc->xyz);
+    cpsi_netcdf_define_points(&nc->file, &nc->points, scene, nc->step, nc->xyz);
 }
 
 /* "LINE_NAME" of a node's first contact, "LINE_NAME_second" of its second. */
@@ -282,6 +286,14 @@ static void define_sections(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *vie
     ids->weight_length = cpsi_netcdf_variable(
         &nc->file, view->name, "weight_length", NC_DOUBLE, 1, &ids->node,
         "natural length of mean weight that the node carries, negative: it is lifted", "m");
+}
+
+/* Which points the ends are at, in a scene that has points. */
+static void define_end_points(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
+    if (nc->points.count > 0)
+        ids->end_point =
+            cpsi_netcdf_variable(&nc->file, line->name, "end_point", NC_INT, 1, &nc->end,
+                                 "point at which A and B end, -1: none", "1");
 }
 
 static void define_element_contacts(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
@@ -460,6 +472,12 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
     }
 }
 
+static void write_end_points(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line) {
+    for (size_t e = 0; e < ENDS && nc->points.count > 0; ++e)
+        cpsi_netcdf_int(&nc->file, ids->end_point, &e,
+                        line->end[e].kind == CPS_END_KIND_POINT ? line->end_point[e] : -1);
+}
+
 static void write_zones(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line) {
     for (size_t k = 0; k < (size_t)line->zone_count; ++k)
         for (int i = 0; i < ZONES; ++i) {
@@ -508,14 +526,17 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         define_line(nc, &nc->line[i], &view);
         define_zones(nc, &nc->line[i], &scene->line[i]);
+        define_end_points(nc, &nc->line[i], &scene->line[i]);
     }
     if (nc->file.status == NC_NOERR)
         cpsi_netcdf_keep(&nc->file, nc->file.library.enddef(nc->file.id));
     cpsi_netcdf_write_obstacles(&nc->file, &nc->obstacles, scene, first.origin);
+    cpsi_netcdf_write_points(&nc->file, &nc->points, scene);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         write_fields(nc, &nc->line[i], &view, true);
         write_zones(nc, &nc->line[i], &scene->line[i]);
+        write_end_points(nc, &nc->line[i], &scene->line[i]);
         write_sections(nc, &nc->line[i], &view);
         if (nc->file.status == NC_NOERR)
             cpsi_netcdf_keep(&nc->file,
@@ -604,6 +625,8 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, cons
     const size_t turns[] = {1, (size_t)nc->obstacles.count};
     if (nc->obstacles.count > 0)
         cpsi_netcdf_doubles(&nc->file, nc->obstacles.turn, start, turns, turn);
+    const CpsLineView first = cps_evolution_line_view(evolution, 0);
+    cpsi_netcdf_append_points(&nc->file, &nc->points, nc->steps, evolution, first.origin);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport line = cps_evolution_line_report(evolution, i);

@@ -45,14 +45,33 @@ static bool copy_obstacles(CpsResults *results, const CpsScene *scene) {
     if (scene->obstacle_count == 0) return true;
     results->obstacle = calloc((size_t)scene->obstacle_count, sizeof *results->obstacle);
     if (!results->obstacle) return false;
-    results->obstacle_count = scene->obstacle_count;
     for (int k = 0; k < scene->obstacle_count; ++k) {
         results->obstacle[k] = scene->obstacle[k];
-        results->obstacle[k].name = NULL; /* owned by the scene */
+        results->obstacle[k].name = copy_text(scene->obstacle[k].name);
         results->obstacle[k].friction_set = NULL;
+        results->obstacle_count = k + 1;
+        if (!results->obstacle[k].name) return false;
         for (int a = 0; a < 3; ++a) results->obstacle[k].point[a] -= results->origin[a];
     }
     return true;
+}
+
+static bool copy_points(CpsResults *results, const CpsScene *scene) {
+    if (scene->point_count == 0) return true;
+    results->point = calloc((size_t)scene->point_count, sizeof *results->point);
+    if (!results->point) return false;
+    for (int i = 0; i < scene->point_count; ++i) {
+        results->point[i] = scene->point[i];
+        results->point[i].name = copy_text(scene->point[i].name);
+        results->point_count = i + 1;
+        if (!results->point[i].name) return false;
+    }
+    return true;
+}
+
+/* The point of an end of a line of the scene. */
+static int point_of(const CpsLine *line, int end) {
+    return line->end[end].kind == CPS_END_KIND_POINT ? line->end_point[end] : CPSI_AT_NO_POINT;
 }
 
 static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvolution *evolution) {
@@ -64,14 +83,17 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->line_name = calloc(lines, sizeof *results->line_name);
     results->line_length = calloc(lines, sizeof *results->line_length);
     results->line_elements = calloc(lines, sizeof *results->line_elements);
-    if (!results->title || !results->line_name || !results->line_length || !results->line_elements)
+    results->line_point = calloc(lines, sizeof *results->line_point);
+    if (!results->title || !results->line_name || !results->line_length ||
+        !results->line_elements || !results->line_point)
         return false;
-    if (!copy_obstacles(results, scene)) return false;
+    if (!copy_obstacles(results, scene) || !copy_points(results, scene)) return false;
     for (size_t i = 0; i < lines; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, (int)i);
         results->line_length[i] = view.arc_length[view.element_count];
         results->line_elements[i] = view.element_count;
         results->line_name[i] = copy_text(view.name);
+        for (int e = 0; e < 2; ++e) results->line_point[i][e] = point_of(&scene->line[i], e);
         results->begins_static |= scene->line[i].start.kind == CPS_START_STATIC;
         results->line_count = (int)i + 1;
         if (!results->line_name[i]) return false;
@@ -171,6 +193,7 @@ static double open_reaction(const CpsLineView *view) {
 static void free_row(CpsiRow *row) {
     free(row->name);
     free(row->line);
+    free(row->point);
     free(row->stiffness);
 }
 
@@ -196,16 +219,26 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
     row.line = calloc((size_t)results->line_count, sizeof *row.line);
     if (results->stiffness)
         row.stiffness = calloc((size_t)results->line_count, sizeof *row.stiffness);
-    if (!row.name || !row.line || (results->stiffness && !row.stiffness)) {
+    if (results->point_count > 0)
+        row.point = calloc((size_t)results->point_count, sizeof *row.point);
+    if (!row.name || !row.line || (results->stiffness && !row.stiffness) ||
+        (results->point_count > 0 && !row.point)) {
         free_row(&row);
         return false;
     }
+    for (int i = 0; i < results->point_count; ++i)
+        row.point[i] = cps_evolution_point_report(evolution, i);
     for (int i = 0; i < results->line_count; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         CpsiLineRow *line = &row.line[i];
         line->report = cps_evolution_line_report(evolution, i);
         line->open_reaction = open_reaction(&view);
-        for (int e = 0; e < 2; ++e) line->held[e] = view.end[e].kind == CPS_END_KIND_HELD;
+        for (int e = 0; e < 2; ++e) {
+            const int point = results->line_point[i][e];
+            line->held[e] = point == CPSI_AT_NO_POINT
+                                ? view.end[e].kind == CPS_END_KIND_HELD
+                                : row.point[point].state == CPS_POINT_STATE_HELD;
+        }
         if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
         if (row.stiffness) find_stiffness(evolution, i, row.stiffness[i]);
     }
@@ -225,9 +258,10 @@ static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsE
     return status || !results->paraview ? status : cpsi_paraview_step(results, evolution, err);
 }
 
-/* Whether the lines are those for which the results were opened. */
+/* Whether lines and points are those for which the results were opened. */
 static bool has_these_lines(const CpsResults *results, const CpsEvolution *evolution) {
     if (cps_evolution_line_count(evolution) != results->line_count) return false;
+    if (cps_evolution_point_count(evolution) != results->point_count) return false;
     for (int i = 0; i < results->line_count; ++i)
         if (cps_evolution_line_view(evolution, i).element_count != results->line_elements[i])
             return false;
@@ -246,7 +280,8 @@ CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution,
     if (!has_these_lines(results, evolution))
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
-            "the evolution has other lines than the one that these results were opened for");
+            "the evolution has other lines or points than the one that these results were opened "
+            "for");
     const CpsStepReport report = cps_evolution_report(evolution);
     if (report.step_count != results->row_count + 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -288,6 +323,8 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     if (!status && results->paraview) status = cpsi_paraview_obstacles(results, err);
     if (!status) status = cpsi_pictures_write(results, err);
     if (!status) status = write_table(results, "history.csv", cpsi_history_write, err);
+    if (!status && results->point_count > 0)
+        status = write_table(results, "points.csv", cpsi_points_write, err);
     if (!status && results->stiffness)
         status = write_table(results, "stiffness.csv", cpsi_stiffness_write, err);
     /* last: when there is a new summary, all files that it lists are in place */
@@ -332,12 +369,16 @@ void cps_results_destroy(CpsResults *results) {
         free(results->stage[i].turn);
     }
     for (int i = 0; i < results->line_count; ++i) free(results->line_name[i]);
+    for (int i = 0; i < results->obstacle_count; ++i) free((char *)results->obstacle[i].name);
+    for (int i = 0; i < results->point_count; ++i) free((char *)results->point[i].name);
     free(results->row);
     free(results->snapshot);
     free(results->stage);
     free(results->line_name);
     free(results->line_length);
     free(results->line_elements);
+    free(results->line_point);
+    free(results->point);
     free(results->obstacle);
     free(results->title);
     if (results->locale) freelocale(results->locale);

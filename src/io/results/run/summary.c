@@ -154,6 +154,36 @@ static void write_ledger(FILE *out, const CpsStepReport *report) {
     write_number(out, "imbalance", ledger->imbalance, "},\n      ");
 }
 
+/* the points where lines meet after a step */
+static void write_points(FILE *out, const CpsResults *results, const CpsiRow *row) {
+    if (results->point_count == 0) return;
+    fputs(",\n      \"points\": {\n", out);
+    for (int i = 0; i < results->point_count; ++i) {
+        const CpsPointReport *report = &row->point[i];
+        fputs("        ", out);
+        write_key(out, results->point[i].name);
+        fputc('{', out);
+        write_string(out, "state", cpsi_point_state(report->state), ", ");
+        fprintf(out, "\"has_place\": %s, \"trials\": %d,\n          ",
+                report->has_place ? "true" : "false", report->trial_count);
+        write_vector(out, "position_m", report->position, ", ");
+        write_vector(out, "lines_N", report->lines, ",\n          ");
+        write_vector(out, "load_N", report->load, ", ");
+        write_vector(out, "support_N", report->support, ",\n          ");
+        if (report->obstacle != CPS_NO_OBSTACLE) {
+            write_string(out, "obstacle", results->obstacle[report->obstacle].name, ", ");
+            write_number(out, "reaction_N", report->reaction, ", ");
+            write_vector(out, "normal", report->normal, ",\n          ");
+            write_vector(out, "friction_N", report->friction, ", ");
+            write_vector(out, "slip_m", report->slip, ", ");
+            write_number(out, "dissipated_J", report->dissipated, ",\n          ");
+        }
+        write_number(out, "residual_N", cpsi_point_residual(report), "}");
+        fputs(i + 1 < results->point_count ? ",\n" : "\n", out);
+    }
+    fputs("      }", out);
+}
+
 static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row) {
     fputs("    {\n      ", out);
     write_string(out, "name", row->name, ", ");
@@ -165,7 +195,9 @@ static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row)
     for (int i = 0; i < results->line_count; ++i)
         write_line(out, results->line_name[i], &row->line[i].report,
                    i + 1 < results->line_count ? ",\n" : "\n");
-    fputs("      }\n    }", out);
+    fputs("      }", out);
+    write_points(out, results, row);
+    fputs("\n    }", out);
 }
 
 static void write_extreme(FILE *out, const char *key, const CpsExtreme *extreme,
@@ -207,6 +239,37 @@ static void write_line_extremes(FILE *out, const CpsResults *results, int i, con
     fputs(after, out);
 }
 
+/* The points, and what at most nothing balances there, over all steps. */
+static void write_largest_residuals(FILE *out, const CpsResults *results) {
+    if (results->point_count == 0) return;
+    fputs("  \"points\": {\n", out);
+    for (int i = 0; i < results->point_count; ++i) {
+        double largest = 0;
+        int at = 0, without = 0;
+        for (int r = 0; r < results->row_count; ++r) {
+            const CpsPointReport *report = &results->row[r].point[i];
+            const double residual = cpsi_point_residual(report);
+            without += !report->has_place;
+            if (isnan(largest) || residual <= largest) continue; /* a NaN is kept */
+            largest = residual;
+            at = r;
+        }
+        fputs("    ", out);
+        write_key(out, results->point[i].name);
+        fputc('{', out);
+        write_string(out, "kind",
+                     cpsi_point_state(results->point[i].kind == CPS_POINT_KIND_HELD
+                                          ? CPS_POINT_STATE_HELD
+                                          : CPS_POINT_STATE_FREE),
+                     ", ");
+        write_number(out, "weight_N", results->point[i].weight, ", ");
+        write_number(out, "largest_residual_N", largest, ", ");
+        fprintf(out, "\"largest_residual_step\": %d, \"steps_without_place\": %d}%s\n", at, without,
+                i + 1 < results->point_count ? "," : "");
+    }
+    fputs("  },\n", out);
+}
+
 static void write_run(const CpsResults *results, double wall, FILE *out) {
     fputs("{\n  ", out);
     write_string(out, "capstan", cps_version(), ",\n  ");
@@ -217,7 +280,9 @@ static void write_run(const CpsResults *results, double wall, FILE *out) {
     write_number(out, "wall_s", wall, ",\n  \"extremes\": {\n");
     for (int i = 0; i < results->line_count; ++i)
         write_line_extremes(out, results, i, i + 1 < results->line_count ? ",\n" : "\n");
-    fputs("  },\n  \"steps\": [", out);
+    fputs("  },\n", out);
+    write_largest_residuals(out, results);
+    fputs("  \"steps\": [", out);
     for (int i = 0; i < results->row_count; ++i) {
         fputs(i ? ",\n" : "\n", out);
         write_step(out, results, &results->row[i]);

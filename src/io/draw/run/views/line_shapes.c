@@ -15,7 +15,8 @@ enum {
     MIN_PLAN_HEIGHT = 220,
     LOW_HEIGHT = 210,
     COLOUR_LEVELS = 48,
-    NAMED_LINES = 6
+    NAMED_LINES = 6,
+    NAMED_POINTS = 12
 };
 
 static const char COLOUR_STICK[] = "#9ad9c8", COLOUR_SLIP[] = "#ffb59b", COLOUR_AIR[] = "#d3b8f0",
@@ -147,6 +148,35 @@ static void draw_end(const Pen *pen, const double position[3], bool held, const 
                   name);
 }
 
+/* A point where lines meet: a square, dark where it is held. */
+static void draw_meeting_point(const Pen *pen, const CpsResults *results, int point,
+                               const double position[3], const char *fill, double half, double edge,
+                               bool named) {
+    const Vec3 place = vec3_sub(vec3_load(position), vec3_load(results->origin));
+    const double x = cpsi_frame_x(pen->frame, vec3_dot(pen->view->right, place));
+    const double y = cpsi_frame_y(pen->frame, vec3_dot(pen->view->up, place));
+    fprintf(pen->out,
+            "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" "
+            "stroke=\"#222\" stroke-width=\"%.1f\"/>",
+            x - half, y - half, 2 * half, 2 * half, fill, edge);
+    const bool left = x > pen->frame->left + 0.8 * pen->frame->width;
+    if (named)
+        cpsi_svg_text(pen->out, left ? x - 9 : x + 9, y - 9, left ? CPSI_END : CPSI_START,
+                      "font-size=\"11\" paint-order=\"stroke\" stroke=\"#fff\" "
+                      "stroke-width=\"3\"",
+                      results->point[point].name);
+}
+
+static void draw_points(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot) {
+    const CpsiRow *row = &results->row[snapshot->step];
+    for (int i = 0; i < results->point_count; ++i) {
+        const CpsPointReport *report = &row->point[i];
+        draw_meeting_point(pen, results, i, report->position,
+                           report->state == CPS_POINT_STATE_HELD ? "#222" : "#fff", 4.5, 1.4,
+                           results->point_count <= NAMED_POINTS);
+    }
+}
+
 static void draw_ends(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot) {
     const CpsiRow *row = &results->row[snapshot->step];
     for (int l = 0; l < results->line_count; ++l) {
@@ -154,6 +184,7 @@ static void draw_ends(const Pen *pen, const CpsResults *results, const CpsiSnaps
         const bool named = results->line_count > 1 && results->line_count <= NAMED_LINES;
         for (int e = 0; e < 2; ++e) {
             char name[64] = "";
+            if (results->line_point[l][e] != CPSI_AT_NO_POINT) continue; /* drawn once, with all */
             if (results->line_count <= NAMED_LINES)
                 snprintf(name, sizeof name, "%.40s%s%s", named ? results->line_name[l] : "",
                          named ? "." : "", e ? "B" : "A");
@@ -162,6 +193,17 @@ static void draw_ends(const Pen *pen, const CpsResults *results, const CpsiSnaps
         }
     }
 }
+
+static bool all_ends_at_points(const CpsResults *results) {
+    for (int l = 0; l < results->line_count; ++l)
+        for (int e = 0; e < 2; ++e)
+            if (results->line_point[l][e] == CPSI_AT_NO_POINT) return false;
+    return true;
+}
+
+#define SQUARE(fill)                                                          \
+    "<rect x=\"-4.5\" y=\"-4.5\" width=\"9\" height=\"9\" fill=\"" fill "\" " \
+    "stroke=\"#222\" stroke-width=\"1.4\"/>"
 
 static void draw_step_legend(const CpsResults *results, bool air, double y, FILE *out) {
     char mark[160];
@@ -186,10 +228,15 @@ static void draw_step_legend(const CpsResults *results, bool air, double y, FILE
                  cpsi_colour(CPSI_SCALE_TENSION, 0.5).hex);
         cpsi_legend(out, &x, y, mark, "off the obstacle");
     }
-    cpsi_legend(out, &x, y, "<circle r=\"4.5\" fill=\"#222\" stroke=\"#222\"/>", "held end");
-    cpsi_legend(out, &x, y,
-                "<circle r=\"4.5\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"1.4\"/>",
-                "free end");
+    if (!all_ends_at_points(results)) {
+        cpsi_legend(out, &x, y, "<circle r=\"4.5\" fill=\"#222\" stroke=\"#222\"/>", "held end");
+        cpsi_legend(out, &x, y,
+                    "<circle r=\"4.5\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"1.4\"/>",
+                    "free end");
+    }
+    if (results->point_count == 0) return;
+    cpsi_legend(out, &x, y, SQUARE("#222"), "held point");
+    cpsi_legend(out, &x, y, SQUARE("#fff"), "free point");
 }
 
 /* Initial configuration of a step. Before a line is statically placed it has none: the solver's
@@ -239,6 +286,7 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
     for (int l = 0; l < results->line_count; ++l) draw_tension(&pen, &snapshot->shape[l], range);
     cpsi_frame_end(out);
     draw_ends(&pen, results, snapshot);
+    draw_points(&pen, results, snapshot);
 
     const CpsiUnit unit = cpsi_unit("N", range[1]);
     snprintf(label, sizeof label, "tension (%s)", unit.name);
@@ -247,6 +295,18 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
     draw_step_legend(results, friction_in_air(results, snapshot), frame.top + frame.height + 68,
                      out);
     cpsi_svg_finish(out);
+}
+
+/* Where the points are after each step, with their names at the last one. */
+static void draw_points_of_steps(const Pen *pen, const CpsResults *results) {
+    for (int s = 0; s < results->snapshot_count; ++s) {
+        const bool last = s + 1 == results->snapshot_count;
+        for (int i = 0; i < results->point_count; ++i)
+            draw_meeting_point(pen, results, i,
+                               results->row[results->snapshot[s].step].point[i].position,
+                               cpsi_step_colour(results, s).hex, 3, 0.6,
+                               last && results->point_count <= NAMED_POINTS);
+    }
 }
 
 void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *out) {
@@ -266,11 +326,15 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
             draw_polyline(&pen, results->snapshot[s].shape[l].position, 0,
                           results->snapshot[s].shape[l].points - 1,
                           cpsi_step_colour(results, s).hex, cpsi_step_width(results, s), "");
+    draw_points_of_steps(&pen, results);
     cpsi_frame_end(out);
     cpsi_step_list(results, &frame, out);
     double x = CPSI_FRAME_LEFT;
     snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"3\"/>",
              COLOUR_START);
     cpsi_legend(out, &x, frame.top + frame.height + 68, mark, "where the first step started");
+    if (results->point_count > 0)
+        cpsi_legend(out, &x, frame.top + frame.height + 68, SQUARE("#fff"),
+                    "points where lines meet");
     cpsi_svg_finish(out);
 }
