@@ -12,6 +12,7 @@
 #include "measure.h"
 #include "motion.h"
 #include "passing.h"
+#include "points.h"
 #include "ranges.h"
 #include "reach.h"
 
@@ -665,6 +666,22 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
     return bad;
 }
 
+static bool is_certified(int outcome) {
+    return outcome != OUTCOME_STALLED && outcome != OUTCOME_LIMIT;
+}
+
+/* Where findings on points go. */
+typedef struct PointFindings {
+    FILE *log;
+    CheckerReport *report;
+} PointFindings;
+
+static void find_at_point(void *user, const char *name, size_t step, const char *sentence) {
+    const PointFindings *findings = user;
+    findings->report->refuted++;
+    if (findings->log) fprintf(findings->log, "step %zu point %s: %s\n", step, name, sentence);
+}
+
 int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     CheckerReport unused, *report = worst ? worst : &unused;
     *report = (CheckerReport){0};
@@ -674,6 +691,8 @@ int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     if (!bad && source.steps == 0 && log) fprintf(log, "%s holds no step\n", path);
     for (size_t i = 0; i < source.lines && !bad; i++)
         bad = check_line(&source, source.line_name[i], log, report);
+    PointFindings findings = {log, report};
+    if (!bad) bad = points_check(&source, is_certified, find_at_point, &findings, log);
     source_close(&source);
     if (bad) report->refuted++;
     if (bad) return 2;

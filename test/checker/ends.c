@@ -112,6 +112,8 @@ End end_measure(const Source *source, const Record *r, int e) {
         widen(r->applied_force[e], end.force);
         return end;
     }
+    if (r->end_point[e] >= 0) /* the point bears what obstacles do to the half element */
+        return on_obstacle(source, r, e, 0, true);
     Real length = 0, nearest = INFINITY;
     Triple x;
     widen(r->position[j], x);

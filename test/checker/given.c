@@ -519,6 +519,132 @@ static void compare_turns(Compare *compare, size_t step, const Record *r) {
     }
 }
 
+/* Whether the end is at a point, the same as in the scene: then nothing is imposed on it here. */
+static bool is_at_point(Compare *compare, const CpsLine *line, int e, const Record *r) {
+    const bool is_at = line->end[e].kind == CPS_END_KIND_POINT;
+    const int point = is_at ? line->end_point[e] : -1;
+    if (r->end_point[e] != point)
+        find(compare, "end_point of %s, end %c, is %d, in the scene %d", line->name, e ? 'B' : 'A',
+             r->end_point[e], point);
+    return is_at;
+}
+
+/* ---- points ---- */
+
+/* What the scene imposes on a point: its position, or the force on it. */
+typedef struct ImposedPoint {
+    CpsPointKind kind;
+    double from[3], now[3];
+    /* of a point that is let go the force it begins with is a result: it is known when the stage
+     * ends */
+    bool is_known;
+} ImposedPoint;
+
+static void impose_on_point(const Compare *compare, ImposedPoint *point,
+                            const CpsPointChange *change, int part, int parts,
+                            const Junction *before) {
+    const double share = (double)part / parts;
+    double to[3];
+    for (int k = 0; k < 3; k++)
+        to[k] = change->value[k] -
+                (change->kind == CPS_POINT_KIND_HELD ? compare->source.origin[k] : 0);
+    if (part == 1) {
+        memcpy(point->from, point->now, sizeof point->from);
+        if (change->kind != point->kind && change->kind == CPS_POINT_KIND_HELD && before)
+            memcpy(point->from, before->position, sizeof point->from);
+        point->is_known =
+            point->is_known && (change->kind == point->kind || change->kind == CPS_POINT_KIND_HELD);
+        point->kind = change->kind;
+    }
+    point->is_known = point->is_known || part == parts;
+    for (int k = 0; k < 3; k++)
+        point->now[k] = part == parts ? to[k] : point->from[k] + share * (to[k] - point->from[k]);
+}
+
+static void compare_point(Compare *compare, const CpsPoint *given, const ImposedPoint *point,
+                          size_t step, const double g[3], const Junction *at) {
+    const bool is_held = point->kind == CPS_POINT_KIND_HELD;
+    const double pull = size(compare->scene->gravity);
+    double wanted[3], noise = 0;
+    if ((at->state == POINT_HELD) != is_held) {
+        find(compare, "state_of_point of %s, step %zu", given->name, step);
+        return;
+    }
+    if (!point->is_known) return;
+    for (int k = 0; k < 3; k++) {
+        const double weight = is_held || pull == 0 ? 0 : given->weight / pull * g[k];
+        wanted[k] = point->now[k] + weight;
+        noise += fabs(point->now[k]) + fabs(point->from[k]) + fabs(weight);
+        if (is_held) noise += fabs(compare->source.origin[k]);
+    }
+    const double *found = is_held ? at->position : at->load;
+    for (int k = 0; k < 3; k++)
+        if (!(fabs(found[k] - wanted[k]) <= COPIED * noise))
+            find(compare, "%s_of_point of %s, step %zu, is %.17g, in the scene %.17g",
+                 is_held ? "position" : "load", given->name, step, found[k], wanted[k]);
+}
+
+static void compare_points_at(Compare *compare, size_t step, ImposedPoint *imposed,
+                              const Junction *before, const Junction *now) {
+    int stage = 0, part = 0;
+    double g[3];
+    const bool staged = stage_of(compare, step, &stage, &part);
+    gravity_at(compare, staged, stage, part, g);
+    const CpsStage *at = staged ? &compare->scene->stage[stage] : NULL;
+    const int changes = staged ? at->point_change_count : 0;
+    for (int i = 0; i < changes; i++) {
+        const CpsPointChange *change = &at->point_change[i];
+        impose_on_point(compare, &imposed[change->point], change, part, at->step_count,
+                        step > 0 ? &before[change->point] : NULL);
+    }
+    for (int k = 0; k < compare->scene->point_count; k++)
+        compare_point(compare, &compare->scene->point[k], &imposed[k], step, g, &now[k]);
+}
+
+/* Names, kinds and weights; and what is imposed at first. */
+static void compare_given_points(Compare *compare, ImposedPoint *imposed) {
+    const Source *source = &compare->source;
+    for (int k = 0; k < compare->scene->point_count; k++) {
+        const CpsPoint *point = &compare->scene->point[k];
+        const bool is_held = point->kind == CPS_POINT_KIND_HELD;
+        if (strcmp(source->point_name[k], point->name) != 0)
+            find(compare, "point %s, in the scene %s", source->point_name[k], point->name);
+        if (source->point_kind[k] != (is_held ? POINT_HELD : POINT_FREE))
+            find(compare, "kind_of_point of %s", point->name);
+        same_number(compare, "weight_of_point", point->name, source->point_weight[k],
+                    point->weight);
+        imposed[k] = (ImposedPoint){.kind = point->kind, .is_known = true};
+        for (int a = 0; a < 3; a++)
+            imposed[k].now[a] = imposed[k].from[a] =
+                is_held ? point->position[a] - source->origin[a] : point->force[a];
+    }
+}
+
+static int compare_points(Compare *compare) {
+    const Source *source = &compare->source;
+    const size_t n = source->points;
+    if (n != (size_t)compare->scene->point_count) {
+        find(compare, "%zu points, in the scene %d", n, compare->scene->point_count);
+        return 0;
+    }
+    if (n == 0) return 0;
+    ImposedPoint *imposed = calloc(n, sizeof *imposed);
+    Junction *now = calloc(n, sizeof *now), *before = calloc(n, sizeof *before);
+    int bad = imposed && now && before ? 0 : -1;
+    if (!bad) compare_given_points(compare, imposed);
+    for (size_t step = 0; step < source->steps && !bad && compare->findings == 0; step++) {
+        bad = junctions_read(source, step, now, compare->log);
+        if (!bad) compare_points_at(compare, step, imposed, before, now);
+        Junction *swap = before;
+        before = now;
+        now = swap;
+    }
+    free(imposed);
+    free(now);
+    free(before);
+    return bad;
+}
+
 static int compare_steps(Compare *compare, int index) {
     const CpsLine *line = &compare->scene->line[index];
     Record now = {0}, before = {0};
@@ -531,6 +657,7 @@ static int compare_steps(Compare *compare, int index) {
         int stage, part;
         if (!bad)
             for (int e = 0; e < 2; e++) {
+                if (is_at_point(compare, line, e, &now)) continue;
                 if (step == 0) {
                     end[e].now = first_end(&compare->source, line, e, &now);
                     end[e].noise = line->start.kind == CPS_START_ARC ? COMPUTED : COPIED;
@@ -570,6 +697,7 @@ int given_file(const char *path, const CpsScene *scene, FILE *log) {
             find(&compare, "line %s, in the scene %s", compare.source.line_name[i],
                  scene->line[i].name);
     }
+    if (!bad && compare.findings == 0) bad = compare_points(&compare);
     source_close(&compare.source);
     return bad ? -1 : compare.findings;
 }

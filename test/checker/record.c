@@ -46,23 +46,39 @@ static int complain(FILE *log, const char *what, const char *name, int status) {
     return -1;
 }
 
-/* split the global attribute `lines` at its blanks */
-static int split_names(char *text, Source *source, FILE *log) {
+/* Split the global attribute `what` at its blanks. */
+static int split_names(char *text, const char *what, char ***names, size_t *found, FILE *log) {
     size_t count = 0;
     for (const char *c = text; *c; c++) count += *c != ' ' && (c == text || c[-1] == ' ');
     if (count == 0 || count > MAX_LINES)
-        return complain(log, "no lines, or too many, in attribute", "lines", 0);
-    source->line_name = calloc(count, sizeof *source->line_name);
-    if (!source->line_name) return complain(log, "out of memory for", "lines", 0);
+        return complain(log, "no names, or too many, in attribute", what, 0);
+    *names = calloc(count, sizeof **names);
+    if (!*names) return complain(log, "out of memory for", what, 0);
     char *rest = NULL;
     for (char *name = strtok_r(text, " ", &rest); name; name = strtok_r(NULL, " ", &rest)) {
-        if (strlen(name) > MAX_NAME) return complain(log, "name of a line is too long:", name, 0);
+        if (strlen(name) > MAX_NAME) return complain(log, "too long a name:", name, 0);
         char *copy = malloc(strlen(name) + 1);
         if (!copy) return complain(log, "out of memory for", name, 0);
         strcpy(copy, name);
-        source->line_name[source->lines++] = copy;
+        (*names)[(*found)++] = copy;
     }
     return 0;
+}
+
+/* The names in a global attribute. */
+static int read_names(const Source *source, const char *what, char ***names, size_t *found,
+                      FILE *log) {
+    size_t bytes;
+    int status = nc_inq_attlen(source->nc, NC_GLOBAL, what, &bytes);
+    if (status || bytes == 0 || bytes > (size_t)MAX_LINES * MAX_NAME)
+        return complain(log, "cannot read attribute", what, status);
+    char *text = calloc(bytes + 1, 1);
+    if (!text) return complain(log, "out of memory for", what, 0);
+    status = nc_get_att_text(source->nc, NC_GLOBAL, what, text);
+    const int result = status ? complain(log, "cannot read attribute", what, status)
+                              : split_names(text, what, names, found, log);
+    free(text);
+    return result;
 }
 
 /* Is a global attribute this word? */
@@ -228,6 +244,37 @@ static int read_surfaces(Source *source, FILE *log) {
     return 0;
 }
 
+static int read_static(const Source *source, const char *line, const char *what, size_t length,
+                       double *value, FILE *log);
+
+/* The points; a file without the dimension has none. */
+static int read_points(Source *source, FILE *log) {
+    int dimension;
+    size_t points;
+    if (nc_inq_dimid(source->nc, "point", &dimension) != NC_NOERR) return 0;
+    const int status = nc_inq_dimlen(source->nc, dimension, &points);
+    if (status) return complain(log, "senseless dimension", "point", status);
+    if (read_names(source, "points", &source->point_name, &source->points, log)) return -1;
+    if (source->points != points)
+        return complain(log, "as many names as the dimension says are not in", "points", 0);
+    double *kind = calloc(points, sizeof *kind);
+    source->point_weight = calloc(points, sizeof *source->point_weight);
+    source->point_kind = calloc(points, sizeof *source->point_kind);
+    int bad =
+        !kind || !source->point_weight || !source->point_kind
+            ? complain(log, "out of memory for", "points", 0)
+            : read_static(source, "kind", "of_point", points, kind, log) ||
+                  read_static(source, "weight", "of_point", points, source->point_weight, log);
+    for (size_t k = 0; k < points && !bad; k++) {
+        if ((kind[k] != POINT_HELD && kind[k] != POINT_FREE) || !isfinite(source->point_weight[k]))
+            bad = complain(log, "senseless kind or weight of point", source->point_name[k], 0);
+        else
+            source->point_kind[k] = (int)kind[k];
+    }
+    free(kind);
+    return bad ? -1 : 0;
+}
+
 int source_open(const char *path, Source *source, FILE *log) {
     *source = (Source){.nc = -1};
     int status = nc_open(path, NC_NOWRITE, &source->nc), dimension;
@@ -259,22 +306,16 @@ int source_open(const char *path, Source *source, FILE *log) {
     source->has_static = first_step_is_static(source);
     if (read_surfaces(source, log)) return -1;
 
-    size_t bytes;
-    status = nc_inq_attlen(source->nc, NC_GLOBAL, "lines", &bytes);
-    if (status || bytes == 0 || bytes > (size_t)MAX_LINES * MAX_NAME) {
-        return complain(log, "cannot read attribute", "lines", status);
-    }
-    char *text = calloc(bytes + 1, 1);
-    if (!text) return complain(log, "out of memory for", "lines", 0);
-    status = nc_get_att_text(source->nc, NC_GLOBAL, "lines", text);
-    int result = status ? complain(log, "cannot read attribute", "lines", status)
-                        : split_names(text, source, log);
-    free(text);
-    return result;
+    if (read_names(source, "lines", &source->line_name, &source->lines, log)) return -1;
+    return read_points(source, log);
 }
 
 void source_close(Source *source) {
     for (size_t i = 0; i < source->lines; i++) free(source->line_name[i]);
+    for (size_t i = 0; i < source->points; i++) free(source->point_name[i]);
+    free(source->point_name);
+    free(source->point_weight);
+    free(source->point_kind);
     free(source->line_name);
     if (source->surface)
         for (size_t k = 0; k < source->surfaces; k++) conic_free(source->surface[k].set);
@@ -445,6 +486,18 @@ static int read_breaking_load(const Source *source, const char *line, Record *re
     return 0;
 }
 
+/* The points at which the ends are; a file without points does not say. */
+static int read_end_points(const Source *source, const char *line, Record *record, FILE *log) {
+    double point[2] = {-1, -1};
+    if (source->points > 0 && read_static(source, line, "end_point", 2, point, log)) return -1;
+    for (int e = 0; e < 2; e++) {
+        if (!(point[e] >= -1 && point[e] < (double)source->points))
+            return complain(log, "unknown point at an end of line", line, 0);
+        record->end_point[e] = (int)point[e];
+    }
+    return 0;
+}
+
 int record_create(const Source *source, const char *line, Record *record, FILE *log) {
     *record = (Record){0};
     if (read_dimension(source, line, "node", &record->nodes, log)) return -1;
@@ -473,6 +526,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (read_static(source, line, "compliance", 0, &record->compliance, log)) return -1;
     if (read_sections(source, line, record, log)) return -1;
     if (read_breaking_load(source, line, record, log)) return -1;
+    if (read_end_points(source, line, record, log)) return -1;
     return read_zones(source, line, record, log);
 }
 
@@ -683,4 +737,58 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= read_proof_obstacle(source, line, "proof_plane", step, &record->proof_plane, log);
     bad |= read_weight_before(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
+}
+
+/* A number of each point. */
+static int read_numbers(const Source *source, const char *what, size_t step, double *value,
+                        FILE *log) {
+    int bad = read_step(source, what, "of_point", step, source->points, 0, value, log);
+    for (size_t k = 0; k < source->points && !bad; k++)
+        if (!isfinite(value[k]))
+            bad = complain(log, "a value that cannot be (NaN, infinite), of points:", what, 0);
+    return bad;
+}
+
+static int read_vectors(const Source *source, const char *what, size_t step, Vector *value,
+                        FILE *log) {
+    int bad = read_step(source, what, "of_point", step, source->points, 3, value[0], log);
+    for (size_t k = 0; k < source->points && !bad; k++)
+        if (!isfinite(value[k][0]) || !isfinite(value[k][1]) || !isfinite(value[k][2]))
+            bad = complain(log, "a value that cannot be (NaN, infinite), of points:", what, 0);
+    return bad;
+}
+
+int junctions_read(const Source *source, size_t step, Junction *all, FILE *log) {
+    enum { VECTORS = 8, NUMBERS = 5 };
+    static const char *const VECTOR[VECTORS] = {"position", "lines",    "load", "support",
+                                                "normal",   "friction", "slip", "residual"};
+    static const char *const NUMBER[NUMBERS] = {"reaction", "dissipated", "state", "obstacle",
+                                                "has_place"};
+    const size_t n = source->points;
+    Vector *vector = calloc(n * VECTORS, sizeof *vector);
+    double *number = calloc(n * NUMBERS, sizeof *number);
+    int bad = vector && number ? 0 : complain(log, "out of memory for", "points", 0);
+    for (size_t i = 0; i < VECTORS && !bad; i++)
+        bad = read_vectors(source, VECTOR[i], step, vector + i * n, log);
+    for (size_t i = 0; i < NUMBERS && !bad; i++)
+        bad = read_numbers(source, NUMBER[i], step, number + i * n, log);
+    for (size_t k = 0; k < n && !bad; k++) {
+        Junction *at = &all[k];
+        double *to[VECTORS] = {at->position, at->lines,    at->load, at->support,
+                               at->normal,   at->friction, at->slip, at->residual};
+        for (size_t i = 0; i < VECTORS; i++) memcpy(to[i], vector[i * n + k], sizeof(Vector));
+        const double state = number[2 * n + k], obstacle = number[3 * n + k];
+        if (!(state >= 0 && state < POINT_STATES) ||
+            !(obstacle >= -1 && obstacle < (double)source->surfaces))
+            bad = complain(log, "unknown state or obstacle of point", source->point_name[k], 0);
+        at->reaction = number[k];
+        at->dissipated = number[n + k];
+        at->has_place = number[4 * n + k] != 0;
+        if (bad) break;
+        at->state = (int)state;
+        at->obstacle = (int)obstacle;
+    }
+    free(vector);
+    free(number);
+    return bad;
 }

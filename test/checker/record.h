@@ -23,6 +23,7 @@ enum {
     OUTCOMES
 };
 enum { END_HELD, END_FREE };
+enum { POINT_HELD, POINT_FREE, POINT_STICK, POINT_SLIP, POINT_STATES };
 
 /* the claimed certificate: index here, name of the variable in CLAIM_NAME */
 enum {
@@ -91,6 +92,7 @@ typedef struct Record {
      * abscissas may leave of it in 64 bits; NULL without friction zones: 1 */
     double *factor, *factor_noise;
     double *tension;
+    int end_point[2]; /* at which the ends are; -1: at none */
     int end_kind[2], outcome, iterations;
     int substeps; /* that the step was taken in; the arrays are those of the last one, */
     double share; /* which is so much of the step */
@@ -103,6 +105,14 @@ typedef struct Record {
     double proof_length, proof_force, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES],
         unaccounted;
 } Record;
+
+/* A point where lines meet, after a step; forces are on the point. */
+typedef struct Junction {
+    Vector position, lines, load, support, normal, friction, slip, residual;
+    double reaction, dissipated;
+    int state, obstacle; /* obstacle: -1: none */
+    bool has_place;
+} Junction;
 
 /* An open file: its lines and how many steps they have. */
 typedef struct Source {
@@ -119,12 +129,19 @@ typedef struct Source {
                    */
     size_t surfaces;
     Surface *surface;
+    size_t points;
+    char **point_name;
+    double *point_weight; /* (points) [N] under the gravity of the scene */
+    int *point_kind;      /* (points) POINT_HELD or POINT_FREE, where the run begins */
 } Source;
 
 /* All return 0, or -1 after one sentence on log. */
 int source_open(const char *path, Source *source, FILE *log);
 int record_create(const Source *source, const char *line, Record *record, FILE *log);
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log);
+
+/* All points of the source after a step, (points). */
+int junctions_read(const Source *source, size_t step, Junction *all, FILE *log);
 
 /* Add what the contacts of its elements do on node j: reaction and friction by their shares. */
 void record_element_forces(const Record *record, size_t j, Real *sum);

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Balance, contact and friction of points (points.h).
+ *
+ * On a point act the lines that end there, against the forces that act on their ends; the load of a
+ * free point, or the support of a held one; and of an obstacle that it touches the reaction R along
+ * the normal and friction F:
+ *
+ *     lines + load + support + R n + F = residual,    R >= 0,  |F| <= mu R
+ *
+ * It sticks, or slides by s on the obstacle, which may turn meanwhile, and then mu R |s| + F.s
+ * vanishes. */
+#include "points.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+/* Sums of a few numbers of the file, per largest force; a balance, in tolerances of the step: what
+ * the search for the places of points may leave; places and slips per length, as those of lines. */
+static const double SUMS = 1e-12, BALANCED = 100, PLACES = 1e-9, COPIED = 1e-12;
+/* Friction above its bound per largest force, and normals. */
+static const double FORCES = 1e-9, NORMALS = 1e-9;
+
+typedef struct Points {
+    const Source *source;
+    Record *line;           /* (lines) of the step */
+    Junction *now, *before; /* (points) */
+    double *length;         /* (points) [m] of the longest line that ends there */
+    double largest;         /* [N] of the step */
+    bool certified, has_friction;
+    size_t step, point;
+    PointFinding *find;
+    void *user;
+} Points;
+
+__attribute__((format(printf, 2, 3))) static void find(const Points *p, const char *format, ...) {
+    char sentence[300];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(sentence, sizeof sentence, format, list);
+    va_end(list);
+    p->find(p->user, p->source->point_name[p->point], p->step, sentence);
+}
+
+/* value <= bound, with NaN a finding */
+static void at_most(const Points *p, const char *what, double value, double bound) {
+    if (!(value <= bound)) find(p, "%s is %.6g, allowed %.3g", what, value, bound);
+}
+
+static double size(const double *v) { return hypot(hypot(v[0], v[1]), v[2]); }
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+static double apart(const double *a, const Real *b) {
+    return hypot(hypot(a[0] - (double)b[0], a[1] - (double)b[1]), a[2] - (double)b[2]);
+}
+static void widen(const double *a, Real *out) {
+    for (int k = 0; k < 3; k++) out[k] = a[k];
+}
+
+/* The sum of the lines, and where their ends are. */
+static void check_lines(const Points *p, const Junction *at) {
+    Real sum[3] = {0};
+    for (size_t i = 0; i < p->source->lines; i++)
+        for (int e = 0; e < 2; e++) {
+            const Record *r = &p->line[i];
+            if (r->end_point[e] != (int)p->point) continue;
+            Real place[3];
+            widen(at->position, place);
+            for (int k = 0; k < 3; k++) sum[k] -= r->end_force[e][k];
+            /* where a part of a step has no solution, the file has the end on its way */
+            const bool ended = r->outcome == OUTCOME_UNBOUNDED ||
+                               r->outcome == OUTCOME_INFEASIBLE || r->outcome == OUTCOME_SLIDES;
+            if (r->end_kind[e] != END_HELD)
+                find(p, "the end of line %s is free", p->source->line_name[i]);
+            else if (!ended || (r->substeps == 1 && r->share == 1))
+                at_most(p, "distance of the end of a line", apart(r->held_position[e], place),
+                        COPIED *
+                            (size(at->position) + size(p->source->origin) + p->length[p->point]));
+        }
+    at_most(p, "sum of the lines against that of their ends", apart(at->lines, sum),
+            SUMS * p->largest);
+}
+
+static void check_balance(const Points *p, const Junction *at) {
+    Real sum[3];
+    const bool is_held = at->state == POINT_HELD;
+    for (int k = 0; k < 3; k++)
+        sum[k] = (Real)at->lines[k] + at->load[k] + at->support[k] + at->friction[k] +
+                 (Real)at->reaction * at->normal[k];
+    at_most(p, "residual against the sum of the forces", apart(at->residual, sum),
+            SUMS * p->largest);
+    at_most(p, is_held ? "load of a held point" : "support of a free point",
+            size(is_held ? at->load : at->support), 0);
+    const double left = size(at->residual);
+    const bool is_balanced = left <= BALANCED * p->source->tolerance * p->largest;
+    if (at->has_place && !is_balanced)
+        find(p, "it is said to have a place, but %.6g N are left, of %.6g N", left, p->largest);
+    if (!at->has_place && p->certified)
+        find(p, "it has no place, but lines that end at free points are certified");
+}
+
+/* No point is below an obstacle, and what touches one is on it. */
+static void check_contact(const Points *p, const Junction *at) {
+    const Source *source = p->source;
+    const double place = PLACES * (p->length[p->point] + size(at->position));
+    Real x[3], n[3];
+    widen(at->position, x);
+    for (size_t k = 0; k < source->surfaces; k++)
+        at_most(p, "depth below an obstacle", -(double)surface_distance(&source->surface[k], x),
+                place);
+    if (at->obstacle < 0) {
+        /* frozen friction acts off the obstacle as well */
+        double mu = 0;
+        for (size_t k = 0; k < source->surfaces && !source->consistent; k++)
+            mu = fmax(mu, (double)surface_friction(&source->surface[k]));
+        const double frozen = p->step > 0 ? mu * p->before[p->point].reaction : INFINITY;
+        at_most(p, "force of an obstacle that it does not touch",
+                fabs(at->reaction) + size(at->normal) + size(at->slip), 0);
+        at_most(p, "friction of an obstacle that it does not touch", size(at->friction),
+                mu > 0 && at->state != POINT_HELD ? frozen * (1 + SUMS) : 0);
+        if (at->state == POINT_STICK || at->state == POINT_SLIP)
+            find(p, "it is said to rest or slide on an obstacle, but touches none");
+        return;
+    }
+    const Surface *surface = &source->surface[at->obstacle];
+    surface_normal(surface, x, n);
+    at_most(p, "distance from the obstacle that it touches",
+            fabs((double)surface_distance(surface, x)), place);
+    at_most(p, "error of the normal", apart(at->normal, n), NORMALS);
+    at_most(p, "reaction that pulls", -at->reaction, 0);
+    if (at->state == POINT_FREE) find(p, "it is said to be off all obstacles, but touches one");
+}
+
+/* The bound of friction: with the reaction of the step itself, or of the one before. */
+static double bound_of(const Points *p, const Junction *at) {
+    const double mu = (double)surface_friction(&p->source->surface[at->obstacle]);
+    if (!p->has_friction) return 0;
+    return mu * (p->source->consistent ? at->reaction : p->before[p->point].reaction);
+}
+
+static void check_friction(const Points *p, const Junction *at) {
+    if (at->obstacle < 0) return;
+    const Surface *surface = &p->source->surface[at->obstacle];
+    const double force = FORCES * p->largest, way = PLACES * p->length[p->point];
+    at_most(p, "friction along the normal", fabs(dot(at->friction, at->normal)), force);
+    if (at->state == POINT_HELD) {
+        at_most(p, "friction or slip of a held point", size(at->friction) + size(at->slip), 0);
+        return;
+    }
+    /* of a first step with frozen friction the reaction before it is not in the file */
+    const bool is_known = p->source->consistent || p->step > 0 || !p->has_friction;
+    const double bound = is_known ? bound_of(p, at) : INFINITY;
+    at_most(p, "friction above its bound", size(at->friction) - bound, force);
+    const double slid = -dot(at->friction, at->slip);
+    at_most(p, "dissipated energy against the work of friction",
+            fabs(at->dissipated - fmax(0, slid)), SUMS * p->largest * size(at->slip));
+    if (at->state == POINT_STICK) at_most(p, "slip of a point at rest", size(at->slip), 2 * way);
+    if (isfinite(bound) && at->has_place)
+        at_most(p, "what the law of friction lacks", bound * size(at->slip) - slid,
+                (BALANCED * p->source->tolerance * p->largest + force) * (size(at->slip) + way));
+    if (p->step == 0) return; /* where it began is not in the file */
+    Real from[3], to[3], carried[3], slip[3];
+    widen(p->before[p->point].position, from);
+    widen(at->position, to);
+    surface_carry(surface, from, p->line[0].turn[at->obstacle], carried);
+    surface_slip(surface, carried, to, slip);
+    at_most(p, "error of the slip", apart(at->slip, slip), 2 * way);
+}
+
+static void check_step(Points *p) {
+    const Source *source = p->source;
+    p->largest = 0;
+    p->certified = false;
+    for (size_t i = 0; i < source->points; i++) p->largest = fmax(p->largest, size(p->now[i].load));
+    for (size_t i = 0; i < source->lines; i++)
+        p->largest = fmax(p->largest, p->line[i].claim[CLAIM_LARGEST_FORCE]);
+    for (p->point = 0; p->point < source->points; p->point++) {
+        const Junction *at = &p->now[p->point];
+        check_lines(p, at);
+        check_contact(p, at);
+        check_friction(p, at);
+    }
+}
+
+/* Whether a line that ends at a free point claims to be certified. */
+static bool is_claimed(const Points *p, bool (*certified)(int outcome)) {
+    for (size_t i = 0; i < p->source->lines; i++)
+        for (int e = 0; e < 2; e++) {
+            const int k = p->line[i].end_point[e];
+            if (k >= 0 && p->now[k].state != POINT_HELD && certified(p->line[i].outcome))
+                return true;
+        }
+    return false;
+}
+
+static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
+    const Source *source = p->source;
+    for (p->step = 0; p->step < source->steps; p->step++) {
+        int bad = junctions_read(source, p->step, p->now, log);
+        for (size_t i = 0; i < source->lines && !bad; i++)
+            bad = record_read(source, source->line_name[i], p->step, &p->line[i], log);
+        if (bad) return -1;
+        p->has_friction = !(source->has_static && p->step == 0);
+        check_step(p);
+        p->certified = is_claimed(p, certified);
+        for (p->point = 0; p->point < source->points; p->point++)
+            check_balance(p, &p->now[p->point]);
+        Junction *swap = p->before;
+        p->before = p->now;
+        p->now = swap;
+    }
+    return 0;
+}
+
+/* The lines of the file, and the longest one at each point. */
+static int open_lines(Points *p, FILE *log) {
+    for (size_t i = 0; i < p->source->lines; i++) {
+        Record *r = &p->line[i];
+        double length = 0;
+        if (record_create(p->source, p->source->line_name[i], r, log)) return -1;
+        for (size_t k = 0; k < r->elements; k++) length += r->element_length[k];
+        for (int e = 0; e < 2; e++)
+            if (r->end_point[e] >= 0)
+                p->length[r->end_point[e]] = fmax(p->length[r->end_point[e]], length);
+    }
+    return 0;
+}
+
+int points_check(const Source *source, bool (*certified)(int outcome), PointFinding *finding,
+                 void *user, FILE *log) {
+    if (source->points == 0) return 0;
+    Points p = {.source = source, .find = finding, .user = user};
+    p.line = calloc(source->lines, sizeof *p.line);
+    p.now = calloc(source->points, sizeof *p.now);
+    p.before = calloc(source->points, sizeof *p.before);
+    p.length = calloc(source->points, sizeof *p.length);
+    int bad = !p.line || !p.now || !p.before || !p.length ? -1 : open_lines(&p, log);
+    if (!bad) bad = check_steps(&p, certified, log);
+    for (size_t i = 0; i < source->lines && p.line; i++) record_destroy(&p.line[i]);
+    free(p.line);
+    free(p.now);
+    free(p.before);
+    free(p.length);
+    return bad;
+}
