@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of docs/gallery.md: of the first scene of README.md, and of driven systems."""
+"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, and of driven systems."""
 import os
 import re
 
@@ -21,8 +21,14 @@ def first_scene(program):
     return os.path.join(place, "step-00004-plan.svg")
 
 
+def bridle(program):
+    """The plan of all steps of examples/bridle.yaml."""
+    _, place = program.run("run", "examples/bridle.yaml")
+    return os.path.join(place, "plan.svg")
+
+
 PICTURES = {
-    "run-rope": first_scene,
+    "run-rope": first_scene, "run-bridle": bridle,
     "drive-wheel-maps": driven("braked-wheel"),
     "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),
     "drive-disc": driven("disc"), "drive-plate": driven("plate"), "drive-car": driven("car"), "drive-planimeter": driven("planimeter"),

@@ -6,7 +6,7 @@ import subprocess
 
 
 def warm_steps(program):
-    """What the test prints of the two cases of sway and of the examples, but for those without a history."""
+    """What the test prints of the two cases of sway and of the examples, but for those without a history or with points."""
     bench = [os.path.join(program.root, "bench", name) for name in ("oc3-sway.yaml", "oc3-sway-set.yaml")]
     scenes = [*bench, *sorted(glob.glob(os.path.join(program.root, "examples", "*.yaml")))]
     command = [os.path.join(program.build, "test", "property", "warm_steps"), "--table", *scenes]
