@@ -2,7 +2,8 @@
 /* capstan/point.h: points where lines meet. A line whose end has the kind CPS_END_KIND_POINT ends
  * at a point of the scene (scene.h), and all lines that end there pull on it. A point is held, or
  * free: then each load step finds the place at which the forces on it balance, together with the
- * lines, each of which is certified there (docs/theory.md 6d).
+ * lines, each of which is certified there (docs/theory.md 6d). It rests on one obstacle at a time:
+ * where two must hold it, as in a groove, no place is found.
  *
  *     CpsPoint point[2] = {cps_point_default(), cps_point_default()};
  *     point[0].name = "anchor";
@@ -45,8 +46,8 @@ CPS_API CpsPoint cps_point_default(void);
 
 /* What a stage changes at a point, reached in equal increments over the stage: the position of one
  * that is held then, or the force on one that is free then. A held point that becomes free is
- * released, and the force on it begins with that which held it; a free one that is to be held is
- * moved from where it is. */
+ * released, and the force on it begins with that which held it and its weight; a free one that is
+ * to be held is moved from where it is. */
 typedef struct CpsPointChange {
     int point; /* index in the scene */
     CpsPointKind kind;
@@ -76,9 +77,10 @@ typedef struct CpsPointReport {
     double residual[3]; /* [N] sum of all these: what nothing balances */
     double dissipated;  /* [J] by its friction in this step */
     int obstacle;       /* index in the scene; CPS_NO_OBSTACLE where it touches none */
-    int trial_count;    /* places tried in this step, each with a step of every line; of all points
-                           the same */
-    bool has_place;     /* the residual is no larger than the tolerance times the largest force */
+    /* places tried in this step, each with a step of every line of the group: free points that
+     * lines connect, also by way of others, are searched for together */
+    int trial_count;
+    bool has_place; /* the residual is no larger than 100 tolerances of the group's largest force */
 } CpsPointReport;
 
 #ifdef __cplusplus

@@ -59,9 +59,9 @@ typedef struct Free {
 } Free;
 
 struct CpsiBalance {
-    int count;              /* free points */
+    int count;              /* free points of the group under way */
     Free *at, *from, *best; /* (count) of the trial, before it, and of the best one */
-    int *number;            /* (points) of a free point, else -1 */
+    int *number;            /* (points) of a free point of the group, else -1 */
     int line_count;         /* lines at free points */
     int *line;              /* (line_count) */
     int *iterations;        /* (lines) of trials that were not kept */
@@ -233,10 +233,7 @@ static void try_places(CpsiBalance *balance) {
             restore_line(balance, i);
         }
     impose(balance);
-    if (balance->trials == 0)
-        cpsi_workers_run(evolution->workers, balance->task, evolution, evolution->line_count);
-    else
-        cpsi_workers_run(evolution->workers, step_one, balance, balance->line_count);
+    cpsi_workers_run(evolution->workers, step_one, balance, balance->line_count);
     balance->trials++;
     balance->force = 0;
     balance->certified = true;
@@ -534,26 +531,32 @@ static double take_step(CpsiBalance *balance, int shortenings, double longer) {
     return 1;
 }
 
-/* Find the points and lines that take part. */
-static void begin(CpsiBalance *balance, CpsEvolution *evolution) {
+/* Step the lines that are at no free point. */
+static void step_others(CpsiBalance *balance) {
+    balance->line_count = 0;
+    for (int i = 0; i < balance->evolution->line_count; i++)
+        if (cpsi_group_of_line(&balance->evolution->points, i) == CPSI_NO_POINT)
+            balance->line[balance->line_count++] = i;
+    if (balance->line_count > 0)
+        cpsi_workers_run(balance->evolution->workers, step_one, balance, balance->line_count);
+}
+
+/* Find the points and lines of a group. */
+static void begin(CpsiBalance *balance, int group) {
+    CpsEvolution *evolution = balance->evolution;
     CpsiPoints *points = &evolution->points;
     balance->count = balance->line_count = balance->trials = 0;
     balance->follows = evolution->options.friction_policy != CPS_FRICTION_POLICY_FROZEN;
     for (int i = 0; i < points->count; i++) {
         CpsiPoint *point = &points->point[i];
         balance->number[i] = -1;
-        if (point->kind != CPS_POINT_KIND_FREE) continue;
+        if (points->group[i] != group) continue;
         balance->number[i] = balance->count;
         balance->at[balance->count++] =
             (Free){.point = i, .place = vec3_load(point->position), .obstacle = CPS_NO_OBSTACLE};
     }
     for (int i = 0; i < evolution->line_count; i++) {
-        bool takes_part = false;
-        for (int end = 0; end < 2; end++) {
-            const int point = points->tie[2 * i + end];
-            takes_part = takes_part || (point != CPSI_NO_POINT && balance->number[point] >= 0);
-        }
-        if (!takes_part) continue;
+        if (cpsi_group_of_line(points, i) != group) continue;
         balance->line[balance->line_count++] = i;
         balance->iterations[i] = 0;
         cpsi_line_keep(&evolution->line[i], &balance->state[balance->offset[i]]);
@@ -764,6 +767,15 @@ void cpsi_balance_start(CpsEvolution *evolution) {
     }
 }
 
+/* Find the places of a group of free points. */
+static void find_places(CpsiBalance *balance, int group) {
+    begin(balance, group);
+    if (!guess_places(balance)) extrapolate(balance);
+    search(balance);
+    for (int k = 0; k < balance->count; k++) report_point(balance, &balance->at[k]);
+    report_lines(balance);
+}
+
 void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     CpsiBalance *balance = evolution->points.balance;
     CpsiPoints *points = &evolution->points;
@@ -775,11 +787,10 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     if (any) {
         balance->evolution = evolution;
         balance->task = step;
-        begin(balance, evolution);
-        if (!guess_places(balance)) extrapolate(balance);
-        search(balance);
-        for (int k = 0; k < balance->count; k++) report_point(balance, &balance->at[k]);
-        report_lines(balance);
+        cpsi_points_group(points, evolution->line_count);
+        step_others(balance);
+        for (int i = 0; i < points->count && !is_interrupted(evolution); i++)
+            if (points->group[i] == i) find_places(balance, i);
     } else {
         cpsi_workers_run(evolution->workers, step, evolution, evolution->line_count);
     }

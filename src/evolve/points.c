@@ -203,6 +203,7 @@ void cpsi_points_layout(CpsiPoints *points, CpsiArena *arena, const CpsScene *sc
     CPSI_PLACE(arena, points->point, scene->point_count);
     CPSI_PLACE(arena, points->given, scene->point_count);
     CPSI_PLACE(arena, points->tie, 2 * (size_t)scene->line_count);
+    CPSI_PLACE(arena, points->group, scene->point_count);
 }
 
 void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene *local) {
@@ -228,5 +229,21 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
         memcpy(point->report.position, point->position, sizeof point->position);
         points->given[i] = *from;
         points->given[i].name = point->name;
+    }
+}
+
+void cpsi_points_group(CpsiPoints *points, int lines) {
+    int *group = points->group;
+    for (int i = 0; i < points->count; i++)
+        group[i] = points->point[i].kind == CPS_POINT_KIND_FREE ? i : CPSI_NO_POINT;
+    for (bool more = true; more;) {
+        more = false;
+        for (int i = 0; i < lines; i++) {
+            const int a = points->tie[2 * i], b = points->tie[2 * i + 1];
+            if (a == CPSI_NO_POINT || b == CPSI_NO_POINT || group[a] == group[b]) continue;
+            if (group[a] == CPSI_NO_POINT || group[b] == CPSI_NO_POINT) continue;
+            group[a] = group[b] = group[a] < group[b] ? group[a] : group[b];
+            more = true;
+        }
     }
 }

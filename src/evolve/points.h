@@ -34,6 +34,7 @@ typedef struct CpsiPoints {
     CpsiPoint *point;     /* (count) */
     CpsPoint *given;      /* (count) names and kinds, against which stages are checked */
     int *tie;             /* (lines, 2) the point of an end, or CPSI_NO_POINT */
+    int *group;           /* (count) first point of a free one's group, else CPSI_NO_POINT */
     CpsiBalance *balance; /* NULL: no point is ever free */
 } CpsiPoints;
 
@@ -63,6 +64,20 @@ CpsStatus cpsi_held_scene(const CpsScene *scene, CpsiHeldScene *out, CpsError *e
 void cpsi_points_layout(CpsiPoints *points, CpsiArena *arena, const CpsScene *scene);
 /* Fill them but for names; positions are those of `local`, relative to the origin. */
 void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene *local);
+
+/* Find the groups: free points that lines connect, also by way of other free ones, are one. Groups
+ * have nothing to do with each other in a step, and their forces may differ by any factor. */
+void cpsi_points_group(CpsiPoints *points, int lines);
+
+/* The group that a line is at, or CPSI_NO_POINT. */
+static inline int cpsi_group_of_line(const CpsiPoints *points, int line) {
+    for (int end = 0; end < 2; end++) {
+        const int point = points->tie[2 * line + end];
+        if (point != CPSI_NO_POINT && points->group[point] != CPSI_NO_POINT)
+            return points->group[point];
+    }
+    return CPSI_NO_POINT;
+}
 
 /* [N] Weight and force on a free point. */
 static inline void cpsi_point_load(const CpsiPoint *point, const double gravity[3],

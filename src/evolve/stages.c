@@ -120,9 +120,13 @@ static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage
         CpsiPoint *point = &points->point[change->point];
         const bool held = change->kind == CPS_POINT_KIND_HELD;
         if (part == 0) {
-            const double *load =
-                point->kind == CPS_POINT_KIND_FREE ? point->force : point->report.support;
-            memcpy(point->from, held ? point->position : load, sizeof point->from);
+            const bool was_free = point->kind == CPS_POINT_KIND_FREE;
+            for (int a = 0; a < 3; a++) {
+                const double load =
+                    was_free ? point->force[a]
+                             : point->report.support[a] - point->mass * evolution->gravity_from[a];
+                point->from[a] = held ? point->position[a] : load;
+            }
             point->kind = change->kind;
         }
         value_at(point->from, change->value, part + 1, stage->steps,

@@ -248,6 +248,75 @@ static void moves_of_points(void **unused) {
     cps_evolution_destroy(other);
 }
 
+/* Points that no line connects do not count for each other: a light point beside a mooring with
+ * forces that are 1e9 times as large has its own place, and what falls there is not certified. */
+static void a_light_point_beside_a_heavy_one(void **unused) {
+    (void)unused;
+    for (int falls = 0; falls < 2; falls++) {
+        Strings light, heavy;
+        CpsLine line[4];
+        CpsPoint point[6];
+        two_strings(&light);
+        two_strings(&heavy);
+        for (int i = 0; i < 3; i++) {
+            static const char *const NAME[] = {"left_2", "right_2", "knot_2"};
+            point[i] = light.point[i];
+            point[3 + i] = heavy.point[i];
+            point[3 + i].name = NAME[i];
+            point[3 + i].position[1] += 20;
+        }
+        for (int i = 0; i < 2; i++) {
+            line[i] = light.line[i];
+            line[2 + i] = heavy.line[i];
+            line[2 + i].name = i == 0 ? "three" : "four";
+            line[2 + i].stiffness = 1e9 * EA;
+            for (int end = 0; end < 2; end++) line[2 + i].end_point[end] += 3;
+            if (falls) point[i].kind = CPS_POINT_KIND_FREE;
+        }
+        point[5].weight = 1e9 * WEIGHT;
+        light.scene.line = line;
+        light.scene.line_count = 4;
+        light.scene.point = point;
+        light.scene.point_count = 6;
+        CpsEvolution *evolution = evolve(&light.scene);
+        CpsError err;
+        assert_int_equal(cps_evolution_step(evolution, &err), CPS_OK);
+        const CpsPointReport knot = cps_evolution_point_report(evolution, 2);
+        const double at[3] = {0, 0, -depth(WEIGHT)};
+        assert_int_equal(knot.has_place, !falls);
+        if (!falls) CHECK_VECTOR(knot.position, at, 1e-10);
+        for (int i = 0; i < 4; i++)
+            assert_int_equal(cps_evolution_line_report(evolution, i).outcome,
+                             i < 2 && falls ? CPS_OUTCOME_STALLED : CPS_OUTCOME_SOLVED);
+        cps_evolution_destroy(evolution);
+    }
+}
+
+/* What held a clump held its weight as well: released to that force, it stays on the way there. */
+static void a_clump_that_is_released(void **unused) {
+    (void)unused;
+    Strings s;
+    two_strings(&s);
+    s.point[2].kind = CPS_POINT_KIND_HELD;
+    CpsEvolution *evolution = evolve(&s.scene);
+    const CpsPointReport held = step_to(evolution, 2);
+    cps_evolution_destroy(evolution);
+    CpsPointChange change = {2, CPS_POINT_KIND_FREE, {0}};
+    CpsStage stage = cps_stage_default();
+    memcpy(change.value, held.support, sizeof change.value);
+    change.value[2] += WEIGHT;
+    stage.name = "release";
+    stage.step_count = 4;
+    stage.point_change_count = 1;
+    stage.point_change = &change;
+    s.scene.stage_count = 1;
+    s.scene.stage = &stage;
+    evolution = evolve(&s.scene);
+    for (int step = 0; step < 5; step++)
+        CHECK_VECTOR(step_to(evolution, 2).position, held.position, 1e-9);
+    cps_evolution_destroy(evolution);
+}
+
 /* Any number of threads gives the same bits, and a far origin the same answer. */
 static void threads_and_origin(void **unused) {
     (void)unused;
@@ -349,6 +418,8 @@ int main(void) {
         cmocka_unit_test(a_clump_on_a_rough_bed),
         cmocka_unit_test(a_held_point_is_held_ends),
         cmocka_unit_test(moves_of_points),
+        cmocka_unit_test(a_light_point_beside_a_heavy_one),
+        cmocka_unit_test(a_clump_that_is_released),
         cmocka_unit_test(threads_and_origin),
         cmocka_unit_test(what_is_refused),
     };

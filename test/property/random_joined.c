@@ -55,7 +55,7 @@ typedef struct Pair {
     CpsLine piece[MOST_PIECES];
     bool turned[MOST_PIECES];
     double piece_ends[MOST_PIECES][6];
-    char name[2 * MOST_PIECES + 2][16];
+    char name[2 * MOST_PIECES + 2][20];
     CpsPoint point[MOST_PIECES + 1];
     CpsScene joined_scene;
 } Pair;
