@@ -143,6 +143,10 @@ CPS_API CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int l
 CPS_API int cps_evolution_point_count(const CpsEvolution *evolution);
 CPS_API CpsPointReport cps_evolution_point_report(const CpsEvolution *evolution, int point);
 
+/* The same of the bodies (body.h). */
+CPS_API int cps_evolution_body_count(const CpsEvolution *evolution);
+CPS_API CpsBodyReport cps_evolution_body_report(const CpsEvolution *evolution, int body);
+
 /* The stiffness of an end of a line after the last step, all else as in that step: the other end
  * stays, or keeps its force. An end with a given force is taken as one that is held where the step
  * has left it. A step of several substeps (CpsLineReport) is that of its last one. Sliding forces

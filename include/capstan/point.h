@@ -25,8 +25,9 @@ extern "C" {
 #endif
 
 typedef enum CpsPointKind {
-    CPS_POINT_KIND_HELD, /* at its position, to which stages may move it */
-    CPS_POINT_KIND_FREE  /* where the forces on it balance */
+    CPS_POINT_KIND_HELD,   /* at its position, to which stages may move it */
+    CPS_POINT_KIND_FREE,   /* where the forces on it balance */
+    CPS_POINT_KIND_ON_BODY /* on a body (body.h), with which it moves; stages do not change it */
 } CpsPointKind;
 
 typedef struct CpsPoint {
@@ -35,8 +36,9 @@ typedef struct CpsPoint {
     CpsPointKind kind; /* default held */
     /* [m] where it is, or where a free one begins; default 0 0 0. Lines that end there begin there:
      * where they all start by statics, that of a free point is a first guess */
-    double position[3];
-    double force[3]; /* [N] on a free point, beside its lines and its weight; default 0 0 0 */
+    double position[3]; /* of a point on a body: in the axes of the body */
+    int body;           /* index in the scene, of a point on a body */
+    double force[3];    /* [N] on a free point, beside its lines and its weight; default 0 0 0 */
     /* [N] along gravity, with which it changes (submerged weight): of a clump; negative of a buoy,
      * which lifts; default 0 */
     double weight;
@@ -59,7 +61,8 @@ typedef enum CpsPointState {
     CPS_POINT_STATE_HELD = 0,
     CPS_POINT_STATE_FREE = 1,  /* off all obstacles */
     CPS_POINT_STATE_STICK = 2, /* at rest on one */
-    CPS_POINT_STATE_SLIP = 3   /* sliding on one, with friction at its bound */
+    CPS_POINT_STATE_SLIP = 3,  /* sliding on one, with friction at its bound */
+    CPS_POINT_STATE_ON_BODY = 4
 } CpsPointState;
 
 /* The report on a point. Forces are on the point. On an obstacle the point bears all that the lines
@@ -69,7 +72,7 @@ typedef struct CpsPointReport {
     double position[3]; /* [m] in the coordinates of the scene */
     double lines[3];    /* [N] sum of the lines that end here */
     double load[3];     /* [N] force and weight of a free point; 0 of a held one */
-    double support[3];  /* [N] what holds a held point; 0 of a free one */
+    double support[3];  /* [N] what holds a held point, or the body it is on; 0 of a free one */
     double reaction;    /* [N] R >= 0 of the obstacle that it touches, along `normal` */
     double normal[3];   /* [-] 0 0 0 where it touches none */
     double friction[3]; /* [N] |F| <= mu R */

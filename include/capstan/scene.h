@@ -9,6 +9,7 @@
 #ifndef CAPSTAN_SCENE_H
 #define CAPSTAN_SCENE_H
 
+#include "capstan/body.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
 
@@ -184,6 +185,8 @@ typedef struct CpsStage {
     const CpsTurn *turn;
     int point_change_count; /* default 0 */
     const CpsPointChange *point_change;
+    int body_change_count; /* default 0 */
+    const CpsBodyChange *body_change;
     bool gravity_changes; /* default false: gravity stays as it is */
     /* [m/s2] with the flag: the gravity at the end of the stage. The weight of a line changes with
      * it, in proportion to the scene's. */
@@ -241,6 +244,8 @@ typedef struct CpsScene {
     const CpsLine *line;
     int point_count; /* >= 0, default 0 */
     const CpsPoint *point;
+    int body_count; /* >= 0, default 0 */
+    const CpsBody *body;
     int stage_count; /* >= 0 */
     const CpsStage *stage;
     CpsFrictionPolicy friction_policy;

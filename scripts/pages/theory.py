@@ -42,7 +42,7 @@ def mesh_error_moved(p):
 
 def balanced(p):
     """What is left of the forces on points, per largest force, and in units of the tolerance."""
-    times = number("evolve/balance.c", "BALANCED")(p)
+    times = number("evolve/trial.c", "BALANCED")(p)
     return [short(float(times) * 1e-8), times]
 
 

@@ -16,12 +16,12 @@ static const double TARGET = 1e-10;
 enum { ITERATIONS = 100 };
 
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
-                        int joints, const CpsiLinsysOps *ops) {
+                        int joints, int bodies, const CpsiLinsysOps *ops) {
     const bool own_axes = count > 0 && line[0].has_local_axes;
     int most = 1;
     for (int k = 0; k < count; k++) most = line[k].n > most ? line[k].n : most;
     *network = (CpsiNetwork){.lines = count, .joints = joints};
-    cpsi_network_layout(&network->program, arena, count + joints, 2 * most, joints);
+    cpsi_network_layout(&network->program, arena, count + joints, 2 * most, joints, bodies);
     CPSI_PLACE(arena, network->chain, count + joints);
     for (int k = 0; k < count + joints; k++) {
         CpsiChainProgram none, *chain = network->chain ? &network->chain[k] : &none;
@@ -87,8 +87,10 @@ static CpsiStepScale scale_of(const CpsiLine *line, const CpsiNetworkPart *part,
         scale.length = fmax(scale.length, one->length);
         scale.force = fmax(scale.force, cpsi_line_unit_force(one, bounds));
     }
-    for (int k = 0; k < part->joints; k++)
+    for (int k = 0; k < part->own; k++)
         scale.force = fmax(scale.force, vec3_norm(part->joint[k].load));
+    for (int k = 0; k < part->bodies; k++)
+        scale.force = fmax(scale.force, vec3_norm(part->body[k].force));
     if (!(scale.force > 0)) scale.force = 1;
     return scale;
 }
@@ -101,15 +103,59 @@ static void set_reference(CpsiLine *line, const CpsiStepOptions *options) {
     cpsi_contact_update_geometry(line);
 }
 
+/* The joint of the program that joint k is, in units of the program. */
+static void fill_map(const CpsiNetworkPart *part, int k, const double axes[9],
+                     const CpsiStepScale *scale, CpsiJointMap *map) {
+    const CpsiJoint *joint = &part->joint[k];
+    *map = (CpsiJointMap){.first = 3 * k, .width = 3, .by = {{1}, {0, 1}, {0, 0, 1}}};
+    if (k < part->own) return;
+    double arm[3], a[3];
+    vec3_store(arm, vec3_scale(1 / scale->length, joint->arm));
+    cpsi_frame_to(a, axes, arm);
+    *map = (CpsiJointMap){.first = 3 * part->own + 6 * joint->body,
+                          .width = 6,
+                          .by = {{1, 0, 0, 0, a[2], -a[1]},
+                                 {0, 1, 0, -a[2], 0, a[0]},
+                                 {0, 0, 1, a[1], -a[0], 0}}};
+}
+
+/* A stiffness (6, 6) in the common axes and the units of the program. */
+static void fill_stiffness(const double given[36], const double axes[9], const CpsiStepScale *scale,
+                           double out[36]) {
+    for (int row = 0; row < 2; row++)
+        for (int column = 0; column < 2; column++) {
+            const double unit =
+                (column == 0 ? scale->length : 1) / (scale->force * (row == 0 ? 1 : scale->length));
+            double block[9];
+            for (int i = 0; i < 9; i++)
+                block[i] = given[6 * (3 * row + i / 3) + 3 * column + i % 3];
+            cpsi_frame_turn(block, axes, block);
+            for (int i = 0; i < 9; i++)
+                out[6 * (3 * row + i / 3) + 3 * column + i % 3] = unit * block[i];
+        }
+}
+
+/* A load in the common axes and the units of the program; returns the sum of its numbers. */
+static double fill_load(Vec3 load, double unit, const double axes[9], double *out) {
+    double own[3];
+    vec3_store(own, vec3_scale(1 / unit, load));
+    cpsi_frame_to(out, axes, own);
+    return fabs(out[0]) + fabs(out[1]) + fabs(out[2]);
+}
+
 /* Returns the sum of the loads. */
 static double fill(CpsiNetwork *network, const CpsiLine *line, const CpsiNetworkPart *part,
                    const CpsiStepScale *scale) {
     CpsiNetworkProgram *program = &network->program;
     const CpsiLine *first = &line[part->number[0]];
-    double loads = 0;
-    program->count = part->lines + part->joints;
+    const double *axes = first->common_axes;
+    double loads = 0, *load = program->base.load;
+    program->count = part->lines;
     program->joints = part->joints;
-    program->base.size = 3 * part->joints;
+    program->bodies = part->bodies;
+    program->base.size = 3 * part->own + 6 * part->bodies;
+    memset(load, 0, (size_t)program->base.size * sizeof *load);
+    memset(program->base.u, 0, (size_t)program->base.size * sizeof *load);
     for (int k = 0; k < part->lines; k++) {
         CpsiChainProgram *chain = &program->chain[k];
         *chain = network->chain[part->number[k]];
@@ -118,26 +164,31 @@ static double fill(CpsiNetwork *network, const CpsiLine *line, const CpsiNetwork
         memcpy(program->joint[k], part->at[k], sizeof program->joint[k]);
     }
     for (int k = 0; k < part->joints; k++) {
-        CpsiChainProgram *chain = &program->chain[part->lines + k];
-        double load[3];
+        fill_map(part, k, axes, scale, &program->map[k]);
+        if (k >= part->own) continue;
+        CpsiChainProgram *chain = &program->chain[program->count];
         *chain = network->chain[network->lines + k];
         fill_joint(&part->joint[k], first->has_local_axes, chain, scale);
-        program->joint[part->lines + k][CPSI_FIRST_NODE] = k;
-        program->joint[part->lines + k][CPSI_LAST_NODE] = CPSI_NO_JOINT;
-        vec3_store(load, vec3_scale(1 / scale->force, part->joint[k].load));
-        cpsi_frame_to(&program->base.load[3 * k], first->common_axes, load);
-        for (int a = 0; a < 3; a++) {
-            loads += fabs(program->base.load[3 * k + a]);
-            program->base.u[3 * k + a] = 0;
-        }
+        program->joint[program->count][CPSI_FIRST_NODE] = k;
+        program->joint[program->count][CPSI_LAST_NODE] = CPSI_NO_JOINT;
+        program->count++;
+        loads += fill_load(part->joint[k].load, scale->force, axes, &load[3 * k]);
+    }
+    for (int k = 0; k < part->bodies; k++) {
+        const CpsiNetworkBody *body = &part->body[k];
+        const int at = program->body_first[k] = 3 * part->own + 6 * k;
+        fill_stiffness(body->stiffness, axes, scale, program->stiffness[k]);
+        loads += fill_load(body->force, scale->force, axes, &load[at]);
+        loads += fill_load(body->moment, scale->force * scale->length, axes, &load[at + 3]);
     }
     return loads;
 }
 
 bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
-                        const CpsiStepOptions *options, double *place, int *iterations) {
+                        const CpsiStepOptions *options, const CpsiNetworkMove *out) {
     const bool coupled = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
                          !options->frictionless && line->obstacle_count > 0;
+    const double *axes = line[part->number[0]].common_axes, *u = network->program.base.u;
     for (int k = 0; k < part->lines; k++) set_reference(&line[part->number[k]], options);
     const CpsiStepScale scale =
         scale_of(line, part, coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED);
@@ -146,12 +197,24 @@ bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkP
                                 .scale = loads > 0 ? loads : 1,
                                 .max_iterations = ITERATIONS};
     const CpsiIpmReport report = cpsi_ipm_solve(&network->program.base, &ipm);
-    *iterations = report.iterations;
-    for (int k = 0; k < part->joints; k++) {
-        double move[3];
-        cpsi_frame_from(move, line[part->number[0]].common_axes, &network->program.base.u[3 * k]);
-        vec3_store(&place[3 * k],
-                   vec3_axpy(scale.length, vec3_load(move), part->joint[k].position));
+    for (int k = 0; k < part->own; k++) {
+        cpsi_frame_from(&out->joint[3 * k], axes, &u[3 * k]);
+        for (int a = 0; a < 3; a++) out->joint[3 * k + a] *= scale.length;
     }
+    for (int k = 0; k < part->bodies; k++) {
+        const double *move = &u[3 * part->own + 6 * k];
+        cpsi_frame_from(&out->body[6 * k], axes, move);
+        cpsi_frame_from(&out->body[6 * k + 3], axes, &move[3]);
+        for (int a = 0; a < 3; a++) out->body[6 * k + a] *= scale.length;
+    }
+    for (int k = 0; k < part->lines; k++)
+        for (int end = 0; end < 2; end++) {
+            const CpsiChainProgram *chain = &network->program.chain[k];
+            const double *z = chain->segment.z[end == CPS_END_A ? 1 : chain->n - 1],
+                         by = end == CPS_END_A ? -scale.force : scale.force;
+            double *pull = &out->pull[6 * k + 3 * end];
+            cpsi_frame_from(pull, axes, &z[1]);
+            for (int a = 0; a < 3; a++) pull[a] *= by;
+        }
     return report.outcome == CPSI_IPM_SOLVED;
 }

@@ -16,7 +16,15 @@ typedef struct CpsiJoint {
     /* contact with the nearest obstacle, NULL: none */
     const CpsiObstacle *obstacle;
     double gap, friction, bound; /* [m], [-], [N] of frozen friction */
+    int body;                    /* that it is on, else -1; then nothing else acts on it */
+    Vec3 arm;                    /* [m] from the body's reference point */
 } CpsiJoint;
+
+/* A body: what acts on it at the places where its joints are [N, N m], and its stiffness (6, 6). */
+typedef struct CpsiNetworkBody {
+    Vec3 force, moment;
+    double stiffness[36];
+} CpsiNetworkBody;
 
 typedef struct CpsiNetwork {
     CpsiNetworkProgram program;
@@ -24,22 +32,31 @@ typedef struct CpsiNetwork {
     CpsiChainProgram *chain; /* (lines + joints) a program for each, of which some take part */
 } CpsiNetwork;
 
-/* Place the arrays for the lines (count) and so many joints. */
+/* Place the arrays for the lines (count) and so many joints and bodies. */
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
-                        int joints, const CpsiLinsysOps *ops);
+                        int joints, int bodies, const CpsiLinsysOps *ops);
 
 /* The part of it that a step moves. */
 typedef struct CpsiNetworkPart {
-    int lines, joints;
-    const int *number;      /* (lines) of those that the network was laid out for */
-    const int (*at)[2];     /* (lines, 2) the joint of each end, or CPSI_NO_JOINT */
-    const CpsiJoint *joint; /* (joints) */
+    int lines, joints, bodies;
+    int own;                     /* the first joints are on no body */
+    const int *number;           /* (lines) of those that the network was laid out for */
+    const int (*at)[2];          /* (lines, 2) the joint of each end, or CPSI_NO_JOINT */
+    const CpsiJoint *joint;      /* (joints) */
+    const CpsiNetworkBody *body; /* (bodies) */
 } CpsiNetworkPart;
 
-/* Find where the joints go. `line` are all lines; the ends at joints are held where they are, and
- * what else the step imposes is set. Writes the places (joints, 3) [m] and the iterations; false
- * where the program has no solution. The lines' steps are overwritten. */
+/* Where they go. */
+typedef struct CpsiNetworkMove {
+    double *joint; /* (own, 3) [m] */
+    double *body;  /* (bodies, 6) [m, rad] */
+    double *pull;  /* (lines, 2, 3) [N] of each line on what holds its ends */
+} CpsiNetworkMove;
+
+/* Find where the joints and bodies go. `line` are all lines; the ends at joints are held where the
+ * joints are, and what else the step imposes is set. False where the program has no solution. The
+ * lines' steps are overwritten. */
 bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
-                        const CpsiStepOptions *options, double *place, int *iterations);
+                        const CpsiStepOptions *options, const CpsiNetworkMove *out);
 
 #endif

@@ -45,6 +45,24 @@ static void from_node(const CpsiChainProgram *chain, int j, const double v[3], d
         memcpy(out, v, 3 * sizeof *out);
 }
 
+/* The displacement of a joint for an array of the unknowns. */
+static void at_joint(const CpsiNetworkProgram *network, int joint, const double *unknowns,
+                     double out[3]) {
+    const CpsiJointMap *map = &network->map[joint];
+    for (int a = 0; a < 3; a++) {
+        out[a] = 0;
+        for (int i = 0; i < map->width; i++) out[a] += map->by[a][i] * unknowns[map->first + i];
+    }
+}
+
+/* Add `by` times a force at a joint to an array of the unknowns. */
+static void add_to_joint(const CpsiNetworkProgram *network, int joint, double by,
+                         const double force[3], double *unknowns) {
+    const CpsiJointMap *map = &network->map[joint];
+    for (int i = 0; i < map->width; i++)
+        for (int a = 0; a < 3; a++) unknowns[map->first + i] += by * map->by[a][i] * force[a];
+}
+
 /* Move what an array of chain k holds at its ties to that of the joints. */
 static void gather(const CpsiNetworkProgram *network, int k, double *from, double *joints) {
     Tie tie;
@@ -52,19 +70,20 @@ static void gather(const CpsiNetworkProgram *network, int k, double *from, doubl
         if (!tie_of(network, k, end, &tie)) continue;
         double own[3];
         from_node(&network->chain[k], tie.node, &from[3 * tie.node], own);
-        for (int a = 0; a < 3; a++) {
-            joints[3 * tie.joint + a] += own[a];
-            from[3 * tie.node + a] = 0;
-        }
+        add_to_joint(network, tie.joint, 1, own, joints);
+        for (int a = 0; a < 3; a++) from[3 * tie.node + a] = 0;
     }
 }
 
 /* ... and set an array of chain k at its ties to that of the joints. */
 static void scatter(const CpsiNetworkProgram *network, int k, const double *joints, double *to) {
     Tie tie;
-    for (int end = 0; end < CPSI_END_NODES; end++)
-        if (tie_of(network, k, end, &tie))
-            to_node(&network->chain[k], tie.node, &joints[3 * tie.joint], &to[3 * tie.node]);
+    for (int end = 0; end < CPSI_END_NODES; end++) {
+        if (!tie_of(network, k, end, &tie)) continue;
+        double own[3];
+        at_joint(network, tie.joint, joints, own);
+        to_node(&network->chain[k], tie.node, own, &to[3 * tie.node]);
+    }
 }
 
 /* passes --------------------------------------------------------------------------------------- */
@@ -85,6 +104,13 @@ static void measure(CpsiProgram *program, CpsiSums *sums) {
         memcpy(chain->residual, chain->load, numbers(&network->chain[k]) * sizeof(double));
         for (int i = 0; i < chain->kind_count; i++) chain->kind[i]->measure(chain, sums);
         gather(network, k, chain->residual, program->residual);
+    }
+    for (int k = 0; k < network->bodies; k++) {
+        const int first = network->body_first[k];
+        for (int i = 0; i < 6; i++)
+            for (int j = 0; j < 6; j++)
+                program->residual[first + i] -=
+                    network->stiffness[k][6 * i + j] * program->u[first + j];
     }
 }
 
@@ -190,6 +216,20 @@ static void force_on_tie(const CpsiChainProgram *chain, const Tie *tie, const do
                  tie->sign * m[a] * chain->dt[tie->element];
 }
 
+/* Add A' K B for a block K of the forces at one joint by the displacements of another. */
+static void add_block(CpsiNetworkProgram *network, int to, int from, const double block[9]) {
+    const size_t n = (size_t)network->base.size;
+    const CpsiJointMap *row = &network->map[to], *column = &network->map[from];
+    for (int i = 0; i < row->width; i++)
+        for (int j = 0; j < column->width; j++) {
+            double sum = 0;
+            for (int a = 0; a < 3; a++)
+                for (int b = 0; b < 3; b++)
+                    sum += row->by[a][i] * block[3 * a + b] * column->by[b][j];
+            network->matrix[(size_t)(row->first + i) * n + (size_t)(column->first + j)] += sum;
+        }
+}
+
 /* Add the block of a chain of one node, in the common axes. */
 static void add_node(CpsiNetworkProgram *network, const CpsiChainProgram *chain, int joint) {
     const CpsiMatrix *matrix = &chain->matrix;
@@ -205,20 +245,16 @@ static void add_node(CpsiNetworkProgram *network, const CpsiChainProgram *chain,
         for (int i = 0; i < 9; i++) own[i] = chain->frame[3 * (i % 3) + i / 3];
         cpsi_frame_turn(block, own, block);
     }
-    const size_t n = 3 * (size_t)network->joints;
-    for (size_t a = 0; a < 3; a++)
-        for (size_t b = 0; b < 3; b++)
-            network->matrix[(3 * (size_t)joint + a) * n + 3 * (size_t)joint + b] +=
-                block[3 * a + b];
+    add_block(network, joint, joint, block);
 }
 
 /* Add the columns of chain k: the forces on its ties by a unit displacement of each. */
 static void add_chain(CpsiNetworkProgram *network, CpsiChainProgram *chain, int k) {
     static const double zero[3] = {0, 0, 0};
-    const size_t n = 3 * (size_t)network->joints;
     Tie from, to;
     for (int end = 0; end < CPSI_END_NODES; end++) {
         if (!tie_of(network, k, end, &from)) continue;
+        double block[CPSI_END_NODES][9] = {{0}};
         for (int a = 0; a < 3; a++) {
             const double unit[3] = {a == 0, a == 1, a == 2};
             memset(chain->base.du, 0, numbers(chain) * sizeof(double));
@@ -230,11 +266,12 @@ static void add_chain(CpsiNetworkProgram *network, CpsiChainProgram *chain, int 
                 double force[3];
                 force_on_tie(chain, &to, other == end ? unit : zero, other == end ? zero : unit,
                              force);
-                for (size_t b = 0; b < 3; b++)
-                    network->matrix[(3 * (size_t)to.joint + b) * n + 3 * (size_t)from.joint +
-                                    (size_t)a] += force[b];
+                for (int b = 0; b < 3; b++) block[other][3 * b + a] = force[b];
             }
         }
+        for (int other = 0; other < CPSI_END_NODES; other++)
+            if (tie_of(network, k, other, &to))
+                add_block(network, to.joint, from.joint, block[other]);
     }
 }
 
@@ -242,8 +279,14 @@ static void clear(CpsiProgram *program) { (void)program; /* `scale` clears the c
 
 static bool factor(CpsiProgram *program) {
     CpsiNetworkProgram *network = network_of(program);
-    const size_t n = 3 * (size_t)network->joints;
+    const size_t n = (size_t)program->size;
     memset(network->matrix, 0, n * n * sizeof *network->matrix);
+    for (int k = 0; k < network->bodies; k++) {
+        const size_t first = (size_t)network->body_first[k];
+        for (size_t i = 0; i < 6; i++)
+            memcpy(&network->matrix[(first + i) * n + first], &network->stiffness[k][6 * i],
+                   6 * sizeof *network->matrix);
+    }
     for (int k = 0; k < network->count; k++) {
         CpsiChainProgram *chain = &network->chain[k];
         if (chain->n == 1) {
@@ -270,8 +313,11 @@ static void solve(CpsiProgram *program) {
             if (pass == 0) memcpy(network->kept, chain->base.du, bytes);
             if (pass == 1)
                 for (int end = 0; end < CPSI_END_NODES; end++)
-                    if (tie_of(network, k, end, &tie))
-                        move_tie(chain, &tie, &program->du[3 * tie.joint]);
+                    if (tie_of(network, k, end, &tie)) {
+                        double move[3];
+                        at_joint(network, tie.joint, program->du, move);
+                        move_tie(chain, &tie, move);
+                    }
             solve_chain(chain);
             if (pass == 1) {
                 scatter(network, k, program->du, chain->base.du);
@@ -281,12 +327,11 @@ static void solve(CpsiProgram *program) {
                 double force[3];
                 if (!tie_of(network, k, end, &tie)) continue;
                 force_on_tie(chain, &tie, zero, zero, force);
-                for (int a = 0; a < 3; a++) program->du[3 * tie.joint + a] -= force[a];
+                add_to_joint(network, tie.joint, -1, force, program->du);
             }
             memcpy(chain->base.du, network->kept, bytes);
         }
-        if (pass == 0)
-            cpsi_lu_solve(3 * network->joints, network->matrix, network->pivot, program->du);
+        if (pass == 0) cpsi_lu_solve(program->size, network->matrix, network->pivot, program->du);
     }
 }
 
@@ -301,9 +346,9 @@ static double imbalance(const CpsiProgram *program) {
 }
 
 void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chains, int n,
-                         int joints) {
-    const size_t unknowns = 3 * (size_t)joints;
-    *network = (CpsiNetworkProgram){.base = {.size = 3 * joints,
+                         int joints, int bodies) {
+    const size_t unknowns = 3 * (size_t)joints + 6 * (size_t)bodies;
+    *network = (CpsiNetworkProgram){.base = {.size = (int)unknowns,
                                              .kind = KINDS,
                                              .kind_count = 1,
                                              .clear = clear,
@@ -311,13 +356,17 @@ void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chai
                                              .solve = solve,
                                              .imbalance = imbalance},
                                     .count = chains,
-                                    .joints = joints};
+                                    .joints = joints,
+                                    .bodies = bodies};
     CPSI_PLACE(arena, network->base.load, unknowns);
     CPSI_PLACE(arena, network->base.u, unknowns);
     CPSI_PLACE(arena, network->base.du, unknowns);
     CPSI_PLACE(arena, network->base.residual, unknowns);
     CPSI_PLACE(arena, network->chain, chains);
     CPSI_PLACE(arena, network->joint, chains);
+    CPSI_PLACE(arena, network->map, joints);
+    CPSI_PLACE(arena, network->body_first, bodies);
+    CPSI_PLACE(arena, network->stiffness, bodies);
     CPSI_PLACE(arena, network->matrix, unknowns * unknowns);
     CPSI_PLACE(arena, network->kept, 3 * (size_t)n);
     CPSI_PLACE(arena, network->pivot, unknowns);

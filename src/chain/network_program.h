@@ -3,9 +3,10 @@
  *
  *     min  sum of the chains' energies  -  sum_J load_J.x_J,
  *
- * where a node of a chain that is at joint J moves by x_J, three unknowns in the common axes of all
- * chains. Such a node is `held` in its chain: the joint's equation has its forces. What else acts
- * on a joint, contact and friction, is a chain of one node.
+ * where a node of a chain that is at joint J moves by x_J in the common axes of all chains. These
+ * are three unknowns, or follow from the six of a body that the joint is on, which has a quadratic
+ * energy of its own. Such a node is `held` in its chain: the equations of these unknowns have its
+ * forces. What else acts on a joint, contact and friction, is a chain of one node.
  *
  * The linear system of each chain is eliminated towards its joints, by three solutions for each of
  * its ends there; the joints are left with a dense matrix. */
@@ -17,21 +18,31 @@
 /* The first and the last node of a chain. */
 enum { CPSI_FIRST_NODE, CPSI_LAST_NODE, CPSI_END_NODES, CPSI_NO_JOINT = -1 };
 
+/* x_J = by u, u the unknowns from `first` on; of a joint of its own the identity. */
+typedef struct CpsiJointMap {
+    int first, width; /* 3 or 6 */
+    double by[3][6];
+} CpsiJointMap;
+
 typedef struct CpsiNetworkProgram {
-    CpsiProgram base;             /* of the joints: u, load, .. (joints, 3) */
+    CpsiProgram base;             /* of the joints and bodies: u, load, .. */
     int count;                    /* chains */
     CpsiChainProgram *chain;      /* (count) each filled by the caller, of the same units */
     int (*joint)[CPSI_END_NODES]; /* (count) of its end nodes, or CPSI_NO_JOINT; of a chain of one
                                      node the first */
     int joints;
-    double *matrix; /* (3 joints, 3 joints) and its factor */
-    double *kept;   /* right-hand side of the chain that is being solved */
-    int *pivot;     /* (3 joints) */
+    CpsiJointMap *map; /* (joints) */
+    int bodies;
+    int *body_first;         /* (bodies) their first unknown */
+    double (*stiffness)[36]; /* (bodies) of the quadratic energy u' K u/2, K symmetric and >= 0 */
+    double *matrix;          /* (size, size) of the base and its factor */
+    double *kept;            /* right-hand side of the chain that is being solved */
+    int *pivot;              /* (size) */
 } CpsiNetworkProgram;
 
-/* Place the arrays for so many chains of at most n nodes, points included, and joints; the chains'
- * own arrays are placed by the caller. */
+/* Place the arrays for so many chains of at most n nodes, points included, joints, and bodies; the
+ * chains' own arrays are placed by the caller. */
 void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chains, int n,
-                         int joints);
+                         int joints, int bodies);
 
 #endif

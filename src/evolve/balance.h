@@ -6,10 +6,6 @@
 
 #include "evolve/state.h"
 
-/* Memory for the search; NULL where there is none. The lines of the evolution are placed. */
-CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution);
-void cpsi_balance_free(CpsiBalance *balance);
-
 /* The reactions of obstacles on free points where lines start on a shape. */
 void cpsi_balance_start(CpsEvolution *evolution);
 

@@ -60,6 +60,7 @@ _Static_assert(sizeof(CpsLineReport) == 25 * 8 + sizeof(CpsCertificate) + sizeof
                "add the new field to pass_line_report, then its size here");
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
                "add the new field to pass_step_report, then its size here");
+_Static_assert(sizeof(CpsBodyReport) == 69 * 8, "add the new field to pass_body, then its size");
 _Static_assert(sizeof(CpsPointReport) == 29 * 8,
                "add the new field to pass_point, then its size here");
 _Static_assert(sizeof(CpsEnd) == 4 * 8, "add the new field to pass_end, then its size here");
@@ -202,6 +203,31 @@ static void pass_point(Tape *tape, CpsiPoint *point) {
     pass_flag(tape, &report->has_place);
 }
 
+static void pass_pose(Tape *tape, CpsiPose *pose) {
+    PASS(tape, pose->place);
+    PASS(tape, pose->turn);
+}
+
+static void pass_body(Tape *tape, CpsiBody *body) {
+    CpsBodyReport *report = &body->report;
+    PASS(tape, body->kind);
+    pass_pose(tape, &body->pose);
+    pass_pose(tape, &body->from);
+    PASS(tape, body->load);
+    PASS(tape, body->load_from);
+    PASS(tape, report->kind);
+    PASS(tape, report->position);
+    PASS(tape, report->rotation);
+    PASS(tape, report->lines);
+    PASS(tape, report->load);
+    PASS(tape, report->support);
+    PASS(tape, report->residual);
+    PASS(tape, report->stiffness);
+    pass_flag(tape, &report->is_stable);
+    pass_flag(tape, &report->has_place);
+    PASS(tape, report->trial_count);
+}
+
 size_t cpsi_line_state_size(const CpsiLine *line) {
     Tape tape = {0};
     pass_line(&tape, (CpsiLine *)(uintptr_t)line); /* counts only */
@@ -227,6 +253,7 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     for (int i = 0; i < 2 * evolution->line_count; i++) pass_end(tape, &evolution->from[i]);
     for (int i = 0; i < evolution->line_count; i++) pass_line(tape, &evolution->line[i]);
     for (int i = 0; i < evolution->points.count; i++) pass_point(tape, &evolution->points.point[i]);
+    for (int i = 0; i < evolution->bodies.count; i++) pass_body(tape, &evolution->bodies.body[i]);
     return tape->at;
 }
 
@@ -283,6 +310,14 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
         hash_bytes(hash, what, sizeof what);
         hash_numbers(hash, 3, change->value);
     }
+    for (int i = 0; i < stage->body_change_count; i++) {
+        const CpsBodyChange *change = &stage->body_change[i];
+        const int what[2] = {change->body, (int)change->kind};
+        const bool held = change->kind == CPS_BODY_KIND_HELD;
+        hash_bytes(hash, what, sizeof what);
+        hash_numbers(hash, 3, held ? change->position : change->force);
+        hash_numbers(hash, held ? 4 : 3, held ? change->rotation : change->moment);
+    }
     for (int i = 0; i < stage->turn_count; i++) {
         hash_bytes(hash, &stage->turn[i].obstacle, sizeof stage->turn[i].obstacle);
         hash_numbers(hash, 1, &stage->turn[i].angle);
@@ -324,6 +359,22 @@ static void hash_points(uint64_t *hash, const CpsEvolution *evolution) {
     }
 }
 
+static void hash_body(uint64_t *hash, const CpsiBody *body) {
+    const CpsBody *given = &body->given;
+    int what[1 + CPS_BODY_DIRECTIONS] = {(int)given->kind};
+    for (int i = 0; i < CPS_BODY_DIRECTIONS; i++) what[1 + i] = given->fixed[i];
+    hash_bytes(hash, body->name, strlen(body->name) + 1);
+    hash_bytes(hash, what, sizeof what);
+    hash_numbers(hash, 3, given->position);
+    hash_numbers(hash, 4, given->rotation);
+    hash_numbers(hash, 3, given->centre_of_gravity);
+    hash_numbers(hash, 3, given->centre_of_buoyancy);
+    hash_numbers(hash, 2, (const double[2]){given->weight, given->buoyancy});
+    hash_numbers(hash, 36, given->hydrostatics);
+    hash_numbers(hash, 3, given->force);
+    hash_numbers(hash, 3, given->moment);
+}
+
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     uint64_t hash = HASH_START;
     const CpsSolverOptions *solver = &evolution->options.solver;
@@ -341,6 +392,7 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
     hash_numbers(&hash, 3, evolution->gravity);
     for (int i = 0; i < evolution->line_count; i++) hash_line(&hash, &evolution->line[i]);
     if (evolution->points.count > 0) hash_points(&hash, evolution);
+    for (int i = 0; i < evolution->bodies.count; i++) hash_body(&hash, &evolution->bodies.body[i]);
     CpsiFrictionSet **set = evolution->workspace[0].friction_sets.set;
     for (int k = 0; k < evolution->obstacle_count; k++)
         hash_obstacle(&hash, &evolution->obstacle[k], set ? set[k] : NULL);

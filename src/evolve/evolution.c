@@ -221,6 +221,11 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
                            move->step_count);
     if (status == CPS_OK) status = prepare_move(evolution, err);
     if (status != CPS_OK) return status;
+    for (int i = 0; i < move->body_change_count; i++)
+        if (move->body_change[i].kind == CPS_BODY_KIND_FREE && !evolution->points.balance)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%s: body '%s' cannot be free: an obstacle's friction has directions",
+                             what, evolution->bodies.body[move->body_change[i].body].name);
     for (int i = 0; i < move->point_change_count; i++)
         if (move->point_change[i].kind == CPS_POINT_KIND_FREE && !evolution->points.balance)
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -275,6 +280,18 @@ CpsPointReport cps_evolution_point_report(const CpsEvolution *evolution, int poi
     if (point < 0 || point >= cps_evolution_point_count(evolution))
         return (CpsPointReport){.obstacle = CPS_NO_OBSTACLE};
     CpsPointReport report = evolution->points.point[point].report;
+    for (int a = 0; a < 3; a++)
+        if (evolution->origin[a] != 0) report.position[a] += evolution->origin[a];
+    return report;
+}
+
+int cps_evolution_body_count(const CpsEvolution *evolution) {
+    return evolution ? evolution->bodies.count : 0;
+}
+
+CpsBodyReport cps_evolution_body_report(const CpsEvolution *evolution, int body) {
+    if (body < 0 || body >= cps_evolution_body_count(evolution)) return (CpsBodyReport){0};
+    CpsBodyReport report = evolution->bodies.body[body].report;
     for (int a = 0; a < 3; a++)
         if (evolution->origin[a] != 0) report.position[a] += evolution->origin[a];
     return report;

@@ -14,6 +14,7 @@
 #include "evolve/sections.h"
 #include "evolve/stages.h"
 #include "evolve/start.h"
+#include "evolve/trial.h"
 #include "evolve/view.h"
 
 static char *copy_name(CpsiArena *arena, const char *name) {
@@ -104,14 +105,21 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         CpsiEvolutionStage *stage = real ? &evolution->stage[i] : &none;
         stage->name = copy_name(arena, scene->stage[i].name);
         cpsi_stage_layout(stage, arena, scene->stage[i].change_count,
-                          scene->stage[i].point_change_count, scene->stage[i].turn_count);
+                          scene->stage[i].point_change_count, scene->stage[i].body_change_count,
+                          scene->stage[i].turn_count);
     }
     cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->point_count,
-                      scene->obstacle_count);
+                      scene->body_count, scene->obstacle_count);
     cpsi_points_layout(&evolution->points, arena, scene);
     for (int i = 0; i < scene->point_count; i++) {
         const char *name = copy_name(arena, scene->point[i].name);
         if (real) evolution->points.point[i].name = name;
+    }
+    cpsi_bodies_layout(&evolution->bodies, arena, scene);
+    CPSI_PLACE(arena, evolution->given_body, scene->body_count);
+    for (int i = 0; i < scene->body_count; i++) {
+        const char *name = copy_name(arena, scene->body[i].name);
+        if (real) evolution->bodies.body[i].name = name;
     }
     cpsi_view_layout(&evolution->fill, arena, size.nodes);
     if (real) cpsi_view_fill(&evolution->fill, size.nodes);
@@ -245,6 +253,9 @@ static void fill_given(CpsEvolution *evolution, const CpsScene *scene) {
 static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, const CpsScene *local,
                              CpsError *err) {
     cpsi_points_fill(&evolution->points, scene, local);
+    cpsi_bodies_fill(&evolution->bodies, scene, local);
+    for (int i = 0; i < scene->body_count; i++)
+        evolution->given_body[i] = evolution->bodies.body[i].given;
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++)
             evolution->line[i].is_at_point[end] =

@@ -37,7 +37,9 @@ static Box places_of(const CpsScene *scene) {
         for (int end = 0; end < 2; end++)
             if (line->end[end].kind == CPS_END_KIND_HELD) include(&box, line->end[end].value);
     }
-    for (int i = 0; i < scene->point_count; i++) include(&box, scene->point[i].position);
+    for (int i = 0; i < scene->point_count; i++)
+        if (scene->point[i].kind != CPS_POINT_KIND_ON_BODY) include(&box, scene->point[i].position);
+    for (int i = 0; i < scene->body_count; i++) include(&box, scene->body[i].position);
     return box;
 }
 
@@ -73,12 +75,14 @@ static size_t size_of(const CpsScene *scene) {
     size_t size = (size_t)scene->obstacle_count * sizeof(CpsObstacle) +
                   (size_t)scene->line_count * sizeof(CpsLine) +
                   (size_t)scene->stage_count * sizeof(CpsStage) +
-                  (size_t)scene->point_count * sizeof(CpsPoint);
+                  (size_t)scene->point_count * sizeof(CpsPoint) +
+                  (size_t)scene->body_count * sizeof(CpsBody);
     for (int i = 0; i < scene->line_count; i++)
         size += (size_t)scene->line[i].start.point_count * 3 * sizeof(double);
     for (int i = 0; i < scene->stage_count; i++)
         size += (size_t)scene->stage[i].change_count * sizeof(CpsChange) +
-                (size_t)scene->stage[i].point_change_count * sizeof(CpsPointChange);
+                (size_t)scene->stage[i].point_change_count * sizeof(CpsPointChange) +
+                (size_t)scene->stage[i].body_change_count * sizeof(CpsBodyChange);
     return size;
 }
 
@@ -113,10 +117,19 @@ CpsStatus cpsi_local_scene(const CpsScene *scene, CpsiLocalScene *out, CpsError 
         for (int k = 0; k < count; k++)
             if (at[k].kind == CPS_POINT_KIND_HELD) shift(at[k].value, origin);
         stage[i].point_change = at;
+        const int bodies = stage[i].body_change_count;
+        CpsBodyChange *to = copy(block, &used, stage[i].body_change, (size_t)bodies * sizeof *to);
+        for (int k = 0; k < bodies; k++)
+            if (to[k].kind == CPS_BODY_KIND_HELD) shift(to[k].position, origin);
+        stage[i].body_change = to;
     }
     CpsPoint *point = copy(block, &used, scene->point, (size_t)scene->point_count * sizeof *point);
-    for (int i = 0; i < scene->point_count; i++) shift(point[i].position, origin);
+    for (int i = 0; i < scene->point_count; i++)
+        if (point[i].kind != CPS_POINT_KIND_ON_BODY) shift(point[i].position, origin);
     out->scene.point = point;
+    CpsBody *body = copy(block, &used, scene->body, (size_t)scene->body_count * sizeof *body);
+    for (int i = 0; i < scene->body_count; i++) shift(body[i].position, origin);
+    out->scene.body = body;
     out->scene.obstacle = obstacle;
     out->scene.line = line;
     out->scene.stage = stage;

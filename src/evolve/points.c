@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "evolve/bodies.h"
 #include "evolve/names.h"
 #include "evolve/origin.h"
 #include "evolve/places.h"
@@ -18,15 +19,6 @@ enum { POINT_COOKIE = 0x5017e005, MAX_POINTS = 500 };
 CpsPoint cps_point_default(void) { return (CpsPoint){.cookie = POINT_COOKIE}; }
 
 /* check ---------------------------------------------------------------------------------------- */
-
-double cpsi_longest_line(const CpsScene *scene, int point) {
-    double longest = 0;
-    for (int i = 0; i < scene->line_count; i++)
-        for (int end = 0; end < 2; end++)
-            if (cpsi_point_of(&scene->line[i], end) == point)
-                longest = fmax(longest, scene->line[i].length);
-    return longest;
-}
 
 /* [m] By how much x lies below an obstacle, beyond rounding, and its name; else 0. */
 static double depth_below(const CpsScene *scene, double length, const double x[3],
@@ -52,19 +44,6 @@ static CpsStatus check_name(const CpsScene *scene, int index, CpsError *err) {
                      strcmp(other, "obstacle") == 0 ? "an" : "a", other);
 }
 
-/* Friction of a point on an obstacle is Coulomb's law, the same in all directions. */
-static CpsStatus check_friction(const CpsScene *scene, const CpsPoint *point, CpsError *err) {
-    for (int k = 0; k < scene->obstacle_count; k++) {
-        const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
-        if (!cpsi_obstacle_is_isotropic(&obstacle))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "point '%s': it may come to rest on obstacle '%s', whose friction has "
-                             "directions: a free point needs one coefficient of friction",
-                             point->name, scene->obstacle[k].name);
-    }
-    return CPS_OK;
-}
-
 static CpsStatus check_point(const CpsScene *scene, int index, bool may_be_free, CpsError *err) {
     const CpsPoint *point = &scene->point[index];
     if (point->cookie != POINT_COOKIE)
@@ -75,7 +54,9 @@ static CpsStatus check_point(const CpsScene *scene, int index, bool may_be_free,
     const double length = cpsi_longest_line(scene, index);
     const char *below = "";
     const double *v = point->position, *f = point->force;
-    if (point->kind != CPS_POINT_KIND_HELD && point->kind != CPS_POINT_KIND_FREE)
+    double at[3];
+    vec3_store(at, cpsi_point_begin(scene, index));
+    if (point->kind < CPS_POINT_KIND_HELD || point->kind > CPS_POINT_KIND_ON_BODY)
         status = cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': unknown kind %d", point->name,
                            (int)point->kind);
     else if (!cpsi_are_usable(v))
@@ -92,16 +73,22 @@ static CpsStatus check_point(const CpsScene *scene, int index, bool may_be_free,
                            "point '%s': a force of (%g, %g, %g) N acts on it, but it is held: "
                            "leave the force out, or let the point be free",
                            point->name, f[0], f[1], f[2]);
+    else if (point->kind == CPS_POINT_KIND_ON_BODY &&
+             (f[0] != 0 || f[1] != 0 || f[2] != 0 || point->weight != 0))
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "point '%s': it is on a body, but has a force or a weight: give them to "
+                           "the body",
+                           point->name);
     else if (!(length > 0))
         status = cpsi_fail(err, CPS_ERR_ARGUMENT,
                            "point '%s': no line ends there: let an end of a line be at it, or "
                            "leave it out",
                            point->name);
-    else if (depth_below(scene, length, v, &below) > 0)
+    else if (depth_below(scene, length, at, &below) > 0)
         status = cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': it is %g m below obstacle '%s'",
-                           point->name, depth_below(scene, length, v, &below), below);
+                           point->name, depth_below(scene, length, at, &below), below);
     else if (may_be_free)
-        status = check_friction(scene, point, err);
+        status = cpsi_isotropy_check(scene, "point", point->name, err);
     return cpsi_fail_inside(err, status, "points.%s", point->name);
 }
 
@@ -148,6 +135,10 @@ static CpsStatus check_change(const CpsScene *scene, const CpsStage *stage, int 
         if (stage->point_change[i].point == change->point)
             status = cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: point '%s' is changed twice", what,
                                point->name);
+    if (status == CPS_OK && point->kind == CPS_POINT_KIND_ON_BODY)
+        status =
+            cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: point '%s' is on a body: change the body instead",
+                      what, point->name);
     if (status != CPS_OK) return cpsi_fail_inside(err, status, "%s.point", point->name);
     if (change->kind != CPS_POINT_KIND_HELD && change->kind != CPS_POINT_KIND_FREE)
         status = cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: point '%s' gets the unknown kind %d", what,
@@ -157,7 +148,7 @@ static CpsStatus check_change(const CpsScene *scene, const CpsStage *stage, int 
                            "%s: point '%s' gets (%g, %g, %g), expected finite numbers", what,
                            point->name, v[0], v[1], v[2]);
     else if (change->kind == CPS_POINT_KIND_FREE)
-        status = check_friction(scene, point, err);
+        status = cpsi_isotropy_check(scene, "point", point->name, err);
     else if (depth_below(scene, length, v, &below) > 0)
         status =
             cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: point '%s' is moved to %g m below obstacle '%s'",
@@ -179,6 +170,13 @@ CpsStatus cpsi_point_changes_check(const CpsScene *scene, const CpsStage *stage,
 
 /* data ----------------------------------------------------------------------------------------- */
 
+Vec3 cpsi_point_begin(const CpsScene *scene, int index) {
+    const CpsPoint *point = &scene->point[index];
+    if (point->kind != CPS_POINT_KIND_ON_BODY) return vec3_load(point->position);
+    const CpsiPose pose = cpsi_body_begin(&scene->body[point->body]);
+    return cpsi_pose_place(&pose, point->position);
+}
+
 CpsStatus cpsi_held_scene(const CpsScene *scene, CpsiHeldScene *out, CpsError *err) {
     *out = (CpsiHeldScene){.scene = *scene};
     if (scene->point_count == 0) return CPS_OK;
@@ -192,8 +190,7 @@ CpsStatus cpsi_held_scene(const CpsScene *scene, CpsiHeldScene *out, CpsError *e
             const int point = cpsi_point_of(&line[i], end);
             if (point == CPSI_NO_POINT) continue;
             line[i].end[end] = (CpsEnd){.kind = CPS_END_KIND_HELD};
-            memcpy(line[i].end[end].value, scene->point[point].position,
-                   sizeof line[i].end[end].value);
+            vec3_store(line[i].end[end].value, cpsi_point_begin(scene, point));
         }
     out->scene.line = line;
     return CPS_OK;
@@ -206,6 +203,13 @@ void cpsi_points_layout(CpsiPoints *points, CpsiArena *arena, const CpsScene *sc
     CPSI_PLACE(arena, points->group, scene->point_count);
 }
 
+/* Before the first step. */
+static CpsPointState state_of(CpsPointKind kind) {
+    return kind == CPS_POINT_KIND_HELD   ? CPS_POINT_STATE_HELD
+           : kind == CPS_POINT_KIND_FREE ? CPS_POINT_STATE_FREE
+                                         : CPS_POINT_STATE_ON_BODY;
+}
+
 void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene *local) {
     const double pull = vec3_norm(vec3_load(scene->gravity));
     points->count = scene->point_count;
@@ -216,34 +220,46 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
         const CpsPoint *from = &scene->point[i];
         CpsiPoint *point = &points->point[i];
         point->kind = from->kind;
-        memcpy(point->position, local->point[i].position, sizeof point->position);
+        vec3_store(point->position, cpsi_point_begin(local, i));
         memcpy(point->before, point->position, sizeof point->before);
         memcpy(point->force, from->force, sizeof point->force);
         point->mass = pull > 0 ? from->weight / pull : 0;
         point->length = cpsi_longest_line(scene, i);
-        point->report =
-            (CpsPointReport){.obstacle = CPS_NO_OBSTACLE,
-                             .has_place = true,
-                             .state = from->kind == CPS_POINT_KIND_HELD ? CPS_POINT_STATE_HELD
-                                                                        : CPS_POINT_STATE_FREE};
+        point->report = (CpsPointReport){.obstacle = CPS_NO_OBSTACLE,
+                                         .has_place = true,
+                                         .state = state_of(from->kind)};
         memcpy(point->report.position, point->position, sizeof point->position);
         points->given[i] = *from;
         points->given[i].name = point->name;
     }
 }
 
-void cpsi_points_group(CpsiPoints *points, int lines) {
+/* Make the groups of two points one; false where they are, or one of them is in none. */
+static bool unite(int *group, int a, int b) {
+    if (a == CPSI_NO_POINT || b == CPSI_NO_POINT || group[a] == group[b]) return false;
+    if (group[a] == CPSI_NO_POINT || group[b] == CPSI_NO_POINT) return false;
+    group[a] = group[b] = group[a] < group[b] ? group[a] : group[b];
+    return true;
+}
+
+void cpsi_points_group(CpsiPoints *points, const CpsiBodies *bodies, int lines) {
     int *group = points->group;
-    for (int i = 0; i < points->count; i++)
-        group[i] = points->point[i].kind == CPS_POINT_KIND_FREE ? i : CPSI_NO_POINT;
+    for (int i = 0; i < points->count; i++) {
+        const CpsPoint *given = &points->given[i];
+        const bool moves = points->point[i].kind == CPS_POINT_KIND_FREE ||
+                           (given->kind == CPS_POINT_KIND_ON_BODY &&
+                            bodies->body[given->body].kind == CPS_BODY_KIND_FREE);
+        group[i] = moves ? i : CPSI_NO_POINT;
+    }
     for (bool more = true; more;) {
         more = false;
-        for (int i = 0; i < lines; i++) {
-            const int a = points->tie[2 * i], b = points->tie[2 * i + 1];
-            if (a == CPSI_NO_POINT || b == CPSI_NO_POINT || group[a] == group[b]) continue;
-            if (group[a] == CPSI_NO_POINT || group[b] == CPSI_NO_POINT) continue;
-            group[a] = group[b] = group[a] < group[b] ? group[a] : group[b];
-            more = true;
-        }
+        for (int i = 0; i < lines; i++)
+            more = unite(group, points->tie[2 * i], points->tie[2 * i + 1]) || more;
+        for (int i = 0; i < points->count; i++)
+            for (int k = 0; k < i; k++)
+                if (points->given[i].kind == CPS_POINT_KIND_ON_BODY &&
+                    points->given[k].kind == CPS_POINT_KIND_ON_BODY &&
+                    points->given[i].body == points->given[k].body)
+                    more = unite(group, i, k) || more;
     }
 }

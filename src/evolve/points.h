@@ -5,10 +5,10 @@
 #define CAPSTAN_SRC_EVOLVE_POINTS_H
 
 #include "base/arena.h"
+#include "base/vec3.h"
 #include "capstan/evolve.h"
-
-/* At no point. */
-enum { CPSI_NO_POINT = -1 };
+#include "evolve/bodies.h"
+#include "evolve/ties.h"
 
 /* A point; positions are relative to the origin of the evolution. */
 typedef struct CpsiPoint {
@@ -38,19 +38,14 @@ typedef struct CpsiPoints {
     CpsiBalance *balance; /* NULL: no point is ever free */
 } CpsiPoints;
 
-/* The point of an end of a scene's line, or CPSI_NO_POINT. */
-static inline int cpsi_point_of(const CpsLine *line, int end) {
-    return line->end[end].kind == CPS_END_KIND_POINT ? line->end_point[end] : CPSI_NO_POINT;
-}
-
-/* [m] The length of the longest line that ends at a point; 0: none does. */
-double cpsi_longest_line(const CpsScene *scene, int point);
-
 /* Check the points, and which ends are at which. */
 CpsStatus cpsi_points_check(const CpsScene *scene, CpsError *err);
 /* ... and what a stage changes at them. */
 CpsStatus cpsi_point_changes_check(const CpsScene *scene, const CpsStage *stage, const char *what,
                                    CpsError *err);
+
+/* [m] Where a point of the scene begins. */
+Vec3 cpsi_point_begin(const CpsScene *scene, int index);
 
 /* The scene in which every end at a point is held where the point begins. Its lines lie in `block`,
  * to be freed by the caller; NULL where no end is at a point. Returns CPS_OK or CPS_ERR_MEMORY. */
@@ -67,7 +62,7 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
 
 /* Find the groups: free points that lines connect, also by way of other free ones, are one. Groups
  * have nothing to do with each other in a step, and their forces may differ by any factor. */
-void cpsi_points_group(CpsiPoints *points, int lines);
+void cpsi_points_group(CpsiPoints *points, const CpsiBodies *bodies, int lines);
 
 /* The group that a line is at, or CPSI_NO_POINT. */
 static inline int cpsi_group_of_line(const CpsiPoints *points, int line) {

@@ -10,6 +10,7 @@
 #include "base/vec3.h"
 #include "cable/friction_set.h"
 #include "capstan/scene.h"
+#include "evolve/bodies.h"
 #include "evolve/names.h"
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
@@ -496,7 +497,8 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
                                 "lines: %lld elements or more together, the limit is %lld",
                                 (long long)elements, (long long)MAX_ELEMENTS);
     }
-    status = cpsi_points_check(scene, err);
+    status = cpsi_bodies_check(scene, err);
+    if (status == CPS_OK) status = cpsi_points_check(scene, err);
     if (status != CPS_OK) return status;
     CpsiHeldScene held;
     status = cpsi_held_scene(scene, &held, err);

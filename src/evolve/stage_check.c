@@ -7,6 +7,7 @@
 
 #include "base/math.h"
 #include "base/status.h"
+#include "evolve/bodies.h"
 #include "evolve/places.h"
 #include "evolve/points.h"
 #include "evolve/ranges.h"
@@ -111,5 +112,6 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
     CpsStatus status = check_turns(scene, stage, what, err);
     for (int i = 0; i < stage->change_count && status == CPS_OK; i++)
         status = check_change(scene, stage, i, what, err);
-    return status == CPS_OK ? cpsi_point_changes_check(scene, stage, what, err) : status;
+    if (status == CPS_OK) status = cpsi_point_changes_check(scene, stage, what, err);
+    return status == CPS_OK ? cpsi_body_changes_check(scene, stage, what, err) : status;
 }

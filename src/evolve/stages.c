@@ -8,8 +8,9 @@
 #include "evolve/path_check.h"
 
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
-                       int turns) {
+                       int bodies, int turns) {
     CPSI_PLACE(arena, stage->change, changes);
+    CPSI_PLACE(arena, stage->body_change, bodies);
     CPSI_PLACE(arena, stage->point_change, points);
     CPSI_PLACE(arena, stage->turn, turns);
 }
@@ -29,6 +30,13 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
         *change = from->point_change[k];
         if (change->kind == CPS_POINT_KIND_HELD)
             for (int a = 0; a < 3; a++) change->value[a] -= origin[a];
+    }
+    stage->body_change_count = from->body_change_count;
+    for (int k = 0; k < from->body_change_count; k++) {
+        CpsBodyChange *change = &stage->body_change[k];
+        *change = from->body_change[k];
+        if (change->kind == CPS_BODY_KIND_HELD)
+            for (int a = 0; a < 3; a++) change->position[a] -= origin[a];
     }
     stage->turn_count = from->turn_count;
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
@@ -53,7 +61,9 @@ CpsScene cpsi_stage_scene(const CpsEvolution *evolution) {
                       .line_count = evolution->line_count,
                       .line = evolution->given_line,
                       .point_count = evolution->points.count,
-                      .point = evolution->points.given};
+                      .point = evolution->points.given,
+                      .body_count = evolution->bodies.count,
+                      .body = evolution->given_body};
 }
 
 CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
@@ -106,8 +116,40 @@ static CpsEnd end_at(const CpsEvolution *evolution, const CpsiEvolutionStage *st
     return end;
 }
 
-/* What is imposed on the points at the end of step `part`, and on the ends at those that are
- * held. */
+/* The wrench at a share of the way. */
+static CpsiWrench wrench_at(const CpsiWrench *from, const CpsiWrench *to, double share) {
+    if (!(share < 1)) return *to;
+    return (CpsiWrench){vec3_axpy(share, vec3_sub(to->force, from->force), from->force),
+                        vec3_axpy(share, vec3_sub(to->moment, from->moment), from->moment)};
+}
+
+/* What is imposed on the bodies at the end of step `part`. */
+static void plan_bodies(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+    for (int k = 0; k < stage->body_change_count; k++) {
+        const CpsBodyChange *change = &stage->body_change[k];
+        CpsiBody *body = &evolution->bodies.body[change->body];
+        const double share = (double)(part + 1) / stage->steps;
+        if (part == 0) {
+            const double *support = body->report.support;
+            body->from = body->pose;
+            body->load_from = body->kind == CPS_BODY_KIND_FREE
+                                  ? body->load
+                                  : (CpsiWrench){vec3_load(support), vec3_load(&support[3])};
+            body->kind = change->kind;
+        }
+        if (change->kind == CPS_BODY_KIND_HELD) {
+            const CpsiPose to = {vec3_load(change->position), rotation_load(change->rotation)};
+            body->pose = cpsi_pose_between(&body->from, &to, share);
+            body->load = (CpsiWrench){vec3(0, 0, 0), vec3(0, 0, 0)};
+        } else {
+            const CpsiWrench to = {vec3_load(change->force), vec3_load(change->moment)};
+            body->load = wrench_at(&body->load_from, &to, share);
+        }
+    }
+}
+
+/* What is imposed on the points at the end of step `part`, and on the ends at those that are held
+ * or on a body. */
 static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
     CpsiPoints *points = &evolution->points;
     for (int i = 0; i < points->count; i++) {
@@ -131,6 +173,12 @@ static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage
         }
         value_at(point->from, change->value, part + 1, stage->steps,
                  held ? point->position : point->force);
+    }
+    for (int i = 0; i < points->count; i++) {
+        const CpsPoint *given = &points->given[i];
+        if (given->kind == CPS_POINT_KIND_ON_BODY)
+            vec3_store(points->point[i].position,
+                       cpsi_pose_place(&evolution->bodies.body[given->body].pose, given->position));
     }
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++) {
@@ -171,6 +219,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
         move->from[change->end] = end_at(evolution, stage, change, part);
         move->to[change->end] = end_at(evolution, stage, change, part + 1);
     }
+    plan_bodies(evolution, stage, part);
     plan_points(evolution, stage, part);
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int k = 0; k < stage->turn_count; k++)

@@ -5,6 +5,7 @@
 
 #include "base/workers.h"
 #include "capstan/evolve.h"
+#include "evolve/bodies.h"
 #include "evolve/points.h"
 #include "evolve/workspace.h"
 
@@ -13,9 +14,10 @@ enum { CPSI_STEP_NAME = 96 };
 /* A stage; positions are relative to the origin. */
 typedef struct CpsiEvolutionStage {
     const char *name;
-    int steps, change_count, point_change_count, turn_count;
+    int steps, change_count, point_change_count, body_change_count, turn_count;
     CpsChange *change;
     CpsPointChange *point_change;
+    CpsBodyChange *body_change;
     CpsTurn *turn;
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */
@@ -43,10 +45,12 @@ struct CpsEvolution {
     CpsiMove *move;         /* (line_count) the change of each line in the step */
     CpsiLine *line;         /* (line_count) */
     CpsiPoints points;
+    CpsiBodies bodies;
     CpsiEvolutionStage *stage; /* (stage_count) */
     CpsiEvolutionStage live;   /* of a move that the history does not hold */
     /* what stages are checked against, in the coordinates of the scene */
     CpsObstacle *given_obstacle; /* (obstacle_count) without their sets of friction forces */
+    CpsBody *given_body;         /* (bodies) */
     CpsLine *given_line;         /* (line_count) names and lengths only */
     CpsEnd *from; /* (line_count, 2) where an end was when the stage that changes it began */
     double gravity[3], gravity_from[3]; /* [m/s2] now, and when the stage under way began */

@@ -118,13 +118,29 @@ static bool are_fields(const CpsiLine *line) {
 
 static bool is_point(const CpsiPoint *point, int obstacles) {
     const CpsPointReport *report = &point->report;
-    return within(point->kind, CPS_POINT_KIND_HELD, CPS_POINT_KIND_FREE) &&
-           within(report->state, CPS_POINT_STATE_HELD, CPS_POINT_STATE_SLIP) &&
+    return within(point->kind, CPS_POINT_KIND_HELD, CPS_POINT_KIND_ON_BODY) &&
+           within(report->state, CPS_POINT_STATE_HELD, CPS_POINT_STATE_ON_BODY) &&
            within(report->obstacle, CPS_NO_OBSTACLE, obstacles - 1) && report->trial_count >= 0 &&
            all_finite(point->position, 3) && all_finite(point->force, 3) &&
            all_finite(point->from, 3) && all_finite(point->before, 3) &&
            all_finite(point->move, 3) && all_finite(report->support, 3) &&
            all_finite(&report->reaction, 1);
+}
+
+static bool is_body(const CpsiBody *body) {
+    const double pose[] = {body->pose.place.x, body->pose.place.y, body->pose.place.z,
+                           body->pose.turn.w,  body->pose.turn.x,  body->pose.turn.y,
+                           body->pose.turn.z,  body->from.place.x, body->from.place.y,
+                           body->from.place.z, body->from.turn.w,  body->from.turn.x,
+                           body->from.turn.y,  body->from.turn.z};
+    const Vec3 loads[] = {body->load.force, body->load.moment, body->load_from.force,
+                          body->load_from.moment};
+    bool sound = within(body->kind, CPS_BODY_KIND_HELD, CPS_BODY_KIND_FREE) &&
+                 body->report.trial_count >= 0 && all_finite(body->report.support, 6) &&
+                 all_finite(pose, sizeof pose / sizeof *pose);
+    for (int i = 0; i < 4; i++)
+        sound = sound && isfinite(loads[i].x) && isfinite(loads[i].y) && isfinite(loads[i].z);
+    return sound;
 }
 
 const char *cpsi_state_fault(const CpsEvolution *evolution) {
@@ -148,5 +164,7 @@ const char *cpsi_state_fault(const CpsEvolution *evolution) {
     for (int i = 0; i < evolution->points.count; i++)
         if (!is_point(&evolution->points.point[i], evolution->obstacle_count))
             return "a point is of no kind, in no state or at no place";
+    for (int i = 0; i < evolution->bodies.count; i++)
+        if (!is_body(&evolution->bodies.body[i])) return "a body is of no kind or in no pose";
     return NULL;
 }

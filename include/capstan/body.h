@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/body.h: rigid bodies that lines hold: a spar, a barge, a buoy with two eyes. Lines end at
+ * points (point.h) that are on the body. A body is held in a pose, or free: then each load step
+ * finds the pose in which the forces and moments on it balance (docs/theory.md 6e).
+ *
+ * A pose is the position of the body's reference point, the origin of its own axes, and a rotation
+ * that turns these axes to those of the scene: a unit quaternion w, x, y, z, which turns by the
+ * angle 2 acos(w) about (x, y, z) by the right-hand rule. Moments are about the reference point,
+ * and in the axes of the scene. */
+#ifndef CAPSTAN_BODY_H
+#define CAPSTAN_BODY_H
+
+#include <stdbool.h>
+
+#include "capstan/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum CpsBodyKind {
+    CPS_BODY_KIND_HELD, /* in its pose, which stages may change */
+    CPS_BODY_KIND_FREE  /* where the forces and moments on it balance */
+} CpsBodyKind;
+
+/* Directions of a body: along x, y and z of the scene, and about them. */
+enum { CPS_BODY_DIRECTIONS = 6 };
+
+typedef struct CpsBody {
+    uint32_t cookie;
+    const char *name;
+    CpsBodyKind kind;                /* default held */
+    bool fixed[CPS_BODY_DIRECTIONS]; /* directions in which it does not move while it is free;
+                                        default none */
+    double position[3];           /* [m] of its reference point, where it begins; default 0 0 0 */
+    double rotation[4];           /* of any length but 0; default 1 0 0 0 */
+    double weight;                /* [N] >= 0 along gravity, with which it changes; default 0 */
+    double centre_of_gravity[3];  /* [m] in the body's axes */
+    double buoyancy;              /* [N] >= 0 against gravity, with which it changes; default 0 */
+    double centre_of_buoyancy[3]; /* [m] in the body's axes */
+    /* (6, 6) [N/m, N, N m] C about the reference point, of the waterplane: the energy q' C q/2, q
+     * the displacement from the pose above with the rotation as a vector; so the force and moment
+     * are -C q in small rotations. Symmetric; weight is no part of it, nor is buoyancy where that
+     * is given above. Default 0 */
+    double hydrostatics[36];
+    double force[3], moment[3]; /* [N], [N m] on a free body, beside all that; default 0 */
+} CpsBody;
+
+CPS_API CpsBody cps_body_default(void);
+
+/* What a stage changes at a body, in equal increments over the stage: the pose of one that is held
+ * then, its reference point on a straight line and its axes about one direction; or the load on one
+ * that is free then. A held body that becomes free is released, and its load begins with that which
+ * held it. */
+typedef struct CpsBodyChange {
+    int body; /* index in the scene */
+    CpsBodyKind kind;
+    double position[3], rotation[4]; /* of one that is held */
+    double force[3], moment[3];      /* of one that is free */
+} CpsBodyChange;
+
+/* The report on a body: forces [N], then moments [N m] about its reference point, on the body. */
+typedef struct CpsBodyReport {
+    CpsBodyKind kind;
+    double position[3]; /* [m] in the coordinates of the scene */
+    double rotation[4];
+    double lines[CPS_BODY_DIRECTIONS];    /* of all lines at its points */
+    double load[CPS_BODY_DIRECTIONS];     /* weight, buoyancy, hydrostatics and the given load */
+    double support[CPS_BODY_DIRECTIONS];  /* of what holds it, or its fixed directions */
+    double residual[CPS_BODY_DIRECTIONS]; /* sum of all these: what nothing balances */
+    /* (6, 6) derivative of `residual` by the pose, without support, with the sign of a stiffness,
+     * in the axes of the scene: of the step (stiffness.h), where its nodes have such a derivative.
+     * Not symmetric in a pose with a moment. 0 of a held body */
+    double stiffness[36];
+    bool is_stable;  /* its symmetric part is positive definite in the directions not fixed; of a
+                        held  body true */
+    bool has_place;  /* the residual is no larger than the tolerance of points */
+    int trial_count; /* as of points */
+} CpsBodyReport;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

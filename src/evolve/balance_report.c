@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The reports on points and bodies (balance_report.h). */
+#include "evolve/balance_report.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "evolve/bodies.h"
+#include "evolve/newton_step.h"
+#include "evolve/points.h"
+
+static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
+    CpsEvolution *evolution = balance->evolution;
+    CpsiPoint *point = &evolution->points.point[at->point];
+    CpsPointReport *report = &point->report;
+    const double touch = cpsi_trial_touch(balance, at), dissipated = -vec3_dot(at->force, at->slip);
+    const bool touches = at->reaction > 0, slides = vec3_norm(at->slip) > touch;
+    *report = (CpsPointReport){.state = !touches ? CPS_POINT_STATE_FREE
+                                        : slides ? CPS_POINT_STATE_SLIP
+                                                 : CPS_POINT_STATE_STICK,
+                               .obstacle = touches ? at->obstacle : CPS_NO_OBSTACLE,
+                               .reaction = at->reaction,
+                               .dissipated = fmax(0, dissipated),
+                               .trial_count = balance->trials};
+    cpsi_point_load(point, evolution->gravity, report->load);
+    vec3_store(report->position, at->place);
+    vec3_store(report->lines, vec3_sub(at->rest, vec3_load(report->load)));
+    vec3_store(report->friction, at->force);
+    vec3_store(report->residual, at->left);
+    if (touches) vec3_store(report->normal, at->normal);
+    if (touches) vec3_store(report->slip, at->slip);
+    report->has_place = cpsi_is_balanced(balance, vec3_norm(at->left));
+    for (int a = 0; a < 3; a++) point->move[a] = report->position[a] - point->before[a];
+    memcpy(point->position, report->position, sizeof point->position);
+}
+
+/* Is there a free point without a place? Then the lines there are not certified; nor do they prove
+ * that there is no equilibrium, which would depend on the places tried. */
+static void report_lines(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    bool all = balance->certified;
+    for (int k = 0; k < balance->count; k++)
+        all = all && evolution->points.point[balance->at[k].point].report.has_place;
+    for (int k = 0; k < balance->body_count; k++)
+        all = all && evolution->bodies.body[balance->rigid[k].body].report.has_place;
+    for (int item = 0; item < balance->line_count; item++) {
+        CpsLineReport *report = &evolution->line[balance->line[item]].report;
+        report->iteration_count += balance->iterations[balance->line[item]];
+        const bool claims =
+            cps_outcome_is_certified(report->outcome) || cps_outcome_is_final(report->outcome);
+        if (!all && claims) report->outcome = CPS_OUTCOME_STALLED;
+    }
+}
+
+static void store(double out[6], const CpsiWrench *wrench) {
+    vec3_store(out, wrench->force);
+    vec3_store(&out[3], wrench->moment);
+}
+
+static void report_body(CpsiBalance *balance, int k) {
+    CpsEvolution *evolution = balance->evolution;
+    const CpsiRigid *rigid = &balance->rigid[k];
+    CpsiBody *body = &evolution->bodies.body[rigid->body];
+    CpsBodyReport *report = &body->report;
+    const CpsiWrench load = cpsi_body_load(body, &rigid->pose, evolution->gravity);
+    *report = (CpsBodyReport){.kind = CPS_BODY_KIND_FREE, .trial_count = balance->trials};
+    vec3_store(report->position, rigid->pose.place);
+    rotation_store(report->rotation, rigid->pose.turn);
+    store(report->lines, &rigid->lines);
+    store(report->load, &load);
+    store(report->residual, &rigid->left);
+    double rest[6];
+    store(rest, &rigid->rest);
+    for (int i = 0; i < 6; i++)
+        if (body->given.fixed[i]) report->support[i] = -rest[i];
+    cpsi_body_block(balance, k, report->stiffness);
+    report->is_stable = cpsi_is_definite(report->stiffness, body->given.fixed, body->arm);
+    report->has_place = cpsi_is_balanced(balance, fmax(vec3_norm(rigid->left.force),
+                                                       vec3_norm(rigid->left.moment) / body->arm));
+    body->pose = rigid->pose;
+}
+
+/* Points on a body are where it is. */
+static void follow_body(CpsEvolution *evolution, int index) {
+    CpsiPoint *point = &evolution->points.point[index];
+    const CpsPoint *given = &evolution->points.given[index];
+    vec3_store(point->position,
+               cpsi_pose_place(&evolution->bodies.body[given->body].pose, given->position));
+}
+
+static void report_held_body(CpsEvolution *evolution, int index) {
+    CpsiBody *body = &evolution->bodies.body[index];
+    CpsBodyReport *report = &body->report;
+    CpsiWrench lines = {vec3(0, 0, 0), vec3(0, 0, 0)};
+    const CpsiWrench load = cpsi_body_load(body, &body->pose, evolution->gravity);
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const int point = evolution->points.tie[2 * i + end];
+            const CpsPoint *given = &evolution->points.given[point < 0 ? 0 : point];
+            if (point == CPSI_NO_POINT || given->kind != CPS_POINT_KIND_ON_BODY ||
+                given->body != index)
+                continue;
+            const Vec3 pull = vec3_scale(-1, vec3_load(evolution->line[i].report.end[end].force)),
+                       arm = rotation_apply(body->pose.turn, vec3_load(given->position));
+            lines.force = vec3_add(lines.force, pull);
+            lines.moment = vec3_add(lines.moment, vec3_cross(arm, pull));
+        }
+    *report = (CpsBodyReport){.kind = CPS_BODY_KIND_HELD, .has_place = true, .is_stable = true};
+    vec3_store(report->position, body->pose.place);
+    rotation_store(report->rotation, body->pose.turn);
+    store(report->lines, &lines);
+    store(report->load, &load);
+    for (int i = 0; i < 6; i++) report->support[i] = -report->lines[i] - report->load[i];
+}
+
+static void report_held(CpsEvolution *evolution, int index) {
+    CpsiPoint *point = &evolution->points.point[index];
+    CpsPointReport *report = &point->report;
+    Vec3 lines = vec3(0, 0, 0);
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++)
+            if (evolution->points.tie[2 * i + end] == index)
+                lines = vec3_sub(lines, vec3_load(evolution->line[i].report.end[end].force));
+    *report =
+        (CpsPointReport){.state = point->kind == CPS_POINT_KIND_HELD ? CPS_POINT_STATE_HELD
+                                                                     : CPS_POINT_STATE_ON_BODY,
+                         .obstacle = CPS_NO_OBSTACLE,
+                         .has_place = true};
+    CpsiFree at = {.point = index, .place = vec3_load(point->position)};
+    cpsi_trial_find_obstacle(evolution, &at);
+    memcpy(report->position, point->position, sizeof report->position);
+    vec3_store(report->lines, lines);
+    Vec3 support = vec3_scale(-1, lines);
+    if (point->kind == CPS_POINT_KIND_HELD && at.gap <= CPS_TOUCH * point->length &&
+        vec3_dot(support, at.normal) > 0) {
+        report->obstacle = at.obstacle;
+        report->reaction = vec3_dot(support, at.normal);
+        vec3_store(report->normal, at.normal);
+        support = vec3_reject(support, at.normal);
+    }
+    vec3_store(report->support, support);
+}
+
+void cpsi_report_found(CpsiBalance *balance) {
+    if (balance->body_count > 0) cpsi_fill_matrix(balance);
+    for (int k = 0; k < balance->count; k++) report_point(balance, &balance->at[k]);
+    for (int k = 0; k < balance->body_count; k++) report_body(balance, k);
+    report_lines(balance);
+}
+
+void cpsi_report_held(CpsEvolution *evolution) {
+    const CpsiPoints *points = &evolution->points;
+    for (int i = 0; i < points->count; i++) {
+        if (points->point[i].kind == CPS_POINT_KIND_ON_BODY) follow_body(evolution, i);
+        if (points->point[i].kind != CPS_POINT_KIND_FREE) report_held(evolution, i);
+    }
+    for (int i = 0; i < evolution->bodies.count; i++)
+        if (evolution->bodies.body[i].kind == CPS_BODY_KIND_HELD) report_held_body(evolution, i);
+}

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The first guess (first_guess.h). */
+#include "evolve/first_guess.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "evolve/bodies.h"
+#include "evolve/newton_step.h"
+#include "evolve/points.h"
+
+/* The guess takes so many rounds, until no body turns by more than this [rad] in one; none turns
+ * farther than this in one. */
+enum { ROUNDS = 12 };
+/* A stiffness is made positive definite by no more than this share of the forces. */
+static const double MOST_HELD = 1e9;
+static const double SETTLED = 1e-3, FARTHEST_TURN = 0.3;
+
+/* Let line i begin and end the step as planned, its ends at joints where these are. */
+static void impose_plan(CpsiBalance *balance, int item) {
+    CpsEvolution *evolution = balance->evolution;
+    const int i = balance->line[item];
+    CpsiLine *line = &evolution->line[i];
+    cpsi_workspace_attach(&evolution->workspace[0], line);
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        evolution->workspace[0].scratch.turn[k] = evolution->angle[k];
+    memcpy(line->weight_before, evolution->move[i].weight_from, sizeof line->weight_before);
+    memcpy(line->weight, evolution->move[i].weight_to, sizeof line->weight);
+    for (int end = 0; end < 2; end++) {
+        const int point = evolution->points.tie[2 * i + end],
+                  joint = point == CPSI_NO_POINT ? CPSI_NO_JOINT : balance->joint_of[point];
+        balance->ends[item][end] = joint;
+        line->end_before[end] = evolution->move[i].from[end];
+        if (joint == CPSI_NO_JOINT)
+            line->end[end] = evolution->move[i].to[end];
+        else
+            vec3_store(line->end[end].value, balance->joint[joint].position);
+    }
+}
+
+/* The joints of the program: free points where the step began, then the points on free bodies where
+ * these are in the trial. Returns how many. */
+static int place_joints(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    int count = balance->count;
+    for (int k = 0; k < balance->count; k++) {
+        CpsiFree *at = &balance->at[k];
+        const CpsiPoint *point = &evolution->points.point[at->point];
+        double load[3];
+        at->place = vec3_load(point->before);
+        cpsi_trial_find_obstacle(evolution, at);
+        cpsi_point_load(point, evolution->gravity, load);
+        balance->joint_of[at->point] = k;
+        balance->joint[k] = (CpsiJoint){.position = at->place,
+                                        .load = vec3_load(load),
+                                        .obstacle = at->obstacle == CPS_NO_OBSTACLE
+                                                        ? NULL
+                                                        : &evolution->obstacle[at->obstacle],
+                                        .gap = at->gap,
+                                        .friction = at->friction,
+                                        .bound = at->friction * point->reaction_before,
+                                        .body = -1};
+    }
+    for (int i = 0; i < evolution->points.count; i++) {
+        if (balance->number[i] >= 0) continue;
+        balance->joint_of[i] = CPSI_NO_JOINT;
+        if (balance->rigid_of[i] < 0) continue;
+        const CpsiRigid *rigid = &balance->rigid[balance->rigid_of[i]];
+        const Vec3 arm = cpsi_trial_arm(balance, rigid, i);
+        balance->joint_of[i] = count;
+        balance->joint[count++] = (CpsiJoint){.position = vec3_add(rigid->pose.place, arm),
+                                              .body = balance->rigid_of[i],
+                                              .arm = arm};
+    }
+    return count;
+}
+
+/* Add what the pulls of the last round bring to the stiffness of body k as they turn with it. */
+static void add_pulls(const CpsiBalance *balance, int k, double stiffness[36]) {
+    const CpsEvolution *evolution = balance->evolution;
+    const CpsiRigid *rigid = &balance->rigid[k];
+    for (int item = 0; item < balance->line_count; item++)
+        for (int end = 0; end < 2; end++) {
+            const int point = evolution->points.tie[2 * balance->line[item] + end];
+            if (point == CPSI_NO_POINT || balance->rigid_of[point] != k) continue;
+            cpsi_add_turning_force(vec3_load(&balance->guess.pull[6 * item + 3 * end]),
+                                   cpsi_trial_arm(balance, rigid, point), stiffness);
+        }
+}
+
+/* What acts on the bodies, and their stiffness: with `turns` that by which the pulls of the last
+ * round turn with them; as much more as makes it positive definite, and far more in fixed
+ * directions. */
+static void hold_bodies(CpsiBalance *balance, bool turns) {
+    CpsEvolution *evolution = balance->evolution;
+    for (int k = 0; k < balance->body_count; k++) {
+        const CpsiRigid *rigid = &balance->rigid[k];
+        const CpsiBody *body = &evolution->bodies.body[rigid->body];
+        const CpsiWrench load = cpsi_body_load(body, &rigid->pose, evolution->gravity);
+        CpsiNetworkBody *held = &balance->held[k];
+        *held = (CpsiNetworkBody){.force = load.force, .moment = load.moment};
+        double *m = held->stiffness;
+        cpsi_body_stiffness(body, &rigid->pose, evolution->gravity, m);
+        if (turns) add_pulls(balance, k, m);
+        const double acts = vec3_norm(load.force) + vec3_norm(load.moment) / body->arm +
+                            body->mass * vec3_norm(vec3_load(evolution->gravity)),
+                     force = acts > 0 ? acts : 1;
+        double most = force * body->arm;
+        for (int i = 0; i < 6; i++)
+            for (int j = 0; j < i; j++)
+                m[6 * i + j] = m[6 * j + i] = 0.5 * (m[6 * i + j] + m[6 * j + i]);
+        for (int i = 3; i < 6; i++) most = fmax(most, fabs(m[7 * i]));
+        for (int i = 0; i < 6; i++)
+            m[7 * i] += CPSI_REGULAR * (i < 3 ? force / body->length : most);
+        for (double share = CPSI_LEAST_HELD;
+             share < MOST_HELD && !cpsi_is_definite(m, body->given.fixed, body->arm); share *= 10)
+            for (int i = 0; i < 6; i++) m[7 * i] += share * (i < 3 ? force / body->length : most);
+        for (int i = 0; i < 6; i++)
+            if (body->given.fixed[i])
+                m[7 * i] += (i < 3 ? force / body->length : most) / CPSI_REGULAR;
+    }
+}
+
+/* One program on the tangent planes of the reference, from the poses of the trial. Returns the
+ * largest turn [rad] of a body in it; NAN where it has no solution. */
+static double guess_round(CpsiBalance *balance, const CpsiStepOptions *options, bool turns) {
+    CpsEvolution *evolution = balance->evolution;
+    const CpsiNetworkPart part = {.lines = balance->line_count,
+                                  .joints = place_joints(balance),
+                                  .bodies = balance->body_count,
+                                  .own = balance->count,
+                                  .number = balance->line,
+                                  .at = (const int(*)[2])balance->ends,
+                                  .joint = balance->joint,
+                                  .body = balance->held};
+    hold_bodies(balance, turns);
+    for (int item = 0; item < balance->line_count; item++) impose_plan(balance, item);
+    for (int item = 0; item < balance->line_count; item++)
+        for (int end = 0; end < 2; end++) {
+            const CpsiLine *line = &evolution->line[balance->line[item]];
+            const int k = balance->ends[item][end], e = end == CPS_END_A ? 0 : line->n - 2;
+            if (k != CPSI_NO_JOINT) balance->joint[k].share += 0.5 * line->element_length[e];
+        }
+    const bool found =
+        cpsi_network_guess(&balance->network, evolution->line, &part, options, &balance->guess);
+    for (int item = 0; item < balance->line_count; item++)
+        cpsi_trial_restore_line(balance, balance->line[item]);
+    if (!found) return NAN;
+    for (int k = 0; k < balance->count; k++) {
+        CpsiFree *at = &balance->at[k];
+        at->place =
+            cpsi_place_after(balance, &(CpsiFree){.place = at->place, .obstacle = CPS_NO_OBSTACLE},
+                             &balance->guess.joint[3 * k], 1);
+    }
+    double turn = 0;
+    for (int k = 0; k < balance->body_count; k++) {
+        double *move = &balance->guess.body[6 * k];
+        turn = fmax(turn, vec3_norm(vec3_load(&move[3])));
+        cpsi_limit(&move[3], FARTHEST_TURN);
+        balance->rigid[k].pose = cpsi_pose_after(&balance->rigid[k].pose, move, 1);
+    }
+    return turn;
+}
+
+/* Begin where the points and bodies go on the tangent planes of the reference, the bodies in rounds
+ * about the poses of the round before; false where that has no solution. */
+bool cpsi_guess_places(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    CpsiStepOptions options = evolution->options;
+    if (evolution->has_static && evolution->done == 0) {
+        options.frictionless = true;
+        options.contact_policy = CPS_CONTACT_POLICY_REACHED;
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        const double turn = guess_round(balance, &options, round > 0);
+        if (isnan(turn)) return round > 0;
+        if (turn <= SETTLED) return true;
+    }
+    return true;
+}
+
+/* Begin where the last step of the same stage leads. */
+void cpsi_extrapolate_places(CpsiBalance *balance) {
+    for (int k = 0; k < balance->count; k++) {
+        CpsiFree *at = &balance->at[k];
+        const CpsiPoint *point = &balance->evolution->points.point[at->point];
+        if (point->is_moving) at->place = cpsi_place_after(balance, at, point->move, 1);
+    }
+}

@@ -1,0 +1,394 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Newton's method for free points and bodies (newton_step.h). */
+#include "evolve/newton_step.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cable/stiffness.h"
+#include "evolve/bodies.h"
+#include "evolve/points.h"
+#include "linalg/dense.h"
+
+/* A point or body moves by no more than this share of its longest line in one iteration, and turns
+ * by no more than this [rad]. */
+static const double FARTHEST = 0.5, FARTHEST_TURN = 0.3;
+/* The share at which a body that is held back no longer moves. */
+static const double MOST_HELD = 1e6;
+
+/* How the place of a point follows from the unknowns: `first` of them, and how many. */
+typedef struct Follows {
+    int first, width;
+    double by[3][6];
+} Follows;
+
+static Follows follows_of(const CpsiBalance *balance, int point) {
+    Follows out = {.by = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    if (point == CPSI_NO_POINT) return out;
+    const int k = balance->number[point], body = balance->rigid_of[point];
+    if (k >= 0) {
+        out.first = 3 * k;
+        out.width = 3;
+    } else if (body >= 0) { /* d + theta x a */
+        const Vec3 a = cpsi_trial_arm(balance, &balance->rigid[body], point);
+        out.first = 3 * balance->count + 6 * body;
+        out.width = 6;
+        out.by[0][4] = a.z;
+        out.by[0][5] = -a.y;
+        out.by[1][3] = -a.z;
+        out.by[1][5] = a.x;
+        out.by[2][3] = a.y;
+        out.by[2][4] = -a.x;
+    }
+    return out;
+}
+
+/* Add A' K B for the block K of a tangent. */
+static void add_block(CpsiBalance *balance, const Follows *to, const Follows *from,
+                      const double *tangent, int row, int column) {
+    const size_t n = (size_t)balance->unknowns;
+    for (int i = 0; i < to->width; i++)
+        for (int j = 0; j < from->width; j++) {
+            double sum = 0;
+            for (int a = 0; a < 3; a++)
+                for (int b = 0; b < 3; b++)
+                    sum += to->by[a][i] * tangent[6 * (row + a) + column + b] * from->by[b][j];
+            balance->matrix[(size_t)(to->first + i) * n + (size_t)(from->first + j)] += sum;
+        }
+}
+
+/* Add what of a body's forces turns with it, and its hydrostatics. */
+static void add_body(CpsiBalance *balance, int k) {
+    const CpsEvolution *evolution = balance->evolution;
+    const CpsiRigid *rigid = &balance->rigid[k];
+    const size_t n = (size_t)balance->unknowns, first = 3 * (size_t)balance->count + 6 * (size_t)k;
+    double own[36] = {0};
+    cpsi_body_stiffness(&evolution->bodies.body[rigid->body], &rigid->pose, evolution->gravity,
+                        own);
+    for (int item = 0; item < balance->line_count; item++)
+        for (int end = 0; end < 2; end++) {
+            const int i = balance->line[item], point = evolution->points.tie[2 * i + end];
+            if (point == CPSI_NO_POINT || balance->rigid_of[point] != k) continue;
+            const Vec3 pull = vec3_scale(-1, vec3_load(evolution->line[i].report.end[end].force));
+            cpsi_add_turning_force(pull, cpsi_trial_arm(balance, rigid, point), own);
+        }
+    for (size_t i = 0; i < 6; i++)
+        for (size_t j = 0; j < 6; j++)
+            balance->matrix[(first + i) * n + first + j] += own[6 * i + j];
+}
+
+static void tangent_of_one(void *data, int worker, int item) {
+    CpsiBalance *balance = data;
+    CpsEvolution *evolution = balance->evolution;
+    CpsiLine *line = &evolution->line[balance->line[item]];
+    cpsi_workspace_attach(&evolution->workspace[worker], line);
+    cpsi_line_tangent(line, &evolution->workspace[worker].program, &evolution->options,
+                      &balance->tangent[36 * item]);
+}
+
+/* The stiffness of the lines and bodies at the unknowns. */
+void cpsi_fill_matrix(CpsiBalance *balance) {
+    const CpsEvolution *evolution = balance->evolution;
+    const size_t n = (size_t)balance->unknowns;
+    cpsi_workers_run(evolution->workers, tangent_of_one, balance, balance->line_count);
+    memset(balance->matrix, 0, n * n * sizeof *balance->matrix);
+    for (int item = 0; item < balance->line_count; item++) {
+        const int *tie = &evolution->points.tie[2 * (size_t)balance->line[item]];
+        const Follows end[2] = {follows_of(balance, tie[0]), follows_of(balance, tie[1])};
+        for (int to = 0; to < 2; to++)
+            for (int from = 0; from < 2; from++)
+                add_block(balance, &end[to], &end[from], &balance->tangent[36 * (size_t)item],
+                          3 * to, 3 * from);
+    }
+    for (int k = 0; k < balance->body_count; k++) add_body(balance, k);
+}
+
+/* The size of the points' stiffnesses, and what is added to them where they have none. */
+static void find_stiffness(CpsiBalance *balance) {
+    const size_t n = (size_t)balance->unknowns;
+    for (int k = 0; k < balance->count; k++) {
+        CpsiFree *at = &balance->at[k];
+        double trace = 0;
+        for (size_t a = 0; a < 3; a++) {
+            const size_t i = 3 * (size_t)k + a;
+            trace += fabs(balance->matrix[i * n + i]);
+        }
+        const double length = balance->evolution->points.point[at->point].length;
+        at->stiffness = fmax(trace / 3, CPSI_REGULAR * balance->force / length);
+        for (size_t a = 0; a < 3; a++) {
+            const size_t i = 3 * (size_t)k + a;
+            balance->matrix[i * n + i] += CPSI_REGULAR * balance->force / length;
+        }
+    }
+    for (int k = 0; k < balance->body_count; k++) {
+        const CpsiBody *body = &balance->evolution->bodies.body[balance->rigid[k].body];
+        for (size_t a = 0; a < 6; a++) {
+            const size_t i = 3 * (size_t)balance->count + 6 * (size_t)k + a;
+            balance->matrix[i * n + i] +=
+                CPSI_REGULAR * balance->force / body->length * (a < 3 ? 1 : body->arm * body->arm);
+        }
+    }
+}
+
+/* Is the point to be on the obstacle after the step? */
+static bool is_to_touch(const CpsiFree *at) {
+    return at->obstacle != CPS_NO_OBSTACLE &&
+           -vec3_dot(at->rest, at->normal) > at->stiffness * fmax(at->gap, 0);
+}
+
+/* The equation P K d + Q d = v of a point in its step, K its rows of the matrix. */
+typedef struct Equation {
+    double p[3][3], q[3][3];
+    Vec3 v;
+} Equation;
+
+/* m += by a b' */
+static void add_outer(double m[3][3], double by, Vec3 a, Vec3 b) {
+    const double left[3] = {a.x, a.y, a.z}, right[3] = {b.x, b.y, b.z};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) m[i][j] += by * left[i] * right[j];
+}
+static void add_identity(double m[3][3], double by) {
+    for (int i = 0; i < 3; i++) m[i][i] += by;
+}
+
+/* Along the surface: at rest, where friction holds the point; sliding with the friction F = -b e, e
+ * the direction of the slip, which turns with it, where a bound b = mu R follows the reaction; or
+ * without friction. */
+static void add_tangential(Equation *out, const CpsiFree *at, bool follows) {
+    const Vec3 n = at->normal, test = cpsi_trial_friction_test(at);
+    const double size = vec3_norm(test);
+    if (at->bound > 0 && cpsi_is_to_stick(at)) {
+        add_identity(out->q, at->stiffness);
+        add_outer(out->q, -at->stiffness, n, n);
+        const Vec3 back = vec3_reject(vec3_sub(at->start, at->place), n);
+        out->v = vec3_axpy(at->stiffness, back, out->v);
+        return;
+    }
+    add_identity(out->p, 1);
+    add_outer(out->p, -1, n, n);
+    out->v = vec3_add(out->v, vec3_reject(at->rest, n));
+    if (!(at->bound > 0) || !(size > 0)) return;
+    const Vec3 e = vec3_scale(1 / size, test);
+    const double turns = at->bound / (vec3_norm(at->slip) + at->bound / at->stiffness);
+    if (follows) add_outer(out->p, at->friction, e, n);
+    add_identity(out->q, turns);
+    add_outer(out->q, -turns, n, n);
+    add_outer(out->q, -turns, e, e);
+    out->v = vec3_axpy(-at->bound, e, out->v);
+}
+
+/* Across it: the gap closes, or nothing acts. */
+static void add_normal(Equation *out, const CpsiFree *at) {
+    const Vec3 n = at->normal;
+    if (is_to_touch(at)) {
+        add_outer(out->q, at->stiffness, n, n);
+        out->v = vec3_axpy(-at->stiffness * at->gap, n, out->v);
+    } else {
+        add_outer(out->p, 1, n, n);
+        out->v = vec3_axpy(vec3_dot(at->rest, n), n, out->v);
+    }
+}
+
+static Equation equation_of(const CpsiFree *at, bool follows) {
+    Equation out = {.v = vec3(0, 0, 0)};
+    if (at->obstacle == CPS_NO_OBSTACLE) {
+        add_identity(out.p, 1);
+        out.v = at->rest;
+        return out;
+    }
+    add_tangential(&out, at, follows);
+    add_normal(&out, at);
+    return out;
+}
+
+/* The rows of the points. */
+static void set_points(CpsiBalance *balance) {
+    const size_t n = (size_t)balance->unknowns;
+    for (int k = 0; k < balance->count; k++) {
+        const Equation is = equation_of(&balance->at[k], balance->follows);
+        double *row = &balance->matrix[3 * (size_t)k * n];
+        for (size_t j = 0; j < n; j++) {
+            const double old[3] = {row[j], row[n + j], row[2 * n + j]};
+            for (size_t a = 0; a < 3; a++)
+                row[a * n + j] = is.p[a][0] * old[0] + is.p[a][1] * old[1] + is.p[a][2] * old[2];
+        }
+        for (size_t a = 0; a < 3; a++)
+            for (size_t b = 0; b < 3; b++) row[a * n + 3 * (size_t)k + b] += is.q[a][b];
+        vec3_store(&balance->right[3 * k], is.v);
+    }
+}
+
+/* The rows of the bodies: nothing moves in a fixed direction. */
+static void set_bodies(CpsiBalance *balance) {
+    const size_t n = (size_t)balance->unknowns;
+    for (int k = 0; k < balance->body_count; k++) {
+        const CpsiRigid *rigid = &balance->rigid[k];
+        const CpsiBody *body = &balance->evolution->bodies.body[rigid->body];
+        const size_t first = 3 * (size_t)balance->count + 6 * (size_t)k;
+        vec3_store(&balance->right[first], rigid->left.force);
+        vec3_store(&balance->right[first + 3], rigid->left.moment);
+        for (size_t a = 0; a < 6; a++) {
+            double *row = &balance->matrix[(first + a) * n];
+            if (!body->given.fixed[a]) continue;
+            memset(row, 0, n * sizeof *row);
+            row[first + a] = 1;
+        }
+    }
+}
+
+/* [J] The work along the step of the forces that are left. */
+double cpsi_work_along(const CpsiBalance *balance) {
+    double work = 0;
+    for (int k = 0; k < balance->count; k++)
+        work += vec3_dot(balance->at[k].left, vec3_load(&balance->step[3 * k]));
+    for (int k = 0; k < balance->body_count; k++) {
+        const double *step = &balance->step[3 * balance->count + 6 * k];
+        const CpsiWrench *left = &balance->rigid[k].left;
+        work +=
+            vec3_dot(left->force, vec3_load(step)) + vec3_dot(left->moment, vec3_load(&step[3]));
+    }
+    return work;
+}
+
+/* Is the symmetric part of a stiffness positive definite in the directions that are not fixed? */
+bool cpsi_is_definite(const double stiffness[36], const bool fixed[6], double arm) {
+    double m[36], l[36];
+    for (int i = 0; i < 6; i++)
+        for (int k = 0; k < 6; k++) {
+            const double unit = (i < 3 ? 1 : arm) * (k < 3 ? 1 : arm);
+            m[6 * i + k] = fixed[i] || fixed[k]
+                               ? i == k
+                               : 0.5 * (stiffness[6 * i + k] + stiffness[6 * k + i]) / unit;
+        }
+    return cpsi_cholesky(6, m, l);
+}
+
+/* The block of body k in the matrix. */
+void cpsi_body_block(const CpsiBalance *balance, int k, double out[36]) {
+    const size_t n = (size_t)balance->unknowns, first = 3 * (size_t)balance->count + 6 * (size_t)k;
+    for (size_t i = 0; i < 6; i++)
+        memcpy(&out[6 * i], &balance->matrix[(first + i) * n + first], 6 * sizeof *out);
+}
+
+/* The size of a body's stiffness against displacements and against rotations. */
+static void size_of_stiffness(const CpsiBalance *balance, int k, double size[6]) {
+    const CpsiBody *body = &balance->evolution->bodies.body[balance->rigid[k].body];
+    double block[36], most[2] = {CPSI_REGULAR * balance->force / body->length, 0};
+    cpsi_body_block(balance, k, block);
+    for (int i = 0; i < 6; i++)
+        if (!body->given.fixed[i]) most[i / 3] = fmax(most[i / 3], fabs(block[7 * i]));
+    most[1] = fmax(most[1], most[0] * body->arm * body->arm * CPSI_REGULAR);
+    for (int i = 0; i < 6; i++) size[i] = most[i / 3];
+}
+
+/* Are the poses of all bodies stable, held back by a share of their own stiffness? */
+static bool are_definite(const CpsiBalance *balance, double share) {
+    for (int k = 0; k < balance->body_count; k++) {
+        const CpsiBody *body = &balance->evolution->bodies.body[balance->rigid[k].body];
+        double block[36], size[6];
+        cpsi_body_block(balance, k, block);
+        size_of_stiffness(balance, k, size);
+        for (int i = 0; i < 6; i++) block[7 * i] += share * size[i];
+        if (!cpsi_is_definite(block, body->given.fixed, body->arm)) return false;
+    }
+    return true;
+}
+
+/* Solve for the step with bodies held back by a share of their own stiffness. */
+static bool solve_step(CpsiBalance *balance, double share) {
+    const size_t n = (size_t)balance->unknowns;
+    memcpy(balance->factor, balance->matrix, n * n * sizeof *balance->factor);
+    memcpy(balance->step, balance->right, n * sizeof *balance->step);
+    for (int k = 0; k < balance->body_count; k++) {
+        const CpsiBody *body = &balance->evolution->bodies.body[balance->rigid[k].body];
+        double size[6];
+        size_of_stiffness(balance, k, size);
+        for (size_t a = 0; a < 6; a++) {
+            const size_t i = 3 * (size_t)balance->count + 6 * (size_t)k + a;
+            if (!body->given.fixed[a]) balance->factor[i * n + i] += share * size[a];
+        }
+    }
+    if (!cpsi_lu_factor((int)n, balance->factor, balance->pivot)) return false;
+    cpsi_lu_solve((int)n, balance->factor, balance->pivot, balance->step);
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(balance->step[i])) return false;
+    return true;
+}
+
+/* The step of all points and bodies by Newton's method. Where a body in its pose is not stable that
+ * may lead up the energy; then it is held back. */
+bool cpsi_find_step(CpsiBalance *balance) {
+    cpsi_fill_matrix(balance);
+    find_stiffness(balance);
+    set_points(balance);
+    set_bodies(balance);
+    if (balance->body_count == 0) return solve_step(balance, 0);
+    for (double share = 0; share<MOST_HELD; share = share> 0 ? 10 * share : CPSI_LEAST_HELD)
+        if (are_definite(balance, share) && solve_step(balance, share) &&
+            cpsi_work_along(balance) > 0)
+            return true;
+    return false;
+}
+
+/* Without a matrix: every point along the force that is left on it. */
+void cpsi_follow_forces(CpsiBalance *balance) {
+    for (int k = 0; k < balance->count; k++) {
+        const CpsiFree *at = &balance->at[k];
+        vec3_store(&balance->step[3 * k],
+                   at->stiffness > 0 ? vec3_scale(1 / at->stiffness, at->left) : vec3(0, 0, 0));
+    }
+    for (int k = 0; k < balance->body_count; k++) {
+        double size[6];
+        size_of_stiffness(balance, k, size);
+        for (int a = 0; a < 6; a++) {
+            const int i = 3 * balance->count + 6 * k + a;
+            balance->step[i] = size[a] > 0 ? balance->right[i] / size[a] : 0;
+        }
+    }
+}
+
+void cpsi_limit(double step[3], double most) {
+    const double size = vec3_norm(vec3_load(step));
+    if (size > most)
+        for (int a = 0; a < 3; a++) step[a] *= most / size;
+}
+
+void cpsi_limit_step(CpsiBalance *balance) {
+    const CpsEvolution *evolution = balance->evolution;
+    for (int k = 0; k < balance->count; k++)
+        cpsi_limit(&balance->step[3 * k],
+                   FARTHEST * evolution->points.point[balance->at[k].point].length);
+    for (int k = 0; k < balance->body_count; k++) {
+        double *step = &balance->step[3 * balance->count + 6 * k];
+        cpsi_limit(step, FARTHEST * evolution->bodies.body[balance->rigid[k].body].length);
+        cpsi_limit(&step[3], FARTHEST_TURN);
+    }
+}
+
+/* The place of a point after a share of the step: out of every obstacle, and on that on which it is
+ * to lie; exactly where it was where it is to stick. */
+Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const double step[3],
+                      double share) {
+    const CpsEvolution *evolution = balance->evolution;
+    Vec3 x = vec3_axpy(share, vec3_load(step), from->place);
+    const bool touches = is_to_touch(from);
+    if (touches && cpsi_is_to_stick(from) && share == 1) return from->start;
+    if (touches) {
+        const CpsiObstacle *on = &evolution->obstacle[from->obstacle];
+        const double gap = cpsi_obstacle_gap(on, x);
+        if (share == 1 || gap < 0) x = vec3_axpy(-gap, cpsi_obstacle_normal(on, x), x);
+    }
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        const double gap = cpsi_obstacle_gap(&evolution->obstacle[k], x);
+        if (gap < 0) x = vec3_axpy(-gap, cpsi_obstacle_normal(&evolution->obstacle[k], x), x);
+    }
+    return x;
+}
+
+/* The pose of a body after a share of the step. */
+CpsiPose cpsi_pose_after(const CpsiPose *from, const double step[6], double share) {
+    return (
+        CpsiPose){vec3_axpy(share, vec3_load(step), from->place),
+                  rotation_after(rotation_of(vec3_scale(share, vec3_load(&step[3]))), from->turn)};
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Ends at points (ties.h). */
+#include "evolve/ties.h"
+
+#include <math.h>
+
+#include "base/status.h"
+#include "geometry/obstacle.h"
+
+double cpsi_longest_line(const CpsScene *scene, int point) {
+    double longest = 0;
+    for (int i = 0; i < scene->line_count; i++)
+        for (int end = 0; end < 2; end++)
+            if (cpsi_point_of(&scene->line[i], end) == point)
+                longest = fmax(longest, scene->line[i].length);
+    return longest;
+}
+
+CpsStatus cpsi_isotropy_check(const CpsScene *scene, const char *what, const char *name,
+                              CpsError *err) {
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
+        if (!cpsi_obstacle_is_isotropic(&obstacle))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%s '%s': it is free beside obstacle '%s', whose friction has "
+                             "directions: what is free needs one coefficient of friction",
+                             what, name, scene->obstacle[k].name);
+    }
+    return CPS_OK;
+}

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Trials (trial.h). */
+#include "evolve/trial.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/larger.h"
+#include "evolve/bodies.h"
+#include "evolve/checkpoint.h"
+#include "evolve/points.h"
+
+/* What is left counts as balanced up to so many tolerances of the largest force. */
+static const double BALANCED = 100;
+
+CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
+    const size_t points = (size_t)evolution->points.count, lines = (size_t)evolution->line_count,
+                 bodies = (size_t)evolution->bodies.count, unknowns = 3 * points + 6 * bodies;
+    CpsiBalance *balance = NULL, measured = {0};
+    CpsiArena arena = {0};
+    for (int pass = 0; pass < 2; pass++) {
+        CpsiBalance *placed = cpsi_arena_take(&arena, 1, sizeof *placed),
+                    *to = placed ? placed : &measured;
+        CPSI_PLACE(&arena, to->at, points);
+        CPSI_PLACE(&arena, to->from, points);
+        CPSI_PLACE(&arena, to->best, points);
+        CPSI_PLACE(&arena, to->number, points);
+        CPSI_PLACE(&arena, to->rigid, bodies);
+        CPSI_PLACE(&arena, to->rigid_from, bodies);
+        CPSI_PLACE(&arena, to->rigid_best, bodies);
+        CPSI_PLACE(&arena, to->rigid_of, points);
+        CPSI_PLACE(&arena, to->line, lines);
+        CPSI_PLACE(&arena, to->iterations, lines);
+        CPSI_PLACE(&arena, to->offset, lines + 1);
+        CPSI_PLACE(&arena, to->tangent, 36 * lines);
+        CPSI_PLACE(&arena, to->matrix, unknowns * unknowns);
+        CPSI_PLACE(&arena, to->factor, unknowns * unknowns);
+        CPSI_PLACE(&arena, to->right, unknowns);
+        CPSI_PLACE(&arena, to->step, unknowns);
+        CPSI_PLACE(&arena, to->pivot, unknowns);
+        CPSI_PLACE(&arena, to->ends, lines);
+        CPSI_PLACE(&arena, to->joint, points);
+        CPSI_PLACE(&arena, to->joint_of, points);
+        CPSI_PLACE(&arena, to->held, bodies);
+        CPSI_PLACE(&arena, to->guess.joint, 3 * points);
+        CPSI_PLACE(&arena, to->guess.body, 6 * bodies);
+        CPSI_PLACE(&arena, to->guess.pull, 6 * lines);
+        cpsi_network_place(&to->network, &arena, evolution->line, (int)lines, (int)points,
+                           (int)bodies, evolution->workspace[0].program.ops);
+        size_t all = 0;
+        for (size_t i = 0; i < lines; i++) {
+            if (placed) to->offset[i] = all;
+            all += cpsi_line_state_size(&evolution->line[i]);
+        }
+        CPSI_PLACE(&arena, to->state, all);
+        balance = placed;
+        if (pass == 0 && !cpsi_arena_allocate(&arena)) return NULL;
+    }
+    balance->arena = arena;
+    return balance;
+}
+
+void cpsi_balance_free(CpsiBalance *balance) {
+    if (!balance) return;
+    CpsiArena arena = balance->arena;
+    cpsi_arena_free(&arena);
+}
+
+/* trials --------------------------------------------------------------------------------------- */
+
+static void step_one(void *data, int worker, int item) {
+    CpsiBalance *balance = data;
+    balance->task(balance->evolution, worker, balance->line[item]);
+}
+
+static bool places_by_statics(const CpsEvolution *evolution, int line) {
+    return evolution->has_static && evolution->done == 0 && evolution->is_static[line];
+}
+
+/* The place of a point in the trial; false where it is neither free nor on a free body. */
+bool cpsi_trial_place(const CpsiBalance *balance, int point, Vec3 *place) {
+    if (point == CPSI_NO_POINT) return false;
+    const int k = balance->number[point], body = balance->rigid_of[point];
+    if (k >= 0) *place = balance->at[k].place;
+    if (body >= 0)
+        *place = cpsi_pose_place(&balance->rigid[body].pose,
+                                 balance->evolution->points.given[point].position);
+    return k >= 0 || body >= 0;
+}
+
+/* Let the lines end where the free points and bodies are. */
+static void impose(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    for (int item = 0; item < balance->line_count; item++) {
+        const int i = balance->line[item];
+        for (int end = 0; end < 2; end++) {
+            const int point = evolution->points.tie[2 * i + end];
+            Vec3 place;
+            if (!cpsi_trial_place(balance, point, &place)) continue;
+            double *to = evolution->move[i].to[end].value;
+            vec3_store(to, place);
+            if (places_by_statics(evolution, i))
+                memcpy(evolution->line[i].end[end].value, to, 3 * sizeof *to);
+        }
+    }
+}
+
+/* The nearest obstacle, and where the point was on it when the step began. */
+void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
+    const CpsiPoint *point = &evolution->points.point[at->point];
+    at->obstacle = CPS_NO_OBSTACLE;
+    at->gap = INFINITY;
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        const double gap = cpsi_obstacle_gap(&evolution->obstacle[k], at->place);
+        if (!(gap < at->gap)) continue;
+        at->gap = gap;
+        at->obstacle = k;
+    }
+    if (at->obstacle == CPS_NO_OBSTACLE) return;
+    const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
+    at->normal = cpsi_obstacle_normal(on, at->place);
+    at->friction = evolution->has_static && evolution->done == 0 ? 0 : on->friction[0];
+    const Vec3 before =
+        cpsi_obstacle_turn(on, vec3_load(point->before), evolution->angle[at->obstacle]);
+    at->slip = cpsi_obstacle_slip(on, before, at->place);
+    at->start = vec3_axpy(-cpsi_obstacle_gap(on, before), cpsi_obstacle_normal(on, before), before);
+}
+
+/* [m] A point that is no farther from an obstacle, or has slid no farther, touches it, or is at
+ * rest. */
+double cpsi_trial_touch(const CpsiBalance *balance, const CpsiFree *at) {
+    return CPS_TOUCH * balance->evolution->points.point[at->point].length;
+}
+
+/* rho s - F with the friction F that would balance: within the bound the point is to stick. */
+Vec3 cpsi_trial_friction_test(const CpsiFree *at) {
+    return vec3_axpy(at->stiffness, at->slip, vec3_reject(at->rest, at->normal));
+}
+
+bool cpsi_is_to_stick(const CpsiFree *at) {
+    return at->bound > 0 && vec3_norm(cpsi_trial_friction_test(at)) <= at->bound;
+}
+
+/* What the obstacle does to the point, and what nothing balances. The friction bound follows the
+ * reaction, or is that of the reference, and then acts off the obstacle as well (S90 (35)). The
+ * friction is the force within its bound that is nearest to F - rho s, F what would balance: at a
+ * solution it is F and opposite to the slip, elsewhere what is left is continuous in the place.
+ * Until the stiffness rho is known, what has slid by CPS_TOUCH slides. */
+static void find_contact(const CpsiBalance *balance, CpsiFree *at) {
+    const CpsiPoint *point = &balance->evolution->points.point[at->point];
+    const double touch = cpsi_trial_touch(balance, at);
+    at->reaction = at->bound = 0;
+    at->force = vec3(0, 0, 0);
+    at->left = at->rest;
+    if (at->obstacle == CPS_NO_OBSTACLE) return;
+    if (at->gap <= touch) at->reaction = fmax(0, -vec3_dot(at->rest, at->normal));
+    at->bound = at->friction * (balance->follows ? at->reaction : point->reaction_before);
+    if (!(at->stiffness > 0)) at->stiffness = at->bound / touch;
+    const Vec3 test = cpsi_trial_friction_test(at);
+    const double size = vec3_norm(test);
+    at->force = vec3_scale(size > at->bound ? -at->bound / size : -1, test);
+    at->left = vec3_add(vec3_axpy(at->reaction, at->normal, at->rest), at->force);
+}
+
+/* From the reference point of a free body to a point on it, in the axes of the scene. */
+Vec3 cpsi_trial_arm(const CpsiBalance *balance, const CpsiRigid *rigid, int point) {
+    return rotation_apply(rigid->pose.turn,
+                          vec3_load(balance->evolution->points.given[point].position));
+}
+
+static void add_pull(const CpsiBalance *balance, CpsiRigid *rigid, int point, Vec3 pull) {
+    const Vec3 arm = cpsi_trial_arm(balance, rigid, point);
+    rigid->lines.force = vec3_add(rigid->lines.force, pull);
+    rigid->lines.moment = vec3_add(rigid->lines.moment, vec3_cross(arm, pull));
+}
+
+/* What nothing balances on a free body: nothing in its fixed directions. */
+static void find_rest(CpsiBalance *balance, CpsiRigid *rigid) {
+    const CpsiBody *body = &balance->evolution->bodies.body[rigid->body];
+    const CpsiWrench load = cpsi_body_load(body, &rigid->pose, balance->evolution->gravity);
+    rigid->rest = (CpsiWrench){vec3_add(rigid->lines.force, load.force),
+                               vec3_add(rigid->lines.moment, load.moment)};
+    double left[6];
+    vec3_store(left, rigid->rest.force);
+    vec3_store(&left[3], rigid->rest.moment);
+    for (int i = 0; i < 6; i++)
+        if (body->given.fixed[i]) left[i] = 0;
+    rigid->left = (CpsiWrench){vec3_load(left), vec3_load(&left[3])};
+    balance->force = cpsi_max_nan(balance->force, vec3_norm(body->load.force));
+    balance->force = cpsi_max_nan(balance->force, vec3_norm(body->load.moment) / body->arm);
+}
+
+void cpsi_trial_restore_line(CpsiBalance *balance, int line) {
+    cpsi_line_restore(&balance->evolution->line[line], &balance->state[balance->offset[line]]);
+}
+
+void cpsi_step_lines(CpsiBalance *balance) {
+    cpsi_workers_run(balance->evolution->workers, step_one, balance, balance->line_count);
+}
+
+/* Solve the lines for the places of the points. */
+void cpsi_try_places(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    if (balance->trials > 0)
+        for (int item = 0; item < balance->line_count; item++) {
+            const int i = balance->line[item];
+            balance->iterations[i] += evolution->line[i].report.iteration_count;
+            cpsi_trial_restore_line(balance, i);
+        }
+    impose(balance);
+    cpsi_step_lines(balance);
+    balance->trials++;
+    balance->force = 0;
+    balance->certified = true;
+    for (int k = 0; k < balance->count; k++) {
+        double load[3];
+        cpsi_point_load(&evolution->points.point[balance->at[k].point], evolution->gravity, load);
+        balance->at[k].rest = vec3_load(load);
+        balance->force = fmax(balance->force, vec3_norm(balance->at[k].rest));
+    }
+    for (int k = 0; k < balance->body_count; k++)
+        balance->rigid[k].lines = (CpsiWrench){vec3(0, 0, 0), vec3(0, 0, 0)};
+    for (int item = 0; item < balance->line_count; item++) {
+        const int i = balance->line[item];
+        const CpsLineReport *report = &evolution->line[i].report;
+        balance->certified = balance->certified && cps_outcome_is_certified(report->outcome);
+        balance->force = cpsi_max_nan(balance->force, report->certificate.largest_force);
+        for (int end = 0; end < 2; end++) {
+            const int point = evolution->points.tie[2 * i + end];
+            const Vec3 pull = vec3_scale(-1, vec3_load(report->end[end].force));
+            if (point == CPSI_NO_POINT) continue;
+            if (balance->number[point] >= 0) {
+                CpsiFree *at = &balance->at[balance->number[point]];
+                at->rest = vec3_add(at->rest, pull);
+            }
+            if (balance->rigid_of[point] >= 0)
+                add_pull(balance, &balance->rigid[balance->rigid_of[point]], point, pull);
+        }
+    }
+    for (int k = 0; k < balance->count; k++) {
+        cpsi_trial_find_obstacle(evolution, &balance->at[k]);
+        find_contact(balance, &balance->at[k]);
+    }
+    for (int k = 0; k < balance->body_count; k++) find_rest(balance, &balance->rigid[k]);
+}
+
+/* [N] The largest force that nothing balances, moments over the arm of their body. */
+double cpsi_largest_left(const CpsiBalance *balance, const CpsiFree *at, const CpsiRigid *rigid) {
+    double most = 0;
+    for (int k = 0; k < balance->count; k++) most = cpsi_max_nan(most, vec3_norm(at[k].left));
+    for (int k = 0; k < balance->body_count; k++) {
+        const double arm = balance->evolution->bodies.body[rigid[k].body].arm;
+        most = cpsi_max_nan(most, vec3_norm(rigid[k].left.force));
+        most = cpsi_max_nan(most, vec3_norm(rigid[k].left.moment) / arm);
+    }
+    return most;
+}
+
+double cpsi_left_now(const CpsiBalance *balance) {
+    return cpsi_largest_left(balance, balance->at, balance->rigid);
+}
+
+/* Is what is left within the tolerance? A force that is left changes the tensions of the lines by
+ * no more than itself, which is far below the bound of their error that certificates at this
+ * tolerance give: these are of second order. */
+bool cpsi_is_balanced(const CpsiBalance *balance, double left) {
+    return left <= BALANCED * balance->evolution->options.solver.tolerance * balance->force;
+}

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A trial of the search for the places of free points and bodies (balance.h): the lines solved with
+ * their ends held there, and what the forces on points and bodies leave. */
+#ifndef CAPSTAN_SRC_EVOLVE_TRIAL_H
+#define CAPSTAN_SRC_EVOLVE_TRIAL_H
+
+#include "cable/network.h"
+#include "evolve/state.h"
+
+/* Stiffness added, in units of the largest force over the length of a point's longest line: where
+ * slack lines have none, the rounding of forces moves a point by a thousandth of that length. */
+#define CPSI_REGULAR 1e-8
+
+/* A free point in a trial. */
+typedef struct CpsiFree {
+    int point;
+    Vec3 place, rest; /* rest: r */
+    Vec3 left;        /* r + R n + F */
+    double stiffness; /* [N/m] rho, of the size of the lines' */
+    /* at the nearest obstacle, where there is one */
+    int obstacle;
+    double gap, friction, bound, reaction;
+    Vec3 normal, slip, force; /* force: F */
+    Vec3 start;               /* where the point was, on the surface and turned with it */
+} CpsiFree;
+
+/* A free body in a trial: what acts on it, and what of that nothing balances. */
+typedef struct CpsiRigid {
+    int body;
+    CpsiPose pose;
+    CpsiWrench lines, rest, left; /* rest: lines and loads; left: of that in its free directions */
+} CpsiRigid;
+
+struct CpsiBalance {
+    int count;                  /* free points */
+    CpsiFree *at, *from, *best; /* (count) of the trial, before it, and of the best one */
+    int *number;                /* (points) of a free point, else -1 */
+    int body_count;             /* free bodies */
+    CpsiRigid *rigid, *rigid_from, *rigid_best; /* (body_count) */
+    int *rigid_of;           /* (points) the free body that a point is on, else -1 */
+    int unknowns;            /* 3 count + 6 body_count */
+    int line_count;          /* lines at free points, or at points on free bodies */
+    int *line;               /* (line_count) */
+    int *iterations;         /* (lines) of trials that were not kept */
+    unsigned char *state;    /* of all lines before the step */
+    size_t *offset;          /* (lines + 1) of each in `state` */
+    double *tangent;         /* (line_count, 36) */
+    double *matrix, *factor; /* (unknowns, unknowns) */
+    double *right, *step;    /* (unknowns) */
+    int *pivot;              /* (unknowns) */
+    int (*ends)[2];          /* (line_count, 2) the joints at their ends, or CPSI_NO_JOINT */
+    CpsiJoint *joint;        /* the free points, then the points on free bodies */
+    int *joint_of;           /* (points) the joint that a point is, or CPSI_NO_JOINT */
+    CpsiNetworkBody *held;   /* (body_count) */
+    CpsiNetworkMove guess;
+    CpsiNetwork network;
+    double force;   /* [N] the largest of the trial */
+    bool certified; /* are all lines, in this trial? */
+    bool follows;   /* friction bounds follow the reactions */
+    int trials;
+    CpsEvolution *evolution;
+    CpsiTask task;
+    CpsiArena arena; /* in which all this lies */
+};
+
+/* Memory for the search; NULL where there is none. The lines of the evolution are placed. */
+CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution);
+void cpsi_balance_free(CpsiBalance *balance);
+
+/* The place of a point in the trial; false where it is neither free nor on a free body. */
+bool cpsi_trial_place(const CpsiBalance *balance, int point, Vec3 *place);
+/* The nearest obstacle, and where the point was on it when the step began. */
+void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at);
+/* [m] A point that is no farther from an obstacle, or has slid no farther, touches it, or is at
+ * rest. */
+double cpsi_trial_touch(const CpsiBalance *balance, const CpsiFree *at);
+/* rho s - F with the friction F that would balance: within the bound the point is to stick. */
+Vec3 cpsi_trial_friction_test(const CpsiFree *at);
+bool cpsi_is_to_stick(const CpsiFree *at);
+/* From the reference point of a free body to a point on it, in the axes of the scene. */
+Vec3 cpsi_trial_arm(const CpsiBalance *balance, const CpsiRigid *rigid, int point);
+
+/* The line as it was before the step. */
+void cpsi_trial_restore_line(CpsiBalance *balance, int line);
+/* Take the step of the lines of the search, as it is imposed on them. */
+void cpsi_step_lines(CpsiBalance *balance);
+/* Solve the lines for the places of the points and bodies. */
+void cpsi_try_places(CpsiBalance *balance);
+/* [N] The largest force that nothing balances, moments over the arm of their body; now. */
+double cpsi_largest_left(const CpsiBalance *balance, const CpsiFree *at, const CpsiRigid *rigid);
+double cpsi_left_now(const CpsiBalance *balance);
+/* Is so much left within the tolerance? */
+bool cpsi_is_balanced(const CpsiBalance *balance, double left);
+
+#endif
