@@ -1,0 +1,440 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rigid bodies that lines hold: answers by hand, the stiffness of a body against poses beside its
+ * own, OC3-Hywind with its spar, and what is refused. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cases.h"
+
+static const double RADIAN = 57.295779513082323;
+
+enum { LINES = 4 };
+
+/* A body with up to four lines: the points 0 .. 3 are anchors, 4 .. 7 are on the body. */
+typedef struct Mooring {
+    CpsLine line[LINES];
+    CpsPoint point[2 * LINES];
+    CpsBody body;
+    CpsObstacle bed;
+    CpsScene scene;
+} Mooring;
+
+static void begin(Mooring *m, int lines) {
+    static const char *const LINE[] = {"one", "two", "three", "four"}, *const POINT[] = {
+                                                                           "a1", "a2", "a3", "a4",
+                                                                           "b1", "b2", "b3", "b4"};
+    *m = (Mooring){.scene = cps_scene_default(),
+                   .body = cps_body_default(),
+                   .bed = cps_obstacle_default()};
+    m->body.name = "body";
+    m->body.kind = CPS_BODY_KIND_FREE;
+    m->bed.name = "bed";
+    for (int i = 0; i < 2 * lines; i++) {
+        m->point[i] = cps_point_default();
+        m->point[i].name = POINT[i < lines ? i : LINES + i - lines];
+        if (i >= lines) m->point[i].kind = CPS_POINT_KIND_ON_BODY;
+    }
+    for (int i = 0; i < lines; i++) {
+        m->line[i] = cps_line_default();
+        m->line[i].name = LINE[i];
+        m->line[i].start.kind = CPS_START_STATIC;
+        for (int end = 0; end < 2; end++) {
+            m->line[i].end[end].kind = CPS_END_KIND_POINT;
+            m->line[i].end_point[end] = end * lines + i;
+        }
+    }
+    m->scene.line_count = lines;
+    m->scene.line = m->line;
+    m->scene.point_count = 2 * lines;
+    m->scene.point = m->point;
+    m->scene.body_count = 1;
+    m->scene.body = &m->body;
+}
+
+static CpsEvolution *evolve(const CpsScene *scene) {
+    CpsEvolution *evolution = NULL;
+    CpsError err;
+    if (cps_evolution_create(scene, &evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+    return evolution;
+}
+
+static CpsBodyReport step(CpsEvolution *evolution) {
+    CpsError err;
+    assert_int_equal(cps_evolution_step(evolution, &err), CPS_OK);
+    assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
+    return cps_evolution_body_report(evolution, 0);
+}
+
+/* A body of weight W hangs from one string of length L at the point (0, 0, l) above its centre of
+ * gravity, and is pulled aside with F there: string and body are in line with the force, at the
+ * angle atan(F/W), and the string has |(F, W)|. */
+static void a_pendulum(void **unused) {
+    static const double L = 2, ARM = 0.7, W = 900, F = 500, EA = 1e6;
+    static const double START[] = {0, -30, 40};
+    (void)unused;
+    for (int k = 0; k < 3; k++) {
+        Mooring m;
+        begin(&m, 1);
+        m.line[0].length = L;
+        m.line[0].element_count = 1;
+        m.line[0].stiffness = EA;
+        m.point[1].position[2] = ARM;
+        m.body.position[0] = 0.1;
+        m.body.position[2] = -L - ARM;
+        m.body.rotation[0] = cos(0.5 * START[k] / RADIAN);
+        m.body.rotation[2] = sin(0.5 * START[k] / RADIAN);
+        m.body.weight = W;
+        m.body.force[0] = F;
+        m.body.fixed[5] = true; /* nothing holds it about its string */
+        CpsEvolution *evolution = evolve(&m.scene);
+        const CpsBodyReport found = step(evolution);
+        const double pull = hypot(F, W), reach = L * (1 + pull / EA) + ARM;
+        CHECK_NEAR(found.position[0], reach * F / pull, 1e-8);
+        CHECK_NEAR(found.position[1], 0, 1e-8);
+        CHECK_NEAR(found.position[2], -reach * W / pull, 1e-8);
+        const double tilt = -2 * atan2(found.rotation[2], found.rotation[0]);
+        CHECK_NEAR(sin(tilt), F / pull, 1e-8);
+        CHECK_NEAR(cos(tilt), W / pull, 1e-8);
+        CHECK_NEAR(hypot(found.lines[0], found.lines[2]), pull, 1e-5);
+        assert_true(found.is_stable);
+        cps_evolution_destroy(evolution);
+    }
+}
+
+/* A float of buoyancy B above its weight on two equal strings, with hydrostatics in heave: the
+ * strings have half each of what the heave leaves. */
+static void a_float_on_two_strings(void **unused) {
+    static const double L = 5, EA = 2e5, EXCESS = 4000, C33 = 3e4, ARM = 1.5;
+    (void)unused;
+    Mooring m;
+    begin(&m, 2);
+    for (int i = 0; i < 2; i++) {
+        m.line[i].length = L;
+        m.line[i].element_count = 1;
+        m.line[i].stiffness = EA;
+        m.point[i].position[0] = m.point[2 + i].position[0] = i == 0 ? -ARM : ARM;
+    }
+    m.body.position[2] = L;
+    m.body.weight = 1000;
+    m.body.buoyancy = 1000 + EXCESS;
+    m.body.centre_of_buoyancy[2] = 0.4;
+    m.body.hydrostatics[14] = C33;
+    for (int i = 0; i < 2; i++) m.body.fixed[3 + 2 * i] = true; /* roll and yaw */
+    CpsEvolution *evolution = evolve(&m.scene);
+    const CpsBodyReport found = step(evolution);
+    /* B - W - C z = 2 EA z/L */
+    const double z = EXCESS / (C33 + 2 * EA / L);
+    CHECK_NEAR(found.position[2], L + z, 1e-9);
+    CHECK_NEAR(found.lines[2], -2 * EA * z / L, 1e-4);
+    CHECK_NEAR(found.stiffness[14], C33 + 2 * EA / L, 1e-3);
+    /* aside: the strings' T/L' each; in pitch: EA/L x^2 of each, and the buoyancy at its height */
+    const double t = EA * z / L, aside = 2 * t / (L + z);
+    CHECK_RELATIVE(found.stiffness[0], aside, 1e-9);
+    CHECK_RELATIVE(found.stiffness[28], 2 * EA / L * ARM * ARM + 5000 * 0.4, 1e-9);
+    cps_evolution_destroy(evolution);
+}
+
+static void held_wrench(const Mooring *m, const double position[3], const double rotation[4],
+                        double wrench[6]) {
+    Mooring held = *m;
+    held.scene.line = held.line;
+    held.scene.point = held.point;
+    held.scene.body = &held.body;
+    held.scene.obstacle = &held.bed;
+    held.body.kind = CPS_BODY_KIND_HELD;
+    memset(held.body.force, 0, sizeof held.body.force);
+    memset(held.body.moment, 0, sizeof held.body.moment);
+    memcpy(held.body.position, position, sizeof held.body.position);
+    memcpy(held.body.rotation, rotation, sizeof held.body.rotation);
+    CpsEvolution *evolution = evolve(&held.scene);
+    memcpy(wrench, step(evolution).lines, 6 * sizeof *wrench);
+    cps_evolution_destroy(evolution);
+}
+
+/* The rotation by the vector v after a rotation. */
+static void turned(const double by[3], const double q[4], double out[4]) {
+    const double angle = sqrt(by[0] * by[0] + by[1] * by[1] + by[2] * by[2]),
+                 s = angle > 0 ? sin(angle / 2) / angle : 0.5, w = cos(angle / 2), x = s * by[0],
+                 y = s * by[1], z = s * by[2];
+    out[0] = w * q[0] - x * q[1] - y * q[2] - z * q[3];
+    out[1] = w * q[1] + x * q[0] + y * q[3] - z * q[2];
+    out[2] = w * q[2] - x * q[3] + y * q[0] + z * q[1];
+    out[3] = w * q[3] + x * q[2] - y * q[1] + z * q[0];
+}
+
+/* The stiffness of a heeled body on three hanging lines is the derivative of what the lines do to
+ * it, by poses beside its own: central differences by two distances, extrapolated. */
+static void stiffness_of_a_heeled_body(void **unused) {
+    (void)unused;
+    Mooring m;
+    begin(&m, 3);
+    for (int i = 0; i < 3; i++) {
+        const double turn = (120 * i + 10 * i * i) / RADIAN;
+        m.line[i].length = 33 + i;
+        m.line[i].element_count = 25;
+        m.line[i].weight = 60 + 20 * i;
+        m.line[i].stiffness = 3e6;
+        m.point[i].position[0] = 25 * cos(turn);
+        m.point[i].position[1] = 25 * sin(turn);
+        m.point[i].position[2] = 18 + i;
+        m.point[3 + i].position[0] = 3 * cos(turn);
+        m.point[3 + i].position[1] = 2 * sin(turn);
+        m.point[3 + i].position[2] = 1 + 0.3 * i;
+    }
+    m.body.weight = 9000;
+    m.body.centre_of_gravity[2] = -0.5;
+    m.body.moment[0] = 2500;
+    m.body.moment[1] = -4000;
+    m.body.force[1] = 800;
+    CpsEvolution *evolution = evolve(&m.scene);
+    const CpsBodyReport found = step(evolution);
+    cps_evolution_destroy(evolution);
+    const double heel = 2 * acos(fabs(found.rotation[0])) * RADIAN;
+    CHECK_GREATER(heel, 5);
+    double largest = 0;
+    for (int column = 0; column < 6; column++) {
+        double by[2][6], wrench[2][6];
+        for (int fine = 0; fine < 2; fine++) {
+            const double size = (column < 3 ? 2e-4 : 1e-4) / (fine + 1);
+            for (int side = 0; side < 2; side++) {
+                const double move = side ? size : -size;
+                double position[3], rotation[4], turn[3] = {0};
+                memcpy(position, found.position, sizeof position);
+                memcpy(rotation, found.rotation, sizeof rotation);
+                if (column < 3) position[column] += move;
+                if (column >= 3) turn[column - 3] = move;
+                turned(turn, found.rotation, rotation);
+                held_wrench(&m, position, rotation, wrench[side]);
+            }
+            for (int i = 0; i < 6; i++) by[fine][i] = -(wrench[1][i] - wrench[0][i]) / (2 * size);
+        }
+        for (int i = 0; i < 6; i++) {
+            /* the lines' part: the rest is that of the weight, which turns about its centre */
+            const double lines = (4 * by[1][i] - by[0][i]) / 3;
+            double own = found.stiffness[6 * i + column];
+            if (i >= 3 && column >= 3) {
+                const double *q = found.rotation, z = m.body.centre_of_gravity[2];
+                const double arm[3] = {2 * z * (q[1] * q[3] + q[0] * q[2]),
+                                       2 * z * (q[2] * q[3] - q[0] * q[1]),
+                                       z * (1 - 2 * (q[1] * q[1] + q[2] * q[2]))},
+                             f[3] = {0, 0, -m.body.weight};
+                own -= (i == column ? f[2] * arm[2] : 0) - arm[i - 3] * f[column - 3];
+            }
+            const double size = fabs(found.stiffness[7 * i]) + fabs(found.stiffness[7 * column]);
+            largest = fmax(largest, fabs(own - lines) / size);
+        }
+    }
+    CHECK_LESS(largest, 1e-5); /* forces to 1e-11 of the largest over displacements of 1e-5 */
+}
+
+/* OC3-Hywind: three lines at 120 degrees, its spar with the published weight, centres and
+ * hydrostatics (NREL/TP-500-47535), and the thrust of its turbine at 90 m. */
+static void spar(Mooring *m, int elements, double friction) {
+    begin(m, 3);
+    m->scene.gravity[2] = -9.80665;
+    m->scene.obstacle_count = 1;
+    m->scene.obstacle = &m->bed;
+    m->bed.point[2] = -320;
+    m->bed.friction = friction;
+    for (int i = 0; i < 3; i++) {
+        const double x = cos(120 * i / RADIAN), y = sin(120 * i / RADIAN);
+        m->line[i].length = 902.2;
+        m->line[i].element_count = elements;
+        m->line[i].weight = 698.094;
+        m->line[i].stiffness = 384.243e6;
+        const double anchor[3] = {853.87 * x, 853.87 * y, -320},
+                     fairlead[3] = {5.2 * x, 5.2 * y, -70};
+        memcpy(m->point[i].position, anchor, sizeof anchor);
+        memcpy(m->point[3 + i].position, fairlead, sizeof fairlead);
+    }
+    m->body.weight = 8066048 * 9.80665;
+    m->body.buoyancy = m->body.weight + 1607182;
+    m->body.centre_of_gravity[2] = -78;
+    m->body.hydrostatics[14] = 332941;
+    m->body.hydrostatics[21] = m->body.hydrostatics[28] = -4.999e9;
+    m->body.hydrostatics[35] = 98.34e6;
+}
+
+static void oc3_at_rest(void **unused) {
+    (void)unused;
+    Mooring m;
+    spar(&m, 400, 0);
+    for (int i = 0; i < 6; i++) m.body.fixed[i] = true;
+    CpsEvolution *evolution = evolve(&m.scene);
+    const CpsBodyReport found = step(evolution);
+    CHECK_RELATIVE(found.lines[2], -1607182, 1e-4);
+    CHECK_RELATIVE(found.stiffness[35] - 98.34e6, 1.156668e7, 1e-4);
+    /* touchdown goes from node to node: one mesh is within a half and 0.7 of a hundred */
+    CHECK_RELATIVE(found.stiffness[0], 41181.2, 5e-3);
+    CHECK_RELATIVE(found.stiffness[14] - 332941, 11941.5, 7e-3);
+    CHECK_NEAR(found.support[2], 0, 200);
+    cps_evolution_destroy(evolution);
+}
+
+/* Thrust on and off: with friction the spar comes back to another place than it left, and from the
+ * second cycle on the loop is closed; without, it comes back to where it was. */
+static void oc3_thrust_on_and_off(void **unused) {
+    static const double THRUST = 400e3, HEIGHT = 90;
+    (void)unused;
+    for (int rough = 0; rough < 2; rough++) {
+        Mooring m;
+        CpsBodyChange change[6];
+        CpsStage stage[6];
+        double at[7];
+        spar(&m, 100, rough ? 0.5 : 0);
+        for (int k = 0; k < 6; k++) {
+            change[k] = (CpsBodyChange){.kind = CPS_BODY_KIND_FREE};
+            if (k % 2 == 0) change[k].force[0] = THRUST;
+            if (k % 2 == 0) change[k].moment[1] = HEIGHT * THRUST;
+            stage[k] = cps_stage_default();
+            stage[k].name = "thrust";
+            stage[k].step_count = 4;
+            stage[k].body_change_count = 1;
+            stage[k].body_change = &change[k];
+        }
+        m.scene.stage_count = 6;
+        m.scene.stage = stage;
+        CpsEvolution *evolution = evolve(&m.scene);
+        at[0] = step(evolution).position[0];
+        for (int k = 0; k < 6; k++) {
+            CpsBodyReport found = {0};
+            for (int i = 0; i < 4; i++) found = step(evolution);
+            at[k + 1] = found.position[0];
+            assert_true(found.is_stable);
+        }
+        CHECK_BETWEEN(at[1], 13, 15);
+        if (rough) {
+            CHECK_GREATER(at[2] - at[0], 0.01);
+            CHECK_NEAR(at[6], at[4], 1e-3);
+        } else {
+            CHECK_NEAR(at[2], at[0], 1e-7);
+            CHECK_NEAR(at[6], at[0], 1e-7);
+        }
+        cps_evolution_destroy(evolution);
+    }
+}
+
+/* A held body that is moved, released, where it stays, and pulled; a move that is taken back, a
+ * state that is loaded, and two threads have the same bits. */
+static void moves_of_bodies(void **unused) {
+    (void)unused;
+    Mooring m;
+    CpsError err;
+    spar(&m, 40, 0.5);
+    m.body.kind = CPS_BODY_KIND_HELD;
+    CpsEvolution *evolution = evolve(&m.scene);
+    m.scene.solver.thread_count = 2;
+    CpsEvolution *other = evolve(&m.scene);
+    (void)step(evolution);
+    CpsBodyChange change = {.kind = CPS_BODY_KIND_HELD,
+                            .position = {4, 1, 0},
+                            .rotation = {cos(0.02), 0, sin(0.02), 0}};
+    CpsStage move = cps_stage_default();
+    move.body_change_count = 1;
+    move.body_change = &change;
+    assert_int_equal(cps_evolution_move(evolution, &move, &err), CPS_OK);
+    const CpsBodyReport held = cps_evolution_body_report(evolution, 0);
+    CHECK_VECTOR(held.position, change.position, 0);
+    for (int i = 0; i < 6; i++) CHECK_NEAR(held.lines[i] + held.load[i] + held.support[i], 0, 1e-4);
+    change = (CpsBodyChange){.kind = CPS_BODY_KIND_FREE};
+    memcpy(change.force, held.support, sizeof change.force);
+    memcpy(change.moment, &held.support[3], sizeof change.moment);
+    assert_int_equal(cps_evolution_move(evolution, &move, &err), CPS_OK);
+    CHECK_VECTOR(cps_evolution_body_report(evolution, 0).position, held.position, 1e-6);
+    void *state = malloc(cps_evolution_state_size(evolution));
+    cps_evolution_save(evolution, state);
+    change.force[0] += 50e3;
+    assert_int_equal(cps_evolution_move(evolution, &move, &err), CPS_OK);
+    const CpsBodyReport pulled = cps_evolution_body_report(evolution, 0);
+    CHECK_GREATER(pulled.position[0], held.position[0] + 0.1);
+    assert_int_equal(cps_evolution_take_back(evolution, &err), CPS_OK);
+    assert_int_equal(cps_evolution_load(other, state, cps_evolution_state_size(other), &err),
+                     CPS_OK);
+    assert_int_equal(cps_evolution_move(evolution, &move, &err), CPS_OK);
+    assert_int_equal(cps_evolution_move(other, &move, &err), CPS_OK);
+    const CpsBodyReport again = cps_evolution_body_report(evolution, 0),
+                        loaded = cps_evolution_body_report(other, 0);
+    assert_memory_equal(again.position, pulled.position, sizeof pulled.position);
+    assert_memory_equal(again.stiffness, pulled.stiffness, sizeof pulled.stiffness);
+    assert_memory_equal(loaded.position, pulled.position, sizeof pulled.position);
+    assert_memory_equal(loaded.rotation, pulled.rotation, sizeof pulled.rotation);
+    free(state);
+    cps_evolution_destroy(evolution);
+    cps_evolution_destroy(other);
+}
+
+static void expect_refused(const CpsScene *scene, const char *where, const char *part) {
+    CpsError err = {0};
+    assert_int_not_equal(cps_scene_check(scene, &err), CPS_OK);
+    if (!strstr(err.where, where) || !strstr(err.message, part))
+        fail_msg("at '%s': %s; expected at '%s': ..%s..", err.where, err.message, where, part);
+}
+
+static void what_is_refused(void **unused) {
+    (void)unused;
+    Mooring m;
+    spar(&m, 10, 0.5);
+    m.body = (CpsBody){.name = "body"};
+    expect_refused(&m.scene, "bodies", "cps_body_default");
+    spar(&m, 10, 0.5);
+    m.body.name = "a1";
+    expect_refused(&m.scene, "bodies", "a point has the same name");
+    spar(&m, 10, 0.5);
+    memset(m.body.rotation, 0, sizeof m.body.rotation);
+    expect_refused(&m.scene, "bodies.body", "quaternion");
+    spar(&m, 10, 0.5);
+    m.body.weight = -1;
+    expect_refused(&m.scene, "bodies.body", ">= 0");
+    spar(&m, 10, 0.5);
+    m.body.hydrostatics[1] = 5;
+    expect_refused(&m.scene, "bodies.body", "symmetric");
+    spar(&m, 10, 0.5);
+    m.body.kind = CPS_BODY_KIND_HELD;
+    m.body.moment[2] = 1;
+    expect_refused(&m.scene, "bodies.body", "it is held");
+    spar(&m, 10, 0.5);
+    m.point[4].body = 1;
+    expect_refused(&m.scene, "points", "body 1: there are 1");
+    spar(&m, 10, 0.5);
+    for (int i = 3; i < 6; i++) m.point[i].kind = CPS_POINT_KIND_HELD;
+    expect_refused(&m.scene, "bodies.body", "no point is on it");
+    spar(&m, 10, 0.5);
+    m.point[3].weight = 5;
+    expect_refused(&m.scene, "points.b1", "give them to the body");
+    spar(&m, 10, 0.5);
+    m.body.position[2] = -300;
+    expect_refused(&m.scene, "points.b1", "below obstacle 'bed'");
+    spar(&m, 10, 0.5);
+    m.bed.has_friction_lateral = true;
+    m.bed.friction_lateral = 0.2;
+    expect_refused(&m.scene, "bodies.body", "friction has directions");
+    spar(&m, 10, 0.5);
+    CpsBodyChange change = {.body = 1, .kind = CPS_BODY_KIND_FREE};
+    CpsPointChange point_change = {.point = 3, .kind = CPS_POINT_KIND_HELD};
+    CpsStage stage = cps_stage_default();
+    stage.name = "stage";
+    stage.body_change_count = 1;
+    stage.body_change = &change;
+    m.scene.stage_count = 1;
+    m.scene.stage = &stage;
+    expect_refused(&m.scene, "history[1]", "names body 1");
+    change = (CpsBodyChange){.kind = CPS_BODY_KIND_HELD};
+    expect_refused(&m.scene, "history[1].body.body", "no rotation");
+    stage.body_change_count = 0;
+    stage.point_change_count = 1;
+    stage.point_change = &point_change;
+    expect_refused(&m.scene, "history[1].b1.point", "change the body instead");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_pendulum),
+        cmocka_unit_test(a_float_on_two_strings),
+        cmocka_unit_test(stiffness_of_a_heeled_body),
+        cmocka_unit_test(oc3_at_rest),
+        cmocka_unit_test(oc3_thrust_on_and_off),
+        cmocka_unit_test(moves_of_bodies),
+        cmocka_unit_test(what_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
