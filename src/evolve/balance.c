@@ -30,7 +30,13 @@ static const double TARGET = 1e-11;
 /* The search ends after so many iterations or trials, or so many without halving what is left: a
  * body that swings on stiff lines goes down a curved valley, in which its forces do not fall before
  * the end. */
-enum { ITERATIONS = 100, PATIENCE = 6, PATIENCE_WITH_BODIES = 20, MOST_TRIALS = 200 };
+enum {
+    ITERATIONS = 100,
+    PATIENCE = 6,
+    PATIENCE_WITH_BODIES = 20,
+    MOST_TRIALS = 200,
+    FEW_TRIALS = 8
+};
 /* The full step is taken where it reduces what is left to this share, or makes the work along it
  * negative by no more than this share of what it was. */
 static const double REDUCED = 0.9, OVERSHOOT = 0.5;
@@ -187,13 +193,13 @@ static void begin(CpsiBalance *balance, int group) {
     }
 }
 
-static bool search(CpsiBalance *balance) {
+static bool search(CpsiBalance *balance, int trials) {
     const size_t bytes = (size_t)balance->count * sizeof *balance->at,
                  rigid = (size_t)balance->body_count * sizeof *balance->rigid;
     double best = INFINITY, halved = INFINITY, longer = 1;
     int waited = 0;
     cpsi_try_places(balance);
-    const int most = balance->trials + MOST_TRIALS;
+    const int most = balance->trials + trials;
     for (int i = 0; i < ITERATIONS && !is_interrupted(balance->evolution); i++) {
         const double left = cpsi_left_now(balance);
         if (balance->certified && left < best) {
@@ -238,11 +244,11 @@ static void search_softly(CpsiBalance *balance) {
         for (int item = 0; item < count; item++)
             if (own[item] > 0)
                 evolution->line[balance->line[item]].compliance = fmax(soft, own[item]);
-        (void)search(balance);
+        (void)search(balance, MOST_TRIALS);
     }
     for (int item = 0; item < count; item++)
         evolution->line[balance->line[item]].compliance = own[item];
-    (void)search(balance);
+    (void)search(balance, MOST_TRIALS);
 }
 
 void cpsi_balance_start(CpsEvolution *evolution) {
@@ -262,15 +268,36 @@ void cpsi_balance_start(CpsEvolution *evolution) {
     }
 }
 
-/* Find the places of a group. */
+/* Where the step began. */
+static void begin_again(CpsiBalance *balance) {
+    const CpsEvolution *evolution = balance->evolution;
+    for (int k = 0; k < balance->count; k++) {
+        const int point = balance->at[k].point;
+        balance->at[k] = (CpsiFree){.point = point,
+                                    .place = vec3_load(evolution->points.point[point].before),
+                                    .obstacle = CPS_NO_OBSTACLE};
+    }
+    for (int k = 0; k < balance->body_count; k++)
+        balance->rigid[k].pose = evolution->bodies.body[balance->rigid[k].body].pose;
+}
+
+/* Find the places of a group. In a history a body hardly moves in a step, and a few trials from
+ * where it is take less time than the rounds of a first guess. */
 static void find_places(CpsiBalance *balance, int group) {
     CpsEvolution *evolution = balance->evolution;
     const bool is_static = evolution->has_static && evolution->done == 0;
     begin(balance, group);
+    if (!is_static && balance->body_count > 0) {
+        cpsi_extrapolate_places(balance);
+        if (search(balance, FEW_TRIALS)) {
+            cpsi_report_found(balance);
+            return;
+        }
+        begin_again(balance);
+    }
     if (!cpsi_guess_places(balance)) cpsi_extrapolate_places(balance);
-    if (!search(balance) && is_static && balance->body_count > 0) {
-        for (int k = 0; k < balance->body_count; k++)
-            balance->rigid[k].pose = evolution->bodies.body[balance->rigid[k].body].pose;
+    if (!search(balance, MOST_TRIALS) && is_static && balance->body_count > 0) {
+        begin_again(balance);
         search_softly(balance);
     }
     cpsi_report_found(balance);

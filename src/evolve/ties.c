@@ -22,9 +22,9 @@ CpsStatus cpsi_isotropy_check(const CpsScene *scene, const char *what, const cha
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
         if (!cpsi_obstacle_is_isotropic(&obstacle))
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "%s '%s': it is free beside obstacle '%s', whose friction has "
-                             "directions: what is free needs one coefficient of friction",
-                             what, name, scene->obstacle[k].name);
+                             "%s '%s': it may come to rest on obstacle '%s', whose friction has "
+                             "directions: a free %s needs one coefficient of friction",
+                             what, name, scene->obstacle[k].name, what);
     }
     return CPS_OK;
 }

@@ -38,7 +38,7 @@ typedef struct Mooring {
     CpsObstacle bed;
     CpsLine line[MOST_LINES];
     CpsPoint point[2 * MOST_LINES];
-    char name[3 * MOST_LINES][12];
+    char name[3 * MOST_LINES][16];
     CpsBody body;
     CpsBodyChange change[STAGES];
     CpsStage stage[STAGES];

@@ -42,7 +42,7 @@ typedef struct Graph {
     CpsObstacle obstacle[2];
     CpsLine line[MOST_LINES];
     CpsPoint point[MOST_POINTS];
-    char name[MOST_LINES + MOST_POINTS][12];
+    char name[MOST_LINES + MOST_POINTS][16];
     CpsPointChange change[STAGES][MOST_POINTS];
     CpsStage stage[STAGES];
     CpsScene scene;

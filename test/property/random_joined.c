@@ -283,5 +283,5 @@ int main(int argc, char **argv) {
            tally.scenes, tally.steps, (double)tally.trials / tally.steps, tally.compared,
            tally.place, tally.force, tally.sliding, tally.open_one, tally.open_joined,
            tally.not_unique, tally.wrong);
-    return tally.wrong > 0 || tally.open_joined > OPEN_SHARE * tally.steps;
+    return tally.wrong > 0 || tally.open_joined > fmax(1, OPEN_SHARE * tally.steps);
 }
