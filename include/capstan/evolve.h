@@ -155,6 +155,11 @@ CPS_API CpsBodyReport cps_evolution_body_report(const CpsEvolution *evolution, i
 CPS_API CpsStatus cps_evolution_stiffness(const CpsEvolution *evolution, int line, int end,
                                           CpsStiffnessKind kind, CpsStiffness *out, CpsError *err);
 
+/* The same of a body in its pose. A line with both ends on it has none. */
+CPS_API CpsStatus cps_evolution_body_stiffness(const CpsEvolution *evolution, int body,
+                                               CpsStiffnessKind kind, CpsBodyStiffness *out,
+                                               CpsError *err);
+
 /* ---- all solutions of a step (S90 results 4.3, 4.4, theorem 6.3, formula (55)) ----
  *
  * A step's tensions are unique, its configuration only where nothing is slack. From one solution

@@ -66,6 +66,15 @@ typedef struct CpsStiffness {
     double matrix[9];
 } CpsStiffness;
 
+/* The stiffness of a body (body.h) in its pose: of all lines at its points, whose other ends stay,
+ * of its weight and buoyancy and of its hydrostatics. */
+typedef struct CpsBodyStiffness {
+    CpsStiffnessOutcome outcome; /* found where it is of all these lines */
+    /* [N/m, N, N m] d(force, moment about the reference point)/d(position, rotation vector) at 6 i
+     * + j, with the sign of a stiffness; all 0 unless found */
+    double matrix[36];
+} CpsBodyStiffness;
+
 #ifdef __cplusplus
 }
 #endif

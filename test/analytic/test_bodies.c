@@ -271,6 +271,31 @@ static void oc3_at_rest(void **unused) {
     cps_evolution_destroy(evolution);
 }
 
+/* The stiffness of the step is that of the report; of a small cycle it is no less in surge, and
+ * more where friction holds the lines on the bed. */
+static void compare_stiffness(const CpsEvolution *evolution, const CpsBodyReport *found,
+                              bool rough) {
+    CpsBodyStiffness by[2];
+    CpsError err;
+    for (int kind = 0; kind < 2; kind++) {
+        assert_int_equal(cps_evolution_body_stiffness(evolution, 0, (CpsStiffnessKind)kind,
+                                                      &by[kind], &err),
+                         CPS_OK);
+        assert_int_equal(by[kind].outcome, CPS_STIFFNESS_OUTCOME_FOUND);
+    }
+    double most = 0;
+    for (int i = 0; i < 36; i++) most = fmax(most, fabs(found->stiffness[i]));
+    for (int i = 0; i < 36; i++)
+        CHECK_NEAR(by[CPS_STIFFNESS_STEP].matrix[i], found->stiffness[i], 1e-9 * most);
+    const double surge = by[CPS_STIFFNESS_STICK].matrix[0] - found->stiffness[0];
+    if (rough)
+        CHECK_GREATER(surge, 100);
+    else
+        CHECK_NEAR(surge, 0, 1e-6 * found->stiffness[0]);
+    CHECK_INT(cps_evolution_body_stiffness(evolution, 1, CPS_STIFFNESS_STEP, by, &err),
+              CPS_ERR_ARGUMENT);
+}
+
 /* Thrust on and off: with friction the spar comes back to another place than it left, and from the
  * second cycle on the loop is closed; without, it comes back to where it was. */
 static void oc3_thrust_on_and_off(void **unused) {
@@ -301,6 +326,7 @@ static void oc3_thrust_on_and_off(void **unused) {
             for (int i = 0; i < 4; i++) found = step(evolution);
             at[k + 1] = found.position[0];
             assert_true(found.is_stable);
+            compare_stiffness(evolution, &found, rough);
         }
         CHECK_BETWEEN(at[1], 13, 15);
         if (rough) {
