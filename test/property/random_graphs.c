@@ -19,10 +19,11 @@ enum { MOST_LINES = 120, MOST_POINTS = 80, STAGES = 2, CLASSES = 5 };
 typedef enum Class { STAR, TREE, RING, NET, CLUMPS } Class;
 static const char *const CLASS[CLASSES] = {"star", "tree", "ring", "net", "clumps"};
 
-/* What is left of the forces on a point, per largest force: points balance to 1e-6. A tension is
- * told by the places to three times CPS_TOUCH times EA, and to what the line's certificate says of
- * its strains and tensions, which are to be known to STRAIN and TENSION. */
-static const double LEFT = 2e-6, STRAIN = 1e-7, TENSION = 1e-4;
+/* What is left of the forces on a point, per largest force: points balance to 1e-6. The tension of
+ * what rests slack on the bed is known to the strain RESTING times EA, as random_joined finds it of
+ * single lines too, and any to what the line's certificate says of its strains and tensions, which
+ * are to be known to STRAIN and TENSION. */
+static const double LEFT = 2e-6, RESTING = 3e-8, STRAIN = 1e-7, TENSION = 1e-4;
 /* Share of the steps of a class that may be open: what is slack and dragged over a rough bed may
  * have several answers, between which the search goes to and fro. */
 static const double OPEN_SHARE = 0.015;
@@ -239,9 +240,8 @@ static double check_point(const Graph *g, const CpsEvolution *evolution, int i,
             const double weight[3] = {0, 0, -g->line[k].weight};
             add_pull(&view, g->line[k].stiffness, end, weight, sum, &largest);
             const CpsCertificate line = cps_evolution_line_report(evolution, k).certificate;
-            known +=
-                g->line[k].stiffness * (3 * CPS_TOUCH + fmin(line.elongation_residual, STRAIN)) +
-                fmin(line.tension_estimate, TENSION * line.largest_force);
+            known += g->line[k].stiffness * (RESTING + fmin(line.elongation_residual, STRAIN)) +
+                     fmin(line.tension_estimate, TENSION * line.largest_force);
         }
     }
     for (int k = 0; k < g->scene.line_count; k++) {
