@@ -29,13 +29,14 @@
 static const double TARGET = 1e-11;
 /* The search ends after so many iterations or trials, or so many without halving what is left: a
  * body that swings on stiff lines goes down a curved valley, in which its forces do not fall before
- * the end. */
+ * the end. Trials in which a line finds no answer take the most time by far: they are fewer. */
 enum {
     ITERATIONS = 100,
     PATIENCE = 6,
     PATIENCE_WITH_BODIES = 20,
     MOST_TRIALS = 200,
-    FEW_TRIALS = 8
+    FEW_TRIALS = 8,
+    OPEN_TRIALS = 12
 };
 /* The full step is taken where it reduces what is left to this share, or makes the work along it
  * negative by no more than this share of what it was. */
@@ -58,6 +59,10 @@ static bool is_interrupted(const CpsEvolution *evolution) {
     for (int i = 0; i < evolution->workspace_count; i++)
         seen = seen || cpsi_interrupt_seen(&evolution->workspace[i].interrupt);
     return seen;
+}
+
+static bool is_over(const CpsiBalance *balance) {
+    return balance->open_trials >= OPEN_TRIALS || is_interrupted(balance->evolution);
 }
 
 /* [m] The length of the shortest of the points' longest lines. */
@@ -122,7 +127,7 @@ static double take_step(CpsiBalance *balance, int shortenings, double longer) {
                 cpsi_pose_after(&balance->rigid_from[k].pose,
                                 &balance->step[3 * balance->count + 6 * k], share);
         cpsi_try_places(balance);
-        if (is_interrupted(balance->evolution)) return 1;
+        if (is_over(balance)) return 1;
         const double now = cpsi_work_along(balance);
         if (!balance->certified || !(work > 0)) {
             if (balance->certified && cpsi_left_now(balance) <= allowed) return 1;
@@ -198,9 +203,10 @@ static bool search(CpsiBalance *balance, int trials) {
                  rigid = (size_t)balance->body_count * sizeof *balance->rigid;
     double best = INFINITY, halved = INFINITY, longer = 1;
     int waited = 0;
+    balance->open_trials = 0;
     cpsi_try_places(balance);
     const int most = balance->trials + trials;
-    for (int i = 0; i < ITERATIONS && !is_interrupted(balance->evolution); i++) {
+    for (int i = 0; i < ITERATIONS && !is_over(balance); i++) {
         const double left = cpsi_left_now(balance);
         if (balance->certified && left < best) {
             best = left;

@@ -237,6 +237,7 @@ void cpsi_try_places(CpsiBalance *balance) {
                 add_pull(balance, &balance->rigid[balance->rigid_of[point]], point, pull);
         }
     }
+    if (!balance->certified) balance->open_trials++;
     for (int k = 0; k < balance->count; k++) {
         cpsi_trial_find_obstacle(evolution, &balance->at[k]);
         find_contact(balance, &balance->at[k]);

@@ -58,6 +58,7 @@ struct CpsiBalance {
     bool certified; /* are all lines, in this trial? */
     bool follows;   /* friction bounds follow the reactions */
     int trials;
+    int open_trials; /* of this search, in which a line was not certified */
     CpsEvolution *evolution;
     CpsiTask task;
     CpsiArena arena; /* in which all this lies */
