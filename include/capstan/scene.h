@@ -187,7 +187,7 @@ typedef struct CpsStage {
     const CpsPointChange *point_change;
     int body_change_count; /* default 0 */
     const CpsBodyChange *body_change;
-    bool gravity_changes; /* default false: gravity stays as it is */
+    bool gravity_changes; /* default false: gravity stays as it is; needs a scene with a gravity */
     /* [m/s2] with the flag: the gravity at the end of the stage. The weight of a line changes with
      * it, in proportion to the scene's. */
     double gravity[3];

@@ -110,6 +110,9 @@ static CpsStatus check_body(const CpsScene *scene, int index, CpsError *err) {
                            body->name);
     else
         status = check_numbers(body, err);
+    if (status == CPS_OK)
+        status = cpsi_gravity_check(scene, "body", body->name,
+                                    body->weight > 0 || body->buoyancy > 0, err);
     if (status == CPS_OK && body->kind == CPS_BODY_KIND_FREE)
         status = cpsi_isotropy_check(scene, "body", body->name, err);
     if (status == CPS_OK && body->kind == CPS_BODY_KIND_HELD && loaded)

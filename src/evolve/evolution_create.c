@@ -219,6 +219,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         evolution->step_count += scene->stage[i].step_count;
     }
     memcpy(evolution->gravity, scene->gravity, sizeof evolution->gravity);
+    memcpy(evolution->gravity_given, scene->gravity, sizeof evolution->gravity_given);
     if (evolution->has_static) evolution->step_count++;
     if (evolution->step_count == 0) {
         /* no history: one step to the equilibrium under the initial ends */

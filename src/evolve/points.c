@@ -89,6 +89,8 @@ static CpsStatus check_point(const CpsScene *scene, int index, bool may_be_free,
                            point->name, depth_below(scene, length, at, &below), below);
     else if (may_be_free)
         status = cpsi_isotropy_check(scene, "point", point->name, err);
+    if (status == CPS_OK)
+        status = cpsi_gravity_check(scene, "point", point->name, point->weight != 0, err);
     return cpsi_fail_inside(err, status, "points.%s", point->name);
 }
 

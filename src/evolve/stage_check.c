@@ -109,6 +109,11 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
         return CPSI_FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
                             "%s: gravity is (%g, %g, %g) m/s2, expected finite numbers", what,
                             stage->gravity[0], stage->gravity[1], stage->gravity[2]);
+    if (stage->gravity_changes && !cpsi_is_direction(scene->gravity))
+        return CPSI_FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
+                            "%s: gravity changes, but that of the scene is zero, so that nothing "
+                            "has a mass: give the scene a gravity, and change it in its history",
+                            what);
     CpsStatus status = check_turns(scene, stage, what, err);
     for (int i = 0; i < stage->change_count && status == CPS_OK; i++)
         status = check_change(scene, stage, i, what, err);

@@ -56,7 +56,9 @@ static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
 }
 
 CpsScene cpsi_stage_scene(const CpsEvolution *evolution) {
-    return (CpsScene){.obstacle_count = evolution->obstacle_count,
+    const double *gravity = evolution->gravity_given;
+    return (CpsScene){.gravity = {gravity[0], gravity[1], gravity[2]},
+                      .obstacle_count = evolution->obstacle_count,
                       .obstacle = evolution->given_obstacle,
                       .line_count = evolution->line_count,
                       .line = evolution->given_line,

@@ -54,6 +54,7 @@ struct CpsEvolution {
     CpsLine *given_line;         /* (line_count) names and lengths only */
     CpsEnd *from; /* (line_count, 2) where an end was when the stage that changes it began */
     double gravity[3], gravity_from[3]; /* [m/s2] now, and when the stage under way began */
+    double gravity_given[3];            /* [m/s2] that of the scene */
     bool has_static;                    /* the first step places lines by statics */
     bool *is_static;                    /* (line_count) */
     double *

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/status.h"
+#include "evolve/ranges.h"
 #include "geometry/obstacle.h"
 
 double cpsi_longest_line(const CpsScene *scene, int point) {
@@ -27,4 +28,13 @@ CpsStatus cpsi_isotropy_check(const CpsScene *scene, const char *what, const cha
                              what, name, scene->obstacle[k].name, what);
     }
     return CPS_OK;
+}
+
+CpsStatus cpsi_gravity_check(const CpsScene *scene, const char *what, const char *name,
+                             bool has_weight, CpsError *err) {
+    if (!has_weight || cpsi_is_direction(scene->gravity)) return CPS_OK;
+    return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                     "%s '%s': it has a weight or a buoyancy, but gravity is zero and has no "
+                     "direction: give the scene a gravity",
+                     what, name);
 }

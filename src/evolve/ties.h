@@ -21,4 +21,9 @@ double cpsi_longest_line(const CpsScene *scene, int point);
 CpsStatus cpsi_isotropy_check(const CpsScene *scene, const char *what, const char *name,
                               CpsError *err);
 
+/* What `what` 'name' weighs, or what lifts it, changes with gravity and needs one. Returns CPS_OK
+ * or CPS_ERR_ARGUMENT. */
+CpsStatus cpsi_gravity_check(const CpsScene *scene, const char *what, const char *name,
+                             bool has_weight, CpsError *err);
+
 #endif

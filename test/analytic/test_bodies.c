@@ -412,6 +412,11 @@ static void what_is_refused(void **unused) {
     m.body.weight = -1;
     expect_refused(&m.scene, "bodies.body", ">= 0");
     spar(&m, 10, 0.5);
+    memset(m.scene.gravity, 0, sizeof m.scene.gravity);
+    m.body.weight = 0;
+    m.body.buoyancy = 5;
+    expect_refused(&m.scene, "bodies.body", "gravity is zero");
+    spar(&m, 10, 0.5);
     m.body.hydrostatics[1] = 5;
     expect_refused(&m.scene, "bodies.body", "symmetric");
     spar(&m, 10, 0.5);

@@ -65,6 +65,7 @@ CHANGES = [
     ("a volume beside a weight", "weight: 50", "weight: 50, volume: 5", "5:58: 'volume': it goes with 'mass', which is not given"),
     ("a negative mass", "weight: 50", "mass: -5", "5:46: 'mass': found '-5', expected a number in kg, at least 0"),
     ("a negative volume", "weight: 50", "mass: 5, volume: -1", "5:55: 'volume': found '-1', expected a number in m3, at least 0"),
+    ("a weight without gravity", "capstan: 1\n", "gravity: [0, 0, 0]\ncapstan: 1\n", "6:3: point 'knot': it has a weight or a buoyancy, but gravity is zero and has no direction: give the scene a gravity"),
     ("a weight in words", "weight: 50", "weight: heavy", "5:46: 'weight': found 'heavy', expected a number in N"),
     ("a point twice", HELD, HELD + HELD, "5:3: key 'anchor' is given twice, first in line 4: keep one"),
     ("a name with a dot", HELD, "  an.chor: {held: [0, 0, 0]}\n" + HELD, "4:3: point 1: its name is 'an.chor', expected a letter followed by letters, digits,"),

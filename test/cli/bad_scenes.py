@@ -215,6 +215,8 @@ FILES = [
     ("empty", b"", INPUT, "1:1: found an empty file"),
     ("weight without gravity", GOOD.replace("lines:", "gravity: [0, 0, 0]\nlines:").replace("mass:", "weight:").encode(), INPUT,
      "8:5: line 'cable': weight is 1 N/m, but gravity is zero and has no direction"),
+    ("gravity that begins with none", GOOD.replace("lines:", "gravity: [0, 0, 0]\nlines:").replace("{name: pull,", "{gravity: [0, 0, -9],").encode(), INPUT,
+     "13:6: stage 1: gravity changes, but that of the scene is zero, so that nothing has a mass: give the scene a gravity"),
     ("inextensible and stretched", GOOD.replace("1e6", ".inf").replace("[10, 0, 0]", "[10.1, 0, 0]").encode(), INPUT,
      "9:5: line 'cable': start is 10.1 m long, longer than the inextensible line's length 10 m"),
     ("two lines beyond the limit", GOOD.replace("history:", "  other: {length: 10, elements: 9999999, mass: 0, stiffness: 1, "

@@ -184,6 +184,8 @@ static void refuses_each_wrong_name_and_number(void **state) {
     BAD(w.p.scene.solver.max_iterations = 0);
     BAD(w.p.scene.solver.max_iterations = 1001);
     BAD(w.p.stage.gravity_changes = true; w.p.stage.gravity[0] = NAN);
+    BAD(w.p.stage.gravity_changes = true; w.line[0].weight = w.line[1].weight = 0;
+        memset(w.p.scene.gravity, 0, sizeof w.p.scene.gravity));
     BAD(w.p.stage.step_count = 0);
     BAD(w.line[0].start.kind = CPS_START_STATIC;
         w.line[0].end[0].kind = w.line[0].end[1].kind = CPS_END_KIND_FREE);
