@@ -72,6 +72,19 @@ static void print_row(const Columns *table, const char *quantity, const char *en
     fputc('\n', table->out);
 }
 
+/* What hangs beside an end that is off the ground, and where it touches down. */
+static void print_touchdown(const Columns *table, const CpsExtremes *of, int end) {
+    if (!(of->suspended[end].greatest > 0)) return;
+    static const char *const AXIS[] = {"x", "y", "z"};
+    const double least = ROUNDING * of->suspended[end].greatest;
+    print_row(table, "suspended", END[end], "m", &of->suspended[end], 1, 0);
+    for (int a = 0; a < 3; ++a) {
+        char quantity[16];
+        snprintf(quantity, sizeof quantity, "touch %s", AXIS[a]);
+        print_row(table, quantity, END[end], "m", &of->touchdown[end][a], 1, least);
+    }
+}
+
 static void print_line(const Columns *table, const CpsExtremes *of) {
     const double least =
         ROUNDING * fmax(of->tension[CPS_END_A].greatest, of->tension[CPS_END_B].greatest);
@@ -82,11 +95,11 @@ static void print_line(const Columns *table, const CpsExtremes *of) {
         print_row(table, "angle", END[end], "degrees", &of->angle[end], DEGREES, ROUNDING);
     }
     if (!(of->grounded.greatest > 0)) return;
-    for (int end = 0; end < 2; ++end)
-        print_row(table, "suspended", END[end], "m", &of->suspended[end], 1, 0);
+    for (int end = 0; end < 2; ++end) print_touchdown(table, of, end);
     print_row(table, "grounded", "", "m", &of->grounded, 1, 0);
     print_row(table, "slipping", "", "m", &of->slipping, 1, 0);
     print_row(table, "slack", "", "m", &of->slack, 1, 0);
+    print_row(table, "sweep", "", "m", &of->sweep, 1, ROUNDING * of->grounded.greatest);
 }
 
 void extremes_print(const Extremes *extremes, const CpsEvolution *evolution, FILE *out) {

@@ -76,7 +76,8 @@ typedef struct CpsExtreme {
  * zeros is one to which no step has been added. */
 typedef struct CpsExtremes {
     CpsExtreme tension[2], uplift[2], angle[2], suspended[2]; /* of ends A and B */
-    CpsExtreme grounded, slipping, slack;
+    CpsExtreme touchdown[2][3]; /* x, y and z of the steps in which the line touches */
+    CpsExtreme grounded, slipping, slack, sweep;
     CpsExtreme utilisation; /* of the steps in which the line has one */
 } CpsExtremes;
 

@@ -53,25 +53,23 @@ CPS_API CpsOutcome cps_outcome_worse(CpsOutcome a, CpsOutcome b);
 /* The certificate of one line's step (theory 4): forces in equilibrium, a configuration, and the
  * gap between their energies, which bounds the error of the answer. */
 typedef struct CpsCertificate {
-    double primal;           /* [J] J + j, the energy at the configuration */
-    double dual;             /* [J] a lower bound of the minimum, from the forces */
-    double gap;              /* [J] sum of local gaps, each >= 0; up to rounding primal - dual */
-    double scale;            /* [J] S of theory (5): certified where gap <= tolerance * scale */
-    double tension_bound;    /* [N] bound of the rms error of the tension, with the flag below */
-    double tension_estimate; /* [N] largest |T - |p||: elongation against equilibrium */
-    double force_residual;   /* [N] largest force on a node that nothing balances */
-    double largest_force;    /* [N] largest force in the line or on it */
-    double law_residual;     /* [J] sum of phi(u) + <u, F> over the contacts */
-    double contact_residual; /* [J] sum of R (n.u + gap) over the contacts */
-    /* [N] sum of |w - mu R|: the error of frozen bounds w; with consistent friction rounding */
-    double friction_residual;
+    double primal;              /* [J] J + j, the energy at the configuration */
+    double dual;                /* [J] a lower bound of the minimum, from the forces */
+    double gap;                 /* [J] sum of local gaps, each >= 0; up to rounding primal - dual */
+    double scale;               /* [J] S of theory (5): certified where gap <= tolerance * scale */
+    double tension_bound;       /* [N] bound of the rms error of the tension, with the flag below */
+    double tension_estimate;    /* [N] largest |T - |p||: elongation against equilibrium */
+    double force_residual;      /* [N] largest force on a node that nothing balances */
+    double largest_force;       /* [N] largest force in the line or on it */
+    double law_residual;        /* [J] sum of phi(u) + <u, F> over the contacts */
+    double contact_residual;    /* [J] sum of R (n.u + gap) over the contacts */
+    double friction_residual;   /* [N] sum of |w - mu R|: error of frozen bounds, else rounding */
     double element_push;        /* [N] largest compressive part of an element's force */
     double elongation_residual; /* [-] largest |x'| - (1 + c |p|) of an elastic element */
     double stretch_residual;    /* [-] largest |x'| - 1 of an inextensible element */
     double penetration;         /* [m] depth of the deepest node below its obstacle, >= 0 */
-    /* [m] >= 0, depth of an element of length l in a round obstacle beyond min(l^2/(4 R), R/4) */
-    double element_penetration;
-    bool has_tension_bound; /* not inextensible, nor a bound above the tension; else it is 0 */
+    double element_penetration; /* [m] >= 0, in a round obstacle, beyond min(l^2/(4 R), R/4) */
+    bool has_tension_bound;     /* not inextensible, nor a bound above the tension; else it is 0 */
 } CpsCertificate;
 
 /* No reaction; at rest on the obstacle; or sliding on it with friction at its bound. */
@@ -133,6 +131,7 @@ typedef struct CpsEndReport {
     double uplift; /* [N] vertical part of the line's force on what holds this end, up positive */
     double angle;  /* [rad] at which the line leaves this end, above the horizontal; 0: no force */
     double suspended;      /* [m] natural length from this end to the first contact; all, if none */
+    double touchdown[3];   /* [m] where the line is at that length, with the line's flag */
     CpsTensionRange range; /* of the end element, at the last step of a stage */
 } CpsEndReport;
 
@@ -181,8 +180,9 @@ typedef struct CpsLineReport {
     double grounded;     /* [m] natural length in contact with a reaction */
     double slipping;     /* [m] natural length that slid on the obstacle in this step */
     double slack;        /* [m] natural length without tension */
-    bool has_slipping, has_tension_mesh; /* slipping, tension_mesh is known; otherwise it is 0 */
-    double tension_mesh;                 /* [N] estimated error of the tension due to the mesh */
+    double sweep; /* [m] of what touches, aside from its place at the start, in plan (docs) */
+    bool has_slipping, has_tension_mesh, has_touchdown; /* it is known; otherwise it is 0 */
+    double tension_mesh;  /* [N] estimated error of the tension due to the mesh */
     bool has_utilisation; /* of a line with a breaking load; otherwise the next two are 0 */
     double utilisation;   /* [-] largest tension over it, of elements and ends */
     double utilisation_arc_length; /* [m] where that is */

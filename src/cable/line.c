@@ -10,6 +10,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->arc_length, n);
     CPSI_PLACE(arena, line->element_length, n);
     CPSI_PLACE(arena, line->reference, 3 * n);
+    CPSI_PLACE(arena, line->start_element, 3 * (n - 1));
     CPSI_PLACE(arena, line->position, 3 * n);
     CPSI_PLACE(arena, line->load, 3 * n);
     CPSI_PLACE(arena, line->normal, 3 * contacts);

@@ -76,10 +76,13 @@ typedef struct CpsiLine {
     CpsiLoadChange last_change;
     CpsiNewtonRecord newton;
     /* the step */
-    double *reference; /* (n, 3) [m] */
-    double *position;  /* (n, 3) [m] */
-    double *load;      /* (n, 3) [N] */
-    double *normal;    /* (contacts, n, 3) */
+    double *reference;    /* (n, 3) [m] */
+    double *position;     /* (n, 3) [m] */
+    double start_end[3];  /* [m] of end A at the start of the history */
+    float *start_element; /* (n - 1, 3) [m] the elements there, as vectors to the next node; in half
+                             the memory */
+    double *load;         /* (n, 3) [N] */
+    double *normal;       /* (contacts, n, 3) */
     double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: the contact does
                     not enter the program */
     double *friction_factor;       /* (n) of the obstacles' coefficients; NULL: 1 */

@@ -146,9 +146,14 @@ void cpsi_line_report_ends(CpsiLine *line) {
     }
 }
 
-void cpsi_line_report_uplift(CpsiLine *line, const double gravity[3]) {
+/* Against gravity, or z without. */
+static Vec3 upwards(const double gravity[3]) {
     const double size = vec3_norm(vec3_load(gravity));
-    const Vec3 up = size > 0 ? vec3_scale(-1 / size, vec3_load(gravity)) : vec3(0, 0, 1);
+    return size > 0 ? vec3_scale(-1 / size, vec3_load(gravity)) : vec3(0, 0, 1);
+}
+
+void cpsi_line_report_uplift(CpsiLine *line, const double gravity[3]) {
+    const Vec3 up = upwards(gravity);
     for (int end = 0; end < 2; end++) {
         CpsEndReport *out = &line->report.end[end];
         const Vec3 pull = vec3_scale(-1, vec3_load(out->force));
@@ -227,12 +232,14 @@ static double touching_part(const CpsiLine *line, int j) {
 }
 
 /* [m] The length from an end to the first contact, which begins between nodes as a grounded piece
- * does; what a single node does not ground is off the obstacle on both sides. */
-static double suspended(const CpsiLine *line, int end) {
+ * does; what a single node does not ground is off the obstacle on both sides. *node is the first
+ * one that touches; -1: none does. */
+static double suspended(const CpsiLine *line, int end, int *node) {
     const int first = end_node(line, end), towards = end == CPS_END_A ? 1 : -1;
     double length = 0;
     for (int j = first; j >= 0 && j < line->n; j += towards) {
         const double part = touching_part(line, j), share = cpsi_line_share(line, j);
+        *node = part > 0 ? j : -1;
         if (part > 0 && j == first) return 0;
         if (part > 0) {
             const int next = j + towards;
@@ -242,6 +249,68 @@ static double suspended(const CpsiLine *line, int end) {
         length += share;
     }
     return line->length;
+}
+
+/* Where the line is at an arc length, which lies on an element at node j; at an end, the end. */
+static Vec3 place_near(const CpsiLine *line, int j, double arc_length) {
+    const int e = j == line->n - 1 || (j > 0 && arc_length < line->arc_length[j]) ? j - 1 : j;
+    const double part = (arc_length - line->arc_length[e]) / line->element_length[e],
+                 within = fmin(fmax(part, 0), 1);
+    return vec3_add(vec3_scale(1 - within, vec3_at(line->position, e)),
+                    vec3_scale(within, vec3_at(line->position, e + 1)));
+}
+
+/* The length that hangs from an end, and where it touches down. */
+static void report_touchdown(CpsiLine *line, int end) {
+    CpsEndReport *out = &line->report.end[end];
+    int node = -1;
+    out->suspended = suspended(line, end, &node);
+    line->report.has_touchdown = node >= 0;
+    const double arc_length =
+        end == CPS_END_A ? out->suspended : line->arc_length[line->n - 1] - out->suspended;
+    vec3_store(out->touchdown, node >= 0 ? place_near(line, node, arc_length) : vec3(0, 0, 0));
+}
+
+void cpsi_line_keep_start(CpsiLine *line) {
+    memcpy(line->start_end, line->position, sizeof line->start_end);
+    for (int i = 0; i < 3 * (line->n - 1); i++)
+        line->start_element[i] = (float)(line->position[i + 3] - line->position[i]);
+}
+
+/* The element behind node j as it was at the start; nothing behind the last node or before the
+ * first. */
+static Vec3 element_at_start(const CpsiLine *line, int j) {
+    if (j < 0 || j >= line->n - 1) return vec3(0, 0, 0);
+    const float *x = &line->start_element[3 * j];
+    return vec3(x[0], x[1], x[2]);
+}
+
+/* In single precision the sum of the elements is known to 1e-7 of the line's length; what is less
+ * than this share of it counts as no sweep. */
+static const double UNSWEPT = 1e-6;
+/* A piece of line whose plan is no longer than this share of it stood upright. */
+static const double UPRIGHT = 1e-6;
+
+/* [m] The part in plan of a motion across a direction; all of it where that is upright. */
+static double across(Vec3 moved, Vec3 along, Vec3 up) {
+    const Vec3 plan = vec3_reject(along, up), level = vec3_reject(moved, up);
+    const double length = vec3_norm(plan);
+    if (!(length > UPRIGHT * vec3_norm(along))) return vec3_norm(level);
+    return vec3_norm(vec3_reject(level, vec3_scale(1 / length, plan)));
+}
+
+void cpsi_line_report_sweep(CpsiLine *line, const double gravity[3]) {
+    const Vec3 up = upwards(gravity);
+    Vec3 start = vec3_load(line->start_end);
+    double most = 0;
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 before = element_at_start(line, j - 1), behind = element_at_start(line, j);
+        start = vec3_add(start, before);
+        if (touching_part(line, j) > 0)
+            most = fmax(most, across(vec3_sub(vec3_at(line->position, j), start),
+                                     vec3_add(before, behind), up));
+    }
+    line->report.sweep = most > UNSWEPT * line->length ? most : 0;
 }
 
 void cpsi_line_report_lengths(CpsiLine *line) {
@@ -258,5 +327,5 @@ void cpsi_line_report_lengths(CpsiLine *line) {
         if (slips) line->report.slipping += part * cpsi_line_share(line, j);
     }
     if (!line->report.has_slipping) line->report.slipping = 0;
-    for (int end = 0; end < 2; end++) line->report.end[end].suspended = suspended(line, end);
+    for (int end = 0; end < 2; end++) report_touchdown(line, end);
 }

@@ -16,9 +16,15 @@ void cpsi_line_report_ends(CpsiLine *line);
  * gravity is up, or z without gravity. */
 void cpsi_line_report_uplift(CpsiLine *line, const double gravity[3]);
 
-/* Lengths that lie on an obstacle and that slid there, and those from the ends to the first
- * contact, the ends having been reported. */
+/* Lengths that lie on an obstacle and that slid there, those from the ends to the first contact and
+ * where that is, the ends having been reported. */
 void cpsi_line_report_lengths(CpsiLine *line);
+
+/* The history starts where the line is. */
+void cpsi_line_keep_start(CpsiLine *line);
+
+/* How far what touches is to the side of where it was at the start, in plan; up as for uplift. */
+void cpsi_line_report_sweep(CpsiLine *line, const double gravity[3]);
 
 /* The largest tension over the breaking load, where the line has one, the ends having been
  * reported. */

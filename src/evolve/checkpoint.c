@@ -24,7 +24,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '0'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '1'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -53,9 +53,9 @@ static void pass_flag(Tape *tape, bool *flag) {
 _Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 6 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
                "add the new field to pass_energies or pass_end_report, then its size here");
-_Static_assert(sizeof(CpsEndReport) == 14 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
+_Static_assert(sizeof(CpsEndReport) == 17 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
                "add the new field to pass_end_report or pass_bend, then its size here");
-_Static_assert(sizeof(CpsLineReport) == 25 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
+_Static_assert(sizeof(CpsLineReport) == 26 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger) +
                                             2 * sizeof(CpsEndReport) + sizeof(CpsBend),
                "add the new field to pass_line_report, then its size here");
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
@@ -117,8 +117,10 @@ static void pass_line_report(Tape *tape, CpsLineReport *report) {
     PASS(tape, report->grounded);
     PASS(tape, report->slipping);
     PASS(tape, report->slack);
+    PASS(tape, report->sweep);
     pass_flag(tape, &report->has_slipping);
     pass_flag(tape, &report->has_tension_mesh);
+    pass_flag(tape, &report->has_touchdown);
     PASS(tape, report->tension_mesh);
     pass_flag(tape, &report->has_utilisation);
     PASS(tape, report->utilisation);
@@ -251,7 +253,12 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     PASS(tape, evolution->gravity);
     PASS(tape, evolution->gravity_from);
     for (int i = 0; i < 2 * evolution->line_count; i++) pass_end(tape, &evolution->from[i]);
-    for (int i = 0; i < evolution->line_count; i++) pass_line(tape, &evolution->line[i]);
+    for (int i = 0; i < evolution->line_count; i++) {
+        pass_line(tape, &evolution->line[i]);
+        pass(tape, evolution->line[i].start_element,
+             3 * (size_t)(evolution->line[i].n - 1) * sizeof(float));
+        PASS(tape, evolution->line[i].start_end);
+    }
     for (int i = 0; i < evolution->points.count; i++) pass_point(tape, &evolution->points.point[i]);
     for (int i = 0; i < evolution->bodies.count; i++) pass_body(tape, &evolution->bodies.body[i]);
     return tape->at;

@@ -133,6 +133,14 @@ static void return_to_kept(CpsEvolution *evolution) {
     evolution->is_kept = false;
 }
 
+/* How far the lines have been swept; statics place them where the history starts. */
+static void report_sweep(CpsEvolution *evolution, bool is_start) {
+    for (int i = 0; i < evolution->line_count; i++) {
+        if (is_start) cpsi_line_keep_start(&evolution->line[i]);
+        cpsi_line_report_sweep(&evolution->line[i], evolution->gravity);
+    }
+}
+
 /* Take a step of a stage, of the move where `is_move`; of no stage where lines are placed by
  * statics. */
 static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, bool is_move,
@@ -156,6 +164,7 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
         return cpsi_fail(err, CPS_ERR_INTERRUPTED,
                          "the load step was interrupted, and is not taken");
     }
+    report_sweep(evolution, stage == NULL);
     if (is_move)
         evolution->move_count++;
     else
@@ -267,8 +276,10 @@ CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line)
     CpsLineReport report = evolution->line[line].report;
     for (int end = 0; end < 2; end++)
         for (int a = 0; a < 3; a++)
-            if (evolution->origin[a] != 0)
-                report.end[end].position[a] += evolution->origin[a]; /* 0 keeps its sign */
+            if (evolution->origin[a] != 0) { /* 0 keeps its sign */
+                report.end[end].position[a] += evolution->origin[a];
+                if (report.has_touchdown) report.end[end].touchdown[a] += evolution->origin[a];
+            }
     return report;
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "cable/report.h"
 #include "capstan/evolve.h"
 #include "evolve/balance.h"
 #include "evolve/checkpoint.h"
@@ -195,6 +196,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     default: cpsi_line_start_reaction(line, CPS_TOUCH * line->length);
     }
     memcpy(line->reference, line->position, 3 * (size_t)line->n * sizeof *line->reference);
+    cpsi_line_keep_start(line);
 }
 
 static void fill(CpsEvolution *evolution, const CpsScene *scene) {

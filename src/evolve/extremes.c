@@ -24,9 +24,13 @@ void cps_extremes_add(CpsExtremes *extremes, const CpsLineReport *report, int st
         add(&extremes->uplift[end], report->end[end].uplift, step);
         add(&extremes->angle[end], report->end[end].angle, step);
         add(&extremes->suspended[end], report->end[end].suspended, step);
+        if (report->has_touchdown)
+            for (int a = 0; a < 3; a++)
+                add(&extremes->touchdown[end][a], report->end[end].touchdown[a], step);
     }
     add(&extremes->grounded, report->grounded, step);
     if (report->has_slipping) add(&extremes->slipping, report->slipping, step);
     add(&extremes->slack, report->slack, step);
+    add(&extremes->sweep, report->sweep, step);
     if (report->has_utilisation) add(&extremes->utilisation, report->utilisation, step);
 }

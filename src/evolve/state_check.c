@@ -17,6 +17,13 @@ static bool all_finite(const double *x, size_t count) {
     return true;
 }
 
+/* Where the history began. */
+static bool is_start(const CpsiLine *line) {
+    for (int i = 0; i < 3 * (line->n - 1); i++)
+        if (!isfinite(line->start_element[i])) return false;
+    return all_finite(line->start_end, 3);
+}
+
 static bool none_is_nan(const double *x, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (isnan(x[i])) return false;
@@ -104,7 +111,7 @@ static bool is_load_change(const CpsiLoadChange *change) {
 static bool are_fields(const CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     return all_finite(line->reference, 3 * n) && all_finite(line->position, 3 * n) &&
-           all_finite(line->load, 3 * n) && all_finite(line->motion, 3 * n) &&
+           is_start(line) && all_finite(line->load, 3 * n) && all_finite(line->motion, 3 * n) &&
            is_load_change(&line->last_change) &&
            within(line->newton.failures, 0, CPSI_NEWTON_PATIENCE) &&
            within(line->newton.pause, 0, 1 << CPSI_NEWTON_PATIENCE) &&

@@ -12,7 +12,8 @@ import tempfile
 
 CAPSTAN, ROOT = sys.argv[1:]
 END = {"tension": "tension_N", "uplift": "uplift_N", "angle": "angle_rad", "suspended": "suspended_m"}
-LINE = {"grounded": "grounded_m", "slipping": "slipping_m", "slack": "slack_m", "utilisation": "utilisation"}
+LINE = {"grounded": "grounded_m", "slipping": "slipping_m", "slack": "slack_m", "sweep": "sweep_m", "utilisation": "utilisation"}
+AXES = "xyz"
 faults = []
 
 
@@ -46,6 +47,13 @@ def compare(name, out, up):
                 for column, key in END.items():
                     if float(row[f"{line}.{end}.{column}"]) != entry[end][key]:
                         faults.append(f"{name}: step {i}, {line}.{end}.{column} is not that of summary.json")
+                at = entry[end]["touchdown_m"]
+                for axis, column in enumerate(AXES):
+                    cell = row[f"{line}.{end}.touchdown_{column}"]
+                    if (cell == "") != (at is None) or (at and float(cell) != at[axis]):
+                        faults.append(f"{name}: step {i}, {line}.{end}.touchdown_{column} is not that of summary.json")
+                if (at is None) != (entry["grounded_m"] == 0):
+                    faults.append(f"{name}: step {i}, {line}.{end}: touchdown {at} with {entry['grounded_m']} m on the ground")
                 # the line's force on what holds it is the opposite of the force on the line
                 force = [-f for f in entry[end]["force_N"]]
                 uplift = sum(f * u for f, u in zip(force, up))
@@ -58,6 +66,9 @@ def compare(name, out, up):
             for column, key in END.items():
                 if found[end][key] != expected(rows, f"{line}.{end}.{column}"):
                     faults.append(f"{name}: {line}.{end} {key}: {found[end][key]}")
+            for axis in AXES:
+                if found[end][f"touchdown_{axis}_m"] != expected(rows, f"{line}.{end}.touchdown_{axis}"):
+                    faults.append(f"{name}: {line}.{end} touchdown {axis}: {found[end][f'touchdown_{axis}_m']}")
         for column, key in LINE.items():
             if found[key] != expected(rows, f"{line}.{column}"):
                 faults.append(f"{name}: {line} {key}: {found[key]}")
@@ -75,7 +86,8 @@ def check_table(name, text, rows, summary):
         words = head.split()
         line = next(line for line in summary["extremes"] if rest[:14].strip() == line[:14])
         entry = summary["extremes"][line]
-        extreme = (entry[words[1]] if len(words) > 1 else entry)[words[0] + unit[of]]
+        quantity = f"touchdown_{words[1]}" if words[0] == "touch" else words[0]
+        extreme = (entry[words[-1]] if len(words) > 1 else entry)[quantity + unit[of]]
         numbers = [float(x) for x in (rest[14:27], rest[45:58])]
         for value, which in zip(numbers, ("least", "greatest")):
             if abs(value - factor[of] * extreme[which]) > 1e-5 * abs(value) + 1e-9 * summary_size(summary):

@@ -8,7 +8,7 @@ STEP_KEYS = {"name", "outcome", "iterations", "energy", "tension_bound_rms_N", "
              "force_residual_N", "largest_force_N", "law_residual_J", "contact_residual_N", "contact_residual_J",
              "friction_residual_N", "element_push_N", "elongation_residual", "stretch_residual", "penetration_m", "element_penetration_m", "dissipated_J", "substeps", "jumps", "jump_m", "unaccounted_J", "ledger_J",
              "wall_s", "lines"}
-LINE_KEYS = {"outcome", "iterations", "places_not_unique", "grounded_m", "slipping_m", "slack_m", "dissipated_J", "tension_mesh_estimate_N", "A", "B"}
+LINE_KEYS = {"outcome", "iterations", "places_not_unique", "grounded_m", "slipping_m", "slack_m", "sweep_m", "dissipated_J", "tension_mesh_estimate_N", "A", "B"}
 POINT_DATA = {"tension_N", "contact_force_N", "friction_state", "displacement_m"}
 SIZE = {"Float64": 8, "Int64": 8, "Int32": 4, "UInt8": 1}
 
@@ -37,7 +37,7 @@ def check_summary(directory):
         assert set(step["energy"]) == {"primal_J", "dual_J", "gap_J", "scale_J"}
         for name, line in step["lines"].items():
             assert set(line) - {"proof", "bend"} == LINE_KEYS, set(line)
-            assert set(line["A"]) == {"position_m", "force_N", "tension_N", "uplift_N", "angle_rad", "suspended_m", "tension_range_N"} and len(line["B"]["force_N"]) == 3
+            assert set(line["A"]) == {"position_m", "force_N", "tension_N", "uplift_N", "angle_rad", "suspended_m", "touchdown_m", "tension_range_N"} and len(line["B"]["force_N"]) == 3
             assert name in step["tension_bound_rms_N"]
     assert "\x1b[31m" in summary["title"] and "</title>" in summary["title"], summary["title"]
     if directory.endswith("infeasible"):

@@ -16,14 +16,17 @@ static CpsLineReport random_report(uint64_t *state) {
                             .grounded = coarse(state),
                             .slipping = coarse(state),
                             .slack = coarse(state),
+                            .sweep = coarse(state),
                             .utilisation = coarse(state),
                             .has_slipping = splitmix(state, 0, 1) < 0.7,
+                            .has_touchdown = splitmix(state, 0, 1) < 0.6,
                             .has_utilisation = splitmix(state, 0, 1) < 0.5};
     for (int e = 0; e < 2; e++) {
         report.end[e].tension = coarse(state);
         report.end[e].uplift = coarse(state);
         report.end[e].angle = coarse(state);
         report.end[e].suspended = coarse(state);
+        for (int a = 0; a < 3; a++) report.end[e].touchdown[a] = coarse(state);
     }
     return report;
 }
@@ -70,10 +73,13 @@ static void random_histories(void **unused) {
             EXPECT(found.uplift[e], end[e].uplift, true);
             EXPECT(found.angle[e], end[e].angle, true);
             EXPECT(found.suspended[e], end[e].suspended, true);
+            for (int a = 0; a < 3; a++)
+                EXPECT(found.touchdown[e][a], end[e].touchdown[a], report[i].has_touchdown);
         }
         EXPECT(found.grounded, grounded, true);
         EXPECT(found.slipping, slipping, report[i].has_slipping);
         EXPECT(found.slack, slack, true);
+        EXPECT(found.sweep, sweep, true);
         EXPECT(found.utilisation, utilisation, report[i].has_utilisation);
     }
 }

@@ -40,6 +40,12 @@ static const CpsiColumn STEP_COLUMN[] = {
         RANGE_COLUMN(letter, e, least_bound), RANGE_COLUMN(letter, e, greatest),                  \
         RANGE_COLUMN(letter, e, greatest_bound)
 
+#define TOUCHDOWN_COLUMNS(letter, e)                                                 \
+    {letter ".touchdown_x", "m", LINE_IF(has_touchdown, end[e].touchdown[0])},       \
+        {letter ".touchdown_y", "m", LINE_IF(has_touchdown, end[e].touchdown[1])}, { \
+        letter ".touchdown_z", "m", LINE_IF(has_touchdown, end[e].touchdown[2])      \
+    }
+
 static const CpsiColumn LINE_COLUMN[] = {
     END_COLUMNS("A", CPS_END_A),
     END_COLUMNS("B", CPS_END_B),
@@ -54,6 +60,9 @@ static const CpsiColumn LINE_COLUMN[] = {
     {"tension_mesh_estimate", "N", LINE_IF(has_tension_mesh, tension_mesh)},
     {"utilisation", "1", LINE_IF(has_utilisation, utilisation)},
     {"utilisation_at", "m", LINE_IF(has_utilisation, utilisation_arc_length)},
+    TOUCHDOWN_COLUMNS("A", CPS_END_A),
+    TOUCHDOWN_COLUMNS("B", CPS_END_B),
+    {"sweep", "m", LINE(sweep)},
 };
 
 enum {

@@ -45,16 +45,21 @@ static void write_range(FILE *out, const CpsTensionRange *range) {
     write_number(out, "greatest_bound", range->has_values ? range->greatest_bound : NAN, "}}");
 }
 
-static void write_end(FILE *out, const char *key, const CpsEndReport *end, const char *after) {
+static void write_end(FILE *out, int which, const CpsLineReport *report, const char *after) {
+    const CpsEndReport *end = &report->end[which];
     fputs("          ", out);
-    write_key(out, key);
+    write_key(out, which == CPS_END_A ? "A" : "B");
     fputc('{', out);
     write_vector(out, "position_m", end->position, ", ");
     write_vector(out, "force_N", end->force, ", ");
     write_number(out, "tension_N", end->tension, ", ");
     write_number(out, "uplift_N", end->uplift, ", ");
     write_number(out, "angle_rad", end->angle, ", ");
-    write_number(out, "suspended_m", end->suspended, "");
+    write_number(out, "suspended_m", end->suspended, ", ");
+    if (report->has_touchdown)
+        write_vector(out, "touchdown_m", end->touchdown, "");
+    else
+        fputs("\"touchdown_m\": null", out);
     write_range(out, &end->range);
     fputs(after, out);
 }
@@ -97,6 +102,7 @@ static void write_line(FILE *out, const char *name, const CpsLineReport *report,
     write_number(out, "grounded_m", report->grounded, ", ");
     write_number(out, "slipping_m", report->has_slipping ? report->slipping : NAN, ", ");
     write_number(out, "slack_m", report->slack, ", ");
+    write_number(out, "sweep_m", report->sweep, ", ");
     write_number(out, "dissipated_J", report->dissipated, ",\n          ");
     write_number(out, "tension_mesh_estimate_N",
                  report->has_tension_mesh ? report->tension_mesh : NAN, ",\n");
@@ -107,8 +113,8 @@ static void write_line(FILE *out, const char *name, const CpsLineReport *report,
     }
     write_proof(out, report);
     write_bend(out, &report->bend);
-    write_end(out, "A", &report->end[CPS_END_A], ",\n");
-    write_end(out, "B", &report->end[CPS_END_B], "\n        }");
+    write_end(out, CPS_END_A, report, ",\n");
+    write_end(out, CPS_END_B, report, "\n        }");
     fputs(after, out);
 }
 
@@ -229,12 +235,16 @@ static void write_line_extremes(FILE *out, const CpsResults *results, int i, con
         write_extreme(out, "tension_N", &of.tension[end], ",\n        ");
         write_extreme(out, "uplift_N", &of.uplift[end], ",\n        ");
         write_extreme(out, "angle_rad", &of.angle[end], ",\n        ");
-        write_extreme(out, "suspended_m", &of.suspended[end], "},\n");
+        write_extreme(out, "suspended_m", &of.suspended[end], ",\n        ");
+        write_extreme(out, "touchdown_x_m", &of.touchdown[end][0], ",\n        ");
+        write_extreme(out, "touchdown_y_m", &of.touchdown[end][1], ",\n        ");
+        write_extreme(out, "touchdown_z_m", &of.touchdown[end][2], "},\n");
     }
     fputs("      ", out);
     write_extreme(out, "grounded_m", &of.grounded, ",\n      ");
     write_extreme(out, "slipping_m", &of.slipping, ",\n      ");
     write_extreme(out, "slack_m", &of.slack, ",\n      ");
+    write_extreme(out, "sweep_m", &of.sweep, ",\n      ");
     write_extreme(out, "utilisation", &of.utilisation, "\n    }");
     fputs(after, out);
 }
