@@ -9,7 +9,8 @@
  *
  * With dry friction a force has no one derivative: a node that slides goes on or sticks, depending
  * on where the end moves. Two stiffnesses are defined. Both are exact derivatives of the discrete
- * line; where the line lifts off the ground node by node they change by jumps with the mesh. */
+ * line; where the line lifts off the ground node by node they change by jumps with the mesh, and
+ * `smooth` is what they are to the line itself. */
 #ifndef CAPSTAN_STIFFNESS_H
 #define CAPSTAN_STIFFNESS_H
 
@@ -64,6 +65,12 @@ typedef struct CpsStiffness {
     /* [N/m] d(force[i])/d(position[j]) at 3 i + j, force and position as in CpsEndReport: what it
      * takes to move the end, positive where the line pulls it back; all 0 unless found */
     double matrix[9];
+    /* the same with touchdown points on planes that move along the elements (theory 6c): of second
+     * order in the mesh, where `matrix` changes by jumps. Not given where the line turns up from
+     * the ground within an element, with frozen friction that acts off the ground, or where
+     * friction has a box, a set or turning directions at the next node; then 0 */
+    bool has_smooth;
+    double smooth[9];
 } CpsStiffness;
 
 /* The stiffness of a body (body.h) in its pose: of all lines at its points, whose other ends stay,
@@ -73,6 +80,8 @@ typedef struct CpsBodyStiffness {
     /* [N/m, N, N m] d(force, moment about the reference point)/d(position, rotation vector) at 6 i
      * + j, with the sign of a stiffness; all 0 unless found */
     double matrix[36];
+    bool has_smooth; /* of all these lines */
+    double smooth[36];
 } CpsBodyStiffness;
 
 #ifdef __cplusplus

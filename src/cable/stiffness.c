@@ -28,6 +28,10 @@
 static const double RIGID = 1e20;
 /* The compliance of an element that cannot stretch, or between nodes that are held. */
 static const double LEAST_COMPLIANCE = 1e-30;
+/* The stiffness with touchdown at the next node differs by no more than this share where the mesh
+ * resolves the line's turn up from the ground: what linear interpolation leaves is of its square.
+ */
+static const double LARGEST_JUMP = 0.2;
 
 /* The line, the program that lends its arrays, and the units. */
 typedef struct Tangent {
@@ -39,9 +43,12 @@ typedef struct Tangent {
     bool curved;     /* contact follows the surface; else it is that of the reference (S90 (35)) */
     int end_node;    /* that moves */
     double force;    /* [N] its unit */
+    int opened, landed; /* contacts that are taken as open and as closed, -1: none */
 } Tangent;
 
-static bool touches(const CpsiLine *line, int c) { return line->state[c] != CPS_NODE_STATE_FREE; }
+static bool touches(const Tangent *t, int c) {
+    return c == t->landed || (t->line->state[c] != CPS_NODE_STATE_FREE && c != t->opened);
+}
 
 /* Does friction hold contact c, if there is any? */
 static bool sticks(const Tangent *t, int c) {
@@ -59,20 +66,21 @@ static bool holds_all_ways(const CpsiFrictionLaw *law) {
 /* Does friction act at contact c? Cycles about where the line is have it also where the step has
  * none: one of statics, or with the bound of a reference that did not touch. */
 static bool rubs(const Tangent *t, int c, const CpsiFrictionLaw *law) {
-    return t->pinned ? law->friction > 0 : t->line->friction_bound[c] > 0;
+    return t->pinned || c == t->landed ? law->friction > 0 : t->line->friction_bound[c] > 0;
 }
 
 /* Is contact c held in all directions of the surface? */
 static bool rests(const Tangent *t, int c) {
     const CpsiFrictionLaw law = cpsi_line_friction_law(t->line, c);
-    return touches(t->line, c) && sticks(t, c) && rubs(t, c, &law) && holds_all_ways(&law);
+    return touches(t, c) && sticks(t, c) && rubs(t, c, &law) && holds_all_ways(&law);
 }
 
 /* The contact that node j has, -1: none; *both: it has two. */
-static int contact_of(const CpsiLine *line, int j, bool *both) {
-    const bool first = touches(line, j), second = line->contacts > 1 && touches(line, j + line->n);
+static int contact_of(const Tangent *t, int j, bool *both) {
+    const int n = t->line->n;
+    const bool first = touches(t, j), second = t->line->contacts > 1 && touches(t, j + n);
     *both = first && second;
-    return first ? j : second ? j + line->n : -1;
+    return first ? j : second ? j + n : -1;
 }
 
 /* matrix --------------------------------------------------------------------------------------- */
@@ -103,7 +111,17 @@ typedef struct Surface {
     CpsiFrictionLaw law;
 } Surface;
 
-static Surface surface_of(const CpsiLine *line, int c) {
+/* The slip at contact c; of one that is taken as closed what its node has moved along the plane. */
+static Vec3 slip_of(const Tangent *t, int c) {
+    const CpsiLine *line = t->line;
+    if (c != t->landed) return cpsi_line_slip(line, c);
+    const int j = cpsi_line_node(line, c);
+    const Vec3 moved = vec3_sub(vec3_at(line->position, j), vec3_at(line->reference, j));
+    return vec3_reject(moved, vec3_at(line->normal, c));
+}
+
+static Surface surface_of(const Tangent *t, int c) {
+    const CpsiLine *line = t->line;
     Surface out = {.law = cpsi_line_friction_law(line, c)};
     const int j = cpsi_line_node(line, c);
     double slip[3];
@@ -114,7 +132,7 @@ static Surface surface_of(const CpsiLine *line, int c) {
         cpsi_obstacle_axes(cpsi_line_obstacle(line, c), vec3_at(line->position, j),
                            vec3_sub(after, before), out.axes, out.curvature);
     }
-    vec3_store(slip, cpsi_line_slip(line, c));
+    vec3_store(slip, slip_of(t, c));
     cpsi_frame_to(out.slip, out.axes, slip);
     cpsi_frame_to(out.friction, out.axes, &line->friction_force[3 * c]);
     return out;
@@ -157,10 +175,10 @@ static void load_curvature(Tangent *t, int j, int c, const Surface *at) {
 /* The rows of node j at its contact c. */
 static void load_contact(Tangent *t, int j, int c) {
     const CpsiLine *line = t->line;
-    const Surface at = surface_of(line, c);
+    const Surface at = surface_of(t, c);
     double *diagonal = &t->matrix->diagonal[6 * j];
     if (line->has_local_axes) memcpy(&t->program->frame[9 * j], at.axes, sizeof at.axes);
-    if (line->reaction[c] > 0) diagonal[5] = RIGID;
+    if (line->reaction[c] > 0 || c == t->landed) diagonal[5] = RIGID;
     if (rubs(t, c, &at.law) && !sticks(t, c)) load_slip(t, j, c, &at);
     if (rubs(t, c, &at.law) && sticks(t, c))
         for (int a = 0; a < 2; a++) diagonal[2 * a] = at.law.ratio[a] > 0 ? RIGID : 0;
@@ -174,7 +192,7 @@ static void load_nodes(Tangent *t) {
     memset(t->matrix->skew, 0, 2 * n * sizeof *t->matrix->skew);
     for (int j = 0; j < line->n; j++) {
         bool both;
-        const int c = contact_of(line, j, &both);
+        const int c = contact_of(t, j, &both);
         t->program->held[j] =
             j == t->end_node || cpsi_line_is_held(line, j) || both || (c >= 0 && rests(t, c));
         if (line->has_local_axes)
@@ -207,13 +225,13 @@ static bool is_treated(const Tangent *t, int c) {
     const CpsiLine *line = t->line;
     const CpsiFrictionLaw law = cpsi_line_friction_law(line, c);
     const bool has_friction = rubs(t, c, &law);
-    if (!touches(line, c)) return t->pinned || t->consistent || !has_friction;
+    if (!touches(t, c)) return t->pinned || t->consistent || !has_friction;
     if (cpsi_line_element(line, c) >= 0) return false;
     if (!t->curved && is_round(cpsi_line_obstacle(line, c))) return false;
     if (!has_friction || (sticks(t, c) && holds_all_ways(&law))) return true;
     if (law.given || axes_turn(line, c, &law)) return false;
-    return sticks(t, c) ||
-           (line->state[c] == CPS_NODE_STATE_SLIP && !law.box && !keeps_reference_axes(t));
+    return sticks(t, c) || ((line->state[c] == CPS_NODE_STATE_SLIP || c == t->landed) && !law.box &&
+                            !keeps_reference_axes(t));
 }
 
 static bool all_are_treated(const Tangent *t) {
@@ -222,7 +240,7 @@ static bool all_are_treated(const Tangent *t) {
         if (!is_treated(t, c)) return false;
     for (int j = 0; j < line->n; j++) {
         bool both;
-        if (contact_of(line, j, &both) >= 0 && both && !rests(t, j) && !rests(t, j + line->n))
+        if (contact_of(t, j, &both) >= 0 && both && !rests(t, j) && !rests(t, j + line->n))
             return false;
     }
     return true;
@@ -266,6 +284,96 @@ static void solve(const Tangent *t, int end, int a, double force[3]) {
         force[b] = matrix->stiffness[i] * ((b == a) - to[b]) + sign * m[b] * tension[i];
 }
 
+/* The stiffness of an end with the contacts as they are taken, in the axes of the scene. */
+static CpsStiffnessOutcome find_matrix(Tangent *t, int end, double out[9]) {
+    const CpsiLine *line = t->line;
+    double k[9], own[9];
+    load_elements(t);
+    load_nodes(t);
+    if (is_loose(t) || !t->program->ops->factor(t->program->linsys, t->matrix))
+        return CPS_STIFFNESS_OUTCOME_LOOSE;
+    for (int a = 0; a < 3; a++) {
+        double force[3];
+        solve(t, end, a, force);
+        for (int b = 0; b < 3; b++) k[3 * b + a] = force[b] * t->force / line->length;
+    }
+    /* from the common axes to those of the scene: Q'K Q */
+    for (int i = 0; i < 9; i++) own[i] = line->common_axes[3 * (i % 3) + i / 3];
+    cpsi_frame_turn(k, own, k);
+    for (int i = 0; i < 9; i++)
+        if (!isfinite(k[i])) return CPS_STIFFNESS_OUTCOME_LOOSE;
+    memcpy(out, k, sizeof k);
+    return CPS_STIFFNESS_OUTCOME_FOUND;
+}
+
+/* touchdown ------------------------------------------------------------------------------------ */
+
+/* How near to a jump the touchdown at node j is, whose neighbour `next` is off the plane: by how
+ * much of a half it is nearer to opening there, or to closing at `next`. The reaction R and the
+ * pull p of the element between them bear the weight q of the node: R = 0 where it opens, and p = 0
+ * where its neighbour lands. What hangs at the node beside q holds the touchdown there. */
+typedef struct Front {
+    int contact, next;   /* of node j, and of its neighbour */
+    double opens, lands; /* [-] up to 1/2 */
+} Front;
+
+static bool find_front(const Tangent *t, int j, int step, Front *out) {
+    const CpsiLine *line = t->line;
+    const int next = j + step, e = step > 0 ? j : next;
+    bool both;
+    const int c = contact_of(t, j, &both);
+    if (c < 0 || both || next <= 0 || next >= line->n - 1 || contact_of(t, next, &both) >= 0)
+        return false;
+    const CpsiObstacle *plane = cpsi_line_obstacle(line, c);
+    if (is_round(plane) || plane != cpsi_line_obstacle(line, next) || !(line->tension[e] > 0))
+        return false;
+    const Vec3 n = vec3_at(line->normal, c), weight = cpsi_line_weight_at(line, j);
+    const double q = -vec3_dot(weight, n) * cpsi_line_share(line, j),
+                 p = step * vec3_dot(vec3_at(line->segment_force, e), n);
+    if (!(q > 0)) return false;
+    *out = (Front){.contact = c,
+                   .next = next,
+                   .opens = 0.5 - line->reaction[c] / q,
+                   .lands = 0.5 - p / q};
+    return out->opens > 0 || out->lands > 0;
+}
+
+/* The stiffness with the touchdown at the node beside; false where it is not known, or differs by
+ * so much that the line turns up from the ground within an element. */
+static bool find_beside(Tangent *t, int end, const Front *front, const double as_is[9],
+                        double out[9]) {
+    double jump = 0, size = 0;
+    t->opened = front->opens > 0 ? front->contact : -1;
+    t->landed = front->opens > 0 ? -1 : front->next;
+    const bool treated = t->landed < 0 || is_treated(t, t->landed);
+    const bool found = treated && find_matrix(t, end, out) == CPS_STIFFNESS_OUTCOME_FOUND;
+    t->opened = t->landed = -1;
+    if (!found) return false;
+    for (int i = 0; i < 9; i++) {
+        jump += (out[i] - as_is[i]) * (out[i] - as_is[i]);
+        size += as_is[i] * as_is[i];
+    }
+    return sqrt(jump) <= LARGEST_JUMP * sqrt(size);
+}
+
+/* The stiffness with touchdown points that move along the elements instead of jumping from node to
+ * node: add what it would differ by with each of them at the node beside, by the share of the way
+ * there. */
+static bool find_smooth(Tangent *t, int end, const double as_is[9], double out[9]) {
+    memcpy(out, as_is, 9 * sizeof *out);
+    for (int j = 1; j < t->line->n - 1; j++)
+        for (int step = -1; step <= 1; step += 2) {
+            Front front;
+            double beside[9];
+            if (!find_front(t, j, step, &front)) continue;
+            if (!(t->pinned || t->consistent) || !find_beside(t, end, &front, as_is, beside))
+                return false;
+            const double share = fmax(front.opens, front.lands);
+            for (int i = 0; i < 9; i++) out[i] += share * (beside[i] - as_is[i]);
+        }
+    return true;
+}
+
 CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program,
                                  const CpsiStepOptions *options, CpsStiffnessKind kind, int end) {
     CpsStiffness out = {.outcome = CPS_STIFFNESS_OUTCOME_NO_STEP};
@@ -278,33 +386,22 @@ CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program
                  .curved = options->contact_policy != CPS_CONTACT_POLICY_REFERENCE ||
                            options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
                  .end_node = end == CPS_END_A ? 0 : line->n - 1,
+                 .opened = -1,
+                 .landed = -1,
                  .force = line->report.certificate.largest_force};
     if (line->report.outcome != CPS_OUTCOME_SOLVED || !(t.force > 0)) return out;
     out.outcome = CPS_STIFFNESS_OUTCOME_TOUCHES;
-    if (contact_of(line, t.end_node, &both) >= 0) return out;
+    if (contact_of(&t, t.end_node, &both) >= 0) return out;
     out.outcome = CPS_STIFFNESS_OUTCOME_NOT_GIVEN;
     if (!all_are_treated(&t)) return out;
     cpsi_chain_program_resize(program, line->n, line->has_local_axes);
     t.matrix->held = program->held;
     t.matrix->frame = program->frame;
     t.matrix->second = NULL;
-    load_elements(&t);
-    load_nodes(&t);
-    out.outcome = CPS_STIFFNESS_OUTCOME_LOOSE;
-    if (is_loose(&t) || !program->ops->factor(program->linsys, t.matrix)) return out;
-    double k[9], own[9];
-    for (int a = 0; a < 3; a++) {
-        double force[3];
-        solve(&t, end, a, force);
-        for (int b = 0; b < 3; b++) k[3 * b + a] = force[b] * t.force / line->length;
-    }
-    /* from the common axes to those of the scene: Q'K Q */
-    for (int i = 0; i < 9; i++) own[i] = line->common_axes[3 * (i % 3) + i / 3];
-    cpsi_frame_turn(k, own, k);
-    for (int i = 0; i < 9; i++)
-        if (!isfinite(k[i])) return out;
-    memcpy(out.matrix, k, sizeof k);
-    out.outcome = CPS_STIFFNESS_OUTCOME_FOUND;
+    out.outcome = find_matrix(&t, end, out.matrix);
+    if (out.outcome != CPS_STIFFNESS_OUTCOME_FOUND) return out;
+    out.has_smooth = find_smooth(&t, end, out.matrix, out.smooth);
+    if (!out.has_smooth) memset(out.smooth, 0, sizeof out.smooth);
     return out;
 }
 
@@ -316,9 +413,9 @@ static void hold_others(Tangent *t) {
     const CpsiLine *line = t->line;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const int e = cpsi_line_element(line, c);
-        if (e < 0 && touches(line, c) && !is_treated(t, c))
+        if (e < 0 && touches(t, c) && !is_treated(t, c))
             t->program->held[cpsi_line_node(line, c)] = 1;
-        if (e >= 0 && e + 1 < line->n && touches(line, c))
+        if (e >= 0 && e + 1 < line->n && touches(t, c))
             t->program->held[e] = t->program->held[e + 1] = 1;
     }
     for (int j = 0; j < line->n; j++) {
@@ -386,6 +483,8 @@ void cpsi_line_tangent(const CpsiLine *line, CpsiChainProgram *program,
                  .consistent = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
                  .curved = options->contact_policy != CPS_CONTACT_POLICY_REFERENCE,
                  .end_node = -1,
+                 .opened = -1,
+                 .landed = -1,
                  .force = line->report.certificate.largest_force};
     memset(tangent, 0, 36 * sizeof *tangent);
     if (!(t.force > 0)) return;

@@ -74,8 +74,12 @@ static bool add_line(const CpsEvolution *evolution, int line, int end, CpsStiffn
         cpsi_line_stiffness(of, &evolution->workspace[0].program, &evolution->options, kind, end);
     out->outcome = found.outcome;
     if (found.outcome != CPS_STIFFNESS_OUTCOME_FOUND) return false;
+    const Vec3 pull = vec3_scale(-1, vec3_load(of->report.end[end].force));
     add_end(found.matrix, arm, out->matrix);
-    cpsi_add_turning_force(vec3_scale(-1, vec3_load(of->report.end[end].force)), arm, out->matrix);
+    add_end(found.smooth, arm, out->smooth);
+    out->has_smooth = out->has_smooth && found.has_smooth;
+    cpsi_add_turning_force(pull, arm, out->matrix);
+    cpsi_add_turning_force(pull, arm, out->smooth);
     return true;
 }
 
@@ -94,12 +98,18 @@ CpsStatus cps_evolution_body_stiffness(const CpsEvolution *evolution, int body,
     if (evolution->done + evolution->move_count == 0 || cpsi_move_failed(evolution)) return CPS_OK;
     const CpsiBody *of = &evolution->bodies.body[body];
     bool found = true;
+    out->has_smooth = true;
     for (int i = 0; found && i < evolution->line_count; i++)
         for (int end = 0; found && end < 2; end++)
             if (body_of(evolution, i, end) == body) found = add_line(evolution, i, end, kind, out);
-    if (found)
+    if (found) {
         cpsi_body_stiffness(of, &of->pose, evolution->gravity, out->matrix);
-    else
-        for (int i = 0; i < 36; i++) out->matrix[i] = 0;
+        cpsi_body_stiffness(of, &of->pose, evolution->gravity, out->smooth);
+    }
+    out->has_smooth = found && out->has_smooth;
+    for (int i = 0; i < 36; i++) {
+        if (!found) out->matrix[i] = 0;
+        if (!out->has_smooth) out->smooth[i] = 0;
+    }
     return CPS_OK;
 }

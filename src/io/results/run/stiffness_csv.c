@@ -11,6 +11,7 @@ static void write_matrix(FILE *out, const CpsStiffness *found) {
     const bool given = found->outcome == CPS_STIFFNESS_OUTCOME_FOUND;
     fprintf(out, ",%s", cps_stiffness_outcome_name(found->outcome));
     for (int i = 0; i < 9; ++i) cpsi_csv_next(out, given ? found->matrix[i] : NAN);
+    for (int i = 0; i < 9; ++i) cpsi_csv_next(out, found->has_smooth ? found->smooth[i] : NAN);
     fputc('\n', out);
 }
 
@@ -29,8 +30,11 @@ static void write_line(FILE *out, const CpsResults *results, int r, int l) {
 }
 
 void cpsi_stiffness_write(const CpsResults *results, FILE *out) {
-    fputs("step,name,line,end,kind,outcome,xx,xy,xz,yx,yy,yz,zx,zy,zz\n1,,,,,", out);
-    for (int i = 0; i < 9; ++i) fputs(",N/m", out);
+    fputs("step,name,line,end,kind,outcome", out);
+    for (int i = 0; i < 18; ++i)
+        fprintf(out, ",%s%c%c", i < 9 ? "" : "smooth_", "xyz"[i % 9 / 3], "xyz"[i % 3]);
+    fputs("\n1,,,,,", out);
+    for (int i = 0; i < 18; ++i) fputs(",N/m", out);
     fputc('\n', out);
     for (int r = 0; r < results->row_count; ++r)
         for (int l = 0; l < results->line_count; ++l) write_line(out, results, r, l);
