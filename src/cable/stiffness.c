@@ -33,6 +33,9 @@ static const double LEAST_COMPLIANCE = 1e-30;
  */
 static const double LARGEST_JUMP = 0.2;
 
+/* See is_nearly_open. */
+static const double LEFT_OPEN = 1e-4;
+
 /* The line, the program that lends its arrays, and the units. */
 typedef struct Tangent {
     const CpsiLine *line;
@@ -46,8 +49,22 @@ typedef struct Tangent {
     int opened, landed; /* contacts that are taken as open and as closed, -1: none */
 } Tangent;
 
+/* Does the state of a contact hang on rounding? The solution leaves at an open contact a reaction
+ * that is this share of the node's weight at most; the state, which compares it with the gap per
+ * length of the line, takes a contact for closed that is open by a fraction of a millimetre. */
+static bool is_nearly_open(const CpsiLine *line, int c) {
+    if (cpsi_line_element(line, c) >= 0 || !cpsi_line_obstacle(line, c)) return false;
+    const int j = cpsi_line_node(line, c);
+    const double weight = vec3_norm(cpsi_line_weight_at(line, j)) * cpsi_line_share(line, j);
+    return line->reaction[c] <= LEFT_OPEN * weight &&
+           cpsi_obstacle_gap(cpsi_line_obstacle(line, c), vec3_at(line->position, j)) >
+               CPS_TOUCH * line->length;
+}
+
 static bool touches(const Tangent *t, int c) {
-    return c == t->landed || (t->line->state[c] != CPS_NODE_STATE_FREE && c != t->opened);
+    if (c == t->landed) return true;
+    return t->line->state[c] != CPS_NODE_STATE_FREE && c != t->opened &&
+           !is_nearly_open(t->line, c);
 }
 
 /* Does friction hold contact c, if there is any? */
