@@ -24,6 +24,7 @@ int cmd_schema(int argc, char **argv);
 int cmd_law(int argc, char **argv);
 int cmd_drive(int argc, char **argv);
 int cmd_study(int argc, char **argv);
+int cmd_offset(int argc, char **argv);
 
 /* Print "capstan: FILE:LINE:COLUMN: message" on standard error; returns the exit code of the
  * error's status. */

@@ -43,6 +43,7 @@ static bool print_mixed(const char *directory, CpsError *err) {
 char *cli_destination(const CliOptions *options, CpsResultsKind kind, int line_count, int *code) {
     const char *more = kind == CPS_RESULTS_KIND_RUN           ? ""
                        : kind == CPS_RESULTS_KIND_REGULARIZED ? "-regularized"
+                       : kind == CPS_RESULTS_KIND_OFFSET      ? "-offset"
                                                               : "-study";
     char *directory =
         options->output ? strdup(options->output) : default_directory(options->operand, more);

@@ -6,10 +6,10 @@
 #include "capstan/results.h"
 #include "options.h"
 
-/* The directory given with -o; otherwise results/NAME, with -regularized or -study appended for
- * such results, for a scene .../NAME.yaml of so many lines, whose parent is made. A directory that
- * capstan may not write to is refused before anything is computed. Returns NULL after a message,
- * with the exit code in *code; the caller frees the name. */
+/* The directory given with -o; otherwise results/NAME, with -regularized, -offset or -study
+ * appended for such results, for a scene .../NAME.yaml of so many lines, whose parent is made. A
+ * directory that capstan may not write to is refused before anything is computed. Returns NULL
+ * after a message, with the exit code in *code; the caller frees the name. */
 char *cli_destination(const CliOptions *options, CpsResultsKind kind, int line_count, int *code);
 
 #endif

@@ -33,6 +33,8 @@ static const Command COMMANDS[] = {
      "driven systems: bodies, vehicles, ropes, planimeters; least dissipation"},
     {"study", cmd_study, FOR_STUDY, "SCENE.yaml",
      "a step by the method of 1990: its four limits, and first order"},
+    {"offset", cmd_offset, FOR_OFFSET, "SCENE.yaml",
+     "what the lines of a body oppose to its offset; and where it is with each line missing"},
     {"schema", cmd_schema, FOR_SCHEMA, "[scene|law|drive]",
      "print the JSON schema of scenes, laws or driven systems (for editors)"},
 };

@@ -14,7 +14,8 @@ enum {
     FOR_LAW = 8,
     FOR_STUDY = 16,
     FOR_DRIVE = 32,
-    FOR_ALL = 63
+    FOR_OFFSET = 64,
+    FOR_ALL = 127
 };
 
 /* The arguments of an option that can be repeated. */
@@ -48,6 +49,10 @@ typedef struct CliOptions {
     const char *step; /* study: name or number of a step, NULL: the first */
     bool eliminate;   /* drive: the reduced law */
     const char *line; /* study: name of a line, NULL: the first */
+    /* offset: headings in degrees, largest offset in m, number of steps, NULL: the default */
+    const char *headings, *to, *steps;
+    const char *body; /* offset: name of a body, NULL: the first */
+    bool broken;      /* offset: with each line missing as well */
     CliList velocity, force;
 } CliOptions;
 

@@ -54,7 +54,8 @@ typedef enum CpsResultsKind {
     CPS_RESULTS_KIND_REGULARIZED = 1, /* line_count lines */
     CPS_RESULTS_KIND_STUDY = 2,
     CPS_RESULTS_KIND_METHODS = 3,
-    CPS_RESULTS_KIND_COMPLETED = 4
+    CPS_RESULTS_KIND_COMPLETED = 4,
+    CPS_RESULTS_KIND_OFFSET = 5 /* offset.h */
 } CpsResultsKind;
 
 /* Check before a computation whether results can be written to `directory`. Refused are: one that

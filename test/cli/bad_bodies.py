@@ -69,7 +69,7 @@ CHANGES = [
     ("held and free", BARGE, "  barge: {held: [20, 0, 0], free: [20, 0, 0]}\n", "17:3: body 'barge': too much given, expected exactly one of 'held', 'free'"),
     ("an unknown key", BARGE, "  barge: {holds: [20, 0, 0]}\n", "17:11: body 'barge': unknown key 'holds'; did you mean 'held'?"),
     ("an unknown key, nothing near", BARGE, "  barge: {held: [20, 0, 0], inertia: 3}\n", f"17:29: body 'barge': unknown key 'inertia', expected {LIST}"),
-    ("another spelling", "    centre_of_gravity:", "    center_of_gravity:", "11:5: body 'spar': 'center_of_gravity' is now 'centre_of_gravity'"),
+    ("another spelling", "    centre_of_gravity:", "    center_of_gravity:", "11:5: body 'spar': unknown key 'center_of_gravity'; did you mean 'centre_of_gravity'?"),
     ("a place of two numbers", BARGE, "  barge: {held: [20, 0]}\n", "17:11: 'held': found a list of 2, expected three numbers in m, as in [x, y, z]"),
     ("a place that is no number", BARGE, "  barge: {held: [20, .nan, 0]}\n", "17:22: 'held': found '.nan', expected a number in m"),
     ("weight and mass", "    mass: 500\n", "    mass: 500\n    weight: 5000\n", "10:5: 'mass': it does not go with 'weight': leave one of them out"),

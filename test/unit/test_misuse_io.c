@@ -76,7 +76,7 @@ static void results(void **state) {
     REFUSED(cps_results_prepare(NULL, CPS_RESULTS_KIND_RUN, 0, false, &err));
     REFUSED(cps_results_prepare("", CPS_RESULTS_KIND_RUN, 0, true, &err));
     REFUSED(cps_results_prepare("results-misuse-io", (CpsResultsKind)-1, 0, false, &err));
-    REFUSED(cps_results_prepare("results-misuse-io", (CpsResultsKind)5, 0, false, &err));
+    REFUSED(cps_results_prepare("results-misuse-io", (CpsResultsKind)6, 0, false, &err));
     REFUSED(
         cps_results_prepare("results-misuse-io", CPS_RESULTS_KIND_REGULARIZED, -1, false, &err));
     REFUSED(cps_results_append(NULL, NULL, &err));

@@ -18,7 +18,8 @@ static const char *const PLAIN[][PLAIN_NAMES] = {
     [CPS_RESULTS_KIND_STUDY] = {"study.csv", "study.svg", "first-order.csv", "first-order.svg",
                                 "relaxed.svg", "study.json"},
     [CPS_RESULTS_KIND_METHODS] = {"methods.csv", "methods.svg", "methods.json"},
-    [CPS_RESULTS_KIND_COMPLETED] = {"completed.csv", "completed.svg", "completed.json"}};
+    [CPS_RESULTS_KIND_COMPLETED] = {"completed.csv", "completed.svg", "completed.json"},
+    [CPS_RESULTS_KIND_OFFSET] = {"offset.csv", "offset.svg", "broken.csv", "offset.json"}};
 
 enum { KINDS = sizeof PLAIN / sizeof *PLAIN };
 

@@ -122,7 +122,7 @@ static const CpsiKey SCENE_BODY_KEYS[] = {
     {"weight", OPTIONAL, NUMBER(SceneBody, body.weight), NOT_NEGATIVE, .unit = "N", .fallback = "0",
      .help = "weight in air, instead of mass"},
     {"centre_of_gravity", OPTIONAL, POINT(SceneBody, body.centre_of_gravity, 3), ANY, .unit = "m",
-     .formerly = "center_of_gravity", .fallback = "[0, 0, 0]", .help = "in its own axes"},
+     .fallback = "[0, 0, 0]", .help = "in its own axes"},
     {"volume", OPTIONAL, NUMBER(SceneBody, volume), NOT_NEGATIVE, .unit = "m3",
      .unless = "buoyancy",
      .help = "of the water that it displaces: the buoyancy is water_density times gravity times "
@@ -130,7 +130,7 @@ static const CpsiKey SCENE_BODY_KEYS[] = {
     {"buoyancy", OPTIONAL, NUMBER(SceneBody, body.buoyancy), NOT_NEGATIVE, .unit = "N",
      .fallback = "0", .help = "against gravity, instead of volume"},
     {"centre_of_buoyancy", OPTIONAL, POINT(SceneBody, body.centre_of_buoyancy, 3), ANY, .unit = "m",
-     .formerly = "center_of_buoyancy", .fallback = "[0, 0, 0]", .help = "in its own axes"},
+     .fallback = "[0, 0, 0]", .help = "in its own axes"},
     {"hydrostatics", OPTIONAL, ROWS(SceneBody, hydrostatics, 6), 6, 6, false,
      .other = &(const CpsiKey){.type = MAPPING(SceneBody, diagonal), .inside = &DIAGONAL},
      .fallback = "{}",
