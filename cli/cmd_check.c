@@ -51,8 +51,47 @@ static void print_obstacle(const CpsObstacle *o) {
     print_friction(o);
 }
 
-static void print_point(const CpsPoint *point) {
+/* six rows, as "[1 2 3 4 5 6]" */
+static void print_hydrostatics(const double *matrix) {
+    for (int i = 0; i < CPS_BODY_DIRECTIONS; i++) {
+        fputs(i ? "               " : "  hydrostatics ", stdout);
+        for (int k = 0; k < CPS_BODY_DIRECTIONS; k++)
+            printf("%s%g", k ? " " : "[", matrix[CPS_BODY_DIRECTIONS * i + k]);
+        puts("]");
+    }
+}
+
+static void print_body(const CpsBody *body) {
+    static const char *const DIRECTION[] = {"x", "y", "z", "rx", "ry", "rz"};
+    const double *x = body->position, *q = body->rotation, *g = body->centre_of_gravity,
+                 *b = body->centre_of_buoyancy, *f = body->force, *m = body->moment;
+    const bool is_free = body->kind == CPS_BODY_KIND_FREE;
+    printf("body %s: %s (%g, %g, %g) m, rotation (%g, %g, %g, %g)\n", body->name,
+           is_free ? "free, begins at" : "held at", x[0], x[1], x[2], q[0], q[1], q[2], q[3]);
+    int fixed = 0;
+    for (int i = 0; i < CPS_BODY_DIRECTIONS; i++)
+        if (body->fixed[i]) printf("%s%s", fixed++ ? " " : "  fixed in ", DIRECTION[i]);
+    if (fixed) putchar('\n');
+    if (body->weight != 0)
+        printf("  weight %g N at (%g, %g, %g) m\n", body->weight, g[0], g[1], g[2]);
+    if (body->buoyancy != 0)
+        printf("  buoyancy %g N at (%g, %g, %g) m\n", body->buoyancy, b[0], b[1], b[2]);
+    bool floats = false;
+    for (int i = 0; i < CPS_BODY_DIRECTIONS * CPS_BODY_DIRECTIONS; i++)
+        floats |= body->hydrostatics[i] != 0;
+    if (floats) print_hydrostatics(body->hydrostatics);
+    if (is_free)
+        printf("  force (%g, %g, %g) N, moment (%g, %g, %g) N m\n", f[0], f[1], f[2], m[0], m[1],
+               m[2]);
+}
+
+static void print_point(const CpsScene *scene, const CpsPoint *point) {
     const double *x = point->position, *f = point->force;
+    if (point->kind == CPS_POINT_KIND_ON_BODY) {
+        printf("point %s: on body %s at (%g, %g, %g) m\n", point->name,
+               scene->body[point->body].name, x[0], x[1], x[2]);
+        return;
+    }
     const bool is_free = point->kind == CPS_POINT_KIND_FREE;
     printf("point %s: %s (%g, %g, %g) m", point->name, is_free ? "free, begins at" : "held at",
            x[0], x[1], x[2]);
@@ -122,7 +161,8 @@ static void print_scene(const CpsScene *scene) {
     }
     printf("gravity (%g, %g, %g) m/s2\n", scene->gravity[0], scene->gravity[1], scene->gravity[2]);
     for (int i = 0; i < scene->obstacle_count; i++) print_obstacle(&scene->obstacle[i]);
-    for (int i = 0; i < scene->point_count; i++) print_point(&scene->point[i]);
+    for (int i = 0; i < scene->body_count; i++) print_body(&scene->body[i]);
+    for (int i = 0; i < scene->point_count; i++) print_point(scene, &scene->point[i]);
     for (int i = 0; i < scene->line_count; i++) print_line(scene, &scene->line[i]);
 
     /* number of steps as a run counts them: a start that is statically placed is a step */

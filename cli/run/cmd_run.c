@@ -114,6 +114,39 @@ static void print_unbalanced(FILE *out, const char *name, const CpsPointReport *
             sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]), point->trial_count);
 }
 
+/* A free body whose forces and moments do not balance in any of the poses tried. */
+static void print_unbalanced_body(FILE *out, const char *name, const CpsBodyReport *body) {
+    const double *f = body->residual, *m = &body->residual[3];
+    fputs("body ", out);
+    cli_print_text(out, name, 80, false);
+    fprintf(out,
+            ": no pose found where the forces and moments on it balance (%.4g N and %.4g N m are "
+            "left after %d trials)\n",
+            sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]),
+            sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]), body->trial_count);
+}
+
+/* A nanometre, or a billionth of a degree, is rounding. */
+static double tidy(double x) { return fabs(x) < 1e-9 ? 0 : x; }
+
+/* The pose of a body, and what is to be said of it. */
+static void print_body(FILE *table, const char *name, const CpsBodyReport *body) {
+    static const double DEGREES = 57.29577951308232;
+    const double *x = body->position;
+    double angle[3], heel;
+    cps_body_angles(body, angle, &heel);
+    fprintf(table, "%*s", NAME_WIDTH + 1, "");
+    if (!body->has_place) {
+        print_unbalanced_body(table, name, body);
+        return;
+    }
+    fputs("body ", table);
+    cli_print_text(table, name, 80, false);
+    fprintf(table, ": at (%.6g, %.6g, %.6g) m, roll %.4g, pitch %.4g, yaw %.4g degrees%s\n",
+            tidy(x[0]), tidy(x[1]), tidy(x[2]), tidy(DEGREES * angle[0]), tidy(DEGREES * angle[1]),
+            tidy(DEGREES * angle[2]), body->is_stable ? "" : "; not stable");
+}
+
 static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
                        const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
@@ -147,6 +180,10 @@ static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
         if (point.has_place) continue;
         fprintf(table, "%*s", NAME_WIDTH + 1, "");
         print_unbalanced(table, scene->point[i].name, &point);
+    }
+    for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {
+        const CpsBodyReport body = cps_evolution_body_report(evolution, i);
+        print_body(table, scene->body[i].name, &body);
     }
 }
 
@@ -226,6 +263,14 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         cli_print_text(stderr, step.name, 80, false);
         fputs(", ", stderr);
         print_unbalanced(stderr, scene->point[i].name, &point);
+    }
+    for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {
+        const CpsBodyReport body = cps_evolution_body_report(evolution, i);
+        if (body.has_place) continue;
+        fputs("capstan: step ", stderr);
+        cli_print_text(stderr, step.name, 80, false);
+        fputs(", ", stderr);
+        print_unbalanced_body(stderr, scene->body[i].name, &body);
     }
 }
 
@@ -391,9 +436,11 @@ static void print_where(const char *directory, const CpsEvolution *evolution,
            "step's own problem: it says nothing of the\n"
            "          mesh, nor of what earlier steps have left. mesh: estimated error by the "
            "elements' length, of the step as well\n");
-    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s%s\n", directory,
-               cps_evolution_point_count(evolution) > 0 ? ", points.csv" : "",
-               options->stiffness ? ", stiffness.csv" : "",
+    const bool bodies = cps_evolution_body_count(evolution) > 0;
+    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s%s%s%s\n",
+               directory, cps_evolution_point_count(evolution) > 0 ? ", points.csv" : "",
+               bodies ? ", bodies.csv" : "", options->stiffness ? ", stiffness.csv" : "",
+               options->stiffness && bodies ? ", body-stiffness.csv" : "",
                options->no_paraview ? "" : ", result.pvd (ParaView)");
     cli_printf(stdout,
                "pictures  %s: plan.svg, elevation.svg, tension.svg, history.svg, step-*.svg; "

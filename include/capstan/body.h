@@ -78,6 +78,12 @@ typedef struct CpsBodyReport {
     int trial_count; /* as of points */
 } CpsBodyReport;
 
+/* The rotation of a report in angles [rad]: roll, pitch and yaw, that is yaw about z, then pitch
+ * about the y axis so turned, then roll about the x axis so turned, pitch in -pi/2 .. pi/2, the
+ * others in -pi .. pi, and roll 0 where pitch is at an end of its range. And the heel, the angle
+ * between the z axes of body and scene, 0 .. pi. NULL: nothing is done. */
+CPS_API void cps_body_angles(const CpsBodyReport *report, double roll_pitch_yaw[3], double *heel);
+
 #ifdef __cplusplus
 }
 #endif

@@ -75,19 +75,19 @@ static CpsStatus check_numbers(const CpsBody *body, CpsError *err) {
                              "body '%s': %s is (%g, %g, %g), expected finite numbers", body->name,
                              WHAT[i], vector[i][0], vector[i][1], vector[i][2]);
     if (!is_rotation(body->rotation))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "body '%s': rotation is (%g, %g, %g, %g), expected a quaternion: finite "
-                         "numbers, not all 0",
-                         body->name, body->rotation[0], body->rotation[1], body->rotation[2],
-                         body->rotation[3]);
+        return CPSI_FAIL_AT(
+            "rotation", err, CPS_ERR_ARGUMENT,
+            "body '%s': rotation is (%g, %g, %g, %g), expected a quaternion: finite "
+            "numbers, not all 0",
+            body->name, body->rotation[0], body->rotation[1], body->rotation[2], body->rotation[3]);
     if (!cpsi_is_not_negative(body->weight) || !cpsi_is_not_negative(body->buoyancy))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "body '%s': weight %g N and buoyancy %g N, expected finite numbers >= 0",
                          body->name, body->weight, body->buoyancy);
     if (!is_symmetric(body->hydrostatics))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "body '%s': hydrostatics are not a symmetric matrix of finite numbers",
-                         body->name);
+        return CPSI_FAIL_AT("hydrostatics", err, CPS_ERR_ARGUMENT,
+                            "body '%s': hydrostatics are not a symmetric matrix of finite numbers",
+                            body->name);
     return CPS_OK;
 }
 
@@ -225,6 +225,23 @@ CpsiPose cpsi_pose_between(const CpsiPose *from, const CpsiPose *to, double shar
     const Vec3 turn = rotation_vector(rotation_after(to->turn, rotation_inverse(from->turn)));
     return (CpsiPose){vec3_axpy(share, vec3_sub(to->place, from->place), from->place),
                       rotation_after(rotation_of(vec3_scale(share, turn)), from->turn)};
+}
+
+/* [-] A z axis of the body this close to horizontal, as the cosine, leaves only the sum of roll and
+ * yaw: rounding of a unit quaternion. */
+static const double UPRIGHT = 1e-12;
+
+void cps_body_angles(const CpsBodyReport *report, double roll_pitch_yaw[3], double *heel) {
+    if (!report || !roll_pitch_yaw || !heel) return;
+    const Rotation turn = rotation_load(report->rotation);
+    const Vec3 x = rotation_apply(turn, vec3(1, 0, 0)), y = rotation_apply(turn, vec3(0, 1, 0)),
+               z = rotation_apply(turn, vec3(0, 0, 1));
+    const double level = hypot(x.x, x.y);
+    const bool has_both = level > UPRIGHT;
+    roll_pitch_yaw[0] = has_both ? atan2(y.z, z.z) : 0;
+    roll_pitch_yaw[1] = atan2(-x.z, level);
+    roll_pitch_yaw[2] = has_both ? atan2(x.y, x.x) : atan2(-y.x, y.y);
+    *heel = atan2(hypot(z.x, z.y), z.z);
 }
 
 /* forces --------------------------------------------------------------------------------------- */

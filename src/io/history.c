@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "base/math.h"
+
 enum {
     SHORT_HISTORY = 14, /* every step of a history up to this length is drawn */
     EVEN_SELECTION = 12
@@ -40,12 +42,31 @@ const char *cpsi_point_state(CpsPointState state) {
     static const char *const NAME[] = {[CPS_POINT_STATE_HELD] = "held",
                                        [CPS_POINT_STATE_FREE] = "free",
                                        [CPS_POINT_STATE_STICK] = "stick",
-                                       [CPS_POINT_STATE_SLIP] = "slip"};
+                                       [CPS_POINT_STATE_SLIP] = "slip",
+                                       [CPS_POINT_STATE_ON_BODY] = "on_body"};
     return NAME[state];
 }
 
 double cpsi_point_residual(const CpsPointReport *report) {
     return hypot(hypot(report->residual[0], report->residual[1]), report->residual[2]);
+}
+
+const char *cpsi_body_kind(CpsBodyKind kind) {
+    return kind == CPS_BODY_KIND_HELD ? "held" : "free";
+}
+
+static double size(const double x[3]) { return hypot(hypot(x[0], x[1]), x[2]); }
+
+void cpsi_body_row(const CpsEvolution *evolution, int body, bool stiffness, CpsiBodyRow *out) {
+    *out = (CpsiBodyRow){.report = cps_evolution_body_report(evolution, body)};
+    cps_body_angles(&out->report, out->angle, &out->heel);
+    for (int i = 0; i < 3; ++i) out->angle[i] /= CPSI_DEGREE;
+    out->heel /= CPSI_DEGREE;
+    for (int i = 0; i < 2; ++i) out->residual[i] = size(&out->report.residual[3 * i]);
+    if (!stiffness) return;
+    for (int kind = 0; kind < 2; ++kind)
+        cps_evolution_body_stiffness(evolution, body, (CpsStiffnessKind)kind, &out->stiffness[kind],
+                                     NULL);
 }
 
 CpsOutcome cpsi_results_outcome(const CpsResults *results) {

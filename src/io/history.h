@@ -21,12 +21,20 @@ typedef struct CpsiLineRow {
     double open_reaction; /* [N] largest reaction on a node without contact */
 } CpsiLineRow;
 
+typedef struct CpsiBodyRow {
+    CpsBodyReport report;
+    double angle[3], heel;         /* [degrees] roll, pitch and yaw; heel (cps_body_angles) */
+    double residual[2];            /* [N], [N m] sizes of what nothing balances */
+    CpsBodyStiffness stiffness[2]; /* by kind; where that was asked for */
+} CpsiBodyRow;
+
 typedef struct CpsiRow {
     CpsStepReport report; /* its name is `name` */
     char *name;
     double open_reaction; /* [N] largest over the lines */
     CpsiLineRow *line;
     CpsPointReport *point;           /* (points) NULL without points */
+    CpsiBodyRow *body;               /* (bodies) NULL without bodies */
     CpsStiffness (*stiffness)[2][2]; /* (lines) of ends A and B, by kind; NULL: not asked for */
 } CpsiRow;
 
@@ -80,6 +88,8 @@ struct CpsResults {
     int (*line_point)[2]; /* (line_count) the point of each end; CPSI_AT_NO_POINT: none */
     int point_count;
     CpsPoint *point; /* (point_count) */
+    int body_count;
+    CpsBody *body; /* (body_count) */
     int stage_count;
     CpsiStage *stage;
     int planned_steps;
@@ -99,9 +109,13 @@ bool cpsi_results_pictured(const CpsResults *results, int step);
 double cpsi_results_turn(const CpsResults *results, int step, int obstacle);
 double cpsi_results_turned(const CpsResults *results, int step, int obstacle);
 
-/* The point in words: held, free, stick, slip; and how large a force nothing balances there [N]. */
+/* The point in words: held, free, stick, slip, on_body; and how large a force nothing balances
+ * there [N]. */
 const char *cpsi_point_state(CpsPointState state);
 double cpsi_point_residual(const CpsPointReport *report);
+/* The body in words: held, free; and the rows of reports, angles and residuals of all bodies. */
+const char *cpsi_body_kind(CpsBodyKind kind);
+void cpsi_body_row(const CpsEvolution *evolution, int body, bool stiffness, CpsiBodyRow *out);
 
 /* Worst outcome so far. */
 CpsOutcome cpsi_results_outcome(const CpsResults *results);

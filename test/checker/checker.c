@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "bodies.h"
 #include "caught.h"
 #include "ends.h"
 #include "long_element.h"
@@ -670,7 +671,7 @@ static bool is_certified(int outcome) {
     return outcome != OUTCOME_STALLED && outcome != OUTCOME_LIMIT;
 }
 
-/* Where findings on points go. */
+/* Where findings on points and bodies go. */
 typedef struct PointFindings {
     FILE *log;
     CheckerReport *report;
@@ -680,6 +681,12 @@ static void find_at_point(void *user, const char *name, size_t step, const char 
     const PointFindings *findings = user;
     findings->report->refuted++;
     if (findings->log) fprintf(findings->log, "step %zu point %s: %s\n", step, name, sentence);
+}
+
+static void find_at_body(void *user, const char *name, size_t step, const char *sentence) {
+    const PointFindings *findings = user;
+    findings->report->refuted++;
+    if (findings->log) fprintf(findings->log, "step %zu body %s: %s\n", step, name, sentence);
 }
 
 int checker_file(const char *path, CheckerReport *worst, FILE *log) {
@@ -693,6 +700,7 @@ int checker_file(const char *path, CheckerReport *worst, FILE *log) {
         bad = check_line(&source, source.line_name[i], log, report);
     PointFindings findings = {log, report};
     if (!bad) bad = points_check(&source, is_certified, find_at_point, &findings, log);
+    if (!bad) bad = bodies_check(&source, is_certified, find_at_body, &findings, log);
     source_close(&source);
     if (bad) report->refuted++;
     if (bad) return 2;

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "given_bodies.h"
 #include "record.h"
 
 /* Numbers of the scene are copied; a share of a stage, a weight vector and a load are a few
@@ -566,6 +567,11 @@ static void compare_point(Compare *compare, const CpsPoint *given, const Imposed
     const bool is_held = point->kind == CPS_POINT_KIND_HELD;
     const double pull = size(compare->scene->gravity);
     double wanted[3], noise = 0;
+    if (point->kind == CPS_POINT_KIND_ON_BODY) { /* where it is follows from its body */
+        if (at->state != POINT_ON_BODY)
+            find(compare, "state_of_point of %s, step %zu", given->name, step);
+        return;
+    }
     if ((at->state == POINT_HELD) != is_held) {
         find(compare, "state_of_point of %s, step %zu", given->name, step);
         return;
@@ -607,10 +613,12 @@ static void compare_given_points(Compare *compare, ImposedPoint *imposed) {
     for (int k = 0; k < compare->scene->point_count; k++) {
         const CpsPoint *point = &compare->scene->point[k];
         const bool is_held = point->kind == CPS_POINT_KIND_HELD;
+        const int kind = point->kind == CPS_POINT_KIND_ON_BODY ? POINT_KIND_ON_BODY
+                         : is_held                             ? POINT_HELD
+                                                               : POINT_FREE;
         if (strcmp(source->point_name[k], point->name) != 0)
             find(compare, "point %s, in the scene %s", source->point_name[k], point->name);
-        if (source->point_kind[k] != (is_held ? POINT_HELD : POINT_FREE))
-            find(compare, "kind_of_point of %s", point->name);
+        if (source->point_kind[k] != kind) find(compare, "kind_of_point of %s", point->name);
         same_number(compare, "weight_of_point", point->name, source->point_weight[k],
                     point->weight);
         imposed[k] = (ImposedPoint){.kind = point->kind, .is_known = true};
@@ -644,6 +652,21 @@ static int compare_points(Compare *compare) {
     free(before);
     return bad;
 }
+
+/* ---- bodies ---- */
+
+static GivenStep step_of(const void *user, size_t step) {
+    const Compare *compare = user;
+    int stage = 0, part = 0;
+    GivenStep given = {0};
+    const bool staged = stage_of(compare, step, &stage, &part);
+    gravity_at(compare, staged, stage, part, given.gravity);
+    given.stage = staged ? &compare->scene->stage[stage] : NULL;
+    given.part = part;
+    return given;
+}
+
+static void find_at_body(void *user, const char *sentence) { find(user, "%s", sentence); }
 
 static int compare_steps(Compare *compare, int index) {
     const CpsLine *line = &compare->scene->line[index];
@@ -698,6 +721,8 @@ int given_file(const char *path, const CpsScene *scene, FILE *log) {
                  scene->line[i].name);
     }
     if (!bad && compare.findings == 0) bad = compare_points(&compare);
+    if (!bad && compare.findings == 0)
+        bad = given_bodies(&compare.source, scene, step_of, find_at_body, &compare, log);
     source_close(&compare.source);
     return bad ? -1 : compare.findings;
 }

@@ -58,6 +58,11 @@ static void widen(const double *a, Real *out) {
     for (int k = 0; k < 3; k++) out[k] = a[k];
 }
 
+/* Whether it is held, by itself or by the body that it is on. */
+static bool is_held(const Junction *at) {
+    return at->state == POINT_HELD || at->state == POINT_ON_BODY;
+}
+
 /* The sum of the lines, and where their ends are. */
 static void check_lines(const Points *p, const Junction *at) {
     Real sum[3] = {0};
@@ -84,14 +89,16 @@ static void check_lines(const Points *p, const Junction *at) {
 
 static void check_balance(const Points *p, const Junction *at) {
     Real sum[3];
-    const bool is_held = at->state == POINT_HELD;
     for (int k = 0; k < 3; k++)
         sum[k] = (Real)at->lines[k] + at->load[k] + at->support[k] + at->friction[k] +
                  (Real)at->reaction * at->normal[k];
     at_most(p, "residual against the sum of the forces", apart(at->residual, sum),
             SUMS * p->largest);
-    at_most(p, is_held ? "load of a held point" : "support of a free point",
-            size(is_held ? at->load : at->support), 0);
+    at_most(p, is_held(at) ? "load of a held point" : "support of a free point",
+            size(is_held(at) ? at->load : at->support), 0);
+    const int kind = p->source->point_kind[p->point];
+    if ((at->state == POINT_ON_BODY) != (kind == POINT_KIND_ON_BODY))
+        find(p, "its state and its kind differ in whether it is on a body");
     const double left = size(at->residual);
     const bool is_balanced = left <= BALANCED * p->source->tolerance * p->largest;
     if (at->has_place && !is_balanced)
@@ -118,7 +125,7 @@ static void check_contact(const Points *p, const Junction *at) {
         at_most(p, "force of an obstacle that it does not touch",
                 fabs(at->reaction) + size(at->normal) + size(at->slip), 0);
         at_most(p, "friction of an obstacle that it does not touch", size(at->friction),
-                mu > 0 && at->state != POINT_HELD ? frozen * (1 + SUMS) : 0);
+                mu > 0 && !is_held(at) ? frozen * (1 + SUMS) : 0);
         if (at->state == POINT_STICK || at->state == POINT_SLIP)
             find(p, "it is said to rest or slide on an obstacle, but touches none");
         return;
@@ -144,7 +151,7 @@ static void check_friction(const Points *p, const Junction *at) {
     const Surface *surface = &p->source->surface[at->obstacle];
     const double force = FORCES * p->largest, way = PLACES * p->length[p->point];
     at_most(p, "friction along the normal", fabs(dot(at->friction, at->normal)), force);
-    if (at->state == POINT_HELD) {
+    if (is_held(at)) {
         at_most(p, "friction or slip of a held point", size(at->friction) + size(at->slip), 0);
         return;
     }
@@ -188,8 +195,7 @@ static bool is_claimed(const Points *p, bool (*certified)(int outcome)) {
     for (size_t i = 0; i < p->source->lines; i++)
         for (int e = 0; e < 2; e++) {
             const int k = p->line[i].end_point[e];
-            if (k >= 0 && p->now[k].state != POINT_HELD && certified(p->line[i].outcome))
-                return true;
+            if (k >= 0 && !is_held(&p->now[k]) && certified(p->line[i].outcome)) return true;
         }
     return false;
 }

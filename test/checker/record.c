@@ -266,7 +266,8 @@ static int read_points(Source *source, FILE *log) {
             : read_static(source, "kind", "of_point", points, kind, log) ||
                   read_static(source, "weight", "of_point", points, source->point_weight, log);
     for (size_t k = 0; k < points && !bad; k++) {
-        if ((kind[k] != POINT_HELD && kind[k] != POINT_FREE) || !isfinite(source->point_weight[k]))
+        if ((kind[k] != POINT_HELD && kind[k] != POINT_FREE && kind[k] != POINT_KIND_ON_BODY) ||
+            !isfinite(source->point_weight[k]))
             bad = complain(log, "senseless kind or weight of point", source->point_name[k], 0);
         else
             source->point_kind[k] = (int)kind[k];

@@ -23,7 +23,8 @@ enum {
     OUTCOMES
 };
 enum { END_HELD, END_FREE };
-enum { POINT_HELD, POINT_FREE, POINT_STICK, POINT_SLIP, POINT_STATES };
+enum { POINT_HELD, POINT_FREE, POINT_STICK, POINT_SLIP, POINT_ON_BODY, POINT_STATES };
+enum { POINT_KIND_ON_BODY = 2 }; /* of kind_of_point, beside POINT_HELD and POINT_FREE */
 
 /* the claimed certificate: index here, name of the variable in CLAIM_NAME */
 enum {
@@ -132,7 +133,8 @@ typedef struct Source {
     size_t points;
     char **point_name;
     double *point_weight; /* (points) [N] under the gravity of the scene */
-    int *point_kind;      /* (points) POINT_HELD or POINT_FREE, where the run begins */
+    int *point_kind; /* (points) POINT_HELD, POINT_FREE or POINT_KIND_ON_BODY, where the run begins
+                      */
 } Source;
 
 /* All return 0, or -1 after one sentence on log. */

@@ -40,7 +40,7 @@ HELD = "  anchor: {held: [0, 0, 0]}\n"
 KNOT = "{free: [10, 0, 0], force: [1, 2, 3], weight: 50}"
 PULL = "  - {name: pull, knot.point: {force: [1, 0, 0]}}\n"
 RISER = "ends: {A: {point: knot}, B: {point: buoy}}"
-LIST = "a mapping with held, free, force, mass, weight, volume"
+LIST = "a mapping with held, free, body, at, force, mass, weight, volume"
 
 # name, what is replaced in GOOD, by what, expected after "FILE:"
 CHANGES = [
@@ -49,8 +49,8 @@ CHANGES = [
     ("a point that is a place", HELD, "  anchor: [0, 0, 0]\n", f"4:3: point 'anchor': found a list of 3, expected {LIST}"),
     ("a point that is a word", HELD, "  anchor: held\n", f"4:3: point 'anchor': found 'held', expected {LIST}"),
     ("a point that is nothing", HELD, "  anchor:\n", f"4:3: point 'anchor': found nothing, expected {LIST}"),
-    ("neither held nor free", HELD, "  anchor: {weight: 3}\n", "4:3: point 'anchor': nothing given, expected exactly one of 'held', 'free'"),
-    ("held and free", HELD, "  anchor: {held: [0, 0, 0], free: [0, 0, 0]}\n", "4:3: point 'anchor': too much given, expected exactly one of 'held', 'free'"),
+    ("neither held nor free", HELD, "  anchor: {weight: 3}\n", "4:3: point 'anchor': nothing given, expected exactly one of 'held', 'free', 'body'"),
+    ("held and free", HELD, "  anchor: {held: [0, 0, 0], free: [0, 0, 0]}\n", "4:3: point 'anchor': too much given, expected exactly one of 'held', 'free', 'body'"),
     ("an unknown key", HELD, "  anchor: {hold: [0, 0, 0]}\n", "4:12: point 'anchor': unknown key 'hold'; did you mean 'held'?"),
     ("an unknown key, nothing near", HELD, "  anchor: {position: [0, 0, 0]}\n", f"4:12: point 'anchor': unknown key 'position', expected {LIST}"),
     ("an earlier word", HELD, "  anchor: {fixed: [0, 0, 0]}\n", "4:12: point 'anchor': unknown key 'fixed'"),
@@ -91,7 +91,7 @@ CHANGES = [
     ("an unknown point in the history, nothing near", "knot.point:", "platform.point:", "20:18: 'platform.point': there is no such point under 'points'"),
     ("a line as a point", "knot.point:", "leg.point:", "20:18: 'leg.point': there is no such point"),
     ("a point as a line", "knot.point:", "knot.A:", "20:18: 'knot.A': there is no such line"),
-    ("a point alone", "knot.point:", "knot:", "20:18: entry: unknown key 'knot', expected a mapping with name, steps, gravity, LINE.END, OBSTACLE.turn, POINT.point"),
+    ("a point alone", "knot.point:", "knot:", "20:18: entry: unknown key 'knot', expected a mapping with name, steps, gravity, LINE.END, OBSTACLE.turn, POINT.point, BODY.body"),
     ("a point that turns", "knot.point: {force: [1, 0, 0]}", "knot.turn: 5", "20:18: 'knot.turn': there is no such obstacle"),
     ("a point twice in an entry", PULL, PULL.replace("}}", "}, knot.point: {force: [2, 0, 0]}}"), "20:50: key 'knot.point' is given twice, first in line 20: keep one"),
     ("a change of nothing", "{force: [1, 0, 0]}", "{}", "20:18: 'knot.point': nothing given, expected exactly one of 'position', 'move', 'force'"),

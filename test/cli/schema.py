@@ -22,7 +22,7 @@ import bad_laws  # noqa: E402
 # definitions that scenes share with laws
 OF_SETS = {"set", "contact"}
 EXAMPLES = ["bridle.yaml", "buoy.yaml", "chain-wire-chain.yaml", "souza-de-cursi-1990.yaml", "souza-de-cursi-1990-half-circle.yaml",
-            "souza-de-cursi-1990-circle.yaml", "oc3-hywind-line.yaml", "grooved-slope.yaml", "rough-end.yaml"]
+            "souza-de-cursi-1990-circle.yaml", "oc3-hywind.yaml", "oc3-hywind-line.yaml", "grooved-slope.yaml", "rough-end.yaml"]
 
 
 def output(*command):
@@ -56,7 +56,7 @@ def check_definitions(schema, documentation):
             assert re.search(f"`[^`]*\\b{key}\\b[^`]*`", documentation), f"docs/formats.md does not mention `{key}` of {name}"
         for pattern, row in mapping.get("patternProperties", {}).items():
             form = re.search(r"\((\w+)", pattern)
-            example = {"A": "cable.B", "turn": "drum.turn", "point": "knot.point"}[form[1]] if form else "cable"
+            example = {"A": "cable.B", "turn": "drum.turn", "point": "knot.point", "body": "spar.body"}[form[1]] if form else "cable"
             assert re.match(pattern, example) and not re.match(pattern, "9"), (name, pattern)
     return mappings
 
@@ -162,7 +162,7 @@ def main():
         documentation = f.read()
     schema = json.loads(output(capstan, "schema"))
     scenes = check_definitions(schema, documentation)
-    assert OF_SETS < set(scenes) and sum("patternProperties" in mapping for mapping in scenes.values()) == 5, scenes.keys()
+    assert OF_SETS < set(scenes) and sum("patternProperties" in mapping for mapping in scenes.values()) == 6, scenes.keys()
 
     folder = os.path.join(source, "examples")
     found = {os.path.basename(path) for path in glob.glob(os.path.join(folder, "*.yaml"))}

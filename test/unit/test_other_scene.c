@@ -71,6 +71,33 @@ static const char POINTS_SCENE[] =
     "  - {name: pull, steps: 2, knot.point: {force: [2, 0, 0]}}\n"
     "  - {anchor.point: {move: [1, 0, 0]}, ring.point: {position: [8, 5, 0]}}\n";
 
+/* Rigid bodies, and points on them. */
+#define SPAR                                                                                   \
+    "  spar: {free: [4, 0, -3], rotation: {roll_pitch_yaw: [1, 2, 3]}, fixed: [rz], mass: 30," \
+    " centre_of_gravity: [0, 0, -0.2], volume: 0.02, centre_of_buoyancy: [0, 0, 0.1],"         \
+    " hydrostatics: {x: 10, y: 11, z: 12, rx: 13, ry: 14, rz: 15},"                            \
+    " force: [1, 0, 0], moment: [0, 2, 0], arm: [0, 0, 0.5]}\n"
+#define BARGE \
+    "  barge: {held: [8, 4, 0], rotation: {quaternion: [2, 0, 0, 1]}, weight: 2, buoyancy: 1}\n"
+static const char BODIES_SCENE[] =
+    "capstan: 1\n"
+    "water_density: 900\n"
+    "bodies:\n" SPAR BARGE "points:\n"
+    "  eye: {body: spar, at: [0.1, 0, 0.3]}\n"
+    "  keel: {body: spar, at: [0, 0.1, -0.3]}\n"
+    "  bow: {body: barge}\n"
+    "lines:\n"
+    "  one: {length: 5.5, elements: 4, mass: 2, stiffness: 1000, start: static,"
+    " ends: {A: {held: [0, 0, 0]}, B: {point: eye}}}\n"
+    "  two: {length: 7, elements: 4, mass: 2, stiffness: 1000, start: static,"
+    " ends: {A: {point: eye}, B: {point: bow}}}\n"
+    "  far: {length: 9, elements: 4, mass: 2, stiffness: 1000, start: static,"
+    " ends: {A: {held: [4, 8, 0]}, B: {point: keel}}}\n"
+    "history:\n"
+    "  - {name: pull, steps: 2, spar.body: {force: [2, 0, 0], arm: [0, 0, 0.6], moment: [0, 0, 1]},"
+    " barge.body: {move: [0.1, 0, 0]}}\n"
+    "  - {barge.body: {position: [8, 5, 0], rotation: {quaternion: [1, 0, 0, 1]}}}\n";
+
 /* The key, what is written of it, and what else could be. */
 static const struct Change {
     const char *key, *from, *to;
@@ -173,12 +200,48 @@ static const struct Change POINT_CHANGE[] = {
     {"move", "move: [1, 0, 0]", "move: [1, 1, 0]"},
 };
 
+static const struct Change BODY_CHANGE[] = {
+    {"bodies", SPAR BARGE, BARGE SPAR},
+    {"held", "held: [8, 4, 0]", "held: [8, 4.5, 0]"},
+    {"free", "free: [4, 0, -3]", "free: [4, 0, -3.5]"},
+    {"rotation", "rotation: {roll_pitch_yaw: [1, 2, 3]}, ", ""},
+    {"roll_pitch_yaw", "roll_pitch_yaw: [1, 2, 3]", "roll_pitch_yaw: [1, 3, 2]"},
+    {"quaternion", "quaternion: [2, 0, 0, 1]", "quaternion: [2, 0, 0, -1]"},
+    {"fixed", "fixed: [rz]", "fixed: [rx]"},
+    {"mass", "mass: 30", "mass: 31"},
+    {"weight", "weight: 2,", "weight: 3,"},
+    {"centre_of_gravity", "centre_of_gravity: [0, 0, -0.2]", "centre_of_gravity: [0, 0, -0.3]"},
+    {"volume", "volume: 0.02", "volume: 0.03"},
+    {"buoyancy", "buoyancy: 1}", "buoyancy: 1.5}"},
+    {"centre_of_buoyancy", "centre_of_buoyancy: [0, 0, 0.1]", "centre_of_buoyancy: [0, 0, 0.2]"},
+    {"hydrostatics", "hydrostatics: {x: 10, y: 11, z: 12, rx: 13, ry: 14, rz: 15}, ", ""},
+    {"x", "x: 10,", "x: 20,"},
+    {"y", "y: 11,", "y: 20,"},
+    {"z", " z: 12,", " z: 20,"},
+    {"rx", "rx: 13,", "rx: 20,"},
+    {"ry", "ry: 14,", "ry: 20,"},
+    {"rz", "rz: 15", "rz: 20"},
+    {"force", "force: [1, 0, 0]", "force: [1, 0, 1]"},
+    {"moment", "moment: [0, 2, 0]", "moment: [0, 3, 0]"},
+    {"arm", "arm: [0, 0, 0.5]", "arm: [0, 0, 0.7]"},
+    {"body", "{body: spar, at: [0.1, 0, 0.3]}", "{body: barge, at: [0.1, 0, 0.3]}"},
+    {"at", "at: [0.1, 0, 0.3]", "at: [0.1, 0, 0.4]"},
+    {"BODY.body", "barge.body: {move: [0.1, 0, 0]}", "gravity: [0, 0, -9]"},
+    {"force", "force: [2, 0, 0]", "force: [2, 0, 1]"},
+    {"arm", "arm: [0, 0, 0.6]", "arm: [0, 0, 0.7]"},
+    {"moment", "moment: [0, 0, 1]", "moment: [0, 0, 2]"},
+    {"move", "move: [0.1, 0, 0]", "move: [0.2, 0, 0]"},
+    {"position", "position: [8, 5, 0]", "position: [8, 6, 0]"},
+    {"rotation", "rotation: {quaternion: [1, 0, 0, 1]}", "rotation: {quaternion: [1, 0, 0, 2]}"},
+};
+
 /* Keys that change no answer, and a file of places, which is a start as good as any. */
 static const char *const LEFT_OUT[] = {"capstan", "title", "nodes"};
 
 enum {
     CHANGES = sizeof CHANGE / sizeof *CHANGE,
     POINT_CHANGES = sizeof POINT_CHANGE / sizeof *POINT_CHANGE,
+    BODY_CHANGES = sizeof BODY_CHANGE / sizeof *BODY_CHANGE,
     LEFT = sizeof LEFT_OUT / sizeof *LEFT_OUT
 };
 
@@ -190,7 +253,8 @@ typedef struct Suite {
 } Suite;
 
 static const Suite ALL = {SCENE, CHANGE, CHANGES},
-                   POINTS = {POINTS_SCENE, POINT_CHANGE, POINT_CHANGES};
+                   POINTS = {POINTS_SCENE, POINT_CHANGE, POINT_CHANGES},
+                   BODIES = {BODIES_SCENE, BODY_CHANGE, BODY_CHANGES};
 
 static CpsEvolution *evolution_of(const char *text) {
     char path[] = "other_scene_test_XXXXXX";
@@ -274,12 +338,20 @@ static void every_change_of_points_makes_another_scene(void **state) {
     expect_refused(&POINTS, 4, sizeof POINTS_SCENE);
 }
 
+static void every_change_of_bodies_makes_another_scene(void **state) {
+    (void)state;
+    expect_refused(&BODIES, 0, place_of(BODIES_SCENE, "{name: pull"));
+    expect_refused(&BODIES, 2, place_of(BODIES_SCENE, "  - {barge.body"));
+    expect_refused(&BODIES, 4, sizeof BODIES_SCENE);
+}
+
 /* Whether a key is changed above or left out; found: the changes of keys that there are. */
 static bool is_tried(const char *key, bool found[CHANGES]) {
     bool tried = false;
     for (int i = 0; i < CHANGES; i++)
         if (strcmp(CHANGE[i].key, key) == 0) tried = found[i] = true;
     for (int i = 0; i < POINT_CHANGES; i++) tried = tried || strcmp(POINT_CHANGE[i].key, key) == 0;
+    for (int i = 0; i < BODY_CHANGES; i++) tried = tried || strcmp(BODY_CHANGE[i].key, key) == 0;
     for (int i = 0; i < LEFT; i++) tried = tried || strcmp(LEFT_OUT[i], key) == 0;
     return tried;
 }
@@ -345,6 +417,7 @@ static void flags_of_a_changed_state_are_flags(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_change_makes_another_scene),
                                        cmocka_unit_test(every_change_of_points_makes_another_scene),
+                                       cmocka_unit_test(every_change_of_bodies_makes_another_scene),
                                        cmocka_unit_test(flags_of_a_changed_state_are_flags),
                                        cmocka_unit_test(every_key_is_changed)};
     return cmocka_run_group_tests(tests, NULL, NULL);

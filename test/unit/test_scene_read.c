@@ -229,6 +229,85 @@ static void reads_points(void **state) {
     cps_scene_file_destroy(file);
 }
 
+/* bodies, points on them and their changes */
+static void reads_bodies(void **state) {
+    (void)state;
+    CpsSceneFile *file = read_good(
+        "capstan: 1\nwater_density: 1000\ngravity: [0, 0, -10]\nbodies:\n"
+        "  zulu: {held: [1, 2, 3], fixed: [y, rz]}\n"
+        "  spar: {free: [4, 5, 6], rotation: {quaternion: [1, 2, 3, 4]}, mass: 5, volume: 0.02,"
+        " centre_of_gravity: [1, 0, 2], centre_of_buoyancy: [0, 3, 4], force: [7, 8, 9],"
+        " moment: [1, 1, 1], arm: [2, 0, -1], hydrostatics: {z: 3, ry: -5}}\n"
+        "points:\n  a: {held: [0, 0, 0]}\n  b: {body: spar, at: [0.1, 0.2, 0.3]}\n"
+        "  c: {body: zulu}\n"
+        "lines:\n"
+        "  k: {length: 9, mass: 1, stiffness: 1e6, start: static, ends: {A: {point: a}, B: {point: "
+        "b}}}\n"
+        "  l: {length: 9, mass: 1, stiffness: 1e6, start: static, ends: {A: {point: b}, B: {point: "
+        "c}}}\n"
+        "history:\n"
+        "- {zulu.body: {move: [1, 0, 0]}, spar.body: {force: [0, 0, 2], arm: [3, 0, 0]}}\n"
+        "- {zulu.body: {rotation: {roll_pitch_yaw: [0, 0, 90]}, move: [1, 0, 1]}}\n"
+        "- {zulu.body: {moment: [0, 4, 0]}, spar.body: {position: [1, 1, 1], rotation: "
+        "{quaternion: "
+        "[0, 1, 0, 0]}}}\n"
+        "- {spar.body: {move: [0, 1, 0]}}\n");
+    const CpsScene *scene = cps_scene_file_scene(file);
+    const CpsBody *body = scene->body;
+    assert_int_equal(scene->body_count, 2);
+    assert_string_equal(body[0].name, "zulu");
+    assert_string_equal(body[1].name, "spar");
+    assert_int_equal(body[0].kind, CPS_BODY_KIND_HELD);
+    assert_int_equal(body[1].kind, CPS_BODY_KIND_FREE);
+    for (int i = 0; i < 6; i++) {
+        assert_true(body[0].fixed[i] == (i == 1 || i == 5));
+        assert_false(body[1].fixed[i]);
+    }
+    CHECK_VECTOR(body[0].position, ((double[]){1, 2, 3}), 0);
+    CHECK_VECTOR(body[1].position, ((double[]){4, 5, 6}), 0);
+    assert_true(body[0].rotation[0] == 1 && body[0].weight == 0 && body[0].buoyancy == 0);
+    CHECK_VECTOR(&body[1].rotation[1], ((double[]){2, 3, 4}), 0);
+    assert_true(body[1].weight == 50 && body[1].buoyancy == 200);
+    CHECK_VECTOR(body[1].centre_of_gravity, ((double[]){1, 0, 2}), 0);
+    CHECK_VECTOR(body[1].centre_of_buoyancy, ((double[]){0, 3, 4}), 0);
+    CHECK_VECTOR(body[1].force, ((double[]){7, 8, 9}), 0);
+    /* (2, 0, -1) x (7, 8, 9) = (8, -25, 16) */
+    CHECK_VECTOR(body[1].moment, ((double[]){9, -24, 17}), 0);
+    for (int i = 0; i < 36; i++)
+        assert_true(body[1].hydrostatics[i] == (i == 14 ? 3 : i == 28 ? -5 : 0));
+    const CpsPoint *point = scene->point;
+    assert_int_equal(point[1].kind, CPS_POINT_KIND_ON_BODY);
+    assert_int_equal(point[1].body, 1);
+    assert_int_equal(point[2].body, 0);
+    CHECK_VECTOR(point[1].position, ((double[]){0.1, 0.2, 0.3}), 0);
+    CHECK_VECTOR(point[2].position, ((double[]){0, 0, 0}), 0);
+
+    const CpsStage *stage = scene->stage;
+    static const int COUNT[] = {2, 1, 2, 1};
+    for (int i = 0; i < 4; i++) assert_int_equal(stage[i].body_change_count, COUNT[i]);
+    const CpsBodyChange *change = stage[0].body_change;
+    assert_int_equal(change[0].body, 0);
+    assert_int_equal(change[0].kind, CPS_BODY_KIND_HELD);
+    CHECK_VECTOR(change[0].position, ((double[]){2, 2, 3}), 0);
+    assert_true(change[0].rotation[0] == 1);
+    assert_int_equal(change[1].body, 1);
+    assert_int_equal(change[1].kind, CPS_BODY_KIND_FREE);
+    CHECK_VECTOR(change[1].force, ((double[]){0, 0, 2}), 0);
+    CHECK_VECTOR(change[1].moment, ((double[]){0, -6, 0}), 0); /* and no more of the first one */
+    change = stage[1].body_change;
+    CHECK_VECTOR(change[0].position, ((double[]){3, 2, 4}), 0);
+    CHECK_NEAR(change[0].rotation[3], sqrt(0.5), 1e-15);
+    change = stage[2].body_change;
+    assert_int_equal(change[0].kind, CPS_BODY_KIND_FREE);
+    CHECK_VECTOR(change[0].force, ((double[]){0, 0, 0}), 0);
+    CHECK_VECTOR(change[0].moment, ((double[]){0, 4, 0}), 0);
+    assert_int_equal(change[1].kind, CPS_BODY_KIND_HELD);
+    change = stage[3].body_change;
+    CHECK_VECTOR(change[0].position, ((double[]){1, 2, 1}), 0);
+    assert_true(change[0].rotation[1] == 1);
+    cps_scene_file_destroy(file);
+}
+
 /* sets in the words of law files, the scene file holds them; stretches of a line */
 static void reads_friction_sets_and_zones(void **state) {
     (void)state;
@@ -430,15 +509,11 @@ static void ignores_the_locale(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_defaults),
-        cmocka_unit_test(reads_every_key),
-        cmocka_unit_test(reads_obstacles),
-        cmocka_unit_test(reads_points),
-        cmocka_unit_test(reads_friction_sets_and_zones),
-        cmocka_unit_test(reads_graded_elements),
-        cmocka_unit_test(adds_moves),
-        cmocka_unit_test(knows_numbers),
-        cmocka_unit_test(keeps_limits),
+        cmocka_unit_test(reads_defaults),        cmocka_unit_test(reads_every_key),
+        cmocka_unit_test(reads_obstacles),       cmocka_unit_test(reads_points),
+        cmocka_unit_test(reads_bodies),          cmocka_unit_test(reads_friction_sets_and_zones),
+        cmocka_unit_test(reads_graded_elements), cmocka_unit_test(adds_moves),
+        cmocka_unit_test(knows_numbers),         cmocka_unit_test(keeps_limits),
         cmocka_unit_test(ignores_the_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

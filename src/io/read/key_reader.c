@@ -234,6 +234,19 @@ static CpsStatus read_word(const Value *v, const CpsiYaml *node, const char *wor
     return CPS_OK;
 }
 
+/* [word, ..] */
+static CpsStatus read_words(const Value *v, const CpsiYaml *node, const CpsiKey *form, bool *out) {
+    if (node->kind != CPSI_YAML_SEQUENCE) return wrong(v, node, "");
+    memset(out, 0, (size_t)form->most * sizeof *out);
+    for (const CpsiYaml *item = node->child; item; item = item->next) {
+        const int which =
+            item->kind == CPSI_YAML_SCALAR ? cpsi_key_word(form->words, item->text) : -1;
+        if (which < 0 || out[which]) return wrong(v, item, "");
+        out[which] = true;
+    }
+    return CPS_OK;
+}
+
 static CpsStatus read_flag(const Value *v, const CpsiYaml *node, bool *out) {
     const int which = node->kind == CPSI_YAML_SCALAR && node->plain
                           ? cpsi_key_word("false true", node->text)
@@ -304,6 +317,7 @@ static CpsStatus read_form(const Value *v, const CpsiYaml *node, const CpsiKey *
     case CPSI_FLAG: return read_flag(v, node, to);
     case CPSI_WORD: return read_word(v, node, form->words, to);
     case CPSI_POINT: return read_point(v, node, form, to);
+    case CPSI_WORDS: return read_words(v, node, form, to);
     case CPSI_VECTOR: return read_vector(v, node, form, to);
     case CPSI_ROWS:
     case CPSI_SQUARE: return read_rows(v, node, form, to);
@@ -364,13 +378,16 @@ static CpsStatus check_owner(const CpsiDocument *d, const CpsiYaml *node, const 
     CpsSuggestion suggestion = {.word = wanted};
     for (const CpsiYaml *one = all ? all->child : NULL; one; one = one->next)
         cps_suggest(&suggestion, one->key);
-    const int letters = (int)strlen(owner) - 1; /* "line" of "lines" */
+    const int all_letters = (int)strlen(owner);
+    const bool ies = all_letters > 3 && strcmp(owner + all_letters - 3, "ies") == 0;
+    const int letters = all_letters - (ies ? 3 : 1); /* "line" of "lines", "bod" of "bodies" */
+    const char *singular = ies ? "y" : "";
     if (suggestion.best)
         return cpsi_document_fail(d, CPS_ERR_INPUT, node,
-                                  "'%.80s': there is no such %.*s; did you mean '%.64s%s'?",
-                                  node->key, letters, owner, suggestion.best, dot);
-    return cpsi_document_fail(d, CPS_ERR_INPUT, node, "'%.80s': there is no such %.*s under '%s'",
-                              node->key, letters, owner, owner);
+                                  "'%.80s': there is no such %.*s%s; did you mean '%.64s%s'?",
+                                  node->key, letters, owner, singular, suggestion.best, dot);
+    return cpsi_document_fail(d, CPS_ERR_INPUT, node, "'%.80s': there is no such %.*s%s under '%s'",
+                              node->key, letters, owner, singular, owner);
 }
 
 /* Memory in the lists of keys with an owner for as many as are given. */

@@ -14,9 +14,11 @@ void cpsi_summary_write(const CpsResults *results, double wall, FILE *out);
 /* The same with the list of the run's files. */
 CpsStatus cpsi_summary_file(const CpsResults *results, double wall, FILE *out, CpsError *err);
 void cpsi_history_write(const CpsResults *results, FILE *out);
-/* stiffness_csv.c, points_csv.c */
+/* stiffness_csv.c, points_csv.c: of lines and of bodies, of points and of bodies */
 void cpsi_stiffness_write(const CpsResults *results, FILE *out);
+void cpsi_body_stiffness_write(const CpsResults *results, FILE *out);
 void cpsi_points_write(const CpsResults *results, FILE *out);
+void cpsi_bodies_write(const CpsResults *results, FILE *out);
 
 /* run_names.c: whether the run, which is a CpsResults, writes a file of this name if it takes all
  * its steps. Pictures of loops are not among them: what they are called is known at the end. */
@@ -42,6 +44,8 @@ CpsStatus cpsi_netcdf_close(CpsiNetcdf *netcdf, CpsError *err);
 /* paraview.c: one step as .vtp, the list of steps as .pvd. */
 CpsStatus cpsi_paraview_step(CpsResults *results, const CpsEvolution *evolution, CpsError *err);
 CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err);
+/* paraview_points.c: the points and bodies after the last step, if there are any. */
+CpsStatus cpsi_paraview_points(CpsResults *results, CpsError *err);
 /* paraview_obstacles.c: the surfaces of the obstacles, if there are any: obstacles.vtp, and one
  * more file for each step in which an obstacle turns. */
 CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err);

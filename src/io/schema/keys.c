@@ -121,8 +121,9 @@ static const char *const ALWAYS[] = {
 };
 
 static void write_form(Text *out, const CpsiKey *key, const char *unit) {
-    static const char *const COORDINATES[] = {"", "[x]", "[x, y]", "[x, y, z]"};
-    static const char *const NUMBER[] = {"", "one number", "two numbers", "three numbers"};
+    static const char *const COORDINATES[] = {"", "[x]", "[x, y]", "[x, y, z]", "[w, x, y, z]"};
+    static const char *const NUMBER[] = {"", "one number", "two numbers", "three numbers",
+                                         "four numbers"};
     switch (key->type) {
     case CPSI_TEXT:
         put(out, "a text");
@@ -146,6 +147,7 @@ static void write_form(Text *out, const CpsiKey *key, const char *unit) {
         put(out, ", as in %s", COORDINATES[key->most]);
         break;
     case CPSI_ROWS: write_rows(out, key, unit); break;
+    case CPSI_WORDS: put(out, "a list of some of: %s, each once", key->words); break;
     case CPSI_WORD: put(out, strchr(key->words, ' ') ? "one of: %s" : "'%s'", key->words); break;
     case CPSI_EXPRESSION:
         put(out, "one %s with its value, as in %s", key->inside->word, key->inside->example);

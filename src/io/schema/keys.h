@@ -20,6 +20,7 @@ typedef enum CpsiValue {
     CPSI_FLAG,    /* bool: true, false */
     CPSI_WORD,    /* int: index of one of `words`, from 0 */
     CPSI_POINT,   /* double[most]: exactly this many numbers within the range */
+    CPSI_WORDS,   /* bool[most]: which of `most` `words` are listed, each at most once */
 
     /* CpsiNumberRows */
     CPSI_VECTOR, /* [x, ..]: one row of at most `most` numbers within the range */

@@ -26,6 +26,7 @@
 #define NUMBER(kind, field)        CPSI_NUMBER, 0, TYPED(double *, kind, field)
 #define FLAG(kind, field)          CPSI_FLAG, 0, TYPED(bool *, kind, field)
 #define POINT(kind, field, n)      CPSI_POINT, n, TYPED(double(*)[n], kind, field)
+#define WORDS(kind, field, n)      CPSI_WORDS, n, TYPED(bool(*)[n], kind, field)
 #define VECTOR(kind, field, most)  CPSI_VECTOR, most, TYPED(CpsiNumberRows *, kind, field)
 #define ROWS(kind, field, columns) CPSI_ROWS, columns, TYPED(CpsiNumberRows *, kind, field)
 #define SQUARE(kind, field)        CPSI_SQUARE, 0, TYPED(CpsiNumberRows *, kind, field)

@@ -31,6 +31,29 @@ void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, con
 /* Whether the silhouette is a circle: that of a ball, or of a cylinder seen from its end. */
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);
 
+/* Corners of a body in a pose, relative to the origin of the views: the points on it, its reference
+ * point and its centres. */
+int cpsi_body_corner_count(const CpsResults *results, int body);
+Vec3 cpsi_body_corner(const CpsResults *results, const CpsBodyReport *report, int body, int corner);
+
+/* A body in a pose: the polygon around its corners, with the attributes `style`; and its own axes
+ * at its reference point, of a fixed length on paper. */
+void cpsi_picture_outline(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
+                          const CpsBodyReport *report, int body, const char *style, FILE *out);
+void cpsi_picture_axes(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
+                       const CpsBodyReport *report, FILE *out);
+
+/* Names so far, as boxes on paper: left, top, right, bottom. */
+enum { CPSI_LABELS = 32 };
+typedef struct CpsiLabels {
+    int count;
+    double box[CPSI_LABELS][4];
+} CpsiLabels;
+
+/* Write a name beside a place on paper, clear of the names so far where that is possible. */
+void cpsi_label_put(CpsiLabels *labels, const CpsiFrame *frame, double x, double y,
+                    const char *name, FILE *out);
+
 /* One step: lines coloured by tension, with sticking and slipping parts. All steps: curves coloured
  * by step. */
 void cpsi_picture_step(const CpsResults *results, const CpsiView *view,

@@ -33,6 +33,7 @@ typedef struct Build {
     double (*held)[2][3];
     double (*held_point)[3]; /* (points) [m] likewise */
     NamedPoint *by_name;     /* (points) by name */
+    CpsiHeldPose *held_body; /* (bodies) likewise */
 } Build;
 
 static const char *copy_text(const Build *b, const char *text) {
@@ -180,6 +181,13 @@ static CpsStatus build_points(Build *b, const CpsiList *points) {
         if (!point[k].name) return cpsi_document_no_memory(b->d);
         copy_vector(b->held_point[k], point[k].position);
         if (point[k].kind == CPS_POINT_KIND_FREE) b->held_point[k][0] = NAN;
+        if (values[k].body) {
+            const CpsiYaml *name = cpsi_yaml_child(values[k].node, "body");
+            const CpsStatus status = cpsi_body_find(b->d, b->scene, name, &point[k].body);
+            if (status != CPS_OK) return status;
+            copy_vector(point[k].position, values[k].at);
+            b->held_point[k][0] = NAN;
+        }
         b->by_name[k] = (NamedPoint){point[k].name, k};
     }
     qsort(b->by_name, (size_t)points->count, sizeof *b->by_name, by_name);
@@ -415,6 +423,13 @@ static CpsStatus build_point_change(const Build *b, const CpsiChangeValues *valu
                                     CpsPointChange *change) {
     const char *key = values->node->key;
     change->point = find_owner_point(b, key);
+    const CpsPoint *point = &b->scene->point[change->point];
+    if (point->kind == CPS_POINT_KIND_ON_BODY)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': this point is on the body '%s', expected a change of the "
+                                  "body: write '%s.body'",
+                                  key, b->scene->body[point->body].name,
+                                  b->scene->body[point->body].name);
     change->kind = values->kind == CPSI_CHANGE_FORCE ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_HELD;
     double *held = b->held_point[change->point];
     if (values->kind == CPSI_CHANGE_MOVE && isnan(held[0]))
@@ -424,6 +439,28 @@ static CpsStatus build_point_change(const Build *b, const CpsiChangeValues *valu
                                   key);
     build_value(values, held, change->value);
     return CPS_OK;
+}
+
+/* The index of the body of BODY.body, likewise. */
+static int find_owner_body(const Build *b, const char *key) {
+    int i = 0;
+    while (i + 1 < b->scene->body_count && !is_owner(b->scene->body[i].name, key)) i++;
+    return i;
+}
+
+static CpsStatus build_body_changes(const Build *b, const CpsiList *changes, CpsStage *stage) {
+    const CpsiBodyChangeValues *values = changes->item;
+    CpsBodyChange *change = CPSI_POOL_TAKE(b->pool, changes->count, CpsBodyChange);
+    if (!change) return cpsi_document_no_memory(b->d);
+    stage->body_change = change;
+    stage->body_change_count = changes->count;
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < changes->count && status == CPS_OK; k++) {
+        change[k].body = find_owner_body(b, values[k].node->key);
+        status =
+            cpsi_body_change_build(b->d, &values[k], &b->held_body[change[k].body], &change[k]);
+    }
+    return status;
 }
 
 static CpsStatus build_changes(const Build *b, const CpsiStageValues *values, CpsStage *stage) {
@@ -441,7 +478,7 @@ static CpsStatus build_changes(const Build *b, const CpsiStageValues *values, Cp
         status = build_change(b, &from[k], &change[k]);
     for (int k = 0; k < point_count && status == CPS_OK; k++)
         status = build_point_change(b, &point_from[k], &point_change[k]);
-    return status;
+    return status ? status : build_body_changes(b, &values->body_changes, stage);
 }
 
 static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int index,
@@ -497,6 +534,8 @@ CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values,
     if (values->scene.title && !scene->title) return cpsi_document_no_memory(d);
     CpsStatus status = cpsi_materials_sort(&b.materials, &values->types);
     if (status == CPS_OK) status = build_obstacles(&b, &values->obstacles);
+    if (status == CPS_OK)
+        status = cpsi_bodies_build(&b.materials, &values->bodies, scene, &b.held_body);
     if (status == CPS_OK) status = build_points(&b, &values->points);
     if (status == CPS_OK) status = build_lines(&b, &values->lines);
     return status ? status : build_history(&b, &values->history);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The obstacles of a scene in result.nc: their numbers, friction sets and turns; and its points
- * (netcdf_points.c). */
+/* The obstacles of a scene in result.nc: their numbers, friction sets and turns; and its points and
+ * bodies (netcdf_points.c). */
 #ifndef CAPSTAN_SRC_IO_RESULTS_NETCDF_NETCDF_OBSTACLES_H
 #define CAPSTAN_SRC_IO_RESULTS_NETCDF_NETCDF_OBSTACLES_H
 
@@ -43,6 +43,24 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *out, cons
 void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points,
                               const CpsScene *scene);
 void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
+                               const CpsEvolution *evolution, const double origin[3]);
+
+enum { CPSI_BODY_CONSTANTS = 7, CPSI_BODY_FIELDS = 7, CPSI_BODY_INTS = 4 };
+
+typedef struct CpsiNetcdfBodies {
+    int count;
+    /* these and the next ones are unused without bodies */
+    int kind, fixed, of_point, place_of_point;
+    int constant[CPSI_BODY_CONSTANTS], field[CPSI_BODY_FIELDS], whole[CPSI_BODY_INTS];
+} CpsiNetcdfBodies;
+
+/* The same of the bodies, and of which points are on them. */
+void cpsi_netcdf_define_bodies(CpsiNetcdfFile *file, CpsiNetcdfBodies *out,
+                               const CpsiNetcdfPoints *points, const CpsScene *scene, int step,
+                               int xyz);
+void cpsi_netcdf_write_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies,
+                              const CpsScene *scene, const double origin[3]);
+void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies, size_t step,
                                const CpsEvolution *evolution, const double origin[3]);
 
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The points of a scene in result.nc (see netcdf_obstacles.h): two tables, of the numbers and of
- * the vectors of their reports. No name of a line's field ends in "of_point", so that none of these
- * names is taken, whatever a line is called. */
+/* The points and bodies of a scene in result.nc (see netcdf_obstacles.h): tables of the numbers and
+ * of the vectors of their reports. No name of a line's field ends in "of_point" or "of_body", so
+ * that none of these names is taken, whatever a line is called. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,16 +50,21 @@ static const struct {
     [POINT_HAS_PLACE] = {"has_place_of_point", "was a place found where the forces balance"},
 };
 
-static void define_names(CpsiNetcdfFile *file, const CpsScene *scene) {
+static const char *point_name(const CpsScene *scene, int k) { return scene->point[k].name; }
+static const char *body_name(const CpsScene *scene, int k) { return scene->body[k].name; }
+
+/* All names, separated by blanks. */
+static void define_names(CpsiNetcdfFile *file, const CpsScene *scene, const char *attribute,
+                         int count, const char *(*name)(const CpsScene *scene, int k)) {
     size_t size = 1;
-    for (int k = 0; k < scene->point_count; ++k) size += strlen(scene->point[k].name) + 1;
+    for (int k = 0; k < count; ++k) size += strlen(name(scene, k)) + 1;
     char *names = calloc(size, 1), *next = names;
     if (!names) cpsi_netcdf_keep(file, NC_ENOMEM);
     if (names)
-        for (int k = 0; k < scene->point_count; ++k)
-            next += snprintf(next, size - (size_t)(next - names), "%s%s", k ? " " : "",
-                             scene->point[k].name);
-    cpsi_netcdf_text(file, NC_GLOBAL, "points", names ? names : "");
+        for (int k = 0; k < count; ++k)
+            next +=
+                snprintf(next, size - (size_t)(next - names), "%s%s", k ? " " : "", name(scene, k));
+    cpsi_netcdf_text(file, NC_GLOBAL, attribute, names ? names : "");
     free(names);
 }
 
@@ -66,13 +72,15 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
                                const CpsScene *scene, int step, int xyz) {
     points->count = scene->point_count;
     if (scene->point_count == 0) return; /* a dimension of no length would be an unlimited one */
-    define_names(file, scene);
+    define_names(file, scene, "points", scene->point_count, point_name);
     points->dimension = cpsi_netcdf_dimension(file, "point", (size_t)scene->point_count);
     const int shape[] = {step, points->dimension, xyz};
     points->kind =
         cpsi_netcdf_variable(file, "", "kind_of_point", NC_INT, 1, &points->dimension,
                              "how the point begins; state_of_point says how it goes on", "1");
-    cpsi_netcdf_flags(file, points->kind, NC_INT, 2, NULL, "held free");
+    const int kinds = scene->body_count > 0 ? 3 : 2; /* on a body only where there are any */
+    cpsi_netcdf_flags(file, points->kind, NC_INT, (size_t)kinds, NULL,
+                      kinds == 3 ? "held free on_body" : "held free");
     points->weight =
         cpsi_netcdf_variable(file, "", "weight_of_point", NC_DOUBLE, 1, &points->dimension,
                              "weight under the gravity of the scene, negative: it is lifted", "N");
@@ -85,7 +93,8 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
     for (int i = 0; i < CPSI_POINT_INTS; ++i)
         points->whole[i] = cpsi_netcdf_variable(file, "", WHOLE[i].name, NC_INT, 2, shape,
                                                 WHOLE[i].long_name, "1");
-    cpsi_netcdf_flags(file, points->whole[POINT_STATE], NC_INT, 4, NULL, "held free stick slip");
+    cpsi_netcdf_flags(file, points->whole[POINT_STATE], NC_INT, (size_t)kinds + 2, NULL,
+                      kinds == 3 ? "held free stick slip on_body" : "held free stick slip");
     cpsi_netcdf_flags(file, points->whole[POINT_HAS_PLACE], NC_INT, 2, NULL, "no yes");
 }
 
@@ -125,5 +134,180 @@ void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poi
     for (int k = 0; k < points->count && file->status == NC_NOERR; ++k) {
         const CpsPointReport report = cps_evolution_point_report(evolution, k);
         append_point(file, points, step, (size_t)k, &report, origin);
+    }
+}
+
+/* ---- bodies ---- */
+
+enum { DIRECTIONS = CPS_BODY_DIRECTIONS, QUATERNION = 4 };
+
+/* The shape of a quantity of a body. */
+typedef enum Shape { NUMBER_OF, VECTOR_OF, ROTATION_OF, WRENCH_OF, MATRIX_OF } Shape;
+
+typedef struct BodyField {
+    const char *name, *long_name, *units;
+    size_t offset;
+    Shape shape;
+} BodyField;
+
+static const BodyField CONSTANT[CPSI_BODY_CONSTANTS] = {
+    {"weight_of_body", "weight under the gravity of the scene", "N", offsetof(CpsBody, weight),
+     NUMBER_OF},
+    {"buoyancy_of_body", "buoyancy under the gravity of the scene", "N",
+     offsetof(CpsBody, buoyancy), NUMBER_OF},
+    {"centre_of_gravity_of_body", "centre of gravity in the axes of the body", "m",
+     offsetof(CpsBody, centre_of_gravity), VECTOR_OF},
+    {"centre_of_buoyancy_of_body", "centre of buoyancy in the axes of the body", "m",
+     offsetof(CpsBody, centre_of_buoyancy), VECTOR_OF},
+    {"start_position_of_body", "where the reference point begins", "m", offsetof(CpsBody, position),
+     VECTOR_OF},
+    {"start_rotation_of_body", "rotation in which it begins, quaternion w x y z", "1",
+     offsetof(CpsBody, rotation), ROTATION_OF},
+    /* of three units */
+    {"hydrostatics_of_body",
+     "stiffness of the water from the pose in which it begins [N/m, N, N m]", NULL,
+     offsetof(CpsBody, hydrostatics), MATRIX_OF},
+};
+
+/* A force, then a moment: of two units. */
+#define WRENCH(name, what, member) \
+    { name, what " [N], then moment [N m]", NULL, offsetof(CpsBodyReport, member), WRENCH_OF }
+
+static const BodyField FIELD[CPSI_BODY_FIELDS] = {
+    {"position_of_body", "where the reference point is", "m", offsetof(CpsBodyReport, position),
+     VECTOR_OF},
+    {"rotation_of_body", "rotation, quaternion w x y z", "1", offsetof(CpsBodyReport, rotation),
+     ROTATION_OF},
+    WRENCH("lines_of_body", "force of all lines", lines),
+    WRENCH("load_of_body", "force of weight, water and given load", load),
+    WRENCH("support_of_body", "force of what holds it", support),
+    WRENCH("residual_of_body", "sum of all forces", residual),
+    {"stiffness_of_body", "stiffness in the pose [N/m, N, N m], 0 of a held body", NULL,
+     offsetof(CpsBodyReport, stiffness), MATRIX_OF},
+};
+
+typedef enum BodyInt { BODY_STATE, BODY_TRIALS, BODY_STABLE, BODY_HAS_PLACE } BodyInt;
+
+static const struct {
+    const char *name, *long_name;
+} BODY_WHOLE[CPSI_BODY_INTS] = {
+    [BODY_STATE] = {"state_of_body", "what holds the body"},
+    [BODY_TRIALS] = {"trials_of_body", "poses tried in the step"},
+    [BODY_STABLE] = {"stable_of_body", "is the stiffness positive definite where it may move?"},
+    [BODY_HAS_PLACE] = {"has_place_of_body", "was a pose found where the forces balance?"},
+};
+
+/* The dimensions of a quantity behind `first` ones, and their sizes. */
+typedef struct Extent {
+    int rank, dimension[4];
+} Extent;
+
+static int define_field(CpsiNetcdfFile *file, const BodyField *field, Extent extent, int xyz,
+                        int direction, int quaternion) {
+    const int each[] = {[NUMBER_OF] = -1,
+                        [VECTOR_OF] = xyz,
+                        [ROTATION_OF] = quaternion,
+                        [WRENCH_OF] = direction,
+                        [MATRIX_OF] = direction};
+    if (field->shape != NUMBER_OF) extent.dimension[extent.rank++] = each[field->shape];
+    if (field->shape == MATRIX_OF) extent.dimension[extent.rank++] = direction;
+    return cpsi_netcdf_variable(file, "", field->name, NC_DOUBLE, extent.rank, extent.dimension,
+                                field->long_name, field->units);
+}
+
+void cpsi_netcdf_define_bodies(CpsiNetcdfFile *file, CpsiNetcdfBodies *out,
+                               const CpsiNetcdfPoints *points, const CpsScene *scene, int step,
+                               int xyz) {
+    out->count = scene->body_count;
+    if (out->count == 0) return;
+    define_names(file, scene, "bodies", scene->body_count, body_name);
+    const int body = cpsi_netcdf_dimension(file, "body", (size_t)scene->body_count),
+              direction = cpsi_netcdf_dimension(file, "direction", DIRECTIONS),
+              quaternion = cpsi_netcdf_dimension(file, "quaternion", QUATERNION);
+    const Extent constant = {1, {body}}, field = {2, {step, body}};
+    out->kind = cpsi_netcdf_variable(file, "", "kind_of_body", NC_INT, 1, &body,
+                                     "how the body begins; state_of_body says how it goes on", "1");
+    cpsi_netcdf_flags(file, out->kind, NC_INT, 2, NULL, "held free");
+    out->fixed = cpsi_netcdf_variable(
+        file, "", "fixed_of_body", NC_INT, 2, (const int[]){body, direction},
+        "does it not move in this direction while it is free? x, y, z, and about them", "1");
+    cpsi_netcdf_flags(file, out->fixed, NC_INT, 2, NULL, "no yes");
+    out->of_point = cpsi_netcdf_variable(file, "", "body_of_point", NC_INT, 1, &points->dimension,
+                                         "place of its body in the scene, -1: on none", "1");
+    out->place_of_point =
+        cpsi_netcdf_variable(file, "", "place_on_body_of_point", NC_DOUBLE, 2,
+                             (const int[]){points->dimension, xyz},
+                             "where on its body it is, in the axes of the body", "m");
+    cpsi_netcdf_may_miss(file, out->place_of_point);
+    for (int i = 0; i < CPSI_BODY_CONSTANTS; ++i)
+        out->constant[i] = define_field(file, &CONSTANT[i], constant, xyz, direction, quaternion);
+    for (int i = 0; i < CPSI_BODY_FIELDS; ++i)
+        out->field[i] = define_field(file, &FIELD[i], field, xyz, direction, quaternion);
+    for (int i = 0; i < CPSI_BODY_INTS; ++i) {
+        out->whole[i] = cpsi_netcdf_variable(file, "", BODY_WHOLE[i].name, NC_INT, 2,
+                                             field.dimension, BODY_WHOLE[i].long_name, "1");
+        if (i != BODY_TRIALS)
+            cpsi_netcdf_flags(file, out->whole[i], NC_INT, 2, NULL,
+                              i == BODY_STATE ? "held free" : "no yes");
+    }
+}
+
+/* A quantity of `of` at an index; `from` is subtracted from a place, NULL: nothing is. */
+static void write_field(CpsiNetcdfFile *file, int variable, const BodyField *field,
+                        const size_t index[2], int rank, const void *of, const double *from) {
+    static const size_t EACH[] = {[NUMBER_OF] = 1,
+                                  [VECTOR_OF] = XYZ,
+                                  [ROTATION_OF] = QUATERNION,
+                                  [WRENCH_OF] = DIRECTIONS,
+                                  [MATRIX_OF] = DIRECTIONS};
+    double value[DIRECTIONS * DIRECTIONS];
+    size_t start[4] = {0}, count[4] = {1, 1, 1, 1};
+    for (int i = 0; i < rank; ++i) start[i] = index[i];
+    count[rank] = EACH[field->shape];
+    if (field->shape == MATRIX_OF) count[rank + 1] = DIRECTIONS;
+    const size_t size = EACH[field->shape] * (field->shape == MATRIX_OF ? DIRECTIONS : 1);
+    memcpy(value, (const char *)of + field->offset, size * sizeof *value);
+    if (from)
+        for (int a = 0; a < XYZ; ++a) value[a] -= from[a];
+    cpsi_netcdf_doubles(file, variable, start, count, value);
+}
+
+void cpsi_netcdf_write_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies,
+                              const CpsScene *scene, const double origin[XYZ]) {
+    if (bodies->count == 0) return;
+    for (size_t k = 0; k < (size_t)scene->point_count; ++k) {
+        const CpsPoint *point = &scene->point[k];
+        const bool is_on = point->kind == CPS_POINT_KIND_ON_BODY;
+        const double nowhere[XYZ] = {NAN, NAN, NAN};
+        cpsi_netcdf_int(file, bodies->of_point, &k, is_on ? point->body : -1);
+        cpsi_netcdf_doubles(file, bodies->place_of_point, (const size_t[]){k, 0},
+                            (const size_t[]){1, XYZ}, is_on ? point->position : nowhere);
+    }
+    for (size_t k = 0; k < (size_t)bodies->count; ++k) {
+        const CpsBody *body = &scene->body[k];
+        const size_t at[2] = {k};
+        cpsi_netcdf_int(file, bodies->kind, &k, (int)body->kind);
+        for (size_t i = 0; i < DIRECTIONS; ++i)
+            cpsi_netcdf_int(file, bodies->fixed, (const size_t[]){k, i}, body->fixed[i]);
+        for (int i = 0; i < CPSI_BODY_CONSTANTS; ++i)
+            write_field(file, bodies->constant[i], &CONSTANT[i], at, 1, body,
+                        CONSTANT[i].offset == offsetof(CpsBody, position) ? origin : NULL);
+    }
+}
+
+void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies, size_t step,
+                               const CpsEvolution *evolution, const double origin[XYZ]) {
+    for (int k = 0; k < bodies->count && file->status == NC_NOERR; ++k) {
+        const CpsBodyReport report = cps_evolution_body_report(evolution, k);
+        const size_t at[2] = {step, (size_t)k};
+        for (int i = 0; i < CPSI_BODY_FIELDS; ++i)
+            write_field(file, bodies->field[i], &FIELD[i], at, 2, &report,
+                        FIELD[i].offset == offsetof(CpsBodyReport, position) ? origin : NULL);
+        const int whole[CPSI_BODY_INTS] = {[BODY_STATE] = (int)report.kind,
+                                           [BODY_TRIALS] = report.trial_count,
+                                           [BODY_STABLE] = report.is_stable,
+                                           [BODY_HAS_PLACE] = report.has_place};
+        for (int i = 0; i < CPSI_BODY_INTS; ++i)
+            cpsi_netcdf_int(file, bodies->whole[i], at, whole[i]);
     }
 }

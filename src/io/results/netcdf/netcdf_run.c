@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* result.nc: every field of every step, classic netCDF with 64-bit offsets (CDF-2) and CF
- * attributes: the run and its lines. Obstacles are in netcdf_obstacles.c, points in
- * netcdf_points.c.
+ * attributes: the run and its lines. Obstacles are in netcdf_obstacles.c, points
+ * and bodies in netcdf_points.c.
  *
  * The layout is two tables, of the arrays in a line's view (fields.c) and of the numbers in its
  * report; docs/results.md describes the file. nc_sync after each step leaves a file that can be
@@ -151,6 +151,7 @@ struct CpsiNetcdf {
     int step_name, outcome, wall;
     CpsiNetcdfObstacles obstacles;
     CpsiNetcdfPoints points;
+    CpsiNetcdfBodies bodies;
     int line_count;
     LineIds *line;
 };
@@ -220,6 +221,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
                                     "time taken by the step", "s");
     cpsi_netcdf_define_obstacles(&nc->file, &nc->obstacles, scene, nc->step, nc->xyz);
     cpsi_netcdf_define_points(&nc->file, &nc->points, scene, nc->step, nc->xyz);
+    cpsi_netcdf_define_bodies(&nc->file, &nc->bodies, &nc->points, scene, nc->step, nc->xyz);
 }
 
 /* "LINE_NAME" of a node's first contact, "LINE_NAME_second" of its second. */
@@ -532,6 +534,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         cpsi_netcdf_keep(&nc->file, nc->file.library.enddef(nc->file.id));
     cpsi_netcdf_write_obstacles(&nc->file, &nc->obstacles, scene, first.origin);
     cpsi_netcdf_write_points(&nc->file, &nc->points, scene);
+    cpsi_netcdf_write_bodies(&nc->file, &nc->bodies, scene, first.origin);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         write_fields(nc, &nc->line[i], &view, true);
@@ -627,6 +630,7 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, cons
         cpsi_netcdf_doubles(&nc->file, nc->obstacles.turn, start, turns, turn);
     const CpsLineView first = cps_evolution_line_view(evolution, 0);
     cpsi_netcdf_append_points(&nc->file, &nc->points, nc->steps, evolution, first.origin);
+    cpsi_netcdf_append_bodies(&nc->file, &nc->bodies, nc->steps, evolution, first.origin);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport line = cps_evolution_line_report(evolution, i);

@@ -180,6 +180,11 @@ CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err) {
             fprintf(out,
                     "    <DataSet timestep=\"%d\" part=\"1\" file=\"%s\" name=\"obstacles\"/>\n", i,
                     surfaces);
+        if (results->point_count > 0)
+            fprintf(out,
+                    "    <DataSet timestep=\"%d\" part=\"2\" file=\"step-%05d-points.vtp\" "
+                    "name=\"points\"/>\n",
+                    i, i);
     }
     fputs("  </Collection>\n</VTKFile>\n", out);
     return cpsi_directory_close_file(results->directory, out, err);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The history as CSV (RFC 4180): a row of names, a row of units, a row per step. The columns are
- * two tables, one for the step and one for each line; a value without meaning is an empty cell. */
+ * three tables, for the step, for each line and for each body; a value without meaning is an empty
+ * cell. */
 #include "io/base/text/columns.h"
 #include "io/base/text/escape.h"
 #include "io/results/writers.h"
@@ -65,9 +66,23 @@ static const CpsiColumn LINE_COLUMN[] = {
     {"sweep", "m", LINE(sweep)},
 };
 
+#define BODY(member) CPSI_MEMBER(CpsiBodyRow, member)
+
+static const CpsiColumn BODY_COLUMN[] = {
+    {"x", "m", BODY(report.position[0])},     {"y", "m", BODY(report.position[1])},
+    {"z", "m", BODY(report.position[2])},     {"roll", "degree", BODY(angle[0])},
+    {"pitch", "degree", BODY(angle[1])},      {"yaw", "degree", BODY(angle[2])},
+    {"heel", "degree", BODY(heel)},           {"fx", "N", BODY(report.lines[0])},
+    {"fy", "N", BODY(report.lines[1])},       {"fz", "N", BODY(report.lines[2])},
+    {"mx", "N m", BODY(report.lines[3])},     {"my", "N m", BODY(report.lines[4])},
+    {"mz", "N m", BODY(report.lines[5])},     {"residual", "N", BODY(residual[0])},
+    {"residual_m", "N m", BODY(residual[1])},
+};
+
 enum {
     STEP_COLUMNS = sizeof STEP_COLUMN / sizeof STEP_COLUMN[0],
-    LINE_COLUMNS = sizeof LINE_COLUMN / sizeof LINE_COLUMN[0]
+    LINE_COLUMNS = sizeof LINE_COLUMN / sizeof LINE_COLUMN[0],
+    BODY_COLUMNS = sizeof BODY_COLUMN / sizeof BODY_COLUMN[0]
 };
 
 static void write_heads(FILE *out, const CpsResults *results) {
@@ -75,9 +90,12 @@ static void write_heads(FILE *out, const CpsResults *results) {
     cpsi_csv_names(out, STEP_COLUMN, STEP_COLUMNS, NULL);
     for (int l = 0; l < results->line_count; ++l)
         cpsi_csv_names(out, LINE_COLUMN, LINE_COLUMNS, results->line_name[l]);
+    for (int i = 0; i < results->body_count; ++i)
+        cpsi_csv_names(out, BODY_COLUMN, BODY_COLUMNS, results->body[i].name);
     fputs("\n1,,,1,1,1,1", out);
     cpsi_csv_units(out, STEP_COLUMN, STEP_COLUMNS);
     for (int l = 0; l < results->line_count; ++l) cpsi_csv_units(out, LINE_COLUMN, LINE_COLUMNS);
+    for (int i = 0; i < results->body_count; ++i) cpsi_csv_units(out, BODY_COLUMN, BODY_COLUMNS);
     fputs("\n", out);
 }
 
@@ -93,6 +111,8 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
         cpsi_csv_values(out, STEP_COLUMN, STEP_COLUMNS, &row->report);
         for (int l = 0; l < results->line_count; ++l)
             cpsi_csv_values(out, LINE_COLUMN, LINE_COLUMNS, &row->line[l].report);
+        for (int i = 0; i < results->body_count; ++i)
+            cpsi_csv_values(out, BODY_COLUMN, BODY_COLUMNS, &row->body[i]);
         fputs("\n", out);
     }
 }

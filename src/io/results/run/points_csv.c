@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The points where lines meet as CSV (RFC 4180): a row of names, a row of units, then a row per
- * step and point. The obstacle is empty where the point touches none. */
+/* The points where lines meet, and the rigid bodies, as CSV (RFC 4180): a row of names, a row of
+ * units, then a row per step and point or body. The obstacle is empty where a point touches
+ * none. */
 #include "io/base/text/columns.h"
 #include "io/base/text/escape.h"
 #include "io/results/writers.h"
@@ -20,7 +21,37 @@ static const CpsiColumn COLUMN[] = {
     VECTOR("residual", "N", residual),  {"dissipated", "J", POINT(dissipated)},
 };
 
-enum { COLUMNS = sizeof COLUMN / sizeof *COLUMN };
+#define BODY(member) CPSI_MEMBER(CpsiBodyRow, member)
+/* a force and a moment */
+#define WRENCH(name, member)                                                                   \
+    {name "_x", "N", BODY(report.member[0])}, {name "_y", "N", BODY(report.member[1])},        \
+        {name "_z", "N", BODY(report.member[2])}, {name "_mx", "N m", BODY(report.member[3])}, \
+        {name "_my", "N m", BODY(report.member[4])}, {                                         \
+        name "_mz", "N m", BODY(report.member[5])                                              \
+    }
+
+static const CpsiColumn BODY_COLUMN[] = {
+    {"x", "m", BODY(report.position[0])},
+    {"y", "m", BODY(report.position[1])},
+    {"z", "m", BODY(report.position[2])},
+    {"qw", "1", BODY(report.rotation[0])},
+    {"qx", "1", BODY(report.rotation[1])},
+    {"qy", "1", BODY(report.rotation[2])},
+    {"qz", "1", BODY(report.rotation[3])},
+    {"roll", "degree", BODY(angle[0])},
+    {"pitch", "degree", BODY(angle[1])},
+    {"yaw", "degree", BODY(angle[2])},
+    {"heel", "degree", BODY(heel)},
+    WRENCH("lines", lines),
+    WRENCH("load", load),
+    WRENCH("support", support),
+    WRENCH("residual", residual),
+};
+
+enum {
+    COLUMNS = sizeof COLUMN / sizeof *COLUMN,
+    BODY_COLUMNS = sizeof BODY_COLUMN / sizeof *BODY_COLUMN
+};
 
 static void write_row(FILE *out, const CpsResults *results, const CpsiRow *row, int point) {
     const CpsPointReport *report = &row->point[point];
@@ -44,4 +75,26 @@ void cpsi_points_write(const CpsResults *results, FILE *out) {
     fputs(",,1,1\n", out);
     for (int r = 0; r < results->row_count; ++r)
         for (int i = 0; i < results->point_count; ++i) write_row(out, results, &results->row[r], i);
+}
+
+static void write_body(FILE *out, const CpsResults *results, const CpsiRow *row, int body) {
+    const CpsiBodyRow *of = &row->body[body];
+    fprintf(out, "%d,", row->report.step_count - 1);
+    cpsi_write_csv(out, row->name);
+    fputc(',', out);
+    cpsi_write_csv(out, results->body[body].name);
+    fprintf(out, ",%s", cpsi_body_kind(of->report.kind));
+    cpsi_csv_values(out, BODY_COLUMN, BODY_COLUMNS, of);
+    fprintf(out, ",%d,%d,%d\n", of->report.trial_count, (int)of->report.is_stable,
+            (int)of->report.has_place);
+}
+
+void cpsi_bodies_write(const CpsResults *results, FILE *out) {
+    fputs("step,name,body,kind", out);
+    cpsi_csv_names(out, BODY_COLUMN, BODY_COLUMNS, NULL);
+    fputs(",trials,stable,has_place\n1,,,", out);
+    cpsi_csv_units(out, BODY_COLUMN, BODY_COLUMNS);
+    fputs(",1,1,1\n", out);
+    for (int r = 0; r < results->row_count; ++r)
+        for (int i = 0; i < results->body_count; ++i) write_body(out, results, &results->row[r], i);
 }

@@ -69,6 +69,19 @@ static bool copy_points(CpsResults *results, const CpsScene *scene) {
     return true;
 }
 
+static bool copy_bodies(CpsResults *results, const CpsScene *scene) {
+    if (scene->body_count == 0) return true;
+    results->body = calloc((size_t)scene->body_count, sizeof *results->body);
+    if (!results->body) return false;
+    for (int i = 0; i < scene->body_count; ++i) {
+        results->body[i] = scene->body[i];
+        results->body[i].name = copy_text(scene->body[i].name);
+        results->body_count = i + 1;
+        if (!results->body[i].name) return false;
+    }
+    return true;
+}
+
 /* The point of an end of a line of the scene. */
 static int point_of(const CpsLine *line, int end) {
     return line->end[end].kind == CPS_END_KIND_POINT ? line->end_point[end] : CPSI_AT_NO_POINT;
@@ -87,7 +100,9 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     if (!results->title || !results->line_name || !results->line_length ||
         !results->line_elements || !results->line_point)
         return false;
-    if (!copy_obstacles(results, scene) || !copy_points(results, scene)) return false;
+    if (!copy_obstacles(results, scene) || !copy_points(results, scene) ||
+        !copy_bodies(results, scene))
+        return false;
     for (size_t i = 0; i < lines; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, (int)i);
         results->line_length[i] = view.arc_length[view.element_count];
@@ -194,6 +209,7 @@ static void free_row(CpsiRow *row) {
     free(row->name);
     free(row->line);
     free(row->point);
+    free(row->body);
     free(row->stiffness);
 }
 
@@ -203,6 +219,25 @@ static void find_stiffness(const CpsEvolution *evolution, int i, CpsStiffness fo
         for (int kind = 0; kind < 2; ++kind)
             cps_evolution_stiffness(evolution, i, end, (CpsStiffnessKind)kind, &found[end][kind],
                                     NULL);
+}
+
+/* Whether the position of an end of a line is imposed: its own, or that of its point, or of the
+ * body with that. */
+static bool is_held(const CpsResults *results, const CpsiRow *row, const CpsLineView *view, int l,
+                    int e) {
+    const int point = results->line_point[l][e];
+    if (point == CPSI_AT_NO_POINT) return view->end[e].kind == CPS_END_KIND_HELD;
+    if (row->point[point].state != CPS_POINT_STATE_ON_BODY)
+        return row->point[point].state == CPS_POINT_STATE_HELD;
+    return row->body[results->point[point].body].report.kind == CPS_BODY_KIND_HELD;
+}
+
+/* Memory of a row beside its lines. */
+static bool reserve_points(const CpsResults *results, CpsiRow *row) {
+    if (results->point_count > 0)
+        row->point = calloc((size_t)results->point_count, sizeof *row->point);
+    if (results->body_count > 0) row->body = calloc((size_t)results->body_count, sizeof *row->body);
+    return (row->point || results->point_count == 0) && (row->body || results->body_count == 0);
 }
 
 static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
@@ -219,26 +254,21 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
     row.line = calloc((size_t)results->line_count, sizeof *row.line);
     if (results->stiffness)
         row.stiffness = calloc((size_t)results->line_count, sizeof *row.stiffness);
-    if (results->point_count > 0)
-        row.point = calloc((size_t)results->point_count, sizeof *row.point);
-    if (!row.name || !row.line || (results->stiffness && !row.stiffness) ||
-        (results->point_count > 0 && !row.point)) {
+    if (!reserve_points(results, &row) || !row.name || !row.line ||
+        (results->stiffness && !row.stiffness)) {
         free_row(&row);
         return false;
     }
     for (int i = 0; i < results->point_count; ++i)
         row.point[i] = cps_evolution_point_report(evolution, i);
+    for (int i = 0; i < results->body_count; ++i)
+        cpsi_body_row(evolution, i, results->stiffness, &row.body[i]);
     for (int i = 0; i < results->line_count; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         CpsiLineRow *line = &row.line[i];
         line->report = cps_evolution_line_report(evolution, i);
         line->open_reaction = open_reaction(&view);
-        for (int e = 0; e < 2; ++e) {
-            const int point = results->line_point[i][e];
-            line->held[e] = point == CPSI_AT_NO_POINT
-                                ? view.end[e].kind == CPS_END_KIND_HELD
-                                : row.point[point].state == CPS_POINT_STATE_HELD;
-        }
+        for (int e = 0; e < 2; ++e) line->held[e] = is_held(results, &row, &view, i, e);
         if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
         if (row.stiffness) find_stiffness(evolution, i, row.stiffness[i]);
     }
@@ -255,13 +285,16 @@ static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsE
         turn[k] = cpsi_results_turn(results, results->row_count - 1, k);
     const CpsStatus status = cpsi_netcdf_append(results->netcdf, evolution, turn, err);
     free(turn);
-    return status || !results->paraview ? status : cpsi_paraview_step(results, evolution, err);
+    if (status || !results->paraview) return status;
+    const CpsStatus written = cpsi_paraview_step(results, evolution, err);
+    return written ? written : cpsi_paraview_points(results, err);
 }
 
-/* Whether lines and points are those for which the results were opened. */
+/* Whether lines, points and bodies are those for which the results were opened. */
 static bool has_these_lines(const CpsResults *results, const CpsEvolution *evolution) {
     if (cps_evolution_line_count(evolution) != results->line_count) return false;
     if (cps_evolution_point_count(evolution) != results->point_count) return false;
+    if (cps_evolution_body_count(evolution) != results->body_count) return false;
     for (int i = 0; i < results->line_count; ++i)
         if (cps_evolution_line_view(evolution, i).element_count != results->line_elements[i])
             return false;
@@ -280,8 +313,8 @@ CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution,
     if (!has_these_lines(results, evolution))
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
-            "the evolution has other lines or points than the one that these results were opened "
-            "for");
+            "the evolution has other lines, points or bodies than the one that these results were "
+            "opened for");
     const CpsStepReport report = cps_evolution_report(evolution);
     if (report.step_count != results->row_count + 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -325,8 +358,12 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     if (!status) status = write_table(results, "history.csv", cpsi_history_write, err);
     if (!status && results->point_count > 0)
         status = write_table(results, "points.csv", cpsi_points_write, err);
+    if (!status && results->body_count > 0)
+        status = write_table(results, "bodies.csv", cpsi_bodies_write, err);
     if (!status && results->stiffness)
         status = write_table(results, "stiffness.csv", cpsi_stiffness_write, err);
+    if (!status && results->stiffness && results->body_count > 0)
+        status = write_table(results, "body-stiffness.csv", cpsi_body_stiffness_write, err);
     /* last: when there is a new summary, all files that it lists are in place */
     if (!status) status = write_summary(results, wall, err);
     return status ? status : cpsi_directory_commit(results->directory, cpsi_results_replaces, err);
@@ -371,6 +408,7 @@ void cps_results_destroy(CpsResults *results) {
     for (int i = 0; i < results->line_count; ++i) free(results->line_name[i]);
     for (int i = 0; i < results->obstacle_count; ++i) free((char *)results->obstacle[i].name);
     for (int i = 0; i < results->point_count; ++i) free((char *)results->point[i].name);
+    for (int i = 0; i < results->body_count; ++i) free((char *)results->body[i].name);
     free(results->row);
     free(results->snapshot);
     free(results->stage);
@@ -379,6 +417,7 @@ void cps_results_destroy(CpsResults *results) {
     free(results->line_elements);
     free(results->line_point);
     free(results->point);
+    free(results->body);
     free(results->obstacle);
     free(results->title);
     if (results->locale) freelocale(results->locale);

@@ -35,6 +35,8 @@ static bool writes_of_step(const CpsResults *results, const char *name) {
     if (step >= (unsigned long)results->planned_steps) return false;
     snprintf(own, sizeof own, "step-%05lu.vtp", step);
     if (strcmp(name, own) == 0) return results->paraview;
+    snprintf(own, sizeof own, "step-%05lu-points.vtp", step);
+    if (strcmp(name, own) == 0) return results->paraview && results->point_count > 0;
     cpsi_paraview_obstacles_name((int)step, own);
     if (strcmp(name, own) == 0)
         return results->paraview && cpsi_paraview_obstacles_turn(results, (int)step);
@@ -50,16 +52,19 @@ bool cpsi_results_writes(const void *run, const char *name) {
     if (is_plain(CPS_RESULTS_KIND_RUN, name)) return true;
     if (strcmp(name, "history.svg") == 0) return results->planned_steps > 1;
     if (strcmp(name, "points.csv") == 0) return results->point_count > 0;
+    if (strcmp(name, "bodies.csv") == 0) return results->body_count > 0;
     if (strcmp(name, "stiffness.csv") == 0) return results->stiffness;
+    if (strcmp(name, "body-stiffness.csv") == 0)
+        return results->stiffness && results->body_count > 0;
     if (strcmp(name, "result.pvd") == 0) return results->paraview;
     if (strcmp(name, "obstacles.vtp") == 0) return results->paraview && results->obstacle_count > 0;
     return strncmp(name, "step-", 5) == 0 && writes_of_step(results, name);
 }
 
 bool cpsi_results_replaces(const char *name) {
-    static const char *const BEGINNING[] = {"obstacles.vtp", "result.pvd", "history.svg",
-                                            "stiffness.csv", "points.csv", "loop-",
-                                            "step-",         "line-"};
+    static const char *const BEGINNING[] = {
+        "obstacles.vtp", "result.pvd",         "history.svg", "stiffness.csv", "points.csv",
+        "bodies.csv",    "body-stiffness.csv", "loop-",       "step-",         "line-"};
     for (size_t i = 0; i < sizeof BEGINNING / sizeof *BEGINNING; ++i)
         if (strncmp(name, BEGINNING[i], strlen(BEGINNING[i])) == 0) return true;
     return is_plain(CPS_RESULTS_KIND_RUN, name); /* which has the names of the other method too */

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stiffness of the ends as CSV (RFC 4180): a row of names, a row of units, then a row per step,
- * line, end and kind. Without a matrix its cells are empty, and the outcome says why. */
+/* The stiffness of the ends, and of bodies, as CSV (RFC 4180): a row of names, a row of units, then
+ * a row per step, line, end and kind, or step, body and kind. Without a matrix its cells are empty,
+ * and the outcome says why. */
 #include <math.h>
 
 #include "io/base/text/columns.h"
 #include "io/base/text/escape.h"
 #include "io/results/writers.h"
 
-static void write_matrix(FILE *out, const CpsStiffness *found) {
-    const bool given = found->outcome == CPS_STIFFNESS_OUTCOME_FOUND;
-    fprintf(out, ",%s", cps_stiffness_outcome_name(found->outcome));
-    for (int i = 0; i < 9; ++i) cpsi_csv_next(out, given ? found->matrix[i] : NAN);
+static void write_matrix(FILE *out, CpsStiffnessOutcome outcome, int count, const double *matrix) {
+    fprintf(out, ",%s", cps_stiffness_outcome_name(outcome));
+    for (int i = 0; i < count; ++i)
+        cpsi_csv_next(out, outcome == CPS_STIFFNESS_OUTCOME_FOUND ? matrix[i] : NAN);
     fputc('\n', out);
 }
 
@@ -24,7 +25,8 @@ static void write_line(FILE *out, const CpsResults *results, int r, int l) {
             cpsi_write_csv(out, results->line_name[l]);
             fprintf(out, ",%c,%s", end == CPS_END_A ? 'A' : 'B',
                     cps_stiffness_name((CpsStiffnessKind)kind));
-            write_matrix(out, &row->stiffness[l][end][kind]);
+            const CpsStiffness *found = &row->stiffness[l][end][kind];
+            write_matrix(out, found->outcome, 9, found->matrix);
         }
 }
 
@@ -34,4 +36,32 @@ void cpsi_stiffness_write(const CpsResults *results, FILE *out) {
     fputc('\n', out);
     for (int r = 0; r < results->row_count; ++r)
         for (int l = 0; l < results->line_count; ++l) write_line(out, results, r, l);
+}
+
+static void write_body(FILE *out, const CpsResults *results, const CpsiRow *row, int body) {
+    for (int kind = 0; kind < 2; ++kind) {
+        const CpsBodyStiffness *found = &row->body[body].stiffness[kind];
+        fprintf(out, "%d,", row->report.step_count - 1);
+        cpsi_write_csv(out, row->name);
+        fputc(',', out);
+        cpsi_write_csv(out, results->body[body].name);
+        fprintf(out, ",%s", cps_stiffness_name((CpsStiffnessKind)kind));
+        write_matrix(out, found->outcome, CPS_BODY_DIRECTIONS * CPS_BODY_DIRECTIONS, found->matrix);
+    }
+}
+
+/* Columns "x_rz": the force along x by the rotation about z. */
+void cpsi_body_stiffness_write(const CpsResults *results, FILE *out) {
+    static const char *const DIRECTION[] = {"x", "y", "z", "rx", "ry", "rz"};
+    fputs("step,name,body,kind,outcome", out);
+    for (int i = 0; i < CPS_BODY_DIRECTIONS; ++i)
+        for (int k = 0; k < CPS_BODY_DIRECTIONS; ++k)
+            fprintf(out, ",%s_%s", DIRECTION[i], DIRECTION[k]);
+    fputs("\n1,,,,", out);
+    for (int i = 0; i < CPS_BODY_DIRECTIONS; ++i)
+        for (int k = 0; k < CPS_BODY_DIRECTIONS; ++k)
+            fputs(i < 3 && k < 3 ? ",N/m" : i < 3 || k < 3 ? ",N" : ",N m", out);
+    fputc('\n', out);
+    for (int r = 0; r < results->row_count; ++r)
+        for (int i = 0; i < results->body_count; ++i) write_body(out, results, &results->row[r], i);
 }

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "io/base/directory/file_list.h"
+#include "io/base/text/columns.h"
 #include "io/base/text/escape.h"
 #include "io/results/writers.h"
 
@@ -25,13 +26,17 @@ static void write_string(FILE *out, const char *key, const char *text, const cha
     fputs(after, out);
 }
 
-static void write_vector(FILE *out, const char *key, const double x[3], const char *after) {
+static void write_list(FILE *out, const char *key, int count, const double *x, const char *after) {
     write_key(out, key);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < count; ++i) {
         fputs(i ? ", " : "[", out);
         cpsi_write_json_number(out, x[i]);
     }
     fprintf(out, "]%s", after);
+}
+
+static void write_vector(FILE *out, const char *key, const double x[3], const char *after) {
+    write_list(out, key, 3, x, after);
 }
 
 /* smallest and largest possible tension of the element at an end; null where unbounded or not
@@ -190,6 +195,40 @@ static void write_points(FILE *out, const CpsResults *results, const CpsiRow *ro
     fputs("      }", out);
 }
 
+/* a force and a moment about the reference point */
+static void write_wrench(FILE *out, const char *force, const char *moment, const double *wrench) {
+    write_vector(out, force, wrench, ", ");
+    write_vector(out, moment, &wrench[3], ",\n          ");
+}
+
+/* the rigid bodies after a step */
+static void write_bodies(FILE *out, const CpsResults *results, const CpsiRow *row) {
+    if (results->body_count == 0) return;
+    fputs(",\n      \"bodies\": {\n", out);
+    for (int i = 0; i < results->body_count; ++i) {
+        const CpsiBodyRow *of = &row->body[i];
+        const CpsBodyReport *report = &of->report;
+        fputs("        ", out);
+        write_key(out, results->body[i].name);
+        fputc('{', out);
+        write_string(out, "state", cpsi_body_kind(report->kind), ", ");
+        fprintf(out, "\"has_place\": %s, \"stable\": %s, \"trials\": %d,\n          ",
+                report->has_place ? "true" : "false", report->is_stable ? "true" : "false",
+                report->trial_count);
+        write_vector(out, "position_m", report->position, ", ");
+        write_list(out, "quaternion", 4, report->rotation, ",\n          ");
+        write_vector(out, "roll_pitch_yaw_degrees", of->angle, ", ");
+        write_number(out, "heel_degrees", of->heel, ",\n          ");
+        write_wrench(out, "lines_N", "lines_Nm", report->lines);
+        write_wrench(out, "load_N", "load_Nm", report->load);
+        write_wrench(out, "support_N", "support_Nm", report->support);
+        write_number(out, "residual_N", of->residual[0], ", ");
+        write_number(out, "residual_Nm", of->residual[1], "}");
+        fputs(i + 1 < results->body_count ? ",\n" : "\n", out);
+    }
+    fputs("      }", out);
+}
+
 static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row) {
     fputs("    {\n      ", out);
     write_string(out, "name", row->name, ", ");
@@ -203,6 +242,7 @@ static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row)
                    i + 1 < results->line_count ? ",\n" : "\n");
     fputs("      }", out);
     write_points(out, results, row);
+    write_bodies(out, results, row);
     fputs("\n    }", out);
 }
 
@@ -267,15 +307,92 @@ static void write_largest_residuals(FILE *out, const CpsResults *results) {
         fputs("    ", out);
         write_key(out, results->point[i].name);
         fputc('{', out);
+        const CpsPointKind kind = results->point[i].kind;
         write_string(out, "kind",
-                     cpsi_point_state(results->point[i].kind == CPS_POINT_KIND_HELD
-                                          ? CPS_POINT_STATE_HELD
-                                          : CPS_POINT_STATE_FREE),
+                     cpsi_point_state(kind == CPS_POINT_KIND_HELD   ? CPS_POINT_STATE_HELD
+                                      : kind == CPS_POINT_KIND_FREE ? CPS_POINT_STATE_FREE
+                                                                    : CPS_POINT_STATE_ON_BODY),
                      ", ");
+        if (kind == CPS_POINT_KIND_ON_BODY)
+            write_string(out, "body", results->body[results->point[i].body].name, ", ");
         write_number(out, "weight_N", results->point[i].weight, ", ");
         write_number(out, "largest_residual_N", largest, ", ");
         fprintf(out, "\"largest_residual_step\": %d, \"steps_without_place\": %d}%s\n", at, without,
                 i + 1 < results->point_count ? "," : "");
+    }
+    fputs("  },\n", out);
+}
+
+static void widen(CpsExtreme *extreme, double value, int step) {
+    if (!extreme->has_values) *extreme = (CpsExtreme){true, value, value, step, step};
+    if (value < extreme->least) {
+        extreme->least = value;
+        extreme->least_step = step;
+    }
+    if (value > extreme->greatest) {
+        extreme->greatest = value;
+        extreme->greatest_step = step;
+    }
+}
+
+/* Quantities of a body's extremes. */
+static const struct {
+    const char *key;
+    CpsiMember member;
+} BODY_EXTREME[] = {
+    {"x_m", CPSI_MEMBER(CpsiBodyRow, report.position[0])},
+    {"y_m", CPSI_MEMBER(CpsiBodyRow, report.position[1])},
+    {"z_m", CPSI_MEMBER(CpsiBodyRow, report.position[2])},
+    {"roll_degrees", CPSI_MEMBER(CpsiBodyRow, angle[0])},
+    {"pitch_degrees", CPSI_MEMBER(CpsiBodyRow, angle[1])},
+    {"yaw_degrees", CPSI_MEMBER(CpsiBodyRow, angle[2])},
+    {"heel_degrees", CPSI_MEMBER(CpsiBodyRow, heel)},
+    {"lines_x_N", CPSI_MEMBER(CpsiBodyRow, report.lines[0])},
+    {"lines_y_N", CPSI_MEMBER(CpsiBodyRow, report.lines[1])},
+    {"lines_z_N", CPSI_MEMBER(CpsiBodyRow, report.lines[2])},
+};
+enum { BODY_EXTREMES = sizeof BODY_EXTREME / sizeof *BODY_EXTREME };
+
+/* The extremes of a body over the steps that have found a place for it. */
+static void write_body_extremes(FILE *out, const CpsResults *results, int body) {
+    fputs("      \"extremes\": {\n", out);
+    for (int i = 0; i < BODY_EXTREMES; ++i) {
+        CpsExtreme extreme = {0};
+        for (int r = 0; r < results->row_count; ++r) {
+            const CpsiBodyRow *of = &results->row[r].body[body];
+            if (of->report.has_place) widen(&extreme, cpsi_member(of, BODY_EXTREME[i].member), r);
+        }
+        fputs("        ", out);
+        write_extreme(out, BODY_EXTREME[i].key, &extreme, i + 1 < BODY_EXTREMES ? ",\n" : "\n");
+    }
+    fputs("      }", out);
+}
+
+/* The bodies over all steps. */
+static void write_all_bodies(FILE *out, const CpsResults *results) {
+    if (results->body_count == 0) return;
+    fputs("  \"bodies\": {\n", out);
+    for (int i = 0; i < results->body_count; ++i) {
+        double largest[2] = {0};
+        int without = 0, unstable = 0;
+        for (int r = 0; r < results->row_count; ++r) {
+            const CpsiBodyRow *of = &results->row[r].body[i];
+            without += !of->report.has_place;
+            unstable += !of->report.is_stable;
+            for (int k = 0; k < 2; ++k) /* a NaN is kept */
+                if (!(of->residual[k] <= largest[k])) largest[k] = of->residual[k];
+        }
+        fputs("    ", out);
+        write_key(out, results->body[i].name);
+        fputs("{\n      ", out);
+        write_string(out, "kind", cpsi_body_kind(results->body[i].kind), ", ");
+        write_number(out, "weight_N", results->body[i].weight, ", ");
+        write_number(out, "buoyancy_N", results->body[i].buoyancy, ",\n      ");
+        write_number(out, "largest_residual_N", largest[0], ", ");
+        write_number(out, "largest_residual_Nm", largest[1], ",\n      ");
+        fprintf(out, "\"steps_without_place\": %d, \"steps_not_stable\": %d,\n", without, unstable);
+        write_body_extremes(out, results, i);
+        fprintf(out, "\n    }%s\n", i + 1 < results->body_count ? "," : "");
     }
     fputs("  },\n", out);
 }
@@ -292,6 +409,7 @@ static void write_run(const CpsResults *results, double wall, FILE *out) {
         write_line_extremes(out, results, i, i + 1 < results->line_count ? ",\n" : "\n");
     fputs("  },\n", out);
     write_largest_residuals(out, results);
+    write_all_bodies(out, results);
     fputs("  \"steps\": [", out);
     for (int i = 0; i < results->row_count; ++i) {
         fputs(i ? ",\n" : "\n", out);

@@ -109,6 +109,11 @@ static void write_form(FILE *out, const CpsiKey *key) {
         fputs("\"enum\": ", out);
         write_words(out, key->words);
         break;
+    case CPSI_WORDS:
+        fputs("\"type\": \"array\", \"uniqueItems\": true, \"items\": {\"enum\": ", out);
+        write_words(out, key->words);
+        fputc('}', out);
+        break;
     case CPSI_POINT:
     case CPSI_VECTOR:
         fprintf(out, ARRAY "%d, \"maxItems\": %d, \"items\": {",

@@ -74,6 +74,88 @@ static void begin_obstacle(void *values) {
 static const CpsiMapping OBSTACLE = {"obstacle", KEYS(OBSTACLE_KEYS), INTO(Obstacle),
                                      .begin = begin_obstacle, WHICH(Obstacle, obstacle.kind)};
 
+/* ---- bodies ---- */
+
+static const CpsiKey ROTATION_KEYS[] = {
+    {"quaternion", ONE_OF, POINT(Rotation, quaternion, 4), ANY,
+     .help = "w, x, y, z: by the angle 2 acos(w) about (x, y, z); of any length but zero"},
+    {"roll_pitch_yaw", ONE_OF, POINT(Rotation, angle, 3), ANY, .unit = "degrees",
+     .help = "yaw about z, then pitch about the y axis so turned, then roll about the x axis so "
+             "turned, each by the right-hand rule"},
+};
+static const CpsiMapping ROTATION = {"rotation", KEYS(ROTATION_KEYS), INTO(Rotation),
+                                     WHICH(Rotation, form)};
+
+static const CpsiKey DIAGONAL_KEYS[] = {
+    {"x", OPTIONAL, NUMBER(Diagonal, k[0]), ANY, .unit = "N/m", .fallback = "0",
+     .help = "against a displacement along x"},
+    {"y", OPTIONAL, NUMBER(Diagonal, k[1]), ANY, .unit = "N/m", .fallback = "0",
+     .help = "against a displacement along y"},
+    {"z", OPTIONAL, NUMBER(Diagonal, k[2]), ANY, .unit = "N/m", .fallback = "0",
+     .help = "against a displacement along z: of a waterplane, density times gravity times area"},
+    {"rx", OPTIONAL, NUMBER(Diagonal, k[3]), ANY, .unit = "N m", .fallback = "0",
+     .help = "per radian about x"},
+    {"ry", OPTIONAL, NUMBER(Diagonal, k[4]), ANY, .unit = "N m", .fallback = "0",
+     .help = "per radian about y"},
+    {"rz", OPTIONAL, NUMBER(Diagonal, k[5]), ANY, .unit = "N m", .fallback = "0",
+     .help = "per radian about z"},
+};
+static const CpsiMapping DIAGONAL = {"hydrostatics", KEYS(DIAGONAL_KEYS), INTO(Diagonal)};
+
+/* directions of a body, in the order of CpsBody */
+#define DIRECTIONS "x y z rx ry rz"
+
+static const CpsiKey SCENE_BODY_KEYS[] = {
+    {"held", ONE_OF, POINT(SceneBody, body.position, 3), ANY, .unit = "m",
+     .help = "held with its reference point, the origin of its own axes, at this position"},
+    {"free", ONE_OF, POINT(SceneBody, body.position, 3), ANY, .unit = "m",
+     .help = "free: each step finds the pose in which the forces and moments on it balance; its "
+             "reference point begins here, and hydrostatics count from here"},
+    {"rotation", OPTIONAL, MAPPING(SceneBody, rotation), .inside = &ROTATION,
+     .fallback = "{\"quaternion\": [1, 0, 0, 0]}",
+     .help = "turns its own axes, which begin as those of the scene"},
+    {"fixed", OPTIONAL, WORDS(SceneBody, body.fixed, 6), .words = DIRECTIONS, .fallback = "[]",
+     .help = "directions of the scene in which it does not move while it is free: along x, y, z, "
+             "and about them"},
+    {"mass", OPTIONAL, NUMBER(SceneBody, mass), NOT_NEGATIVE, .unit = "kg", .unless = "weight",
+     .help = "its weight is mass times gravity; buoyancy is given apart"},
+    {"weight", OPTIONAL, NUMBER(SceneBody, body.weight), NOT_NEGATIVE, .unit = "N", .fallback = "0",
+     .help = "weight in air, instead of mass"},
+    {"centre_of_gravity", OPTIONAL, POINT(SceneBody, body.centre_of_gravity, 3), ANY, .unit = "m",
+     .formerly = "center_of_gravity", .fallback = "[0, 0, 0]", .help = "in its own axes"},
+    {"volume", OPTIONAL, NUMBER(SceneBody, volume), NOT_NEGATIVE, .unit = "m3",
+     .unless = "buoyancy",
+     .help = "of the water that it displaces: the buoyancy is water_density times gravity times "
+             "volume"},
+    {"buoyancy", OPTIONAL, NUMBER(SceneBody, body.buoyancy), NOT_NEGATIVE, .unit = "N",
+     .fallback = "0", .help = "against gravity, instead of volume"},
+    {"centre_of_buoyancy", OPTIONAL, POINT(SceneBody, body.centre_of_buoyancy, 3), ANY, .unit = "m",
+     .formerly = "center_of_buoyancy", .fallback = "[0, 0, 0]", .help = "in its own axes"},
+    {"hydrostatics", OPTIONAL, ROWS(SceneBody, hydrostatics, 6), 6, 6, false,
+     .other = &(const CpsiKey){.type = MAPPING(SceneBody, diagonal), .inside = &DIAGONAL},
+     .fallback = "{}",
+     .help = "[N/m, N, N m] linear stiffness about the reference point, in the directions x, y, "
+             "z, rx, ry, rz, from the pose in which the scene begins: 6 symmetric rows, or its "
+             "diagonal by direction. Beside weight and buoyancy as given"},
+    {"force", OPTIONAL, POINT(SceneBody, body.force, 3), ANY, .unit = "N", .with = "free",
+     .fallback = "[0, 0, 0]", .help = "force on it, besides its weight, water and lines"},
+    {"moment", OPTIONAL, POINT(SceneBody, body.moment, 3), ANY, .unit = "N m", .with = "free",
+     .fallback = "[0, 0, 0]", .help = "moment about its reference point, likewise"},
+    {"arm", OPTIONAL, POINT(SceneBody, arm, 3), ANY, .unit = "m", .with = "force",
+     .fallback = "[0, 0, 0]",
+     .help = "from its reference point to where the force acts, in the scene's axes, whatever its "
+             "rotation: the moment gains arm x force"},
+};
+
+static void begin_scene_body(void *values) {
+    CpsiSceneBodyValues *body = values;
+    body->body = cps_body_default();
+    body->mass = body->volume = NAN;
+}
+
+static const CpsiMapping SCENE_BODY = {"body", KEYS(SCENE_BODY_KEYS), INTO(SceneBody),
+                                       .begin = begin_scene_body, WHICH(SceneBody, body.kind)};
+
 /* ---- points ---- */
 
 static const CpsiKey SCENE_POINT_KEYS[] = {
@@ -82,6 +164,10 @@ static const CpsiKey SCENE_POINT_KEYS[] = {
     {"free", ONE_OF, POINT(ScenePoint, point.position, 3), ANY, .unit = "m",
      .help = "free: each step finds where the forces on it balance; it begins at this position, "
              "which is a first guess where all lines that end there start static"},
+    {"body", ONE_OF, TEXT(ScenePoint, body, 0),
+     .help = "name of one of the scene's bodies, which it is on and moves with"},
+    {"at", OPTIONAL, POINT(ScenePoint, at, 3), ANY, .unit = "m", .with = "body",
+     .fallback = "[0, 0, 0]", .help = "where on the body it is, in the body's own axes"},
     {"force", OPTIONAL, POINT(ScenePoint, point.force, 3), ANY, .unit = "N", .with = "free",
      .fallback = "[0, 0, 0]", .help = "force on it, besides its weight and its lines"},
     {"mass", OPTIONAL, NUMBER(ScenePoint, mass), NOT_NEGATIVE, .unit = "kg", .unless = "weight",
@@ -305,6 +391,28 @@ static const CpsiKey POINT_CHANGE_KEYS[] = {
 static const CpsiMapping POINT_CHANGE = {"change", KEYS(POINT_CHANGE_KEYS), INTO(Change),
                                          .definition = "point_change", WHICH(Change, kind)};
 
+static const CpsiKey BODY_CHANGE_KEYS[] = {
+    {"position", OPTIONAL, POINT(BodyChange, position, 3), ANY, .unit = "m",
+     .help = "hold the body, and move its reference point to this position"},
+    {"move", OPTIONAL, POINT(BodyChange, move, 3), ANY, .unit = "m", .unless = "position",
+     .help = "move it by this much from where the entry before has put it"},
+    {"rotation", OPTIONAL, MAPPING(BodyChange, rotation), .inside = &ROTATION,
+     .help = "hold the body, and turn it to this rotation, the short way about one axis"},
+    {"force", OPTIONAL, POINT(BodyChange, force, 3), ANY, .unit = "N", .fallback = "[0, 0, 0]",
+     .help = "load the body; one that is held is let go, from the load that holds it"},
+    {"moment", OPTIONAL, POINT(BodyChange, moment, 3), ANY, .unit = "N m", .fallback = "[0, 0, 0]",
+     .help = "moment about its reference point, likewise"},
+    {"arm", OPTIONAL, POINT(BodyChange, arm, 3), ANY, .unit = "m", .with = "force",
+     .fallback = "[0, 0, 0]",
+     .help = "from its reference point to where the force acts, in the scene's axes, whatever its "
+             "rotation: the moment gains arm x force"},
+};
+static const CpsiMapping BODY_CHANGE = {
+    "change", KEYS(BODY_CHANGE_KEYS), INTO(BodyChange), .definition = "body_change",
+    .also = "\"oneOf\": [{\"anyOf\": [{\"required\": [\"position\"]}, {\"required\": [\"move\"]}, "
+            "{\"required\": [\"rotation\"]}]}, {\"anyOf\": [{\"required\": [\"force\"]}, "
+            "{\"required\": [\"moment\"]}]}]"};
+
 static const CpsiKey STAGE_KEYS[] = {
     {"name", OPTIONAL, TEXT(Stage, stage.name, 0),
      .help = "name of the entry in the results; by default its number"},
@@ -324,6 +432,9 @@ static const CpsiKey STAGE_KEYS[] = {
      .inside = &POINT_CHANGE,
      .help = "what happens to a point where lines meet, as in knot.point; all others stay as they "
              "are"},
+    {"BODY.body", OPTIONAL, OWNED(Stage, body_changes), .owner = "bodies", .after = "body",
+     .inside = &BODY_CHANGE,
+     .help = "what happens to a body, as in spar.body; all others stay as they are"},
 };
 
 static void begin_stage(void *values) {
@@ -350,6 +461,8 @@ static const CpsiKey SCENE_KEYS[] = {
     {"obstacles", OPTIONAL, NAMED(Scene, obstacles), .inside = &OBSTACLE, .fallback = "{}",
      .help = "what the lines lie on, by name; each node rests on the nearest one, or on the two "
              "nearest"},
+    {"bodies", OPTIONAL, NAMED(Scene, bodies), .inside = &SCENE_BODY, .fallback = "{}",
+     .help = "rigid bodies that lines hold, by name: a spar, a barge"},
     {"points", OPTIONAL, NAMED(Scene, points), .inside = &SCENE_POINT, .fallback = "{}",
      .help = "where ends of lines meet, by name: anchors, knots, clumps and buoys on joints"},
     {"lines", REQUIRED, NAMED(Scene, lines), .inside = &LINE,
@@ -366,7 +479,8 @@ static const CpsiKey SCENE_KEYS[] = {
     {"solver", OPTIONAL, AROUND, .inside = &SOLVER, .fallback = "{}",
      .help = "how steps are solved"},
     {"history", OPTIONAL, LIST(Scene, history, 0), .inside = &STAGE, .fallback = "[]",
-     .help = "what happens to the lines' ends, to points and to obstacles that turn, in turn"},
+     .help = "what happens to the lines' ends, to points, to bodies and to obstacles that turn, in "
+             "turn"},
 };
 
 static void begin_scene(void *values) { ((CpsiSceneValues *)values)->scene = cps_scene_default(); }

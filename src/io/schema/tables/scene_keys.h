@@ -14,6 +14,7 @@ typedef struct CpsiSceneValues {
     double water;       /* [kg/m3] 0: in air */
     CpsiList types;     /* CpsiTypeValues */
     CpsiList obstacles; /* CpsiObstacleValues */
+    CpsiList bodies;    /* CpsiSceneBodyValues */
     CpsiList points;    /* CpsiScenePointValues */
     CpsiList lines;     /* CpsiLineValues */
     CpsiList history;   /* CpsiStageValues */
@@ -30,7 +31,36 @@ typedef struct CpsiScenePointValues {
     const CpsiYaml *node; /* the key is the name */
     CpsPoint point;
     double mass, volume; /* mass: NaN: not given */
+    const char *body;    /* name of the body that it is on */
+    double at[3];        /* [m] in its axes */
 } CpsiScenePointValues;
+
+/* A rotation, in one of two forms. */
+typedef enum CpsiRotationForm { CPSI_ROTATION_QUATERNION, CPSI_ROTATION_ANGLES } CpsiRotationForm;
+
+typedef struct CpsiRotationValues {
+    const CpsiYaml *node; /* NULL: not given */
+    int form;             /* CpsiRotationForm */
+    double quaternion[4];
+    double angle[3]; /* [degrees] roll, pitch, yaw */
+} CpsiRotationValues;
+
+/* A hydrostatic stiffness without coupling. */
+typedef struct CpsiDiagonalValues {
+    const CpsiYaml *node;
+    double k[CPS_BODY_DIRECTIONS]; /* [N/m], [N m] */
+} CpsiDiagonalValues;
+
+/* A rigid body of the scene. */
+typedef struct CpsiSceneBodyValues {
+    const CpsiYaml *node; /* the key is the name */
+    CpsBody body;
+    double mass, volume; /* NaN: not given */
+    CpsiRotationValues rotation;
+    CpsiNumberRows hydrostatics; /* (6, 6) */
+    CpsiDiagonalValues diagonal; /* .. or these */
+    double arm[3];               /* [m] of the force */
+} CpsiSceneBodyValues;
 
 typedef struct CpsiZoneValues {
     const CpsiYaml *node;
@@ -111,11 +141,20 @@ typedef struct CpsiChangeValues {
     double value[3];
 } CpsiChangeValues;
 
+/* A change of a body: its pose, or the load on it. A key is given where the mapping has it. */
+typedef struct CpsiBodyChangeValues {
+    const CpsiYaml *node; /* the key is BODY.body */
+    double position[3], move[3];
+    CpsiRotationValues rotation;
+    double force[3], moment[3], arm[3];
+} CpsiBodyChangeValues;
+
 typedef struct CpsiStageValues {
     const CpsiYaml *node;
     CpsStage stage;         /* gravity is NaN where not given */
     CpsiList changes;       /* CpsiChangeValues */
     CpsiList point_changes; /* CpsiChangeValues, with the key POINT.point */
+    CpsiList body_changes;  /* CpsiBodyChangeValues */
     CpsiList turns;         /* CpsiNumberItem, with the key OBSTACLE.turn */
 } CpsiStageValues;
 

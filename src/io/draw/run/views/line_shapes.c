@@ -20,7 +20,7 @@ enum {
 };
 
 static const char COLOUR_STICK[] = "#9ad9c8", COLOUR_SLIP[] = "#ffb59b", COLOUR_AIR[] = "#d3b8f0",
-                  COLOUR_START[] = "#c4c4c4";
+                  COLOUR_START[] = "#c4c4c4", COLOUR_BODY[] = "#e3c98b";
 
 /* largest of 1, 2, 5, 10, ... that is at most x */
 static double round_down(double x) {
@@ -69,6 +69,7 @@ typedef struct Pen {
     const CpsiView *view;
     const CpsiFrame *frame;
     FILE *out;
+    CpsiLabels *labels;
 } Pen;
 
 static void draw_point(const Pen *pen, const double position[3]) {
@@ -159,12 +160,34 @@ static void draw_meeting_point(const Pen *pen, const CpsResults *results, int po
             "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\" "
             "stroke=\"#222\" stroke-width=\"%.1f\"/>",
             x - half, y - half, 2 * half, 2 * half, fill, edge);
-    const bool left = x > pen->frame->left + 0.8 * pen->frame->width;
-    if (named)
-        cpsi_svg_text(pen->out, left ? x - 9 : x + 9, y - 9, left ? CPSI_END : CPSI_START,
-                      "font-size=\"11\" paint-order=\"stroke\" stroke=\"#fff\" "
-                      "stroke-width=\"3\"",
-                      results->point[point].name);
+    if (named) cpsi_label_put(pen->labels, pen->frame, x, y, results->point[point].name, pen->out);
+}
+
+static void name_body(const Pen *pen, const CpsResults *results, int body,
+                      const CpsBodyReport *report) {
+    const Vec3 place = vec3_sub(vec3_load(report->position), vec3_load(results->origin));
+    cpsi_label_put(pen->labels, pen->frame,
+                   cpsi_frame_x(pen->frame, vec3_dot(pen->view->right, place)),
+                   cpsi_frame_y(pen->frame, vec3_dot(pen->view->up, place)),
+                   results->body[body].name, pen->out);
+}
+
+static void draw_bodies(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot) {
+    const CpsiRow *row = &results->row[snapshot->step];
+    for (int i = 0; i < results->body_count; ++i)
+        cpsi_picture_outline(results, pen->view, pen->frame, &row->body[i].report, i,
+                             "fill=\"#e3c98b\" fill-opacity=\"0.75\" stroke=\"#6b5420\" "
+                             "stroke-width=\"2\"",
+                             pen->out);
+}
+
+/* What is drawn over all else: the axes of the bodies, and their names. */
+static void draw_axes(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot) {
+    const CpsiRow *row = &results->row[snapshot->step];
+    for (int i = 0; i < results->body_count; ++i) {
+        cpsi_picture_axes(results, pen->view, pen->frame, &row->body[i].report, pen->out);
+        if (results->body_count <= NAMED_POINTS) name_body(pen, results, i, &row->body[i].report);
+    }
 }
 
 static void draw_points(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot) {
@@ -172,7 +195,10 @@ static void draw_points(const Pen *pen, const CpsResults *results, const CpsiSna
     for (int i = 0; i < results->point_count; ++i) {
         const CpsPointReport *report = &row->point[i];
         draw_meeting_point(pen, results, i, report->position,
-                           report->state == CPS_POINT_STATE_HELD ? "#222" : "#fff", 4.5, 1.4,
+                           report->state == CPS_POINT_STATE_HELD      ? "#222"
+                           : report->state == CPS_POINT_STATE_ON_BODY ? COLOUR_BODY
+                                                                      : "#fff",
+                           report->state == CPS_POINT_STATE_ON_BODY ? 3 : 4.5, 1.4,
                            results->point_count <= NAMED_POINTS);
     }
 }
@@ -199,6 +225,12 @@ static bool all_ends_at_points(const CpsResults *results) {
         for (int e = 0; e < 2; ++e)
             if (results->line_point[l][e] == CPSI_AT_NO_POINT) return false;
     return true;
+}
+
+static bool has_points_of(const CpsResults *results, CpsPointKind kind) {
+    for (int i = 0; i < results->point_count; ++i)
+        if (results->point[i].kind == kind) return true;
+    return false;
 }
 
 #define SQUARE(fill)                                                          \
@@ -234,9 +266,15 @@ static void draw_step_legend(const CpsResults *results, bool air, double y, FILE
                     "<circle r=\"4.5\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"1.4\"/>",
                     "free end");
     }
-    if (results->point_count == 0) return;
-    cpsi_legend(out, &x, y, SQUARE("#222"), "held point");
-    cpsi_legend(out, &x, y, SQUARE("#fff"), "free point");
+    if (results->body_count == 0 || has_points_of(results, CPS_POINT_KIND_HELD))
+        cpsi_legend(out, &x, y, SQUARE("#222"), "held point");
+    if (results->body_count == 0 || has_points_of(results, CPS_POINT_KIND_FREE))
+        cpsi_legend(out, &x, y, SQUARE("#fff"), "free point");
+    if (results->body_count > 0)
+        cpsi_legend(out, &x, y,
+                    "<rect x=\"-9\" y=\"-5\" width=\"18\" height=\"10\" fill=\"#e3c98b\" "
+                    "stroke=\"#6b5420\" stroke-width=\"2\"/>",
+                    "body");
 }
 
 /* Initial configuration of a step. Before a line is statically placed it has none: the solver's
@@ -277,8 +315,10 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
 
     double range[2];
     cpsi_tension_range(results, range);
-    const Pen pen = {view, &frame, out};
+    CpsiLabels labels = {0};
+    const Pen pen = {view, &frame, out, &labels};
     cpsi_frame_begin(out, &frame, 1);
+    draw_bodies(&pen, results, snapshot);
     for (int l = 0; l < results->line_count; ++l)
         draw_polyline(&pen, start_of(results, snapshot, l), 0, snapshot->shape[l].points - 1,
                       COLOUR_START, 2, "");
@@ -286,6 +326,7 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
     for (int l = 0; l < results->line_count; ++l) draw_tension(&pen, &snapshot->shape[l], range);
     cpsi_frame_end(out);
     draw_ends(&pen, results, snapshot);
+    draw_axes(&pen, results, snapshot);
     draw_points(&pen, results, snapshot);
 
     const CpsiUnit unit = cpsi_unit("N", range[1]);
@@ -309,6 +350,22 @@ static void draw_points_of_steps(const Pen *pen, const CpsResults *results) {
     }
 }
 
+/* Where the bodies are after each step, in the same way. */
+static void draw_bodies_of_steps(const Pen *pen, const CpsResults *results) {
+    for (int s = 0; s < results->snapshot_count; ++s)
+        for (int i = 0; i < results->body_count; ++i) {
+            const CpsBodyReport *report = &results->row[results->snapshot[s].step].body[i].report;
+            const bool last = s + 1 == results->snapshot_count;
+            char style[80];
+            snprintf(style, sizeof style, "fill=\"none\" stroke=\"%s\" stroke-width=\"1.2\"",
+                     cpsi_step_colour(results, s).hex);
+            cpsi_picture_outline(results, pen->view, pen->frame, report, i, style, pen->out);
+            if (!last) continue;
+            cpsi_picture_axes(results, pen->view, pen->frame, report, pen->out);
+            if (results->body_count <= NAMED_POINTS) name_body(pen, results, i, report);
+        }
+}
+
 void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *out) {
     char note[64], what[80], mark[160];
     CpsiFrame frame;
@@ -316,7 +373,8 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
     snprintf(what, sizeof what, "  \xC2\xB7  %s", note);
     begin_sheet(results, view, &frame, -1, what, out);
 
-    const Pen pen = {view, &frame, out};
+    CpsiLabels labels = {0};
+    const Pen pen = {view, &frame, out, &labels};
     cpsi_frame_begin(out, &frame, 1);
     for (int l = 0; l < results->line_count; ++l)
         draw_polyline(&pen, start_of(results, &results->snapshot[0], l), 0,
@@ -326,6 +384,7 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
             draw_polyline(&pen, results->snapshot[s].shape[l].position, 0,
                           results->snapshot[s].shape[l].points - 1,
                           cpsi_step_colour(results, s).hex, cpsi_step_width(results, s), "");
+    draw_bodies_of_steps(&pen, results);
     draw_points_of_steps(&pen, results);
     cpsi_frame_end(out);
     cpsi_step_list(results, &frame, out);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The directions of view of the pictures: plan views against gravity; elevations across the
- * direction in which the lines spread most, along a slope, which is then a straight line, or along
- * the axis of a cylinder, which is then a circle. All pictures of a run have the same ones, so that
- * steps can be compared. */
+ * direction in which bodies move, or the lines spread most, along a slope, which is then a straight
+ * line, or along the axis of a cylinder, which is then a circle. All pictures of a run have the
+ * same ones, so that steps can be compared. */
 #include <math.h>
 
 #include "io/draw/run/run_picture.h"
@@ -17,6 +17,9 @@ static const double LEVEL = 1e-3;
 /* A cylinder counts as horizontal when its axis is at least this long as seen from above: at most
  * 25 degrees from the horizontal. */
 static const double HORIZONTAL = 0.9;
+
+/* A way of a body that is shorter than this share of the lines' spread is not visible. */
+static const double VISIBLE = 1e-3;
 
 /* Silhouettes up to this many times as wide as the lines are shown whole ... */
 static const double MOST_ROUND = 2;
@@ -75,6 +78,17 @@ static void include_round(const CpsResults *results, CpsiView *view) {
     }
 }
 
+static void include_bodies(const CpsResults *results, const CpsiRow *row, CpsiView *view) {
+    for (int i = 0; i < results->body_count; ++i) {
+        const int corners = cpsi_body_corner_count(results, i);
+        for (int k = 0; k < corners; ++k) {
+            const Vec3 place = cpsi_body_corner(results, &row->body[i].report, i, k);
+            cpsi_range_include(view->x, vec3_dot(view->right, place));
+            cpsi_range_include(view->y, vec3_dot(view->up, place));
+        }
+    }
+}
+
 /* ranges over all snapshots, of the configurations and of the initial ones of their steps */
 static void measure(const CpsResults *results, CpsiView *view) {
     view->x[0] = view->y[0] = INFINITY;
@@ -94,6 +108,7 @@ static void measure(const CpsResults *results, CpsiView *view) {
                 count += 1;
             }
         }
+        include_bodies(results, &results->row[results->snapshot[s].step], view);
     }
     view->cut = sum / count;
     include_round(results, view);
@@ -132,8 +147,31 @@ static double widest_angle(const CpsResults *results, Vec3 right, Vec3 up) {
     return 0.5 * atan2(2 * (xy - x * y / n), (xx - x * x / n) - (yy - y * y / n));
 }
 
-/* the direction of a slope, across a horizontal cylinder, or of the widest spread, as an angle from
- * east */
+/* the farthest way that a body is from where it was at the first step */
+static Vec3 farthest_way(const CpsResults *results) {
+    Vec3 farthest = vec3(0, 0, 0);
+    for (int r = 1; r < results->row_count; ++r)
+        for (int i = 0; i < results->body_count; ++i) {
+            const Vec3 way = vec3_sub(vec3_load(results->row[r].body[i].report.position),
+                                      vec3_load(results->row[0].body[i].report.position));
+            if (vec3_norm(way) > vec3_norm(farthest)) farthest = way;
+        }
+    return farthest;
+}
+
+/* the longest straight distance between the ends of a line at the first step */
+static double longest_chord(const CpsResults *results) {
+    double longest = 0;
+    for (int l = 0; l < results->line_count; ++l) {
+        const CpsiShape *shape = &results->snapshot[0].shape[l];
+        const double *last = shape->position + 3 * (size_t)(shape->points - 1);
+        longest = fmax(longest, vec3_norm(vec3_sub(vec3_load(last), vec3_load(shape->position))));
+    }
+    return longest;
+}
+
+/* the direction of a slope, across a horizontal cylinder, of the bodies' way, or of the widest
+ * spread, as an angle from east */
 static double elevation_angle(const CpsResults *results, Vec3 east, Vec3 north) {
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle *obstacle = &results->obstacle[k];
@@ -144,6 +182,9 @@ static double elevation_angle(const CpsResults *results, Vec3 east, Vec3 north) 
                      y = plane ? n : -e;
         if (hypot(x, y) > (plane ? LEVEL : HORIZONTAL)) return x < 0 ? atan2(-y, -x) : atan2(y, x);
     }
+    const Vec3 way = farthest_way(results);
+    const double e = vec3_dot(way, east), n = vec3_dot(way, north);
+    if (hypot(e, n) > VISIBLE * longest_chord(results)) return e < 0 ? atan2(-n, -e) : atan2(n, e);
     return widest_angle(results, east, north);
 }
 

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rigid bodies: from the values of a scene file to the scene's structs (see scene_build.h). */
+#include <math.h>
+#include <string.h>
+
+#include "base/math.h"
+#include "io/read/scene/scene_build.h"
+
+static void copy_vector(double out[3], const double x[3]) { memcpy(out, x, 3 * sizeof *out); }
+
+/* ---- rotations ---- */
+
+/* a b, which turns by b and then by a */
+static void multiply(const double a[4], const double b[4], double out[4]) {
+    out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+    out[1] = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
+    out[2] = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
+    out[3] = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
+}
+
+/* As a quaternion. Yaw about z, pitch about the new y and roll about the new x are, in axes that
+ * stay, first roll about x, then pitch about y, then yaw about z. */
+static void build_rotation(const CpsiRotationValues *values, double out[4]) {
+    if (values->form == CPSI_ROTATION_QUATERNION) {
+        memcpy(out, values->quaternion, 4 * sizeof *out);
+        return;
+    }
+    double about[3][4] = {{0}}, both[4];
+    for (int i = 0; i < 3; i++) {
+        const double half = 0.5 * values->angle[i] * CPSI_DEGREE;
+        about[i][0] = cos(half);
+        about[i][1 + i] = sin(half);
+    }
+    multiply(about[1], about[0], both);
+    multiply(about[2], both, out);
+}
+
+/* Add the moment of a force at an arm. */
+static void add_arm(const double arm[3], const double force[3], double moment[3]) {
+    for (int i = 0; i < 3; i++) {
+        const int k = (i + 1) % 3, l = (i + 2) % 3;
+        moment[i] += arm[k] * force[l] - arm[l] * force[k];
+    }
+}
+
+/* ---- bodies ---- */
+
+/* `centre` goes with one of two other keys. */
+static CpsStatus check_centre(const CpsiDocument *d, const CpsiYaml *node, const char *centre,
+                              const char *one, const char *other) {
+    const CpsiYaml *given = cpsi_yaml_child(node, centre);
+    if (!given || cpsi_yaml_child(node, one) || cpsi_yaml_child(node, other)) return CPS_OK;
+    return cpsi_document_fail(d, CPS_ERR_INPUT, given,
+                              "'%s': it goes with '%s' or '%s', of which neither is given", centre,
+                              one, other);
+}
+
+static CpsStatus check_body(const CpsiMaterials *m, const CpsiSceneBodyValues *values) {
+    const CpsiYaml *node = values->node, *volume = cpsi_yaml_child(node, "volume");
+    CpsStatus status = check_centre(m->d, node, "centre_of_gravity", "mass", "weight");
+    if (status == CPS_OK)
+        status = check_centre(m->d, node, "centre_of_buoyancy", "volume", "buoyancy");
+    if (status == CPS_OK && volume && values->volume > 0 && m->water == 0)
+        return cpsi_document_fail(m->d, CPS_ERR_INPUT, volume,
+                                  "'volume': it displaces water, but the scene has no "
+                                  "'water_density': give that, or the 'buoyancy' in N");
+    return status;
+}
+
+static CpsStatus build_body(const CpsiMaterials *m, const CpsiSceneBodyValues *values,
+                            CpsBody *body) {
+    const CpsiYaml *name = values->node;
+    const CpsStatus status = check_body(m, values);
+    if (status != CPS_OK) return status;
+    *body = values->body;
+    body->name = cpsi_pool_text(m->pool, name->key, strlen(name->key));
+    if (!body->name) return cpsi_document_no_memory(m->d);
+    if (values->rotation.node) build_rotation(&values->rotation, body->rotation);
+    if (!isnan(values->mass)) body->weight = values->mass * m->gravity;
+    if (!isnan(values->volume)) body->buoyancy = m->water * values->volume * m->gravity;
+    if (values->hydrostatics.node)
+        memcpy(body->hydrostatics, values->hydrostatics.x, sizeof body->hydrostatics);
+    if (values->diagonal.node)
+        for (int i = 0; i < CPS_BODY_DIRECTIONS; i++)
+            body->hydrostatics[(CPS_BODY_DIRECTIONS + 1) * i] = values->diagonal.k[i];
+    add_arm(values->arm, body->force, body->moment);
+    return CPS_OK;
+}
+
+CpsStatus cpsi_bodies_build(const CpsiMaterials *m, const CpsiList *bodies, CpsScene *scene,
+                            CpsiHeldPose **held) {
+    const CpsiSceneBodyValues *values = bodies->item;
+    *held = NULL;
+    if (bodies->count == 0) return CPS_OK;
+    CpsBody *body = CPSI_POOL_TAKE(m->pool, bodies->count, CpsBody);
+    *held = CPSI_POOL_TAKE(m->d->pool, bodies->count, CpsiHeldPose);
+    if (!body || !*held) return cpsi_document_no_memory(m->d);
+    scene->body = body;
+    scene->body_count = bodies->count;
+    for (int k = 0; k < bodies->count; k++) {
+        const CpsStatus status = build_body(m, &values[k], &body[k]);
+        if (status != CPS_OK) return status;
+        CpsiHeldPose *pose = &(*held)[k];
+        pose->is_known = body[k].kind == CPS_BODY_KIND_HELD;
+        copy_vector(pose->position, body[k].position);
+        memcpy(pose->rotation, body[k].rotation, sizeof pose->rotation);
+    }
+    return CPS_OK;
+}
+
+CpsStatus cpsi_body_find(const CpsiDocument *d, const CpsScene *scene, const CpsiYaml *node,
+                         int *index) {
+    CpsSuggestion suggestion = {.word = node->text};
+    for (int k = 0; k < scene->body_count; k++) {
+        cps_suggest(&suggestion, scene->body[k].name);
+        if (strcmp(scene->body[k].name, node->text) != 0) continue;
+        *index = k;
+        return CPS_OK;
+    }
+    if (scene->body_count == 0)
+        return cpsi_document_fail(d, CPS_ERR_INPUT, node,
+                                  "'body': found '%.64s', but the scene has no 'bodies': give it "
+                                  "there, held or free",
+                                  node->text);
+    if (suggestion.best)
+        return cpsi_document_fail(d, CPS_ERR_INPUT, node,
+                                  "'body': there is no body '%.64s'; did you mean '%.64s'?",
+                                  node->text, suggestion.best);
+    return cpsi_document_fail(d, CPS_ERR_INPUT, node,
+                              "'body': found '%.64s', expected the name of one of the %d bodies of "
+                              "the scene",
+                              node->text, scene->body_count);
+}
+
+/* ---- changes ---- */
+
+/* The pose of one that is held; what is not given stays as it was. */
+static CpsStatus build_pose(const CpsiDocument *d, const CpsiBodyChangeValues *values,
+                            CpsiHeldPose *held, CpsBodyChange *change) {
+    const CpsiYaml *node = values->node, *move = cpsi_yaml_child(node, "move");
+    const bool moves = cpsi_yaml_child(node, "position"), turns = values->rotation.node;
+    if (!held->is_known && !(moves && turns))
+        return cpsi_document_fail(d, CPS_ERR_INPUT, move ? move : node->child,
+                                  "'%s': the body's pose before it is not known (it is free): "
+                                  "give both its 'position' and its 'rotation'",
+                                  node->key);
+    if (moves) copy_vector(held->position, values->position);
+    if (move)
+        for (int i = 0; i < 3; i++) held->position[i] += values->move[i];
+    if (turns) build_rotation(&values->rotation, held->rotation);
+    held->is_known = true;
+    change->kind = CPS_BODY_KIND_HELD;
+    copy_vector(change->position, held->position);
+    memcpy(change->rotation, held->rotation, sizeof change->rotation);
+    return CPS_OK;
+}
+
+CpsStatus cpsi_body_change_build(const CpsiDocument *d, const CpsiBodyChangeValues *values,
+                                 CpsiHeldPose *held, CpsBodyChange *change) {
+    const CpsiYaml *node = values->node;
+    const bool poses = cpsi_yaml_child(node, "position") || cpsi_yaml_child(node, "move") ||
+                       cpsi_yaml_child(node, "rotation");
+    const bool loads = cpsi_yaml_child(node, "force") || cpsi_yaml_child(node, "moment");
+    if (poses == loads)
+        return cpsi_document_fail(d, CPS_ERR_INPUT, node,
+                                  "'%s': %s, expected a pose ('position' or 'move', 'rotation') "
+                                  "or a load ('force', 'moment')",
+                                  node->key, poses ? "both given" : "nothing given");
+    if (poses) return build_pose(d, values, held, change);
+    held->is_known = false;
+    change->kind = CPS_BODY_KIND_FREE;
+    copy_vector(change->force, values->force);
+    copy_vector(change->moment, values->moment);
+    add_arm(values->arm, change->force, change->moment);
+    return CPS_OK;
+}

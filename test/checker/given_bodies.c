@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The bodies of a file beside their scene (given_bodies.h).
+ *
+ * A stage moves a held body from its present pose to that of the stage: its reference point along a
+ * straight line, its rotation along the shorter great circle of unit quaternions, both evenly. On a
+ * free body the load goes evenly from the present one to that of the stage. A free body that is
+ * held begins in the pose it had reached; one that is let go, with the support that held it. */
+#include "given_bodies.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bodies.h"
+
+/* Numbers that are copied; poses on their way; loads: sums of a few products, and the turning
+ * moment of the water by differences. */
+static const double COPIED = 1e-14, POSES = 1e-12, LOADS = 1e-11;
+
+/* What the scene imposes on a body. */
+typedef struct Imposed {
+    int kind;
+    double from_position[3], position[3], from_rotation[FOUR], rotation[FOUR];
+    double from_load[SIX], load[SIX];
+} Imposed;
+
+typedef struct Compare {
+    const Source *source;
+    const CpsScene *scene;
+    Bodies bodies;
+    GivenFinding *find;
+    void *user;
+    bool found;
+} Compare;
+
+__attribute__((format(printf, 2, 3))) static void find(Compare *c, const char *format, ...) {
+    char sentence[300];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(sentence, sizeof sentence, format, list);
+    va_end(list);
+    c->found = true;
+    c->find(c->user, sentence);
+}
+
+static double size(const double *v) { return hypot(hypot(v[0], v[1]), v[2]); }
+
+/* numbers equal to within `noise`, else a finding */
+static void same(Compare *c, const char *what, const char *of, const double *file,
+                 const double *scene, size_t count, double noise) {
+    for (size_t i = 0; i < count; i++)
+        if (!(fabs(file[i] - scene[i]) <= noise)) {
+            find(c, "%s of %s is %.17g, in the scene %.17g", what, of, file[i], scene[i]);
+            return;
+        }
+}
+
+static double largest(const double *v, size_t count) {
+    double most = 0;
+    for (size_t i = 0; i < count; i++) most = fmax(most, fabs(v[i]));
+    return most;
+}
+
+static void same_constant(Compare *c, const char *what, const char *of, const double *file,
+                          const double *scene, size_t count) {
+    same(c, what, of, file, scene, count, COPIED * largest(scene, count));
+}
+
+static void unit(const double q[FOUR], double out[FOUR]) {
+    const double length = hypot(hypot(q[0], q[1]), hypot(q[2], q[3]));
+    for (int i = 0; i < FOUR; i++) out[i] = q[i] / length;
+}
+
+/* ---- numbers of the scene ---- */
+
+static void compare_body(Compare *c, size_t k) {
+    const CpsBody *body = &c->scene->body[k];
+    const BodyData *data = &c->bodies.data[k];
+    const char *name = body->name;
+    double start[3];
+    if (strcmp(data->name, name) != 0) {
+        find(c, "body %s, in the scene %s", data->name, name);
+        return;
+    }
+    if (data->kind != (body->kind == CPS_BODY_KIND_HELD ? BODY_HELD : BODY_FREE))
+        find(c, "kind_of_body of %s", name);
+    for (int i = 0; i < SIX; i++)
+        if (data->fixed[i] != body->fixed[i]) find(c, "fixed_of_body of %s", name);
+    same_constant(c, "weight_of_body", name, &data->weight, &body->weight, 1);
+    same_constant(c, "buoyancy_of_body", name, &data->buoyancy, &body->buoyancy, 1);
+    same_constant(c, "centre_of_gravity_of_body", name, data->centre_of_gravity,
+                  body->centre_of_gravity, 3);
+    same_constant(c, "centre_of_buoyancy_of_body", name, data->centre_of_buoyancy,
+                  body->centre_of_buoyancy, 3);
+    same_constant(c, "hydrostatics_of_body", name, data->hydrostatics, body->hydrostatics,
+                  SIX * SIX);
+    same_constant(c, "start_rotation_of_body", name, data->start_rotation, body->rotation, FOUR);
+    for (int i = 0; i < 3; i++) start[i] = body->position[i] - c->source->origin[i];
+    same(c, "start_position_of_body", name, data->start_position, start, 3,
+         COPIED * (size(body->position) + size(c->source->origin)));
+}
+
+static void compare_points(Compare *c) {
+    for (size_t k = 0; k < c->source->points; k++) {
+        const CpsPoint *point = &c->scene->point[k];
+        const bool is_on = point->kind == CPS_POINT_KIND_ON_BODY;
+        if (c->bodies.of_point[k] != (is_on ? point->body : ON_NO_BODY))
+            find(c, "body_of_point of %s", point->name);
+        else if (is_on)
+            same_constant(c, "place_on_body_of_point", point->name, c->bodies.place[k],
+                          point->position, 3);
+    }
+}
+
+static Imposed first(const Compare *c, size_t k) {
+    const CpsBody *body = &c->scene->body[k];
+    Imposed out = {.kind = body->kind == CPS_BODY_KIND_HELD ? BODY_HELD : BODY_FREE};
+    for (int i = 0; i < 3; i++) {
+        out.position[i] = body->position[i] - c->source->origin[i];
+        out.load[i] = body->force[i];
+        out.load[3 + i] = body->moment[i];
+    }
+    unit(body->rotation, out.rotation);
+    return out;
+}
+
+/* ---- steps ---- */
+
+/* Between two unit quaternions, on the shorter great circle. */
+static void between(const double from[FOUR], const double to[FOUR], double share,
+                    double out[FOUR]) {
+    double cosine = 0, sum[FOUR];
+    for (int i = 0; i < FOUR; i++) cosine += from[i] * to[i];
+    const double sign = cosine < 0 ? -1 : 1;
+    for (int i = 0; i < FOUR; i++) sum[i] = from[i] - sign * to[i];
+    /* the angle from the chord, which is accurate where it is small */
+    const double angle =
+        2 * asin(fmin(1, 0.5 * hypot(hypot(sum[0], sum[1]), hypot(sum[2], sum[3]))));
+    const double one = angle > 1e-9 ? sin((1 - share) * angle) / sin(angle) : 1 - share,
+                 other = angle > 1e-9 ? sin(share * angle) / sin(angle) : share;
+    for (int i = 0; i < FOUR; i++) sum[i] = one * from[i] + sign * other * to[i];
+    unit(sum, out);
+}
+
+static void impose(const Compare *c, Imposed *body, const CpsBodyChange *change, int part,
+                   int parts, const BodyState *before) {
+    const double share = (double)part / parts;
+    const int kind = change->kind == CPS_BODY_KIND_HELD ? BODY_HELD : BODY_FREE;
+    if (part == 1) {
+        if (kind == BODY_HELD && body->kind == BODY_FREE && before) {
+            memcpy(body->position, before->position, sizeof body->position);
+            unit(before->rotation, body->rotation);
+        }
+        if (kind == BODY_FREE && body->kind == BODY_HELD)
+            for (int i = 0; i < SIX; i++) body->load[i] = before ? before->support[i] : 0;
+        memcpy(body->from_position, body->position, sizeof body->from_position);
+        memcpy(body->from_rotation, body->rotation, sizeof body->from_rotation);
+        memcpy(body->from_load, body->load, sizeof body->from_load);
+        body->kind = kind;
+    }
+    if (kind == BODY_HELD) {
+        double to[FOUR];
+        unit(change->rotation, to);
+        between(body->from_rotation, to, share, body->rotation);
+        for (int i = 0; i < 3; i++) {
+            const double end = change->position[i] - c->source->origin[i];
+            body->position[i] = body->from_position[i] + share * (end - body->from_position[i]);
+        }
+        memset(body->load, 0, sizeof body->load);
+        return;
+    }
+    for (int i = 0; i < SIX; i++) {
+        const double end = i < 3 ? change->force[i] : change->moment[i - 3];
+        body->load[i] = body->from_load[i] + share * (end - body->from_load[i]);
+    }
+}
+
+static void compare_state(Compare *c, size_t k, const Imposed *body, const double g[3], size_t step,
+                          const BodyState *at) {
+    const BodyData *data = &c->bodies.data[k];
+    char of[120];
+    snprintf(of, sizeof of, "%.60s, step %zu,", data->name, step);
+    if (at->kind != body->kind) {
+        find(c, "state_of_body of %s", of);
+        return;
+    }
+    if (at->kind == BODY_HELD) {
+        double sign = 0, wanted[FOUR];
+        same(c, "position_of_body", of, at->position, body->position, 3,
+             POSES * (size(body->position) + size(body->from_position) + size(c->source->origin)));
+        for (int i = 0; i < FOUR; i++) sign += at->rotation[i] * body->rotation[i];
+        for (int i = 0; i < FOUR; i++)
+            wanted[i] = sign < 0 ? -body->rotation[i] : body->rotation[i];
+        same(c, "rotation_of_body", of, at->rotation, wanted, FOUR, POSES);
+    }
+    const double pull = size(c->scene->gravity);
+    double per[3], wanted[SIX], noise[2], q[SIX];
+    Real load[SIX];
+    for (int i = 0; i < 3; i++) per[i] = pull > 0 ? g[i] / pull : 0;
+    body_load(data, at->position, at->rotation, per, load);
+    for (int i = 0; i < SIX; i++) wanted[i] = (double)load[i] + body->load[i];
+    /* sizes of what the sums are made of; of rotations, up to half a turn */
+    for (int i = 0; i < 3; i++)
+        q[i] = fabs(at->position[i]) + fabs(data->start_position[i]) + size(c->source->origin);
+    for (int i = 3; i < SIX; i++) q[i] = 4;
+    const double weights = (data->weight + data->buoyancy) * size(per);
+    noise[0] = weights + size(body->load) + size(body->from_load);
+    noise[1] = data->weight * size(per) * size(data->centre_of_gravity) +
+               data->buoyancy * size(per) * size(data->centre_of_buoyancy) + size(&body->load[3]) +
+               size(&body->from_load[3]);
+    for (int i = 0; i < SIX; i++)
+        for (int j = 0; j < SIX; j++) noise[i / 3] += fabs(data->hydrostatics[SIX * i + j]) * q[j];
+    same(c, "load_of_body", of, at->load, wanted, 3, LOADS * noise[0]);
+    same(c, "moment of load_of_body", of, &at->load[3], &wanted[3], 3, LOADS * noise[1]);
+}
+
+static void compare_step(Compare *c, const GivenStep *given, size_t step, Imposed *imposed,
+                         const BodyState *before, const BodyState *now) {
+    const int changes = given->stage ? given->stage->body_change_count : 0;
+    for (int i = 0; i < changes; i++) {
+        const CpsBodyChange *change = &given->stage->body_change[i];
+        impose(c, &imposed[change->body], change, given->part, given->stage->step_count,
+               step > 0 ? &before[change->body] : NULL);
+    }
+    for (size_t k = 0; k < c->bodies.count; k++)
+        compare_state(c, k, &imposed[k], given->gravity, step, &now[k]);
+}
+
+static int compare_steps(Compare *c, GivenStep (*step_of)(const void *user, size_t step),
+                         FILE *log) {
+    const size_t n = c->bodies.count;
+    Imposed *imposed = calloc(n, sizeof *imposed);
+    BodyState *now = calloc(n, sizeof *now), *before = calloc(n, sizeof *before);
+    int bad = imposed && now && before ? 0 : -1;
+    if (!bad)
+        for (size_t k = 0; k < n; k++) imposed[k] = first(c, k);
+    for (size_t step = 0; step < c->source->steps && !bad && !c->found; step++) {
+        const GivenStep given = step_of(c->user, step);
+        bad = bodies_read(c->source, &c->bodies, step, now, log);
+        if (!bad) compare_step(c, &given, step, imposed, before, now);
+        BodyState *swap = before;
+        before = now;
+        now = swap;
+    }
+    free(imposed);
+    free(now);
+    free(before);
+    return bad;
+}
+
+int given_bodies(const Source *source, const CpsScene *scene,
+                 GivenStep (*step_of)(const void *user, size_t step), GivenFinding *finding,
+                 void *user, FILE *log) {
+    Compare c = {.source = source, .scene = scene, .find = finding, .user = user};
+    int bad = bodies_open(source, &c.bodies, log);
+    if (!bad && c.bodies.count != (size_t)scene->body_count)
+        find(&c, "%zu bodies, in the scene %d", c.bodies.count, scene->body_count);
+    if (!bad && !c.found && c.bodies.count > 0) {
+        for (size_t k = 0; k < c.bodies.count; k++) compare_body(&c, k);
+        compare_points(&c);
+        if (!c.found) bad = compare_steps(&c, step_of, log);
+    }
+    bodies_close(&c.bodies);
+    return bad;
+}
