@@ -67,18 +67,34 @@ typedef struct CpsiZoneValues {
     CpsFrictionZone zone;
 } CpsiZoneValues;
 
+/* A table of strains and tensions. */
+typedef struct CpsiStiffnessValues {
+    const CpsiYaml *node; /* NULL: none */
+    CpsiNumberRows strain, tension;
+} CpsiStiffnessValues;
+
 /* What a metre of line weighs: `mass`, in water with its `diameter`, or `weight`; NaN: not given.
  */
 typedef struct CpsiTypeValues {
     const CpsiYaml *node; /* the key is the name */
     double mass, diameter, weight, stiffness, friction;
-    double breaking_load; /* NaN: not given */
+    CpsiStiffnessValues table; /* in place of `stiffness` */
+    double breaking_load;      /* NaN: not given */
 } CpsiTypeValues;
+
+/* Elements that become shorter towards an end, or towards both. */
+typedef enum CpsiTowards { CPSI_TOWARDS_A, CPSI_TOWARDS_B, CPSI_TOWARDS_BOTH } CpsiTowards;
+typedef struct CpsiGradeValues {
+    const CpsiYaml *node; /* NULL: all are equal */
+    int towards;          /* CpsiTowards */
+    double ratio;         /* longest over shortest */
+} CpsiGradeValues;
 
 typedef struct CpsiSectionValues {
     const CpsiYaml *node;
     const char *type;
     double length, count, element_length; /* count and element_length: NaN: not given */
+    CpsiGradeValues grade;
 } CpsiSectionValues;
 
 typedef struct CpsiPointWeightValues {
@@ -120,10 +136,13 @@ typedef struct CpsiLineValues {
     CpsLine line;
     double mass, count, diameter; /* count: number of elements; NaN: not given */
     double breaking_load;         /* NaN: not given */
+    CpsiStiffnessValues table;    /* in place of line.stiffness */
     CpsiList sections;            /* CpsiSectionValues */
     CpsiList point_weights;       /* CpsiPointWeightValues */
     const CpsiYaml *elements;     /* a list of them */
-    CpsiList zones;               /* CpsiZoneValues */
+    double element_length;        /* NaN: not given */
+    CpsiGradeValues grade;
+    CpsiList zones; /* CpsiZoneValues */
     CpsiStartValues start;
     CpsiEndValues end[2];
 } CpsiLineValues;
