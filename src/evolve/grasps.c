@@ -160,14 +160,13 @@ static void drop(CpsiLine *line, int k) {
 }
 
 /* Add a node on which there is no force yet. */
-static void insert(CpsiLine *line, int node, bool held) {
+static void insert(CpsiLine *line, int node) {
     int k = 0;
     while (k < line->grasp_count && line->grasp[k].node < node) k++;
     memmove(&line->grasp[k + 1], &line->grasp[k],
             (size_t)(line->grasp_count - k) * sizeof *line->grasp);
     line->grasp_count++;
     line->grasp[k] = (CpsGrasp){.node = node, .imposed = {.kind = CPS_END_KIND_FREE}};
-    if (held) vec3_store(line->grasp[k].force, borne_by_obstacles(line, node));
 }
 
 /* Where the change of a node begins. */
@@ -191,13 +190,16 @@ static void begin_list(CpsiLine *line, const CpsiEvolutionStage *stage, int inde
             drop(line, k);
     for (int i = 0; i < stage->grasp_change_count; i++) {
         const CpsGraspChange *change = &stage->grasp_change[i];
-        if (change->line == index && find(line, change->node) < 0)
-            insert(line, change->node, change->kind == CPS_END_KIND_HELD);
+        if (change->line == index && find(line, change->node) < 0) insert(line, change->node);
     }
     for (int k = 0; k < line->grasp_count; k++) {
-        const CpsGraspChange *change = change_of(stage, index, line->grasp[k].node);
-        line->grasp_from[k] =
-            change ? begin(line, &line->grasp[k], change) : line->grasp[k].imposed;
+        CpsGrasp *grasp = &line->grasp[k];
+        const CpsGraspChange *change = change_of(stage, index, grasp->node);
+        line->grasp_from[k] = change ? begin(line, grasp, change) : grasp->imposed;
+        if (!change || change->kind == grasp->imposed.kind || change->kind == CPS_END_KIND_FREE)
+            continue;
+        const Vec3 own = vec3_load(grasp->force), borne = borne_by_obstacles(line, grasp->node);
+        vec3_store(grasp->force, vec3_add(own, borne));
     }
 }
 

@@ -121,10 +121,10 @@ static const Tamper TAMPER[] = {
     {"drag_element_length", 0, -1, "element_length holds a value that cannot be"},
     // outcomes other than solved
     {"drag_outcome", 0, 1, "taut, but the line is elastic"},
-    {"drag_outcome", 0, 4, "unbounded, but an end is held"},
+    {"drag_outcome", 0, 4, "unbounded, but a node is held"},
     {"drag_outcome", 0, 5, "infeasible, but"},
     {"drag_outcome", 0, 6, "mesh too coarse, but friction at one contact"},
-    {"drag_outcome", 0, 7, "slides without end, but an end is held"},
+    {"drag_outcome", 0, 7, "slides without end, but a node is held"},
     {"loose_outcome", 0, 7, "slides without end, but friction is frozen"},
     {"drag_outcome", 0, 8, "passes an obstacle, but contact is not"},
     {"drag_outcome", 0, 9, "unknown outcome"},
