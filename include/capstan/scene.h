@@ -10,6 +10,7 @@
 #define CAPSTAN_SCENE_H
 
 #include "capstan/body.h"
+#include "capstan/grasp.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
 
@@ -58,21 +59,6 @@ typedef struct CpsObstacle {
      * direction of the line, with which it turns */
     double grain[3];
 } CpsObstacle;
-
-typedef enum CpsEndKind {
-    CPS_END_KIND_HELD, /* `value` is the imposed position [m] (S90 (8), remark 2.3.4) */
-    CPS_END_KIND_FREE, /* `value` is the force applied to the end [N] (S90 (9)) */
-    /* held where the start of the line places it, which must not be static; `value` is not read.
-     * For lines only, not for changes */
-    CPS_END_KIND_AT_START,
-    CPS_END_KIND_POINT /* at a point of the scene (`end_point` of the line); `value` is not read.
-                          For lines only, not for changes */
-} CpsEndKind;
-
-typedef struct CpsEnd {
-    CpsEndKind kind;
-    double value[3];
-} CpsEnd;
 
 enum { CPS_END_A = 0, CPS_END_B = 1 };
 
@@ -201,6 +187,8 @@ typedef struct CpsStage {
     const CpsPointChange *point_change;
     int body_change_count; /* default 0 */
     const CpsBodyChange *body_change;
+    int grasp_change_count; /* default 0 */
+    const CpsGraspChange *grasp_change;
     bool gravity_changes; /* default false: gravity stays as it is; needs a scene with a gravity */
     /* [m/s2] with the flag: the gravity at the end of the stage. The weight of a line changes with
      * it, in proportion to the scene's. */

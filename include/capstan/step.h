@@ -202,16 +202,16 @@ typedef struct CpsLineReport {
     double proof_force;
     bool has_proof_obstacle, has_proof_plane; /* infeasible: not reached round, or caught */
     int proof_obstacle, proof_plane;          /* between the two; passes: the one passed */
-    /* [N] unbounded with frozen friction: the friction that Coulomb's law allows under these loads,
-     * where that is enough to hold the line; otherwise 0 */
+    /* [N] unbounded with frozen friction: what Coulomb's law allows, where that is enough; else 0
+     */
     double coulomb;
 } CpsLineReport;
 
 /* The report on one step of all lines. */
 typedef struct CpsStepReport {
-    /* "static", that of a stage or move, or "name k/n" in a stage of n steps; until the next one */
-    const char *name;
-    int step_count;      /* steps taken so far, this one included; 0 before the first one */
+    const char
+        *name;      /* "static", of a stage or move, or "name k/n" in n steps; until the next one */
+    int step_count; /* steps taken so far, this one included; 0 before the first one */
     CpsOutcome outcome;  /* the worst of the lines */
     int iteration_count; /* largest of the lines */
     /* energies, gap, scale, friction_residual and residuals in joules are sums over the lines, all
@@ -222,13 +222,11 @@ typedef struct CpsStepReport {
     int substep_count, warm_count; /* largest of the lines */
     int jump_count;                /* sum of the lines */
     CpsPlaces places;              /* the least determined of the lines */
-    double jump;                   /* [m] largest of the lines */
-    double unaccounted;            /* [J] sum of the lines */
+    double jump, unaccounted;      /* [m] largest of the lines; [J] sum of the lines */
     double wall;                   /* [s] time taken */
 } CpsStepReport;
 
-/* The entry of an array of obstacles' indices where there is no obstacle (base.h). */
-enum { CPS_NO_OBSTACLE = -1 };
+enum { CPS_NO_OBSTACLE = -1 }; /* in an array of obstacles' indices: there is none */
 
 /* All arrays of one line after a step or its last substep, until the evolution's next step. n =
  * element_count + 1 nodes, stored one after the other; forces act on the line. In an array over
@@ -237,7 +235,8 @@ typedef struct CpsLineView {
     const char *name;
     int element_count;
     int contact_count; /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    bool one_plane;    /* contacts are with one isotropic plane, or none: needed by regularized.h */
+    bool one_plane; /* for regularized.h, solutions: nothing is grasped, contact is with one plane
+                       with isotropic friction or none */
     const double *arc_length;     /* (n) [m] natural arc length of the nodes from end A */
     const double *element_length; /* (element_count) [m] */
     double compliance; /* [1/N] 1/EA at T = 0, of sections the mean; 0 of an inextensible line */
@@ -247,15 +246,17 @@ typedef struct CpsLineView {
     int spring_count; /* of tables: T = d/c + sum K (d - s)^+, d = |x'| - 1; else 0, and NULL: */
     const int *spring_element; /* (spring_count) not falling; s [-] and K [N] of each: */
     const double *spring_strain, *spring_stiffness;
-    bool has_breaking_load;      /* of some element at least; otherwise the array is 0 */
+    bool has_breaking_load;      /* of some element; otherwise the array is 0 */
     const double *breaking_load; /* (element_count) [N] INFINITY of elements without one */
     CpsEnd end[2];               /* what was imposed in this step */
-    const double *reference;     /* (n, 3) [m] x_R, where the step or its last substep began */
-    const double *position;      /* (n, 3) [m] */
-    const double *load;          /* (n, 3) [N] weight, and the force on a free end */
-    double weight_before[3];     /* [N/m] weight where the step, or its last substep, began */
-    const int *obstacle;         /* (contact_count, n) index in the scene, or CPS_NO_OBSTACLE */
-    const double *normal; /* (contact_count, n, 3) [-] at `position`; 0 0 0 without obstacle */
+    int grasp_count;
+    const CpsGrasp *grasp;   /* (grasp_count) nodes between the ends that are held or pulled */
+    const double *reference; /* (n, 3) [m] x_R, where the step or its last substep began */
+    const double *position;  /* (n, 3) [m] */
+    const double *load;      /* (n, 3) [N] weight, and the force on a free end */
+    double weight_before[3]; /* [N/m] weight where the step, or its last substep, began */
+    const int *obstacle;     /* (contact_count, n) index in the scene, or CPS_NO_OBSTACLE */
+    const double *normal;    /* (contact_count, n, 3) [-] at `position`; 0 0 0 without obstacle */
     /* (contact_count, n) [m] n.u >= -gap, u from the reference; INFINITY: no contact considered */
     const double *gap;
     /* (contact_count, n) [N] w = A h of the larger coefficient, or a set's factor; 0: smooth */
@@ -291,7 +292,7 @@ typedef struct CpsLineView {
     const unsigned char *element_state;   /* (element_count) CpsNodeState */
 } CpsLineView;
 
-/* A node that is no farther from an obstacle than this share of its line's length touches it. */
+/* A node no farther from an obstacle than this share of its line's length touches it. */
 #define CPS_TOUCH 1e-9
 
 #ifdef __cplusplus

@@ -24,6 +24,7 @@
 
 #include "base/larger.h"
 #include "cable/friction_law.h"
+#include "cable/held.h"
 #include "chain/frame.h"
 #include "linalg/dense.h"
 
@@ -122,8 +123,7 @@ static void distribute_excess(CpsiLine *line, CpsFrictionPolicy friction, Vec3 r
 
 void cpsi_balance_forces(CpsiLine *line, CpsFrictionPolicy friction) {
     const int n = line->n, elements = n - 1;
-    if (line->end[CPS_END_A].kind == CPS_END_KIND_FREE &&
-        line->end[CPS_END_B].kind == CPS_END_KIND_FREE) {
+    if (cpsi_line_is_loose(line)) {
         for (int round = 0; round < 2;
              round++) { /* the second round removes the rounding error of the first */
             Vec3 rest = vec3(0, 0, 0);
@@ -131,24 +131,26 @@ void cpsi_balance_forces(CpsiLine *line, CpsFrictionPolicy friction) {
             distribute_excess(line, friction, rest);
         }
     }
-    /* from B to A, starting from zero beyond a free end or from the computed force of the last
-     * element */
-    if (line->end[CPS_END_B].kind == CPS_END_KIND_FREE ||
-        line->end[CPS_END_A].kind == CPS_END_KIND_HELD) {
-        Vec3 p = segment_force(line, elements - 1);
-        if (line->end[CPS_END_B].kind == CPS_END_KIND_FREE) p = node_force(line, n - 1);
-        vec3_store(&line->segment_force[3 * (elements - 1)], p);
-        for (int e = elements - 2; e >= 0; e--) {
-            p = vec3_add(p, node_force(line, e + 1));
+    /* from A to the first held node, starting from zero beyond the free end, if a node is held at
+     * all */
+    const int held = cpsi_line_next_held(line, 0), first = held < n ? held : 0;
+    if (first > 0) {
+        Vec3 p = vec3_scale(-1, node_force(line, 0));
+        vec3_store(&line->segment_force[0], p);
+        for (int e = 1; e < first; e++) {
+            p = vec3_sub(p, node_force(line, e));
             vec3_store(&line->segment_force[3 * e], p);
         }
-        return;
     }
-    /* only A is free: from A to B */
-    Vec3 p = vec3_scale(-1, node_force(line, 0));
-    vec3_store(&line->segment_force[0], p);
-    for (int e = 1; e < elements; e++) {
-        p = vec3_sub(p, node_force(line, e));
+    if (first == elements) return;
+    /* from B to there, starting from zero beyond a free end, or at a held node from the computed
+     * force of the element before it */
+    Vec3 p = segment_force(line, elements - 1);
+    if (line->end[CPS_END_B].kind == CPS_END_KIND_FREE) p = node_force(line, n - 1);
+    vec3_store(&line->segment_force[3 * (elements - 1)], p);
+    for (int e = elements - 2; e >= first; e--) {
+        p = cpsi_line_is_held(line, e + 1) ? segment_force(line, e)
+                                           : vec3_add(p, node_force(line, e + 1));
         vec3_store(&line->segment_force[3 * e], p);
     }
 }
@@ -259,11 +261,9 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         double distance;
         if (cpsi_line_nearest(line, x, &distance) >= 0) raise_to(&out->penetration, -distance);
         balance = cpsi_add_element_contacts(line, j, balance);
-        if (cpsi_line_is_held(
-                line,
-                j)) { /* the held end's term of D: the force of its support times its position */
-            out->dual -=
-                vec3_dot(balance, vec3_load(line->end[j == 0 ? CPS_END_A : CPS_END_B].value));
+        if (cpsi_line_is_held(line, j)) {
+            /* the held node's term of D: the force of its support times its position */
+            out->dual -= vec3_dot(balance, cpsi_line_held_place(line, j));
             continue;
         }
         for (int c = j; c < cpsi_line_contacts(line); c += line->n)

@@ -171,6 +171,13 @@ void cpsi_contact_update_geometry(CpsiLine *line) {
 
 /* Contact c at the reference: its friction bound, and its gap if it enters the program. */
 static void set_reference(CpsiLine *line, int c, bool frictionless) {
+    if (c < cpsi_line_contacts(line) && cpsi_line_grasp_holds(line, cpsi_line_node(line, c))) {
+        /* what holds a node between the ends bears all that the obstacle did */
+        cpsi_contact_clear(line, c);
+        line->state[c] = CPS_NODE_STATE_FREE;
+        line->gap[c] = INFINITY;
+        return;
+    }
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     const double gap =
         obstacle ? cpsi_obstacle_gap(obstacle, cpsi_line_place(line, line->reference, c)) +

@@ -31,6 +31,7 @@
 #include <math.h>
 
 #include "cable/friction_law.h"
+#include "cable/held.h"
 #include "chain/frame.h"
 
 /* A node this near to an obstacle, per length of the line, counts as touching; the proof remains
@@ -204,9 +205,7 @@ static bool slides_towards(CpsiLine *line, bool to_a, double margin) {
 }
 
 bool cpsi_line_slides_endlessly(CpsiLine *line, double margin) {
-    if (line->end[CPS_END_A].kind != CPS_END_KIND_FREE ||
-        line->end[CPS_END_B].kind != CPS_END_KIND_FREE)
-        return false;
+    if (!cpsi_line_is_loose(line) || line->grasp_count > 0) return false;
     /* sections move along with the line, so that its weight beyond a place changes */
     if (line->has_sections) return false;
     if (line->element_contacts > 0 && has_resting_element(line)) return false;

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "cable/contact.h"
+#include "cable/held.h"
 #include "cable/line_solve.h"
 
 /* A direction leaves a plane by this much more steeply than friction on it asks, which is more than
@@ -16,17 +17,21 @@ static const double STEEPER = 1e-9;
  * certified equilibrium balance to less. */
 static const double LEAST_POWER = 1e-6;
 
-/* Ends farther apart than an inextensible line is long: a constant force along the ends is a
- * proof. */
+/* Held nodes farther apart than an inextensible line is long between them: a constant force along
+ * that span is a proof. */
 static bool too_short(CpsiLine *line) {
-    if (line->compliance > 0 || !cpsi_line_both_ends(line, CPS_END_KIND_HELD)) return false;
-    const Vec3 span =
-        vec3_sub(vec3_load(line->end[CPS_END_B].value), vec3_load(line->end[CPS_END_A].value));
-    const double distance = vec3_norm(span);
-    if (!(distance > line->length * (1 + CPSI_TAUT))) return false;
+    CpsiSpan span = {.to = 0}, worst = {.distance = 0};
+    if (line->compliance > 0) return false;
+    while (cpsi_line_next_span(line, span.to, &span))
+        if (span.distance > span.length * (1 + CPSI_TAUT) &&
+            span.distance - span.length > worst.distance - worst.length)
+            worst = span;
+    if (!(worst.distance > 0)) return false;
+    const Vec3 apart =
+        vec3_sub(cpsi_line_held_place(line, worst.to), cpsi_line_held_place(line, worst.from));
     line->report.outcome = CPS_OUTCOME_INFEASIBLE;
-    vec3_store(line->report.proof, vec3_scale(1 / distance, span));
-    line->report.proof_length = distance - line->length;
+    vec3_store(line->report.proof, vec3_scale(1 / worst.distance, apart));
+    line->report.proof_length = worst.distance - worst.length;
     return true;
 }
 
@@ -35,7 +40,7 @@ static bool too_short(CpsiLine *line) {
  * of B where the obstacle does not prevent it. This holds on one plane with isotropic friction, or
  * without obstacles; for several planes see slips_off. */
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
-    if (!cpsi_line_both_ends(line, CPS_END_KIND_FREE) || line->has_local_axes) return false;
+    if (!cpsi_line_is_loose(line) || line->has_local_axes) return false;
     Vec3 sum = vec3(0, 0, 0);
     double bound = 0, steepest = 0, least = INFINITY, loads = 0;
     bool stopped = false;
@@ -162,7 +167,7 @@ static void consider_two(const Slope *slope, int count, int k, int m, Fall *fall
  * B.v less the sum of w |v_T|; the same directions are tried, of which none need be the best. */
 static bool slips_off(CpsiLine *line, bool frozen) {
     Slope slope[MOST_SLOPES];
-    if (!cpsi_line_both_ends(line, CPS_END_KIND_FREE) || !line->has_local_axes) return false;
+    if (!cpsi_line_is_loose(line) || !line->has_local_axes) return false;
     const int count = fill_slopes(line, frozen, slope);
     Fall fall = {0};
     double loads = 0;
@@ -208,7 +213,7 @@ static bool moves_away(const CpsiLine *line, const CpsiObstacle *obstacle, Vec3 
 }
 
 bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *load) {
-    if (!cpsi_line_both_ends(line, CPS_END_KIND_FREE)) return false;
+    if (!cpsi_line_is_loose(line)) return false;
     Vec3 sum = vec3(0, 0, 0);
     double loads = 0;
     for (int j = 0; j < line->n; j++) {

@@ -117,6 +117,12 @@ double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
     return worst;
 }
 
+bool cpsi_line_grasp_holds(const CpsiLine *line, int j) {
+    for (int k = 0; k < line->grasp_count; k++)
+        if (line->grasp[k].node == j) return line->grasp[k].imposed.kind == CPS_END_KIND_HELD;
+    return false;
+}
+
 void cpsi_line_set_arc_length(CpsiLine *line) {
     /* compensated summation: the last abscissa is the length to rounding, for any number of
      * elements */

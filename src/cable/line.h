@@ -17,27 +17,9 @@
 #include "base/element_law.h"
 #include "cable/anderson.h"
 #include "cable/friction_law.h"
+#include "cable/load_change.h"
 #include "capstan/step.h"
 #include "geometry/obstacle.h"
-
-/* The increments of the loads in a substep. */
-typedef struct CpsiLoadChange {
-    bool known;
-    CpsEndKind kind[2];
-    double end[2][3]; /* [m] or [N] */
-    double weight[3]; /* [N/m] */
-    double turn;      /* [rad] the sum over the obstacles */
-} CpsiLoadChange;
-
-/* How Newton's method has fared (warm_step.h). */
-enum { CPSI_NEWTON_PATIENCE = 4 };
-typedef struct CpsiNewtonRecord {
-    int tried, solved; /* programs of the step: tried, and solved */
-    int failed;        /* those not solved, in a row */
-    int failures;      /* steps in a row in which it was of no use, up to CPSI_NEWTON_PATIENCE */
-    int pause;         /* steps that are next solved without it */
-    bool useful;       /* it was of use in a step of the history */
-} CpsiNewtonRecord;
 
 typedef struct CpsiLine {
     const char *name;
@@ -78,6 +60,10 @@ typedef struct CpsiLine {
     double *weight_length; /* (n) [m] natural length of `weight` that the node carries, with that
                               of its point masses; negative where a buoy lifts it */
     CpsEnd end_before[2];  /* imposed at the beginning of the substep */
+    int grasp_count;
+    CpsGrasp grasp[CPS_MAX_GRASPS]; /* nodes between the ends that are held or pulled, in order */
+    CpsEnd grasp_before[CPS_MAX_GRASPS]; /* imposed on them at the beginning of the substep */
+    CpsEnd grasp_from[CPS_MAX_GRASPS];   /* ... and of the stage */
     /* in the last substep; known where position - reference is its move */
     CpsiLoadChange last_change;
     CpsiNewtonRecord newton;
@@ -227,10 +213,14 @@ static inline double cpsi_line_contact_share(const CpsiLine *line, int c) {
     return e < 0 ? cpsi_line_share(line, cpsi_line_node(line, c)) : line->element_length[e];
 }
 
-/* Is node j an end that is held? */
+/* Is node j between the ends held by a grasp? */
+bool cpsi_line_grasp_holds(const CpsiLine *line, int j);
+
+/* Is node j held, as an end or by a grasp? */
 static inline bool cpsi_line_is_held(const CpsiLine *line, int j) {
     return (j == 0 && line->end[CPS_END_A].kind == CPS_END_KIND_HELD) ||
-           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_KIND_HELD);
+           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_KIND_HELD) ||
+           (line->grasp_count > 0 && cpsi_line_grasp_holds(line, j));
 }
 
 /* Is the node, or the whole element, of contact c held? */

@@ -8,6 +8,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/held.h"
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
 
@@ -45,20 +46,22 @@ void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
         if (line->end[end].kind == CPS_END_KIND_FREE)
             for (int a = 0; a < 3; a++)
                 line->load[3 * (end == CPS_END_A ? 0 : line->n - 1) + a] += line->end[end].value[a];
+    for (int k = 0; k < line->grasp_count; k++)
+        if (line->grasp[k].imposed.kind == CPS_END_KIND_FREE)
+            for (int a = 0; a < 3; a++)
+                line->load[3 * line->grasp[k].node + a] += line->grasp[k].imposed.value[a];
 }
 
 bool cpsi_line_both_ends(const CpsiLine *line, CpsEndKind kind) {
     return line->end[CPS_END_A].kind == kind && line->end[CPS_END_B].kind == kind;
 }
 
-double cpsi_line_end_distance(const CpsiLine *line) {
-    return vec3_norm(
-        vec3_sub(vec3_load(line->end[CPS_END_B].value), vec3_load(line->end[CPS_END_A].value)));
-}
-
 bool cpsi_line_is_taut(const CpsiLine *line) {
-    return line->compliance == 0 && cpsi_line_both_ends(line, CPS_END_KIND_HELD) &&
-           cpsi_line_end_distance(line) >= line->length * (1 - CPSI_TAUT);
+    bool taut = false;
+    CpsiSpan span = {.to = 0};
+    while (!taut && cpsi_line_next_span(line, span.to, &span))
+        taut = cpsi_line_is_span_taut(line, &span);
+    return taut;
 }
 
 /* The strain of the whole line at the tension T. */
@@ -73,13 +76,17 @@ static double mean_strain(const CpsiLine *line, double tension) {
 }
 
 /* A force of the size of the tension to come: the largest of the weight, the forces applied, and
- * for two held ends the T of a shallow line, phi(T) - (W/T)^2/24 = distance/L - 1. 0 if there is no
- * force at all. */
-static double force_scale(const CpsiLine *line, double distance) {
-    const double strain = distance / line->length - 1;
-    double weight = line->length * vec3_norm(vec3_load(line->weight)), scale = weight;
+ * for a span between held nodes the T of a shallow line, phi(T) - (W/T)^2/24 = distance/L - 1, with
+ * the largest strain of a span, its length being longer by a factor. 0 if there is no force at
+ * all. */
+static double force_scale(const CpsiLine *line, double longer) {
+    double weight = line->length * vec3_norm(vec3_load(line->weight)), scale = weight, strain = -1;
+    CpsiSpan span = {.to = 0};
+    bool spans = false;
     for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
-    if (!cpsi_line_both_ends(line, CPS_END_KIND_HELD) || (scale == 0 && strain <= 0)) return scale;
+    for (; cpsi_line_next_span(line, span.to, &span); spans = true)
+        strain = fmax(strain, span.distance / longer / span.length - 1);
+    if (!spans || (scale == 0 && strain <= 0)) return scale;
     /* the left side grows with T: bracket the root by doubling, then bisect */
     double low = scale > 0 ? scale : DBL_MIN, high = low;
     while (high < 1e300 &&
@@ -95,12 +102,18 @@ static double force_scale(const CpsiLine *line, double distance) {
     return high < 1e300 ? high : scale;
 }
 
-/* Place the nodes of a taut line on the straight line between its ends. */
+/* Place the nodes of taut spans on the straight lines between their ends. */
 static void straighten(CpsiLine *line) {
-    const Vec3 a = vec3_load(line->end[CPS_END_A].value), b = vec3_load(line->end[CPS_END_B].value);
-    for (int j = 1; j + 1 < line->n; j++)
-        vec3_store(&line->position[3 * j],
-                   vec3_axpy(line->arc_length[j] / line->length, vec3_sub(b, a), a));
+    CpsiSpan span = {.to = 0};
+    while (cpsi_line_next_span(line, span.to, &span)) {
+        if (!cpsi_line_is_span_taut(line, &span)) continue;
+        const Vec3 a = cpsi_line_held_place(line, span.from),
+                   b = cpsi_line_held_place(line, span.to);
+        for (int j = span.from + 1; j < span.to; j++) {
+            const double share = (line->arc_length[j] - line->arc_length[span.from]) / span.length;
+            vec3_store(&line->position[3 * j], vec3_axpy(share, vec3_sub(b, a), a));
+        }
+    }
 }
 
 bool cpsi_line_is_near(const CpsiLine *line) {
@@ -205,9 +218,7 @@ static double reference_tension(const CpsiLine *line) {
 }
 
 double cpsi_line_unit_force(const CpsiLine *line, CpsiBounds bounds) {
-    double force = force_scale(line, cpsi_line_end_distance(line) /
-                                         (cpsi_line_is_taut(line) ? 1 + TAUT_SLACK : 1)),
-           all = 0;
+    double force = force_scale(line, cpsi_line_is_taut(line) ? 1 + TAUT_SLACK : 1), all = 0;
     const double before = line->obstacle_count > 0 ? reference_tension(line) : 0;
     if (before > PRESTRESS_FACTOR * force &&
         (force > 0 || before * line->compliance > LEAST_STRAIN))
@@ -236,10 +247,7 @@ static bool rests_unloaded(CpsiLine *line, CpsiChainProgram *program,
                            const CpsiStepOptions *options, const CpsiRound *round) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(line->position, line->reference, 3 * n * sizeof *line->position);
-    for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_KIND_HELD)
-            memcpy(&line->position[end == CPS_END_A ? 0 : 3 * (n - 1)], line->end[end].value,
-                   sizeof line->end[end].value);
+    cpsi_line_put_held(line, line->position);
     memset(line->friction_force, 0, 3 * contacts * sizeof *line->friction_force);
     memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
     memset(line->reaction, 0, contacts * sizeof *line->reaction);
@@ -267,8 +275,7 @@ static double largest_force(const CpsiLine *line) {
  * an end held they are. */
 static bool is_unique(CpsiLine *line, const CpsiChainProgram *program, const CpsiRound *round) {
     cpsi_places_as_found(line, program);
-    if (line->report.places == CPS_PLACES_UNIQUE && !cpsi_line_both_ends(line, CPS_END_KIND_FREE))
-        return true;
+    if (line->report.places == CPS_PLACES_UNIQUE && !cpsi_line_is_loose(line)) return true;
     if (!round->least) return false;
     const bool chose = round->least->chose;
     cpsi_least_motion(line, round->least, program, round->bounds, 0);

@@ -4,15 +4,13 @@
 #ifndef CAPSTAN_SRC_CABLE_LINE_SOLVE_H
 #define CAPSTAN_SRC_CABLE_LINE_SOLVE_H
 
+#include "cable/held.h"
 #include "cable/line.h"
 #include "cable/step_options.h"
 #include "cable/step_program.h"
 #include "cable/warm_step.h"
 #include "ipm/ipm.h"
 
-/* |distance - L| <= CPSI_TAUT L: an inextensible line is pulled straight, and its tension has no
- * upper bound. */
-#define CPSI_TAUT 1e-12
 /* Accuracy at which a program counts as solved, and bounds as equal to mu R; otherwise consistent
  * friction is solved again in rounds. */
 #define CPSI_CLEAN 1e-11
@@ -28,8 +26,7 @@
 void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options);
 
 bool cpsi_line_both_ends(const CpsiLine *line, CpsEndKind kind);
-/* [m] */
-double cpsi_line_end_distance(const CpsiLine *line);
+/* Is a span between two held nodes taut? */
 bool cpsi_line_is_taut(const CpsiLine *line);
 /* Has no node moved farther than MAX_DISPLACEMENT line lengths? */
 bool cpsi_line_is_near(const CpsiLine *line);

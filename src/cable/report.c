@@ -144,6 +144,18 @@ void cpsi_line_report_ends(CpsiLine *line) {
         vec3_store(out->force, force);
         out->tension = vec3_norm(force);
     }
+    for (int k = 0; k < line->grasp_count; k++) {
+        CpsGrasp *grasp = &line->grasp[k];
+        const int j = grasp->node;
+        Vec3 force = vec3_load(grasp->imposed.value);
+        if (grasp->imposed.kind == CPS_END_KIND_HELD) {
+            const Vec3 pull =
+                vec3_sub(vec3_at(line->segment_force, j), vec3_at(line->segment_force, j - 1));
+            const Vec3 others = cpsi_add_element_contacts(line, j, vec3_at(line->load, j));
+            force = vec3_scale(-1, vec3_add(pull, others));
+        }
+        vec3_store(grasp->force, force);
+    }
 }
 
 /* Against gravity, or z without. */

@@ -15,12 +15,19 @@
  * without slip, and with forces balanced anew, the same forces add up to slightly more or less. */
 static const double GAP_GROWTH = 10;
 
-/* Are held ends where they were, and do obstacles not turn? */
+/* Are held nodes where they were, and do obstacles not turn? */
 static bool supports_rest(const CpsiLine *line) {
     for (int end = 0; end < 2; end++) {
         const double *at = &line->reference[end == CPS_END_A ? 0 : 3 * (line->n - 1)],
                      *to = line->end[end].value;
         if (line->end[end].kind == CPS_END_KIND_HELD)
+            for (int a = 0; a < 3; a++)
+                if (at[a] != to[a]) return false;
+    }
+    for (int k = 0; k < line->grasp_count; k++) {
+        const CpsGrasp *grasp = &line->grasp[k];
+        const double *at = &line->reference[3 * grasp->node], *to = grasp->imposed.value;
+        if (grasp->imposed.kind == CPS_END_KIND_HELD)
             for (int a = 0; a < 3; a++)
                 if (at[a] != to[a]) return false;
     }

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "cable/friction_law.h"
+#include "cable/held.h"
 #include "chain/frame.h"
 
 /* Friction bounds below this share of the force scale count as zero: they cannot be distinguished
@@ -75,27 +76,38 @@ static const double *node_axes(const CpsiLine *line, const CpsiChainProgram *pro
     return program->frame ? &program->frame[9 * j] : line->common_axes;
 }
 
-/* The first guess: the base with its held ends at their imposed positions and the other nodes moved
- * by linear interpolation. */
+/* The displacement of node j, an end or one that is held, to where it is to be. */
+static void shift_of(const CpsiLine *line, const CpsiStepScale *scale, int j, double shift[3]) {
+    const double *base = base_of(line);
+    shift[0] = shift[1] = shift[2] = 0;
+    if (!cpsi_line_is_held(line, j)) return;
+    double place[3];
+    vec3_store(place, cpsi_line_held_place(line, j));
+    for (int a = 0; a < 3; a++) shift[a] = (place[a] - base[3 * j + a]) / scale->length;
+}
+
+/* The first guess: the base with its held nodes at their imposed positions and the other nodes
+ * moved by linear interpolation. */
 static void initial_guess(const CpsiLine *line, CpsiChainProgram *program,
                           const CpsiStepScale *scale) {
-    double shift[2][3] = {{0}};
     const int last = line->n - 1;
-    const double *base = base_of(line);
-    for (int end = 0; end < 2; end++) {
-        if (line->end[end].kind != CPS_END_KIND_HELD) continue;
-        for (int a = 0; a < 3; a++)
-            shift[end][a] =
-                (line->end[end].value[a] - base[3 * (end ? last : 0) + a]) / scale->length;
-    }
-    for (int j = 0; j < line->n; j++) {
-        const double b = line->arc_length[j] / line->length;
-        double move[3];
-        for (int a = 0; a < 3; a++)
-            move[a] = j == 0      ? shift[0][a]
-                      : j == last ? shift[1][a]
-                                  : (1 - b) * shift[0][a] + b * shift[1][a];
-        cpsi_frame_to(&program->base.u[3 * j], node_axes(line, program, j), move);
+    double shift[2][3];
+    shift_of(line, scale, 0, shift[0]);
+    for (int from = 0, to; from < last; from = to) {
+        to = cpsi_line_next_held(line, from + 1);
+        if (to > last) to = last;
+        shift_of(line, scale, to, shift[1]);
+        const double length = cpsi_line_length_between(line, from, to);
+        for (int j = from; j <= to; j++) {
+            const double b = (line->arc_length[j] - line->arc_length[from]) / length;
+            double move[3];
+            for (int a = 0; a < 3; a++)
+                move[a] = j == from ? shift[0][a]
+                          : j == to ? shift[1][a]
+                                    : (1 - b) * shift[0][a] + b * shift[1][a];
+            cpsi_frame_to(&program->base.u[3 * j], node_axes(line, program, j), move);
+        }
+        memcpy(shift[0], shift[1], sizeof shift[0]);
     }
 }
 
@@ -269,6 +281,8 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program,
                           const CpsiStepScale *scale) {
     CpsiSegment *st = &program->segment;
     const double *base = base_of(line);
+    CpsiSpan span = {.to = 0};
+    bool longer = line->grasp_count == 0;
     st->compliance = line->compliance * scale->force;
     st->compliance_factor = line->compliance_factor;
     st->springs.count = line->spring_count;
@@ -280,7 +294,9 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program,
         st->springs.stiffer = 1 / (st->springs.longer * scale->force);
     }
     for (int i = 1; i < line->n; i++) {
-        const double l = line->element_length[i - 1] * scale->longer;
+        if (line->grasp_count > 0 && i - 1 == cpsi_line_next_held(line, i - 1))
+            longer = cpsi_line_next_span(line, i - 1, &span) && cpsi_line_is_span_taut(line, &span);
+        const double l = line->element_length[i - 1] * (longer ? scale->longer : 1);
         double dx[3], e[3], far[3], near[3];
         for (int a = 0; a < 3; a++) dx[a] = (base[3 * i + a] - base[3 * (i - 1) + a]) / l;
         cpsi_frame_to(e, line->common_axes, dx);
@@ -326,10 +342,7 @@ static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program,
         cpsi_frame_from(shift, node_axes(line, program, j), u);
         for (int a = 0; a < 3; a++) line->position[3 * j + a] = base[3 * j + a] + shift[a];
     }
-    for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_KIND_HELD)
-            memcpy(&line->position[3 * (end == CPS_END_A ? 0 : line->n - 1)], line->end[end].value,
-                   sizeof line->end[end].value);
+    cpsi_line_put_held(line, line->position);
 }
 
 static void unpack_reactions(CpsiLine *line, const CpsiChainProgram *program,

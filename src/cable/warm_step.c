@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cable/friction_law.h"
+#include "cable/held.h"
 #include "chain/active_set.h"
 #include "chain/frame.h"
 
@@ -29,6 +30,15 @@ static CpsiLoadChange change_of(const CpsiLine *line) {
         for (int a = 0; a < 3; a++)
             out.end[end][a] = line->end[end].value[a] - line->end_before[end].value[a];
     }
+    out.grasp_count = line->grasp_count;
+    for (int k = 0; k < line->grasp_count; k++) {
+        const CpsGrasp *grasp = &line->grasp[k];
+        const CpsEnd *before = &line->grasp_before[k];
+        out.grasp[k].node = grasp->node;
+        out.grasp[k].kind = grasp->imposed.kind;
+        if (before->kind != grasp->imposed.kind) out.known = false;
+        for (int a = 0; a < 3; a++) out.grasp[k].by[a] = grasp->imposed.value[a] - before->value[a];
+    }
     for (int a = 0; a < 3; a++) out.weight[a] = line->weight[a] - line->weight_before[a];
     for (int k = 0; k < line->obstacle_count; k++) out.turn += line->turn[k];
     return out;
@@ -44,6 +54,10 @@ static double product(const CpsiLine *line, const CpsiLoadChange *a, const CpsiL
             const double by = a->kind[end] == CPS_END_KIND_HELD ? 1 / line->length : by_force;
             sum += by * a->end[end][i] * (by * b->end[end][i]);
         }
+        for (int k = 0; k < a->grasp_count; k++) {
+            const double by = a->grasp[k].kind == CPS_END_KIND_HELD ? 1 / line->length : by_force;
+            sum += by * a->grasp[k].by[i] * (by * b->grasp[k].by[i]);
+        }
         sum += by_weight * a->weight[i] * (by_weight * b->weight[i]);
     }
     return sum;
@@ -53,8 +67,12 @@ static double product(const CpsiLine *line, const CpsiLoadChange *a, const CpsiL
 static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
     const CpsiLoadChange *last = &line->last_change;
     if (!last->known || !now->known) return 0;
+    if (last->grasp_count != now->grasp_count) return 0;
     for (int end = 0; end < 2; end++)
         if (last->kind[end] != now->kind[end]) return 0;
+    for (int k = 0; k < now->grasp_count; k++)
+        if (last->grasp[k].node != now->grasp[k].node || last->grasp[k].kind != now->grasp[k].kind)
+            return 0;
     const double before = product(line, last, last), along = product(line, last, now),
                  size = product(line, now, now), ratio = along / before;
     if (!(before > 0) || !(ratio > 0) || !(ratio <= MOST_RATIO)) return 0;
@@ -109,10 +127,7 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
 void cpsi_warm_step_predict(CpsiLine *line, const CpsiChainProgram *program) {
     const double *shift = program->base.residual;
     for (int i = 0; i < 3 * line->n; i++) line->position[i] = line->reference[i] + shift[i];
-    for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_KIND_HELD)
-            memcpy(&line->position[end == CPS_END_A ? 0 : 3 * (line->n - 1)], line->end[end].value,
-                   sizeof line->end[end].value);
+    cpsi_line_put_held(line, line->position);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++)
         line->active[c] = line->state[c] != CPS_NODE_STATE_FREE && line->reaction[c] > 0;
 }

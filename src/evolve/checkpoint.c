@@ -24,7 +24,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '1'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '2'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -79,6 +79,12 @@ static void pass_end(Tape *tape, CpsEnd *end) {
 
 static void pass_load_change(Tape *tape, CpsiLoadChange *change) {
     pass_flag(tape, &change->known);
+    PASS(tape, change->grasp_count);
+    for (int k = 0; k < CPS_MAX_GRASPS; k++) {
+        PASS(tape, change->grasp[k].node);
+        PASS(tape, change->grasp[k].kind);
+        PASS(tape, change->grasp[k].by);
+    }
     PASS(tape, change->kind);
     PASS(tape, change->end);
     PASS(tape, change->weight);
@@ -172,6 +178,13 @@ static void pass_line(Tape *tape, CpsiLine *line) {
         pass(tape, line->obstacle_index, contacts * sizeof *line->obstacle_index);
     if (line->beta) pass(tape, line->beta, n * sizeof *line->beta);
     for (int end = 0; end < 2; end++) pass_end(tape, &line->end[end]);
+    PASS(tape, line->grasp_count);
+    for (int k = 0; k < CPS_MAX_GRASPS; k++) {
+        PASS(tape, line->grasp[k].node);
+        pass_end(tape, &line->grasp[k].imposed);
+        PASS(tape, line->grasp[k].force);
+        pass_end(tape, &line->grasp_from[k]);
+    }
     PASS(tape, line->weight);
     PASS(tape, line->weight_before);
     pass_load_change(tape, &line->last_change);
@@ -329,6 +342,13 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
         hash_bytes(hash, what, sizeof what);
         hash_numbers(hash, 3, held ? change->position : change->force);
         hash_numbers(hash, held ? 4 : 3, held ? change->rotation : change->moment);
+    }
+    for (int i = 0; i < stage->grasp_change_count; i++) {
+        const CpsGraspChange *change = &stage->grasp_change[i];
+        const int what[5] = {change->line, change->node, (int)change->kind, change->stays,
+                             change->at_once};
+        hash_bytes(hash, what, sizeof what);
+        if (!change->stays) hash_numbers(hash, 3, change->value);
     }
     for (int i = 0; i < stage->turn_count; i++) {
         hash_bytes(hash, &stage->turn[i].obstacle, sizeof stage->turn[i].obstacle);

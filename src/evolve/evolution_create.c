@@ -109,10 +109,11 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         stage->name = copy_name(arena, scene->stage[i].name);
         cpsi_stage_layout(stage, arena, scene->stage[i].change_count,
                           scene->stage[i].point_change_count, scene->stage[i].body_change_count,
-                          scene->stage[i].turn_count);
+                          scene->stage[i].turn_count, scene->stage[i].grasp_change_count);
     }
     cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->point_count,
-                      scene->body_count, scene->obstacle_count);
+                      scene->body_count, scene->obstacle_count,
+                      CPSI_GRASP_CHANGES * scene->line_count);
     cpsi_points_layout(&evolution->points, arena, scene);
     for (int i = 0; i < scene->point_count; i++) {
         const char *name = copy_name(arena, scene->point[i].name);
@@ -250,6 +251,7 @@ static void fill_given(CpsEvolution *evolution, const CpsScene *scene) {
         evolution->given_line[i] =
             (CpsLine){.name = evolution->line[i].name,
                       .length = scene->line[i].length,
+                      .element_count = scene->line[i].element_count,
                       .end = {scene->line[i].end[CPS_END_A], scene->line[i].end[CPS_END_B]},
                       .end_point = {scene->line[i].end_point[0], scene->line[i].end_point[1]}};
 }

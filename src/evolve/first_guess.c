@@ -26,6 +26,10 @@ static void impose_plan(CpsiBalance *balance, int item) {
         evolution->workspace[0].scratch.turn[k] = evolution->angle[k];
     memcpy(line->weight_before, evolution->move[i].weight_from, sizeof line->weight_before);
     memcpy(line->weight, evolution->move[i].weight_to, sizeof line->weight);
+    for (int k = 0; k < line->grasp_count; k++) {
+        line->grasp_before[k] = evolution->move[i].grasp_from[k];
+        line->grasp[k].imposed = evolution->move[i].grasp_to[k];
+    }
     for (int end = 0; end < 2; end++) {
         const int point = evolution->points.tie[2 * i + end],
                   joint = point == CPSI_NO_POINT ? CPSI_NO_JOINT : balance->joint_of[point];

@@ -15,6 +15,8 @@
  * forces are linear in the displacements and nothing slides it is rounding. */
 #include "evolve/ledger.h"
 
+#include <string.h>
+
 #include "cable/contact.h"
 #include "cable/report.h"
 
@@ -53,6 +55,15 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
             start.end[i].force[a] = is_free ? end[i].value[a] : line->report.end[i].force[a];
             start.end[i].friction_force[a] = is_free ? 0 : line->report.end[i].friction_force[a];
         }
+    }
+    start.all_known = known;
+    for (int k = 0; k < line->grasp_count; k++) {
+        const CpsGrasp *grasp = &line->grasp[k];
+        const bool is_free = line->grasp_before[k].kind == CPS_END_KIND_FREE;
+        memcpy(start.grasp[k].position, &line->position[3 * grasp->node],
+               sizeof start.grasp[k].position);
+        memcpy(start.grasp[k].force, is_free ? line->grasp_before[k].value : grasp->force,
+               sizeof start.grasp[k].force);
     }
     return start;
 }
@@ -111,6 +122,14 @@ CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
         CpsEndReport *report = &line->report.end[end];
         report->work = end_work(&start->end[end], report, start->known[end]);
         ledger.ends += report->work;
+    }
+    for (int k = 0; k < line->grasp_count; k++) {
+        const CpsGrasp *grasp = &line->grasp[k];
+        CpsEndReport now = {.work = 0};
+        memcpy(now.position, &line->position[3 * grasp->node], sizeof now.position);
+        memcpy(now.force, grasp->force, sizeof now.force);
+        ledger.ends += end_work(&start->grasp[k], &now,
+                                start->all_known || grasp->imposed.kind == CPS_END_KIND_FREE);
     }
     ledger.imbalance =
         ledger.ends + ledger.obstacles - ledger.elastic - ledger.gravity - ledger.dissipated;

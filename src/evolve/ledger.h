@@ -9,7 +9,9 @@
 typedef struct CpsiLedgerStart {
     double elastic, gravity; /* [J] */
     CpsEndReport end[2];
+    bool all_known;
     bool known[2]; /* is the force at this end known? */
+    CpsEndReport grasp[CPS_MAX_GRASPS];
 } CpsiLedgerStart;
 
 /* Before a step, with the ends imposed then. The force of a free end is given; that of a held end

@@ -82,7 +82,8 @@ static size_t size_of(const CpsScene *scene) {
     for (int i = 0; i < scene->stage_count; i++)
         size += (size_t)scene->stage[i].change_count * sizeof(CpsChange) +
                 (size_t)scene->stage[i].point_change_count * sizeof(CpsPointChange) +
-                (size_t)scene->stage[i].body_change_count * sizeof(CpsBodyChange);
+                (size_t)scene->stage[i].body_change_count * sizeof(CpsBodyChange) +
+                (size_t)scene->stage[i].grasp_change_count * sizeof(CpsGraspChange);
     return size;
 }
 
@@ -122,6 +123,12 @@ CpsStatus cpsi_local_scene(const CpsScene *scene, CpsiLocalScene *out, CpsError 
         for (int k = 0; k < bodies; k++)
             if (to[k].kind == CPS_BODY_KIND_HELD) shift(to[k].position, origin);
         stage[i].body_change = to;
+        const int grasps = stage[i].grasp_change_count;
+        CpsGraspChange *grasp =
+            copy(block, &used, stage[i].grasp_change, (size_t)grasps * sizeof *grasp);
+        for (int k = 0; k < grasps; k++)
+            if (grasp[k].kind == CPS_END_KIND_HELD) shift(grasp[k].value, origin);
+        stage[i].grasp_change = grasp;
     }
     CpsPoint *point = copy(block, &used, scene->point, (size_t)scene->point_count * sizeof *point);
     for (int i = 0; i < scene->point_count; i++)

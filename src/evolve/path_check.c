@@ -67,6 +67,14 @@ CpsStatus cpsi_path_check_point(const CpsScene *scene, const CpsPointChange *cha
     return check_path(scene, name, length, from, change->value, grabbed, what, err);
 }
 
+CpsStatus cpsi_path_check_grasp(const CpsScene *scene, const CpsGraspChange *change,
+                                const double from[3], const char *what, CpsError *err) {
+    const CpsLine *line = &scene->line[change->line];
+    char name[80];
+    snprintf(name, sizeof name, "%s.node %d", line->name, change->node);
+    return check_path(scene, name, line->length, from, change->value, true, what, err);
+}
+
 CpsStatus cpsi_path_check_points(const CpsScene *scene, CpsError *err) {
     if (scene->obstacle_count == 0) return CPS_OK;
     for (int i = 0; i < scene->point_count; i++) {

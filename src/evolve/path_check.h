@@ -25,6 +25,10 @@ CpsStatus cpsi_path_check_point(const CpsScene *scene, const CpsPointChange *cha
                                 const double from[3], bool grabbed, const char *what,
                                 CpsError *err);
 
+/* The same for a node that is held where it is, and moved from there. */
+CpsStatus cpsi_path_check_grasp(const CpsScene *scene, const CpsGraspChange *change,
+                                const double from[3], const char *what, CpsError *err);
+
 /* Check the changes of a history whose initial points are known before anything is solved: those of
  * ends that are already held. The scene has passed all other checks. Returns CPS_OK,
  * CPS_ERR_ARGUMENT or CPS_ERR_MEMORY. */

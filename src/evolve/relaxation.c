@@ -52,6 +52,7 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         done->dissipated += line->report.dissipated;
         for (int end = 0; end < 2; end++) done->work[end] += line->report.end[end].work;
         memcpy(from, line->end, sizeof from);
+        for (int i = 0; i < line->grasp_count; i++) line->grasp_before[i] = line->grasp[i].imposed;
         memcpy(line->weight_before, line->weight, sizeof line->weight);
         for (int i = 0; i < line->obstacle_count; i++) turn[i] = 0;
         known = true;

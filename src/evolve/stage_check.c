@@ -8,6 +8,7 @@
 #include "base/math.h"
 #include "base/status.h"
 #include "evolve/bodies.h"
+#include "evolve/grasps.h"
 #include "evolve/places.h"
 #include "evolve/points.h"
 #include "evolve/ranges.h"
@@ -118,5 +119,6 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
     for (int i = 0; i < stage->change_count && status == CPS_OK; i++)
         status = check_change(scene, stage, i, what, err);
     if (status == CPS_OK) status = cpsi_point_changes_check(scene, stage, what, err);
+    if (status == CPS_OK) status = cpsi_grasp_changes_check(scene, stage, what, err);
     return status == CPS_OK ? cpsi_body_changes_check(scene, stage, what, err) : status;
 }

@@ -5,11 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "evolve/grasps.h"
 #include "evolve/path_check.h"
 
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
-                       int bodies, int turns) {
+                       int bodies, int turns, int grasps) {
     CPSI_PLACE(arena, stage->change, changes);
+    CPSI_PLACE(arena, stage->grasp_change, grasps);
     CPSI_PLACE(arena, stage->body_change, bodies);
     CPSI_PLACE(arena, stage->point_change, points);
     CPSI_PLACE(arena, stage->turn, turns);
@@ -37,6 +39,13 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
         *change = from->body_change[k];
         if (change->kind == CPS_BODY_KIND_HELD)
             for (int a = 0; a < 3; a++) change->position[a] -= origin[a];
+    }
+    stage->grasp_change_count = from->grasp_change_count;
+    for (int k = 0; k < from->grasp_change_count; k++) {
+        CpsGraspChange *change = &stage->grasp_change[k];
+        *change = from->grasp_change[k];
+        if (change->kind == CPS_END_KIND_HELD)
+            for (int a = 0; a < 3; a++) change->value[a] -= origin[a];
     }
     stage->turn_count = from->turn_count;
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
@@ -99,7 +108,7 @@ CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolut
             cpsi_path_check_point(&scene, &change, point->length, from, grabbed, what, err);
         if (status) return status;
     }
-    return CPS_OK;
+    return cpsi_grasps_check(evolution, &scene, stage, what, err);
 }
 
 /* A value at `part` of the `steps` of its stage. */
@@ -112,10 +121,7 @@ static void value_at(const double from[3], const double to[3], int part, int ste
 static CpsEnd end_at(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
                      const CpsChange *change, int part) {
     const CpsEnd *from = &evolution->from[2 * change->line + change->end];
-    if (part == 0) return *from;
-    CpsEnd end = change->to;
-    value_at(from->value, change->to.value, part, stage->steps, end.value);
-    return end;
+    return cpsi_stage_value(from, &change->to, part, stage->steps);
 }
 
 /* The wrench at a share of the way. */
@@ -221,6 +227,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
         move->from[change->end] = end_at(evolution, stage, change, part);
         move->to[change->end] = end_at(evolution, stage, change, part + 1);
     }
+    cpsi_grasps_plan(evolution, stage, part);
     plan_bodies(evolution, stage, part);
     plan_points(evolution, stage, part);
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
@@ -240,6 +247,7 @@ void cpsi_stage_plan_statics(CpsEvolution *evolution) {
         const CpsiLine *line = &evolution->line[i];
         CpsiMove *move = &evolution->move[i];
         for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
+        move->grasp_count = 0;
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
     }
     plan_points(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);

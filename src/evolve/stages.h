@@ -9,9 +9,9 @@
 
 #include "evolve/state.h"
 
-/* Memory for a stage of so many changes of ends, points and bodies, and turns. */
+/* Memory for a stage of so many changes of ends, points and bodies, turns, and grasps. */
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
-                       int bodies, int turns);
+                       int bodies, int turns, int grasps);
 
 /* Fill it with what a checked stage changes, positions relative to `origin`; not its name. */
 void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const double origin[3]);

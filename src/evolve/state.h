@@ -9,13 +9,15 @@
 #include "evolve/points.h"
 #include "evolve/workspace.h"
 
-enum { CPSI_STEP_NAME = 96 };
+/* A stage lets go and grasps at most so many nodes per line. */
+enum { CPSI_STEP_NAME = 96, CPSI_GRASP_CHANGES = 2 * CPS_MAX_GRASPS };
 
 /* A stage; positions are relative to the origin. */
 typedef struct CpsiEvolutionStage {
     const char *name;
-    int steps, change_count, point_change_count, body_change_count, turn_count;
+    int steps, change_count, point_change_count, body_change_count, grasp_change_count, turn_count;
     CpsChange *change;
+    CpsGraspChange *grasp_change;
     CpsPointChange *point_change;
     CpsBodyChange *body_change;
     CpsTurn *turn;

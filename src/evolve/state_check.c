@@ -10,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "evolve/grasps.h"
+
 static bool all_finite(const double *x, size_t count) {
     if (x)
         for (size_t i = 0; i < count; i++)
@@ -99,7 +101,9 @@ static bool are_contacts(const CpsiLine *line) {
 }
 
 static bool is_load_change(const CpsiLoadChange *change) {
-    bool sound = all_finite(change->weight, 3) && isfinite(change->turn);
+    bool sound = all_finite(change->weight, 3) && isfinite(change->turn) &&
+                 within(change->grasp_count, 0, CPS_MAX_GRASPS);
+    for (int k = 0; k < CPS_MAX_GRASPS; k++) sound = sound && all_finite(change->grasp[k].by, 3);
     for (int end = 0; end < 2; end++)
         sound =
             sound &&
@@ -162,6 +166,7 @@ const char *cpsi_state_fault(const CpsEvolution *evolution) {
         const CpsiLine *line = &evolution->line[i];
         for (int end = 0; end < 2; end++)
             if (!is_end(&line->end[end])) return "an end is neither held nor free, or at no place";
+        if (!cpsi_grasps_are_sound(line)) return "a node is grasped that cannot be, or at no place";
         if (!is_line_report(&line->report, evolution->obstacle_count))
             return "the report of a line is none";
         if (!are_contacts(line))

@@ -98,6 +98,7 @@ void cpsi_substeps_save(const CpsiLine *line, CpsiSubsteps *scratch) {
         memcpy(scratch->obstacle_index, line->obstacle_index,
                contacts * sizeof *line->obstacle_index);
     memcpy(scratch->end, line->report.end, sizeof scratch->end);
+    memcpy(scratch->grasp, line->grasp, sizeof scratch->grasp);
     memcpy(scratch->position, line->position, 3 * n * sizeof *line->position);
 }
 
@@ -110,6 +111,7 @@ void cpsi_substeps_restore(CpsiLine *line, const CpsiSubsteps *scratch) {
         memcpy(line->obstacle_index, scratch->obstacle_index,
                contacts * sizeof *line->obstacle_index);
     memcpy(line->report.end, scratch->end, sizeof scratch->end);
+    memcpy(line->grasp, scratch->grasp, sizeof scratch->grasp);
     memcpy(line->position, scratch->position, 3 * n * sizeof *line->position);
     line->last_change.known = false;
 }
@@ -137,15 +139,21 @@ typedef struct Advance {
     CpsLedger ledger;
 } Advance;
 
-/* An end at a share of the move. */
-static CpsEnd end_at(const CpsiMove *move, int end, double share) {
-    CpsEnd at = move->to[end];
+/* What is imposed at a share of the move. */
+static CpsEnd between(const CpsEnd *from, const CpsEnd *to, double share) {
+    CpsEnd at = *to;
     if (share < 1)
-        for (int a = 0; a < 3; a++) {
-            const double from = move->from[end].value[a];
-            at.value[a] = from + share * (at.value[a] - from);
-        }
+        for (int a = 0; a < 3; a++)
+            at.value[a] = from->value[a] + share * (at.value[a] - from->value[a]);
     return at;
+}
+
+static CpsEnd end_at(const CpsiMove *move, int end, double share) {
+    return between(&move->from[end], &move->to[end], share);
+}
+
+static CpsEnd grasp_at(const CpsiMove *move, int k, double share) {
+    return between(&move->grasp_from[k], &move->grasp_to[k], share);
 }
 
 /* The weight at a share of the move. */
@@ -163,6 +171,10 @@ static void impose(const Advance *substeps, double from, double to) {
     for (int end = 0; end < 2; end++) {
         substeps->line->end_before[end] = end_at(substeps->move, end, from);
         substeps->line->end[end] = end_at(substeps->move, end, to);
+    }
+    for (int k = 0; k < substeps->move->grasp_count; k++) {
+        substeps->line->grasp_before[k] = grasp_at(substeps->move, k, from);
+        substeps->line->grasp[k].imposed = grasp_at(substeps->move, k, to);
     }
     for (int k = 0; k < substeps->line->obstacle_count; k++)
         substeps->scratch->turn[k] = (to - from) * substeps->move->angle[k];

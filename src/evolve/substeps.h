@@ -9,6 +9,8 @@
  * angle. */
 typedef struct CpsiMove {
     CpsEnd from[2], to[2];
+    int grasp_count;
+    CpsEnd grasp_from[CPS_MAX_GRASPS], grasp_to[CPS_MAX_GRASPS];
     const double *angle;                 /* (obstacles) [rad] */
     double weight_from[3], weight_to[3]; /* [N/m] per natural length */
 } CpsiMove;
@@ -20,6 +22,7 @@ typedef struct CpsiSubsteps {
     unsigned char *state; /* (contacts, n) */
     int *obstacle_index;  /* (contacts, n) */
     CpsEndReport end[2];
+    CpsGrasp grasp[CPS_MAX_GRASPS];
     double *position; /* (n, 3) */
     double *trial;    /* (n, 4), NULL without a path tolerance */
     double *turn;     /* (obstacles) what line->turn points to */

@@ -92,7 +92,8 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
     if (!view->one_plane)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "line '%s': more than one obstacle, or one that is curved or has "
-                         "directions; the paper's step slides in one tangent plane with one "
+                         "directions, or a node that is grasped; the paper's step slides in one "
+                         "tangent plane with one "
                          "coefficient: use plane obstacles with friction alone",
                          view->name);
     *step = (CpsiStep){.compliance = view->compliance,

@@ -44,6 +44,7 @@ typedef struct Copy {
     RestLine line;
     double normal[CONTACTS][3], slip[CONTACTS][3], friction[CONTACTS];
     RestContact contact[CONTACTS];
+    bool held[CONTACTS];
 } Copy;
 
 /* False where friction acts on a node that has left its obstacle, as frozen friction lets it. */
@@ -61,9 +62,10 @@ static bool copy(const Rig *rig, const CpsLineView *view, const CpsLineReport *r
                            .friction = out->friction,
                            .contact = out->contact,
                            .frozen = rig->scene.friction_policy == CPS_FRICTION_POLICY_FROZEN,
-                           .held = {view->end[0].kind == CPS_END_KIND_HELD,
-                                    view->end[1].kind == CPS_END_KIND_HELD},
+                           .held = out->held,
                            .force = report->certificate.largest_force};
+    out->held[0] = view->end[0].kind == CPS_END_KIND_HELD;
+    out->held[n - 1] = view->end[1].kind == CPS_END_KIND_HELD;
     for (int c = 0; c < view->contact_count * n; c++) {
         const double *x = &view->position[3 * (c % n)], *from = &view->reference[3 * (c % n)],
                      *normal = &view->normal[3 * c];

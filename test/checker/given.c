@@ -7,13 +7,15 @@
  * preceding step of the file; before the first step an end has the position of the start shape. */
 #include "given.h"
 
+#include "grasps.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "given_bodies.h"
 #include "elongation.h"
+#include "given_bodies.h"
 #include "record.h"
 
 /* Numbers of the scene are copied; a share of a stage, a weight vector and a load are a few
@@ -487,6 +489,11 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
             for (int k = 0; k < 3; k++) load[k] += r->applied_force[e][k];
             noise += size(r->applied_force[e]);
         }
+        for (size_t i = 0; i < r->grasps; i++) {
+            if (r->grasp_kind[i] == END_HELD || r->grasp_node[i] != j) continue;
+            for (int k = 0; k < 3; k++) load[k] += r->grasp_load[i][k];
+            noise += size(r->grasp_load[i]);
+        }
         for (int k = 0; k < 3; k++)
             if (!(fabs(r->load[j][k] - load[k]) <= COPIED * noise)) {
                 find(compare, "load of %s at node %zu, step %zu, is %.17g, in the scene %.17g",
@@ -528,8 +535,7 @@ static void compare_nodes(Compare *compare, const CpsLine *line, const Record *r
         largest =
             fmax(largest, force[j] * (start->friction_bound ? 1 : coefficient(compare, r, j)));
     for (size_t j = 0; j < r->nodes; j++) {
-        const bool held = (j == 0 && r->end_kind[0] == END_HELD) ||
-                          (j == r->elements && r->end_kind[1] == END_HELD);
+        const bool held = node_is_held(r, j);
         const double given = force[j] * (start->friction_bound ? 1 : coefficient(compare, r, j)),
                      found = r->friction_bound[j];
         if (held || (found == 0 && given <= 1e-3 * largest)) continue;
@@ -706,6 +712,85 @@ static GivenStep step_of(const void *user, size_t step) {
 }
 
 static void find_at_body(void *user, const char *sentence) { find(user, "%s", sentence); }
+/* The place of node j among the grasps of a record; their count: it is not there. */
+static size_t grasp_of(const Record *r, size_t j) {
+    size_t k = 0;
+    while (k < r->grasps && r->grasp_node[k] != j) k++;
+    return k;
+}
+
+/* What is imposed on a node by part `part` of a stage that changes it: an equal share of what is
+ * left of the way from the step before. */
+static void next_grasp(const Compare *compare, const CpsGraspChange *change, int parts, int part,
+                       const Record *before, const Record *r, double value[3]) {
+    const size_t j = (size_t)change->node, k = before ? grasp_of(before, j) : 0;
+    const bool held = change->kind == CPS_END_KIND_HELD, was = before && k < before->grasps,
+               was_held = was && before->grasp_kind[k] == END_HELD;
+    for (int a = 0; a < 3; a++) {
+        const double shift = held ? compare->source.origin[a] : 0, to = change->value[a] - shift;
+        const double place = was_held ? before->grasp_place[k][a]
+                             : before ? before->position[j][a]
+                                      : r->reference[j][a],
+                     force = was ? before->grasp_force[k][a] : 0, from = held ? place : force;
+        value[a] = change->stays                      ? from
+                   : change->at_once || part == parts ? to
+                                                      : from + (to - from) / (parts - part + 1);
+    }
+}
+
+/* Nodes that are held or pulled are those that the history names, and what is imposed on them is
+ * what it says. */
+static void compare_grasps(Compare *compare, const CpsLine *line, int index, size_t step,
+                           const Record *before, const Record *r) {
+    int stage = 0, part = 0;
+    const bool staged = stage_of(compare, step, &stage, &part),
+               ended = r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE ||
+                       r->outcome == OUTCOME_SLIDES;
+    const CpsStage *at = &compare->scene->stage[stage];
+    const int changes = staged ? at->grasp_change_count : 0;
+    size_t named = 0, kept = 0;
+    if (ended) return;
+    for (int i = 0; i < changes; i++) {
+        const CpsGraspChange *change = &at->grasp_change[i];
+        const size_t k = grasp_of(r, (size_t)change->node);
+        if (change->line != index) continue;
+        named++;
+        if (k == r->grasps || r->grasp_kind[k] != (change->kind == CPS_END_KIND_FREE)) {
+            find(compare, "node %d of %s, step %zu, is not grasped as the scene says", change->node,
+                 line->name, step);
+            return;
+        }
+        double value[3];
+        const double *found = r->grasp_kind[k] == END_HELD ? r->grasp_place[k] : r->grasp_load[k];
+        next_grasp(compare, change, at->step_count, part, before, r, value);
+        for (int a = 0; a < 3; a++)
+            if (!(fabs(found[a] - value[a]) <= COMPUTED * (size(value) + size(found))))
+                find(compare,
+                     "what is imposed on node %d of %s, step %zu, is %.17g, in the scene "
+                     "%.17g",
+                     change->node, line->name, step, found[a], value[a]);
+    }
+    const size_t earlier = before ? before->grasps : 0;
+    for (size_t k = 0; k < earlier; k++) {
+        const size_t now = grasp_of(r, before->grasp_node[k]);
+        bool changed = false;
+        for (int i = 0; i < changes; i++)
+            changed = changed || (at->grasp_change[i].line == index &&
+                                  (size_t)at->grasp_change[i].node == before->grasp_node[k]);
+        if (changed) continue;
+        const bool held = before->grasp_kind[k] == END_HELD;
+        const double *was = held ? before->grasp_place[k] : before->grasp_load[k];
+        if (now == r->grasps && !held && size(was) == 0) continue;
+        kept++;
+        if (now == r->grasps || r->grasp_kind[now] != before->grasp_kind[k] ||
+            memcmp(held ? r->grasp_place[now] : r->grasp_load[now], was, 3 * sizeof *was) != 0)
+            find(compare, "node %zu of %s, step %zu, is no longer as it was grasped",
+                 before->grasp_node[k], line->name, step);
+    }
+    if (r->grasps != named + kept)
+        find(compare, "%zu nodes of %s, step %zu, are grasped, in the scene %zu", r->grasps,
+             line->name, step, named + kept);
+}
 
 static int compare_steps(Compare *compare, int index) {
     const CpsLine *line = &compare->scene->line[index];
@@ -733,6 +818,7 @@ static int compare_steps(Compare *compare, int index) {
                 compare_end(compare, line, e, &end[e], &was, step, &now);
             }
         if (!bad && step == 0) compare_nodes(compare, line, &now);
+        if (!bad) compare_grasps(compare, line, index, step, step > 0 ? &before : NULL, &now);
         if (!bad) compare_loads(compare, line, step, &now);
         if (!bad && index == 0) compare_turns(compare, step, &now);
         const Record swap = before;

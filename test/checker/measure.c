@@ -17,6 +17,8 @@
 #include "measure.h"
 
 #include "elongation.h"
+#include "grasps.h"
+
 #include "fall.h"
 
 #include <math.h>
@@ -142,10 +144,7 @@ typedef struct Sums {
         bound_residual, imbalance_work, magnitude, length, elastic, gravity, carried;
 } Sums;
 
-static bool held(const Record *r, size_t j) {
-    return (j == 0 && r->end_kind[0] == END_HELD) ||
-           (j == r->elements && r->end_kind[1] == END_HELD);
-}
+static bool held(const Record *r, size_t j) { return node_is_held(r, j); }
 
 static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     Real l = r->element_length[i], c = r->element_compliance[i], T = r->tension[i];
@@ -544,6 +543,7 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
     for (int e = 0; e < 2; e++)
         if (j == (e ? r->elements : 0) && r->end_kind[e] == END_FREE)
             for (int k = 0; k < 3; k++) weight[k] -= r->applied_force[e][k];
+    node_load(r, j, weight);
     // where gravity changes the weight works with the mean of what it was and what it is
     const Real half = ((j > 0 ? (Real)r->element_length[j - 1] : 0) +
                        (j < r->elements ? (Real)r->element_length[j] : 0)) /
@@ -581,8 +581,8 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     // must balance
     if (held(r, j)) {
         Triple imposed, off;
-        widen(r->held_position[j == 0 ? 0 : 1], imposed);
-        subtract(r->position[j], r->held_position[j == 0 ? 0 : 1], off);
+        widen(node_place(r, j), imposed);
+        subtract(r->position[j], node_place(r, j), off);
         raise_to(&m->held_error, size(off));
         add(&s->dual, -dot(pull, imposed));
         add(&s->imbalance_work, dot(pull, off));
@@ -636,18 +636,12 @@ static bool leaves_planes(const Source *source, const Record *r, const Real *v, 
     return source->surfaces > 0;
 }
 
-/* What proves that nothing can balance: distance of the ends, or the fall of the energy along a
- * rigid motion v, sum b.v - sum w |v_T|, which must not lead into the obstacle. Where bounds follow
- * the reactions, these carry the normal part of the loads and sum w is at most the largest mu times
- * it. */
+/* What proves that nothing can balance: the fall of the energy along a rigid motion v, sum b.v -
+ * sum w |v_T|, which must not lead into the obstacle. Where bounds follow the reactions, these
+ * carry the normal part of the loads and sum w is at most the largest mu times it. */
 static void measure_proof(const Source *source, const Record *r, Measures *m) {
-    m->ends_distance = m->rigid_fall = NAN;
+    m->rigid_fall = NAN;
     m->rigid_rise_least = INFINITY;
-    if (r->end_kind[0] == END_HELD && r->end_kind[1] == END_HELD) {
-        Triple apart;
-        subtract(r->held_position[1], r->held_position[0], apart);
-        m->ends_distance = (double)size(apart);
-    }
     Triple v, b;
     widen(r->proof, v);
     if (size(v) == 0) return;

@@ -61,7 +61,6 @@ typedef struct Measures {
     double tension_estimate; /* [N] max |T - |p|| */
     double tension_bound;    /* [N] sqrt(2 gap / (c L)), NaN for c = 0 */
     double held_error;       /* [m] how far a held end is from where it is imposed */
-    double ends_distance;    /* [m] of two imposed ends, NaN otherwise */
     double
         rigid_fall; /* [N] fall of the energy per metre along `proof`, NaN without a proof vector */
     bool meets;     /* does the line meet an obstacle on that way? (where obstacles are round) */

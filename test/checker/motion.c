@@ -16,6 +16,8 @@
  * loads on them is counted anew here, place by place. */
 #include "motion.h"
 
+#include "grasps.h"
+
 #include <math.h>
 
 typedef Real Triple[3];
@@ -150,7 +152,8 @@ static bool has_power(const Record *r, size_t tail, size_t head, const Real *wei
 
 const char *motion_contradiction(const Source *source, const Record *r, double *power) {
     *power = INFINITY;
-    if (r->end_kind[0] != END_FREE || r->end_kind[1] != END_FREE) return "an end is held";
+    for (size_t j = 0; j < r->nodes; j++)
+        if (node_is_held(r, j)) return "a node is held";
     if (r->weight_length) return "its weights move along with it";
     if (!source->consistent) return "friction is frozen, which holds whatever the tension";
     Real length = 0, fastest = 0, factor = r->factor ? 0 : 1;

@@ -2,6 +2,8 @@
 /* Claimed ranges of tensions (ranges.h). */
 #include "ranges.h"
 
+#include "grasps.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -75,10 +77,12 @@ static bool is_other(const Source *source, const Record *r, size_t element, doub
     RestContact *contact = calloc(all, sizeof *contact);
     double *friction = calloc(all, sizeof *friction), length = 0;
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
-    bool wrong = contact && friction && r->elements <= MOST_ELEMENTS && force > 0 &&
+    bool *held = calloc(r->nodes, sizeof *held);
+    bool wrong = contact && friction && held && r->elements <= MOST_ELEMENTS && force > 0 &&
                  !taut_in_doubt(r, force) &&
                  contacts_of(source, r, length, force, contact, friction);
     if (wrong) {
+        for (size_t j = 0; j < r->nodes; j++) held[j] = node_is_held(r, j);
         const RestLine line = {.elements = r->elements,
                                .contacts = r->contacts,
                                .element_length = r->element_length,
@@ -89,11 +93,12 @@ static bool is_other(const Source *source, const Record *r, size_t element, doub
                                .friction = friction,
                                .contact = contact,
                                .frozen = !source->consistent,
-                               .held = {r->end_kind[0] == END_HELD, r->end_kind[1] == END_HELD},
+                               .held = held,
                                .force = force};
         const bool low = value_is_wrong(&line, element, -1, claimed[0], FOUND * force, &found[0]);
         wrong = value_is_wrong(&line, element, 1, claimed[1], FOUND * force, &found[1]) || low;
     }
+    free(held);
     free(contact);
     free(friction);
     return wrong;

@@ -5,6 +5,7 @@
 #include "record.h"
 
 #include "elongation.h"
+#include "grasps.h"
 
 #include <math.h>
 #include <netcdf.h>
@@ -743,6 +744,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= read_proof_obstacle(source, line, "proof_obstacle", step, &record->proof_obstacle, log);
     bad |= read_proof_obstacle(source, line, "proof_plane", step, &record->proof_plane, log);
     bad |= read_weight_before(source, line, step, record, log);
+    bad |= grasps_read(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }
 

@@ -64,6 +64,7 @@ enum {
 };
 
 typedef double Vector[3];
+enum { GRASPS = 8 };
 
 /* nodes 0..elements; element i joins node i and i + 1 here. Contact c is the first of node c, or
  * the second of node c - nodes; where elements have contacts, contact contacts nodes + i is that of
@@ -101,6 +102,9 @@ typedef struct Record {
     int end_kind[2], outcome, iterations;
     int substeps; /* that the step was taken in; the arrays are those of the last one, */
     double share; /* which is so much of the step */
+    size_t grasps, grasp_node[GRASPS]; /* nodes between the ends that are held or pulled */
+    int grasp_kind[GRASPS];
+    Vector grasp_place[GRASPS], grasp_load[GRASPS], grasp_force[GRASPS];
     Vector held_position[2], applied_force[2]; /* what is imposed on an end; NaN: the other is */
     Vector end_force[2], end_friction_force[2], proof;
     double end_tension[2], end_range[RANGES][2];

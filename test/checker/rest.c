@@ -13,9 +13,7 @@ static const double ROOMS[] = {1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7}, KN
 
 static size_t nodes_of(const RestLine *line) { return line->elements + 1; }
 
-static bool held(const RestLine *line, size_t j) {
-    return (j == 0 && line->held[0]) || (j == line->elements && line->held[1]);
-}
+static bool held(const RestLine *line, size_t j) { return line->held[j]; }
 
 static size_t touching(const RestLine *line, size_t j, size_t which[2]) {
     size_t count = 0;

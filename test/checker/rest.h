@@ -26,8 +26,9 @@ typedef struct RestLine {
     const double (*normal)[3], (*slip)[3]; /* (contacts, nodes) */
     const double *friction;                /* (contacts, nodes) mu, or the bound [N] where frozen */
     const RestContact *contact;            /* (contacts, nodes) */
-    bool frozen, held[2];
-    double force; /* [N] of the size of the largest */
+    bool frozen;
+    const bool *held; /* (nodes) */
+    double force;     /* [N] of the size of the largest */
 } RestLine;
 
 /* Tensions above so many times the force are not looked at: "unbounded". */

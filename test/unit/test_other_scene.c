@@ -55,7 +55,9 @@ static const char SCENE[] =
     " linear_system: chain}\n"
     "history:\n"
     "  - {name: pull, steps: 2, gravity: [0, 0, -9], one.B: {force: [2, 0, 0]}, post.turn: 5}\n"
-    "  - {one.A: {move: [1, 0, 0]}, two.A: {position: [0, 6, 0]}}\n";
+    "  - {one.A: {move: [1, 0, 0]}, two.A: {position: [0, 6, 0]}}\n"
+    "  - {wet.node: {at: 1, hold: true}, one.node: {at: 5, force: [0, 1, 0]}}\n"
+    "  - {wet.node: {at: 2, position: [2, 300, 2]}, one.node: {at: 5, release: true}}\n";
 
 /* Points where lines meet: beside obstacles whose friction has no directions. */
 static const char POINTS_SCENE[] =
@@ -185,6 +187,12 @@ static const struct Change {
     {"gravity", "gravity: [0, 0, -9]", "gravity: [0, 0, -8]"},
     {"LINE.END", "one.B: {", "two.B: {"},
     {"force", "force: [2, 0, 0]", "force: [2, 0, 1]"},
+    {"LINE.node", "one.node: {at: 5, force", "two.node: {at: 5, force"},
+    {"at", "wet.node: {at: 1", "wet.node: {at: 2"},
+    {"hold", "wet.node: {at: 1, hold: true}", "wet.node: {at: 1, release: true}"},
+    {"force", "one.node: {at: 5, force: [0, 1, 0]}", "one.node: {at: 5, force: [0, 2, 0]}"},
+    {"position", "position: [2, 300, 2]", "position: [2, 300, 1]"},
+    {"release", "one.node: {at: 5, release: true}", "one.node: {at: 5, force: [0, 0, 0]}"},
     {"OBSTACLE.turn", "post.turn: 5", "post.turn: 6"},
     {"OBSTACLE.turn", "post.turn: 5", "ball.turn: 5"},
     {"move", "move: [1, 0, 0]", "move: [1, 1, 0]"},
@@ -340,7 +348,8 @@ static void every_change_makes_another_scene(void **state) {
     expect_refused(&ALL, 0, place_of(SCENE, "{name: pull"));
     expect_refused(&ALL, 1, place_of(SCENE, "  - {one.A"));
     expect_refused(&ALL, 2, place_of(SCENE, "  - {one.A"));
-    expect_refused(&ALL, 3, sizeof SCENE);
+    expect_refused(&ALL, 3, place_of(SCENE, "  - {wet.node: {at: 1"));
+    expect_refused(&ALL, 5, sizeof SCENE);
 }
 
 static void every_change_of_points_makes_another_scene(void **state) {

@@ -598,18 +598,12 @@ static void ignores_the_locale(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_defaults),
-        cmocka_unit_test(reads_every_key),
-        cmocka_unit_test(reads_obstacles),
-        cmocka_unit_test(reads_tables),
-        cmocka_unit_test(grades_elements),
-        cmocka_unit_test(reads_points),
-        cmocka_unit_test(reads_bodies),
-        cmocka_unit_test(reads_friction_sets_and_zones),
-        cmocka_unit_test(reads_graded_elements),
-        cmocka_unit_test(adds_moves),
-        cmocka_unit_test(knows_numbers),
-        cmocka_unit_test(keeps_limits),
+        cmocka_unit_test(reads_defaults),        cmocka_unit_test(reads_every_key),
+        cmocka_unit_test(reads_obstacles),       cmocka_unit_test(reads_tables),
+        cmocka_unit_test(grades_elements),       cmocka_unit_test(reads_points),
+        cmocka_unit_test(reads_bodies),          cmocka_unit_test(reads_friction_sets_and_zones),
+        cmocka_unit_test(reads_graded_elements), cmocka_unit_test(adds_moves),
+        cmocka_unit_test(knows_numbers),         cmocka_unit_test(keeps_limits),
         cmocka_unit_test(ignores_the_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

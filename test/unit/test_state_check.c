@@ -126,6 +126,7 @@ static const char *const REASON[] = {
     "an end comes from nowhere",
     "its gravity is not finite",
     "an end is neither held nor free, or at no place",
+    "a node is grasped that cannot be, or at no place",
     "the report of a line is none",
     "a contact is with an obstacle that there is not, or in no state",
     "a number is not finite"};

@@ -513,6 +513,57 @@ static CpsStatus build_changes(const Build *b, const CpsiStageValues *values, Cp
     return status ? status : build_body_changes(b, &values->body_changes, stage);
 }
 
+/* The node between the ends that is nearest to an arc length; 0: there is none. */
+static int nearest_node(const CpsLine *line, double at) {
+    double arc = 0, least = INFINITY;
+    int nearest = 0;
+    for (int j = 1; j < line->element_count; j++) {
+        arc +=
+            line->element_length ? line->element_length[j - 1] : line->length / line->element_count;
+        if (!(fabs(arc - at) < least)) continue;
+        least = fabs(arc - at);
+        nearest = j;
+    }
+    return nearest;
+}
+
+static CpsStatus build_grasp(const Build *b, const CpsiGraspValues *values,
+                             CpsGraspChange *change) {
+    const bool flag = values->kind == CPSI_GRASP_HOLD || values->kind == CPSI_GRASP_RELEASE;
+    const char *key = values->node->key;
+    change->line = find_line(b, key);
+    const CpsLine *line = &b->line[change->line];
+    change->node = nearest_node(line, values->at);
+    if (values->at > line->length || change->node == 0)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "at"),
+                                  "'%s': found at %g m, expected a length up to that of the line, "
+                                  "%g m, which has at least two elements",
+                                  key, values->at, line->length);
+    if (flag && !values->yes)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': found false, expected true; leave the key out to leave "
+                                  "the node as it is",
+                                  key);
+    const bool held = values->kind == CPSI_GRASP_POSITION || values->kind == CPSI_GRASP_HOLD;
+    change->kind = held ? CPS_END_KIND_HELD : CPS_END_KIND_FREE;
+    change->stays = values->kind == CPSI_GRASP_HOLD;
+    change->at_once = values->kind == CPSI_GRASP_RELEASE;
+    if (!flag) memcpy(change->value, values->value, sizeof change->value);
+    return CPS_OK;
+}
+
+static CpsStatus build_grasps(const Build *b, const CpsiList *grasps, CpsStage *stage) {
+    const CpsiGraspValues *from = grasps->item;
+    CpsGraspChange *change = CPSI_POOL_TAKE(b->pool, grasps->count, CpsGraspChange);
+    if (!change) return cpsi_document_no_memory(b->d);
+    stage->grasp_change = change;
+    stage->grasp_change_count = grasps->count;
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < grasps->count && status == CPS_OK; k++)
+        status = build_grasp(b, &from[k], &change[k]);
+    return status;
+}
+
 static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int index,
                              CpsStage *stage) {
     const CpsiNumberItem *turns = values->turns.item;
@@ -530,7 +581,8 @@ static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int 
     for (int k = 0; k < stage->turn_count; k++)
         turn[k] = (CpsTurn){.obstacle = find_obstacle(b, turns[k].node->key),
                             .angle = turns[k].number * CPSI_DEGREE};
-    return build_changes(b, values, stage);
+    const CpsStatus status = build_changes(b, values, stage);
+    return status == CPS_OK ? build_grasps(b, &values->grasps, stage) : status;
 }
 
 static CpsStatus build_history(const Build *b, const CpsiList *history) {

@@ -62,5 +62,17 @@ void cpsi_netcdf_write_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodi
                               const CpsScene *scene, const double origin[3]);
 void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies, size_t step,
                                const CpsEvolution *evolution, const double origin[3]);
+/* Nodes of a line between its ends that are held or pulled. */
+typedef struct CpsiNetcdfGrasps {
+    bool is_there; /* the history grasps nodes of the line */
+    int node, kind, held_position, applied_force, force;
+} CpsiNetcdfGrasps;
+
+/* Define the variables of a line of the scene; none where its history grasps no node of it. */
+void cpsi_netcdf_define_grasps(CpsiNetcdfFile *file, CpsiNetcdfGrasps *ids, const CpsScene *scene,
+                               int line, int step, int xyz);
+/* ... and write those of a step. */
+void cpsi_netcdf_append_grasps(CpsiNetcdfFile *file, const CpsiNetcdfGrasps *ids, size_t step,
+                               const CpsLineView *view);
 
 #endif

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The points and bodies of a scene in result.nc (see netcdf_obstacles.h): tables of the numbers and
- * of the vectors of their reports. No name of a line's field ends in "of_point" or "of_body", so
- * that none of these names is taken, whatever a line is called. */
+ * of the vectors of their reports; and the nodes that are grasped, for which a line has
+ * CPS_MAX_GRASPS places, of which the first ones are taken in a step. No name of a line's field
+ * ends in "of_point" or "of_body", so that none of these names is taken, whatever a line is
+ * called. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -310,4 +313,62 @@ void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bod
         for (int i = 0; i < CPSI_BODY_INTS; ++i)
             cpsi_netcdf_int(file, bodies->whole[i], at, whole[i]);
     }
+}
+
+/* ---- nodes that are grasped ---- */
+
+static bool grasps(const CpsScene *scene, int line) {
+    for (int i = 0; i < scene->stage_count; ++i)
+        for (int k = 0; k < scene->stage[i].grasp_change_count; ++k)
+            if (scene->stage[i].grasp_change[k].line == line) return true;
+    return false;
+}
+
+void cpsi_netcdf_define_grasps(CpsiNetcdfFile *file, CpsiNetcdfGrasps *ids, const CpsScene *scene,
+                               int line, int step, int xyz) {
+    const char *of = scene->line[line].name;
+    char name[NC_MAX_NAME + 1];
+    ids->is_there = grasps(scene, line);
+    if (!ids->is_there) return;
+    snprintf(name, sizeof name, "%.200s_grasp", of);
+    const int on[] = {step, cpsi_netcdf_dimension(file, name, CPS_MAX_GRASPS), xyz};
+    ids->node = cpsi_netcdf_variable(file, of, "grasp_node", NC_INT, 2, on,
+                                     "node that is held or pulled, -1: none", "1");
+    ids->kind = cpsi_netcdf_variable(file, of, "grasp_kind", NC_BYTE, 2, on,
+                                     "what is imposed on that node", "1");
+    cpsi_netcdf_flags(file, ids->kind, NC_BYTE, 2, NULL, "held free");
+    ids->held_position = cpsi_netcdf_variable(file, of, "grasp_held_position", NC_DOUBLE, 3, on,
+                                              "imposed position of a node that is held", "m");
+    ids->applied_force = cpsi_netcdf_variable(file, of, "grasp_applied_force", NC_DOUBLE, 3, on,
+                                              "imposed force on a node that is pulled", "N");
+    ids->force = cpsi_netcdf_variable(file, of, "grasp_force", NC_DOUBLE, 3, on,
+                                      "force on the line at that node", "N");
+    cpsi_netcdf_may_miss(file, ids->held_position);
+    cpsi_netcdf_may_miss(file, ids->applied_force);
+    cpsi_netcdf_may_miss(file, ids->force);
+}
+
+void cpsi_netcdf_append_grasps(CpsiNetcdfFile *file, const CpsiNetcdfGrasps *ids, size_t step,
+                               const CpsLineView *view) {
+    if (!ids->is_there) return;
+    const size_t start[] = {step, 0, 0}, count[] = {1, CPS_MAX_GRASPS, XYZ};
+    int node[CPS_MAX_GRASPS];
+    unsigned char kind[CPS_MAX_GRASPS];
+    double held[CPS_MAX_GRASPS][XYZ], applied[CPS_MAX_GRASPS][XYZ], force[CPS_MAX_GRASPS][XYZ];
+    for (int k = 0; k < CPS_MAX_GRASPS; ++k) {
+        const bool is = k < view->grasp_count;
+        const CpsGrasp *grasp = &view->grasp[is ? k : 0];
+        node[k] = is ? grasp->node : -1;
+        kind[k] = !is || grasp->imposed.kind == CPS_END_KIND_FREE;
+        for (int a = 0; a < XYZ; ++a) {
+            held[k][a] = kind[k] ? NAN : grasp->imposed.value[a];
+            applied[k][a] = is && kind[k] ? grasp->imposed.value[a] : NAN;
+            force[k][a] = is ? grasp->force[a] : NAN;
+        }
+    }
+    cpsi_netcdf_ints(file, ids->node, start, count, node);
+    cpsi_netcdf_bytes(file, ids->kind, start, count, kind);
+    cpsi_netcdf_doubles(file, ids->held_position, start, count, held[0]);
+    cpsi_netcdf_doubles(file, ids->applied_force, start, count, applied[0]);
+    cpsi_netcdf_doubles(file, ids->force, start, count, force[0]);
 }

@@ -140,6 +140,7 @@ typedef struct LineIds {
     int spring_element, spring_strain, spring_stiffness; /* unused where there is none */
     int breaking_load;                                   /* the same */
     int end_point;                                       /* unused without points */
+    CpsiNetcdfGrasps grasps;
 } LineIds;
 
 struct CpsiNetcdf {
@@ -473,6 +474,7 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
             range[e] = cpsi_member(&report->end[e].range, RANGE[i].member);
         cpsi_netcdf_doubles(&nc->file, ids->end_range[i], start, ends, range);
     }
+    cpsi_netcdf_append_grasps(&nc->file, &ids->grasps, nc->steps, view);
     cpsi_netcdf_doubles(&nc->file, ids->proof, start, vector, report->proof);
     cpsi_netcdf_doubles(&nc->file, ids->weight_before, start, vector, view->weight_before);
 
@@ -553,6 +555,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         define_line(nc, &nc->line[i], &view);
         define_zones(nc, &nc->line[i], &scene->line[i]);
         define_end_points(nc, &nc->line[i], &scene->line[i]);
+        cpsi_netcdf_define_grasps(&nc->file, &nc->line[i].grasps, scene, i, nc->step, nc->xyz);
     }
     if (nc->file.status == NC_NOERR)
         cpsi_netcdf_keep(&nc->file, nc->file.library.enddef(nc->file.id));

@@ -436,6 +436,17 @@ static const CpsiMapping BODY_CHANGE = {
     .also = "\"oneOf\": [{\"anyOf\": [{\"required\": [\"position\"]}, {\"required\": [\"move\"]}, "
             "{\"required\": [\"rotation\"]}]}, {\"anyOf\": [{\"required\": [\"force\"]}, "
             "{\"required\": [\"moment\"]}]}]"};
+static const CpsiKey GRASP_KEYS[] = {
+    {"at", REQUIRED, NUMBER(Grasp, at), NOT_NEGATIVE, .unit = "m",
+     .help = "natural length from end A; the node between the ends that is nearest is grasped"},
+    {"position", ONE_OF, POINT(Grasp, value, 3), ANY, .unit = "m",
+     .help = "hold the node where it is, and move it to this position"},
+    {"hold", ONE_OF, FLAG(Grasp, yes), .help = "true: hold the node where it is"},
+    {"force", ONE_OF, POINT(Grasp, value, 3), ANY, .unit = "N",
+     .help = "pull it with this force; one that is held is let go, from the force that holds it"},
+    {"release", ONE_OF, FLAG(Grasp, yes), .help = "true: let the node go at once, without force"},
+};
+static const CpsiMapping GRASP = {"grasp", KEYS(GRASP_KEYS), INTO(Grasp), WHICH(Grasp, kind)};
 
 static const CpsiKey STAGE_KEYS[] = {
     {"name", OPTIONAL, TEXT(Stage, stage.name, 0),
@@ -448,6 +459,11 @@ static const CpsiKey STAGE_KEYS[] = {
     {"LINE.END", OPTIONAL, OWNED(Stage, changes), .owner = "lines", .after = "A B",
      .inside = &CHANGE,
      .help = "what happens to an end of a line, as in cable.B; all other ends stay as they are"},
+    {"LINE.node", OPTIONAL, OWNED(Stage, grasps), .owner = "lines",
+     .after = "node node2 node3 node4", .inside = &GRASP,
+     .help =
+         "what happens to a node between the ends of a line, as in cable.node; to others of the "
+         "same line in the same entry cable.node2 to cable.node4"},
     {"OBSTACLE.turn", OPTIONAL, OWNED_NUMBERS(Stage, turns), ANY, .owner = "obstacles",
      .after = "turn", .unit = "degrees",
      .help = "turn a cylinder or ball by so much in this entry, as in drum.turn, by the "

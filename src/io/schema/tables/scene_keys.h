@@ -167,6 +167,21 @@ typedef struct CpsiBodyChangeValues {
     CpsiRotationValues rotation;
     double force[3], moment[3], arm[3];
 } CpsiBodyChangeValues;
+/* Which of its keys a grasp of a node has. */
+typedef enum CpsiGraspKind {
+    CPSI_GRASP_POSITION,
+    CPSI_GRASP_HOLD,
+    CPSI_GRASP_FORCE,
+    CPSI_GRASP_RELEASE
+} CpsiGraspKind;
+
+typedef struct CpsiGraspValues {
+    const CpsiYaml *node; /* the key is LINE.node */
+    int kind;             /* CpsiGraspKind */
+    double at;            /* [m] */
+    double value[3];
+    bool yes; /* of `hold` and `release` */
+} CpsiGraspValues;
 
 typedef struct CpsiStageValues {
     const CpsiYaml *node;
@@ -174,6 +189,7 @@ typedef struct CpsiStageValues {
     CpsiList changes;       /* CpsiChangeValues */
     CpsiList point_changes; /* CpsiChangeValues, with the key POINT.point */
     CpsiList body_changes;  /* CpsiBodyChangeValues */
+    CpsiList grasps;        /* CpsiGraspValues, with the key LINE.node */
     CpsiList turns;         /* CpsiNumberItem, with the key OBSTACLE.turn */
 } CpsiStageValues;
 
