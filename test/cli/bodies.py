@@ -351,6 +351,7 @@ def main():
         told = r"body stone: no pose found where the forces and moments on it balance \([0-9.e+]+ N and [0-9.e+]+ N m are left after \d+ trials\)\n"
         check("told in the table", re.search("^ +" + told, done.stdout, re.M), done.stdout)
         check("told", re.search("^capstan: step fall, " + told, done.stderr, re.M), done.stderr)
+        check("what may help", "give that direction as 'fixed'\n" in done.stderr, done.stderr)
         _, rows = table("falling/bodies.csv")
         check("without a place", rows[-1]["has_place"] == "0" and float(rows[-1]["residual_z"]) < -4, rows[-1])
         check("in the summary", json.loads(read("falling/summary.json"))["bodies"]["stone"]["steps_without_place"] == 1)
