@@ -271,6 +271,10 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         cli_print_text(stderr, step.name, 80, false);
         fputs(", ", stderr);
         print_unbalanced_body(stderr, scene->body[i].name, &body);
+        if (!body.is_stable)
+            fputs("capstan: where nothing holds a body in a direction, as about the axis of a "
+                  "single line, give that direction as 'fixed'\n",
+                  stderr);
     }
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, and of driven systems."""
+"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a spar on three lines, and of driven systems."""
 import os
 import re
 
@@ -27,8 +27,14 @@ def bridle(program):
     return os.path.join(place, "plan.svg")
 
 
+def spar(program):
+    """The elevation of examples/oc3-hywind.yaml under the first thrust."""
+    _, place = program.run("run", "examples/oc3-hywind.yaml")
+    return os.path.join(place, "step-00004-elevation.svg")
+
+
 PICTURES = {
-    "run-rope": first_scene, "run-bridle": bridle,
+    "run-rope": first_scene, "run-bridle": bridle, "run-oc3-hywind": spar,
     "drive-wheel-maps": driven("braked-wheel"),
     "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),
     "drive-disc": driven("disc"), "drive-plate": driven("plate"), "drive-car": driven("car"), "drive-planimeter": driven("planimeter"),

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The comparison of warm steps with cold ones in docs/validation.md."""
+"""The comparison of warm steps with cold ones in docs/validation.md, and the spar under thrust."""
 import glob
 import os
 import subprocess
+
+import spar
 
 
 def warm_steps(program):
@@ -13,4 +15,5 @@ def warm_steps(program):
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
 
 
-FIGURES = {"warm-steps": warm_steps}
+FIGURES = {"warm-steps": warm_steps, "spar-thrust": spar.thrust}
+PICTURES = {"spar-thrust": spar.loops}

@@ -389,6 +389,46 @@ static void moves_of_bodies(void **unused) {
     cps_evolution_destroy(other);
 }
 
+/* Angles of a rotation that is made of them, R = Rz(yaw) Ry(pitch) Rx(roll), as a product of
+ * quaternions about axes that stay: roll first. Where pitch is upright, only roll - yaw, or their
+ * sum, is left, and roll is 0. Quaternions of any length and either sign. */
+static void angles_of_a_pose(void **unused) {
+    (void)unused;
+    static const double ROLL[] = {0, 0.3, -2.9, 3.1, 1e-9}, PITCH[] = {0, -1.2, 1.5, -1e-8},
+                        YAW[] = {0, -3.0, 1.1, 2e-7}, SCALE[] = {1, -3};
+    CpsBodyReport report = {0};
+    double angle[3], heel;
+    for (int n = 0; n < 5 * 4 * 4 * 2; n++) {
+        const double roll = ROLL[n % 5], pitch = PITCH[n / 5 % 4], yaw = YAW[n / 20 % 4];
+        double about_x[4], about_xy[4];
+        turned((const double[]){roll, 0, 0}, (const double[]){1, 0, 0, 0}, about_x);
+        turned((const double[]){0, pitch, 0}, about_x, about_xy);
+        turned((const double[]){0, 0, yaw}, about_xy, report.rotation);
+        for (int i = 0; i < 4; i++) report.rotation[i] *= SCALE[n / 80];
+        cps_body_angles(&report, angle, &heel);
+        CHECK_NEAR(angle[0], roll, 1e-14);
+        CHECK_NEAR(angle[1], pitch, 1e-14);
+        CHECK_NEAR(angle[2], yaw, 1e-14);
+        CHECK_NEAR(cos(heel), cos(roll) * cos(pitch), 1e-14);
+    }
+    for (int up = -1; up <= 1; up += 2) { /* pitch +-90 degrees: x is vertical */
+        double about_y[4];
+        turned((const double[]){0, up * 0.5 * 3.14159265358979324, 0}, (const double[]){1, 0, 0, 0},
+               about_y);
+        turned((const double[]){0, 0, 0.7}, about_y, report.rotation);
+        cps_body_angles(&report, angle, &heel);
+        CHECK_NEAR(angle[0], 0, 0);
+        CHECK_NEAR(angle[1], up * 0.5 * 3.14159265358979324, 1e-15);
+        CHECK_NEAR(angle[2], 0.7, 1e-14);
+        CHECK_NEAR(heel, 0.5 * 3.14159265358979324, 1e-14);
+    }
+    heel = 5;
+    cps_body_angles(NULL, angle, &heel);
+    cps_body_angles(&report, NULL, &heel);
+    cps_body_angles(&report, angle, NULL);
+    assert_true(heel == 5);
+}
+
 static void expect_refused(const CpsScene *scene, const char *where, const char *part) {
     CpsError err = {0};
     assert_int_not_equal(cps_scene_check(scene, &err), CPS_OK);
@@ -465,6 +505,7 @@ int main(void) {
         cmocka_unit_test(oc3_at_rest),
         cmocka_unit_test(oc3_thrust_on_and_off),
         cmocka_unit_test(moves_of_bodies),
+        cmocka_unit_test(angles_of_a_pose),
         cmocka_unit_test(what_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

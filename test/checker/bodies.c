@@ -67,6 +67,13 @@ static int read_constant(const Source *source, const Bodies *bodies, const char 
                       length, k, 1, false, value, log);
 }
 
+/* One of the four 3x3 blocks of a 6x6 matrix, row by row. */
+static void put_block(const double *block, int which, double *matrix) {
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            matrix[SIX * (3 * (which / 2) + i) + 3 * (which % 2) + k] = block[3 * i + k];
+}
+
 static int read_body(const Source *source, const Bodies *bodies, size_t k, FILE *log) {
     BodyData *data = &bodies->data[k];
     double kind, fixed[SIX];
@@ -82,8 +89,13 @@ static int read_body(const Source *source, const Bodies *bodies, size_t k, FILE 
                          data->start_position, log);
     bad |= read_constant(source, bodies, "start_rotation_of_body", k, FOUR, false,
                          data->start_rotation, log);
-    bad |= read_constant(source, bodies, "hydrostatics_of_body", k, SIX, true, data->hydrostatics,
-                         log);
+    static const char *const BLOCK[] = {"hydrostatics_xx_of_body", "hydrostatics_xr_of_body",
+                                        "hydrostatics_rx_of_body", "hydrostatics_rr_of_body"};
+    for (int i = 0; i < 4; i++) {
+        double block[9] = {0};
+        bad |= read_constant(source, bodies, BLOCK[i], k, 3, true, block, log);
+        put_block(block, i, data->hydrostatics);
+    }
     if (bad) return -1;
     for (int i = 0; i < SIX; i++) data->fixed[i] = fixed[i] != 0;
     if (!(kind >= 0 && kind < BODY_KINDS) || !(data->weight >= 0) || !(data->buoyancy >= 0))
@@ -183,33 +195,40 @@ static int read_step(const Source *source, const Bodies *bodies, const char *nam
 
 int bodies_read(const Source *source, const Bodies *bodies, size_t step, BodyState *all,
                 FILE *log) {
-    enum { FIELDS = 10, MOST = SIX * SIX };
+    enum { FIELDS = 17, BLOCKS = 10, WORDS = 14, MOST = 9 };
     static const struct {
         const char *name;
-        size_t width, numbers;
-    } FIELD[FIELDS] = {{"position_of_body", 3, 3},       {"rotation_of_body", FOUR, FOUR},
-                       {"lines_of_body", SIX, SIX},      {"load_of_body", SIX, SIX},
-                       {"support_of_body", SIX, SIX},    {"residual_of_body", SIX, SIX},
-                       {"stiffness_of_body", SIX, MOST}, {"state_of_body", 0, 1},
-                       {"stable_of_body", 0, 1},         {"has_place_of_body", 0, 1}};
+        size_t width;
+    } FIELD[FIELDS] = {{"position_of_body", 3},     {"rotation_of_body", FOUR},
+                       {"lines_of_body", 3},        {"lines_moment_of_body", 3},
+                       {"load_of_body", 3},         {"load_moment_of_body", 3},
+                       {"support_of_body", 3},      {"support_moment_of_body", 3},
+                       {"residual_of_body", 3},     {"residual_moment_of_body", 3},
+                       {"stiffness_xx_of_body", 3}, {"stiffness_xr_of_body", 3},
+                       {"stiffness_rx_of_body", 3}, {"stiffness_rr_of_body", 3},
+                       {"state_of_body", 0},        {"stable_of_body", 0},
+                       {"has_place_of_body", 0}};
     double *value = calloc(bodies->count * MOST, sizeof *value);
     if (!value) return complain(log, "out of memory for", "bodies");
     int bad = 0;
-    for (size_t i = 0; i < FIELDS && !bad; i++) {
-        const size_t n = FIELD[i].numbers;
-        bad = read_step(source, bodies, FIELD[i].name, step, FIELD[i].width, n == MOST, value, log);
+    for (int i = 0; i < FIELDS && !bad; i++) {
+        const bool is_block = i >= BLOCKS && i < WORDS;
+        const size_t n = is_block ? 9 : i >= WORDS ? 1 : FIELD[i].width;
+        bad = read_step(source, bodies, FIELD[i].name, step, FIELD[i].width, is_block, value, log);
         for (size_t k = 0; k < bodies->count && !bad; k++) {
             BodyState *at = &all[k];
-            double *const to[] = {at->position, at->rotation, at->lines,    at->load,
-                                  at->support,  at->residual, at->stiffness};
+            double *const to[BLOCKS] = {at->position, at->rotation,    at->lines,   &at->lines[3],
+                                        at->load,     &at->load[3],    at->support, &at->support[3],
+                                        at->residual, &at->residual[3]};
             const double *from = value + n * k;
-            if (i < 7) memcpy(to[i], from, n * sizeof *from);
-            if (i == 7 && !(*from >= 0 && *from < BODY_KINDS))
+            if (i < BLOCKS) memcpy(to[i], from, n * sizeof *from);
+            if (is_block) put_block(from, i - BLOCKS, at->stiffness);
+            if (i == WORDS && !(*from >= 0 && *from < BODY_KINDS))
                 bad = complain(log, "unknown state of body", bodies->data[k].name);
-            else if (i == 7)
+            else if (i == WORDS)
                 at->kind = (int)*from;
-            if (i == 8) at->is_stable = *from != 0;
-            if (i == 9) at->has_place = *from != 0;
+            if (i == WORDS + 1) at->is_stable = *from != 0;
+            if (i == WORDS + 2) at->has_place = *from != 0;
         }
     }
     free(value);

@@ -203,9 +203,9 @@ int write_alone(const char *path, const char *name, const Bed *bed, const double
 }
 
 int sample_poke(const char *path, const char *variable, size_t index, double value) {
-    int nc, id, rank = 0, dimension[3], status = nc_open(path, NC_WRITE, &nc);
+    int nc, id, rank = 0, dimension[4], status = nc_open(path, NC_WRITE, &nc);
     if (status) return status;
-    size_t at[3] = {0}, length[3] = {1, 1, 1};
+    size_t at[4] = {0}, length[4] = {1, 1, 1, 1};
     status = nc_inq_varid(nc, variable, &id);
     if (!status) status = nc_inq_varndims(nc, id, &rank);
     if (!status) status = nc_inq_vardimid(nc, id, dimension);

@@ -56,6 +56,20 @@ static const char POINTS_TEXT[] =
     "  two: {length: 0.5, elements: 2, weight: 1, stiffness: 100, start: static, ends: {A: {point: "
     "knot}, B: {held: [1.2, 0.3, 0]}}}\n"
     "history: [{knot.point: {force: [1, -1, 0]}, post.point: {move: [0, 0.1, 0]}}]\n";
+/* Rigid bodies, and points on them. */
+static const char BODIES[] = "memory-bodies.yaml";
+static const char BODIES_TEXT[] =
+    "capstan: 1\nbodies:\n"
+    "  spar: {free: [0, 0, 0], rotation: {roll_pitch_yaw: [0, 1, 0]}, fixed: [rz], weight: 5, "
+    "buoyancy: 9, hydrostatics: {z: 9, rx: 9, ry: 9}}\n"
+    "  barge: {held: [3, 0, 0]}\n"
+    "points: {eye: {body: spar, at: [0, 0, 1]}, bow: {body: barge}}\n"
+    "lines:\n"
+    "  one: {length: 2.5, elements: 3, weight: 1, stiffness: 100, start: static, ends: {A: {held: "
+    "[-2, 0, 0]}, B: {point: eye}}}\n"
+    "  two: {length: 3.5, elements: 2, weight: 1, stiffness: 100, start: static, ends: {A: {point: "
+    "eye}, B: {point: bow}}}\n"
+    "history: [{spar.body: {force: [1, 0, 0]}, barge.body: {move: [0, 0.1, 0]}}]\n";
 static const char EVERY_NODE_TEXT[] =
     "x,y,z,arc_length,tension,reaction\nm,m,m,m,N,N\n# a remark\n0,9,0,0,,0.5\n0.5,9,0,0.5,1,1\n"
     "1,9,0,1,1,0.5\n";
@@ -118,6 +132,10 @@ static void others(void **state) {
     INTO_DIRECTORY(cmd_check, "check", POINTS);
     INTO_DIRECTORY(cmd_run, "run", POINTS, "-q", "-o", OUT, "--force");
     remove(POINTS);
+    write_file(BODIES, BODIES_TEXT);
+    INTO_DIRECTORY(cmd_check, "check", BODIES);
+    INTO_DIRECTORY(cmd_run, "run", BODIES, "-q", "-o", OUT, "--force", "--stiffness");
+    remove(BODIES);
     static const char *const WHAT[] = {"scene", "law", "drive"};
     for (int i = 0; i < 3; ++i) {
         bool reached;

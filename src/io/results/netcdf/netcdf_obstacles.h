@@ -45,7 +45,7 @@ void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poin
 void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
                                const CpsEvolution *evolution, const double origin[3]);
 
-enum { CPSI_BODY_CONSTANTS = 7, CPSI_BODY_FIELDS = 7, CPSI_BODY_INTS = 4 };
+enum { CPSI_BODY_CONSTANTS = 10, CPSI_BODY_FIELDS = 14, CPSI_BODY_INTS = 4 };
 
 typedef struct CpsiNetcdfBodies {
     int count;

@@ -144,14 +144,28 @@ void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poi
 
 enum { DIRECTIONS = CPS_BODY_DIRECTIONS, QUATERNION = 4 };
 
-/* The shape of a quantity of a body. */
-typedef enum Shape { NUMBER_OF, VECTOR_OF, ROTATION_OF, WRENCH_OF, MATRIX_OF } Shape;
+/* The shape of a quantity of a body. A block is 3x3 of a 6x6 matrix. */
+typedef enum Shape { NUMBER_OF, VECTOR_OF, ROTATION_OF, BLOCK_OF } Shape;
 
 typedef struct BodyField {
     const char *name, *long_name, *units;
     size_t offset;
     Shape shape;
 } BodyField;
+
+/* Where entry i of an array of doubles lies. */
+#define ENTRY(type, member, i) (offsetof(type, member) + (i) * sizeof(double))
+
+/* The four blocks of a 6x6 matrix: of forces and moments by displacements (x) and rotations (r). */
+#define BLOCKS_OF(name, what, type, member)                                                       \
+    {name "_xx_of_body", what ", force by displacement", "N m-1", ENTRY(type, member, 0),         \
+     BLOCK_OF},                                                                                   \
+        {name "_xr_of_body", what ", force by rotation", "N", ENTRY(type, member, 3), BLOCK_OF},  \
+        {name "_rx_of_body", what ", moment by displacement", "N", ENTRY(type, member, 18),       \
+         BLOCK_OF},                                                                               \
+    {                                                                                             \
+        name "_rr_of_body", what ", moment by rotation", "N m", ENTRY(type, member, 21), BLOCK_OF \
+    }
 
 static const BodyField CONSTANT[CPSI_BODY_CONSTANTS] = {
     {"weight_of_body", "weight under the gravity of the scene", "N", offsetof(CpsBody, weight),
@@ -166,27 +180,27 @@ static const BodyField CONSTANT[CPSI_BODY_CONSTANTS] = {
      VECTOR_OF},
     {"start_rotation_of_body", "rotation in which it begins, quaternion w x y z", "1",
      offsetof(CpsBody, rotation), ROTATION_OF},
-    /* of three units */
-    {"hydrostatics_of_body",
-     "stiffness of the water from the pose in which it begins [N/m, N, N m]", NULL,
-     offsetof(CpsBody, hydrostatics), MATRIX_OF},
+    BLOCKS_OF("hydrostatics", "stiffness of the water from the pose in which it begins", CpsBody,
+              hydrostatics),
 };
 
-/* A force, then a moment: of two units. */
-#define WRENCH(name, what, member) \
-    { name, what " [N], then moment [N m]", NULL, offsetof(CpsBodyReport, member), WRENCH_OF }
+/* A force, and its moment about the reference point. */
+#define WRENCH(name, what, member)                                                          \
+    {name "_of_body", "force of " what, "N", ENTRY(CpsBodyReport, member, 0), VECTOR_OF}, { \
+        name "_moment_of_body", "moment of " what " about the reference point", "N m",      \
+            ENTRY(CpsBodyReport, member, 3), VECTOR_OF                                      \
+    }
 
 static const BodyField FIELD[CPSI_BODY_FIELDS] = {
     {"position_of_body", "where the reference point is", "m", offsetof(CpsBodyReport, position),
      VECTOR_OF},
     {"rotation_of_body", "rotation, quaternion w x y z", "1", offsetof(CpsBodyReport, rotation),
      ROTATION_OF},
-    WRENCH("lines_of_body", "force of all lines", lines),
-    WRENCH("load_of_body", "force of weight, water and given load", load),
-    WRENCH("support_of_body", "force of what holds it", support),
-    WRENCH("residual_of_body", "sum of all forces", residual),
-    {"stiffness_of_body", "stiffness in the pose [N/m, N, N m], 0 of a held body", NULL,
-     offsetof(CpsBodyReport, stiffness), MATRIX_OF},
+    WRENCH("lines", "all lines", lines),
+    WRENCH("load", "weight, water and given load", load),
+    WRENCH("support", "what holds it", support),
+    WRENCH("residual", "all together", residual),
+    BLOCKS_OF("stiffness", "stiffness in the pose, 0 of a held body", CpsBodyReport, stiffness),
 };
 
 typedef enum BodyInt { BODY_STATE, BODY_TRIALS, BODY_STABLE, BODY_HAS_PLACE } BodyInt;
@@ -206,14 +220,11 @@ typedef struct Extent {
 } Extent;
 
 static int define_field(CpsiNetcdfFile *file, const BodyField *field, Extent extent, int xyz,
-                        int direction, int quaternion) {
-    const int each[] = {[NUMBER_OF] = -1,
-                        [VECTOR_OF] = xyz,
-                        [ROTATION_OF] = quaternion,
-                        [WRENCH_OF] = direction,
-                        [MATRIX_OF] = direction};
+                        int quaternion) {
+    const int each[] = {
+        [NUMBER_OF] = -1, [VECTOR_OF] = xyz, [ROTATION_OF] = quaternion, [BLOCK_OF] = xyz};
     if (field->shape != NUMBER_OF) extent.dimension[extent.rank++] = each[field->shape];
-    if (field->shape == MATRIX_OF) extent.dimension[extent.rank++] = direction;
+    if (field->shape == BLOCK_OF) extent.dimension[extent.rank++] = xyz;
     return cpsi_netcdf_variable(file, "", field->name, NC_DOUBLE, extent.rank, extent.dimension,
                                 field->long_name, field->units);
 }
@@ -243,9 +254,9 @@ void cpsi_netcdf_define_bodies(CpsiNetcdfFile *file, CpsiNetcdfBodies *out,
                              "where on its body it is, in the axes of the body", "m");
     cpsi_netcdf_may_miss(file, out->place_of_point);
     for (int i = 0; i < CPSI_BODY_CONSTANTS; ++i)
-        out->constant[i] = define_field(file, &CONSTANT[i], constant, xyz, direction, quaternion);
+        out->constant[i] = define_field(file, &CONSTANT[i], constant, xyz, quaternion);
     for (int i = 0; i < CPSI_BODY_FIELDS; ++i)
-        out->field[i] = define_field(file, &FIELD[i], field, xyz, direction, quaternion);
+        out->field[i] = define_field(file, &FIELD[i], field, xyz, quaternion);
     for (int i = 0; i < CPSI_BODY_INTS; ++i) {
         out->whole[i] = cpsi_netcdf_variable(file, "", BODY_WHOLE[i].name, NC_INT, 2,
                                              field.dimension, BODY_WHOLE[i].long_name, "1");
@@ -258,18 +269,18 @@ void cpsi_netcdf_define_bodies(CpsiNetcdfFile *file, CpsiNetcdfBodies *out,
 /* A quantity of `of` at an index; `from` is subtracted from a place, NULL: nothing is. */
 static void write_field(CpsiNetcdfFile *file, int variable, const BodyField *field,
                         const size_t index[2], int rank, const void *of, const double *from) {
-    static const size_t EACH[] = {[NUMBER_OF] = 1,
-                                  [VECTOR_OF] = XYZ,
-                                  [ROTATION_OF] = QUATERNION,
-                                  [WRENCH_OF] = DIRECTIONS,
-                                  [MATRIX_OF] = DIRECTIONS};
-    double value[DIRECTIONS * DIRECTIONS];
+    static const size_t EACH[] = {
+        [NUMBER_OF] = 1, [VECTOR_OF] = XYZ, [ROTATION_OF] = QUATERNION, [BLOCK_OF] = XYZ};
+    const size_t each = EACH[field->shape], rows = field->shape == BLOCK_OF ? XYZ : 1;
+    double value[XYZ * QUATERNION];
     size_t start[4] = {0}, count[4] = {1, 1, 1, 1};
     for (int i = 0; i < rank; ++i) start[i] = index[i];
-    count[rank] = EACH[field->shape];
-    if (field->shape == MATRIX_OF) count[rank + 1] = DIRECTIONS;
-    const size_t size = EACH[field->shape] * (field->shape == MATRIX_OF ? DIRECTIONS : 1);
-    memcpy(value, (const char *)of + field->offset, size * sizeof *value);
+    count[rank] = field->shape == BLOCK_OF ? rows : each;
+    if (field->shape == BLOCK_OF) count[rank + 1] = each;
+    for (size_t row = 0; row < rows; ++row)
+        memcpy(&value[each * row],
+               (const char *)of + field->offset + row * DIRECTIONS * sizeof *value,
+               each * sizeof *value);
     if (from)
         for (int a = 0; a < XYZ; ++a) value[a] -= from[a];
     cpsi_netcdf_doubles(file, variable, start, count, value);

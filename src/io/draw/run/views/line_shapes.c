@@ -266,9 +266,10 @@ static void draw_step_legend(const CpsResults *results, bool air, double y, FILE
                     "<circle r=\"4.5\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"1.4\"/>",
                     "free end");
     }
-    if (results->body_count == 0 || has_points_of(results, CPS_POINT_KIND_HELD))
+    const bool both = results->point_count > 0 && results->body_count == 0;
+    if (both || has_points_of(results, CPS_POINT_KIND_HELD))
         cpsi_legend(out, &x, y, SQUARE("#222"), "held point");
-    if (results->body_count == 0 || has_points_of(results, CPS_POINT_KIND_FREE))
+    if (both || has_points_of(results, CPS_POINT_KIND_FREE))
         cpsi_legend(out, &x, y, SQUARE("#fff"), "free point");
     if (results->body_count > 0)
         cpsi_legend(out, &x, y,

@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rigid bodies, from a scene to the checker: the file is sound and the scene's, and copies with a
+ * number changed are refused, by themselves or beside their scene. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "capstan/io.h"
+#include "check.h"
+#include "checker.h"
+#include "given.h"
+#include "run_scene.h"
+#include "sample.h"
+
+/* A float that heels, with water whose stiffness is coupled, on two legs; and a barge beside it
+ * that is moved and turned, let go, and held again, under a gravity that changes. */
+static const char SCENE[] =
+    "capstan: 1\ngravity: [0, 0, -10]\nobstacles:\n"
+    "  bed: {plane: {point: [0, 0, -20]}, friction: 0.5}\n"
+    "bodies:\n"
+    "  spar: {free: [0, 0, 0], rotation: {roll_pitch_yaw: [0, 0, 20]}, fixed: [rz, y], weight: 500,"
+    " centre_of_gravity: [0.1, 0, -2], buoyancy: 1500, centre_of_buoyancy: [0, 0, 0.5],"
+    " hydrostatics: [[10, 0, 0, 0, 5, 0], [0, 12, 0, 0, 0, 0], [0, 0, 90, 0, 0, 0],"
+    " [0, 0, 0, 300, 0, 0], [5, 0, 0, 0, 310, 0], [0, 0, 0, 0, 0, 40]],"
+    " force: [10, 0, 0], arm: [0, 0, 2]}\n"
+    "  barge: {held: [30, 0, 0], weight: 50, hydrostatics: {x: 400, y: 500, z: 300, rx: 300,"
+    " ry: 300, rz: 300}}\n"
+    "points:\n"
+    "  anchor: {held: [-14, 1, -20]}\n"
+    "  left: {body: spar, at: [-1, 0.2, -3]}\n"
+    "  right: {body: spar, at: [1, 0, -3]}\n"
+    "  bow: {body: barge, at: [-2, 0, 1]}\n"
+    "  stern: {body: barge, at: [2, 0.5, 0]}\n"
+    "lines:\n"
+    "  a: {length: 23, elements: 12, weight: 10, stiffness: 1e5, start: static, ends: {A: {point: "
+    "anchor}, B: {point: left}}}\n"
+    "  b: {length: 24, elements: 12, weight: 10, stiffness: 1e5, start: static, ends: {A: {point: "
+    "right}, B: {held: [15, 0, -20]}}}\n"
+    "  c: {length: 29, elements: 8, weight: 2, stiffness: 1e5, start: static, ends: {A: {point: "
+    "right}, B: {point: bow}}}\n"
+    "  d: {length: 30, elements: 8, weight: 2, stiffness: 1e5, start: static, ends: {A: {point: "
+    "stern}, B: {held: [58, 0, -10]}}}\n"
+    "history:\n"
+    "  - {name: push, steps: 2, spar.body: {force: [90, 0, 0], arm: [0, 0, 2]}}\n"
+    "  - {name: turn, steps: 2, barge.body: {move: [0.5, 0.2, 0], rotation: {roll_pitch_yaw: [5, "
+    "10, 30]}}}\n"
+    "  - {name: free, steps: 2, barge.body: {force: [5, 0, 0]}, gravity: [0, 0, -9]}\n"
+    "  - {name: hold, steps: 2, barge.body: {position: [30, 1, 0], rotation: {quaternion: [1, 0, 0,"
+    " 0.1]}}}\n";
+enum { STEPS = 9, LINES = 4, BODIES = 2, POINTS = 5, SPAR = 0, BARGE = 1, LEFT = 1 };
+
+static char copy[80];
+static CpsSceneFile *scene;
+
+static int solve(void **state) {
+    CpsError err;
+    if (make_scene_directory(state) != 0) return -1;
+    FILE *out = fopen(scene_path, "w");
+    if (!out || fputs(SCENE, out) < 0 || fclose(out) != 0) return -1;
+    run_scene();
+    snprintf(copy, sizeof copy, "%s-copy", scene_result);
+    return cps_scene_read(scene_path, NULL, &scene, &err) != CPS_OK;
+}
+
+static int clean(void **state) {
+    cps_scene_file_destroy(scene);
+    return remove_scene_directory(state);
+}
+
+static void copy_result(void) {
+    FILE *from = fopen(scene_result, "rb"), *to = fopen(copy, "wb");
+    assert_true(from && to);
+    for (int c; (c = getc(from)) != EOF;) putc(c, to);
+    fclose(from);
+    assert_int_equal(fclose(to), 0);
+}
+
+static void sound_file_is_the_scenes(void **state) {
+    (void)state;
+    CheckerReport report;
+    CHECK_INT(checker_file(scene_result, &report, stdout), 0);
+    CHECK_INT(report.certified, LINES * STEPS);
+    CHECK_INT(given_file(scene_result, cps_scene_file_scene(scene), stdout), 0);
+}
+
+/* A number of a step and a body, or component i of so many. */
+#define NUMBER(step, body)    ((step)*BODIES + (body))
+#define OF(step, body, n, i)  ((n)*NUMBER(step, body) + (i))
+#define PLACE(step, point, a) (3 * ((step)*POINTS + (point)) + (a))
+
+/* Step 1 pushes, 3 turns the barge, 5 has let it go, 7 holds it again. A finding NULL: only beside
+ * the scene. */
+static const struct {
+    const char *variable;
+    size_t index;
+    double value;
+    const char *finding;
+} FALSE[] = {
+    {"position_of_body", OF(1, SPAR, 3, 0), 0.5, "body spar: distance of a point from its place"},
+    {"position_of_body", OF(3, BARGE, 3, 2), 0.1, "body barge: distance of a point"},
+    {"position_of_body", OF(1, SPAR, 3, 1), 0.1, "body spar: displacement in a fixed direction"},
+    {"rotation_of_body", OF(1, SPAR, 4, 2), 0.2, "body spar: length of the quaternion"},
+    {"rotation_of_body", OF(1, SPAR, 4, 3), -0.17, "body spar: distance of a point"},
+    {"position_of_point", PLACE(1, LEFT, 2), -3.5, "body spar: distance of a point"},
+    {"state_of_point", 1 * POINTS + LEFT, 0, "body spar: point left is said to be off it"},
+    {"lines_of_body", OF(1, SPAR, 3, 0), 5, "body spar: force of the lines"},
+    {"lines_moment_of_body", OF(1, SPAR, 3, 1), 5, "body spar: moment of the lines"},
+    {"lines_moment_of_body", OF(3, BARGE, 3, 2), 5, "body barge: moment of the lines"},
+    {"load_of_body", OF(1, SPAR, 3, 2), 5, "body spar: residual force against the sum"},
+    {"load_moment_of_body", OF(5, BARGE, 3, 1), 5, "body barge: residual moment against the sum"},
+    {"support_of_body", OF(1, SPAR, 3, 0), 1,
+     "body spar: support in a direction that is not fixed"},
+    {"support_moment_of_body", OF(1, SPAR, 3, 2), 100,
+     "body spar: residual moment against the sum"},
+    {"support_of_body", OF(3, BARGE, 3, 1), 100, "body barge: residual force against the sum"},
+    {"residual_of_body", OF(1, SPAR, 3, 0), 1, "body spar: residual force against the sum"},
+    {"residual_moment_of_body", OF(3, BARGE, 3, 0), 1, "body barge: residual where it is held"},
+    {"residual_moment_of_body", OF(1, SPAR, 3, 0), 1, "body spar: it is said to have a place"},
+    {"has_place_of_body", NUMBER(1, SPAR), 0, "body spar: it has no place, but lines"},
+    {"has_place_of_body", NUMBER(3, BARGE), 0, "body barge: it is held, but not stable"},
+    {"stable_of_body", NUMBER(1, SPAR), 0, "body spar: it is said to be not stable"},
+    {"stiffness_xx_of_body", OF(1, SPAR, 9, 8), -1e4, "body spar: it is said to be stable"},
+    {"state_of_body", NUMBER(1, SPAR), 0, NULL},
+    {"state_of_body", NUMBER(1, SPAR), 2, "unknown state of body spar"},
+    {"kind_of_body", BARGE, 1, NULL},
+    {"kind_of_body", BARGE, 2, "senseless kind, weight or buoyancy of body barge"},
+    {"weight_of_body", SPAR, 501, NULL},
+    {"weight_of_body", SPAR, -1, "senseless kind, weight or buoyancy of body spar"},
+    {"buoyancy_of_body", SPAR, 1501, NULL},
+    {"centre_of_gravity_of_body", 0, 0.2, NULL},
+    {"centre_of_buoyancy_of_body", 2, 0.4, NULL},
+    {"hydrostatics_xr_of_body", 1, 6, NULL},
+    {"hydrostatics_rx_of_body", 3, 6, NULL},
+    {"hydrostatics_xx_of_body", 8, 91, NULL},
+    {"hydrostatics_rr_of_body", 0, 301, NULL},
+    {"start_position_of_body", 0, 1e-3, NULL},
+    {"start_rotation_of_body", 3, 0.1, NULL},
+    {"fixed_of_body", 1, 0, "body spar: support in a direction that is not fixed"},
+    {"fixed_of_body", 0, 1, "body spar: displacement in a fixed direction"},
+    {"body_of_point", LEFT, 1, "body barge: distance of a point"},
+    {"body_of_point", LEFT, -1, "senseless body of point left"},
+    {"body_of_point", LEFT, 2, "senseless body of point left"},
+    {"place_on_body_of_point", 3 * LEFT, -1.1, "body spar: distance of a point"},
+    {"kind_of_point", LEFT, 0, "senseless body of point left"},
+    {"b_end_force", 0, 1e3, "point right: sum of the lines"},
+};
+
+static void falsified_copies_are_refused(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof FALSE / sizeof *FALSE; i++) {
+        copy_result();
+        CHECK_INT(sample_poke(copy, FALSE[i].variable, FALSE[i].index, FALSE[i].value), 0);
+        char *text = NULL;
+        size_t size = 0;
+        FILE *log = open_memstream(&text, &size);
+        const int found = checker_file(copy, NULL, log),
+                  given = given_file(copy, cps_scene_file_scene(scene), NULL);
+        fclose(log);
+        const bool is_refused =
+            FALSE[i].finding ? found != 0 && strstr(text, FALSE[i].finding) : given >= 1;
+        if (!is_refused)
+            fail_msg("%s[%zu] = %g: expected \"%s\", got %d and %d:\n%s", FALSE[i].variable,
+                     FALSE[i].index, FALSE[i].value,
+                     FALSE[i].finding ? FALSE[i].finding : "not the scene's", found, given, text);
+        free(text);
+    }
+    remove(copy);
+}
+
+/* Scenes in which something else is imposed on the bodies. */
+static void other_scenes_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *from, *to;
+    } CHANGE[] = {
+        {"free: [0, 0, 0]", "free: [0, 0, 1e-6]"},
+        {"[0, 0, 20]", "[0, 0, 20.0001]"},
+        {"fixed: [rz, y]", "fixed: [rz]"},
+        {"weight: 500", "weight: 500.0001"},
+        {"[0.1, 0, -2]", "[0.1, 0, -2.0001]"},
+        {"buoyancy: 1500", "buoyancy: 1500.0001"},
+        {"[0, 0, 0.5]", "[0, 0, 0.50001]"},
+        {"[0, 12, 0, 0, 0, 0]", "[0, 12.0001, 0, 0, 0, 0]"},
+        {"force: [10, 0, 0], arm: [0, 0, 2]", "force: [10, 0, 0], arm: [0, 0, 2.0001]"},
+        {"force: [10, 0, 0]", "force: [10, 1e-5, 0]"},
+        {"force: [90, 0, 0]", "force: [90, 0, 1e-5]"},
+        {"held: [30, 0, 0]", "held: [30, 0, 1e-6]"},
+        {"at: [-1, 0.2, -3]", "at: [-1, 0.2, -3.000001]"},
+        {"move: [0.5, 0.2, 0]", "move: [0.5, 0.200001, 0]"},
+        {"[5, 10, 30]", "[5, 10, 30.0001]"},
+        {"force: [5, 0, 0]", "force: [5, 0, 1e-6]"},
+        {"position: [30, 1, 0]", "position: [30, 1, 1e-6]"},
+        {"[1, 0, 0, 0.1]", "[1, 0, 0, 0.10001]"},
+        {"gravity: [0, 0, -9]", "gravity: [0, 0, -9.0001]"},
+        {"{body: spar, at: [1, 0, -3]}", "{body: barge, at: [1, 0, -3]}"},
+        {"  left:", "  port:"},
+    };
+    for (size_t i = 0; i < sizeof CHANGE / sizeof *CHANGE; i++) {
+        char text[sizeof SCENE + 200];
+        CpsSceneFile *other = NULL;
+        CpsError err = {0};
+        const char *at = strstr(SCENE, CHANGE[i].from);
+        if (!at) fail_msg("'%s' is not in the scene", CHANGE[i].from);
+        snprintf(text, sizeof text, "%.*s%s%s", (int)(at - SCENE), SCENE, CHANGE[i].to,
+                 at + strlen(CHANGE[i].from));
+        for (char *left; (left = strstr(text, "left")) && strcmp(CHANGE[i].to, "  port:") == 0;)
+            memcpy(left, "port", 4); /* where the point is named once more */
+        FILE *out = fopen(scene_path, "w");
+        assert_true(out && fputs(text, out) >= 0 && fclose(out) == 0);
+        if (cps_scene_read(scene_path, NULL, &other, &err) != CPS_OK) fail_msg("%s", err.message);
+        if (given_file(scene_result, cps_scene_file_scene(other), NULL) < 1)
+            fail_msg("%s is accepted in place of %s", CHANGE[i].to, CHANGE[i].from);
+        cps_scene_file_destroy(other);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
+                                       cmocka_unit_test(falsified_copies_are_refused),
+                                       cmocka_unit_test(other_scenes_are_refused)};
+    return cmocka_run_group_tests(tests, solve, clean);
+}
