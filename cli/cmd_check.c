@@ -115,22 +115,59 @@ static void print_end(const CpsScene *scene, const CpsLine *line, int e) {
         printf("  end %c: held at (%g, %g, %g) m\n", letter, v[0], v[1], v[2]);
 }
 
-static void print_make(double weight, double stiffness, bool breaks, double breaking_load) {
-    printf("weight %g N/m, ", weight);
-    if (isinf(stiffness))
+/* What a section has, or a line of one make. */
+typedef struct Stuff {
+    double weight, stiffness;
+    int row_count;
+    const CpsStiffnessRow *row;
+    bool breaks;
+    double breaking_load;
+} Stuff;
+
+static void print_make(const Stuff *make) {
+    printf("weight %g N/m, ", make->weight);
+    if (make->row_count > 0) {
+        const int last = make->row_count - 1;
+        const CpsStiffnessRow *row = make->row;
+        printf("stiffness %g N, %g N beyond %g %%", row[1].tension / row[1].strain,
+               (row[last].tension - row[last - 1].tension) /
+                   (row[last].strain - row[last - 1].strain),
+               100 * row[last - 1].strain);
+    } else if (isinf(make->stiffness)) {
         printf("inextensible");
-    else
-        printf("stiffness %g N", stiffness);
-    if (breaks) printf(", breaks at %g N", breaking_load);
+    } else {
+        printf("stiffness %g N", make->stiffness);
+    }
+    if (make->breaks) printf(", breaks at %g N", make->breaking_load);
+}
+
+/* Print the number of elements that end between two arc lengths, and how long they are. */
+static void print_elements(const CpsLine *line, double from, double to) {
+    double at = 0, least = INFINITY, most = 0;
+    int count = 0;
+    for (int e = 0; e < line->element_count; e++) {
+        const double l =
+            line->element_length ? line->element_length[e] : line->length / line->element_count;
+        const double middle = at + 0.5 * l;
+        at += l;
+        if (middle < from || middle > to) continue;
+        count++;
+        least = fmin(least, l);
+        most = fmax(most, l);
+    }
+    printf("%d element%s of %g m", count, count == 1 ? "" : "s", least);
+    if (most > least * (1 + 1e-9)) printf(" to %g m", most);
 }
 
 static void print_line(const CpsScene *scene, const CpsLine *line) {
     static const char *const START[] = {"straight", "polyline", "arc", "static equilibrium",
                                         "from given nodes"};
-    printf("line %s: %g m, %d %selement%s, ", line->name, line->length, line->element_count,
-           line->element_length ? "graded " : "", line->element_count == 1 ? "" : "s");
+    printf("line %s: %g m, ", line->name, line->length);
+    print_elements(line, 0, line->length);
+    printf(", ");
     if (line->section_count == 0) {
-        print_make(line->weight, line->stiffness, line->has_breaking_load, line->breaking_load);
+        print_make(&(Stuff){line->weight, line->stiffness, line->stiffness_row_count,
+                            line->stiffness_row, line->has_breaking_load, line->breaking_load});
         printf(", ");
     }
     printf("start %s\n", START[line->start.kind]);
@@ -140,8 +177,11 @@ static void print_line(const CpsScene *scene, const CpsLine *line) {
         printf("  ");
         cli_print_text(stdout, section->type, INT_MAX, false);
         printf(" from %g m to %g m: ", from, from + section->length);
-        print_make(section->weight, section->stiffness, section->has_breaking_load,
-                   section->breaking_load);
+        print_elements(line, from, from + section->length);
+        printf(", ");
+        print_make(&(Stuff){section->weight, section->stiffness, section->stiffness_row_count,
+                            section->stiffness_row, section->has_breaking_load,
+                            section->breaking_load});
         putchar('\n');
     }
     for (int k = 0; k < line->point_weight_count; k++)

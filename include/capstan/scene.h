@@ -113,12 +113,24 @@ typedef struct CpsFrictionZone {
     double factor;   /* [-] >= 0, multiplies the friction of every obstacle that it touches */
 } CpsFrictionZone;
 
+/* A row of a table of strain and tension; a table has 2 to CPS_MAX_STIFFNESS_ROWS of them. The
+ * first is 0, 0; strains and tensions rise, with slopes that do not fall. Beyond the last row its
+ * slope goes on. */
+enum { CPS_MAX_STIFFNESS_ROWS = 100 };
+typedef struct CpsStiffnessRow {
+    double strain;  /* [-] */
+    double tension; /* [N] */
+} CpsStiffnessRow;
+
 /* A stretch of a line of one make: chain, wire, fibre rope. */
 typedef struct CpsSection {
     const char *type; /* name of its make; may be NULL */
     double length;    /* [m] natural length > 0 */
     double weight;    /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
     double stiffness; /* [N] EA > 0, INFINITY: inextensible; finite in all sections or in none */
+    /* (stiffness_row_count) in place of `stiffness`; default 0 and NULL */
+    int stiffness_row_count;
+    const CpsStiffnessRow *stiffness_row;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
 } CpsSection;
@@ -136,8 +148,10 @@ typedef struct CpsLine {
     double length;                /* [m] natural length > 0 */
     int element_count;            /* >= 1 */
     const double *element_length; /* (element_count) [m], their sum is `length`; NULL: all equal */
-    double weight;          /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
-    double stiffness;       /* [N] EA > 0; INFINITY: inextensible */
+    double weight;           /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double stiffness;        /* [N] EA > 0; INFINITY: inextensible */
+    int stiffness_row_count; /* default 0; or of a table in place of `stiffness`, as of a section */
+    const CpsStiffnessRow *stiffness_row;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
     /* (section_count) from A to B, each ending at a node; their lengths make up `length`. NULL, the

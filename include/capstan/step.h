@@ -231,21 +231,22 @@ typedef struct CpsStepReport {
 enum { CPS_NO_OBSTACLE = -1 };
 
 /* All arrays of one line after a step or its last substep, until the evolution's next step. n =
- * element_count + 1 nodes; forces act on the line. Arrays (n, 3) are stored node after node. A node
- * has contact with up to `contact_count` obstacles at once; in an array over contacts entry j is
- * the first contact of node j, with its nearest obstacle, and entry n + j its second. */
+ * element_count + 1 nodes, stored one after the other; forces act on the line. In an array over
+ * contacts entry j is the contact of node j with its nearest obstacle, entry n + j its second. */
 typedef struct CpsLineView {
     const char *name;
     int element_count;
     int contact_count; /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    bool one_plane;    /* contacts are with one plane with isotropic friction only, or with none:
-                          regularized.h and the solutions of a step need this */
+    bool one_plane;    /* contacts are with one isotropic plane, or none: needed by regularized.h */
     const double *arc_length;     /* (n) [m] natural arc length of the nodes from end A */
     const double *element_length; /* (element_count) [m] */
-    double compliance;            /* [1/N] 1/EA, of sections the mean; 0 of an inextensible line */
-    bool uniform;                 /* without sections and point weights */
+    double compliance; /* [1/N] 1/EA at T = 0, of sections the mean; 0 of an inextensible line */
+    bool uniform;      /* without sections and point weights */
     const double *compliance_factor; /* (element_count) [-] of `compliance`; 1 where uniform */
     const double *weight_length; /* (n) [m] weight at a node over the mean one; 0 where uniform */
+    int spring_count; /* of tables: T = d/c + sum K (d - s)^+, d = |x'| - 1; else 0, and NULL: */
+    const int *spring_element; /* (spring_count) not falling; s [-] and K [N] of each: */
+    const double *spring_strain, *spring_stiffness;
     bool has_breaking_load;      /* of some element at least; otherwise the array is 0 */
     const double *breaking_load; /* (element_count) [N] INFINITY of elements without one */
     CpsEnd end[2];               /* what was imposed in this step */
@@ -275,10 +276,9 @@ typedef struct CpsLineView {
     /* Contact of element e with a round obstacle at the point (1 - beta) x_e + beta x_{e+1} that
      * was nearest to its axis or centre; its forces act on the two nodes in these shares, and its
      * slip is that of the point with this beta since the reference. With a plane it is the third
-     * contact of the node at the end of the element, of share 1. Such contacts exist where an
-     * obstacle is round or there are more than two, and contact is not that of the reference; the
-     * flag says so, and otherwise all arrays are 0. The values of an element whose obstacle is
-     * CPS_NO_OBSTACLE have no meaning. */
+     * contact of the node at the end of the element, of share 1. Such contacts exist (the flag;
+     * else all is 0) where an obstacle is round or there are more than two, and contact is not that
+     * of the reference. What an element with CPS_NO_OBSTACLE has means nothing. */
     bool has_element_contacts;
     const int *element_obstacle;  /* (element_count) */
     const double *element_share;  /* (element_count) [-] beta */

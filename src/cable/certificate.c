@@ -8,6 +8,7 @@
  *         |e| >= 1, T_x = (|e| - 1)/c
  *                                       = l [ |p| (1 - |e|) + (c/2) |p|^2 + (|p||e| - p.e) ]
  *                                           |e| < 1
+ *                with springs (base/element_law.h) W and W* are sums over them
  *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s); a given
  *                set's phi is its support
  *     contact    R (n.u + gap)
@@ -169,12 +170,14 @@ static void raise_to(double *largest, double value) { *largest = cpsi_max_nan(*l
 /* Elongation: the segments' part of P, D, gap, scale and tension errors. */
 static void add_segments(const CpsiLine *line, CpsCertificate *out) {
     for (int e = 0; e + 1 < line->n; e++) {
-        const double l = line->element_length[e], c = cpsi_line_compliance(line, e);
+        const CpsiElementLaw law = cpsi_line_law(line, e);
+        const double l = line->element_length[e], c = law.compliance;
         const Vec3 dx =
             vec3_sub(vec3_load(&line->position[3 * (e + 1)]), vec3_load(&line->position[3 * e]));
         const Vec3 strain = vec3_scale(1 / l, dx), p = segment_force(line, e);
         double size = vec3_norm(strain);
-        const double force = vec3_norm(p), along = force * c;
+        const double force = vec3_norm(p), along = cpsi_law_strain(&law, force),
+                     stored = law.count > 0 ? cpsi_law_conjugate(&law, force) : force * 0.5 * along;
         if (!(force > 0) && size > 1 && size <= 1 + LEAST_STRAIN + coordinate_rounding(line, e))
             size = 1;
         const double over = size - 1;
@@ -182,16 +185,17 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
         if (size > 0) raise_to(&out->element_push, -vec3_dot(p, strain) / size);
         if (c > 0) raise_to(&out->elongation_residual, over - along);
         if (over > 0 && c > 0) {
-            gap += 0.5 * (over - along) * ((over - along) / c);
-            out->primal += l * 0.5 * over * (over / c);
+            gap += cpsi_law_gap(&law, over, force);
+            out->primal +=
+                law.count > 0 ? l * cpsi_law_energy(&law, over) : l * 0.5 * over * (over / c);
         } else if (over > 0) {
             raise_to(&out->stretch_residual, over);
             gap *= 1 / size; /* as if scaled back to |e| = 1 */
         } else {
-            gap += force * (-over + 0.5 * along);
+            gap += law.count > 0 ? force * -over + stored : force * (-over + 0.5 * along);
         }
         out->gap += l * gap;
-        out->dual -= l * force * (1 + 0.5 * along);
+        out->dual -= law.count > 0 ? l * (force + stored) : l * force * (1 + 0.5 * along);
         out->scale += l * force * (1 + along);
         raise_to(&out->tension_estimate, fabs(line->tension[e] - force));
         raise_to(&out->largest_force, force);

@@ -329,6 +329,7 @@ static void fill(const CpsiLine *line, CpsiLeastMotion *least, double size) {
     cpsi_chain_program_resize(chain, chain->n, true);
     chain->segment.compliance = 0;
     chain->segment.compliance_factor = NULL;
+    chain->segment.springs.count = 0;
     program->size = size;
     memcpy(chain->frame, least->basis, 9 * (size_t)chain->n * sizeof *chain->frame);
     memset(chain->base.load, 0, 3 * (size_t)chain->n * sizeof *chain->base.load);

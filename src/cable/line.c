@@ -21,6 +21,12 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->compliance_factor, n);
         CPSI_PLACE(arena, line->weight_length, n);
     }
+    if (line->spring_count > 0) {
+        CPSI_PLACE(arena, line->spring_at, n);
+        CPSI_PLACE(arena, line->spring_element, line->spring_count);
+        CPSI_PLACE(arena, line->spring_start, line->spring_count);
+        CPSI_PLACE(arena, line->spring_stiffness, line->spring_count);
+    }
     if (line->has_breaking_load) CPSI_PLACE(arena, line->breaking_load, n);
     CPSI_PLACE(arena, line->friction_law, contacts);
     CPSI_PLACE(arena, line->friction_bound, contacts);
@@ -51,10 +57,24 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     if (line->has_local_axes) CPSI_PLACE(arena, line->obstacle_index_before, contacts);
 }
 
+CpsiElementLaw cpsi_line_law(const CpsiLine *line, int e) {
+    CpsiElementLaw law = {.compliance = cpsi_line_compliance(line, e)};
+    if (line->spring_count == 0) return law;
+    const int first = line->spring_at[e];
+    law.count = line->spring_at[e + 1] - first;
+    law.start = &line->spring_start[first];
+    law.stiffness = &line->spring_stiffness[first];
+    law.longer = line->compliance / line->spring_compliance;
+    law.stiffer = 1 / law.longer;
+    return law;
+}
+
 double cpsi_line_least_compliance(const CpsiLine *line) {
-    double least = cpsi_line_compliance(line, 0);
-    for (int e = 1; line->compliance_factor && e + 1 < line->n; e++)
-        least = fmin(least, cpsi_line_compliance(line, e));
+    double least = INFINITY;
+    for (int e = 0; e + 1 < line->n; e++) {
+        const CpsiElementLaw law = cpsi_line_law(line, e);
+        least = fmin(least, cpsi_law_least_compliance(&law));
+    }
     return least;
 }
 
@@ -109,13 +129,15 @@ void cpsi_line_set_arc_length(CpsiLine *line) {
     }
 }
 
-/* The force K (|x'| - 1)^+ t of element e at `position`; 0 for an inextensible line, whose tension
+/* The force T(|x'| - 1) t of element e at `position`; 0 for an inextensible line, whose tension
  * its shape does not determine. */
 static Vec3 start_force(const CpsiLine *line, int e) {
     const Vec3 dx = vec3_sub(vec3_at(line->position, e + 1), vec3_at(line->position, e));
     const double size = vec3_norm(dx), strain = size / line->element_length[e] - 1;
     if (!(line->compliance > 0) || !(strain > 0)) return vec3(0, 0, 0);
-    return vec3_scale(strain / (cpsi_line_compliance(line, e) * size), dx);
+    const CpsiElementLaw law = cpsi_line_law(line, e);
+    if (law.count > 0) return vec3_scale(cpsi_law_tension(&law, strain) / size, dx);
+    return vec3_scale(strain / (law.compliance * size), dx);
 }
 
 void cpsi_line_start_reaction(CpsiLine *line, double touch) {

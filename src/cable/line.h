@@ -14,6 +14,7 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
+#include "base/element_law.h"
 #include "cable/anderson.h"
 #include "cable/friction_law.h"
 #include "capstan/step.h"
@@ -42,7 +43,7 @@ typedef struct CpsiLine {
     const char *name;
     int n;                   /* nodes, elements + 1 */
     double length;           /* [m] natural */
-    double compliance;       /* [1/N] 1/EA, 0: inextensible */
+    double compliance;       /* [1/N] 1/EA without tension, 0: inextensible */
     double weight[3];        /* [N/m] per natural length; of a line of sections its scale */
     double weight_before[3]; /* [N/m] at the beginning of the substep */
     int obstacle_count;
@@ -68,7 +69,12 @@ typedef struct CpsiLine {
     double *breaking_load;  /* (n - 1) [N] INFINITY where there is none; NULL: none anywhere */
     /* of a line of sections or with point masses, else NULL */
     double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
-    double *compliance_factor; /* (n - 1) compliance of element e over `compliance` */
+    double *compliance_factor; /* (n - 1) compliance of element e over `compliance`, at T = 0 */
+    /* springs beside the elements (base/element_law.h), spring_at[e]..spring_at[e + 1] - 1 of e */
+    int spring_count;                /* 0: none, and the arrays are NULL */
+    double spring_compliance;        /* [1/N] `compliance` as given, not as statics use it */
+    int *spring_at, *spring_element; /* (n), (spring_count) */
+    double *spring_start, *spring_stiffness; /* (spring_count) [-], [N] */
     double *weight_length; /* (n) [m] natural length of `weight` that the node carries, with that
                               of its point masses; negative where a buoy lifts it */
     CpsEnd end_before[2];  /* imposed at the beginning of the substep */
@@ -139,7 +145,7 @@ typedef struct CpsiLine {
 } CpsiLine;
 
 /* Place the arrays of a line in the arena; its number of nodes, its flags, line->contacts,
- * line->element_contacts and line->compliance are set. */
+ * line->element_contacts, line->spring_count and line->compliance are set. */
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 
 /* Fill the arc length from element_length. */
@@ -170,12 +176,14 @@ static inline Vec3 cpsi_line_weight_at(const CpsiLine *line, int j) {
     return vec3_scale(sum / cpsi_line_share(line, j), vec3_load(line->weight));
 }
 
-/* [1/N] 1/EA of element e. */
+/* [1/N] 1/EA of element e, without tension. */
 static inline double cpsi_line_compliance(const CpsiLine *line, int e) {
     return line->compliance_factor ? line->compliance * line->compliance_factor[e]
                                    : line->compliance;
 }
-/* [1/N] of the stiffest element. */
+/* The law of element e of an elastic line. */
+CpsiElementLaw cpsi_line_law(const CpsiLine *line, int e);
+/* [1/N] of the stiffest element at any tension. */
 double cpsi_line_least_compliance(const CpsiLine *line);
 
 /* The number of contacts of all nodes, and the node of one. */

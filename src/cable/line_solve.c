@@ -61,20 +61,33 @@ bool cpsi_line_is_taut(const CpsiLine *line) {
            cpsi_line_end_distance(line) >= line->length * (1 - CPSI_TAUT);
 }
 
+/* The strain of the whole line at the tension T. */
+static double mean_strain(const CpsiLine *line, double tension) {
+    if (line->spring_count == 0) return line->compliance * tension;
+    double sum = 0;
+    for (int e = 0; e + 1 < line->n; e++) {
+        const CpsiElementLaw law = cpsi_line_law(line, e);
+        sum += line->element_length[e] * cpsi_law_strain(&law, tension);
+    }
+    return sum / line->length;
+}
+
 /* A force of the size of the tension to come: the largest of the weight, the forces applied, and
- * for two held ends the T of a shallow line, c T - (W/T)^2/24 = distance/L - 1. 0 if there is no
+ * for two held ends the T of a shallow line, phi(T) - (W/T)^2/24 = distance/L - 1. 0 if there is no
  * force at all. */
 static double force_scale(const CpsiLine *line, double distance) {
-    const double strain = distance / line->length - 1, c = line->compliance;
+    const double strain = distance / line->length - 1;
     double weight = line->length * vec3_norm(vec3_load(line->weight)), scale = weight;
     for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
     if (!cpsi_line_both_ends(line, CPS_END_KIND_HELD) || (scale == 0 && strain <= 0)) return scale;
     /* the left side grows with T: bracket the root by doubling, then bisect */
     double low = scale > 0 ? scale : DBL_MIN, high = low;
-    while (high < 1e300 && c * high - (weight / high) * (weight / high) / 24 < strain) high *= 2;
+    while (high < 1e300 &&
+           mean_strain(line, high) - (weight / high) * (weight / high) / 24 < strain)
+        high *= 2;
     for (int i = 0; i < 60 && high > 1.001 * low; i++) {
         const double middle = sqrt(low) * sqrt(high);
-        if (c * middle - (weight / middle) * (weight / middle) / 24 < strain)
+        if (mean_strain(line, middle) - (weight / middle) * (weight / middle) / 24 < strain)
             low = middle;
         else
             high = middle;
@@ -183,8 +196,10 @@ static double reference_tension(const CpsiLine *line) {
         for (int e = 0; e + 1 < line->n; e++) {
             const Vec3 dx = vec3_sub(vec3_load(&line->reference[3 * (e + 1)]),
                                      vec3_load(&line->reference[3 * e]));
-            most = fmax(most, (vec3_norm(dx) / line->element_length[e] - 1) /
-                                  cpsi_line_compliance(line, e));
+            const CpsiElementLaw law = cpsi_line_law(line, e);
+            const double strain = vec3_norm(dx) / line->element_length[e] - 1;
+            most = fmax(most,
+                        law.count > 0 ? cpsi_law_tension(&law, strain) : strain / law.compliance);
         }
     return most;
 }

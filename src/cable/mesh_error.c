@@ -55,8 +55,9 @@ static void add_compliance(double m[9], Vec3 d, double along, double across) {
 /* Add element e of a span; false: its weight exceeds its tension. */
 static bool add_element(const CpsiLine *line, int e, Span *span) {
     const Vec3 p = force_of(line, e), q = cpsi_line_weight(line, e);
-    const double l = line->element_length[e], c = cpsi_line_compliance(line, e),
-                 tension = vec3_norm(p);
+    const CpsiElementLaw law = cpsi_line_law(line, e);
+    const double l = line->element_length[e], tension = vec3_norm(p),
+                 c = cpsi_law_compliance(&law, tension);
     if (!(tension > l * vec3_norm(q)) || !(tension > 0)) return false;
     const Vec3 t = vec3_scale(1 / tension, p);
     const double along = vec3_dot(q, t);
@@ -89,8 +90,12 @@ static void add_support(const CpsiLine *line, int j, int e, int inward, Span *sp
         const int at = carrying_contact(line, k);
         if (at < 0 || line->state[at] != CPS_NODE_STATE_SLIP) break;
         const int beside = inward < 0 ? next : k;
+        const CpsiElementLaw law = cpsi_line_law(line, beside);
         slides += line->element_length[beside] *
-                  (line->compliance_factor ? line->compliance_factor[beside] : 1);
+                  (law.count > 0 ? cpsi_law_compliance(&law, vec3_norm(force_of(line, beside))) /
+                                       line->compliance
+                   : line->compliance_factor ? line->compliance_factor[beside]
+                                             : 1);
     }
     const int last = carrying_contact(line, k);
     const bool drawn = (k == 0 || k == line->n - 1) && !cpsi_line_is_held(line, k) && last >= 0 &&

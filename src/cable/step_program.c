@@ -271,6 +271,14 @@ static void fill_elements(const CpsiLine *line, CpsiChainProgram *program,
     const double *base = base_of(line);
     st->compliance = line->compliance * scale->force;
     st->compliance_factor = line->compliance_factor;
+    st->springs.count = line->spring_count;
+    st->springs.at = line->spring_at;
+    st->springs.start = line->spring_start;
+    st->springs.stiffness = line->spring_stiffness;
+    if (line->spring_count > 0) {
+        st->springs.longer = line->compliance / line->spring_compliance;
+        st->springs.stiffer = 1 / (st->springs.longer * scale->force);
+    }
     for (int i = 1; i < line->n; i++) {
         const double l = line->element_length[i - 1] * scale->longer;
         double dx[3], e[3], far[3], near[3];

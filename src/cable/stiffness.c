@@ -109,12 +109,15 @@ static void load_elements(Tangent *t) {
         const double tension = line->tension[i - 1] / t->force, size = vec3_norm(dx);
         const double stretch = size / line->element_length[i - 1];
         const double l = line->element_length[i - 1] / line->length;
-        const double c = cpsi_line_compliance(line, i - 1) * t->force;
+        const CpsiElementLaw law = cpsi_line_law(line, i - 1);
+        const double c = cpsi_law_compliance(&law, line->tension[i - 1]) * t->force;
         const double share = 1 - c * tension / stretch;
         double along[3];
         vec3_store(along, vec3_scale(size > 0 ? 1 / size : 0, dx));
         cpsi_frame_to(&t->matrix->direction[3 * i], line->common_axes, along);
-        const bool taut = tension > 1 + c * tension - stretch && share > 0; /* as in report.c */
+        const double strain =
+            law.count > 0 ? cpsi_law_strain(&law, line->tension[i - 1]) : c * tension;
+        const bool taut = tension > 1 + strain - stretch && share > 0; /* as in report.c */
         t->matrix->stiffness[i] = taut ? tension / (stretch * l) : 0;
         t->matrix->compliance[i] = taut ? fmax(c * l / share, LEAST_COMPLIANCE) : RIGID;
     }

@@ -98,7 +98,9 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
         const double t = line->tension[i - 1], *x = &line->reference[3 * (i - 1)];
         const double strain =
             vec3_norm(vec3_sub(vec3_load(x + 3), vec3_load(x))) / line->element_length[i - 1] - 1;
-        const double c = cpsi_line_compliance(line, i - 1), before = c > 0 ? strain / c : t;
+        const CpsiElementLaw law = cpsi_line_law(line, i - 1);
+        const double own = law.count > 0 ? cpsi_law_tension(&law, strain) : strain / law.compliance,
+                     before = law.compliance > 0 ? own : t;
         tension[i] = fmax(t + ratio * (t - before), LEAST_TENSION * t);
     }
     return CPSI_GUESS_EXTRAPOLATED;

@@ -5,15 +5,15 @@
  * nodes. With p = T e/|e| the force in an element, g = load - p_i + p_i+1 the force on a node
  * without that of its contact, the equations are
  *
- *     taut element        |e| = 1 + c T              slack        T = 0
+ *     taut element        |e| = 1 + phi(T)           slack        T = 0
  *     open contact        g = 0                      closed       gap + u_z = 0, R = -g_z
  *     friction sticks     s = 0, F = -g_xy           slips        F = A tau/|tau|, tau = F - rho s
  *
- * with A = mu R where bounds are coupled, s the slip and F = -g_xy (Alart and Curnier 1991; Hueber,
- * Stadler and Wohlmuth 2008). Which of each pair holds is read from the signs of what the other one
- * leaves free: T < 0 or |e| > 1, R < 0 or penetration, |F| > A, F.s > 0. Newton's method for the
- * equations of the present set is one linear system of the chain (active_status.c,
- * active_system.c). */
+ * with phi(T) = c T, or of a law with springs (base/element_law.h), A = mu R where bounds are
+ * coupled, s the slip and F = -g_xy (Alart and Curnier 1991; Hueber, Stadler and Wohlmuth 2008).
+ * Which of each pair holds is read from the signs of what the other one leaves free: T < 0 or |e| >
+ * 1, R < 0 or penetration, |F| > A, F.s > 0. Newton's method for the equations of the present set
+ * is one linear system of the chain (active_status.c, active_system.c). */
 #include "chain/active_set.h"
 
 #include <float.h>
@@ -38,7 +38,8 @@ static inline void to_node(const CpsiChainProgram *program, int j, double v[3]) 
     cpsi_frame_to(v, &program->frame[9 * j], common);
 }
 
-/* The force of each element, the error of its law, |e| - 1 - c T, and the force g on each node. */
+/* The force of each element, the error of its law, |e| - 1 - phi(T), and the force g on each node.
+ */
 static void measure(CpsiNewton *newton) {
     CpsiChainProgram *program = newton->program;
     CpsiSegment *st = &program->segment;
@@ -50,7 +51,8 @@ static void measure(CpsiNewton *newton) {
             const double *s = st->s[i], tension = st->z[i][0];
             const double size = sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]), over = 1 / size;
             st->inverse_w[i] = over;
-            st->g[i] = size - 1 - cpsi_segment_compliance(st, i) * tension;
+            const CpsiElementLaw law = cpsi_segment_law(st, i);
+            st->g[i] = size - 1 - cpsi_law_strain(&law, tension);
             for (int a = 0; a < 3; a++) after[a] = tension * over * s[1 + a];
             if (tension > most) most = tension;
         }
@@ -163,7 +165,8 @@ static void finish(const CpsiNewton *newton) {
     const CpsiSegment *st = &program->segment;
     const CpsiUnilateral *unilateral = &program->unilateral;
     for (int i = 1; i < program->n; i++) {
-        st->s[i][0] = 1 + cpsi_segment_compliance(st, i) * st->z[i][0];
+        const CpsiElementLaw law = cpsi_segment_law(st, i);
+        st->s[i][0] = 1 + cpsi_law_strain(&law, st->z[i][0]);
         for (int a = 1; a < 4; a++) st->z[i][a] = -st->z[i][0] * st->inverse_w[i] * st->s[i][a];
     }
     for (int k = 0; k < unilateral->count; k++) {

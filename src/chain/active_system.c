@@ -26,7 +26,8 @@ static void load_elements(CpsiNewton *newton) {
     CpsiMatrix *matrix = &program->matrix;
     for (int i = 1; i < program->n; i++) {
         const double l = st->length[i], over = st->inverse_w[i], tension = st->z[i][0];
-        const double c = cpsi_segment_compliance(st, i), share = 1 - c * tension * over;
+        const CpsiElementLaw law = cpsi_segment_law(st, i);
+        const double c = cpsi_law_compliance(&law, tension), share = 1 - c * tension * over;
         for (int a = 0; a < 3; a++) matrix->direction[3 * i + a] = st->s[i][1 + a] * over;
         if (newton->taut[i]) {
             if (!(share > 0)) newton->lost = true;

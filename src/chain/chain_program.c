@@ -165,6 +165,7 @@ bool cpsi_chain_program_couple_bounds(CpsiChainProgram *program) {
     memset(program->segment.q, 0, (size_t)program->n * sizeof *program->segment.q);
     memset(program->unilateral.q, 0,
            (size_t)program->unilateral.count * sizeof *program->unilateral.q);
+    for (int k = 0; k < program->segment.springs.count; k++) program->segment.springs.q[k] = 0;
     for (int k = 0; k < disc->count; k++) {
         disc->q[k][0] =
             disc->z[k][0] - disc->friction[k] * program->unilateral.z[disc->unilateral[k]];
@@ -237,7 +238,8 @@ void cpsi_chain_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int s
 }
 
 void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts,
-                               bool points, const CpsiConicSet *largest, const CpsiLinsysOps *ops) {
+                               bool points, int springs, const CpsiConicSet *largest,
+                               const CpsiLinsysOps *ops) {
     const int places = points ? 2 * n : n,
               stops = (contacts > 1 ? contacts * n : n) + (points ? n : 0);
     *program = (CpsiChainProgram){
@@ -246,6 +248,7 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
     if (largest) cpsi_friction_conic_layout(&program->conic, arena, places, stops, largest);
     if (largest) CPSI_PLACE(arena, program->disc.shape, 2 * (size_t)stops);
     if (contacts > 0) layout_own(program, arena, n, contacts, points);
+    cpsi_springs_layout(&program->segment.springs, arena, n, springs);
     cpsi_chain_layout(program, arena, n, stops, contacts > 0 ? 2 * stops : n, contacts > 1, points,
                       ops);
     cpsi_chain_program_resize(program, n, false);

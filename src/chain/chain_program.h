@@ -5,6 +5,7 @@
  *
  *     s.t.  segment, one per element i = 1..n-1
  *               (1 + d_i, e_i) in Q4,  e_i = e_i^0 + (u_i - u_{i-1})/l_i
+ *               where stiffness grows with d_i, springs add theirs (springs.c)
  *           friction disc, at node k: forces in a disc of radius A_k, mapped by B_k^T
  *               (t_k, o_k + B_k u_xy) in Q3
  *           friction conic, at node k: forces in any planar set, energy per bound A_k
@@ -46,10 +47,11 @@ void cpsi_chain_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int s
 
 /* Place a program for at most n nodes in the arena; `contacts`: 0, or nodes may have axes of their
  * own and 1 or 2 unilateral contacts, with two friction discs each; `points`: elements may also
- * have a point, with one such contact; `largest`: the sizes that no friction conic exceeds, or NULL
- * where there is none. */
+ * have a point, with one such contact; `springs`: at most so many beside segments; `largest`: the
+ * sizes that no friction conic exceeds, or NULL where there is none. */
 void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts,
-                               bool points, const CpsiConicSet *largest, const CpsiLinsysOps *ops);
+                               bool points, int springs, const CpsiConicSet *largest,
+                               const CpsiLinsysOps *ops);
 
 /* Use n of the nodes it was laid out for, with axes of their own or without. */
 void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes);

@@ -5,6 +5,7 @@
 #ifndef CAPSTAN_SRC_CHAIN_ELEMENTS_H
 #define CAPSTAN_SRC_CHAIN_ELEMENTS_H
 
+#include "base/element_law.h"
 #include "chain/chain_system.h"
 #include "chain/friction_shape.h"
 #include "ipm/program.h"
@@ -15,11 +16,23 @@
  * q of all three kinds, which begin after the factorisation, in that of the matrix's nodes, where
  * no element has a point. */
 
+/* Springs beside the segments (springs.c): those of element i = 1..n-1 are at[i - 1]..at[i] - 1. */
+typedef struct CpsiSprings {
+    int count;     /* of all elements; 0: there is none, and nothing else here is read */
+    const int *at; /* (n) */
+    const double *start, *stiffness; /* (count) s_k/longer, K_k/stiffer */
+    double longer, stiffer;
+    double *s, *z, *q, *ds, *dz; /* (count) */
+    double *compliance, *rest;   /* (n) c, and the part of rho beside 1 + c T - s0, of a pass */
+    double *stretch;             /* (n) dd */
+} CpsiSprings;
+
 /* Element i = 1..n-1 between nodes i-1 and i; index 0 is unused. */
 typedef struct CpsiSegment {
     double *length;    /* (n) l_i > 0, their sum is 1 */
     double compliance; /* c >= 0, of every element; of element i times compliance_factor[i - 1] */
     const double *compliance_factor; /* (n - 1), all positive; NULL: 1 */
+    CpsiSprings springs;             /* of elements whose stiffness grows with their strain */
     double (*s)[4];                  /* (n) (1 + d, e) */
     double (*z)[4];                  /* (n) (T, -p) */
     double (*w)[4];                  /* (n) Nesterov-Todd scaling */
@@ -34,6 +47,20 @@ typedef struct CpsiSegment {
 static inline double cpsi_segment_compliance(const CpsiSegment *segment, int i) {
     return segment->compliance_factor ? segment->compliance * segment->compliance_factor[i - 1]
                                       : segment->compliance;
+}
+
+/* The law of element i. */
+static inline CpsiElementLaw cpsi_segment_law(const CpsiSegment *segment, int i) {
+    const CpsiSprings *springs = &segment->springs;
+    CpsiElementLaw law = {.compliance = cpsi_segment_compliance(segment, i)};
+    if (springs->count == 0) return law;
+    const int first = springs->at[i - 1];
+    law.count = springs->at[i] - first;
+    law.start = &springs->start[first];
+    law.stiffness = &springs->stiffness[first];
+    law.longer = springs->longer;
+    law.stiffer = springs->stiffer;
+    return law;
 }
 
 typedef struct CpsiFrictionDisc {
@@ -184,6 +211,20 @@ static inline void cpsi_unilateral_couple_bound(CpsiChainProgram *program, int k
         program->matrix.skew[2 * node + a] +=
             weight * friction * unilateral->z[k] / unilateral->s[k] * c[a];
 }
+
+/* ---- springs (springs.c) ---- */
+
+/* Place the arrays of at most `count` springs on n nodes. */
+void cpsi_springs_layout(CpsiSprings *springs, CpsiArena *arena, int n, int count);
+/* The passes, each called by that of the segments: `direct` at its end, the others before. */
+void cpsi_springs_start(CpsiSegment *segment, int n, double mu, double margin);
+void cpsi_springs_measure(CpsiSegment *segment, int n, CpsiSums *sums);
+void cpsi_springs_scale(CpsiSegment *segment, int n);
+void cpsi_springs_predict(CpsiSegment *segment);
+void cpsi_springs_load(CpsiSegment *segment, int n, double keep);
+void cpsi_springs_direct(CpsiSegment *segment, int n, double keep, bool predictor, CpsiSums *sums);
+void cpsi_springs_aim(CpsiSegment *segment, double target, bool second_order);
+void cpsi_springs_advance(CpsiSegment *segment, double alpha);
 
 /* ---- friction conics (friction_conic.c) ---- */
 

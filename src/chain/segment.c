@@ -16,7 +16,9 @@
  * larger, so it enters the linear system through the unknown t = (k - g) n.de with compliance a =
  * 1/(k - g), from which dT is recovered without cancellation: 2 g w0 w1.de/D = w0 t/(|w1| (1 - c
  * g)). On the central path c g = c T/(1 + c T) < 1; off it, where strains are of order one, c g may
- * exceed 1 and a become negative, which the linear system allows. */
+ * exceed 1 and a become negative, which the linear system allows.
+ *
+ * An element with springs beside it (springs.c) has a c and a rho of its own in each pass. */
 #include <string.h>
 
 #include "chain/elements.h"
@@ -84,12 +86,15 @@ static void start(CpsiProgram *base, double mu, double margin) {
         z[0] = k * s[0];
         for (int a = 1; a < 4; a++) z[a] = -k * s[a];
     }
+    if (st->springs.count > 0) cpsi_springs_start(st, program->n, mu, margin);
 }
 
 /* What the passes read and write of eight segments. */
 typedef struct Lanes {
     CpsiLane s[4], z[4], length, c, w[4], g, inverse_w, q[4], ds[4], dz[4];
+    CpsiLane rest;                                /* of rho, by springs beside the segment */
     CpsiLane t, difference[3];                    /* dt; du_i - du_i-1 in the common axes */
+    CpsiLane stretch;                             /* ds0 */
     CpsiLane stiffness, compliance, direction[3]; /* of the matrix */
     CpsiLane force[3];
 } Lanes;
@@ -102,6 +107,10 @@ static inline void load_pairs(const CpsiSegment *st, int i, int count, Lanes *x)
 static inline void load_elements(const CpsiSegment *st, int i, int count, Lanes *x) {
     cpsi_lanes_load(1, &x->length, &st->length[i], count);
     CPSI_FOR_LANES(l) x->c[l] = cpsi_segment_compliance(st, i + (l < count ? l : count - 1));
+    memset(x->rest, 0, sizeof x->rest);
+    if (st->springs.count == 0) return;
+    cpsi_lanes_load(1, &x->c, &st->springs.compliance[i], count);
+    cpsi_lanes_load(1, &x->rest, &st->springs.rest[i], count);
 }
 
 static inline void load_scaled(const CpsiSegment *st, int i, int count, Lanes *x) {
@@ -120,7 +129,7 @@ static inline void load_scaled(const CpsiSegment *st, int i, int count, Lanes *x
 CPSI_LANES_FUNCTION void measure_lanes(const Lanes *restrict x, CpsiLaneSums *restrict sums) {
     CPSI_FOR_LANES(l) {
         const double s[4] = FOUR(x->s, l), z[4] = FOUR(x->z, l), length = x->length[l], c = x->c[l];
-        const double rho = fabs(1 + c * z[0] - s[0]);
+        const double rho = fabs(1 + c * z[0] - s[0] + x->rest[l]);
         const double work = s[1] * z[1] + s[2] * z[2] + s[3] * z[3];
         sums->weight[l] += length;
         sums->sz[l] += length * (s[0] * z[0] + work);
@@ -134,9 +143,10 @@ CPSI_LANES_FUNCTION void measure_lanes(const Lanes *restrict x, CpsiLaneSums *re
 
 static void measure(CpsiProgram *base, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
-    const CpsiSegment *st = &program->segment;
+    CpsiSegment *st = &program->segment;
     CpsiLaneSums lane_sums = {.weight = {0}};
     Lanes x;
+    if (st->springs.count > 0) cpsi_springs_measure(st, program->n, sums);
     for (int i = 1; i < program->n; i += CPSI_LANES) {
         const int count = cpsi_lanes_count(program->n - i);
         load_pairs(st, i, count, &x);
@@ -173,6 +183,7 @@ static void scale(CpsiProgram *base) {
     CpsiSegment *st = &program->segment;
     CpsiMatrix *matrix = &program->matrix;
     Lanes x;
+    if (st->springs.count > 0) cpsi_springs_scale(st, program->n);
     for (int i = 1; i < program->n; i += CPSI_LANES) {
         const int count = cpsi_lanes_count(program->n - i);
         load_pairs(st, i, count, &x);
@@ -192,6 +203,7 @@ static void predict(CpsiProgram *base) {
     CpsiSegment *st = &program->segment;
     for (int i = 1; i < program->n; i++)
         for (int a = 0; a < 4; a++) st->q[i][a] = -st->z[i][a];
+    if (st->springs.count > 0) cpsi_springs_predict(st);
 }
 
 /* Q, the force of the right-hand side. */
@@ -199,7 +211,7 @@ CPSI_LANES_FUNCTION void load_lanes(Lanes *restrict x, double keep) {
     CPSI_FOR_LANES(l) {
         const double w[4] = FOUR(x->w, l), g = x->g[l], c = x->c[l];
         const Segment seg = segment(w, g, c, x->length[l]);
-        const double rho = keep * (1 + c * x->z[0][l] - x->s[0][l]);
+        const double rho = keep * (1 + c * x->z[0][l] - x->s[0][l]) + x->rest[l];
         const double k = 2 * g * w[0] * (rho + c * x->q[0][l]) * seg.inverse_d;
         for (int a = 0; a < 3; a++) x->force[a][l] = x->q[1 + a][l] + k * w[1 + a];
     }
@@ -207,8 +219,9 @@ CPSI_LANES_FUNCTION void load_lanes(Lanes *restrict x, double keep) {
 
 static void load(CpsiProgram *base, double keep) {
     CpsiChainProgram *program = cpsi_chain(base);
-    const CpsiSegment *st = &program->segment;
+    CpsiSegment *st = &program->segment;
     Lanes x;
+    if (st->springs.count > 0) cpsi_springs_load(st, program->n, keep);
     for (int i = 1; i < program->n; i += CPSI_LANES) {
         const int count = cpsi_lanes_count(program->n - i);
         load_scaled(st, i, count, &x);
@@ -251,7 +264,7 @@ CPSI_LANES_PART void direct_lanes(Lanes *restrict x, double keep, const bool pre
         double q[4] = FOUR(x->q, l), ds[4], dz[4];
         const double c = x->c[l];
         const Segment seg = segment(w, g, c, x->length[l]);
-        const double rho = keep * (1 + c * z[0] - x->s[0][l]), t = x->t[l];
+        const double rho = keep * (1 + c * z[0] - x->s[0][l]) + x->rest[l], t = x->t[l];
         const double k = 2 * g * w[0] * (rho + c * q[0]) * seg.inverse_d;
         double along = 0; /* w1.de */
         for (int a = 0; a < 3; a++) {
@@ -263,7 +276,7 @@ CPSI_LANES_PART void direct_lanes(Lanes *restrict x, double keep, const bool pre
         const double stiff = in * t * seg.inverse_stiffening, soft = 2 * g * along * seg.inverse_d,
                      pull = seg.stiffening > STIFF ? stiff : soft;
         dz[0] = (q[0] - g * (1 + 2 * seg.omega) * rho) * seg.inverse_d + w[0] * pull;
-        ds[0] = c * dz[0] + rho;
+        x->stretch[l] = ds[0] = c * dz[0] + rho;
         const double step = cpsi_soc_step(q, predictor, w, g, z, ds, dz, 4);
         inverse[l] = cpsi_max_nan(inverse[l], step);
         for (int a = 0; a < 4; a++) {
@@ -300,8 +313,10 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
             cpsi_lanes_store(4, st->ds[i], x.ds, count);
             cpsi_lanes_store(4, st->dz[i], x.dz, count);
         }
+        if (st->springs.count > 0) cpsi_lanes_store(1, &st->springs.stretch[i], &x.stretch, count);
     }
     sums->inverse_step = cpsi_lanes_largest(sums->inverse_step, inverse);
+    if (st->springs.count > 0) cpsi_springs_direct(st, program->n, keep, predictor, sums);
 }
 
 CPSI_LANES_FUNCTION void aim_lanes(Lanes *restrict x, double target) {
@@ -327,6 +342,7 @@ static void aim(CpsiProgram *base, double target, bool second_order) {
         aim_lanes(&x, target);
         cpsi_lanes_store(4, st->q[i], x.q, count);
     }
+    if (st->springs.count > 0) cpsi_springs_aim(st, target, second_order);
 }
 
 static void advance(CpsiProgram *base, double alpha) {
@@ -334,6 +350,7 @@ static void advance(CpsiProgram *base, double alpha) {
     CpsiSegment *st = &program->segment;
     cpsi_cone_advance(4 * ((size_t)program->n - 1), alpha, st->s[1], st->ds[1], st->z[1],
                       st->dz[1]);
+    if (st->springs.count > 0) cpsi_springs_advance(st, alpha);
 }
 
 const CpsiKind CPSI_WIDE(cpsi_segment) = {start, measure, scale, predict,

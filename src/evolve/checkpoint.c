@@ -292,6 +292,11 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, (size_t)line->n - 1, line->weight_factor);
         hash_numbers(hash, (size_t)line->n - 1, line->compliance_factor);
     }
+    if (line->spring_count > 0) {
+        hash_bytes(hash, line->spring_at, (size_t)line->n * sizeof *line->spring_at);
+        hash_numbers(hash, (size_t)line->spring_count, line->spring_start);
+        hash_numbers(hash, (size_t)line->spring_count, line->spring_stiffness);
+    }
     if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
     for (int end = 0; end < 2; end++) {
         hash_bytes(hash, &line->end[end].kind, sizeof line->end[end].kind);

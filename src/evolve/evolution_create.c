@@ -96,9 +96,11 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->has_zones = scene->line[i].zone_count > 0;
         line->has_sections = cpsi_has_sections(&scene->line[i]);
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
-        line->compliance = cpsi_mean_compliance(&scene->line[i]);
+        line->compliance = line->spring_compliance = cpsi_mean_compliance(&scene->line[i]);
+        line->spring_count = cpsi_spring_count(&scene->line[i]);
         cpsi_line_layout(line, arena);
         if (line->n > size.nodes) size.nodes = line->n;
+        if (line->spring_count > size.springs) size.springs = line->spring_count;
         if (line->compliance == 0 && line->n > size.inextensible_nodes)
             size.inextensible_nodes = line->n;
     }
@@ -179,7 +181,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
             def->element_length ? def->element_length[e] : def->length / def->element_count;
     cpsi_line_set_arc_length(line);
     fill_friction_factor(line, def);
-    if (line->has_sections || line->has_breaking_load) cpsi_sections_fill(line, def);
+    if (line->has_sections || line->has_breaking_load || line->spring_count > 0)
+        cpsi_sections_fill(line, def);
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++)
             line->obstacle_index[c] = CPS_NO_OBSTACLE;

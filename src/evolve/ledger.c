@@ -3,7 +3,8 @@
  *
  *     ends + obstacles = elastic + gravity + dissipated + imbalance
  *
- * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched,
+ * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched (of a
+ * table of strain and tension sum l W(|e| - 1)),
  * gravity = - sum (weight of the node) . x, with the mean of the weights before and after where
  * gravity changes. The work of an end is the mean of its force before and after times its
  * displacement (trapezium rule), or the force after where the one before is not known. Friction
@@ -32,7 +33,10 @@ static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
         if (j == 0 || !(line->compliance > 0)) continue;
         const double l = line->element_length[j - 1];
         const double strain = vec3_norm(vec3_sub(x, vec3_at(line->position, j - 1))) / l - 1;
-        if (strain > 0) *elastic += l * strain * (strain / (2 * cpsi_line_compliance(line, j - 1)));
+        if (!(strain > 0)) continue;
+        const CpsiElementLaw law = cpsi_line_law(line, j - 1);
+        *elastic += law.count > 0 ? l * cpsi_law_energy(&law, strain)
+                                  : l * strain * (strain / (2 * law.compliance));
     }
     *gravity -= (line->weight_length ? carried : line->length) * vec3_dot(weight, origin);
 }

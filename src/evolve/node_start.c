@@ -143,8 +143,11 @@ CpsStatus cpsi_node_start_check(const CpsScene *scene, const CpsLine *line, CpsE
 static Vec3 force_of(const CpsiLine *line, const CpsLine *def, int e) {
     const Vec3 dx = vec3_sub(vec3_at(line->position, e + 1), vec3_at(line->position, e));
     const double size = vec3_norm(dx), strain = size / line->element_length[e] - 1;
-    const double compliance = cpsi_line_compliance(line, e),
-                 elastic = compliance > 0 && strain > 0 ? strain / compliance : 0;
+    const CpsiElementLaw law = cpsi_line_law(line, e);
+    const double elastic =
+        law.compliance > 0 && strain > 0
+            ? (law.count > 0 ? cpsi_law_tension(&law, strain) : strain / law.compliance)
+            : 0;
     const double tension = def->start.tension ? def->start.tension[e] : elastic;
     return size > 0 ? vec3_scale(tension / size, dx) : vec3(0, 0, 0);
 }

@@ -7,6 +7,7 @@
 
 #include "base/status.h"
 #include "evolve/ranges.h"
+#include "evolve/stiffness_table.h"
 
 /* A section ends, and a weight hangs, at a node that is so near, per length of the line. */
 static const double AT_NODE = 1e-9;
@@ -15,9 +16,27 @@ bool cpsi_has_sections(const CpsLine *def) {
     return def->section_count > 0 || def->point_weight_count > 0;
 }
 
-bool cpsi_is_elastic(const CpsLine *def) {
-    return isfinite(def->section_count > 0 ? def->section[0].stiffness : def->stiffness);
+/* The table of a section, or of a line of one make; no rows: there is none. */
+typedef struct StiffnessTable {
+    int count;
+    const CpsStiffnessRow *row;
+} StiffnessTable;
+
+static StiffnessTable table_of(const CpsLine *def, int section) {
+    if (def->section_count == 0)
+        return (StiffnessTable){def->stiffness_row_count, def->stiffness_row};
+    return (StiffnessTable){def->section[section].stiffness_row_count,
+                            def->section[section].stiffness_row};
 }
+
+/* [N] EA without tension. */
+static double stiffness_of(const CpsLine *def, int section) {
+    const StiffnessTable table = table_of(def, section);
+    if (table.count > 0) return cpsi_stiffness_table_first(table.row);
+    return def->section_count > 0 ? def->section[section].stiffness : def->stiffness;
+}
+
+bool cpsi_is_elastic(const CpsLine *def) { return isfinite(stiffness_of(def, 0)); }
 
 bool cpsi_has_breaking_load(const CpsLine *def) {
     bool found = def->section_count == 0 && def->has_breaking_load;
@@ -28,10 +47,10 @@ bool cpsi_has_breaking_load(const CpsLine *def) {
 static double compliance_of(double stiffness) { return isinf(stiffness) ? 0 : 1 / stiffness; }
 
 double cpsi_mean_compliance(const CpsLine *def) {
-    if (def->section_count == 0) return compliance_of(def->stiffness);
+    if (def->section_count == 0) return compliance_of(stiffness_of(def, 0));
     double sum = 0;
     for (int k = 0; k < def->section_count; k++)
-        sum += def->section[k].length * compliance_of(def->section[k].stiffness);
+        sum += def->section[k].length * compliance_of(stiffness_of(def, k));
     return sum / def->length;
 }
 
@@ -79,6 +98,30 @@ static bool walk_to(const CpsLine *def, double at, Walk *walk) {
     return fabs(walk->arc - at) <= near;
 }
 
+/* Check the stiffness of section k, or of a line of one make. */
+static CpsStatus check_stiffness(const CpsLine *def, int k, CpsError *err) {
+    const bool whole = def->section_count == 0;
+    const char *key = whole ? "stiffness" : "sections";
+    const StiffnessTable table = table_of(def, k);
+    char fault[200], found[240];
+    if (table.count != 0) {
+        if (!cpsi_stiffness_table_fault(table.row, table.count, fault, sizeof fault)) return CPS_OK;
+        snprintf(found, sizeof found, "%s %s", whole ? "as a table" : "has a table that", fault);
+        return fail(err, key, whole ? -1 : k, def, found);
+    }
+    if (is_stiffness(stiffness_of(def, k))) return CPS_OK;
+    if (whole)
+        snprintf(found, sizeof found,
+                 "is %g N, expected a positive number, or infinity for an inextensible line",
+                 def->stiffness);
+    else
+        snprintf(found, sizeof found,
+                 "has the stiffness %g N, expected a positive number, or infinity where all "
+                 "sections are inextensible",
+                 def->section[k].stiffness);
+    return fail(err, key, whole ? -1 : k, def, found);
+}
+
 static CpsStatus check_section(const CpsLine *def, int k, CpsError *err) {
     const CpsSection *section = &def->section[k];
     char found[160];
@@ -92,19 +135,14 @@ static CpsStatus check_section(const CpsLine *def, int k, CpsError *err) {
                  section->weight);
         return fail(err, "sections", k, def, found);
     }
-    if (!is_stiffness(section->stiffness)) {
-        snprintf(found, sizeof found,
-                 "has the stiffness %g N, expected a positive number, or "
-                 "infinity where all sections are inextensible",
-                 section->stiffness);
-        return fail(err, "sections", k, def, found);
-    }
+    const CpsStatus status = check_stiffness(def, k, err);
+    if (status != CPS_OK) return status;
     if (section->has_breaking_load && !cpsi_is_positive(section->breaking_load)) {
         snprintf(found, sizeof found, "has the breaking load %g N, expected a positive number",
                  section->breaking_load);
         return fail(err, "sections", k, def, found);
     }
-    if (isfinite(section->stiffness) != cpsi_is_elastic(def))
+    if (isfinite(stiffness_of(def, k)) != cpsi_is_elastic(def))
         return fail(err, "sections", k, def,
                     "is inextensible or elastic, those before it are not: give all sections a "
                     "finite stiffness, or none");
@@ -170,20 +208,15 @@ CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsErro
         snprintf(found, sizeof found, "is %g N/m, expected a finite number >= 0", def->weight);
         return fail(err, "weight", -1, def, found);
     }
-    if (def->section_count == 0 && !is_stiffness(def->stiffness)) {
-        snprintf(found, sizeof found,
-                 "is %g N, expected a positive number, or infinity for an "
-                 "inextensible line",
-                 def->stiffness);
-        return fail(err, "stiffness", -1, def, found);
-    }
+    CpsStatus status = def->section_count == 0 ? check_stiffness(def, 0, err) : CPS_OK;
+    if (status != CPS_OK) return status;
     if (def->section_count == 0 && def->has_breaking_load &&
         !cpsi_is_positive(def->breaking_load)) {
         snprintf(found, sizeof found, "is %g N, expected a positive finite number",
                  def->breaking_load);
         return fail(err, "breaking_load", -1, def, found);
     }
-    CpsStatus status = check_sections(def, err);
+    status = check_sections(def, err);
     if (status == CPS_OK) status = check_point_weights(def, err);
     if (status != CPS_OK) return status;
     const double weight = cpsi_mean_weight(def);
@@ -204,19 +237,64 @@ typedef struct Make {
 
 static Make make_of(const CpsLine *def, int section) {
     if (def->section_count == 0)
-        return (Make){def->weight, compliance_of(def->stiffness),
+        return (Make){def->weight, compliance_of(stiffness_of(def, 0)),
                       def->has_breaking_load ? def->breaking_load : INFINITY};
     const CpsSection *of = &def->section[section];
-    return (Make){of->weight, compliance_of(of->stiffness),
+    return (Make){of->weight, compliance_of(stiffness_of(def, section)),
                   of->has_breaking_load ? of->breaking_load : INFINITY};
 }
 
+/* Where sections end along a line: the section of the elements asked for, from A to B. */
+typedef struct Along {
+    int section;
+    double end; /* [m] of it */
+} Along;
+
+static int section_at(const CpsLine *def, double middle, Along *at) {
+    if (at->section == 0 && at->end == 0)
+        at->end = def->section_count > 0 ? def->section[0].length : INFINITY;
+    while (middle > at->end && at->section + 1 < def->section_count)
+        at->end += def->section[++at->section].length;
+    return at->section;
+}
+
+/* The springs of the next element, of this section; returns their number. */
+static int fill_springs(CpsiLine *line, const CpsLine *def, int section, int first, int e) {
+    const StiffnessTable table = table_of(def, section);
+    if (table.count == 0) return 0;
+    const int count =
+        cpsi_stiffness_table_springs(table.row, table.count, &line->spring_start[first],
+                                     &line->spring_stiffness[first]);
+    for (int i = 0; i < count; i++) line->spring_element[first + i] = e;
+    return count;
+}
+
+int cpsi_spring_count(const CpsLine *def) {
+    int count = 0;
+    double from = 0;
+    Along at = {0};
+    for (int e = 0; e < def->element_count; e++) {
+        const double l = cpsi_element_length(def, e);
+        const StiffnessTable table = table_of(def, section_at(def, from + 0.5 * l, &at));
+        if (table.count > 0)
+            count += cpsi_stiffness_table_springs(table.row, table.count, NULL, NULL);
+        from += l;
+    }
+    return count;
+}
+
 static void fill_elements(CpsiLine *line, const CpsLine *def, double weight) {
-    double end = def->section_count > 0 ? def->section[0].length : INFINITY;
-    for (int e = 0, k = 0; e + 1 < line->n; e++) {
+    Along at = {0};
+    int springs = 0;
+    for (int e = 0; e + 1 < line->n; e++) {
         const double middle = line->arc_length[e] + 0.5 * line->element_length[e];
-        while (middle > end && k + 1 < def->section_count) end += def->section[++k].length;
+        const int k = section_at(def, middle, &at);
         const Make make = make_of(def, k);
+        if (line->spring_count > 0) {
+            line->spring_at[e] = springs;
+            springs += fill_springs(line, def, k, springs, e);
+            line->spring_at[e + 1] = springs;
+        }
         if (line->has_breaking_load) line->breaking_load[e] = make.breaking_load;
         if (!line->has_sections) continue;
         line->weight_factor[e] = weight > 0 ? make.weight / weight : 1;

@@ -18,14 +18,17 @@ bool cpsi_is_elastic(const CpsLine *def);
 /* Has it, or a section of it, a breaking load? */
 bool cpsi_has_breaking_load(const CpsLine *def);
 
-/* [1/N] 1/EA, of a line of sections the mean over its length. */
+/* The number of springs beside the stiffness of its elements (base/element_law.h), by tables. */
+int cpsi_spring_count(const CpsLine *def);
+
+/* [1/N] 1/EA without tension, of a line of sections the mean over its length. */
 double cpsi_mean_compliance(const CpsLine *def);
 /* [N/m] weight per length; of a line of sections or with point weights all of them over the length,
  * those of buoys counted as if they hung. */
 double cpsi_mean_weight(const CpsLine *def);
 
-/* Write the factors and lengths of a line with sections or point weights, and the breaking loads
- * where there are any; its mesh is set. */
+/* Write the factors and lengths of a line with sections or point weights, and breaking loads and
+ * springs where there are any; its mesh is set. */
 void cpsi_sections_fill(CpsiLine *line, const CpsLine *def);
 
 #endif

@@ -53,7 +53,7 @@ void cpsi_workspace_layout(CpsiWorkspace *workspace, CpsiArena *arena,
         cpsi_force_set_layout(&workspace->forces, arena, size->inextensible_nodes, contacts);
     cpsi_chain_program_layout(&workspace->program, arena, size->nodes,
                               size->has_local_axes ? size->contacts : 0, size->element_contacts > 0,
-                              size->largest, size->ops);
+                              size->springs, size->largest, size->ops);
     cpsi_least_motion_layout(&workspace->least, arena, size->nodes, size->contacts,
                              &workspace->program);
 }

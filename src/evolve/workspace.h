@@ -24,7 +24,7 @@ void cpsi_friction_sets_free(CpsiFrictionSets *sets);
 
 /* The largest sizes of the lines that are solved in a workspace. */
 typedef struct CpsiWorkspaceSize {
-    int nodes, inextensible_nodes, obstacles;
+    int nodes, inextensible_nodes, springs, obstacles;
     int contacts, element_contacts; /* of a node, of an element */
     bool has_local_axes, has_path_tolerance;
     const CpsiConicSet *largest; /* of the friction sets, NULL: there are none */

@@ -84,6 +84,11 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
                          "line '%s' has sections or point weights: the method of 1990 has one "
                          "stiffness and one weight",
                          view->name);
+    if (view->spring_count > 0)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "line '%s' has a table of strain and tension: the method of 1990 has one "
+                         "stiffness",
+                         view->name);
     if (!view->one_plane)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "line '%s': more than one obstacle, or one that is curved or has "

@@ -10,6 +10,7 @@
  * cancellation. */
 #include <math.h>
 
+#include "base/element_law.h"
 #include "base/larger.h"
 #include "base/status.h"
 #include "base/words.h"
@@ -41,12 +42,13 @@ static void accept(Worst *worst, double value, double arc) {
 
 /* W(e) + W*(p) - p.e with W = ((|e| - 1)^+)^2/(2c), W* = |p| + c |p|^2/2, written as a sum of
  * nonnegative terms: |p||e| - p.e = |p x e|^2/(|p||e| + p.e), and (d - c|p|)^2/(2c) or |p| (1 -
- * |e|) with d = (|e| - 1)^+. For an inextensible line d has to be 0, which is checked as a
- * length. */
-static double segment_gap(double c, Vec3 e, Vec3 p) {
+ * |e|) with d = (|e| - 1)^+, and the like of springs beside it (base/element_law.h). For an
+ * inextensible line d has to be 0, which is checked as a length. */
+static double segment_gap(const CpsiElementLaw *law, Vec3 e, Vec3 p) {
+    const double c = law->compliance;
     const double length = vec3_norm(e), force = vec3_norm(p);
     const double longer = fmax(0, length - 1), shorter = fmax(0, 1 - length);
-    const double stretched = c > 0 ? (longer - c * force) * (longer - c * force) / (2 * c) : 0;
+    const double stretched = c > 0 ? cpsi_law_gap(law, longer, force) : 0;
     return vec3_angle_defect(p, e, force, length) + stretched + force * shorter;
 }
 
@@ -66,18 +68,26 @@ static bool held(const CpsLineView *step, int node) {
            (node == step->element_count && step->end[CPS_END_B].kind == CPS_END_KIND_HELD);
 }
 
-/* [1/N] of element i; a view that is not of an evolution may have no factors */
-static double compliance_of(const CpsLineView *step, int i) {
-    return step->compliance_factor ? step->compliance * step->compliance_factor[i]
-                                   : step->compliance;
+/* The law of element i, whose springs begin at *spring, which moves on to those of the next; a view
+ * that is not of an evolution may have no factors */
+static CpsiElementLaw law_of(const CpsLineView *step, int i, int *spring) {
+    CpsiElementLaw law = {.compliance = step->compliance, .longer = 1, .stiffer = 1};
+    if (step->compliance_factor) law.compliance *= step->compliance_factor[i];
+    if (*spring >= step->spring_count || step->spring_element[*spring] != i) return law;
+    law.start = &step->spring_strain[*spring];
+    law.stiffness = &step->spring_stiffness[*spring];
+    for (; *spring < step->spring_count && step->spring_element[*spring] == i; ++*spring)
+        law.count++;
+    return law;
 }
 
 /* S of docs/theory.md (5), for the step's own solution */
 static double scale_of(const CpsLineView *step, double tolerance) {
     double scale = 0, work = 0, moment = 0, loads = 0, largest = 0;
-    for (int i = 0; i < step->element_count; ++i) {
+    for (int i = 0, spring = 0; i < step->element_count; ++i) {
+        const CpsiElementLaw law = law_of(step, i, &spring);
         const double force = vec3_norm(vec3_at(step->segment_force, i));
-        scale += step->element_length[i] * (force + compliance_of(step, i) * force * force);
+        scale += step->element_length[i] * (force + cpsi_law_strain(&law, force) * force);
         largest = cpsi_max_nan(largest, force);
     }
     for (int j = 0; j <= step->element_count; ++j) {
@@ -118,12 +128,12 @@ static void check_node(const CpsLineView *step, const double *position, int j, C
 }
 
 static void check_nodes(const CpsLineView *step, const double *position, Case *c) {
-    for (int i = 0; i < step->element_count; ++i) {
+    for (int i = 0, spring = 0; i < step->element_count; ++i) {
+        const CpsiElementLaw law = law_of(step, i, &spring);
         const double l = step->element_length[i], arc = step->arc_length[i] + l / 2;
         const Vec3 e = vec3_scale(1 / l, vec3_sub(vec3_at(position, i + 1), vec3_at(position, i)));
         const double stretch = vec3_norm(e);
-        accept(&c->tension,
-               l * segment_gap(compliance_of(step, i), e, vec3_at(step->segment_force, i)), arc);
+        accept(&c->tension, l * segment_gap(&law, e, vec3_at(step->segment_force, i)), arc);
         accept(&c->shorter, fmax(0, 1 - stretch), arc);
         accept(&c->longer, step->compliance > 0 ? 0 : fmax(0, stretch - 1), arc);
     }

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elongation.h"
 #include "given_bodies.h"
 #include "record.h"
 
@@ -131,7 +132,15 @@ static const CpsSection *section_at(const CpsLine *line, double middle) {
     return line->section_count > 0 ? section : NULL;
 }
 
+/* The rows of its table; 0: it has none. */
+static int table_of(const CpsLine *line, const CpsSection *section, const CpsStiffnessRow **row) {
+    *row = section ? section->stiffness_row : line->stiffness_row;
+    return section ? section->stiffness_row_count : line->stiffness_row_count;
+}
+
 static double softness(const CpsLine *line, const CpsSection *section) {
+    const CpsStiffnessRow *row;
+    if (table_of(line, section, &row) > 0) return row[1].strain / row[1].tension;
     const double stiffness = section ? section->stiffness : line->stiffness;
     return isinf(stiffness) ? 0 : 1 / stiffness;
 }
@@ -199,7 +208,8 @@ static void compare_sections(Compare *compare, const CpsLine *line, const Record
         return;
     }
     if (line->section_count == 0) mean = softness(line, NULL);
-    if (!(fabs(r->compliance - mean) <= (line->section_count > 0 ? COMPUTED * mean : 0)))
+    const bool computed = line->section_count > 0 || line->stiffness_row_count > 0;
+    if (!(fabs(r->compliance - mean) <= (computed ? COMPUTED * mean : 0)))
         find(compare, "compliance of %s is %.17g, in the scene %.17g", line->name, r->compliance,
              mean);
     const bool uniform = line->section_count == 0 && line->point_weight_count == 0;
@@ -207,6 +217,34 @@ static void compare_sections(Compare *compare, const CpsLine *line, const Record
         find(compare, "sections or point weights of %s", line->name);
     else if (!uniform)
         compare_weights(compare, line, r);
+}
+
+/* Do the springs of the file reach every row of the scene's tables, and the slope beyond? */
+static void compare_tables(Compare *compare, const CpsLine *line, const Record *r) {
+    double arc = 0;
+    for (size_t i = 0; i < r->elements; i++) {
+        const CpsStiffnessRow *row;
+        const double l = r->element_length[i];
+        const int rows = table_of(line, section_at(line, arc + l / 2), &row);
+        arc += l;
+        if (rows == 0 && r->spring_of && r->spring_of[i] < r->spring_of[i + 1])
+            find(compare, "springs of %s in element %zu, in the scene none", line->name, i);
+        for (int k = 1; k < rows + 1; k++) {
+            const int last = rows - 1;
+            const double by = k < rows ? 0 : row[last].strain,
+                         slope = (row[last].tension - row[last - 1].tension) /
+                                 (row[last].strain - row[last - 1].strain);
+            const double strain = k < rows ? row[k].strain : row[last].strain + by,
+                         given = k < rows ? row[k].tension : row[last].tension + slope * by,
+                         found = (double)elongation_tension(r, i, strain);
+            if (fabs(found - given) <= COMPUTED * given) continue;
+            find(compare,
+                 "tension of %s in element %zu at the strain %g: %.17g N, in the scene "
+                 "%.17g N",
+                 line->name, i, strain, found, given);
+            return;
+        }
+    }
 }
 
 static void compare_breaking_load(Compare *compare, const CpsLine *line, const Record *r) {
@@ -245,6 +283,7 @@ static void compare_line(Compare *compare, const CpsLine *line, const Record *r)
         return;
     }
     compare_sections(compare, line, r);
+    compare_tables(compare, line, r);
     compare_breaking_load(compare, line, r);
     /* what zones do is in the mean factors, which the reader has made of those in the file */
     double at = 0;

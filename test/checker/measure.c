@@ -16,6 +16,7 @@
  * smaller. */
 #include "measure.h"
 
+#include "elongation.h"
 #include "fall.h"
 
 #include <math.h>
@@ -155,20 +156,24 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     Real force = size(p), stretch = size(e), strain = stretch > 1 ? stretch - 1 : 0;
 
     // energy, conjugate and local gap
-    Real energy = c > 0 ? strain * strain / (2 * c) : 0;
-    Real mismatch = c > 0 ? (strain - c * force) * (strain - c * force) / (2 * c) : 0;
+    Real own = c > 0 ? elongation_strain(r, i, force) : 0, at_own = 0, energy = 0, mismatch = 0;
+    if (c > 0) {
+        energy = elongation_energy(r, i, strain);
+        at_own = elongation_energy(r, i, own);
+        mismatch = elongation_mismatch(r, i, strain, force);
+    }
     Real slack = c > 0 && stretch > 1 ? 0 : force * (1 - stretch), turn = misalignment(p, e);
     add(&s->length, l);
     Triple before;
     subtract(r->reference[i + 1], r->reference[i], before);
     Real strained = size(before) / l > 1 ? size(before) / l - 1 : 0;
-    add(&s->elastic, l * energy - (c > 0 ? l * strained * strained / (2 * c) : 0));
+    add(&s->elastic, l * energy - (c > 0 ? l * elongation_energy(r, i, strained) : 0));
     add(&s->primal, l * energy);
-    add(&s->dual, -l * (force + c * force * force / 2));
+    add(&s->dual, -l * (force + force * own - at_own));
     add(&s->signed_gap, l * (mismatch + slack + turn));
     add(&s->gap, l * (mismatch + fabsl(slack) + turn));
-    add(&s->scale, l * (force + c * force * force));
-    add(&s->magnitude, l * (energy + force + c * force * force));
+    add(&s->scale, l * (force + own * force));
+    add(&s->magnitude, l * (energy + force + own * force));
 
     // residuals
     if (c == 0) raise_to(&m->stretch, stretch - 1);
@@ -177,9 +182,11 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     Triple here, there;
     widen(r->position[i], here);
     widen(r->position[i + 1], there);
-    raise_to(&m->strain_error, stretch - 1 - c * T - 2 * 0x1p-53L * (size(here) + size(there)) / l);
+    Real at_tension = c > 0 && T > 0 ? elongation_strain(r, i, T) : c * T;
+    raise_to(&m->strain_error,
+             stretch - 1 - at_tension - 2 * 0x1p-53L * (size(here) + size(there)) / l);
     if (stretch > 0) raise_to(&m->push, -dot(p, e) / stretch);
-    if (c > 0) raise_to(&m->elongation, stretch - 1 - c * force);
+    if (c > 0) raise_to(&m->elongation, stretch - 1 - own);
     raise_to(&m->tension_estimate, fabsl(T - force));
     raise_to(&m->largest_force, force);
     raise_to(&m->tension_least, -T);

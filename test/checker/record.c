@@ -4,6 +4,8 @@
  * anything is allocated. */
 #include "record.h"
 
+#include "elongation.h"
+
 #include <math.h>
 #include <netcdf.h>
 #include <stdlib.h>
@@ -526,6 +528,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
         return -1;
     if (read_static(source, line, "compliance", 0, &record->compliance, log)) return -1;
     if (read_sections(source, line, record, log)) return -1;
+    if (elongation_read(source, line, record, log)) return -1;
     if (read_breaking_load(source, line, record, log)) return -1;
     if (read_end_points(source, line, record, log)) return -1;
     return read_zones(source, line, record, log);
@@ -542,6 +545,9 @@ void record_destroy(Record *record) {
     free(record->element_compliance);
     free(record->weight_length);
     free(record->breaking_load);
+    free(record->spring_of);
+    free(record->spring_strain);
+    free(record->spring_stiffness);
     free(record->gap);
     free(record->friction_bound);
     free(record->reaction);

@@ -74,6 +74,10 @@ typedef struct Record {
     double *element_compliance, least_compliance, largest_compliance;
     double
         *weight_length; /* [m] of mean weight that the node carries; NULL: half of its elements */
+    /* of tables of strain and tension (elongation.h): those of element i are spring_of[i] to
+     * spring_of[i + 1] - 1; NULL: there are none */
+    size_t springs, *spring_of;
+    double *spring_strain, *spring_stiffness;
     double *breaking_load;              /* (elements) [N] infinite: none; NULL: the line has none */
     double utilisation, utilisation_at; /* [-], [m], where it has */
     Vector *reference, *position, *load, *segment_force;

@@ -19,7 +19,7 @@ static const char SCENE[] =
     "capstan: 1\n"
     "gravity: [0, 0, -10]\n"
     "types: {stiff: {weight: 9, stiffness: 3000, breaking_load: 50}, soft: {weight: 6, stiffness: "
-    "1000}}\n"
+    "1000}, rope: {weight: 7, stiffness: {strain: [0, 0.002, 0.02], tension: [0, 1, 40]}}}\n"
     "obstacles:\n"
     "  bed: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, friction: 0.5}\n"
     "  drum: {cylinder: {point: [0, 30, 1], axis: [0, 1, 0], radius: 1}, friction: {axial: 0.3, "
@@ -48,8 +48,13 @@ static const char SCENE[] =
     "    point_weights: [{at: 1, mass: 0.3}, {at: 3, weight: -1}]\n"
     "    start: {straight: {from: [0, 10, 0], to: [4, 10, 0]}}\n"
     "    ends: {A: held, B: free}\n"
+    "  soft:\n"
+    "    sections: [{type: stiff, length: 1, elements: 1}, {type: rope, length: 3, elements: 3}]\n"
+    "    start: {straight: {from: [0, 15, 0], to: [4, 15, 0]}}\n"
+    "    ends: {A: held, B: free}\n"
     "history:\n"
-    "  - {name: pull, steps: 2, rope.B: {force: [30, 0, 0]}, wire.B: {force: [30, 0, 0]}}\n"
+    "  - {name: pull, steps: 2, rope.B: {force: [30, 0, 0]}, wire.B: {force: [30, 0, 0]}, soft.B: "
+    "{force: [30, 0, 0]}}\n"
     "  - {name: turn, steps: 1, drum.turn: 0.5}\n"
     "  - {name: grab, steps: 2, rope.B: {position: [4, 1, 0.5]}}\n"
     "  - {name: slack, steps: 1, rope.B: {force: [0, 0, 0]}}\n";
@@ -154,6 +159,13 @@ static const Falsified FALSIFIED[] = {
     {"compliance of made",
      true,
      {{"made_compliance_factor", 0, 0.6}, {"made_compliance_factor", 1, 0.4}}},
+    {"tension of soft in element 1 at the strain 0.002",
+     false,
+     {{"soft_spring_strain", 0, 0.0019}}},
+    {"tension of soft in element 2 at the strain 0.02",
+     false,
+     {{"soft_spring_stiffness", 1, 1666.7}}},
+    {"springs of soft in element 0", false, {{"soft_spring_element", 0, 0}}},
     {"weight_length of made at node 1", false, {{"made_weight_length", 1, 1.4}}},
     {"weight_length of made at node 2", true, {{"made_weight_length", 2, 0.8}}},
     {"load of made at node 3, step 4", false, {{"made_load", 4 * 15 + 11, -6}}},

@@ -518,7 +518,7 @@ static void make_consistent(Maker *maker) {
 }
 
 /* A scene of another class, whose lines are made of sections and carry weights. */
-static void make_sections(Maker *maker) {
+static void make_sections(Maker *maker, bool tables) {
     switch (random_below(&maker->random, 6)) {
     case 0: make_imposed(maker); break;
     case 1: make_graded(maker); break;
@@ -531,6 +531,7 @@ static void make_sections(Maker *maker) {
         break;
     }
     random_scene_add_sections(maker);
+    if (tables) random_scene_add_tables(maker);
 }
 
 void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
@@ -565,7 +566,8 @@ void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
         out->expected = CPS_OUTCOME_TAUT;
         break;
     case SCENE_CONSISTENT: make_consistent(&maker); break;
-    case SCENE_SECTIONS: make_sections(&maker); break;
+    case SCENE_SECTIONS:
+    case SCENE_TABLES: make_sections(&maker, class_index == SCENE_TABLES); break;
     case SCENE_CYLINDER:
     case SCENE_PIPE:
     case SCENE_SPHERE:

@@ -17,7 +17,8 @@ enum {
     SCENE_EA_CLASSES = 12,
     SCENE_OBSTACLES = 2,
     SCENE_SECTIONS_MOST = 4,
-    SCENE_POINT_WEIGHTS_MOST = 3
+    SCENE_POINT_WEIGHTS_MOST = 3,
+    SCENE_ROWS_MOST = 6
 };
 
 /* What a class is about; ea_0 ... ea_11 come first: EA / T from 10^k to 10^(k + 1). */
@@ -47,7 +48,8 @@ enum {
     X(SCENE_GRAIN, "grain")          /* on a plane, coefficients in directions of the plane */     \
     X(SCENE_WINCH, "winch")          /* a drum with a force on both ends: nothing is held */       \
     X(SCENE_WILD, "wild_directions") /* on a plane, steps so large that its direction turns */     \
-    X(SCENE_SECTIONS, "sections")    /* any with sections, point weights and buoys */
+    X(SCENE_SECTIONS, "sections")    /* any with sections, point weights and buoys */              \
+    X(SCENE_TABLES, "tables")        /* likewise, elastic, with tables of strain and tension */
 
 enum {
     SCENE_BEFORE_FIRST = SCENE_EA_CLASSES - 1,
@@ -70,6 +72,7 @@ typedef struct RandomScene {
     CpsTurn turn[SCENE_STAGES][1];
     CpsSection section[SCENE_LINES][SCENE_SECTIONS_MOST];
     CpsPointWeight point_weight[SCENE_LINES][SCENE_POINT_WEIGHTS_MOST];
+    CpsStiffnessRow row[SCENE_LINES][SCENE_SECTIONS_MOST][SCENE_ROWS_MOST];
 } RandomScene;
 
 const char *random_scene_class_name(int class_index);

@@ -45,6 +45,8 @@ double maker_common(Maker *maker, int elements);
 
 /* random_scene_sections.c: give the lines of a scene sections, clumps and buoys. */
 void random_scene_add_sections(Maker *maker);
+/* ... and give those that are elastic tables of strain and tension. */
+void random_scene_add_tables(Maker *maker);
 
 /* random_scene_curved.c: the classes on curved obstacles and with friction that has directions. */
 void random_scene_curved(int class_index, Maker *maker);

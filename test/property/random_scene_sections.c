@@ -54,3 +54,43 @@ void random_scene_add_sections(Maker *maker) {
         add_point_weights(maker, line, out->point_weight[i]);
     }
 }
+
+/* A table that begins with a stiffness of EA: its rows from a hundredth of the line's weight to ten
+ * times that, or of EA where it weighs nothing, each up to ten times as steep as the one before or
+ * on one slope with it. */
+static int make_table(Random *random, double stiffness, double force, CpsStiffnessRow *row) {
+    const int rows = 2 + random_below(random, SCENE_ROWS_MOST - 1);
+    double tension = force * random_decades(random, -2, 0);
+    row[0] = (CpsStiffnessRow){0, 0};
+    for (int k = 1; k < rows; k++) {
+        row[k] = (CpsStiffnessRow){row[k - 1].strain + (tension - row[k - 1].tension) / stiffness,
+                                   tension};
+        tension *= 1 + random_decades(random, -1, 0.5);
+        if (!random_chance(random, 0.2)) stiffness *= random_decades(random, 0.001, 1);
+    }
+    return rows;
+}
+
+void random_scene_add_tables(Maker *maker) {
+    Random *random = &maker->random;
+    RandomScene *out = maker->out;
+    for (int i = 0; i < out->scene.line_count; i++) {
+        CpsLine *line = &out->line[i];
+        const double weight = line->weight * line->length;
+        for (int k = 0; k < (line->section_count > 0 ? line->section_count : 1); k++) {
+            CpsSection *section = line->section_count > 0 ? &out->section[i][k] : NULL;
+            const double stiffness = section ? section->stiffness : line->stiffness;
+            if (isinf(stiffness) || random_chance(random, 0.2)) continue;
+            const int rows = make_table(random, stiffness, weight > 0 ? weight : 0.01 * stiffness,
+                                        out->row[i][k]);
+            if (section) {
+                section->stiffness = 0; /* is not read */
+                section->stiffness_row_count = rows;
+                section->stiffness_row = out->row[i][k];
+            } else {
+                line->stiffness_row_count = rows;
+                line->stiffness_row = out->row[i][k];
+            }
+        }
+    }
+}

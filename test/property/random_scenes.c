@@ -125,7 +125,7 @@ static double share(int part, int whole) { return whole > 0 ? (double)part / who
 /* Is enough of a class certified, and nothing wrong? */
 static bool is_good(int class_index, const Tally *tally) {
     if (tally->wrong > 0) return false;
-    if (class_index == SCENE_SECTIONS)
+    if (class_index == SCENE_SECTIONS || class_index == SCENE_TABLES)
         return share(tally->confirmed, tally->records) >= CURVED_SHARE;
     if (class_index >= SCENE_WINCH) return share(tally->confirmed, tally->records) >= WILD_SHARE;
     if (class_index >= SCENE_CYLINDER)

@@ -19,9 +19,9 @@ typedef struct Fixture {
 static void make(Fixture *fixture, const CpsiLinsysOps *ops, double c, double span, bool held) {
     CpsiChainProgram *program = &fixture->program;
     fixture->arena = (CpsiArena){0};
-    cpsi_chain_program_layout(program, &fixture->arena, NODES, 0, false, NULL, ops);
+    cpsi_chain_program_layout(program, &fixture->arena, NODES, 0, false, 0, NULL, ops);
     assert_true(cpsi_arena_allocate(&fixture->arena));
-    cpsi_chain_program_layout(program, &fixture->arena, NODES, 0, false, NULL, ops);
+    cpsi_chain_program_layout(program, &fixture->arena, NODES, 0, false, 0, NULL, ops);
     program->disc.count = program->unilateral.count = 0;
     program->held[0] = program->held[2] = held;
     program->base.load[3 * 1 + 2] = -1;

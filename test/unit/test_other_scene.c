@@ -39,9 +39,12 @@ static const char SCENE[] =
     " start: {straight: {from: [0, 200, 0], to: [0, 210, 0]}}, ends: {A: held, B: free}}\n"
     "  wet: {length: 3, elements: 3, mass: 4, diameter: 0.04, stiffness: 2000, breaking_load: 80,"
     " start: {straight: {from: [0, 300, 0], to: [3, 300, 0]}}, ends: {A: held, B: free}}\n"
+    "  soft: {sections: [{type: rope, length: 3, elements: 2}],"
+    " start: {straight: {from: [0, 400, 0], to: [3, 400, 0]}}, ends: {A: held, B: free}}\n"
     "types: {hawser: {mass: 7, diameter: 0.05, stiffness: 3000, breaking_load: 900}, wire: "
     "{weight: 4, stiffness: 3000,"
-    " friction: 0.5}}\n"
+    " friction: 0.5}, rope: {weight: 2, stiffness: {strain: [0, 0.1, 0.2], tension: [0, 90, "
+    "400]}}}\n"
     "water_density: 900\n"
     "friction_policy: consistent\n"
     "contact_policy: reached\n"
@@ -131,6 +134,9 @@ static const struct Change {
     {"breaking_load", "stiffness: 3000, breaking_load: 900}",
      "stiffness: 3000, breaking_load: 901}"},
     {"breaking_load", "stiffness: 2000, breaking_load: 80", "stiffness: 2000"},
+    {"strain", "[0, 0.1, 0.2]", "[0, 0.11, 0.2]"},
+    {"tension", "[0, 90, 400]", "[0, 90, 401]"},
+    {"tension", "[0, 90, 400]", "[0, 90, 180]"},
     {"water_density", "water_density: 900", "water_density: 950"},
     {"types", "types: {hawser: {mass: 7", "types: {hawser: {mass: 8"},
     {"sections", "{type: hawser, length: 4, elements: 2}, {type: wire, length: 6,",

@@ -27,7 +27,7 @@ typedef struct Fixture {
 
 static void lay_out(Fixture *f) {
     cpsi_line_layout(&f->line, &f->arena);
-    cpsi_chain_program_layout(&f->program, &f->arena, 2, 0, false, NULL, &cpsi_linsys_chain);
+    cpsi_chain_program_layout(&f->program, &f->arena, 2, 0, false, 0, NULL, &cpsi_linsys_chain);
 }
 
 /* An element of this length and stiffness, weight [N/m] along -z, from 0 to `to`; on the plane z =

@@ -169,6 +169,30 @@ static void reads_obstacles(void **state) {
     cps_scene_file_destroy(file);
 }
 
+/* tables of strain and tension, of a line and of a type */
+static void reads_tables(void **state) {
+    (void)state;
+    CpsSceneFile *file = read_good(
+        "capstan: 1\n"
+        "types:\n  rope: {mass: 2, stiffness: {tension: [0, 4, 9], strain: [0, 0.5, 0.75]}}\n"
+        "  wire: {mass: 2, stiffness: 7}\n"
+        "lines:\n"
+        "  a: {length: 9, mass: 1, stiffness: {strain: [0, 1e-3], tension: [0, 1e+3]}, start: "
+        "static, ends: {A: {held: [0, 0, 0]}, B: {held: [0, 1, 0]}}}\n"
+        "  b: {sections: [{type: wire, length: 1, elements: 1}, {type: rope, length: 2, elements: "
+        "1}], start: static, ends: {A: {held: [0, 0, 0]}, B: {held: [0, 1, 0]}}}\n");
+    const CpsLine *line = cps_scene_file_scene(file)->line;
+    CHECK_INT(line[0].stiffness_row_count, 2);
+    assert_true(line[0].stiffness_row[1].strain == 1e-3 && line[0].stiffness_row[1].tension == 1e3);
+    const CpsSection *section = line[1].section;
+    assert_true(section[0].stiffness_row_count == 0 && !section[0].stiffness_row);
+    CHECK_INT(section[1].stiffness_row_count, 3);
+    CHECK_NEAR(section[1].stiffness_row[0].tension, 0, 0);
+    assert_true(section[1].stiffness_row[1].strain == 0.5 &&
+                section[1].stiffness_row[2].tension == 9);
+    cps_scene_file_destroy(file);
+}
+
 /* points, ends at them and their changes: moves add up, weights are those in water */
 static void reads_points(void **state) {
     (void)state;
@@ -509,12 +533,12 @@ static void ignores_the_locale(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_defaults),        cmocka_unit_test(reads_every_key),
-        cmocka_unit_test(reads_obstacles),       cmocka_unit_test(reads_points),
-        cmocka_unit_test(reads_bodies),          cmocka_unit_test(reads_friction_sets_and_zones),
-        cmocka_unit_test(reads_graded_elements), cmocka_unit_test(adds_moves),
-        cmocka_unit_test(knows_numbers),         cmocka_unit_test(keeps_limits),
-        cmocka_unit_test(ignores_the_locale),
+        cmocka_unit_test(reads_defaults),  cmocka_unit_test(reads_every_key),
+        cmocka_unit_test(reads_obstacles), cmocka_unit_test(reads_points),
+        cmocka_unit_test(reads_bodies),    cmocka_unit_test(reads_friction_sets_and_zones),
+        cmocka_unit_test(reads_tables),    cmocka_unit_test(reads_graded_elements),
+        cmocka_unit_test(adds_moves),      cmocka_unit_test(knows_numbers),
+        cmocka_unit_test(keeps_limits),    cmocka_unit_test(ignores_the_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,6 +121,52 @@ static void wrong_sections_are_refused(void **state) {
     refused(&p, "sections are a negative number, or NULL");
 }
 
+/* Tables of strain and tension, of a section and of a line of one make. */
+static void wrong_tables_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        int count;
+        CpsStiffnessRow row[4];
+        const char *found;
+    } WRONG[] = {
+        {1, {{0, 0}}, "has 1 rows, expected 2 to 100"},
+        {-1, {{0, 0}, {1, 1}}, "has -1 rows, expected 2 to 100"},
+        {101, {{0, 0}, {1, 1}}, "has 101 rows, expected 2 to 100"},
+        {2, {{0.1, 0}, {1, 1}}, "begins with 0.1, 0 N, expected 0, 0"},
+        {2, {{0, 5}, {1, 9}}, "begins with 0, 5 N, expected 0, 0"},
+        {3, {{0, 0}, {0.1, 1}, {0.1, 2}}, "in row 3, expected a larger strain and a larger"},
+        {3, {{0, 0}, {0.1, 1}, {0.2, 1}}, "in row 3, expected a larger strain and a larger"},
+        {3, {{0, 0}, {0.1, 1}, {0.05, 2}}, "in row 3, expected a larger strain and a larger"},
+        {2, {{0, 0}, {-0.1, -1}}, "in row 2, expected a larger strain and a larger"},
+        {2, {{0, 0}, {NAN, 1}}, "row 2 is nan, 1 N, expected finite numbers"},
+        {2, {{0, 0}, {1, NAN}}, "expected finite numbers"},
+        {2, {{0, 0}, {1, INFINITY}}, "expected finite numbers"},
+        {2, {{0, 0}, {5e-324, 1e9}}, "too steeply for a number"},
+        {3, {{0, 0}, {0.1, 10}, {0.2, 19.99999}}, "becomes softer at row 2, from 100 N to"},
+        {4, {{0, 0}, {0.1, 1}, {0.2, 3}, {0.3, 4}}, "becomes softer at row 3, from 20 N to 10 N"}};
+    Parts p;
+    for (size_t i = 0; i < sizeof WRONG / sizeof *WRONG; i++) {
+        make(&p);
+        p.section[1].stiffness_row_count = WRONG[i].count;
+        p.section[1].stiffness_row = WRONG[i].row;
+        refused(&p, "sections: number 2 has a table that ");
+        refused(&p, WRONG[i].found);
+        make(&p);
+        p.line.section_count = p.line.point_weight_count = 0;
+        p.line.stiffness_row_count = WRONG[i].count;
+        p.line.stiffness_row = WRONG[i].row;
+        refused(&p, "line 'rope': stiffness as a table ");
+        refused(&p, WRONG[i].found);
+    }
+    make(&p);
+    p.section[0].stiffness_row_count = 2; /* and NULL */
+    refused(&p, "has a table that has 0 rows");
+    for (int k = 0; k < SECTIONS; k++) p.section[k].stiffness = INFINITY;
+    static const CpsStiffnessRow SOUND[2] = {{0, 0}, {0.1, 5}};
+    p.section[0].stiffness_row = SOUND;
+    refused(&p, "sections: number 2 is inextensible or elastic, those before it are not");
+}
+
 static void wrong_point_weights_are_refused(void **state) {
     (void)state;
     static const double WEIGHT[] = {NAN, INFINITY, -INFINITY},
@@ -205,6 +251,7 @@ static void each_node_carries_its_own(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_sections_are_refused),
+                                       cmocka_unit_test(wrong_tables_are_refused),
                                        cmocka_unit_test(wrong_breaking_loads_are_refused),
                                        cmocka_unit_test(wrong_point_weights_are_refused),
                                        cmocka_unit_test(each_node_carries_its_own)};

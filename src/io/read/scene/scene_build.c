@@ -298,6 +298,9 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
     line->has_breaking_load = !isnan(values->breaking_load);
     if (line->has_breaking_load) line->breaking_load = values->breaking_load;
     CpsStatus status = cpsi_line_weight_build(&b->materials, values, line);
+    if (status == CPS_OK)
+        status = cpsi_stiffness_build(&b->materials, &values->table, &line->stiffness_row_count,
+                                      &line->stiffness_row);
     if (status == CPS_OK) status = build_elements(b, values, line);
     if (status == CPS_OK) status = build_zones(b, &values->zones, line);
     if (status == CPS_OK && values->sections.count > 0)

@@ -26,6 +26,26 @@ CpsStatus cpsi_line_weight_build(const CpsiMaterials *m, const CpsiLineValues *v
     return submerged(m, values->node, values->mass, values->diameter, &line->weight);
 }
 
+CpsStatus cpsi_stiffness_build(const CpsiMaterials *m, const CpsiStiffnessValues *values,
+                               int *count, const CpsStiffnessRow **row) {
+    *count = 0;
+    *row = NULL;
+    if (!values->node) return CPS_OK;
+    const int rows = values->strain.columns;
+    if (values->tension.columns != rows)
+        return cpsi_document_fail(m->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "tension"),
+                                  "'tension': found %d numbers, expected as many as 'strain' has, "
+                                  "%d",
+                                  values->tension.columns, rows);
+    CpsStiffnessRow *made = CPSI_POOL_TAKE(m->pool, rows, CpsStiffnessRow);
+    if (!made) return cpsi_document_no_memory(m->d);
+    for (int k = 0; k < rows; k++)
+        made[k] = (CpsStiffnessRow){values->strain.x[k], values->tension.x[k]};
+    *count = rows;
+    *row = made;
+    return CPS_OK;
+}
+
 /* ---- sections ---- */
 
 static double count_of(const CpsiSectionValues *section) {
@@ -86,6 +106,9 @@ static CpsStatus build_section(const CpsiMaterials *m, const CpsiSectionValues *
                             .has_breaking_load = !isnan((*type)->breaking_load)};
     if (section->has_breaking_load) section->breaking_load = (*type)->breaking_load;
     if (!section->type) return cpsi_document_no_memory(m->d);
+    const CpsStatus status = cpsi_stiffness_build(m, &(*type)->table, &section->stiffness_row_count,
+                                                  &section->stiffness_row);
+    if (status != CPS_OK) return status;
     if (isnan((*type)->mass)) return CPS_OK;
     return submerged(m, (*type)->node, (*type)->mass, (*type)->diameter, &section->weight);
 }

@@ -25,6 +25,10 @@ CpsStatus cpsi_materials_sort(CpsiMaterials *materials, const CpsiList *types);
 CpsStatus cpsi_line_weight_build(const CpsiMaterials *materials, const CpsiLineValues *values,
                                  CpsLine *line);
 
+/* The table of a type or line; none where it has a number. */
+CpsStatus cpsi_stiffness_build(const CpsiMaterials *materials, const CpsiStiffnessValues *values,
+                               int *count, const CpsStiffnessRow **row);
+
 /* The number of elements of all sections. */
 double cpsi_section_elements(const CpsiList *sections);
 

@@ -135,10 +135,11 @@ typedef struct LineIds {
     int field[FIELDS][CONTACTS];         /* unused where a view has no such array */
     int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
-    int zone[ZONES];                      /* unused without zones */
-    int compliance_factor, weight_length; /* unused where the line is uniform */
-    int breaking_load;                    /* unused where there is none */
-    int end_point;                        /* unused without points */
+    int zone[ZONES];                                     /* unused without zones */
+    int compliance_factor, weight_length;                /* unused where the line is uniform */
+    int spring_element, spring_strain, spring_stiffness; /* unused where there is none */
+    int breaking_load;                                   /* the same */
+    int end_point;                                       /* unused without points */
 } LineIds;
 
 struct CpsiNetcdf {
@@ -272,6 +273,21 @@ static void define_zones(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
                                             &zone, ZONE[i].long_name, ZONE[i].units);
 }
 
+/* What tables of strain and tension add to 1/compliance. */
+static void define_springs(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
+    char name[NC_MAX_NAME + 1];
+    snprintf(name, sizeof name, "%.200s_spring", view->name);
+    const int spring = cpsi_netcdf_dimension(&nc->file, name, (size_t)view->spring_count);
+    ids->spring_element =
+        cpsi_netcdf_variable(&nc->file, view->name, "spring_element", NC_INT, 1, &spring,
+                             "element whose stiffness grows at a strain", "1");
+    ids->spring_strain = cpsi_netcdf_variable(&nc->file, view->name, "spring_strain", NC_DOUBLE, 1,
+                                              &spring, "strain from which on it grows", "1");
+    ids->spring_stiffness =
+        cpsi_netcdf_variable(&nc->file, view->name, "spring_stiffness", NC_DOUBLE, 1, &spring,
+                             "by how much EA grows there", "N");
+}
+
 /* What differs along a line of sections or with point weights, and what breaks. */
 static void define_sections(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     if (view->has_breaking_load) {
@@ -280,6 +296,7 @@ static void define_sections(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *vie
                                  &ids->element,
                                  "tension at which the element breaks, infinite: none given", "N");
     }
+    if (view->spring_count > 0) define_springs(nc, ids, view);
     if (view->uniform) return;
     ids->compliance_factor =
         cpsi_netcdf_variable(&nc->file, view->name, "compliance_factor", NC_DOUBLE, 1,
@@ -493,6 +510,13 @@ static void write_sections(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView
     const size_t first = 0, elements = (size_t)view->element_count, nodes = elements + 1;
     if (view->has_breaking_load)
         cpsi_netcdf_doubles(&nc->file, ids->breaking_load, &first, &elements, view->breaking_load);
+    if (view->spring_count > 0) {
+        const size_t springs = (size_t)view->spring_count;
+        cpsi_netcdf_ints(&nc->file, ids->spring_element, &first, &springs, view->spring_element);
+        cpsi_netcdf_doubles(&nc->file, ids->spring_strain, &first, &springs, view->spring_strain);
+        cpsi_netcdf_doubles(&nc->file, ids->spring_stiffness, &first, &springs,
+                            view->spring_stiffness);
+    }
     if (view->uniform) return;
     cpsi_netcdf_doubles(&nc->file, ids->compliance_factor, &first, &elements,
                         view->compliance_factor);

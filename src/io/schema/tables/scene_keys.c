@@ -282,6 +282,14 @@ static void begin_point_weight(void *values) { ((CpsiPointWeightValues *)values)
 static const CpsiMapping POINT_WEIGHT = {"point weight", KEYS(POINT_WEIGHT_KEYS), INTO(PointWeight),
                                          .definition = "point_weight", .begin = begin_point_weight};
 
+static const CpsiKey STIFFNESS_KEYS[] = {
+    {"strain", REQUIRED, VECTOR(Stiffness, strain, CPS_MAX_STIFFNESS_ROWS), NOT_NEGATIVE,
+     .unit = "1", .help = "elongation over unstretched length, from 0 on"},
+    {"tension", REQUIRED, VECTOR(Stiffness, tension, CPS_MAX_STIFFNESS_ROWS), NOT_NEGATIVE,
+     .unit = "N", .help = "tension at each strain, from 0 on; slopes do not fall"},
+};
+static const CpsiMapping STIFFNESS = {"stiffness", KEYS(STIFFNESS_KEYS), INTO(Stiffness)};
+
 static const CpsiKey TYPE_KEYS[] = {
     {"mass", ONE_OF, NUMBER(Type, mass), NOT_NEGATIVE, .unit = "kg/m",
      .help = "mass per unstretched length; its weight is mass times gravity, less that of the "
@@ -291,7 +299,8 @@ static const CpsiKey TYPE_KEYS[] = {
     {"diameter", OPTIONAL, NUMBER(Type, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
      .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
     {"stiffness", REQUIRED, NUMBER(Type, stiffness), 0, INFINITY, true, .unit = "N",
-     .help = "axial stiffness EA; .inf for an inextensible type"},
+     .other = &(const CpsiKey){.type = MAPPING(Type, table), .inside = &STIFFNESS},
+     .help = "axial stiffness EA; .inf for an inextensible type; or a table of strain and tension"},
     {"breaking_load", OPTIONAL, NUMBER(Type, breaking_load), POSITIVE, .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over it"},
     {"friction", OPTIONAL, NUMBER(Type, friction), NOT_NEGATIVE, .fallback = "1",
@@ -323,7 +332,8 @@ static const CpsiKey LINE_KEYS[] = {
     {"diameter", OPTIONAL, NUMBER(Line, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
      .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
     {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unless = "sections",
-     .unit = "N", .help = "axial stiffness EA; .inf for an inextensible line"},
+     .other = &(const CpsiKey){.type = MAPPING(Line, table), .inside = &STIFFNESS}, .unit = "N",
+     .help = "axial stiffness EA; .inf for an inextensible line; or a table of strain and tension"},
     {"breaking_load", OPTIONAL, NUMBER(Line, breaking_load), POSITIVE, .unless = "sections",
      .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over "

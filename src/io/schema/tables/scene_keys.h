@@ -67,12 +67,19 @@ typedef struct CpsiZoneValues {
     CpsFrictionZone zone;
 } CpsiZoneValues;
 
+/* A table of strains and tensions. */
+typedef struct CpsiStiffnessValues {
+    const CpsiYaml *node; /* NULL: none */
+    CpsiNumberRows strain, tension;
+} CpsiStiffnessValues;
+
 /* What a metre of line weighs: `mass`, in water with its `diameter`, or `weight`; NaN: not given.
  */
 typedef struct CpsiTypeValues {
     const CpsiYaml *node; /* the key is the name */
     double mass, diameter, weight, stiffness, friction;
-    double breaking_load; /* NaN: not given */
+    CpsiStiffnessValues table; /* in place of `stiffness` */
+    double breaking_load;      /* NaN: not given */
 } CpsiTypeValues;
 
 typedef struct CpsiSectionValues {
@@ -120,6 +127,7 @@ typedef struct CpsiLineValues {
     CpsLine line;
     double mass, count, diameter; /* count: number of elements; NaN: not given */
     double breaking_load;         /* NaN: not given */
+    CpsiStiffnessValues table;    /* in place of line.stiffness */
     CpsiList sections;            /* CpsiSectionValues */
     CpsiList point_weights;       /* CpsiPointWeightValues */
     const CpsiYaml *elements;     /* a list of them */
