@@ -41,6 +41,9 @@ static const char SCENE[] =
     " start: {straight: {from: [0, 300, 0], to: [3, 300, 0]}}, ends: {A: held, B: free}}\n"
     "  soft: {sections: [{type: rope, length: 3, elements: 2}],"
     " start: {straight: {from: [0, 400, 0], to: [3, 400, 0]}}, ends: {A: held, B: free}}\n"
+    "  fine: {length: 3, grade: {towards: B, ratio: 4}, element_length: 0.9, mass: 2, stiffness: "
+    "2000,"
+    " start: {straight: {from: [0, 500, 0], to: [3, 500, 0]}}, ends: {A: held, B: free}}\n"
     "types: {hawser: {mass: 7, diameter: 0.05, stiffness: 3000, breaking_load: 900}, wire: "
     "{weight: 4, stiffness: 3000,"
     " friction: 0.5}, rope: {weight: 2, stiffness: {strain: [0, 0.1, 0.2], tension: [0, 90, "
@@ -134,6 +137,10 @@ static const struct Change {
     {"breaking_load", "stiffness: 3000, breaking_load: 900}",
      "stiffness: 3000, breaking_load: 901}"},
     {"breaking_load", "stiffness: 2000, breaking_load: 80", "stiffness: 2000"},
+    {"element_length", "element_length: 0.9", "element_length: 0.3"},
+    {"grade", "grade: {towards: B, ratio: 4}, element", "element"},
+    {"towards", "towards: B", "towards: A"},
+    {"ratio", "ratio: 4", "ratio: 5"},
     {"strain", "[0, 0.1, 0.2]", "[0, 0.11, 0.2]"},
     {"tension", "[0, 90, 400]", "[0, 90, 401]"},
     {"tension", "[0, 90, 400]", "[0, 90, 180]"},

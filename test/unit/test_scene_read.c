@@ -12,6 +12,7 @@
 
 #include "capstan/io.h"
 #include "io/base/yaml/yaml.h"
+#include "splitmix.h"
 
 #define HEAD     "capstan: 1\nlines:\n  cable:\n    length: 10\n    stiffness: .inf\n    mass: 2\n"
 #define STRAIGHT "    start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}}\n"
@@ -191,6 +192,70 @@ static void reads_tables(void **state) {
     assert_true(section[1].stiffness_row[1].strain == 0.5 &&
                 section[1].stiffness_row[2].tension == 9);
     cps_scene_file_destroy(file);
+}
+
+/* A line of this length whose elements are said by `text`, as a line or as its one section. */
+static CpsSceneFile *read_meshed(double length, const char *text, bool section) {
+    char scene[600];
+    snprintf(scene, sizeof scene,
+             "capstan: 1\ntypes: {rope: {mass: 1, stiffness: 1}}\nlines:\n  cable: {%s length: "
+             "%.17g, %s%s, start: static, ends: {A: {held: [0, 0, 0]}, B: {held: [1, 0, 0]}}}\n",
+             section ? "sections: [{type: rope," : "mass: 1, stiffness: 1,", length, text,
+             section ? "}]" : "");
+    return read_good(scene);
+}
+
+/* Elements of a line: equal ones or graded, by number or by their largest length. Their lengths
+ * grow by one factor from the end named, the first over the last is the ratio, they make up the
+ * line, and one element less (with both ends two less) would be too long. */
+static void grades_elements(void **state) {
+    (void)state;
+    static const char *const TOWARDS[] = {"A", "B", "both"};
+    uint64_t seed = 16;
+    for (int i = 0; i < 400; i++) {
+        const int way = (int)splitmix(&seed, 0, 3), n = 1 + (int)splitmix(&seed, 0, 60);
+        const double length = pow(10, splitmix(&seed, -3, 4)),
+                     ratio = splitmix(&seed, 0, 1) < 0.1 ? 1 : pow(10, splitmix(&seed, 0, 3)),
+                     most = length * pow(10, splitmix(&seed, -2, 0.3));
+        const bool by_length = splitmix(&seed, 0, 1) < 0.6, section = splitmix(&seed, 0, 1) < 0.5;
+        char text[200], mesh[60];
+        snprintf(mesh, sizeof mesh, by_length ? "element_length: %.17g" : "elements: %.0f",
+                 by_length ? most : n);
+        snprintf(text, sizeof text, "%s, grade: {towards: %s, ratio: %.17g}", mesh, TOWARDS[way],
+                 ratio);
+        CpsSceneFile *file = read_meshed(length, text, section);
+        const CpsLine *line = cps_scene_file_scene(file)->line;
+        const int count = line->element_count, middle = way == 2 ? (count - 1) / 2 : count - 1;
+        const double *l = line->element_length;
+        double sum = 0, longest = 0, fewer = 0;
+        for (int e = 0; e < count; e++) sum += l[e];
+        for (int e = 0; e < count; e++) longest = fmax(longest, l[e]);
+        CHECK_RELATIVE(sum, length, 1e-12); /* up to 4000 additions */
+        if (!by_length) CHECK_INT(count, n);
+        if (by_length) CHECK_LESS(longest, most * (1 + 1e-11));
+        const double *first = way == 1 ? &l[count - 1] : l;
+        const int on = way == 1 ? -1 : 1;
+        if (middle > 0) CHECK_RELATIVE(first[on * middle], ratio * first[0], 1e-11);
+        for (int e = 1; e <= middle; e++)
+            CHECK_RELATIVE(log(first[on * e] / first[0]) * middle, log(ratio) * e, 1e-9);
+        if (way == 2)
+            for (int e = 0; e < count; e++) CHECK_RELATIVE(l[e], l[count - 1 - e], 1e-12);
+        /* the longest of one element less on this length, or of one less in each half */
+        const int less = way == 2 ? count / 2 - 1 : count - 1;
+        for (int e = 0; e < less; e++) fewer += pow(ratio, less > 1 ? -(double)e / (less - 1) : 0);
+        if (by_length && less > 0) CHECK_GREATER(length, fewer * most * (way == 2 ? 2 : 1));
+        cps_scene_file_destroy(file);
+        /* without a grade */
+        file = read_meshed(length, mesh, section);
+        line = cps_scene_file_scene(file)->line;
+        const double each = length / line->element_count;
+        if (!by_length) CHECK_INT(line->element_count, n);
+        if (by_length) CHECK_LESS(each, most * (1 + 1e-11));
+        if (by_length && line->element_count > 1)
+            CHECK_GREATER(length / (line->element_count - 1), most);
+        if (line->element_length) CHECK_RELATIVE(line->element_length[0], each, 1e-15);
+        cps_scene_file_destroy(file);
+    }
 }
 
 /* points, ends at them and their changes: moves add up, weights are those in water */
@@ -539,6 +604,7 @@ int main(void) {
         cmocka_unit_test(reads_tables),    cmocka_unit_test(reads_graded_elements),
         cmocka_unit_test(adds_moves),      cmocka_unit_test(knows_numbers),
         cmocka_unit_test(keeps_limits),    cmocka_unit_test(ignores_the_locale),
+        cmocka_unit_test(grades_elements),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -64,10 +64,18 @@ static CpsStatus check_size(const Build *b, const CpsiYaml *place) {
     return CPS_OK;
 }
 
+/* What the file says of the elements of a line; NULL: nothing. */
+static const CpsiYaml *given_elements(const CpsiLineValues *values) {
+    const CpsiYaml *given = cpsi_yaml_child(values->node, "elements");
+    return given ? given : cpsi_yaml_child(values->node, "element_length");
+}
+
 /* Count the elements and check the limits before memory is allocated for them. */
 static CpsStatus count_elements(Build *b, const CpsiLineValues *values, CpsLine *line) {
-    const CpsiYaml *list = values->elements, *given = cpsi_yaml_child(values->node, "elements");
+    const CpsiYaml *list = values->elements, *given = given_elements(values);
     double count = isnan(values->count) ? line->element_count : values->count;
+    if (!isnan(values->element_length))
+        count = cpsi_graded_count(line->length, NAN, values->element_length, &values->grade);
     if (list) count = 0;
     if (values->sections.count > 0) count = cpsi_section_elements(&values->sections);
     for (const CpsiYaml *item = list ? list->child : NULL; item; item = item->next) {
@@ -81,12 +89,32 @@ static CpsStatus count_elements(Build *b, const CpsiLineValues *values, CpsLine 
     return status;
 }
 
+/* Two ways to say what the elements are do not go together. */
+static CpsStatus check_elements(const Build *b, const CpsiLineValues *values) {
+    const CpsiYaml *target = cpsi_yaml_child(values->node, "element_length");
+    if (target && cpsi_yaml_child(values->node, "elements"))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, target,
+                                  "'element_length': it does not go with 'elements': leave one of "
+                                  "them out");
+    if (values->grade.node && values->elements)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->grade.node,
+                                  "'grade': found beside a list of elements, expected their number "
+                                  "or 'element_length'");
+    return CPS_OK;
+}
+
 static CpsStatus build_elements(Build *b, const CpsiLineValues *values, CpsLine *line) {
-    const CpsStatus status = count_elements(b, values, line);
-    if (status != CPS_OK || values->sections.count > 0 || !values->elements) return status;
+    CpsStatus status = check_elements(b, values);
+    if (status == CPS_OK) status = count_elements(b, values, line);
+    if (status != CPS_OK || values->sections.count > 0) return status;
+    if (!values->elements && !values->grade.node) return CPS_OK;
     double *length = CPSI_POOL_TAKE(b->pool, line->element_count, double);
     if (!length) return cpsi_document_no_memory(b->d);
     line->element_length = length;
+    if (!values->elements) {
+        cpsi_graded_fill(line->length, line->element_count, &values->grade, length);
+        return CPS_OK;
+    }
     for (const CpsiYaml *item = values->elements->child; item; item = item->next) {
         double count = 1, whole = 0;
         if (item->child) cpsi_yaml_number(item->child->text, &count);
@@ -112,7 +140,8 @@ static CpsStatus read_nodes(const Build *b, const CpsiStartValues *start, CpsiNo
 /* The elements of the file where the scene gives none; otherwise both must have the same. */
 static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const CpsiNodeFile *file,
                                CpsLine *line) {
-    const CpsiYaml *given = cpsi_yaml_child(values->node, "elements");
+    const CpsiYaml *given = given_elements(values);
+    if (!given) given = values->grade.node;
     if (!given) given = values->sections.node;
     const double *arc = file->arc_length;
     if (!given) {

@@ -46,13 +46,58 @@ CpsStatus cpsi_stiffness_build(const CpsiMaterials *m, const CpsiStiffnessValues
     return CPS_OK;
 }
 
+/* ---- elements ---- */
+
+/* The sum of `count` lengths, the longest 1, that fall by equal factors to 1/ratio. */
+static double sum_of(double count, double ratio) {
+    const double fall = log(ratio) / (count - 1);
+    return count > 1 && fall > 0 ? -expm1(-fall * count) / -expm1(-fall) : count;
+}
+
+double cpsi_graded_count(double length, double count, double most, const CpsiGradeValues *grade) {
+    if (!isnan(count)) return count;
+    /* lengths that are a whole number of elements to rounding get that number */
+    const double want = length / most * (1 - 1e-12);
+    /* far beyond the limit the factors do not matter */
+    if (!grade->node || !(want < 1e12)) return fmax(1, ceil(want));
+    const double halves = grade->towards == CPSI_TOWARDS_BOTH ? 2 : 1;
+    double low = 0, high = fmax(1, ceil(want / halves));
+    while (halves * sum_of(high, grade->ratio) < want) {
+        low = high;
+        high *= 2;
+    }
+    while (high - low > 1) {
+        const double middle = floor(0.5 * (low + high));
+        if (halves * sum_of(middle, grade->ratio) < want)
+            low = middle;
+        else
+            high = middle;
+    }
+    return halves * high;
+}
+
+/* ln of the length of element i of `count` over the longest one, in units of ln ratio, from -1. */
+static double depth_of(int i, int count, int towards) {
+    const int from_end = towards == CPSI_TOWARDS_A ? i : count - 1 - i;
+    if (towards != CPSI_TOWARDS_BOTH) return count > 1 ? (double)from_end / (count - 1) - 1 : 0;
+    const int near = i < count - 1 - i ? i : count - 1 - i, middle = (count - 1) / 2;
+    return middle > 0 ? (double)near / middle - 1 : 0;
+}
+
+void cpsi_graded_fill(double length, int count, const CpsiGradeValues *grade, double *out) {
+    double sum = 0;
+    for (int i = 0; i < count; i++) {
+        out[i] = grade->node ? exp(log(grade->ratio) * depth_of(i, count, grade->towards)) : 1;
+        sum += out[i];
+    }
+    for (int i = 0; i < count; i++) out[i] = grade->node ? out[i] * (length / sum) : length / count;
+}
+
 /* ---- sections ---- */
 
 static double count_of(const CpsiSectionValues *section) {
-    /* lengths that are a whole number of elements to rounding get that number */
-    return isnan(section->count)
-               ? fmax(1, ceil(section->length / section->element_length * (1 - 1e-12)))
-               : section->count;
+    return cpsi_graded_count(section->length, section->count, section->element_length,
+                             &section->grade);
 }
 
 double cpsi_section_elements(const CpsiList *sections) {
@@ -147,7 +192,8 @@ CpsStatus cpsi_sections_build(const CpsiMaterials *m, const CpsiLineValues *valu
         line->length += from[k].length;
         if (status == CPS_OK) status = add_zone(m, values, type, start, line->length, zone, line);
         if (status != CPS_OK) return status;
-        for (int i = 0; i < (int)elements; i++) *length++ = from[k].length / elements;
+        cpsi_graded_fill(from[k].length, (int)elements, &from[k].grade, length);
+        length += (int)elements;
     }
     return CPS_OK;
 }

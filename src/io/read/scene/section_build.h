@@ -29,6 +29,11 @@ CpsStatus cpsi_line_weight_build(const CpsiMaterials *materials, const CpsiLineV
 CpsStatus cpsi_stiffness_build(const CpsiMaterials *materials, const CpsiStiffnessValues *values,
                                int *count, const CpsStiffnessRow **row);
 
+/* The elements of a stretch of natural length [m]: how many, where `count` is NaN so many that none
+ * exceeds `most` [m]; and how long each is, (elements), from A to B. */
+double cpsi_graded_count(double length, double count, double most, const CpsiGradeValues *grade);
+void cpsi_graded_fill(double length, int count, const CpsiGradeValues *grade, double *out);
+
 /* The number of elements of all sections. */
 double cpsi_section_elements(const CpsiList *sections);
 

@@ -248,14 +248,24 @@ static const CpsiKey ZONE_KEYS[] = {
 };
 static const CpsiMapping ZONE = {"zone", KEYS(ZONE_KEYS), INTO(Zone)};
 
+static const CpsiKey GRADE_KEYS[] = {
+    {"towards", REQUIRED, WORD(Grade, towards), .words = "A B both",
+     .help = "end at which the elements are shortest; both: at the ends, longest in the middle"},
+    {"ratio", REQUIRED, NUMBER(Grade, ratio), 1, 1e6, false,
+     .help = "longest element over the shortest; between them they grow by equal factors"},
+};
+static const CpsiMapping GRADE = {"grade", KEYS(GRADE_KEYS), INTO(Grade)};
+
 static const CpsiKey SECTION_KEYS[] = {
     {"type", REQUIRED, TEXT(Section, type, 0), .help = "name of one of the scene's types"},
     {"length", REQUIRED, NUMBER(Section, length), POSITIVE, .unit = "m",
      .help = "unstretched length of the section"},
     {"elements", ONE_OF, COUNT(Section, count), 1, CPSI_LARGEST, false,
-     .help = "number of equal elements"},
+     .help = "number of elements, equal ones without a grade"},
     {"element_length", ONE_OF, NUMBER(Section, element_length), POSITIVE, .unit = "m",
-     .help = "length that its equal elements shall not exceed"},
+     .help = "length that its elements shall not exceed"},
+    {"grade", OPTIONAL, MAPPING(Section, grade), .inside = &GRADE,
+     .help = "elements that become shorter towards an end of the section"},
 };
 
 static void begin_section(void *values) {
@@ -320,8 +330,12 @@ static const CpsiKey LINE_KEYS[] = {
      .help = "unstretched length"},
     {"elements", OPTIONAL, COUNT(Line, count), 1, CPSI_LARGEST, false, .unless = "sections",
      .other = &(const CpsiKey){.type = ELEMENTS(Line, elements), POSITIVE}, .fallback = "100",
-     .help = "number of equal elements; or from A to B a list of element lengths [m] and of "
+     .help = "number of elements; or from A to B a list of element lengths [m] and of "
              "pairs [count, length]: count equal elements that are length [m] long together"},
+    {"element_length", OPTIONAL, NUMBER(Line, element_length), POSITIVE, .unless = "sections",
+     .unit = "m", .help = "length that its elements shall not exceed, instead of their number"},
+    {"grade", OPTIONAL, MAPPING(Line, grade), .inside = &GRADE, .unless = "sections",
+     .help = "elements that become shorter towards an end"},
     {"mass", ONE_OF, NUMBER(Line, mass), NOT_NEGATIVE, .unit = "kg/m",
      .help = "mass per unstretched length; the weight is mass times gravity, less that of the "
              "water that the diameter displaces"},
@@ -353,7 +367,7 @@ static const CpsiKey LINE_KEYS[] = {
 static void begin_line(void *values) {
     CpsiLineValues *line = values;
     line->line = cps_line_default();
-    line->mass = line->count = line->breaking_load = NAN;
+    line->mass = line->count = line->breaking_load = line->element_length = NAN;
 }
 
 static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};

@@ -82,10 +82,19 @@ typedef struct CpsiTypeValues {
     double breaking_load;      /* NaN: not given */
 } CpsiTypeValues;
 
+/* Elements that become shorter towards an end, or towards both. */
+typedef enum CpsiTowards { CPSI_TOWARDS_A, CPSI_TOWARDS_B, CPSI_TOWARDS_BOTH } CpsiTowards;
+typedef struct CpsiGradeValues {
+    const CpsiYaml *node; /* NULL: all are equal */
+    int towards;          /* CpsiTowards */
+    double ratio;         /* longest over shortest */
+} CpsiGradeValues;
+
 typedef struct CpsiSectionValues {
     const CpsiYaml *node;
     const char *type;
     double length, count, element_length; /* count and element_length: NaN: not given */
+    CpsiGradeValues grade;
 } CpsiSectionValues;
 
 typedef struct CpsiPointWeightValues {
@@ -131,7 +140,9 @@ typedef struct CpsiLineValues {
     CpsiList sections;            /* CpsiSectionValues */
     CpsiList point_weights;       /* CpsiPointWeightValues */
     const CpsiYaml *elements;     /* a list of them */
-    CpsiList zones;               /* CpsiZoneValues */
+    double element_length;        /* NaN: not given */
+    CpsiGradeValues grade;
+    CpsiList zones; /* CpsiZoneValues */
     CpsiStartValues start;
     CpsiEndValues end[2];
 } CpsiLineValues;
