@@ -75,6 +75,11 @@ static const char POINTS_SCENE[] =
     " ends: {A: {point: knot}, B: {point: ring}}}\n"
     "  far: {length: 9, elements: 4, mass: 2, stiffness: 1000, start: static,"
     " ends: {A: {held: [4, 8, 0]}, B: {point: knot}}}\n"
+    "  taut: {sections: [{type: rope, length: 3, elements: 2}, {type: rope, length: 3, elements: "
+    "2}],"
+    " pretension: {end: B, tension: 40, section: 1}, start: static, ends: {A: {held: [0, 60, 0]},"
+    " B: {held: [5, 60, 2]}}}\n"
+    "types: {rope: {weight: 2, stiffness: 1000}}\n"
     "history:\n"
     "  - {name: pull, steps: 2, knot.point: {force: [2, 0, 0]}}\n"
     "  - {anchor.point: {move: [1, 0, 0]}, ring.point: {position: [8, 5, 0]}}\n";
@@ -213,6 +218,11 @@ static const struct Change POINT_CHANGE[] = {
     {"weight", "weight: 2", "weight: 2.5"},
     {"mass", "mass: 3", "mass: 3.5"},
     {"volume", "volume: 0.001", "volume: 0.002"},
+    {"pretension", " pretension: {end: B, tension: 40, section: 1},", ""},
+    {"end", "end: B, tension", "end: A, tension"},
+    {"tension", "tension: 40", "tension: 41"},
+    {"horizontal", "tension: 40", "horizontal: 40"},
+    {"section", "section: 1", "section: 2"},
     {"point", "{A: {point: anchor}, B: {point: knot}}", "{A: {point: knot}, B: {point: anchor}}"},
     {"point", "{A: {held: [4, 8, 0]}", "{A: {point: ring}"},
     {"POINT.point", "knot.point: {", "ring.point: {"},

@@ -10,6 +10,7 @@
 
 #include "check.h"
 
+#include "capstan/evolve.h"
 #include "capstan/io.h"
 #include "io/base/yaml/yaml.h"
 #include "splitmix.h"
@@ -191,6 +192,37 @@ static void reads_tables(void **state) {
     CHECK_NEAR(section[1].stiffness_row[0].tension, 0, 0);
     assert_true(section[1].stiffness_row[1].strain == 0.5 &&
                 section[1].stiffness_row[2].tension == 9);
+    cps_scene_file_destroy(file);
+}
+
+/* the length of a line or section is found, and what is behind it moves along */
+static void finds_lengths(void **state) {
+    (void)state;
+    CpsSceneFile *file = read_good(
+        "capstan: 1\ntypes: {rope: {mass: 1, stiffness: 1e4}}\nlines:\n"
+        "  a: {length: 9, elements: 20, mass: 1, stiffness: 1e4, start: static, pretension: {end: "
+        "A, "
+        "horizontal: 70}, ends: {A: {held: [0, 0, 0]}, B: {held: [8, 0, 2]}}}\n"
+        "  b: {sections: [{type: rope, length: 3, elements: 5}, {type: rope, length: 4, elements: "
+        "5}], "
+        "point_weights: [{at: 3, weight: 5}], start: static, pretension: {end: B, tension: 90, "
+        "section: 1}, ends: {A: {held: [0, 9, 0]}, B: {held: [8, 9, 2]}}}\n");
+    const CpsScene *scene = cps_scene_file_scene(file);
+    CpsEvolution *evolution = NULL;
+    CpsError err;
+    CHECK_INT(cps_evolution_create(scene, &evolution, &err), CPS_OK);
+    CHECK_INT(cps_evolution_step(evolution, &err), CPS_OK);
+    const CpsLineReport one = cps_evolution_line_report(evolution, 0),
+                        two = cps_evolution_line_report(evolution, 1);
+    CHECK_RELATIVE(hypot(one.end[CPS_END_A].force[0], one.end[CPS_END_A].force[1]), 70, 1e-9);
+    CHECK_RELATIVE(two.end[CPS_END_B].tension, 90, 1e-9);
+    CHECK_INT(scene->line[0].element_count, 20);
+    const CpsLine *line = &scene->line[1];
+    CHECK_NEAR(line->section[1].length, 4, 0);
+    CHECK_NEAR(line->length, line->section[0].length + 4, 1e-14);
+    CHECK_NEAR(line->point_weight[0].arc_length, line->section[0].length, 1e-14);
+    assert_true(fabs(line->section[0].length - 3) > 0.1);
+    cps_evolution_destroy(evolution);
     cps_scene_file_destroy(file);
 }
 
@@ -598,13 +630,13 @@ static void ignores_the_locale(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_defaults),        cmocka_unit_test(reads_every_key),
-        cmocka_unit_test(reads_obstacles),       cmocka_unit_test(reads_tables),
-        cmocka_unit_test(grades_elements),       cmocka_unit_test(reads_points),
-        cmocka_unit_test(reads_bodies),          cmocka_unit_test(reads_friction_sets_and_zones),
-        cmocka_unit_test(reads_graded_elements), cmocka_unit_test(adds_moves),
-        cmocka_unit_test(knows_numbers),         cmocka_unit_test(keeps_limits),
-        cmocka_unit_test(ignores_the_locale),
+        cmocka_unit_test(reads_defaults),  cmocka_unit_test(reads_every_key),
+        cmocka_unit_test(reads_obstacles), cmocka_unit_test(reads_points),
+        cmocka_unit_test(reads_bodies),    cmocka_unit_test(reads_friction_sets_and_zones),
+        cmocka_unit_test(reads_tables),    cmocka_unit_test(reads_graded_elements),
+        cmocka_unit_test(adds_moves),      cmocka_unit_test(knows_numbers),
+        cmocka_unit_test(keeps_limits),    cmocka_unit_test(ignores_the_locale),
+        cmocka_unit_test(grades_elements), cmocka_unit_test(finds_lengths),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

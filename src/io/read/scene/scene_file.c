@@ -44,7 +44,11 @@ static CpsStatus build(const CpsiDocument *d, void *out) {
     CpsStatus status =
         cpsi_read_mapping(d, d->root, &cpsi_scene_file, cpsi_scene_file.name, &values);
     if (status == CPS_OK) status = cpsi_scene_build(d, &values, &file->pool, &file->scene);
-    return status ? status : check(d, &file->scene);
+    if (status == CPS_OK) status = check(d, &file->scene);
+    const CpsLine *as_written = file->scene.line;
+    if (status == CPS_OK) status = cpsi_scene_find_lengths(d, &values, &file->pool, &file->scene);
+    if (status != CPS_OK || file->scene.line == as_written) return status;
+    return check(d, &file->scene);
 }
 
 CpsStatus cps_scene_read(const char *path, const CpsReadLimits *limits, CpsSceneFile **out,

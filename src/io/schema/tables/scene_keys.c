@@ -325,6 +325,24 @@ static void begin_type(void *values) {
 
 static const CpsiMapping TYPE = {"type", KEYS(TYPE_KEYS), INTO(Type), .begin = begin_type};
 
+static const CpsiKey PRETENSION_KEYS[] = {
+    {"end", REQUIRED, WORD(Pretension, end), .words = "A B", .help = "end with the tension"},
+    {"tension", ONE_OF, NUMBER(Pretension, tension), POSITIVE, .unit = "N",
+     .help = "size of the force at the end; or"},
+    {"horizontal", ONE_OF, NUMBER(Pretension, horizontal), POSITIVE, .unit = "N",
+     .help = "size of its part across gravity"},
+    {"section", OPTIONAL, COUNT(Pretension, section), 1, CPSI_LARGEST, false,
+     .help = "number of the section, from A, whose length is found"},
+};
+
+static void begin_pretension(void *values) {
+    CpsiPretensionValues *pretension = values;
+    pretension->tension = pretension->horizontal = pretension->section = NAN;
+}
+
+static const CpsiMapping PRETENSION = {"pretension", KEYS(PRETENSION_KEYS), INTO(Pretension),
+                                       .begin = begin_pretension};
+
 static const CpsiKey LINE_KEYS[] = {
     {"length", REQUIRED, NUMBER(Line, line.length), POSITIVE, .unless = "sections", .unit = "m",
      .help = "unstretched length"},
@@ -357,6 +375,9 @@ static const CpsiKey LINE_KEYS[] = {
     {"friction_zones", OPTIONAL, LIST(Line, zones, 0), .inside = &ZONE, .fallback = "[]",
      .help = "intervals of arc length with another friction, in order from A to B, without "
              "overlap"},
+    {"pretension", OPTIONAL, MAPPING(Line, pretension), .inside = &PRETENSION,
+     .help = "the tension of the static start, for which the length is found; the one written "
+             "then says how many elements there are"},
     {"start", REQUIRED, WORD(Line, start.word), .words = "static", .former_words = "laid",
      .other = &(const CpsiKey){.type = MAPPING(Line, start), .inside = &START},
      .help = "shape the line starts from, as long as the line (an elastic one may be "

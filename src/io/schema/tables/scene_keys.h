@@ -90,6 +90,13 @@ typedef struct CpsiGradeValues {
     double ratio;         /* longest over shortest */
 } CpsiGradeValues;
 
+/* What a length is found for; NaN: not given. */
+typedef struct CpsiPretensionValues {
+    const CpsiYaml *node; /* NULL: lengths are as written */
+    int end;
+    double tension, horizontal, section;
+} CpsiPretensionValues;
+
 typedef struct CpsiSectionValues {
     const CpsiYaml *node;
     const char *type;
@@ -137,10 +144,11 @@ typedef struct CpsiLineValues {
     double mass, count, diameter; /* count: number of elements; NaN: not given */
     double breaking_load;         /* NaN: not given */
     CpsiStiffnessValues table;    /* in place of line.stiffness */
-    CpsiList sections;            /* CpsiSectionValues */
-    CpsiList point_weights;       /* CpsiPointWeightValues */
-    const CpsiYaml *elements;     /* a list of them */
-    double element_length;        /* NaN: not given */
+    CpsiPretensionValues pretension;
+    CpsiList sections;        /* CpsiSectionValues */
+    CpsiList point_weights;   /* CpsiPointWeightValues */
+    const CpsiYaml *elements; /* a list of them */
+    double element_length;    /* NaN: not given */
     CpsiGradeValues grade;
     CpsiList zones; /* CpsiZoneValues */
     CpsiStartValues start;
