@@ -125,6 +125,15 @@ static void moving_allocates_once(void **unused) {
         assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
         if (i == 1) assert_int_equal(cps_evolution_take_back(evolution, NULL), CPS_OK);
     }
+    CpsGraspChange grip = {.node = 2, .kind = CPS_END_KIND_HELD, .stays = true};
+    CpsStage grasp = cps_stage_default();
+    grasp.grasp_change_count = 1;
+    grasp.grasp_change = &grip;
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(cps_evolution_move(evolution, &grasp, NULL), CPS_OK);
+        assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
+        grip = (CpsGraspChange){.node = 2, .kind = CPS_END_KIND_FREE};
+    }
     CHECK_INT(allocations, before);
     cps_evolution_destroy(evolution);
 }
