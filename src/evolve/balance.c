@@ -170,6 +170,17 @@ static void take_body(CpsiBalance *balance, int point) {
     balance->rigid_of[point] = k;
 }
 
+/* Use the blocks of the free points and bodies of the search (joint_system.h). */
+static void use_blocks(CpsiBalance *balance) {
+    int *node = balance->node;
+    const int points = balance->evolution->points.count;
+    for (int k = 0; k < balance->count; k++) node[k] = balance->at[k].point;
+    for (int k = 0; k < balance->body_count; k++)
+        for (int part = 0; part < 2; part++)
+            node[balance->count + 2 * k + part] = points + 2 * balance->rigid[k].body + part;
+    cpsi_graph_matrix_use(balance->matrix, balance->count + 2 * balance->body_count, node);
+}
+
 /* Find the points, bodies and lines of a group. */
 static void begin(CpsiBalance *balance, int group) {
     CpsEvolution *evolution = balance->evolution;
@@ -190,6 +201,7 @@ static void begin(CpsiBalance *balance, int group) {
                                                    .obstacle = CPS_NO_OBSTACLE};
     }
     balance->unknowns = 3 * balance->count + 6 * balance->body_count;
+    use_blocks(balance);
     for (int i = 0; i < evolution->line_count; i++) {
         if (cpsi_group_of_line(points, i) != group) continue;
         balance->line[balance->line_count++] = i;
@@ -287,6 +299,24 @@ static void begin_again(CpsiBalance *balance) {
         balance->rigid[k].pose = evolution->bodies.body[balance->rigid[k].body].pose;
 }
 
+/* Search once more, from a guess to the last digits; where there is none, things stay as they are.
+ */
+static bool search_again(CpsiBalance *balance) {
+    const size_t bytes = (size_t)balance->count * sizeof *balance->at;
+    memcpy(balance->best, balance->at, bytes);
+    if (cpsi_guess_places(balance, true)) {
+        for (int k = 0; k < balance->count; k++) {
+            const CpsiFree *at = &balance->at[k];
+            balance->at[k] =
+                (CpsiFree){.point = at->point, .place = at->place, .obstacle = CPS_NO_OBSTACLE};
+        }
+        return search(balance, MOST_TRIALS);
+    }
+    memcpy(balance->at, balance->best, bytes);
+    cpsi_try_places(balance);
+    return false;
+}
+
 /* Find the places of a group. In a history a body hardly moves in a step, and a few trials from
  * where it is take less time than the rounds of a first guess. */
 static void find_places(CpsiBalance *balance, int group) {
@@ -301,8 +331,10 @@ static void find_places(CpsiBalance *balance, int group) {
         }
         begin_again(balance);
     }
-    if (!cpsi_guess_places(balance)) cpsi_extrapolate_places(balance);
-    if (!search(balance, MOST_TRIALS) && is_static && balance->body_count > 0) {
+    if (!cpsi_guess_places(balance, false)) cpsi_extrapolate_places(balance);
+    bool found = search(balance, MOST_TRIALS);
+    if (!found && !is_over(balance) && balance->body_count == 0) found = search_again(balance);
+    if (!found && is_static && balance->body_count > 0) {
         begin_again(balance);
         search_softly(balance);
     }

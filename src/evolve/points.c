@@ -14,7 +14,7 @@
 #include "evolve/ranges.h"
 #include "geometry/obstacle.h"
 
-enum { POINT_COOKIE = 0x5017e005, MAX_POINTS = 500 };
+enum { POINT_COOKIE = 0x5017e005, MAX_POINTS = 100000 };
 
 CpsPoint cps_point_default(void) { return (CpsPoint){.cookie = POINT_COOKIE}; }
 
