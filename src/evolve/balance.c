@@ -270,19 +270,25 @@ static void search_softly(CpsiBalance *balance) {
 }
 
 void cpsi_balance_start(CpsEvolution *evolution) {
+    CpsiFree *at = evolution->points.balance->at;
+    for (int k = 0; k < evolution->points.count; k++) {
+        const CpsiPoint *point = &evolution->points.point[k];
+        at[k] = (CpsiFree){.point = k, .place = vec3_load(point->position)};
+        double load[3];
+        cpsi_trial_find_obstacle(evolution, &at[k]);
+        cpsi_point_load(point, evolution->gravity, load);
+        at[k].rest = vec3_load(load);
+    }
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const int k = evolution->points.tie[2 * i + end];
+            if (k == CPSI_NO_POINT) continue;
+            at[k].rest = vec3_add(at[k].rest, cpsi_line_start_pull(&evolution->line[i], end));
+        }
     for (int k = 0; k < evolution->points.count; k++) {
         CpsiPoint *point = &evolution->points.point[k];
-        CpsiFree at = {.point = k, .place = vec3_load(point->position)};
-        double load[3];
-        cpsi_trial_find_obstacle(evolution, &at);
-        cpsi_point_load(point, evolution->gravity, load);
-        at.rest = vec3_load(load);
-        for (int i = 0; i < evolution->line_count; i++)
-            for (int end = 0; end < 2; end++)
-                if (evolution->points.tie[2 * i + end] == k)
-                    at.rest = vec3_add(at.rest, cpsi_line_start_pull(&evolution->line[i], end));
-        if (at.gap <= CPS_TOUCH * point->length)
-            point->report.reaction = fmax(0, -vec3_dot(at.rest, at.normal));
+        if (at[k].gap <= CPS_TOUCH * point->length)
+            point->report.reaction = fmax(0, -vec3_dot(at[k].rest, at[k].normal));
     }
 }
 
