@@ -11,17 +11,17 @@
 #include "cable/line_solve.h"
 #include "chain/frame.h"
 
-/* A guess needs no more: relative gap and iterations. */
-static const double TARGET = 1e-10;
-enum { ITERATIONS = 100 };
+enum { ITERATIONS = 100, CENTERING_STEPS = 2, REFINEMENT_STEPS = 6 };
+/* A solution that has come so near is one, whether or not it was to be better. */
+static const double ENOUGH = 1e-10;
 
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
-                        int joints, int bodies, const CpsiLinsysOps *ops) {
+                        int joints, int bodies, const CpsiLinsysOps *ops, CpsiGraphMatrix *matrix) {
     const bool own_axes = count > 0 && line[0].has_local_axes;
     int most = 1;
     for (int k = 0; k < count; k++) most = line[k].n > most ? line[k].n : most;
     *network = (CpsiNetwork){.lines = count, .joints = joints};
-    cpsi_network_layout(&network->program, arena, count + joints, 2 * most, joints, bodies);
+    cpsi_network_layout(&network->program, arena, count + joints, 2 * most, joints, bodies, matrix);
     CPSI_PLACE(arena, network->chain, count + joints);
     for (int k = 0; k < count + joints; k++) {
         CpsiChainProgram none, *chain = network->chain ? &network->chain[k] : &none;
@@ -75,7 +75,10 @@ static void fill_joint(const CpsiJoint *joint, bool own_axes, CpsiChainProgram *
     if (chain->frame) {
         memset(disc->map[0], 0, sizeof disc->map[0]);
         disc->map[0][0] = disc->map[0][4] = 1;
-        disc->offset[0][0] = disc->offset[0][1] = 0;
+        double slip[3], own[3];
+        vec3_store(slip, joint->slip);
+        cpsi_frame_to(own, chain->frame, slip);
+        for (int a = 0; a < 2; a++) disc->offset[0][a] = own[a] / scale->length;
     }
 }
 
@@ -102,6 +105,15 @@ static void set_reference(CpsiLine *line, const CpsiStepOptions *options) {
     if (!line->has_local_axes) return;
     cpsi_contact_detect(line, false);
     cpsi_contact_update_geometry(line);
+}
+
+/* The ends of a line with axes of its own are where the joints are. */
+static void move_ends(CpsiLine *line, const CpsiNetworkPart *part, int item) {
+    for (int end = 0; end < 2 && line->has_local_axes; end++) {
+        const int k = part->at[item][end], node = end == CPS_END_A ? 0 : line->n - 1;
+        if (k != CPSI_NO_JOINT && k < part->own)
+            vec3_store(&line->base[3 * node], part->joint[k].position);
+    }
 }
 
 /* The joint of the program that joint k is, in units of the program. */
@@ -185,22 +197,38 @@ static double fill(CpsiNetwork *network, const CpsiLine *line, const CpsiNetwork
     return loads;
 }
 
+/* What the larger of each pair of the solution says. */
+static CpsiJointState state_of(const CpsiChainProgram *chain) {
+    const CpsiUnilateral *unilateral = &chain->unilateral;
+    const CpsiFrictionDisc *disc = &chain->disc;
+    if (unilateral->count == 0 || !(unilateral->z[0] > unilateral->s[0])) return CPSI_JOINT_OFF;
+    if (disc->count == 0) return CPSI_JOINT_SLIDES;
+    const double *z = disc->z[0], inside = z[0] - sqrt(z[1] * z[1] + z[2] * z[2]);
+    return inside > disc->s[0][0] ? CPSI_JOINT_STICKS : CPSI_JOINT_SLIDES;
+}
+
 bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
                         const CpsiStepOptions *options, const CpsiNetworkMove *out) {
     const bool coupled = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
                          !options->frictionless && line->obstacle_count > 0;
     const double *axes = line[part->number[0]].common_axes, *u = network->program.base.u;
-    for (int k = 0; k < part->lines; k++) set_reference(&line[part->number[k]], options);
+    for (int k = 0; k < part->lines; k++) {
+        set_reference(&line[part->number[k]], options);
+        move_ends(&line[part->number[k]], part, k);
+    }
     const CpsiStepScale scale =
         scale_of(line, part, coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED);
     const double loads = fill(network, line, part, &scale);
-    const CpsiIpmOptions ipm = {.target = TARGET,
+    const CpsiIpmOptions ipm = {.target = part->target,
                                 .scale = loads > 0 ? loads : 1,
-                                .max_iterations = ITERATIONS};
+                                .max_iterations = ITERATIONS,
+                                .centering_steps = part->is_refined ? CENTERING_STEPS : 0,
+                                .sharpenings = part->is_refined ? REFINEMENT_STEPS : 0};
     const CpsiIpmReport report = cpsi_ipm_solve(&network->program.base, &ipm);
     for (int k = 0; k < part->own; k++) {
         cpsi_frame_from(&out->joint[3 * k], axes, &u[3 * k]);
         for (int a = 0; a < 3; a++) out->joint[3 * k + a] *= scale.length;
+        out->state[k] = state_of(&network->program.chain[part->lines + k]);
     }
     for (int k = 0; k < part->bodies; k++) {
         const double *move = &u[3 * part->own + 6 * k];
@@ -217,5 +245,6 @@ bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkP
             cpsi_frame_from(pull, axes, &z[1]);
             for (int a = 0; a < 3; a++) pull[a] *= by;
         }
-    return report.outcome == CPSI_IPM_SOLVED;
+    return report.outcome == CPSI_IPM_SOLVED ||
+           (part->is_refined && report.gap + fmax(report.imbalance, report.residual) <= ENOUGH);
 }

@@ -11,7 +11,8 @@
 
 /* A joint that the step moves. */
 typedef struct CpsiJoint {
-    Vec3 position, load; /* [m] at the reference, [N] */
+    Vec3 position, load; /* [m] on whose tangent plane the program is, [N] */
+    Vec3 slip;           /* [m] along the surface from the reference to there */
     double share;        /* [m] natural length that it represents */
     /* contact with the nearest obstacle, NULL: none */
     const CpsiObstacle *obstacle;
@@ -32,25 +33,32 @@ typedef struct CpsiNetwork {
     CpsiChainProgram *chain; /* (lines + joints) a program for each, of which some take part */
 } CpsiNetwork;
 
-/* Place the arrays for the lines (count) and so many joints and bodies. */
+/* Place the arrays for the lines (count) and so many joints and bodies, whose matrix belongs to the
+ * caller. */
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
-                        int joints, int bodies, const CpsiLinsysOps *ops);
+                        int joints, int bodies, const CpsiLinsysOps *ops, CpsiGraphMatrix *matrix);
 
 /* The part of it that a step moves. */
 typedef struct CpsiNetworkPart {
     int lines, joints, bodies;
     int own;                     /* the first joints are on no body */
+    double target;               /* relative gap of the solution */
+    bool is_refined;             /* by steps in which what sticks moves ever less */
     const int *number;           /* (lines) of those that the network was laid out for */
     const int (*at)[2];          /* (lines, 2) the joint of each end, or CPSI_NO_JOINT */
     const CpsiJoint *joint;      /* (joints) */
     const CpsiNetworkBody *body; /* (bodies) */
 } CpsiNetworkPart;
 
+/* How a joint touches its obstacle. */
+typedef enum CpsiJointState { CPSI_JOINT_OFF, CPSI_JOINT_SLIDES, CPSI_JOINT_STICKS } CpsiJointState;
+
 /* Where they go. */
 typedef struct CpsiNetworkMove {
-    double *joint; /* (own, 3) [m] */
-    double *body;  /* (bodies, 6) [m, rad] */
-    double *pull;  /* (lines, 2, 3) [N] of each line on what holds its ends */
+    double *joint;         /* (own, 3) [m] */
+    CpsiJointState *state; /* (own) */
+    double *body;          /* (bodies, 6) [m, rad] */
+    double *pull;          /* (lines, 2, 3) [N] of each line on what holds its ends */
 } CpsiNetworkMove;
 
 /* Find where the joints and bodies go. `line` are all lines; the ends at joints are held where the

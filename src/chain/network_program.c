@@ -8,7 +8,6 @@
 
 #include "base/larger.h"
 #include "chain/frame.h"
-#include "linalg/dense.h"
 
 static CpsiNetworkProgram *network_of(CpsiProgram *program) {
     return (CpsiNetworkProgram *)program;
@@ -218,16 +217,7 @@ static void force_on_tie(const CpsiChainProgram *chain, const Tie *tie, const do
 
 /* Add A' K B for a block K of the forces at one joint by the displacements of another. */
 static void add_block(CpsiNetworkProgram *network, int to, int from, const double block[9]) {
-    const size_t n = (size_t)network->base.size;
-    const CpsiJointMap *row = &network->map[to], *column = &network->map[from];
-    for (int i = 0; i < row->width; i++)
-        for (int j = 0; j < column->width; j++) {
-            double sum = 0;
-            for (int a = 0; a < 3; a++)
-                for (int b = 0; b < 3; b++)
-                    sum += row->by[a][i] * block[3 * a + b] * column->by[b][j];
-            network->matrix[(size_t)(row->first + i) * n + (size_t)(column->first + j)] += sum;
-        }
+    cpsi_graph_matrix_add(network->matrix, &network->map[to], &network->map[from], block, 3);
 }
 
 /* Add the block of a chain of one node, in the common axes. */
@@ -279,14 +269,9 @@ static void clear(CpsiProgram *program) { (void)program; /* `scale` clears the c
 
 static bool factor(CpsiProgram *program) {
     CpsiNetworkProgram *network = network_of(program);
-    const size_t n = (size_t)program->size;
-    memset(network->matrix, 0, n * n * sizeof *network->matrix);
-    for (int k = 0; k < network->bodies; k++) {
-        const size_t first = (size_t)network->body_first[k];
-        for (size_t i = 0; i < 6; i++)
-            memcpy(&network->matrix[(first + i) * n + first], &network->stiffness[k][6 * i],
-                   6 * sizeof *network->matrix);
-    }
+    cpsi_graph_matrix_clear(network->matrix);
+    for (int k = 0; k < network->bodies; k++)
+        cpsi_graph_matrix_add_body(network->matrix, network->body_first[k], network->stiffness[k]);
     for (int k = 0; k < network->count; k++) {
         CpsiChainProgram *chain = &network->chain[k];
         if (chain->n == 1) {
@@ -296,7 +281,7 @@ static bool factor(CpsiProgram *program) {
         if (!chain->base.factor(&chain->base)) return false;
         add_chain(network, chain, k);
     }
-    return cpsi_lu_factor((int)n, network->matrix, network->pivot);
+    return cpsi_graph_matrix_factor(network->matrix);
 }
 
 /* Each chain with its ties held gives the forces on the joints; these give the displacements of the
@@ -331,7 +316,7 @@ static void solve(CpsiProgram *program) {
             }
             memcpy(chain->base.du, network->kept, bytes);
         }
-        if (pass == 0) cpsi_lu_solve(program->size, network->matrix, network->pivot, program->du);
+        if (pass == 0) cpsi_graph_matrix_solve(network->matrix, program->du);
     }
 }
 
@@ -346,7 +331,7 @@ static double imbalance(const CpsiProgram *program) {
 }
 
 void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chains, int n,
-                         int joints, int bodies) {
+                         int joints, int bodies, CpsiGraphMatrix *matrix) {
     const size_t unknowns = 3 * (size_t)joints + 6 * (size_t)bodies;
     *network = (CpsiNetworkProgram){.base = {.size = (int)unknowns,
                                              .kind = KINDS,
@@ -357,6 +342,7 @@ void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chai
                                              .imbalance = imbalance},
                                     .count = chains,
                                     .joints = joints,
+                                    .matrix = matrix,
                                     .bodies = bodies};
     CPSI_PLACE(arena, network->base.load, unknowns);
     CPSI_PLACE(arena, network->base.u, unknowns);
@@ -367,7 +353,5 @@ void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chai
     CPSI_PLACE(arena, network->map, joints);
     CPSI_PLACE(arena, network->body_first, bodies);
     CPSI_PLACE(arena, network->stiffness, bodies);
-    CPSI_PLACE(arena, network->matrix, unknowns * unknowns);
     CPSI_PLACE(arena, network->kept, 3 * (size_t)n);
-    CPSI_PLACE(arena, network->pivot, unknowns);
 }

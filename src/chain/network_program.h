@@ -9,20 +9,15 @@
  * forces. What else acts on a joint, contact and friction, is a chain of one node.
  *
  * The linear system of each chain is eliminated towards its joints, by three solutions for each of
- * its ends there; the joints are left with a dense matrix. */
+ * its ends there; the joints are left with a matrix of their own (linalg/graph_matrix.h). */
 #ifndef CAPSTAN_SRC_CHAIN_NETWORK_PROGRAM_H
 #define CAPSTAN_SRC_CHAIN_NETWORK_PROGRAM_H
 
 #include "chain/chain_program.h"
+#include "linalg/graph_matrix.h"
 
 /* The first and the last node of a chain. */
 enum { CPSI_FIRST_NODE, CPSI_LAST_NODE, CPSI_END_NODES, CPSI_NO_JOINT = -1 };
-
-/* x_J = by u, u the unknowns from `first` on; of a joint of its own the identity. */
-typedef struct CpsiJointMap {
-    int first, width; /* 3 or 6 */
-    double by[3][6];
-} CpsiJointMap;
 
 typedef struct CpsiNetworkProgram {
     CpsiProgram base;             /* of the joints and bodies: u, load, .. */
@@ -35,14 +30,13 @@ typedef struct CpsiNetworkProgram {
     int bodies;
     int *body_first;         /* (bodies) their first unknown */
     double (*stiffness)[36]; /* (bodies) of the quadratic energy u' K u/2, K symmetric and >= 0 */
-    double *matrix;          /* (size, size) of the base and its factor */
+    CpsiGraphMatrix *matrix; /* of the joints and bodies, whose blocks in use are its unknowns */
     double *kept;            /* right-hand side of the chain that is being solved */
-    int *pivot;              /* (size) */
 } CpsiNetworkProgram;
 
 /* Place the arrays for so many chains of at most n nodes, points included, joints, and bodies; the
- * chains' own arrays are placed by the caller. */
+ * chains' own arrays are placed by the caller, to whom the matrix belongs. */
 void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chains, int n,
-                         int joints, int bodies);
+                         int joints, int bodies, CpsiGraphMatrix *matrix);
 
 #endif

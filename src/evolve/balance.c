@@ -170,6 +170,17 @@ static void take_body(CpsiBalance *balance, int point) {
     balance->rigid_of[point] = k;
 }
 
+/* Use the blocks of the free points and bodies of the search (joint_system.h). */
+static void use_blocks(CpsiBalance *balance) {
+    int *node = balance->node;
+    const int points = balance->evolution->points.count;
+    for (int k = 0; k < balance->count; k++) node[k] = balance->at[k].point;
+    for (int k = 0; k < balance->body_count; k++)
+        for (int part = 0; part < 2; part++)
+            node[balance->count + 2 * k + part] = points + 2 * balance->rigid[k].body + part;
+    cpsi_graph_matrix_use(balance->matrix, balance->count + 2 * balance->body_count, node);
+}
+
 /* Find the points, bodies and lines of a group. */
 static void begin(CpsiBalance *balance, int group) {
     CpsEvolution *evolution = balance->evolution;
@@ -190,6 +201,7 @@ static void begin(CpsiBalance *balance, int group) {
                                                    .obstacle = CPS_NO_OBSTACLE};
     }
     balance->unknowns = 3 * balance->count + 6 * balance->body_count;
+    use_blocks(balance);
     for (int i = 0; i < evolution->line_count; i++) {
         if (cpsi_group_of_line(points, i) != group) continue;
         balance->line[balance->line_count++] = i;
@@ -258,19 +270,25 @@ static void search_softly(CpsiBalance *balance) {
 }
 
 void cpsi_balance_start(CpsEvolution *evolution) {
+    CpsiFree *at = evolution->points.balance->at;
+    for (int k = 0; k < evolution->points.count; k++) {
+        const CpsiPoint *point = &evolution->points.point[k];
+        at[k] = (CpsiFree){.point = k, .place = vec3_load(point->position)};
+        double load[3];
+        cpsi_trial_find_obstacle(evolution, &at[k]);
+        cpsi_point_load(point, evolution->gravity, load);
+        at[k].rest = vec3_load(load);
+    }
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const int k = evolution->points.tie[2 * i + end];
+            if (k == CPSI_NO_POINT) continue;
+            at[k].rest = vec3_add(at[k].rest, cpsi_line_start_pull(&evolution->line[i], end));
+        }
     for (int k = 0; k < evolution->points.count; k++) {
         CpsiPoint *point = &evolution->points.point[k];
-        CpsiFree at = {.point = k, .place = vec3_load(point->position)};
-        double load[3];
-        cpsi_trial_find_obstacle(evolution, &at);
-        cpsi_point_load(point, evolution->gravity, load);
-        at.rest = vec3_load(load);
-        for (int i = 0; i < evolution->line_count; i++)
-            for (int end = 0; end < 2; end++)
-                if (evolution->points.tie[2 * i + end] == k)
-                    at.rest = vec3_add(at.rest, cpsi_line_start_pull(&evolution->line[i], end));
-        if (at.gap <= CPS_TOUCH * point->length)
-            point->report.reaction = fmax(0, -vec3_dot(at.rest, at.normal));
+        if (at[k].gap <= CPS_TOUCH * point->length)
+            point->report.reaction = fmax(0, -vec3_dot(at[k].rest, at[k].normal));
     }
 }
 
@@ -287,6 +305,24 @@ static void begin_again(CpsiBalance *balance) {
         balance->rigid[k].pose = evolution->bodies.body[balance->rigid[k].body].pose;
 }
 
+/* Search once more, from a guess to the last digits; where there is none, things stay as they are.
+ */
+static bool search_again(CpsiBalance *balance) {
+    const size_t bytes = (size_t)balance->count * sizeof *balance->at;
+    memcpy(balance->best, balance->at, bytes);
+    if (cpsi_guess_places(balance, true)) {
+        for (int k = 0; k < balance->count; k++) {
+            const CpsiFree *at = &balance->at[k];
+            balance->at[k] =
+                (CpsiFree){.point = at->point, .place = at->place, .obstacle = CPS_NO_OBSTACLE};
+        }
+        return search(balance, MOST_TRIALS);
+    }
+    memcpy(balance->at, balance->best, bytes);
+    cpsi_try_places(balance);
+    return false;
+}
+
 /* Find the places of a group. In a history a body hardly moves in a step, and a few trials from
  * where it is take less time than the rounds of a first guess. */
 static void find_places(CpsiBalance *balance, int group) {
@@ -301,8 +337,10 @@ static void find_places(CpsiBalance *balance, int group) {
         }
         begin_again(balance);
     }
-    if (!cpsi_guess_places(balance)) cpsi_extrapolate_places(balance);
-    if (!search(balance, MOST_TRIALS) && is_static && balance->body_count > 0) {
+    if (!cpsi_guess_places(balance, false)) cpsi_extrapolate_places(balance);
+    bool found = search(balance, MOST_TRIALS);
+    if (!found && !is_over(balance) && balance->body_count == 0) found = search_again(balance);
+    if (!found && is_static && balance->body_count > 0) {
         begin_again(balance);
         search_softly(balance);
     }

@@ -273,10 +273,10 @@ static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, con
         isotropic = isotropic && cpsi_obstacle_is_isotropic(&evolution->obstacle[k]);
     if (scene->point_count == 0 || !isotropic) return CPS_OK;
     evolution->points.balance = cpsi_balance_create(evolution);
+    if (!evolution->points.balance)
+        return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for %d points", scene->point_count);
     cpsi_balance_start(evolution);
-    return evolution->points.balance
-               ? CPS_OK
-               : cpsi_fail(err, CPS_ERR_MEMORY, "no memory for %d points", scene->point_count);
+    return CPS_OK;
 }
 
 /* Give each workspace its friction sets and start the threads. `first` are the sets of the first

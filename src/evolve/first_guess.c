@@ -9,12 +9,15 @@
 #include "evolve/newton_step.h"
 #include "evolve/points.h"
 
-/* The guess takes so many rounds, until no body turns by more than this [rad] in one; none turns
- * farther than this in one. */
-enum { ROUNDS = 12 };
+/* The guess takes so many rounds, until no body turns by more than SETTLED [rad] in one, and no
+ * normal of a point by more than ON_ITS_PLANE; no body turns farther than FARTHEST_TURN in one. */
+enum { ROUNDS = 12, POINT_ROUNDS = 40 };
 /* A stiffness is made positive definite by no more than this share of the forces. */
 static const double MOST_HELD = 1e9;
-static const double SETTLED = 1e-3, FARTHEST_TURN = 0.3;
+static const double SETTLED = 1e-3, FARTHEST_TURN = 0.3, ON_ITS_PLANE = 1e-6;
+/* Relative gap of a program whose planes are still to turn by more than NEAR [rad], and of the
+ * others. A point touches a plane within this share of its longest line. */
+static const double ROUGH = 1e-5, FINE = 1e-10, REFINED = 1e-12, NEAR = 1e-2, TOUCHES = 1e-3;
 
 /* Let line i begin and end the step as planned, its ends at joints where these are. */
 static void impose_plan(CpsiBalance *balance, int item) {
@@ -42,16 +45,16 @@ static void impose_plan(CpsiBalance *balance, int item) {
     }
 }
 
-/* The joints of the program: free points where the step began, then the points on free bodies where
- * these are in the trial. Returns how many. */
-static int place_joints(CpsiBalance *balance) {
+/* The joints of the program: free points where the step began, in later rounds where the last one
+ * led, then the points on free bodies where these are in the trial. Returns how many. */
+static int place_joints(CpsiBalance *balance, bool first) {
     CpsEvolution *evolution = balance->evolution;
     int count = balance->count;
     for (int k = 0; k < balance->count; k++) {
         CpsiFree *at = &balance->at[k];
         const CpsiPoint *point = &evolution->points.point[at->point];
         double load[3];
-        at->place = vec3_load(point->before);
+        if (first) at->place = vec3_load(point->before);
         cpsi_trial_find_obstacle(evolution, at);
         cpsi_point_load(point, evolution->gravity, load);
         balance->joint_of[at->point] = k;
@@ -61,6 +64,7 @@ static int place_joints(CpsiBalance *balance) {
                                                         ? NULL
                                                         : &evolution->obstacle[at->obstacle],
                                         .gap = at->gap,
+                                        .slip = first ? vec3(0, 0, 0) : at->slip,
                                         .friction = at->friction,
                                         .bound = at->friction * point->reaction_before,
                                         .body = -1};
@@ -125,19 +129,57 @@ static void hold_bodies(CpsiBalance *balance, bool turns) {
     }
 }
 
-/* One program on the tangent planes of the reference, from the poses of the trial. Returns the
- * largest turn [rad] of a body in it; NAN where it has no solution. */
-static double guess_round(CpsiBalance *balance, const CpsiStepOptions *options, bool turns) {
+/* Move free point k; returns by how much [rad] the normal of its obstacle turns where it is on
+ * its tangent plane, or how far it has gone into an obstacle, over its longest line. A tangent
+ * plane of a round obstacle leaves out places that are free, and none that are not: so the energy
+ * falls from round to round, unless a point goes into another obstacle than its own. */
+static double move_point(CpsiBalance *balance, int k) {
+    const CpsEvolution *evolution = balance->evolution;
+    CpsiFree *at = &balance->at[k];
+    const double *move = &balance->guess.joint[3 * k];
+    const Vec3 straight = vec3_add(at->place, vec3_load(move));
+    const double length = evolution->points.point[at->point].length;
+    at->place =
+        cpsi_place_after(balance, &(CpsiFree){.place = at->place, .obstacle = CPS_NO_OBSTACLE},
+                         move, 1);
+    if (at->obstacle == CPS_NO_OBSTACLE) return 0;
+    const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
+    const double pushed = vec3_norm(vec3_sub(at->place, straight)) / length;
+    const bool touches = at->gap + vec3_dot(at->normal, vec3_load(move)) <= TOUCHES * length;
+    if (on->kind == CPS_OBSTACLE_PLANE) return pushed;
+    return fmax(pushed,
+                touches ? vec3_norm(vec3_sub(cpsi_obstacle_normal(on, at->place), at->normal)) : 0);
+}
+
+/* How far a round has turned bodies and the normals of points [rad]. */
+typedef struct Turned {
+    double bodies, points;
+} Turned;
+
+/* What is asked of a guess; `several`: the plane on which a point may lie depends on where it is.
+ */
+typedef struct Guess {
+    bool several, refined;
+} Guess;
+
+/* One program on the tangent planes of the last round, or where there is one plane of the
+ * reference, from the poses of the trial; false where it has no solution. */
+static bool guess_round(CpsiBalance *balance, const CpsiStepOptions *options, int round,
+                        const Guess *guess, Turned *turned) {
     CpsEvolution *evolution = balance->evolution;
     const CpsiNetworkPart part = {.lines = balance->line_count,
-                                  .joints = place_joints(balance),
+                                  .joints = place_joints(balance, round == 0 || !guess->several),
                                   .bodies = balance->body_count,
                                   .own = balance->count,
+                                  .target = turned->points > NEAR ? ROUGH
+                                            : guess->refined      ? REFINED
+                                                                  : FINE,
+                                  .is_refined = guess->refined && turned->points <= NEAR,
                                   .number = balance->line,
                                   .at = (const int(*)[2])balance->ends,
                                   .joint = balance->joint,
                                   .body = balance->held};
-    hold_bodies(balance, turns);
+    hold_bodies(balance, round > 0);
     for (int item = 0; item < balance->line_count; item++) impose_plan(balance, item);
     for (int item = 0; item < balance->line_count; item++)
         for (int end = 0; end < 2; end++) {
@@ -149,37 +191,57 @@ static double guess_round(CpsiBalance *balance, const CpsiStepOptions *options, 
         cpsi_network_guess(&balance->network, evolution->line, &part, options, &balance->guess);
     for (int item = 0; item < balance->line_count; item++)
         cpsi_trial_restore_line(balance, balance->line[item]);
-    if (!found) return NAN;
-    for (int k = 0; k < balance->count; k++) {
-        CpsiFree *at = &balance->at[k];
-        at->place =
-            cpsi_place_after(balance, &(CpsiFree){.place = at->place, .obstacle = CPS_NO_OBSTACLE},
-                             &balance->guess.joint[3 * k], 1);
-    }
-    double turn = 0;
+    if (!found) return false;
+    *turned = (Turned){0, 0};
+    for (int k = 0; k < balance->count; k++)
+        turned->points = fmax(turned->points, move_point(balance, k));
     for (int k = 0; k < balance->body_count; k++) {
         double *move = &balance->guess.body[6 * k];
-        turn = fmax(turn, vec3_norm(vec3_load(&move[3])));
+        turned->bodies = fmax(turned->bodies, vec3_norm(vec3_load(&move[3])));
         cpsi_limit(&move[3], FARTHEST_TURN);
         balance->rigid[k].pose = cpsi_pose_after(&balance->rigid[k].pose, move, 1);
     }
-    return turn;
+    return true;
+}
+
+/* Does the plane on which a point may lie depend on where it is? */
+static bool has_several_planes(const CpsEvolution *evolution) {
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        if (evolution->obstacle[k].kind != CPS_OBSTACLE_PLANE) return true;
+    return evolution->obstacle_count > 1;
 }
 
 /* Begin where the points and bodies go on the tangent planes of the reference, the bodies in rounds
  * about the poses of the round before; false where that has no solution. */
-bool cpsi_guess_places(CpsiBalance *balance) {
+/* Points that stick stay where they were, and others that touch are on the surface. */
+static void settle_points(CpsiBalance *balance) {
+    for (int k = 0; k < balance->count; k++) {
+        CpsiFree *at = &balance->at[k];
+        if (balance->guess.state[k] == CPSI_JOINT_OFF || at->obstacle == CPS_NO_OBSTACLE) continue;
+        const CpsiObstacle *on = &balance->evolution->obstacle[at->obstacle];
+        at->place = balance->guess.state[k] == CPSI_JOINT_STICKS
+                        ? at->start
+                        : vec3_axpy(-cpsi_obstacle_gap(on, at->place),
+                                    cpsi_obstacle_normal(on, at->place), at->place);
+    }
+}
+
+bool cpsi_guess_places(CpsiBalance *balance, bool refined) {
     CpsEvolution *evolution = balance->evolution;
     CpsiStepOptions options = evolution->options;
     if (evolution->has_static && evolution->done == 0) {
         options.frictionless = true;
         options.contact_policy = CPS_CONTACT_POLICY_REACHED;
     }
-    for (int round = 0; round < ROUNDS; round++) {
-        const double turn = guess_round(balance, &options, round > 0);
-        if (isnan(turn)) return round > 0;
-        if (turn <= SETTLED) return true;
+    const Guess guess = {has_several_planes(evolution), refined};
+    Turned turned = {0, guess.several ? INFINITY : 0};
+    for (int round = 0; round < POINT_ROUNDS; round++) {
+        const bool fine = turned.points <= NEAR;
+        if (!guess_round(balance, &options, round, &guess, &turned)) return round > 0;
+        const bool settled = turned.bodies <= SETTLED || round + 1 >= ROUNDS;
+        if (settled && fine && turned.points <= ON_ITS_PLANE) break;
     }
+    if (refined) settle_points(balance);
     return true;
 }
 

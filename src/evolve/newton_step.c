@@ -16,14 +16,8 @@ static const double FARTHEST = 0.5, FARTHEST_TURN = 0.3;
 /* The share at which a body that is held back no longer moves. */
 static const double MOST_HELD = 1e6;
 
-/* How the place of a point follows from the unknowns: `first` of them, and how many. */
-typedef struct Follows {
-    int first, width;
-    double by[3][6];
-} Follows;
-
-static Follows follows_of(const CpsiBalance *balance, int point) {
-    Follows out = {.by = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+static CpsiJointMap map_of(const CpsiBalance *balance, int point) {
+    CpsiJointMap out = {.by = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     if (point == CPSI_NO_POINT) return out;
     const int k = balance->number[point], body = balance->rigid_of[point];
     if (k >= 0) {
@@ -43,25 +37,10 @@ static Follows follows_of(const CpsiBalance *balance, int point) {
     return out;
 }
 
-/* Add A' K B for the block K of a tangent. */
-static void add_block(CpsiBalance *balance, const Follows *to, const Follows *from,
-                      const double *tangent, int row, int column) {
-    const size_t n = (size_t)balance->unknowns;
-    for (int i = 0; i < to->width; i++)
-        for (int j = 0; j < from->width; j++) {
-            double sum = 0;
-            for (int a = 0; a < 3; a++)
-                for (int b = 0; b < 3; b++)
-                    sum += to->by[a][i] * tangent[6 * (row + a) + column + b] * from->by[b][j];
-            balance->matrix[(size_t)(to->first + i) * n + (size_t)(from->first + j)] += sum;
-        }
-}
-
 /* Add what of a body's forces turns with it, and its hydrostatics. */
 static void add_body(CpsiBalance *balance, int k) {
     const CpsEvolution *evolution = balance->evolution;
     const CpsiRigid *rigid = &balance->rigid[k];
-    const size_t n = (size_t)balance->unknowns, first = 3 * (size_t)balance->count + 6 * (size_t)k;
     double own[36] = {0};
     cpsi_body_stiffness(&evolution->bodies.body[rigid->body], &rigid->pose, evolution->gravity,
                         own);
@@ -72,9 +51,7 @@ static void add_body(CpsiBalance *balance, int k) {
             const Vec3 pull = vec3_scale(-1, vec3_load(evolution->line[i].report.end[end].force));
             cpsi_add_turning_force(pull, cpsi_trial_arm(balance, rigid, point), own);
         }
-    for (size_t i = 0; i < 6; i++)
-        for (size_t j = 0; j < 6; j++)
-            balance->matrix[(first + i) * n + first + j] += own[6 * i + j];
+    cpsi_graph_matrix_add_body(balance->matrix, 3 * balance->count + 6 * k, own);
 }
 
 static void tangent_of_one(void *data, int worker, int item) {
@@ -89,44 +66,46 @@ static void tangent_of_one(void *data, int worker, int item) {
 /* The stiffness of the lines and bodies at the unknowns. */
 void cpsi_fill_matrix(CpsiBalance *balance) {
     const CpsEvolution *evolution = balance->evolution;
-    const size_t n = (size_t)balance->unknowns;
     cpsi_workers_run(evolution->workers, tangent_of_one, balance, balance->line_count);
-    memset(balance->matrix, 0, n * n * sizeof *balance->matrix);
+    cpsi_graph_matrix_clear(balance->matrix);
     for (int item = 0; item < balance->line_count; item++) {
         const int *tie = &evolution->points.tie[2 * (size_t)balance->line[item]];
-        const Follows end[2] = {follows_of(balance, tie[0]), follows_of(balance, tie[1])};
+        const CpsiJointMap end[2] = {map_of(balance, tie[0]), map_of(balance, tie[1])};
         for (int to = 0; to < 2; to++)
             for (int from = 0; from < 2; from++)
-                add_block(balance, &end[to], &end[from], &balance->tangent[36 * (size_t)item],
-                          3 * to, 3 * from);
+                cpsi_graph_matrix_add(
+                    balance->matrix, &end[to], &end[from],
+                    &balance->tangent[36 * (size_t)item + (size_t)(18 * to + 3 * from)], 6);
     }
     for (int k = 0; k < balance->body_count; k++) add_body(balance, k);
 }
 
+/* Entry a of the diagonal of block row k. */
+static double *diagonal(CpsiBalance *balance, int k, int a) {
+    const CpsiGraphBlock block = cpsi_graph_matrix_block(balance->matrix, k, k);
+    return &block.at[(size_t)a * (block.stride + 1)];
+}
+/* ... and of a body, a = 0 .. 5. */
+static double *body_diagonal(CpsiBalance *balance, int k, int a) {
+    return diagonal(balance, balance->count + 2 * k + a / 3, a % 3);
+}
+
 /* The size of the points' stiffnesses, and what is added to them where they have none. */
 static void find_stiffness(CpsiBalance *balance) {
-    const size_t n = (size_t)balance->unknowns;
     for (int k = 0; k < balance->count; k++) {
         CpsiFree *at = &balance->at[k];
         double trace = 0;
-        for (size_t a = 0; a < 3; a++) {
-            const size_t i = 3 * (size_t)k + a;
-            trace += fabs(balance->matrix[i * n + i]);
-        }
+        for (int a = 0; a < 3; a++) trace += fabs(*diagonal(balance, k, a));
         const double length = balance->evolution->points.point[at->point].length;
         at->stiffness = fmax(trace / 3, CPSI_REGULAR * balance->force / length);
-        for (size_t a = 0; a < 3; a++) {
-            const size_t i = 3 * (size_t)k + a;
-            balance->matrix[i * n + i] += CPSI_REGULAR * balance->force / length;
-        }
+        for (int a = 0; a < 3; a++)
+            *diagonal(balance, k, a) += CPSI_REGULAR * balance->force / length;
     }
     for (int k = 0; k < balance->body_count; k++) {
         const CpsiBody *body = &balance->evolution->bodies.body[balance->rigid[k].body];
-        for (size_t a = 0; a < 6; a++) {
-            const size_t i = 3 * (size_t)balance->count + 6 * (size_t)k + a;
-            balance->matrix[i * n + i] +=
+        for (int a = 0; a < 6; a++)
+            *body_diagonal(balance, k, a) +=
                 CPSI_REGULAR * balance->force / body->length * (a < 3 ? 1 : body->arm * body->arm);
-        }
     }
 }
 
@@ -190,50 +169,58 @@ static void add_normal(Equation *out, const CpsiFree *at) {
     }
 }
 
-static Equation equation_of(const CpsiFree *at, bool follows) {
+/* As a point slides on a round obstacle the reaction turns with the normal: the force along the
+ * surface gains R times the curvature times the displacement. */
+static void add_curvature(Equation *out, const CpsiFree *at, const CpsiObstacle *on) {
+    double axes[9], curvature[3];
+    const double reaction = fmax(0, -vec3_dot(at->rest, at->normal));
+    if (!is_to_touch(at) || (at->bound > 0 && cpsi_is_to_stick(at))) return;
+    cpsi_obstacle_axes(on, at->place, vec3(1, 0, 0), axes, curvature);
+    for (int a = 0; a < 2; a++)
+        for (int b = 0; b < 2; b++)
+            add_outer(out->q, -reaction * curvature[a + b], vec3_load(&axes[3 * a]),
+                      vec3_load(&axes[3 * b]));
+}
+
+static Equation equation_of(const CpsiFree *at, const CpsiObstacle *on, bool follows, bool turns) {
     Equation out = {.v = vec3(0, 0, 0)};
-    if (at->obstacle == CPS_NO_OBSTACLE) {
+    if (!on) {
         add_identity(out.p, 1);
         out.v = at->rest;
         return out;
     }
     add_tangential(&out, at, follows);
     add_normal(&out, at);
+    if (turns) add_curvature(&out, at, on);
     return out;
 }
 
-/* The rows of the points. */
-static void set_points(CpsiBalance *balance) {
-    const size_t n = (size_t)balance->unknowns;
+/* The rows of the points; `turns`: with what the reactions gain as the normals turn. */
+static void set_points(CpsiBalance *balance, bool turns) {
+    const CpsEvolution *evolution = balance->evolution;
     for (int k = 0; k < balance->count; k++) {
-        const Equation is = equation_of(&balance->at[k], balance->follows);
-        double *row = &balance->matrix[3 * (size_t)k * n];
-        for (size_t j = 0; j < n; j++) {
-            const double old[3] = {row[j], row[n + j], row[2 * n + j]};
-            for (size_t a = 0; a < 3; a++)
-                row[a * n + j] = is.p[a][0] * old[0] + is.p[a][1] * old[1] + is.p[a][2] * old[2];
-        }
+        const CpsiFree *at = &balance->at[k];
+        const CpsiObstacle *on =
+            at->obstacle == CPS_NO_OBSTACLE ? NULL : &evolution->obstacle[at->obstacle];
+        const Equation is = equation_of(at, on, balance->follows, turns);
+        cpsi_graph_matrix_turn(balance->matrix, k, is.p);
+        const CpsiGraphBlock own = cpsi_graph_matrix_block(balance->matrix, k, k);
         for (size_t a = 0; a < 3; a++)
-            for (size_t b = 0; b < 3; b++) row[a * n + 3 * (size_t)k + b] += is.q[a][b];
+            for (size_t b = 0; b < 3; b++) own.at[a * own.stride + b] += is.q[a][b];
         vec3_store(&balance->right[3 * k], is.v);
     }
 }
 
 /* The rows of the bodies: nothing moves in a fixed direction. */
 static void set_bodies(CpsiBalance *balance) {
-    const size_t n = (size_t)balance->unknowns;
     for (int k = 0; k < balance->body_count; k++) {
         const CpsiRigid *rigid = &balance->rigid[k];
         const CpsiBody *body = &balance->evolution->bodies.body[rigid->body];
-        const size_t first = 3 * (size_t)balance->count + 6 * (size_t)k;
-        vec3_store(&balance->right[first], rigid->left.force);
-        vec3_store(&balance->right[first + 3], rigid->left.moment);
-        for (size_t a = 0; a < 6; a++) {
-            double *row = &balance->matrix[(first + a) * n];
-            if (!body->given.fixed[a]) continue;
-            memset(row, 0, n * sizeof *row);
-            row[first + a] = 1;
-        }
+        const int first = balance->count + 2 * k;
+        vec3_store(&balance->right[3 * first], rigid->left.force);
+        vec3_store(&balance->right[3 * first + 3], rigid->left.moment);
+        for (int a = 0; a < 6; a++)
+            if (body->given.fixed[a]) cpsi_graph_matrix_fix(balance->matrix, first + a / 3, a % 3);
     }
 }
 
@@ -266,9 +253,13 @@ bool cpsi_is_definite(const double stiffness[36], const bool fixed[6], double ar
 
 /* The block of body k in the matrix. */
 void cpsi_body_block(const CpsiBalance *balance, int k, double out[36]) {
-    const size_t n = (size_t)balance->unknowns, first = 3 * (size_t)balance->count + 6 * (size_t)k;
-    for (size_t i = 0; i < 6; i++)
-        memcpy(&out[6 * i], &balance->matrix[(first + i) * n + first], 6 * sizeof *out);
+    const int first = balance->count + 2 * k;
+    for (int i = 0; i < 36; i++) {
+        const int row = i / 6, column = i % 6;
+        const CpsiGraphBlock block =
+            cpsi_graph_matrix_block(balance->matrix, first + row / 3, first + column / 3);
+        out[i] = block.at[(size_t)(row % 3) * block.stride + (size_t)(column % 3)];
+    }
 }
 
 /* The size of a body's stiffness against displacements and against rotations. */
@@ -298,32 +289,49 @@ static bool are_definite(const CpsiBalance *balance, double share) {
 /* Solve for the step with bodies held back by a share of their own stiffness. */
 static bool solve_step(CpsiBalance *balance, double share) {
     const size_t n = (size_t)balance->unknowns;
-    memcpy(balance->factor, balance->matrix, n * n * sizeof *balance->factor);
     memcpy(balance->step, balance->right, n * sizeof *balance->step);
     for (int k = 0; k < balance->body_count; k++) {
         const CpsiBody *body = &balance->evolution->bodies.body[balance->rigid[k].body];
         double size[6];
         size_of_stiffness(balance, k, size);
-        for (size_t a = 0; a < 6; a++) {
-            const size_t i = 3 * (size_t)balance->count + 6 * (size_t)k + a;
-            if (!body->given.fixed[a]) balance->factor[i * n + i] += share * size[a];
+        for (int a = 0; a < 6; a++) {
+            balance->kept[6 * k + a] = *body_diagonal(balance, k, a);
+            if (!body->given.fixed[a]) *body_diagonal(balance, k, a) += share * size[a];
         }
     }
-    if (!cpsi_lu_factor((int)n, balance->factor, balance->pivot)) return false;
-    cpsi_lu_solve((int)n, balance->factor, balance->pivot, balance->step);
+    const bool done = cpsi_graph_matrix_factor(balance->matrix);
+    if (done) cpsi_graph_matrix_solve(balance->matrix, balance->step);
+    for (int i = 0; i < 6 * balance->body_count; i++)
+        *body_diagonal(balance, i / 6, i % 6) = balance->kept[i];
+    if (!done) return false;
     for (size_t i = 0; i < n; i++)
         if (!isfinite(balance->step[i])) return false;
     return true;
 }
 
+/* Set the matrix and the right-hand side; is there an obstacle whose normal turns? */
+static bool set_matrix(CpsiBalance *balance, bool turns) {
+    const CpsEvolution *evolution = balance->evolution;
+    bool any = false;
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        any = any || evolution->obstacle[k].kind != CPS_OBSTACLE_PLANE;
+    cpsi_fill_matrix(balance);
+    find_stiffness(balance);
+    set_points(balance, turns && any);
+    set_bodies(balance);
+    return any;
+}
+
 /* The step of all points and bodies by Newton's method. Where a body in its pose is not stable that
  * may lead up the energy; then it is held back. */
 bool cpsi_find_step(CpsiBalance *balance) {
-    cpsi_fill_matrix(balance);
-    find_stiffness(balance);
-    set_points(balance);
-    set_bodies(balance);
-    if (balance->body_count == 0) return solve_step(balance, 0);
+    const bool turns = set_matrix(balance, true);
+    if (balance->body_count == 0) {
+        if (!turns) return solve_step(balance, 0);
+        if (solve_step(balance, 0) && cpsi_work_along(balance) > 0) return true;
+        (void)set_matrix(balance, false);
+        return solve_step(balance, 0);
+    }
     for (double share = 0; share<MOST_HELD; share = share> 0 ? 10 * share : CPSI_LEAST_HELD)
         if (are_definite(balance, share) && solve_step(balance, share) &&
             cpsi_work_along(balance) > 0)

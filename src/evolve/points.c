@@ -14,7 +14,7 @@
 #include "evolve/ranges.h"
 #include "geometry/obstacle.h"
 
-enum { POINT_COOKIE = 0x5017e005, MAX_POINTS = 500 };
+enum { POINT_COOKIE = 0x5017e005, MAX_POINTS = 100000 };
 
 CpsPoint cps_point_default(void) { return (CpsPoint){.cookie = POINT_COOKIE}; }
 
@@ -28,30 +28,85 @@ static double depth_below(const CpsScene *scene, double length, const double x[3
     return above >= -cpsi_place_tolerance(&longest, vec3_load(x)) ? 0 : -above;
 }
 
-static CpsStatus check_name(const CpsScene *scene, int index, CpsError *err) {
+/* The names of all points, lines and obstacles, sorted. */
+typedef struct Named {
+    const char *name, *what;
+    int index; /* of a point */
+} Named;
+typedef struct Names {
+    Named *all;
+    size_t count;
+    double *longest; /* (points) [m] the longest line that ends there */
+} Names;
+
+static int by_name(const void *a, const void *b) {
+    const Named *left = a, *right = b;
+    const int order = strcmp(left->name, right->name);
+    return order ? order : (left->index > right->index) - (left->index < right->index);
+}
+
+static void add_name(Names *names, const char *name, const char *what, int index) {
+    if (name) names->all[names->count++] = (Named){name, what, index};
+}
+
+static bool names_make(const CpsScene *scene, Names *out) {
+    const size_t most =
+        (size_t)scene->point_count + (size_t)scene->line_count + (size_t)scene->obstacle_count;
+    *out = (Names){.all = malloc((most + 1) * sizeof *out->all),
+                   .longest = malloc(((size_t)scene->point_count + 1) * sizeof *out->longest)};
+    if (!out->all || !out->longest) return false;
+    cpsi_longest_lines(scene, out->longest);
+    for (int i = 0; i < scene->point_count; i++) add_name(out, scene->point[i].name, "a point", i);
+    for (int i = 0; i < scene->line_count; i++) add_name(out, scene->line[i].name, "a line", -1);
+    for (int i = 0; i < scene->obstacle_count; i++)
+        add_name(out, scene->obstacle[i].name, "an obstacle", -1);
+    qsort(out->all, out->count, sizeof *out->all, by_name);
+    return true;
+}
+
+static void names_free(Names *names) {
+    free(names->all);
+    free(names->longest);
+}
+
+/* What else has the name of a point, points before it included: an obstacle, else a line, else a
+ * point; NULL: nothing. */
+static const char *other_of_name(const Names *names, const char *name, int index) {
+    const char *other = NULL;
+    size_t low = 0, high = names->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (strcmp(names->all[middle].name, name) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < names->count && strcmp(names->all[low].name, name) == 0; low++) {
+        const Named *found = &names->all[low];
+        if (found->index >= index) continue;
+        if (!other || strcmp(found->what, "an obstacle") == 0 || strcmp(other, "a point") == 0)
+            other = found->what;
+    }
+    return other;
+}
+
+static CpsStatus check_name(const CpsScene *scene, const Names *names, int index, CpsError *err) {
     const char *name = scene->point[index].name;
     const CpsStatus status = cpsi_name_check("point", index, name, err);
     if (status != CPS_OK) return status;
-    const char *other = NULL;
-    for (int i = 0; i < index; i++)
-        if (strcmp(scene->point[i].name, name) == 0) other = "point";
-    for (int i = 0; i < scene->line_count; i++)
-        if (scene->line[i].name && strcmp(scene->line[i].name, name) == 0) other = "line";
-    for (int i = 0; i < scene->obstacle_count; i++)
-        if (strcmp(scene->obstacle[i].name, name) == 0) other = "obstacle";
+    const char *other = other_of_name(names, name, index);
     if (!other) return CPS_OK;
-    return cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': %s %s has the same name", name,
-                     strcmp(other, "obstacle") == 0 ? "an" : "a", other);
+    return cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': %s has the same name", name, other);
 }
 
-static CpsStatus check_point(const CpsScene *scene, int index, bool may_be_free, CpsError *err) {
+static CpsStatus check_point(const CpsScene *scene, const Names *names, int index, CpsError *err) {
     const CpsPoint *point = &scene->point[index];
     if (point->cookie != POINT_COOKIE)
         return CPSI_FAIL_AT("points", err, CPS_ERR_ARGUMENT,
                             "point %d: not made by cps_point_default()", index + 1);
-    CpsStatus status = check_name(scene, index, err);
+    CpsStatus status = check_name(scene, names, index, err);
     if (status != CPS_OK) return cpsi_fail_inside(err, status, "points[%d]", index + 1);
-    const double length = cpsi_longest_line(scene, index);
+    const double length = names->longest[index];
     const char *below = "";
     const double *v = point->position, *f = point->force;
     double at[3];
@@ -87,7 +142,7 @@ static CpsStatus check_point(const CpsScene *scene, int index, bool may_be_free,
     else if (depth_below(scene, length, at, &below) > 0)
         status = cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': it is %g m below obstacle '%s'",
                            point->name, depth_below(scene, length, at, &below), below);
-    else if (may_be_free)
+    else if (point->kind == CPS_POINT_KIND_FREE)
         status = cpsi_isotropy_check(scene, "point", point->name, err);
     if (status == CPS_OK)
         status = cpsi_gravity_check(scene, "point", point->name, point->weight != 0, err);
@@ -117,8 +172,13 @@ CpsStatus cpsi_points_check(const CpsScene *scene, CpsError *err) {
         return CPSI_FAIL_AT("points", err, CPS_ERR_LIMIT, "points: found %d, the limit is %d",
                             scene->point_count, (int)MAX_POINTS);
     CpsStatus status = check_ties(scene, err);
+    if (status != CPS_OK || scene->point_count == 0) return status;
+    Names names;
+    if (!names_make(scene, &names))
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for %d points", scene->point_count);
     for (int i = 0; i < scene->point_count && status == CPS_OK; i++)
-        status = check_point(scene, i, scene->point[i].kind == CPS_POINT_KIND_FREE, err);
+        status = check_point(scene, &names, i, err);
+    names_free(&names);
     return status;
 }
 
@@ -215,9 +275,15 @@ static CpsPointState state_of(CpsPointKind kind) {
 void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene *local) {
     const double pull = vec3_norm(vec3_load(scene->gravity));
     points->count = scene->point_count;
+    for (int i = 0; i < scene->point_count; i++) points->point[i].length = 0;
     for (int i = 0; i < scene->line_count; i++)
         for (int end = 0; end < 2; end++)
             points->tie[2 * i + end] = cpsi_point_of(&scene->line[i], end);
+    for (int i = 0; i < 2 * scene->line_count; i++)
+        if (points->tie[i] != CPSI_NO_POINT) {
+            double *longest = &points->point[points->tie[i]].length;
+            *longest = fmax(*longest, scene->line[i / 2].length);
+        }
     for (int i = 0; i < scene->point_count; i++) {
         const CpsPoint *from = &scene->point[i];
         CpsiPoint *point = &points->point[i];
@@ -226,7 +292,6 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
         memcpy(point->before, point->position, sizeof point->before);
         memcpy(point->force, from->force, sizeof point->force);
         point->mass = pull > 0 ? from->weight / pull : 0;
-        point->length = cpsi_longest_line(scene, i);
         point->report = (CpsPointReport){.obstacle = CPS_NO_OBSTACLE,
                                          .has_place = true,
                                          .state = state_of(from->kind)};
@@ -236,12 +301,24 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
     }
 }
 
-/* Make the groups of two points one; false where they are, or one of them is in none. */
-static bool unite(int *group, int a, int b) {
-    if (a == CPSI_NO_POINT || b == CPSI_NO_POINT || group[a] == group[b]) return false;
-    if (group[a] == CPSI_NO_POINT || group[b] == CPSI_NO_POINT) return false;
-    group[a] = group[b] = group[a] < group[b] ? group[a] : group[b];
-    return true;
+/* The first point of the group of a point; those on the way there are set to what is nearer. */
+static int root_of(int *group, int point) {
+    while (group[point] != point) {
+        group[point] = group[group[point]];
+        point = group[point];
+    }
+    return point;
+}
+
+/* Make the groups of two points one, where both are in any. */
+static void unite(int *group, int a, int b) {
+    if (a == CPSI_NO_POINT || b == CPSI_NO_POINT) return;
+    if (group[a] == CPSI_NO_POINT || group[b] == CPSI_NO_POINT) return;
+    const int left = root_of(group, a), right = root_of(group, b);
+    if (left < right)
+        group[right] = left;
+    else
+        group[left] = right;
 }
 
 void cpsi_points_group(CpsiPoints *points, const CpsiBodies *bodies, int lines) {
@@ -253,15 +330,16 @@ void cpsi_points_group(CpsiPoints *points, const CpsiBodies *bodies, int lines) 
                             bodies->body[given->body].kind == CPS_BODY_KIND_FREE);
         group[i] = moves ? i : CPSI_NO_POINT;
     }
-    for (bool more = true; more;) {
-        more = false;
-        for (int i = 0; i < lines; i++)
-            more = unite(group, points->tie[2 * i], points->tie[2 * i + 1]) || more;
-        for (int i = 0; i < points->count; i++)
-            for (int k = 0; k < i; k++)
-                if (points->given[i].kind == CPS_POINT_KIND_ON_BODY &&
-                    points->given[k].kind == CPS_POINT_KIND_ON_BODY &&
-                    points->given[i].body == points->given[k].body)
-                    more = unite(group, i, k) || more;
+    for (int i = 0; i < lines; i++) unite(group, points->tie[2 * i], points->tie[2 * i + 1]);
+    for (int k = 0; k < bodies->count; k++) {
+        int first = CPSI_NO_POINT;
+        for (int i = 0; i < points->count; i++) {
+            if (points->given[i].kind != CPS_POINT_KIND_ON_BODY || points->given[i].body != k)
+                continue;
+            unite(group, first, i);
+            if (first == CPSI_NO_POINT) first = i;
+        }
     }
+    for (int i = 0; i < points->count; i++)
+        if (group[i] != CPSI_NO_POINT) group[i] = root_of(group, i);
 }

@@ -35,7 +35,7 @@ static const double MAX_START_STRAIN = 1.0;
  * lengths written with 10 digits pass. */
 static const double SUM_TOLERANCE = 1e-9;
 /* Limits given by the memory of a large machine (1 kB per element) and by the size of results. */
-enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 10000, MAX_OBSTACLES = 1000 };
+enum { MAX_ELEMENTS = 10000000, MAX_STEPS = 1000000, MAX_LINES = 200000, MAX_OBSTACLES = 1000 };
 
 CpsScene cps_scene_default(void) {
     return (CpsScene){

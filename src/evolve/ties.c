@@ -8,6 +8,16 @@
 #include "evolve/ranges.h"
 #include "geometry/obstacle.h"
 
+void cpsi_longest_lines(const CpsScene *scene, double *longest) {
+    for (int i = 0; i < scene->point_count; i++) longest[i] = 0;
+    for (int i = 0; i < scene->line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const int point = cpsi_point_of(&scene->line[i], end);
+            if (point >= 0 && point < scene->point_count)
+                longest[point] = fmax(longest[point], scene->line[i].length);
+        }
+}
+
 double cpsi_longest_line(const CpsScene *scene, int point) {
     double longest = 0;
     for (int i = 0; i < scene->line_count; i++)

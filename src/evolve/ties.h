@@ -15,6 +15,8 @@ static inline int cpsi_point_of(const CpsLine *line, int end) {
 
 /* [m] The length of the longest line that ends at a point; 0: none does. */
 double cpsi_longest_line(const CpsScene *scene, int point);
+/* ... and of each point (point_count). */
+void cpsi_longest_lines(const CpsScene *scene, double *longest);
 
 /* What is free, `what` 'name', needs friction on all obstacles that is the same in all directions.
  * Returns CPS_OK or CPS_ERR_ARGUMENT. */

@@ -8,6 +8,7 @@
 #include "base/larger.h"
 #include "evolve/bodies.h"
 #include "evolve/checkpoint.h"
+#include "evolve/joint_system.h"
 #include "evolve/points.h"
 
 /* What is left counts as balanced up to so many tolerances of the largest force. */
@@ -16,6 +17,9 @@ static const double BALANCED = 100;
 CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
     const size_t points = (size_t)evolution->points.count, lines = (size_t)evolution->line_count,
                  bodies = (size_t)evolution->bodies.count, unknowns = 3 * points + 6 * bodies;
+    CpsiGraphMatrix *matrix =
+        cpsi_joint_system(&evolution->points, &evolution->bodies, evolution->line_count);
+    if (!matrix) return NULL;
     CpsiBalance *balance = NULL, measured = {0};
     CpsiArena arena = {0};
     for (int pass = 0; pass < 2; pass++) {
@@ -33,20 +37,20 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->iterations, lines);
         CPSI_PLACE(&arena, to->offset, lines + 1);
         CPSI_PLACE(&arena, to->tangent, 36 * lines);
-        CPSI_PLACE(&arena, to->matrix, unknowns * unknowns);
-        CPSI_PLACE(&arena, to->factor, unknowns * unknowns);
+        CPSI_PLACE(&arena, to->kept, 6 * bodies);
+        CPSI_PLACE(&arena, to->node, points + 2 * bodies);
         CPSI_PLACE(&arena, to->right, unknowns);
         CPSI_PLACE(&arena, to->step, unknowns);
-        CPSI_PLACE(&arena, to->pivot, unknowns);
         CPSI_PLACE(&arena, to->ends, lines);
         CPSI_PLACE(&arena, to->joint, points);
         CPSI_PLACE(&arena, to->joint_of, points);
         CPSI_PLACE(&arena, to->held, bodies);
         CPSI_PLACE(&arena, to->guess.joint, 3 * points);
+        CPSI_PLACE(&arena, to->guess.state, points);
         CPSI_PLACE(&arena, to->guess.body, 6 * bodies);
         CPSI_PLACE(&arena, to->guess.pull, 6 * lines);
         cpsi_network_place(&to->network, &arena, evolution->line, (int)lines, (int)points,
-                           (int)bodies, evolution->workspace[0].program.ops);
+                           (int)bodies, evolution->workspace[0].program.ops, matrix);
         size_t all = 0;
         for (size_t i = 0; i < lines; i++) {
             if (placed) to->offset[i] = all;
@@ -54,14 +58,19 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         }
         CPSI_PLACE(&arena, to->state, all);
         balance = placed;
-        if (pass == 0 && !cpsi_arena_allocate(&arena)) return NULL;
+        if (pass == 0 && !cpsi_arena_allocate(&arena)) {
+            cpsi_graph_matrix_free(matrix);
+            return NULL;
+        }
     }
     balance->arena = arena;
+    balance->matrix = matrix;
     return balance;
 }
 
 void cpsi_balance_free(CpsiBalance *balance) {
     if (!balance) return;
+    cpsi_graph_matrix_free(balance->matrix);
     CpsiArena arena = balance->arena;
     cpsi_arena_free(&arena);
 }

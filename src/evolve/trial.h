@@ -6,6 +6,7 @@
 
 #include "cable/network.h"
 #include "evolve/state.h"
+#include "linalg/graph_matrix.h"
 
 /* Stiffness added, in units of the largest force over the length of a point's longest line: where
  * slack lines have none, the rounding of forces moves a point by a thousandth of that length. */
@@ -45,9 +46,10 @@ struct CpsiBalance {
     unsigned char *state;    /* of all lines before the step */
     size_t *offset;          /* (lines + 1) of each in `state` */
     double *tangent;         /* (line_count, 36) */
-    double *matrix, *factor; /* (unknowns, unknowns) */
+    CpsiGraphMatrix *matrix; /* of the unknowns */
+    double *kept;            /* (body_count, 6) of its diagonal */
+    int *node;               /* (count + 2 body_count) their blocks in the matrix of the scene */
     double *right, *step;    /* (unknowns) */
-    int *pivot;              /* (unknowns) */
     int (*ends)[2];          /* (line_count, 2) the joints at their ends, or CPSI_NO_JOINT */
     CpsiJoint *joint;        /* the free points, then the points on free bodies */
     int *joint_of;           /* (points) the joint that a point is, or CPSI_NO_JOINT */

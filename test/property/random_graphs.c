@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Lines that meet at points: stars, trees, rings and nets, checked from the places alone.
- *                                              usage: random_graphs [--scenes N] [--seed S]
- * [--class C]
+ *                   usage: random_graphs [--scenes N] [--seed S] [--class C] [--meshes N]
+ *
+ * Wide nets have up to N x N meshes (default 10), each side of them cut and stiff at random, many
+ * slack; they hang from their corners or from more of their knots, over a bed, over a ball and
+ * pegs, or over nothing. Their sides are one element.
  *
  * The tension of an element follows from the distance of its nodes, T = EA (|x'| - 1)^+. With half
  * the weight of the end elements, what the points carry and what acts on them, the forces on every
@@ -15,9 +18,10 @@
 #include "capstan/evolve.h"
 #include "splitmix.h"
 
-enum { MOST_LINES = 120, MOST_POINTS = 80, STAGES = 2, CLASSES = 5 };
-typedef enum Class { STAR, TREE, RING, NET, CLUMPS } Class;
-static const char *const CLASS[CLASSES] = {"star", "tree", "ring", "net", "clumps"};
+enum { MOST_MESHES = 30, MOST_LINES = 2 * MOST_MESHES * (MOST_MESHES + 1) };
+enum { MOST_POINTS = (MOST_MESHES + 1) * (MOST_MESHES + 1), STAGES = 2, CLASSES = 6, PEGS = 4 };
+typedef enum Class { STAR, TREE, RING, NET, CLUMPS, WIDE } Class;
+static const char *const CLASS[CLASSES] = {"star", "tree", "ring", "net", "clumps", "wide"};
 
 /* What is left of the forces on a point, per largest force: points balance to 1e-6. The tension of
  * what rests slack on the bed is known to the strain RESTING times EA, as random_joined finds it of
@@ -34,20 +38,21 @@ typedef struct Tally {
 } Tally;
 
 static uint64_t state;
+static int most_meshes = 10;
 
 static double uniform(double low, double high) { return splitmix(&state, low, high); }
 static int whole(int low, int high) { return (int)floor(uniform(low, high + 1)); }
 static bool chance(double share) { return uniform(0, 1) < share; }
 
 typedef struct Graph {
-    CpsObstacle obstacle[2];
+    CpsObstacle obstacle[1 + PEGS];
     CpsLine line[MOST_LINES];
     CpsPoint point[MOST_POINTS];
     char name[MOST_LINES + MOST_POINTS][16];
     CpsPointChange change[STAGES][MOST_POINTS];
     CpsStage stage[STAGES];
     CpsScene scene;
-    double size, weight, stiffness;
+    double size, weight, stiffness, load; /* load: [m] of line, of whose weight loads are */
 } Graph;
 
 static int add_point(Graph *g, CpsPointKind kind, double x, double y, double z) {
@@ -161,6 +166,50 @@ static void make_clumps(Graph *g) {
     }
 }
 
+static void add_ball(Graph *g, const char *name, double x, double y, double top, double radius) {
+    CpsObstacle *ball = &g->obstacle[g->scene.obstacle_count++];
+    *ball = cps_obstacle_default();
+    ball->name = name;
+    ball->kind = CPS_OBSTACLE_SPHERE;
+    ball->radius = radius;
+    ball->point[0] = x;
+    ball->point[1] = y;
+    ball->point[2] = top - radius;
+    ball->friction = chance(0.2) ? 0 : uniform(0.05, 1.2);
+}
+
+/* A net of meshes of one length. The radius of any ball is at least 1.05 times as large, as a side
+ * of one element may not cut deeper into one; and none comes near another, since a knot does not
+ * rest on two of them. */
+static void make_wide(Graph *g) {
+    static const char *const PEG[PEGS] = {"a", "b", "c", "d"};
+    const int a = whole(most_meshes / 2, most_meshes), b = whole(most_meshes / 2, most_meshes),
+              first = g->scene.point_count;
+    const double mesh = g->size / fmax(a, b), height = 0.3 * g->size,
+                 slack = chance(0.5) ? uniform(1, 1.15) : 1;
+    const bool edges = chance(0.3);
+    for (int i = 0; i <= a; i++)
+        for (int j = 0; j <= b; j++) {
+            const bool side = i == 0 || i == a, end = j == 0 || j == b;
+            add_point(g,
+                      (side && end) || (edges && side) ? CPS_POINT_KIND_HELD : CPS_POINT_KIND_FREE,
+                      mesh * i, mesh * j, height);
+        }
+    for (int i = 0; i <= a; i++)
+        for (int j = 0; j <= b; j++) {
+            const int at = first + i * (b + 1) + j;
+            if (i < a) add_line(g, at, at + b + 1, slack * uniform(0.98, 1.1), 1);
+            if (j < b) add_line(g, at, at + 1, slack * uniform(0.98, 1.1), 1);
+        }
+    if (g->scene.obstacle_count > 0 || chance(0.3)) return;
+    const double apart = 0.3 * mesh * hypot(a, b);
+    add_ball(g, "ball", 0.5 * mesh * a, 0.5 * mesh * b, uniform(0, 0.25) * g->size,
+             fmax(1.05 * mesh, uniform(0.2, 0.5) * apart));
+    for (int k = 0; k < PEGS; k++)
+        add_ball(g, PEG[k], (k % 2 ? 0.2 : 0.8) * mesh * a, (k / 2 ? 0.2 : 0.8) * mesh * b,
+                 uniform(0, 0.2) * g->size, fmax(1.05 * mesh, uniform(0.05, 0.35) * apart));
+}
+
 static void make_stages(Graph *g) {
     for (int k = 0; k < STAGES; k++) {
         CpsStage *stage = &g->stage[k];
@@ -175,7 +224,7 @@ static void make_stages(Graph *g) {
             for (int a = 0; a < 3; a++)
                 change->value[a] =
                     g->point[i].kind == CPS_POINT_KIND_FREE
-                        ? uniform(-1, 1) * g->weight * g->size
+                        ? uniform(-1, 1) * g->weight * g->load
                         : fmax(a == 2 ? 0 : -INFINITY,
                                g->point[i].position[a] + uniform(-0.1, 0.1) * g->size);
         }
@@ -183,8 +232,8 @@ static void make_stages(Graph *g) {
 }
 
 static void make(Graph *g, Class class, uint64_t seed) {
-    static void (*const MAKE[CLASSES])(Graph *) = {make_star, make_tree, make_ring, make_net,
-                                                   make_clumps};
+    static void (*const MAKE[CLASSES])(Graph *) = {make_star, make_tree,   make_ring,
+                                                   make_net,  make_clumps, make_wide};
     memset(g, 0, sizeof *g);
     state = 0x9b05688c2b3e6c1fu * (seed + 1) + (uint64_t) class;
     g->scene = cps_scene_default();
@@ -198,8 +247,10 @@ static void make(Graph *g, Class class, uint64_t seed) {
         g->scene.obstacle_count = 1;
         g->scene.obstacle = g->obstacle;
     }
+    g->load = class == WIDE ? g->size / 10 : g->size;
     MAKE[class](g);
     make_stages(g);
+    g->scene.obstacle = g->obstacle;
     g->scene.line = g->line;
     g->scene.point = g->point;
     g->scene.stage = g->stage;
@@ -225,50 +276,94 @@ static void add_pull(const CpsLineView *view, double stiffness, int end, const d
 
 static double norm(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-/* Check a free point after a step; returns what is left of its forces over the largest. */
-static double check_point(const Graph *g, const CpsEvolution *evolution, int i,
-                          const double before[3], const double load[3], bool smooth, bool *wrong,
-                          Tally *tally) {
-    const CpsPointReport report = cps_evolution_point_report(evolution, i);
-    const double down[3] = {0, 0, -1};
-    double sum[3], largest = norm(load), known = 0, friction[3], slip[3] = {0};
-    for (int a = 0; a < 3; a++) sum[a] = load[a] + g->point[i].weight * down[a];
+/* What the lines bring to a point. */
+typedef struct Pulls {
+    double sum[3], largest, known; /* [N]; known: how well the forces follow from the places */
+} Pulls;
+
+/* The pulls on all points; returns the largest force in any line. */
+static double add_pulls(const Graph *g, const CpsEvolution *evolution, Pulls *pulls) {
+    double largest = 0;
+    memset(pulls, 0, (size_t)g->scene.point_count * sizeof *pulls);
     for (int k = 0; k < g->scene.line_count; k++) {
         const CpsLineView view = cps_evolution_line_view(evolution, k);
+        const CpsCertificate line = cps_evolution_line_report(evolution, k).certificate;
+        const double weight[3] = {0, 0, -g->line[k].weight};
+        largest = fmax(largest, line.largest_force);
         for (int end = 0; end < 2; end++) {
-            if (g->line[k].end_point[end] != i) continue;
-            const double weight[3] = {0, 0, -g->line[k].weight};
-            add_pull(&view, g->line[k].stiffness, end, weight, sum, &largest);
-            const CpsCertificate line = cps_evolution_line_report(evolution, k).certificate;
-            known += g->line[k].stiffness * (RESTING + fmin(line.elongation_residual, STRAIN)) +
-                     fmin(line.tension_estimate, TENSION * line.largest_force);
+            Pulls *at = &pulls[g->line[k].end_point[end]];
+            add_pull(&view, g->line[k].stiffness, end, weight, at->sum, &at->largest);
+            at->known += g->line[k].stiffness * (RESTING + fmin(line.elongation_residual, STRAIN)) +
+                         fmin(line.tension_estimate, TENSION * line.largest_force);
         }
     }
-    for (int k = 0; k < g->scene.line_count; k++) {
-        const CpsLineReport line = cps_evolution_line_report(evolution, k);
-        largest = fmax(largest, line.certificate.largest_force);
+    return largest;
+}
+
+/* [m] The distance of x from an obstacle, with its normal n there and the foot of x on it. */
+static double distance(const CpsObstacle *on, const double x[3], double n[3], double foot[3]) {
+    double size = 0;
+    for (int a = 0; a < 3; a++) {
+        n[a] = on->kind == CPS_OBSTACLE_PLANE ? on->normal[a] : x[a] - on->point[a];
+        size += on->kind == CPS_OBSTACLE_PLANE ? n[a] * (x[a] - on->point[a]) : 0;
     }
-    const double mu = g->scene.obstacle_count > 0 && !smooth ? g->obstacle[0].friction : 0;
-    const double allowed = LEFT * largest + known;
-    for (int a = 0; a < 2; a++) slip[a] = report.position[a] - before[a];
-    memcpy(friction, report.friction, sizeof friction);
-    for (int a = 0; a < 3; a++) sum[a] += report.reaction * report.normal[a] + friction[a];
-    const bool below = g->scene.obstacle_count > 0 &&
-                       report.position[2]<-1e-8 * g->size, floats = report.reaction> 0 &&
-                       report.position[2] > 1e-8 * g->size,
-               pulls = report.reaction < 0 || (report.reaction > 0 && report.normal[2] != 1),
-               over = norm(friction) > mu * report.reaction + allowed || friction[2] != 0;
-    bool lazy = false;
-    if (norm(slip) > 1e-6 * g->size)
-        for (int a = 0; a < 3; a++)
-            lazy = lazy ||
-                   fabs(friction[a] + mu * report.reaction * slip[a] / norm(slip)) > 10 * allowed;
-    tally->touching += report.reaction > 0;
-    tally->sliding += report.reaction > 0 && norm(slip) > 1e-6 * g->size;
-    *wrong = *wrong || below || floats || pulls || over || lazy || !(norm(sum) <= allowed);
-    if (below || floats || pulls || over || lazy || !(norm(sum) <= allowed))
+    if (on->kind == CPS_OBSTACLE_SPHERE) {
+        const double spoke = norm(n);
+        for (int a = 0; a < 3; a++) n[a] /= spoke;
+        size = spoke - on->radius;
+    }
+    for (int a = 0; a < 3; a++) foot[a] = x[a] - size * n[a];
+    return size;
+}
+
+/* [m] How far a point slid on the obstacle, and the direction in which it arrived. */
+static double slip_on(const CpsObstacle *on, const double before[3], const double now[3],
+                      double direction[3]) {
+    double n[3], unused[3], from[3], to[3], along = 0;
+    (void)distance(on, before, unused, from);
+    (void)distance(on, now, n, to);
+    for (int a = 0; a < 3; a++) along += n[a] * (to[a] - from[a]);
+    for (int a = 0; a < 3; a++) direction[a] = to[a] - from[a] - along * n[a];
+    const double size = norm(direction);
+    for (int a = 0; a < 3; a++) direction[a] = size > 0 ? direction[a] / size : 0;
+    return size;
+}
+
+/* Check a free point after a step; returns what is left of its forces over the largest. */
+static double check_point(const Graph *g, const CpsPointReport *report, int i, const Pulls *pulls,
+                          double in_lines, const double before[3], const double load[3],
+                          bool smooth, bool *wrong, Tally *tally) {
+    const double far = 1e-8 * g->size, *x = report->position;
+    double sum[3], n[3], unused[3], slip[3] = {0}, normal[3] = {0}, across = 0, slid = 0, mu = 0;
+    const double largest = fmax(fmax(norm(load), pulls->largest), in_lines);
+    const double allowed = LEFT * largest + pulls->known, *friction = report->friction;
+    for (int a = 0; a < 3; a++)
+        sum[a] = pulls->sum[a] + load[a] - (a == 2 ? g->point[i].weight : 0) +
+                 report->reaction * report->normal[a] + friction[a];
+    bool below = false, floats = false, pulled = report->reaction < 0, lazy = false;
+    for (int k = 0; k < g->scene.obstacle_count; k++)
+        below = below || distance(&g->obstacle[k], x, n, unused) < -far;
+    if (report->reaction > 0) {
+        const CpsObstacle *on = &g->obstacle[report->obstacle];
+        floats = distance(on, x, normal, unused) > far;
+        slid = slip_on(on, before, x, slip);
+        mu = smooth ? 0 : on->friction;
+    }
+    for (int a = 0; a < 3; a++) {
+        pulled = pulled || fabs(report->normal[a] - normal[a]) > 1e-7;
+        across += friction[a] * normal[a];
+        lazy = lazy || (slid > 1e-6 * g->size &&
+                        fabs(friction[a] + mu * report->reaction * slip[a]) > 10 * allowed);
+    }
+    const bool over = norm(friction) > mu * report->reaction + allowed || fabs(across) > allowed,
+               open = !(norm(sum) <= allowed);
+    tally->touching += report->reaction > 0;
+    tally->sliding += slid > 1e-6 * g->size;
+    if (below || floats || pulled || over || lazy || open) {
+        *wrong = true;
         printf("  point %d: below %d floats %d pulls %d over %d lazy %d left %g allowed %g\n", i,
-               below, floats, pulls, over, lazy, norm(sum), allowed);
+               below, floats, pulled, over, lazy, norm(sum), allowed);
+    }
     return norm(sum) / largest;
 }
 
@@ -302,7 +397,8 @@ static void run(Class class, uint64_t seed, Tally *tally) {
     CpsError err;
     CpsEvolution *evolution = NULL;
     if (cps_evolution_create(&graph.scene, &evolution, &err) != CPS_OK) fail(seed, &err);
-    double before[MOST_POINTS][3];
+    static double before[MOST_POINTS][3];
+    static Pulls pulls[MOST_POINTS];
     bool sound = true;
     tally->scenes++;
     for (int step = 0; sound && cps_evolution_remaining_count(evolution) > 0; step++) {
@@ -313,16 +409,19 @@ static void run(Class class, uint64_t seed, Tally *tally) {
         tally->steps++;
         sound = cps_outcome_is_certified(report.outcome);
         bool wrong = false;
+        const double in_lines = add_pulls(&graph, evolution, pulls);
         for (int i = 0; i < graph.scene.point_count; i++) {
             double load[3];
             if (graph.point[i].kind != CPS_POINT_KIND_FREE) continue;
-            const int trials = cps_evolution_point_report(evolution, i).trial_count;
+            const CpsPointReport point = cps_evolution_point_report(evolution, i);
+            const int trials = point.trial_count;
             if (trials > tally->most_trials) tally->most_trials = trials;
             if (i == 0 || graph.point[i - 1].kind != CPS_POINT_KIND_FREE) tally->trials += trials;
             load_at(&graph, i, step, load);
             if (sound)
-                tally->left = fmax(tally->left, check_point(&graph, evolution, i, before[i], load,
-                                                            step == 0, &wrong, tally));
+                tally->left =
+                    fmax(tally->left, check_point(&graph, &point, i, &pulls[i], in_lines, before[i],
+                                                  load, step == 0, &wrong, tally));
         }
         tally->wrong += wrong;
         tally->open += !sound;
@@ -339,11 +438,13 @@ int main(int argc, char **argv) {
     for (int i = 1; i + 1 < argc; i += 2) {
         if (strcmp(argv[i], "--scenes") == 0) scenes = atoi(argv[i + 1]);
         if (strcmp(argv[i], "--class") == 0) only = atoi(argv[i + 1]);
+        if (strcmp(argv[i], "--meshes") == 0) most_meshes = atoi(argv[i + 1]);
         if (strcmp(argv[i], "--seed") == 0) {
             first = strtoull(argv[i + 1], NULL, 10);
             scenes = 1;
         }
     }
+    if (most_meshes < 4 || most_meshes > MOST_MESHES) return 2;
     bool failed = false;
     for (int class = 0; class < CLASSES; class ++) {
         if (only >= 0 && class != only) continue;

@@ -12,7 +12,6 @@
 CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values, CpsiPool *pool,
                            CpsScene *scene);
 
-<<<<<<< HEAD
 /* ---- rigid bodies: body_build.c ---- */
 
 /* Where a body is held after the preceding entry of the history. */
@@ -32,11 +31,10 @@ CpsStatus cpsi_body_find(const CpsiDocument *d, const CpsScene *scene, const Cps
 /* What an entry changes at a body, without its index; `held` becomes the pose after it. */
 CpsStatus cpsi_body_change_build(const CpsiDocument *d, const CpsiBodyChangeValues *values,
                                  CpsiHeldPose *held, CpsBodyChange *change);
-=======
+
 /* Give the lines with a pretension the lengths that have it; the scene has been built and
  * checked. */
 CpsStatus cpsi_scene_find_lengths(const CpsiDocument *d, const CpsiSceneValues *values,
                                   CpsiPool *pool, CpsScene *scene);
->>>>>>> b02bb34 (evolve, io: the length of a line for a wanted tension)
 
 #endif
