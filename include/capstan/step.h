@@ -234,10 +234,9 @@ enum { CPS_NO_OBSTACLE = -1 }; /* in an array of obstacles' indices: there is no
 typedef struct CpsLineView {
     const char *name;
     int element_count;
-    int contact_count; /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    bool one_plane; /* for regularized.h, solutions: nothing is grasped, contact is with one plane
-                       with isotropic friction or none */
-    const double *arc_length;     /* (n) [m] natural arc length of the nodes from end A */
+    int contact_count;        /* of a node: 2 where the scene has more than one obstacle, else 1 */
+    bool one_plane;           /* nothing is grasped, contact is with one isotropic plane or none */
+    const double *arc_length; /* (n) [m] natural arc length of the nodes from end A */
     const double *element_length; /* (element_count) [m] */
     double compliance; /* [1/N] 1/EA at T = 0, of sections the mean; 0 of an inextensible line */
     bool uniform;      /* without sections and point weights */

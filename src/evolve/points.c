@@ -33,11 +33,11 @@ typedef struct Named {
     const char *name, *what;
     int index; /* of a point */
 } Named;
-typedef struct Names {
+typedef struct PointNames {
     Named *all;
     size_t count;
     double *longest; /* (points) [m] the longest line that ends there */
-} Names;
+} PointNames;
 
 static int by_name(const void *a, const void *b) {
     const Named *left = a, *right = b;
@@ -45,15 +45,15 @@ static int by_name(const void *a, const void *b) {
     return order ? order : (left->index > right->index) - (left->index < right->index);
 }
 
-static void add_name(Names *names, const char *name, const char *what, int index) {
+static void add_name(PointNames *names, const char *name, const char *what, int index) {
     if (name) names->all[names->count++] = (Named){name, what, index};
 }
 
-static bool names_make(const CpsScene *scene, Names *out) {
+static bool names_make(const CpsScene *scene, PointNames *out) {
     const size_t most =
         (size_t)scene->point_count + (size_t)scene->line_count + (size_t)scene->obstacle_count;
-    *out = (Names){.all = malloc((most + 1) * sizeof *out->all),
-                   .longest = malloc(((size_t)scene->point_count + 1) * sizeof *out->longest)};
+    *out = (PointNames){.all = malloc((most + 1) * sizeof *out->all),
+                        .longest = malloc(((size_t)scene->point_count + 1) * sizeof *out->longest)};
     if (!out->all || !out->longest) return false;
     cpsi_longest_lines(scene, out->longest);
     for (int i = 0; i < scene->point_count; i++) add_name(out, scene->point[i].name, "a point", i);
@@ -64,14 +64,14 @@ static bool names_make(const CpsScene *scene, Names *out) {
     return true;
 }
 
-static void names_free(Names *names) {
+static void names_free(PointNames *names) {
     free(names->all);
     free(names->longest);
 }
 
 /* What else has the name of a point, points before it included: an obstacle, else a line, else a
  * point; NULL: nothing. */
-static const char *other_of_name(const Names *names, const char *name, int index) {
+static const char *other_of_name(const PointNames *names, const char *name, int index) {
     const char *other = NULL;
     size_t low = 0, high = names->count;
     while (low < high) {
@@ -90,7 +90,8 @@ static const char *other_of_name(const Names *names, const char *name, int index
     return other;
 }
 
-static CpsStatus check_name(const CpsScene *scene, const Names *names, int index, CpsError *err) {
+static CpsStatus check_name(const CpsScene *scene, const PointNames *names, int index,
+                            CpsError *err) {
     const char *name = scene->point[index].name;
     const CpsStatus status = cpsi_name_check("point", index, name, err);
     if (status != CPS_OK) return status;
@@ -99,7 +100,8 @@ static CpsStatus check_name(const CpsScene *scene, const Names *names, int index
     return cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': %s has the same name", name, other);
 }
 
-static CpsStatus check_point(const CpsScene *scene, const Names *names, int index, CpsError *err) {
+static CpsStatus check_point(const CpsScene *scene, const PointNames *names, int index,
+                             CpsError *err) {
     const CpsPoint *point = &scene->point[index];
     if (point->cookie != POINT_COOKIE)
         return CPSI_FAIL_AT("points", err, CPS_ERR_ARGUMENT,
@@ -173,7 +175,7 @@ CpsStatus cpsi_points_check(const CpsScene *scene, CpsError *err) {
                             scene->point_count, (int)MAX_POINTS);
     CpsStatus status = check_ties(scene, err);
     if (status != CPS_OK || scene->point_count == 0) return status;
-    Names names;
+    PointNames names;
     if (!names_make(scene, &names))
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for %d points", scene->point_count);
     for (int i = 0; i < scene->point_count && status == CPS_OK; i++)

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Parts of the comparison of a file with its scene (given.h): findings, and numbers that are the
+ * same. */
+#ifndef CAPSTAN_CHECKER_COMPARE_H
+#define CAPSTAN_CHECKER_COMPARE_H
+
+#include "capstan/scene.h"
+#include "record.h"
+
+typedef struct Compare {
+    const CpsScene *scene;
+    Source source;
+    FILE *log;
+    int findings;
+} Compare;
+
+/* A finding: one sentence on the log. */
+__attribute__((format(printf, 2, 3))) void find(Compare *compare, const char *format, ...);
+
+/* |v| of three components. */
+double size(const double *v);
+
+/* Numbers of the scene are copied; a share of a stage, a weight vector and a load are a few
+ * products and sums of them. */
+#define COPIED   1e-14
+#define COMPUTED 1e-12
+
+/* count numbers equal to within `noise` of the largest, else a finding */
+void same(Compare *compare, const char *what, const char *of, const double *file,
+          const double *scene, size_t count, double noise);
+void same_number(Compare *compare, const char *what, const char *of, double file, double scene);
+
+/* What holds for a line in the whole run: its elements, their makes, its friction zones and what
+ * its ends are at. */
+void compare_line(Compare *compare, const CpsLine *line, const Record *r);
+
+/* [N] What the nodes weigh in the scene, (nodes), and the sum of the sizes of its terms; and [N/m]
+ * all weights over the length, the unit of the file's weights. */
+void node_weights(const CpsLine *line, const Record *r, double *weight, double *sizes);
+double mean_weight(const CpsLine *line);
+
+#endif
