@@ -69,7 +69,7 @@ def says(what, text, *words):
 def checks():
     out = run("check", "friction.yaml").stdout
     says("check", out, "friction 0.2 along (0, 2, 0) and 0.5 across, ellipse", "friction 0.2 along (0, 0, 1) and 0.5 across, box",
-         "normal (0, 0, 1), friction 0.3\n", "friction 0.3 along the line and 0.3 across, box", "1 m, 1 element, weight", "12 elements of 0.222222 m to 0.666667 m",
+         "normal (0, 0, 1), friction 0.3\n", "friction 0.3 along the line and 0.3 across, box", "1 m, 1 element of 1 m, weight", "12 elements of 0.222222 m to 0.666667 m",
          "inextensible", "end B: free, force (0, 0, 0) N", "history: 0 entries, 0 load steps")
     cut = next(line for line in out.splitlines() if "of_points" in line)
     expect("check: a long set is cut", re.search(r", friction in \S.{198}\.\., along the line$", cut), cut)
