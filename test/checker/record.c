@@ -748,21 +748,13 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }
 
-/* A number of each point. */
-static int read_numbers(const Source *source, const char *what, size_t step, double *value,
-                        FILE *log) {
-    int bad = read_step(source, what, "of_point", step, source->points, 0, value, log);
-    for (size_t k = 0; k < source->points && !bad; k++)
-        if (!isfinite(value[k]))
-            bad = complain(log, "a value that cannot be (NaN, infinite), of points:", what, 0);
-    return bad;
-}
-
-static int read_vectors(const Source *source, const char *what, size_t step, Vector *value,
-                        FILE *log) {
-    int bad = read_step(source, what, "of_point", step, source->points, 3, value[0], log);
-    for (size_t k = 0; k < source->points && !bad; k++)
-        if (!isfinite(value[k][0]) || !isfinite(value[k][1]) || !isfinite(value[k][2]))
+/* `columns` numbers of each point; 0: one. */
+static int read_of_points(const Source *source, const char *what, size_t step, size_t columns,
+                          double *value, FILE *log) {
+    const size_t count = source->points * (columns ? columns : 1);
+    int bad = read_step(source, what, "of_point", step, source->points, columns, value, log);
+    for (size_t i = 0; i < count && !bad; i++)
+        if (!isfinite(value[i]))
             bad = complain(log, "a value that cannot be (NaN, infinite), of points:", what, 0);
     return bad;
 }
@@ -778,9 +770,9 @@ int junctions_read(const Source *source, size_t step, Junction *all, FILE *log) 
     double *number = calloc(n * NUMBERS, sizeof *number);
     int bad = vector && number ? 0 : complain(log, "out of memory for", "points", 0);
     for (size_t i = 0; i < VECTORS && !bad; i++)
-        bad = read_vectors(source, VECTOR[i], step, vector + i * n, log);
+        bad = read_of_points(source, VECTOR[i], step, 3, vector[i * n], log);
     for (size_t i = 0; i < NUMBERS && !bad; i++)
-        bad = read_numbers(source, NUMBER[i], step, number + i * n, log);
+        bad = read_of_points(source, NUMBER[i], step, 0, number + i * n, log);
     for (size_t k = 0; k < n && !bad; k++) {
         Junction *at = &all[k];
         double *to[VECTORS] = {at->position, at->lines,    at->load, at->support,
