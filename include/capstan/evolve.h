@@ -138,6 +138,8 @@ CPS_API CpsStepReport cps_evolution_report(const CpsEvolution *evolution);
 CPS_API int cps_evolution_line_count(const CpsEvolution *evolution);
 CPS_API CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line);
 CPS_API CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line);
+/* [m] The point of an obstacle (scene.h), where it is now. False: there is no such obstacle. */
+CPS_API bool cps_evolution_obstacle(const CpsEvolution *evolution, int obstacle, double point[3]);
 
 /* The points of the scene (point.h): how many there are, and the report on one after the last step,
  * of what is no point one of zeros. */

@@ -58,6 +58,9 @@ typedef struct CpsObstacle {
     /* [-] the first direction is its part in the tangent plane, fixed in space; default 0 0 0: the
      * direction of the line, with which it turns */
     double grain[3];
+    /* it may be shifted, by stages and moves: needs Coulomb's law and contact that is reached.
+     * Default false */
+    bool moves;
 } CpsObstacle;
 
 enum { CPS_END_A = 0, CPS_END_B = 1 };
@@ -174,6 +177,13 @@ typedef struct CpsTurn {
     double angle; /* [rad] of the rotation in this stage, by the right-hand rule */
 } CpsTurn;
 
+/* A translation of an obstacle that `moves`; what sticks to it moves with it, and what it meets is
+ * pushed. Held ends and nodes must not be in its way. */
+typedef struct CpsShift {
+    int obstacle; /* index in the scene */
+    double by[3]; /* [m] in this stage */
+} CpsShift;
+
 /* An entry of the history: changes that take place in `step_count` equal load steps. */
 typedef struct CpsStage {
     uint32_t cookie; /* of cps_stage_default(); a stage made otherwise is refused */
@@ -183,6 +193,8 @@ typedef struct CpsStage {
     const CpsChange *change;
     int turn_count;
     const CpsTurn *turn;
+    int shift_count; /* default 0 */
+    const CpsShift *shift;
     int point_change_count; /* default 0 */
     const CpsPointChange *point_change;
     int body_change_count; /* default 0 */

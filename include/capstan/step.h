@@ -154,7 +154,7 @@ typedef struct CpsLedger {
     double elastic;    /* increase of the elastic energy */
     double gravity;    /* increase of the potential energy of the weight */
     double ends;       /* work of the end forces: mean of before and after, times displacement */
-    double obstacles;  /* work of the friction of obstacles that turn */
+    double obstacles;  /* work of obstacles that turn or are shifted */
     double dissipated; /* by friction, >= 0 */
     double imbalance;  /* of first order in the load step; large and positive in a jump */
 } CpsLedger;

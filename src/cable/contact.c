@@ -86,7 +86,7 @@ static void set_reference_axes(CpsiLine *line, int c) {
 static Vec3 carried_along(const CpsiLine *line, int c) {
     const Vec3 x = cpsi_line_place(line, line->reference, c);
     const int k = line->obstacle_index[c];
-    return k < 0 ? x : cpsi_obstacle_turn(&line->obstacle[k], x, line->turn[k]);
+    return k < 0 ? x : cpsi_obstacle_carry(&line->obstacle[k], x, line->shift[k], line->turn[k]);
 }
 
 /* The displacement to x from the carried-along reference of contact c, projected onto the plane of
@@ -179,10 +179,15 @@ static void set_reference(CpsiLine *line, int c, bool frictionless) {
         return;
     }
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-    const double gap =
-        obstacle ? cpsi_obstacle_gap(obstacle, cpsi_line_place(line, line->reference, c)) +
-                       allowance(line, c)
-                 : INFINITY;
+    const Vec3 x = cpsi_line_place(line, line->reference, c);
+    double gap = obstacle ? cpsi_obstacle_gap(obstacle, x) + allowance(line, c) : INFINITY;
+    /* [m] by which the obstacle has come nearer since */
+    double nearer = 0;
+    if (obstacle &&
+        cpsi_line_is_shifted(line, line->has_local_axes ? line->obstacle_index[c] : 0)) {
+        nearer = cpsi_obstacle_gap(obstacle, carried_along(line, c)) + allowance(line, c) - gap;
+        gap += nearer;
+    }
     const bool held = cpsi_line_is_contact_held(line, c);
     /* contact everywhere, or only where the reference touches (S90 (35)): nodes below the surface
      * are then free */
@@ -194,6 +199,7 @@ static void set_reference(CpsiLine *line, int c, bool frictionless) {
     line->friction_bound[c] = has_friction ? line->friction_law[c].friction * line->reaction[c] : 0;
     line->gap[c] = !held && near ? 0 : INFINITY;
     if (cpsi_contact_is_watched(line, c, gap)) line->gap[c] = gap > 0 ? gap : 0;
+    line->gap[c] -= nearer;
     /* a free contact has no reaction; remove what the loop left of it */
     if (!held && (!cpsi_contact_is_watched(line, c, gap) || line->state[c] == CPS_NODE_STATE_FREE))
         cpsi_contact_clear(line, c);

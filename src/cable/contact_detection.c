@@ -111,9 +111,12 @@ static void restore_contact(CpsiLine *line, int c, const SavedContact *saved) {
 }
 
 Vec3 cpsi_contact_reference_normal(const CpsiLine *line, int k, int c) {
-    return k < 0 ? vec3(0, 0, 0)
-                 : cpsi_obstacle_normal(&line->obstacle[k],
-                                        cpsi_line_place(line, line->reference, c));
+    return k < 0
+               ? vec3(0, 0, 0)
+               : cpsi_obstacle_normal(&line->obstacle[k],
+                                      cpsi_obstacle_carry(&line->obstacle[k],
+                                                          cpsi_line_place(line, line->reference, c),
+                                                          line->shift[k], 0));
 }
 
 /* The contact with obstacle k as it was among the `count` contacts `before`, or a new one, at

@@ -34,6 +34,7 @@ typedef struct CpsiLine {
         *friction_set;  /* (obstacle_count) general friction sets; an entry NULL: a set that is {0},
                            or none; NULL: no obstacle has one */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
+    Vec3 *shift;        /* (obstacle_count) [m] by which each has been shifted in it */
     bool has_zones;     /* friction differs along the line */
     bool has_sections;  /* weight and compliance may, and there may be point masses */
     bool has_breaking_load; /* an element has one */
@@ -255,6 +256,11 @@ static inline Vec3 cpsi_line_slip(const CpsiLine *line, int c) {
     const Vec3 u = vec3_sub(vec3_at(line->position, c), vec3_at(line->reference, c));
     const Vec3 n = vec3_at(line->normal, c);
     return vec3_reject(u, n);
+}
+
+/* Is obstacle k shifted in this substep? */
+static inline bool cpsi_line_is_shifted(const CpsiLine *line, int k) {
+    return line->shift[k].x != 0 || line->shift[k].y != 0 || line->shift[k].z != 0;
 }
 
 /* [m] ... and in the axes of the contact. */

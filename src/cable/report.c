@@ -69,7 +69,9 @@ Vec3 cpsi_line_end_slip(const CpsiLine *line, int end, int k) {
     const int j = end_node(line, end);
     const CpsiObstacle *obstacle = &line->obstacle[k];
     const Vec3 from = vec3_at(line->reference, j), to = vec3_at(line->position, j);
-    return cpsi_obstacle_slip(obstacle, cpsi_obstacle_turn(obstacle, from, line->turn[k]), to);
+    return cpsi_obstacle_slip(obstacle,
+                              cpsi_obstacle_carry(obstacle, from, line->shift[k], line->turn[k]),
+                              to);
 }
 
 /* Rotate v, in the plane with normal `from`, with the normal to that with normal `to`; the two

@@ -32,7 +32,7 @@ static bool supports_rest(const CpsiLine *line) {
                 if (at[a] != to[a]) return false;
     }
     for (int k = 0; k < line->obstacle_count; k++)
-        if (line->turn[k] != 0) return false;
+        if (line->turn[k] != 0 || cpsi_line_is_shifted(line, k)) return false;
     return true;
 }
 

@@ -40,7 +40,10 @@ static CpsiLoadChange change_of(const CpsiLine *line) {
         for (int a = 0; a < 3; a++) out.grasp[k].by[a] = grasp->imposed.value[a] - before->value[a];
     }
     for (int a = 0; a < 3; a++) out.weight[a] = line->weight[a] - line->weight_before[a];
-    for (int k = 0; k < line->obstacle_count; k++) out.turn += line->turn[k];
+    for (int k = 0; k < line->obstacle_count; k++) {
+        out.turn += line->turn[k];
+        if (cpsi_line_is_shifted(line, k)) out.known = false;
+    }
     return out;
 }
 

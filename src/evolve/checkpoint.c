@@ -24,7 +24,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '2'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '3'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -272,6 +272,8 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
              3 * (size_t)(evolution->line[i].n - 1) * sizeof(float));
         PASS(tape, evolution->line[i].start_end);
     }
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        PASS(tape, evolution->obstacle[k].frame.point);
     for (int i = 0; i < evolution->points.count; i++) pass_point(tape, &evolution->points.point[i]);
     for (int i = 0; i < evolution->bodies.count; i++) pass_body(tape, &evolution->bodies.body[i]);
     return tape->at;
@@ -350,6 +352,10 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
         hash_bytes(hash, what, sizeof what);
         if (!change->stays) hash_numbers(hash, 3, change->value);
     }
+    for (int i = 0; i < stage->shift_count; i++) {
+        hash_bytes(hash, &stage->shift[i].obstacle, sizeof stage->shift[i].obstacle);
+        hash_numbers(hash, 3, stage->shift[i].by);
+    }
     for (int i = 0; i < stage->turn_count; i++) {
         hash_bytes(hash, &stage->turn[i].obstacle, sizeof stage->turn[i].obstacle);
         hash_numbers(hash, 1, &stage->turn[i].angle);
@@ -358,8 +364,8 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
 
 static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
                           const CpsiFrictionSet *set) {
-    const int what[4] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain,
-                         obstacle->has_set};
+    const int what[5] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain,
+                         obstacle->has_set, obstacle->moves};
     hash_bytes(hash, what, sizeof what);
     hash_numbers(hash, 3,
                  (const double[3]){obstacle->frame.point.x, obstacle->frame.point.y,

@@ -56,8 +56,10 @@ static void step_line(void *data, int workspace_index, int i) {
         placing.contact_policy = CPS_CONTACT_POLICY_REACHED;
         cpsi_line_place_statically(line, &workspace->program, &placing, &workspace->scratch);
     } else {
+        if (evolution->move[i].shift) line->obstacle = workspace->scratch.obstacle;
         cpsi_line_substeps(line, &workspace->program, &options, &evolution->move[i],
                            &workspace->scratch, evolution->done + evolution->move_count > 0);
+        line->obstacle = evolution->obstacle;
     }
     if (evolution->part == 0) find_range(line, &options);
     cpsi_line_report_uplift(line, evolution->gravity);
@@ -281,6 +283,13 @@ CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line)
                 if (report.has_touchdown) report.end[end].touchdown[a] += evolution->origin[a];
             }
     return report;
+}
+
+bool cps_evolution_obstacle(const CpsEvolution *evolution, int obstacle, double point[3]) {
+    if (!evolution || !point || obstacle < 0 || obstacle >= evolution->obstacle_count) return false;
+    vec3_store(point,
+               vec3_add(evolution->obstacle[obstacle].frame.point, vec3_load(evolution->origin)));
+    return true;
 }
 
 int cps_evolution_point_count(const CpsEvolution *evolution) {

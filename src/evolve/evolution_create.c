@@ -25,9 +25,9 @@ static char *copy_name(CpsiArena *arena, const char *name) {
     return copy;
 }
 
-/* Do contacts need axes of their own? Not on one plane with isotropic friction. */
+/* Do contacts need axes of their own? Not on one plane with isotropic friction that stays. */
 static bool scene_needs_local_axes(const CpsScene *scene) {
-    if (scene->obstacle_count != 1) return scene->obstacle_count > 1;
+    if (scene->obstacle_count != 1 || scene->obstacle[0].moves) return scene->obstacle_count > 0;
     const CpsiObstacle only = cpsi_obstacle(scene->obstacle);
     return cpsi_obstacle_needs_local_axes(&only);
 }
@@ -74,6 +74,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     CPSI_PLACE(arena, evolution->stage, scene->stage_count + 1);
     CPSI_PLACE(arena, evolution->obstacle, scene->obstacle_count + 1);
     CPSI_PLACE(arena, evolution->angle, scene->obstacle_count + 1);
+    CPSI_PLACE(arena, evolution->shift, scene->obstacle_count + 1);
     CPSI_PLACE(arena, evolution->move, scene->line_count);
     CPSI_PLACE(arena, evolution->from, 2 * scene->line_count);
     layout_given(evolution, arena, scene, real);
@@ -109,11 +110,12 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         stage->name = copy_name(arena, scene->stage[i].name);
         cpsi_stage_layout(stage, arena, scene->stage[i].change_count,
                           scene->stage[i].point_change_count, scene->stage[i].body_change_count,
-                          scene->stage[i].turn_count, scene->stage[i].grasp_change_count);
+                          scene->stage[i].turn_count, scene->stage[i].grasp_change_count,
+                          scene->stage[i].shift_count);
     }
     cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->point_count,
                       scene->body_count, scene->obstacle_count,
-                      CPSI_GRASP_CHANGES * scene->line_count);
+                      CPSI_GRASP_CHANGES * scene->line_count, scene->obstacle_count);
     cpsi_points_layout(&evolution->points, arena, scene);
     for (int i = 0; i < scene->point_count; i++) {
         const char *name = copy_name(arena, scene->point[i].name);

@@ -25,8 +25,10 @@ static void impose_plan(CpsiBalance *balance, int item) {
     const int i = balance->line[item];
     CpsiLine *line = &evolution->line[i];
     cpsi_workspace_attach(&evolution->workspace[0], line);
-    for (int k = 0; k < evolution->obstacle_count; k++)
+    for (int k = 0; k < evolution->obstacle_count; k++) {
         evolution->workspace[0].scratch.turn[k] = evolution->angle[k];
+        evolution->workspace[0].scratch.shift[k] = evolution->shift[k];
+    }
     memcpy(line->weight_before, evolution->move[i].weight_from, sizeof line->weight_before);
     memcpy(line->weight, evolution->move[i].weight_to, sizeof line->weight);
     for (int k = 0; k < line->grasp_count; k++) {

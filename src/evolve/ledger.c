@@ -43,6 +43,18 @@ static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
     *gravity -= (line->weight_length ? carried : line->length) * vec3_dot(weight, origin);
 }
 
+/* The work of the reactions as obstacles are shifted. */
+static double push_work(const CpsiLine *line) {
+    double work = 0;
+    if (line->has_local_axes)
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+            const int k = line->obstacle_index[c];
+            if (k < 0 || !cpsi_line_is_shifted(line, k)) continue;
+            work += line->reaction[c] * vec3_dot(vec3_at(line->normal, c), line->shift[k]);
+        }
+    return work;
+}
+
 CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], bool known) {
     CpsiLedgerStart start = {0};
     potentials(line, &start.elastic, &start.gravity);
@@ -57,6 +69,7 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
         }
     }
     start.all_known = known;
+    start.pushed = push_work(line);
     for (int k = 0; k < line->grasp_count; k++) {
         const CpsGrasp *grasp = &line->grasp[k];
         const bool is_free = line->grasp_before[k].kind == CPS_END_KIND_FREE;
@@ -86,7 +99,9 @@ static double end_obstacle_work(const CpsiLine *line) {
     if (line->has_local_axes)
         for (int end = 0; end < 2; end++) {
             const int j = end == CPS_END_A ? 0 : line->n - 1, k = line->obstacle_index[j];
-            if (!cpsi_line_is_held(line, j) || k < 0 || line->turn[k] == 0) continue;
+            if (!cpsi_line_is_held(line, j) || k < 0 ||
+                (line->turn[k] == 0 && !cpsi_line_is_shifted(line, k)))
+                continue;
             const Vec3 own = cpsi_obstacle_slip(&line->obstacle[k], vec3_at(line->reference, j),
                                                 vec3_at(line->position, j));
             work += vec3_dot(vec3_load(line->report.end[end].friction_force),
@@ -102,7 +117,7 @@ static double obstacle_work(const CpsiLine *line) {
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
             const int k = line->obstacle_index[c];
-            if (k < 0 || line->turn[k] == 0) continue;
+            if (k < 0 || (line->turn[k] == 0 && !cpsi_line_is_shifted(line, k))) continue;
             const Vec3 x = cpsi_line_place(line, line->position, c),
                        from = cpsi_line_place(line, line->reference, c);
             const Vec3 own = cpsi_contact_slip_between(line, c, from, x);
@@ -115,6 +130,8 @@ static double obstacle_work(const CpsiLine *line) {
 CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
     CpsLedger ledger = {.dissipated = line->report.dissipated, .obstacles = obstacle_work(line)};
     double elastic, gravity;
+    const double pushed = push_work(line);
+    ledger.obstacles += start->all_known ? 0.5 * (start->pushed + pushed) : pushed;
     potentials(line, &elastic, &gravity);
     ledger.elastic = elastic - start->elastic;
     ledger.gravity = gravity - start->gravity;

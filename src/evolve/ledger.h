@@ -10,6 +10,7 @@ typedef struct CpsiLedgerStart {
     double elastic, gravity; /* [J] */
     CpsEndReport end[2];
     bool all_known;
+    double pushed; /* [J] work that the reactions at the start do as obstacles are shifted */
     bool known[2]; /* is the force at this end known? */
     CpsEndReport grasp[CPS_MAX_GRASPS];
 } CpsiLedgerStart;

@@ -35,6 +35,7 @@ static CpsStatus check_path(const CpsScene *scene, const char *name, double leng
                             const double from[3], const double to[3], bool grabbed,
                             const char *what, CpsError *err) {
     for (int k = 0; k < scene->obstacle_count; k++) {
+        if (scene->obstacle[k].moves) continue; /* shifts.h */
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
         const double touch = PATH_TOUCH * length + cpsi_place_rounding(length, vec3_load(to));
         const double depth = path_depth(&obstacle, vec3_load(from), vec3_load(to), touch);

@@ -54,7 +54,10 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         memcpy(from, line->end, sizeof from);
         for (int i = 0; i < line->grasp_count; i++) line->grasp_before[i] = line->grasp[i].imposed;
         memcpy(line->weight_before, line->weight, sizeof line->weight);
-        for (int i = 0; i < line->obstacle_count; i++) turn[i] = 0;
+        for (int i = 0; i < line->obstacle_count; i++) {
+            turn[i] = 0;
+            line->shift[i] = vec3(0, 0, 0);
+        }
         known = true;
         double direction[3], load;
         if (cpsi_line_falls_away(line, direction, &load)) return true;

@@ -133,6 +133,18 @@ static CpsStatus check_friction_keys(const CpsObstacle *o, CpsError *err) {
                             "friction.set");
 }
 
+/* With frozen friction, or contact of the reference, a step is about the places of the reference.
+ */
+static CpsStatus check_moves(const CpsScene *scene, const CpsObstacle *o, CpsError *err) {
+    if (!o->moves || (scene->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
+                      scene->contact_policy == CPS_CONTACT_POLICY_REACHED))
+        return CPS_OK;
+    return CPSI_FAIL_AT("moves", err, CPS_ERR_ARGUMENT,
+                        "obstacle '%s' moves: this needs consistent friction, and contact that is "
+                        "reached",
+                        o->name);
+}
+
 static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
     if (scene->obstacle_count < 0 || scene->obstacle_count > MAX_OBSTACLES)
         return CPSI_FAIL_AT("obstacles", err, CPS_ERR_ARGUMENT,
@@ -152,6 +164,7 @@ static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
                                    i + 1, k + 1);
         if (status == CPS_OK) status = check_surface(o, err);
         if (status == CPS_OK) status = check_friction_keys(o, err);
+        if (status == CPS_OK) status = check_moves(scene, o, err);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "obstacles.%s", o->name);
     }
     return CPS_OK;

@@ -12,6 +12,7 @@
 #include "evolve/places.h"
 #include "evolve/points.h"
 #include "evolve/ranges.h"
+#include "evolve/shifts.h"
 
 enum { STAGE_COOKIE = 0x57a9e004 };
 
@@ -116,6 +117,7 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
                             "has a mass: give the scene a gravity, and change it in its history",
                             what);
     CpsStatus status = check_turns(scene, stage, what, err);
+    if (status == CPS_OK) status = cpsi_stage_shifts_check(scene, stage, what, err);
     for (int i = 0; i < stage->change_count && status == CPS_OK; i++)
         status = check_change(scene, stage, i, what, err);
     if (status == CPS_OK) status = cpsi_point_changes_check(scene, stage, what, err);

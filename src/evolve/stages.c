@@ -7,9 +7,11 @@
 
 #include "evolve/grasps.h"
 #include "evolve/path_check.h"
+#include "evolve/shifts.h"
 
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
-                       int bodies, int turns, int grasps) {
+                       int bodies, int turns, int grasps, int shifts) {
+    CPSI_PLACE(arena, stage->shift, shifts);
     CPSI_PLACE(arena, stage->change, changes);
     CPSI_PLACE(arena, stage->grasp_change, grasps);
     CPSI_PLACE(arena, stage->body_change, bodies);
@@ -47,6 +49,8 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
         if (change->kind == CPS_END_KIND_HELD)
             for (int a = 0; a < 3; a++) change->value[a] -= origin[a];
     }
+    stage->shift_count = from->shift_count;
+    for (int k = 0; k < from->shift_count; k++) stage->shift[k] = from->shift[k];
     stage->turn_count = from->turn_count;
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
     stage->gravity_changes = from->gravity_changes;
@@ -80,6 +84,8 @@ CpsScene cpsi_stage_scene(const CpsEvolution *evolution) {
 CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
                                  bool all, const char *what, CpsError *err) {
     const CpsScene scene = cpsi_stage_scene(evolution);
+    const CpsStatus clear = cpsi_shifts_check(evolution, stage, what, err);
+    if (clear != CPS_OK) return clear;
     for (int i = 0; i < stage->change_count; i++) {
         CpsChange change = stage->change[i];
         const CpsiLine *line = &evolution->line[change.line];
@@ -212,6 +218,22 @@ static void plan_weights(CpsEvolution *evolution, const CpsiEvolutionStage *stag
     memcpy(evolution->gravity, after, sizeof after);
 }
 
+/* Shift the obstacles to where they are at the end of the step. */
+static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage) {
+    for (int k = 0; k < evolution->obstacle_count; k++) evolution->shift[k] = vec3(0, 0, 0);
+    for (int k = 0; k < stage->shift_count; k++) {
+        const CpsShift *given = &stage->shift[k];
+        CpsiObstacle *obstacle = &evolution->obstacle[given->obstacle];
+        const Vec3 by = vec3_scale(1.0 / stage->steps, vec3_load(given->by));
+        evolution->shift[given->obstacle] = by;
+        obstacle->frame.point = vec3_add(obstacle->frame.point, by);
+    }
+    for (int i = 0; i < evolution->line_count; i++) {
+        evolution->move[i].shift = stage->shift_count > 0 ? evolution->shift : NULL;
+        evolution->move[i].obstacle = evolution->obstacle;
+    }
+}
+
 void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
     if (part == 0) memcpy(evolution->gravity_from, evolution->gravity, sizeof evolution->gravity);
     plan_weights(evolution, stage, part);
@@ -233,6 +255,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int k = 0; k < stage->turn_count; k++)
         evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
+    plan_shifts(evolution, stage);
     if (stage->steps == 1)
         snprintf(evolution->step_name, CPSI_STEP_NAME, "%s", stage->name);
     else
@@ -250,5 +273,6 @@ void cpsi_stage_plan_statics(CpsEvolution *evolution) {
         move->grasp_count = 0;
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
     }
+    plan_shifts(evolution, &(CpsiEvolutionStage){.steps = 1});
     plan_points(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);
 }

@@ -15,12 +15,14 @@ enum { CPSI_STEP_NAME = 96, CPSI_GRASP_CHANGES = 2 * CPS_MAX_GRASPS };
 /* A stage; positions are relative to the origin. */
 typedef struct CpsiEvolutionStage {
     const char *name;
-    int steps, change_count, point_change_count, body_change_count, grasp_change_count, turn_count;
+    int steps, change_count, point_change_count, body_change_count, grasp_change_count, turn_count,
+        shift_count;
     CpsChange *change;
     CpsGraspChange *grasp_change;
     CpsPointChange *point_change;
     CpsBodyChange *body_change;
     CpsTurn *turn;
+    CpsShift *shift;
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */
     uint64_t hash;     /* of this stage and all before it */
@@ -43,6 +45,7 @@ struct CpsEvolution {
     int line_count, stage_count, step_count;
     int obstacle_count;
     CpsiObstacle *obstacle; /* (obstacle_count) */
+    Vec3 *shift;            /* (obstacle_count) [m] by which each is shifted in the step */
     double *angle;          /* (obstacle_count) [rad] by which each turns in the step */
     CpsiMove *move;         /* (line_count) the change of each line in the step */
     CpsiLine *line;         /* (line_count) */

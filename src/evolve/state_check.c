@@ -160,6 +160,11 @@ const char *cpsi_state_fault(const CpsEvolution *evolution) {
     if (!is_step_report(evolution)) return "its report is none of a step";
     for (int i = 0; i < 2 * evolution->line_count; i++)
         if (!is_end(&evolution->from[i])) return "an end comes from nowhere";
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        double point[3];
+        vec3_store(point, evolution->obstacle[k].frame.point);
+        if (!all_finite(point, 3)) return "an obstacle is at no place";
+    }
     if (!all_finite(evolution->gravity, 3) || !all_finite(evolution->gravity_from, 3))
         return "its gravity is not finite";
     for (int i = 0; i < evolution->line_count; i++) {

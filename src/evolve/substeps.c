@@ -75,6 +75,10 @@ static const double HARDLY_ANY = 1e-12;
  * node. */
 static const double MAX_WASTED_WORK = 2e6, NODES_BESIDE = 30, SET_COST = 30;
 
+/* A round obstacle is shifted by no more than this share of its radius in one portion: its axis or
+ * centre stays on its side of what it pushes. */
+static const double MOST_SHIFT = 0.25;
+
 /* Rounding of an angle that is a whole number of quarter turns. */
 static const double ROUNDING = 1e-9;
 
@@ -164,6 +168,21 @@ static void weight_at(const CpsiMove *move, double share, double weight[3]) {
     }
 }
 
+/* Put the obstacles where they are at share `to`. */
+static void shift_obstacles(const Advance *substeps, double from, double to) {
+    const CpsiMove *move = substeps->move;
+    for (int k = 0; k < substeps->line->obstacle_count; k++) {
+        Vec3 *shift = &substeps->scratch->shift[k];
+        *shift = vec3(0, 0, 0);
+        if (!move->shift) continue;
+        CpsiObstacle *obstacle = &substeps->scratch->obstacle[k];
+        *obstacle = move->obstacle[k];
+        *shift = vec3_scale(to - from, move->shift[k]);
+        if (to < 1)
+            obstacle->frame.point = vec3_axpy(to - 1, move->shift[k], obstacle->frame.point);
+    }
+}
+
 /* Impose the part of the move from share `from` to share `to`. */
 static void impose(const Advance *substeps, double from, double to) {
     weight_at(substeps->move, from, substeps->line->weight_before);
@@ -178,6 +197,7 @@ static void impose(const Advance *substeps, double from, double to) {
     }
     for (int k = 0; k < substeps->line->obstacle_count; k++)
         substeps->scratch->turn[k] = (to - from) * substeps->move->angle[k];
+    shift_obstacles(substeps, from, to);
 }
 
 /* A too coarse mesh counts as an answer: smaller parts would not change it. */
@@ -644,12 +664,18 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
 }
 
 /* Number of equal portions of a step in each of which no obstacle turns by more than a quarter
- * turn. */
+ * turn, nor is shifted too far. */
 static int portion_count(const CpsiLine *line, const CpsiMove *move) {
     double most = 0;
     for (int k = 0; k < line->obstacle_count; k++) most = cpsi_max_nan(most, fabs(move->angle[k]));
     const double quarters = ceil(most / CPSI_QUARTER - ROUNDING);
-    return quarters > 1 ? (int)quarters : 1;
+    double count = quarters > 1 ? quarters : 1;
+    if (move->shift)
+        for (int k = 0; k < line->obstacle_count; k++)
+            if (line->obstacle[k].kind != CPS_OBSTACLE_PLANE)
+                count = fmax(count, ceil(vec3_norm(move->shift[k]) /
+                                         (MOST_SHIFT * line->obstacle[k].radius)));
+    return (int)count;
 }
 
 void cpsi_line_substeps(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,

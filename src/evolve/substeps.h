@@ -11,7 +11,11 @@ typedef struct CpsiMove {
     CpsEnd from[2], to[2];
     int grasp_count;
     CpsEnd grasp_from[CPS_MAX_GRASPS], grasp_to[CPS_MAX_GRASPS];
-    const double *angle;                 /* (obstacles) [rad] */
+    const double *angle; /* (obstacles) [rad] */
+    /* where some are shifted: by how much [m], (obstacles), and where all are in the end; else
+     * NULL */
+    const Vec3 *shift;
+    const CpsiObstacle *obstacle;
     double weight_from[3], weight_to[3]; /* [N/m] per natural length */
 } CpsiMove;
 
@@ -23,9 +27,11 @@ typedef struct CpsiSubsteps {
     int *obstacle_index;  /* (contacts, n) */
     CpsEndReport end[2];
     CpsGrasp grasp[CPS_MAX_GRASPS];
-    double *position; /* (n, 3) */
-    double *trial;    /* (n, 4), NULL without a path tolerance */
-    double *turn;     /* (obstacles) what line->turn points to */
+    double *position;       /* (n, 3) */
+    double *trial;          /* (n, 4), NULL without a path tolerance */
+    double *turn;           /* (obstacles) what line->turn points to */
+    Vec3 *shift;            /* (obstacles) likewise */
+    CpsiObstacle *obstacle; /* (obstacles) where they are at the end of a part */
 } CpsiSubsteps;
 
 void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int contacts,

@@ -130,7 +130,8 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     at->normal = cpsi_obstacle_normal(on, at->place);
     at->friction = evolution->has_static && evolution->done == 0 ? 0 : on->friction[0];
     const Vec3 before =
-        cpsi_obstacle_turn(on, vec3_load(point->before), evolution->angle[at->obstacle]);
+        cpsi_obstacle_carry(on, vec3_load(point->before), evolution->shift[at->obstacle],
+                            evolution->angle[at->obstacle]);
     at->slip = cpsi_obstacle_slip(on, before, at->place);
     at->start = vec3_axpy(-cpsi_obstacle_gap(on, before), cpsi_obstacle_normal(on, before), before);
 }

@@ -11,6 +11,7 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
     CpsiObstacle out = {.kind = def->kind,
                         .radius = def->radius,
                         .shape = def->friction_shape,
+                        .moves = def->moves,
                         .has_set = def->friction_set};
     out.frame = cpsi_plane(def->point, def->kind == CPS_OBSTACLE_PLANE ? def->normal : def->axis);
     out.friction[0] = def->friction;
@@ -151,4 +152,9 @@ double cpsi_obstacle_allowance(const CpsiObstacle *o, double l) {
 Vec3 cpsi_obstacle_turn(const CpsiObstacle *o, Vec3 x, double angle) {
     if (angle == 0) return x;
     return vec3_add(o->frame.point, turned(vec3_sub(x, o->frame.point), o->frame.axis[2], angle));
+}
+
+Vec3 cpsi_obstacle_carry(const CpsiObstacle *o, Vec3 x, Vec3 shift, double angle) {
+    const bool stays = shift.x == 0 && shift.y == 0 && shift.z == 0;
+    return cpsi_obstacle_turn(o, stays ? x : vec3_add(x, shift), angle);
 }

@@ -21,6 +21,7 @@ typedef struct CpsiObstacle {
                        (cable/line.h) */
     bool has_grain; /* the first tangent is that of `grain`, not of the line */
     Vec3 grain;
+    bool moves; /* it may be shifted */
 } CpsiObstacle;
 
 CpsiObstacle cpsi_obstacle(const CpsObstacle *def);
@@ -71,6 +72,9 @@ bool cpsi_obstacle_is_isotropic(const CpsiObstacle *obstacle);
  * min(l^2/(4 R), R/4). A chord between two points of the surface cuts in by l^2/(8 R) and more, but
  * by less than delta up to l = 1.3 R. */
 double cpsi_obstacle_allowance(const CpsiObstacle *obstacle, double l);
+
+/* x carried along as the obstacle is shifted [m] to where it is now, and turns. */
+Vec3 cpsi_obstacle_carry(const CpsiObstacle *obstacle, Vec3 x, Vec3 shift, double angle);
 
 /* x carried along as the obstacle turns about its axis by `angle` [rad], right-hand rule. */
 Vec3 cpsi_obstacle_turn(const CpsiObstacle *obstacle, Vec3 x, double angle);

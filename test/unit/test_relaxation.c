@@ -23,6 +23,7 @@ typedef struct Fixture {
     CpsiChainProgram program;
     CpsiObstacle bed;
     double turn[1], start[6];
+    Vec3 shift[1];
 } Fixture;
 
 static void lay_out(Fixture *f) {
@@ -45,6 +46,7 @@ static void begin(Fixture *f, double length, double stiffness, double weight, bo
     line->obstacle = &f->bed;
     line->obstacle_count = lies;
     line->turn = f->turn;
+    line->shift = f->shift;
     lay_out(f);
     assert_true(cpsi_arena_allocate(&f->arena));
     lay_out(f);

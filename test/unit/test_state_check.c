@@ -124,6 +124,7 @@ static const char *const REASON[] = {
     "it stands at a step that the history does not have",
     "its report is none of a step",
     "an end comes from nowhere",
+    "an obstacle is at no place",
     "its gravity is not finite",
     "an end is neither held nor free, or at no place",
     "a node is grasped that cannot be, or at no place",

@@ -168,6 +168,11 @@ CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
                          "directory, scene and evolution are all needed to open results");
     CpsStatus status = cps_results_check_options(options, err);
     if (status) return status;
+    for (int k = 0; k < scene->obstacle_count; ++k)
+        if (scene->obstacle[k].moves)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "obstacle '%s' may move: result files hold obstacles that stay",
+                             scene->obstacle[k].name);
 
     CpsResults *results = calloc(1, sizeof *results);
     if (!results) return fail_memory(err);
