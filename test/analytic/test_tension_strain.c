@@ -231,11 +231,54 @@ static void hanging(void **state) {
     CHECK_NEAR(hanging_error(&NYLON, 128, X, Z, h, v, true), 0, 2 * error[3]);
 }
 
+/* The stiffness of end B of the hanging line, whose tensions are on both sides of a corner, against
+ * the difference of the forces at places beside it. */
+static void stiffness_is_the_slope(void **state) {
+    (void)state;
+    enum { N = 40 };
+    static const double AT[3] = {85, 0, 80}, BESIDE = 1e-3;
+    double worst = 0;
+    for (int a = 0; a < 3; a++) {
+        static Case c;
+        CpsError err;
+        CpsStiffness found;
+        double to[3], force[2][3];
+        case_begin(&c, 120, N, 600, 1);
+        use(&c, &NYLON);
+        case_laid(&c, AT[0], AT[2]);
+        for (int side = 0; side < 2; side++) {
+            for (int b = 0; b < 3; b++) to[b] = AT[b] + (a == b ? BESIDE * (2 * side - 1) : 0);
+            case_move(&c, 1, to[0], to[1], to[2]);
+        }
+        Run run = case_open(&c);
+        (void)case_step(&run);
+        CHECK_INT(cps_evolution_stiffness(run.evolution, 0, CPS_END_B, CPS_STIFFNESS_STEP, &found,
+                                          &err),
+                  CPS_OK);
+        CHECK_INT(found.outcome, CPS_STIFFNESS_OUTCOME_FOUND);
+        for (int side = 0; side < 2; side++) {
+            (void)case_step(&run);
+            for (int b = 0; b < 3; b++)
+                force[side][b] =
+                    cps_evolution_line_report(run.evolution, 0).end[CPS_END_B].force[b];
+        }
+        for (int b = 0; b < 3; b++) {
+            const double slope = (force[1][b] - force[0][b]) / (2 * BESIDE),
+                         off = fabs(found.matrix[3 * b + a] - slope) / fabs(found.matrix[0]);
+            worst = fmax(worst, off);
+            CHECK_LESS(off, 1e-5); /* 2e-9 of the forces, 7e4 N, over 2e-3 m and 4e4 N/m */
+        }
+        case_close(&run);
+    }
+    show("hanging line by a table", "stiffness of B, worst off its xx", 0, worst);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pulled_straight),
         cmocka_unit_test(two_rows_are_a_stiffness),
         cmocka_unit_test(hanging),
+        cmocka_unit_test(stiffness_is_the_slope),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,6 +69,12 @@ int elongation_read(const Source *source, const char *line, Record *record, FILE
     return bad;
 }
 
+void elongation_free(Record *record) {
+    free(record->spring_of);
+    free(record->spring_strain);
+    free(record->spring_stiffness);
+}
+
 static size_t first_of(const Record *r, size_t i) { return r->spring_of ? r->spring_of[i] : 0; }
 static size_t end_of(const Record *r, size_t i) { return r->spring_of ? r->spring_of[i + 1] : 0; }
 

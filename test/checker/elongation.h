@@ -9,6 +9,8 @@
 /* Read them; a line without any has none. 0, or -1 with a line in the log. */
 int elongation_read(const Source *source, const char *line, Record *record, FILE *log);
 
+void elongation_free(Record *record);
+
 /* [N] T at a strain, of element i. */
 Real elongation_tension(const Record *r, size_t i, Real strain);
 /* The strain at a tension. */

@@ -3,7 +3,6 @@
  * compared with the dimensions before a byte of it is read, and every size is bounded before
  * anything is allocated. */
 #include "record.h"
-
 #include "elongation.h"
 #include "grasps.h"
 
@@ -546,9 +545,7 @@ void record_destroy(Record *record) {
     free(record->element_compliance);
     free(record->weight_length);
     free(record->breaking_load);
-    free(record->spring_of);
-    free(record->spring_strain);
-    free(record->spring_stiffness);
+    elongation_free(record);
     free(record->gap);
     free(record->friction_bound);
     free(record->reaction);
