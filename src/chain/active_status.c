@@ -219,27 +219,45 @@ static void release(CpsiNewton *newton, int d, const double f[2]) {
     newton->changed = true;
 }
 
-/* The force on disc d, which sticks, exceeds its bound: the excess will be carried by what its
- * neighbours can still take in its direction q, at most l with |f + l q| = A, and those that cannot
- * take it slip too. Not so general sets: with corners and edges fewer slip than that says. */
-static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction *now) {
+/* The largest l with f + l q inside the bound of disc e. */
+static double room_of(const CpsiNewton *newton, int e, const CpsiNodeFriction *now,
+                      const double q[2]) {
+    const CpsiFrictionShape *shape = cpsi_newton_shape(newton->program, e);
+    if (shape) {
+        const double by = now->bound > 0 ? 1 / now->bound : 0;
+        const double x[2] = {by * now->f[0], by * now->f[1]};
+        return now->bound * cpsi_friction_shape_reach(shape, x, q);
+    }
+    const double along = cpsi_newton_dot(now->f, q), across = now->f[1] * q[0] - now->f[0] * q[1];
+    return sqrt(fmax(0, now->bound * now->bound - across * across)) - along;
+}
+
+/* The force on disc d, which sticks, exceeds its bound by `excess`, nearest to a piece of its set:
+ * the excess will be carried by what its neighbours can still take in its direction q, at most l
+ * with f + l q in A C, and those that cannot take it slip too. */
+static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction *now,
+                               double excess, int piece) {
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
-    const double size = cpsi_newton_size(now->f), q[2] = {now->f[0] / size, now->f[1] / size};
+    double q[2] = {now->f[0], now->f[1]};
+    if (piece >= 0) {
+        const CpsiShapePiece *at = &disc->shape[d]->piece[piece];
+        for (int a = 0; a < 2; a++)
+            q[a] = at->is_edge ? at->normal[0][a] : now->f[a] - now->bound * at->centre[a];
+    }
+    const double size = cpsi_newton_size(q);
+    for (int a = 0; a < 2; a++) q[a] /= size;
     for (int side = -1; side <= 1; side += 2) {
-        double left = disc->weight[d] * (size - now->bound);
+        double left = disc->weight[d] * excess;
         for (int e = d + side; e >= 0 && e < disc->count; e += side) {
             const int j = disc->node[e];
-            if (j != disc->node[e - side] + side || !(newton->status[j] & CPSI_STICKS) ||
-                cpsi_newton_shape(program, e))
-                break;
+            if (j != disc->node[e - side] + side || !(newton->status[j] & CPSI_STICKS)) break;
             const CpsiNodeFriction next = cpsi_newton_friction(program, e);
-            const double along = next.f[0] * q[0] + next.f[1] * q[1],
-                         across = next.f[1] * q[0] - next.f[0] * q[1],
-                         most = sqrt(fmax(0, next.bound * next.bound - across * across)) - along;
+            const double most = room_of(newton, e, &next, q);
             left -= disc->weight[e] * most;
             if (left <= 0) break;
-            const double to[2] = {next.f[0] + most * q[0], next.f[1] + most * q[1]};
+            const double far = piece >= 0 ? most + left / disc->weight[e] : most;
+            const double to[2] = {next.f[0] + far * q[0], next.f[1] + far * q[1]};
             release(newton, e, cpsi_newton_size(to) > 0 ? to : now->f);
         }
     }
@@ -356,11 +374,12 @@ static void decide_friction(CpsiNewton *newton) {
             newton->changed = true;
         }
         int piece;
-        if (disc->weight[d] * cpsi_newton_beyond(program, d, now.bound, now.f, &piece) <=
+        const double excess = cpsi_newton_beyond(program, d, now.bound, now.f, &piece);
+        if (disc->weight[d] * excess <=
             fmax(newton->noise, SIGNIFICANT * newton->residual) * newton->force)
             continue;
         release(newton, d, now.f);
-        if (!cpsi_newton_shape(program, d)) release_neighbours(newton, d, &now);
+        release_neighbours(newton, d, &now, excess, piece);
     }
     stop_friction(newton);
 }
