@@ -131,9 +131,9 @@ typedef struct CpsiFrictionConic {
                           system */
     double (*du)[2];   /* (count) the direction in these */
     double *frame;     /* (n, 9) the axes of the nodes, so turned */
-    double *data, *scratch; /* (count, stride) what each element holds (friction_conic.c) */
-    int *index;             /* (count, index_stride) */
-    size_t stride, index_stride;
+    double *data, *scratch; /* what the elements hold, in blocks of eight (conic_block.h) */
+    int *index;
+    size_t blocks, stride, index_stride;
 } CpsiFrictionConic;
 
 typedef struct CpsiChainProgram {
@@ -250,7 +250,8 @@ void cpsi_friction_conic_predict_bounds(CpsiFrictionConic *conic, const CpsiUnil
 extern const CpsiKind cpsi_segment_128, cpsi_segment_256, cpsi_segment_512;
 extern const CpsiKind cpsi_unilateral_128, cpsi_unilateral_256, cpsi_unilateral_512;
 extern const CpsiKind cpsi_friction_disc_128, cpsi_friction_disc_256, cpsi_friction_disc_512;
-extern const CpsiKind cpsi_drag, cpsi_friction_conic;
+extern const CpsiKind cpsi_friction_conic_128, cpsi_friction_conic_256, cpsi_friction_conic_512;
+extern const CpsiKind cpsi_drag;
 
 /* In this order: friction discs and conics read what the same pass has computed for their
  * unilateral contact. */

@@ -8,7 +8,7 @@
         [CPSI_KIND_SEGMENT] = &cpsi_segment_##width, [CPSI_KIND_DRAG] = &cpsi_drag, \
         [CPSI_KIND_UNILATERAL] = &cpsi_unilateral_##width,                          \
         [CPSI_KIND_FRICTION_DISC] = &cpsi_friction_disc_##width,                    \
-        [CPSI_KIND_FRICTION_CONIC] = &cpsi_friction_conic                           \
+        [CPSI_KIND_FRICTION_CONIC] = &cpsi_friction_conic_##width                   \
     }
 
 const CpsiKind *const *cpsi_chain_kinds(void) {

@@ -20,6 +20,7 @@ enum { CPSI_LANES = 8 };
 
 /* One number of each of eight elements. */
 typedef double CpsiLane[CPSI_LANES];
+typedef int CpsiIndexLane[CPSI_LANES];
 
 /* A function with a loop over lanes. It stands for itself, and its pointers are `restrict`: in the
  * midst of other code gcc 12 does not see what it may do at once. CPSI_LANES_PART: a part of such

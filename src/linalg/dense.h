@@ -44,21 +44,4 @@ void cpsi_next_row(int rank, int n, double *q);
 /* Complete `rank` orthonormal rows of q (n, n) to n. */
 void cpsi_complete_rows(int rank, int n, double *q);
 
-/* Q R = the matrix a (m, n), m >= n, with rows sorted by size and columns by what remains of them.
- * With both orders a row keeps its relative accuracy, however small it is beside the others (Cox
- * and Higham 1998). In place: R above the diagonal, Householder vectors below, with beta (n); row
- * (m) and column (n) are the orders. Returns false where a is rank deficient or not finite. */
-bool cpsi_qr_factor(int m, int n, double *a, double *beta, int *row, int *column);
-/* cpsi_qr_to: out = Q'y (m), with y in the order of the rows of a. cpsi_qr_from: y = Q x, which
- * overwrites x. y and x do not overlap. */
-void cpsi_qr_to(int m, int n, const double *a, const double *beta, const int *row, const double *y,
-                double *out);
-void cpsi_qr_from(int m, int n, const double *a, const double *beta, const int *row, double *x,
-                  double *y);
-/* out = R^-1 x, with the unknowns in their own order; and out = R^-T x, with x in that order. out
- * and x do not overlap. */
-void cpsi_qr_solve(int n, const double *a, const int *column, const double *x, double *out);
-void cpsi_qr_solve_transposed(int n, const double *a, const int *column, const double *x,
-                              double *out);
-
 #endif

@@ -6,6 +6,7 @@
  * Random scenes of all classes (random_scene.h); the number of elements varies, so that the last
  * lanes are filled to any number. With one width alone there is nothing to compare: exit status
  * 77. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,6 +59,31 @@ static bool same_lines(const CpsEvolution *one, const CpsEvolution *other, int c
     return all;
 }
 
+/* Sets of other sizes on obstacles side by side, so that lanes are filled by runs of each. */
+static CpsSet *make_set(double size, int kind) {
+    const double points[] = {size,       0,           0.3 * size,  0.6 * size, -0.5 * size,
+                             0.4 * size, -0.4 * size, -0.5 * size, 0.2 * size, -0.7 * size};
+    const double from[2] = {-0.5 * size, 0}, to[2] = {2 * size, size};
+    CpsSet *set = NULL, *part[2] = {NULL};
+    if (kind == 0) return cps_set_hull_of_points(2, 5, points, &set, NULL) == CPS_OK ? set : NULL;
+    if (cps_set_ball(2, NULL, size, &part[0], NULL) == CPS_OK &&
+        cps_set_segment(2, from, to, &part[1], NULL) == CPS_OK)
+        (void)cps_set_hull(2, (const CpsSet *const *)part, &set, NULL);
+    cps_set_release(part[0]);
+    cps_set_release(part[1]);
+    return set;
+}
+
+/* Give every obstacle a set, of one kind or of alternating ones. */
+static void add_sets(RandomScene *random, CpsSet **set) {
+    for (int k = 0; k < random->scene.obstacle_count; k++) {
+        CpsObstacle *o = &random->obstacle[k];
+        o->friction_set = set[k] = make_set(fmax(o->friction, 0.1), k % 2);
+        o->friction = o->friction_lateral = 0;
+        o->has_friction_lateral = false;
+    }
+}
+
 /* The number of steps, all of which must be the same. */
 static int compare(const CpsScene *scene, int widths, const char *class_name, uint64_t seed,
                    int *failures) {
@@ -85,7 +111,7 @@ static int compare(const CpsScene *scene, int widths, const char *class_name, ui
 int main(int argc, char **argv) {
     static RandomScene random;
     const RandomSceneRange range = random_scene_range(argc, argv);
-    int valid = 0, steps = 0, failures = 0;
+    int valid = 0, with_sets = 0, steps = 0, failures = 0;
     unsetenv("CAPSTAN_WIDTH");
     const int widths = (int)cpsi_width() + 1;
     if (widths == 1) {
@@ -98,13 +124,19 @@ int main(int argc, char **argv) {
         random_scene_make(class_index, range.seed + (uint64_t)k, &random);
         if (!random.line[0].element_length)
             random.line[0].element_count = 8 + (int)splitmix(&state, 0, 24);
-        if (cps_scene_check(&random.scene, NULL) != CPS_OK) continue;
-        valid++;
-        steps += compare(&random.scene, widths, random_scene_class_name(class_index),
-                         range.seed + (uint64_t)k, &failures);
+        CpsSet *set[SCENE_OBSTACLES] = {NULL};
+        const bool sets = random.scene.obstacle_count > 0 && splitmix(&state, 0, 3) < 1;
+        if (sets) add_sets(&random, set);
+        if (cps_scene_check(&random.scene, NULL) == CPS_OK) {
+            valid++;
+            with_sets += sets;
+            steps += compare(&random.scene, widths, random_scene_class_name(class_index),
+                             range.seed + (uint64_t)k, &failures);
+        }
+        for (int i = 0; i < SCENE_OBSTACLES; i++) cps_set_release(set[i]);
     }
-    printf("%d of %d scenes valid, %d steps, %d widths, %d failures\n", valid, range.count, steps,
-           widths, failures);
+    printf("%d of %d scenes valid, %d with sets, %d steps, %d widths, %d failures\n", valid,
+           range.count, with_sets, steps, widths, failures);
     /* most scenes must be valid, or nothing is tested */
     return failures > 0 || 2 * valid < range.count;
 }

@@ -2,6 +2,7 @@
 /* The interior-point loop on small programs whose answer is known, with both linear systems: a
  * hanging pair of links, and the two ways of having no answer. */
 #include "chain/chain_program.h"
+#include "chain/qr_lanes.h"
 #include "ipm/ipm.h"
 #include "linalg/dense.h"
 
@@ -106,42 +107,60 @@ static void nan_does_not_leave(void **ops) {
     cpsi_arena_free(&fixture.arena);
 }
 
-/* Rows from 1e8 to 1e-8: with sorted rows each keeps its own digits. Against the inverse of a
- * square case in closed form: A = D L, D the sizes, L unit lower triangular, so that A x = y has
- * the solution of L x = D^-1 y. */
+/* Rows from 1e8 to 1e-8, in each lane in another order: with sorted rows each keeps its own digits.
+ * Against the inverse of a square case in closed form: A = D L, D the sizes, L unit lower
+ * triangular, so that A x = y has the solution of L x = D^-1 y. */
 static void graded_rows_keep_their_digits(void **unused) {
     (void)unused;
-    enum { N = 3 };
-    const double size[N] = {1e-8, 1e8, 1}, lower[N][N] = {{1, 0, 0}, {0.5, 1, 0}, {-2, 3, 1}},
-                 x[N] = {1.25, -3, 7};
-    double a[N * N], y[N], beta[N], t[N], found[N], back[N];
-    int row[N], column[N];
+    enum { N = 3, FROM = 1, TO = 7 };
+    static const double size[CPSI_LANES][N] = {{1, 1, 1},      {1e-8, 1e8, 1}, {1, 1e-8, 1e8},
+                                               {1e8, 1, 1e-8}, {1e8, 1e-8, 1}, {1e-8, 1, 1e8},
+                                               {1, 1e8, 1e-8}, {1, 1, 1}};
+    static const double lower[N][N] = {{1, 0, 0}, {0.5, 1, 0}, {-2, 3, 1}}, x[N] = {1.25, -3, 7};
+    CpsiLane a[N * N], y[N], beta[N], t[N], found[N], back[N], scratch[N * N + N];
+    CpsiIndexLane row[N], column[N];
+    CpsiLanesQr qr = {N, N, FROM, TO, a, beta, row, column};
+    bool singular[CPSI_LANES];
+    CPSI_FOR_LANES(l)
     for (int i = 0; i < N; i++) {
-        y[i] = 0;
+        y[i][l] = 0;
         for (int j = 0; j < N; j++) {
-            a[N * i + j] = size[i] * lower[i][j];
-            y[i] += size[i] * (lower[i][j] * x[j]);
+            a[N * i + j][l] = size[l][i] * lower[i][j];
+            y[i][l] += size[l][i] * (lower[i][j] * x[j]);
         }
     }
-    assert_true(cpsi_qr_factor(N, N, a, beta, row, column));
-    cpsi_qr_to(N, N, a, beta, row, y, t);
-    cpsi_qr_solve(N, a, column, t, found);
-    /* rounding of each row, times the condition of L, about 20 */
-    for (int i = 0; i < N; i++) CHECK_RELATIVE(found[i], x[i], 1e-13);
-    cpsi_qr_from(N, N, a, beta, row, t, back);
-    for (int i = 0; i < N; i++) CHECK_NEAR(back[i], y[i], 1e-13 * fabs(y[1]));
+    cpsi_lanes_qr_factor(&qr, singular, scratch);
+    cpsi_lanes_permute(&qr, N, row, y, t);
+    cpsi_lanes_qr_to(&qr, t);
+    memcpy(back, t, sizeof t);
+    cpsi_lanes_qr_solve(N, a, t);
+    cpsi_lanes_permute_back(&qr, N, column, t, found);
+    cpsi_lanes_qr_from(&qr, back);
+    cpsi_lanes_permute_back(&qr, N, row, back, t);
+    for (int l = FROM; l < TO; l++) {
+        assert_false(singular[l]);
+        /* rounding of each row, times the condition of L, about 20 */
+        for (int i = 0; i < N; i++) CHECK_RELATIVE(found[i][l], x[i], 1e-13);
+        for (int i = 0; i < N; i++) CHECK_NEAR(t[i][l], y[i][l], 1e-13 * 1e8 * fabs(x[1]));
+    }
     /* R^-T takes the rows of A to those of Q, which are unit vectors; of the smallest nothing is
      * lost to the others' rounding */
-    for (int j = 0; j < N; j++) back[j] = size[0] * lower[0][j];
-    cpsi_qr_solve_transposed(N, a, column, back, t);
-    CHECK_RELATIVE(cpsi_norm(N, t), 1, 1e-13);
-    for (int i = 0; i < N; i++) {
-        a[N * i] = 0;
-        a[N * i + 1] = a[N * i + 2] = size[i];
+    CPSI_FOR_LANES(l)
+    for (int j = 0; j < N; j++) back[j][l] = size[l][0] * lower[0][j];
+    cpsi_lanes_permute(&qr, N, column, back, t);
+    cpsi_lanes_qr_solve_transposed(N, a, t);
+    for (int l = FROM; l < TO; l++) {
+        const double unit[N] = {t[0][l], t[1][l], t[2][l]};
+        CHECK_RELATIVE(cpsi_norm(N, unit), 1, 1e-13);
     }
-    assert_false(cpsi_qr_factor(N, N, a, beta, row, column)); /* no rank */
-    a[4] = NAN;
-    assert_false(cpsi_qr_factor(N, N, a, beta, row, column));
+    CPSI_FOR_LANES(l)
+    for (int i = 0; i < N; i++) {
+        a[N * i][l] = 0;
+        a[N * i + 1][l] = a[N * i + 2][l] = size[l][i];
+    }
+    a[4][FROM] = NAN;
+    cpsi_lanes_qr_factor(&qr, singular, scratch);
+    for (int l = FROM; l < TO; l++) assert_true(singular[l]); /* no rank, or no number */
 }
 
 int main(void) {
