@@ -12,6 +12,8 @@ enum { QUANTITY_WIDTH = 18, LINE_WIDTH = 14, STEP_WIDTH = 16 };
 
 static const char *const END[] = {"A", "B"};
 static const double DEGREES = 57.29577951308232;
+/* Of more lines than these the table says nothing; docs/results.md. */
+enum { LISTED_LINES = 2000 };
 /* A force below this share of the largest tension of the line is rounding. */
 static const double ROUNDING = 1e-9;
 
@@ -103,10 +105,11 @@ static void print_line(const Columns *table, const CpsExtremes *of) {
 }
 
 void extremes_print(const Extremes *extremes, const CpsEvolution *evolution, FILE *out) {
-    if (extremes->step_count < 2) return;
+    const int lines = cps_evolution_line_count(evolution);
+    if (extremes->step_count < 2 || lines > LISTED_LINES) return;
     fprintf(out, "\n%-*s %-*s %12s  %-*s %12s  step\n", QUANTITY_WIDTH, "over all steps",
             LINE_WIDTH, "line", "least", STEP_WIDTH, "step", "greatest");
-    for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
+    for (int i = 0; i < lines; ++i) {
         const Columns table = {out, extremes, cps_evolution_line_view(evolution, i).name};
         print_line(&table, &extremes->line[i]);
     }

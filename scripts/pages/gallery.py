@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a spar and a barge on lines, and of driven systems."""
+"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a net, of a spar and a barge on lines, and of driven systems."""
 import os
 import re
+import subprocess
+import sys
 
 from marks import read
 
@@ -39,8 +41,16 @@ def barge(program):
     return os.path.join(place, "step-00006-plan.svg")
 
 
+def net(program):
+    """The plan of the last step of the scene that examples/net.py writes of 20 x 20 meshes."""
+    maker = os.path.join(program.root, "examples", "net.py")
+    scene = subprocess.run([sys.executable, maker, "20"], capture_output=True, text=True, check=True).stdout
+    _, place = program.run("run", program.file("net.yaml", scene))
+    return os.path.join(place, "step-00004-plan.svg")
+
+
 PICTURES = {
-    "run-rope": first_scene, "run-bridle": bridle, "run-oc3-hywind": spar, "run-barge": barge,
+    "run-rope": first_scene, "run-bridle": bridle, "run-oc3-hywind": spar, "run-barge": barge, "run-net": net,
     "drive-wheel-maps": driven("braked-wheel"),
     "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),
     "drive-disc": driven("disc"), "drive-plate": driven("plate"), "drive-car": driven("car"), "drive-planimeter": driven("planimeter"),

@@ -9,7 +9,8 @@
  * The tension of an element follows from the distance of its nodes, T = EA (|x'| - 1)^+. With half
  * the weight of the end elements, what the points carry and what acts on them, the forces on every
  * free point are added up anew; they must balance with a reaction and a friction force on the
- * obstacle that obey Coulomb's law at the slip that the places before and after tell. */
+ * obstacle that obey Coulomb's law at the slip that the places before and after tell. Every eighth
+ * scene is taken on three threads as well, and is to have the same bits. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +20,13 @@
 #include "splitmix.h"
 
 enum { MOST_MESHES = 30, MOST_LINES = 2 * MOST_MESHES * (MOST_MESHES + 1) };
-enum { MOST_POINTS = (MOST_MESHES + 1) * (MOST_MESHES + 1), STAGES = 2, CLASSES = 6, PEGS = 4 };
+enum {
+    MOST_POINTS = (MOST_MESHES + 1) * (MOST_MESHES + 1),
+    STAGES = 2,
+    CLASSES = 6,
+    PEGS = 4,
+    THREADED = 8
+};
 typedef enum Class { STAR, TREE, RING, NET, CLUMPS, WIDE } Class;
 static const char *const CLASS[CLASSES] = {"star", "tree", "ring", "net", "clumps", "wide"};
 
@@ -391,6 +398,46 @@ static void load_at(const Graph *g, int point, int step, double load[3]) {
     }
 }
 
+/* Have the same steps on several threads the same bits? */
+static bool same_bits(const Graph *g, const CpsEvolution *one, const CpsEvolution *other) {
+    for (int i = 0; i < g->scene.line_count; i++) {
+        const CpsLineView a = cps_evolution_line_view(one, i),
+                          b = cps_evolution_line_view(other, i);
+        const size_t n = (size_t)a.element_count;
+        if (memcmp(a.position, b.position, 3 * (n + 1) * sizeof *a.position) != 0 ||
+            memcmp(a.tension, b.tension, n * sizeof *a.tension) != 0)
+            return false;
+    }
+    for (int i = 0; i < g->scene.point_count; i++) {
+        const CpsPointReport a = cps_evolution_point_report(one, i),
+                             b = cps_evolution_point_report(other, i);
+        if (memcmp(a.position, b.position, sizeof a.position) != 0 ||
+            memcmp(a.residual, b.residual, sizeof a.residual) != 0 || a.reaction != b.reaction)
+            return false;
+    }
+    return true;
+}
+
+/* Take the scene on three threads as well. */
+static void run_on_threads(const Graph *g, uint64_t seed, Tally *tally) {
+    CpsError err;
+    CpsScene threaded = g->scene;
+    CpsEvolution *one = NULL, *other = NULL;
+    threaded.solver.thread_count = 3;
+    if (cps_evolution_create(&g->scene, &one, &err) != CPS_OK) fail(seed, &err);
+    if (cps_evolution_create(&threaded, &other, &err) != CPS_OK) fail(seed, &err);
+    while (cps_evolution_remaining_count(one) > 0) {
+        if (cps_evolution_step(one, &err) != CPS_OK) fail(seed, &err);
+        if (cps_evolution_step(other, &err) != CPS_OK) fail(seed, &err);
+        if (same_bits(g, one, other)) continue;
+        printf("seed %llu: other bits on three threads\n", (unsigned long long)seed);
+        tally->wrong++;
+        break;
+    }
+    cps_evolution_destroy(one);
+    cps_evolution_destroy(other);
+}
+
 static void run(Class class, uint64_t seed, Tally *tally) {
     static Graph graph;
     make(&graph, class, seed);
@@ -430,6 +477,7 @@ static void run(Class class, uint64_t seed, Tally *tally) {
                    cps_outcome_name(report.outcome), wrong ? ", refuted" : "");
     }
     cps_evolution_destroy(evolution);
+    if (seed % THREADED == 0) run_on_threads(&graph, seed, tally);
 }
 
 int main(int argc, char **argv) {

@@ -5,6 +5,13 @@
 
 #include "io/history.h"
 
+/* Beyond so many lines, as of a net, tables and summaries say nothing of each one: result.nc and
+ * the files for ParaView do. */
+enum { CPSI_LISTED_LINES = 2000 };
+static inline int cpsi_listed_lines(const CpsResults *results) {
+    return results->line_count <= CPSI_LISTED_LINES ? results->line_count : 0;
+}
+
 /* snapshot.c: copy the last step for the pictures if it is among those to be drawn. */
 bool cpsi_snapshot_append(CpsResults *results, const CpsEvolution *evolution);
 void cpsi_snapshot_free(CpsiSnapshot *snapshot);

@@ -88,13 +88,14 @@ enum {
 static void write_heads(FILE *out, const CpsResults *results) {
     fputs("step,name,outcome,iterations,substeps,jumps,places_not_unique", out);
     cpsi_csv_names(out, STEP_COLUMN, STEP_COLUMNS, NULL);
-    for (int l = 0; l < results->line_count; ++l)
+    for (int l = 0; l < cpsi_listed_lines(results); ++l)
         cpsi_csv_names(out, LINE_COLUMN, LINE_COLUMNS, results->line_name[l]);
     for (int i = 0; i < results->body_count; ++i)
         cpsi_csv_names(out, BODY_COLUMN, BODY_COLUMNS, results->body[i].name);
     fputs("\n1,,,1,1,1,1", out);
     cpsi_csv_units(out, STEP_COLUMN, STEP_COLUMNS);
-    for (int l = 0; l < results->line_count; ++l) cpsi_csv_units(out, LINE_COLUMN, LINE_COLUMNS);
+    for (int l = 0; l < cpsi_listed_lines(results); ++l)
+        cpsi_csv_units(out, LINE_COLUMN, LINE_COLUMNS);
     for (int i = 0; i < results->body_count; ++i) cpsi_csv_units(out, BODY_COLUMN, BODY_COLUMNS);
     fputs("\n", out);
 }
@@ -109,7 +110,7 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
                 row->report.iteration_count, row->report.substep_count, row->report.jump_count,
                 (int)row->report.places);
         cpsi_csv_values(out, STEP_COLUMN, STEP_COLUMNS, &row->report);
-        for (int l = 0; l < results->line_count; ++l)
+        for (int l = 0; l < cpsi_listed_lines(results); ++l)
             cpsi_csv_values(out, LINE_COLUMN, LINE_COLUMNS, &row->line[l].report);
         for (int i = 0; i < results->body_count; ++i)
             cpsi_csv_values(out, BODY_COLUMN, BODY_COLUMNS, &row->body[i]);

@@ -130,7 +130,7 @@ static void write_certificate(FILE *out, const CpsResults *results, const CpsiRo
     write_number(out, "dual_J", c->dual, ", ");
     write_number(out, "gap_J", c->gap, ", ");
     write_number(out, "scale_J", c->scale, "},\n      \"tension_bound_rms_N\": {");
-    for (int i = 0; i < results->line_count; ++i) {
+    for (int i = 0; i < cpsi_listed_lines(results); ++i) {
         const CpsCertificate *of = &row->line[i].report.certificate;
         write_number(out, results->line_name[i], of->has_tension_bound ? of->tension_bound : NAN,
                      i + 1 < results->line_count ? ", " : "");
@@ -237,7 +237,7 @@ static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row)
     write_certificate(out, results, row);
     write_ledger(out, &row->report);
     write_number(out, "wall_s", row->report.wall, ",\n      \"lines\": {\n");
-    for (int i = 0; i < results->line_count; ++i)
+    for (int i = 0; i < cpsi_listed_lines(results); ++i)
         write_line(out, results->line_name[i], &row->line[i].report,
                    i + 1 < results->line_count ? ",\n" : "\n");
     fputs("      }", out);
@@ -405,7 +405,7 @@ static void write_run(const CpsResults *results, double wall, FILE *out) {
     if (o[0] != 0 || o[1] != 0 || o[2] != 0) write_vector(out, "origin_m", o, ",\n  ");
     write_string(out, "outcome", cps_outcome_name(cpsi_results_outcome(results)), ",\n  ");
     write_number(out, "wall_s", wall, ",\n  \"extremes\": {\n");
-    for (int i = 0; i < results->line_count; ++i)
+    for (int i = 0; i < cpsi_listed_lines(results); ++i)
         write_line_extremes(out, results, i, i + 1 < results->line_count ? ",\n" : "\n");
     fputs("  },\n", out);
     write_largest_residuals(out, results);

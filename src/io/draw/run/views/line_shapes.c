@@ -16,7 +16,8 @@ enum {
     LOW_HEIGHT = 210,
     COLOUR_LEVELS = 48,
     NAMED_LINES = 6,
-    NAMED_POINTS = 12
+    NAMED_POINTS = 12,
+    FEW_LINES = 500 /* more are drawn thin, without marks at their points */
 };
 
 static const char COLOUR_STICK[] = "#9ad9c8", COLOUR_SLIP[] = "#ffb59b", COLOUR_AIR[] = "#d3b8f0",
@@ -89,6 +90,18 @@ static void draw_polyline(const Pen *pen, const double *position, int first, int
     fputs("\"/>\n", pen->out);
 }
 
+/* Runs of one colour as one path: what is said once for all takes most of the room of a short one.
+ */
+static void begin_path(const Pen *pen, const char *colour, double width) {
+    fprintf(pen->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.1f\" d=\"", colour,
+            width);
+}
+static void add_to_path(const Pen *pen, const double *position, int first, int last) {
+    fputs("M", pen->out);
+    for (int i = first; i <= last; ++i) draw_point(pen, position + 3 * (size_t)i);
+}
+static void end_path(const Pen *pen) { fputs("\"/>\n", pen->out); }
+
 static const char *band_colour(unsigned char state) {
     return state == CPSI_SHAPE_IN_AIR     ? COLOUR_AIR
            : state == CPS_NODE_STATE_SLIP ? COLOUR_SLIP
@@ -131,6 +144,21 @@ static void draw_tension(const Pen *pen, const CpsiShape *shape, const double ra
                       cpsi_colour(CPSI_SCALE_TENSION, (level + 0.5) / COLOUR_LEVELS).hex, 3.4,
                       "stroke-linecap=\"round\"");
         first = last;
+    }
+}
+
+/* The lines of a net after a step: one path for where they began, one for each colour. */
+static void draw_net(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot,
+                     const double range[2]) {
+    for (int level = 0; level < COLOUR_LEVELS; ++level) {
+        begin_path(pen, cpsi_colour(CPSI_SCALE_TENSION, (level + 0.5) / COLOUR_LEVELS).hex, 1);
+        for (int l = 0; l < results->line_count; ++l) {
+            const CpsiShape *shape = &snapshot->shape[l];
+            for (int i = 0; i + 1 < shape->points; ++i)
+                if (level_of(shape->tension[i], range) == level)
+                    add_to_path(pen, shape->position, i, i + 1);
+        }
+        end_path(pen);
     }
 }
 
@@ -305,6 +333,15 @@ static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFra
     cpsi_frame_axes(out, frame, view->x_label, label);
 }
 
+static void draw_lines(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot,
+                       const double range[2]) {
+    for (int l = 0; l < results->line_count; ++l)
+        draw_polyline(pen, start_of(results, snapshot, l), 0, snapshot->shape[l].points - 1,
+                      COLOUR_START, 2, "");
+    for (int l = 0; l < results->line_count; ++l) draw_states(pen, &snapshot->shape[l]);
+    for (int l = 0; l < results->line_count; ++l) draw_tension(pen, &snapshot->shape[l], range);
+}
+
 void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
                        const CpsiSnapshot *snapshot, FILE *out) {
     const CpsiRow *row = &results->row[snapshot->step];
@@ -320,22 +357,22 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
     const Pen pen = {view, &frame, out, &labels};
     cpsi_frame_begin(out, &frame, 1);
     draw_bodies(&pen, results, snapshot);
-    for (int l = 0; l < results->line_count; ++l)
-        draw_polyline(&pen, start_of(results, snapshot, l), 0, snapshot->shape[l].points - 1,
-                      COLOUR_START, 2, "");
-    for (int l = 0; l < results->line_count; ++l) draw_states(&pen, &snapshot->shape[l]);
-    for (int l = 0; l < results->line_count; ++l) draw_tension(&pen, &snapshot->shape[l], range);
+    if (results->line_count > FEW_LINES)
+        draw_net(&pen, results, snapshot, range);
+    else
+        draw_lines(&pen, results, snapshot, range);
     cpsi_frame_end(out);
     draw_ends(&pen, results, snapshot);
     draw_axes(&pen, results, snapshot);
-    draw_points(&pen, results, snapshot);
+    if (results->line_count <= FEW_LINES) draw_points(&pen, results, snapshot);
 
     const CpsiUnit unit = cpsi_unit("N", range[1]);
     snprintf(label, sizeof label, "tension (%s)", unit.name);
     cpsi_frame_bar(out, &frame, CPSI_SCALE_TENSION, range[0] * unit.factor, range[1] * unit.factor,
                    label);
-    draw_step_legend(results, friction_in_air(results, snapshot), frame.top + frame.height + 68,
-                     out);
+    if (results->line_count <= FEW_LINES)
+        draw_step_legend(results, friction_in_air(results, snapshot), frame.top + frame.height + 68,
+                         out);
     cpsi_svg_finish(out);
 }
 
@@ -367,6 +404,30 @@ static void draw_bodies_of_steps(const Pen *pen, const CpsResults *results) {
         }
 }
 
+static void draw_lines_of_steps(const Pen *pen, const CpsResults *results) {
+    for (int l = 0; l < results->line_count; ++l)
+        draw_polyline(pen, start_of(results, &results->snapshot[0], l), 0,
+                      results->snapshot[0].shape[l].points - 1, COLOUR_START, 3, "");
+    for (int s = 0; s < results->snapshot_count; ++s)
+        for (int l = 0; l < results->line_count; ++l)
+            draw_polyline(pen, results->snapshot[s].shape[l].position, 0,
+                          results->snapshot[s].shape[l].points - 1,
+                          cpsi_step_colour(results, s).hex, cpsi_step_width(results, s), "");
+}
+
+/* Of a net its first and its last step. */
+static void draw_nets_of_steps(const Pen *pen, const CpsResults *results) {
+    const int last = results->snapshot_count - 1;
+    for (int s = 0; s <= last; s += last > 0 ? last : 1) {
+        begin_path(pen, cpsi_step_colour(results, s).hex, 1);
+        for (int l = 0; l < results->line_count; ++l) {
+            const CpsiShape *shape = &results->snapshot[s].shape[l];
+            add_to_path(pen, shape->position, 0, shape->points - 1);
+        }
+        end_path(pen);
+    }
+}
+
 void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *out) {
     char note[64], what[80], mark[160];
     CpsiFrame frame;
@@ -377,23 +438,19 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
     CpsiLabels labels = {0};
     const Pen pen = {view, &frame, out, &labels};
     cpsi_frame_begin(out, &frame, 1);
-    for (int l = 0; l < results->line_count; ++l)
-        draw_polyline(&pen, start_of(results, &results->snapshot[0], l), 0,
-                      results->snapshot[0].shape[l].points - 1, COLOUR_START, 3, "");
-    for (int s = 0; s < results->snapshot_count; ++s)
-        for (int l = 0; l < results->line_count; ++l)
-            draw_polyline(&pen, results->snapshot[s].shape[l].position, 0,
-                          results->snapshot[s].shape[l].points - 1,
-                          cpsi_step_colour(results, s).hex, cpsi_step_width(results, s), "");
+    if (results->line_count > FEW_LINES)
+        draw_nets_of_steps(&pen, results);
+    else
+        draw_lines_of_steps(&pen, results);
     draw_bodies_of_steps(&pen, results);
-    draw_points_of_steps(&pen, results);
+    if (results->line_count <= FEW_LINES) draw_points_of_steps(&pen, results);
     cpsi_frame_end(out);
     cpsi_step_list(results, &frame, out);
     double x = CPSI_FRAME_LEFT;
     snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"3\"/>",
              COLOUR_START);
     cpsi_legend(out, &x, frame.top + frame.height + 68, mark, "where the first step started");
-    if (results->point_count > 0)
+    if (results->point_count > 0 && results->line_count <= FEW_LINES)
         cpsi_legend(out, &x, frame.top + frame.height + 68, SQUARE("#fff"),
                     "points where lines meet");
     cpsi_svg_finish(out);
