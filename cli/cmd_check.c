@@ -97,6 +97,11 @@ static void print_point(const CpsScene *scene, const CpsPoint *point) {
            x[0], x[1], x[2]);
     if (point->weight != 0)
         printf(", %s of %g N", point->weight < 0 ? "buoy" : "clump", fabs(point->weight));
+    if (scene->has_water_surface && point->displaced_weight > 0)
+        printf(", displaces water of %g N", point->displaced_weight);
+    if (point->has_holding_capacity) printf(", holding capacity %g N", point->holding_capacity);
+    if (point->has_uplift_limit) printf(", uplift limit %g N", point->uplift_limit);
+    if (point->drags) printf(", drags");
     if (is_free) printf(", force (%g, %g, %g) N", f[0], f[1], f[2]);
     putchar('\n');
 }
@@ -200,6 +205,8 @@ static void print_scene(const CpsScene *scene) {
         putchar('\n');
     }
     printf("gravity (%g, %g, %g) m/s2\n", scene->gravity[0], scene->gravity[1], scene->gravity[2]);
+    if (scene->has_water_surface)
+        printf("surface of the water at z = %g m\n", scene->water_surface);
     for (int i = 0; i < scene->obstacle_count; i++) print_obstacle(&scene->obstacle[i]);
     for (int i = 0; i < scene->body_count; i++) print_body(&scene->body[i]);
     for (int i = 0; i < scene->point_count; i++) print_point(scene, &scene->point[i]);

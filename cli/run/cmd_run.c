@@ -114,6 +114,26 @@ static void print_unbalanced(FILE *out, const char *name, const CpsPointReport *
             sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]), point->trial_count);
 }
 
+/* An anchor that has given way, or is beyond its limits. */
+static void print_anchor(FILE *table, const CpsPoint *point, const CpsPointReport *at) {
+    const double *d = at->drag, drag = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const bool over = at->capacity_used > 1 && !point->drags, lifted = at->uplift_used > 1;
+    if (drag == 0 && !over && !lifted) return;
+    fprintf(table, "%*spoint ", NAME_WIDTH + 1, "");
+    cli_print_text(table, point->name, 80, false);
+    const char *between = ":";
+    if (drag > 0) {
+        fprintf(table, "%s drags by %.4g m, %.4g m in all", between, drag, at->dragged);
+        between = ",";
+    }
+    if (over) {
+        fprintf(table, "%s %.4g times its holding capacity", between, at->capacity_used);
+        between = ",";
+    }
+    if (lifted) fprintf(table, "%s %.4g times its uplift limit", between, at->uplift_used);
+    fputc('\n', table);
+}
+
 /* A free body whose forces and moments do not balance in any of the poses tried. */
 static void print_unbalanced_body(FILE *out, const char *name, const CpsBodyReport *body) {
     const double *f = body->residual, *m = &body->residual[3];
@@ -177,7 +197,10 @@ static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
     }
     for (int i = 0; i < cps_evolution_point_count(evolution); ++i) {
         const CpsPointReport point = cps_evolution_point_report(evolution, i);
-        if (point.has_place) continue;
+        if (point.has_place) {
+            print_anchor(table, &scene->point[i], &point);
+            continue;
+        }
         fprintf(table, "%*s", NAME_WIDTH + 1, "");
         print_unbalanced(table, scene->point[i].name, &point);
     }

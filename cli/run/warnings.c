@@ -110,9 +110,28 @@ static double rounded_tension(const CpsLineView *view) {
                : 0;
 }
 
+/* Anchors that drag, or would have to. */
+static void note_anchors(Warnings *warnings, const CpsScene *scene, const CpsEvolution *evolution,
+                         const char *step) {
+    for (int i = 0; i < cps_evolution_point_count(evolution); ++i) {
+        const CpsPointReport at = cps_evolution_point_report(evolution, i);
+        const CpsPoint *point = &scene->point[i];
+        if (!at.has_place) continue;
+        if (length3(at.drag) > 0)
+            note(&warnings->kind[WARNING_DRAGGED], at.dragged, length3(at.drag), step, point->name);
+        if (at.capacity_used > 1 && !point->drags)
+            note(&warnings->kind[WARNING_CAPACITY], at.capacity_used, point->holding_capacity, step,
+                 point->name);
+        if (at.uplift_used > 1)
+            note(&warnings->kind[WARNING_UPLIFT], at.uplift_used, point->uplift_limit, step,
+                 point->name);
+    }
+}
+
 void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport report = cps_evolution_report(evolution);
     const char *step = report.name;
+    note_anchors(warnings, scene, evolution, step);
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
@@ -187,6 +206,16 @@ static void print_figures(int kind, double value, double of) {
                 value, of);
     else if (kind == WARNING_BROKEN)
         fprintf(stderr, "the tension is %.3g times the breaking load, at %.6g m", value, of);
+    else if (kind == WARNING_DRAGGED)
+        fprintf(stderr, "the anchor drags: by %.4g m in this step, by %.4g m in all", of, value);
+    else if (kind == WARNING_CAPACITY)
+        fprintf(stderr,
+                "the force along the ground is %.4g times the holding capacity of %.4g N; 'drags: "
+                "true' lets the anchor give way",
+                value, of);
+    else if (kind == WARNING_UPLIFT)
+        fprintf(stderr, "the force up from the ground is %.4g times the uplift limit of %.4g N",
+                value, of);
     else if (kind == WARNING_SLACK)
         fprintf(stderr,
                 "slack over %.4g m of %.4g m: where a line has no tension its place and what "
@@ -238,7 +267,8 @@ void warnings_print(const Warnings *warnings) {
         if (worst->steps == 0) continue;
         fputs("capstan: warning: step ", stderr);
         cli_print_text(stderr, worst->step, 80, false);
-        fputs(", line ", stderr);
+        const bool of_point = k >= WARNING_DRAGGED && k <= WARNING_UPLIFT;
+        fputs(of_point ? ", point " : ", line ", stderr);
         cli_print_text(stderr, worst->line, 80, false);
         if (k == WARNING_PIERCED) {
             fputs(", obstacle ", stderr);

@@ -2,8 +2,8 @@
 /* Warnings about a step even if it is solved and certified: with frozen friction or contact of the
  * reference the effects of S90 annex 6; where most of a line is slack; where the forces do not
  * determine the positions; energy created or released; coordinates with too few digits; meshes too
- * coarse for the bends; tensions above a breaking load. And, whatever the outcome, where a line
- * penetrates an obstacle. */
+ * coarse for the bends; tensions above a breaking load; anchors beyond their limits. And, whatever
+ * the outcome, where a line penetrates an obstacle. */
 #ifndef CAPSTAN_CLI_RUN_WARNINGS_H
 #define CAPSTAN_CLI_RUN_WARNINGS_H
 
@@ -22,13 +22,16 @@ enum {
     WARNING_PIERCED,
     WARNING_BEND,
     WARNING_BROKEN,
+    WARNING_DRAGGED, /* and the two below: of a point */
+    WARNING_CAPACITY,
+    WARNING_UPLIFT,
     WARNINGS
 };
 
 typedef struct WorstCase {
     int steps;        /* number of steps in which it occurred */
     double value, of; /* the value, and the value that it is a share of, or its arc length */
-    char step[96], line[96], obstacle[96];
+    char step[96], line[96], obstacle[96]; /* line: or point */
 } WorstCase;
 
 /* The worst case of each kind. */

@@ -42,6 +42,20 @@ typedef struct CpsPoint {
     /* [N] along gravity, with which it changes (submerged weight): of a clump; negative of a buoy,
      * which lifts; default 0 */
     double weight;
+    /* [N] >= 0, default 0: of the water that it displaces. In a scene with a water surface the
+     * weight above is that in the water; what leaves it is heavier by this much, and at the surface
+     * the buoyancy is whatever between 0 and this keeps it there. Without a surface not read. */
+    double displaced_weight;
+    /* Of a held point that is an anchor: the force along the plane on which it lies that it can
+     * bear, level where it lies on none, and the one across it, upwards. What is exceeded is said
+     * in the report; with `drags` the anchor bears no more than its capacity along the plane, and
+     * gives way in it against that force, as by friction of this bound: its position is that from
+     * which it drags, and where it has come to rest it stays. */
+    bool has_holding_capacity; /* default false */
+    double holding_capacity;   /* [N] > 0, with the flag */
+    bool has_uplift_limit;     /* default false */
+    double uplift_limit;       /* [N] > 0, with the flag */
+    bool drags;                /* default false; needs a capacity */
 } CpsPoint;
 
 CPS_API CpsPoint cps_point_default(void);
@@ -65,21 +79,38 @@ typedef enum CpsPointState {
     CPS_POINT_STATE_ON_BODY = 4
 } CpsPointState;
 
+/* Where a free point with a displaced weight is, in a scene with a water surface. */
+typedef enum CpsPointWater {
+    CPS_POINT_WATER_NONE = 0, /* of all others */
+    CPS_POINT_WATER_SUBMERGED = 1,
+    CPS_POINT_WATER_FLOATING = 2, /* at the surface */
+    CPS_POINT_WATER_ABOVE = 3
+} CpsPointWater;
+
 /* The report on a point. Forces are on the point. On an obstacle the point bears all that the lines
  * bring there, the halves of their last elements included. */
 typedef struct CpsPointReport {
     CpsPointState state;
+    CpsPointWater water;
     double position[3]; /* [m] in the coordinates of the scene */
     double lines[3];    /* [N] sum of the lines that end here */
-    double load[3];     /* [N] force and weight of a free point; 0 of a held one */
+    /* [N] force and weight of a free point, its weight in air where `water` is not none; 0 of a
+     * held one */
+    double load[3];
     double support[3];  /* [N] what holds a held point, or the body it is on; 0 of a free one */
     double reaction;    /* [N] R >= 0 of the obstacle that it touches, along `normal` */
     double normal[3];   /* [-] 0 0 0 where it touches none */
     double friction[3]; /* [N] |F| <= mu R */
     double slip[3];     /* [m] on the obstacle in this step */
-    double residual[3]; /* [N] sum of all these: what nothing balances */
-    double dissipated;  /* [J] by its friction in this step */
-    int obstacle;       /* index in the scene; CPS_NO_OBSTACLE where it touches none */
+    double residual[3]; /* [N] sum of all forces: what nothing balances */
+    double dissipated;  /* [J] by its friction in this step, or by its drag */
+    double buoyancy;  /* [N] upwards; where `water` is none it is part of the weight, and 0 here */
+    double displaced; /* [N] the largest buoyancy, under the gravity of the step */
+    /* of an anchor; 0 of what it has no capacity or limit of */
+    double capacity_used, uplift_used; /* [-] force over capacity, uplift over limit */
+    double drag[3];                    /* [m] by which it has given way in this step */
+    double dragged;                    /* [m] the sum of their lengths since the start */
+    int obstacle; /* index in the scene; CPS_NO_OBSTACLE where it touches none */
     /* places tried in this step, each with a step of every line of the group: free points that
      * lines connect, also by way of others, are searched for together */
     int trial_count;

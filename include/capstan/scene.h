@@ -250,9 +250,13 @@ typedef struct CpsSolverOptions {
 
 typedef struct CpsScene {
     uint32_t cookie;
-    const char *title;  /* may be NULL */
-    double gravity[3];  /* [m/s2] default 0 0 -9.81; the weight of the lines has its direction */
-    int obstacle_count; /* >= 0 */
+    const char *title; /* may be NULL */
+    double gravity[3]; /* [m/s2] default 0 0 -9.81; the weight of the lines has its direction */
+    /* default false: all is under water, or nothing. Else free points with a displaced weight float
+     * (point.h), and gravity has no part along x or y and does not point upwards */
+    bool has_water_surface;
+    double water_surface; /* [m] with the flag: z of the still water's surface */
+    int obstacle_count;   /* >= 0 */
     const CpsObstacle *obstacle;
     int line_count; /* >= 1 */
     const CpsLine *line;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a net, of a spar and a barge on lines, and of driven systems."""
+"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a net, of a buoy, of a spar and a barge on lines, and of driven systems."""
 import os
 import re
 import subprocess
@@ -49,8 +49,14 @@ def net(program):
     return os.path.join(place, "step-00004-plan.svg")
 
 
+def moored_buoy(program):
+    """The elevation of all steps of examples/catenary-moored-buoy.yaml."""
+    _, place = program.run("run", "examples/catenary-moored-buoy.yaml")
+    return os.path.join(place, "elevation.svg")
+
+
 PICTURES = {
-    "run-rope": first_scene, "run-bridle": bridle, "run-oc3-hywind": spar, "run-barge": barge, "run-net": net,
+    "run-rope": first_scene, "run-bridle": bridle, "run-oc3-hywind": spar, "run-barge": barge, "run-net": net, "run-moored-buoy": moored_buoy,
     "drive-wheel-maps": driven("braked-wheel"),
     "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),
     "drive-disc": driven("disc"), "drive-plate": driven("plate"), "drive-car": driven("car"), "drive-planimeter": driven("planimeter"),

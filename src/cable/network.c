@@ -14,6 +14,11 @@
 enum { ITERATIONS = 100, CENTERING_STEPS = 2, REFINEMENT_STEPS = 6 };
 /* A solution that has come so near is one, whether or not it was to be better. */
 static const double ENOUGH = 1e-10;
+/* Bounded forces that are far larger than those of the lines slow the first iterations, in which
+ * their joints hardly move. */
+enum { PATIENT = 40 };
+/* An anchor holds this many times the largest force across its plane. */
+static const double ACROSS = 1e3;
 
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
                         int joints, int bodies, const CpsiLinsysOps *ops, CpsiGraphMatrix *matrix) {
@@ -80,6 +85,43 @@ static void fill_joint(const CpsiJoint *joint, bool own_axes, CpsiChainProgram *
         cpsi_frame_to(own, chain->frame, slip);
         for (int a = 0; a < 2; a++) disc->offset[0][a] = own[a] / scale->length;
     }
+}
+
+/* Where forces of the given size on joint k may be found along d: R d, -A < R < 0. */
+static void add_hinge(const CpsiJoint *joint, int k, Vec3 d, double size, double gap,
+                      const double axes[9], const CpsiStepScale *scale, CpsiHinges *hinges) {
+    const int i = hinges->count++;
+    double own[3];
+    vec3_store(own, d);
+    hinges->first[i] = 3 * k;
+    cpsi_frame_to(hinges->direction[i], axes, own);
+    hinges->weight[i] = joint->share / scale->length;
+    hinges->bound[i] = size / (scale->force * hinges->weight[i]);
+    hinges->gap[i] = gap / scale->length;
+}
+
+/* Forces between -A and A: those of a hinge of 2 A and the load A. */
+static void add_both_ways(const CpsiJoint *joint, int k, Vec3 d, double size, const double axes[9],
+                          const CpsiStepScale *scale, CpsiNetworkProgram *program) {
+    const int i = program->hinges.count;
+    add_hinge(joint, k, d, 2 * size, -vec3_dot(joint->dragged, d), axes, scale, &program->hinges);
+    for (int a = 0; a < 3; a++)
+        program->base.load[3 * k + a] += size / scale->force * program->hinges.direction[i][a];
+}
+
+/* What holds a joint back that leaves the water, whose load has the buoyancy of one that is in it;
+ * and an anchor, with a square in place of its disc. */
+static void add_bounded_forces(const CpsiJoint *joint, int k, const double axes[9],
+                               const CpsiStepScale *scale, CpsiNetworkProgram *program) {
+    if (joint->displaced > 0)
+        add_hinge(joint, k, vec3(0, 0, 1), joint->displaced, joint->depth, axes, scale,
+                  &program->hinges);
+    if (!joint->drags) return;
+    const Vec3 n = joint->normal, away = fabs(n.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    const Vec3 across = vec3_cross(n, away), one = vec3_scale(1 / vec3_norm(across), across);
+    add_both_ways(joint, k, one, joint->capacity, axes, scale, program);
+    add_both_ways(joint, k, vec3_cross(n, one), joint->capacity, axes, scale, program);
+    add_both_ways(joint, k, n, ACROSS * scale->force, axes, scale, program);
 }
 
 /* The units of all lines. */
@@ -166,6 +208,7 @@ static double fill(CpsiNetwork *network, const CpsiLine *line, const CpsiNetwork
     program->count = part->lines;
     program->joints = part->joints;
     program->bodies = part->bodies;
+    program->hinges.count = 0;
     program->base.size = 3 * part->own + 6 * part->bodies;
     memset(load, 0, (size_t)program->base.size * sizeof *load);
     memset(program->base.u, 0, (size_t)program->base.size * sizeof *load);
@@ -186,6 +229,7 @@ static double fill(CpsiNetwork *network, const CpsiLine *line, const CpsiNetwork
         program->joint[program->count][CPSI_LAST_NODE] = CPSI_NO_JOINT;
         program->count++;
         loads += fill_load(part->joint[k].load, scale->force, axes, &load[3 * k]);
+        add_bounded_forces(&part->joint[k], k, axes, scale, program);
     }
     for (int k = 0; k < part->bodies; k++) {
         const CpsiNetworkBody *body = &part->body[k];
@@ -223,7 +267,8 @@ bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkP
                                 .scale = loads > 0 ? loads : 1,
                                 .max_iterations = ITERATIONS,
                                 .centering_steps = part->is_refined ? CENTERING_STEPS : 0,
-                                .sharpenings = part->is_refined ? REFINEMENT_STEPS : 0};
+                                .sharpenings = part->is_refined ? REFINEMENT_STEPS : 0,
+                                .patience = network->program.hinges.count > 0 ? PATIENT : 0};
     const CpsiIpmReport report = cpsi_ipm_solve(&network->program.base, &ipm);
     for (int k = 0; k < part->own; k++) {
         cpsi_frame_from(&out->joint[3 * k], axes, &u[3 * k]);

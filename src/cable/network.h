@@ -17,8 +17,16 @@ typedef struct CpsiJoint {
     /* contact with the nearest obstacle, NULL: none */
     const CpsiObstacle *obstacle;
     double gap, friction, bound; /* [m], [-], [N] of frozen friction */
-    int body;                    /* that it is on, else -1; then nothing else acts on it */
-    Vec3 arm;                    /* [m] from the body's reference point */
+    /* [N] of the water that it displaces, [m] by how much it is below the surface; 0: no surface */
+    double displaced, depth;
+    /* an anchor that drags in the plane across `normal`, with friction of no more than `capacity`
+     */
+    bool drags;
+    Vec3 normal;
+    double capacity; /* [N] */
+    Vec3 dragged;    /* [m] so far in the step */
+    int body;        /* that it is on, else -1; then nothing else acts on it */
+    Vec3 arm;        /* [m] from the body's reference point */
 } CpsiJoint;
 
 /* A body: what acts on it at the places where its joints are [N, N m], and its stiffness (6, 6). */

@@ -171,7 +171,7 @@ static void advance(CpsiProgram *program, double alpha) {
 }
 
 static const CpsiKind NETWORK = {start, measure, scale, predict, load, direct, aim, advance};
-static const CpsiKind *const KINDS[] = {&NETWORK};
+static const CpsiKind *const KINDS[] = {&NETWORK, &cpsi_hinge};
 
 /* the linear system ---------------------------------------------------------------------------- */
 
@@ -281,6 +281,7 @@ static bool factor(CpsiProgram *program) {
         if (!chain->base.factor(&chain->base)) return false;
         add_chain(network, chain, k);
     }
+    cpsi_hinges_add(&network->hinges, network->matrix);
     return cpsi_graph_matrix_factor(network->matrix);
 }
 
@@ -335,7 +336,7 @@ void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chai
     const size_t unknowns = 3 * (size_t)joints + 6 * (size_t)bodies;
     *network = (CpsiNetworkProgram){.base = {.size = (int)unknowns,
                                              .kind = KINDS,
-                                             .kind_count = 1,
+                                             .kind_count = 2,
                                              .clear = clear,
                                              .factor = factor,
                                              .solve = solve,
@@ -353,5 +354,6 @@ void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chai
     CPSI_PLACE(arena, network->map, joints);
     CPSI_PLACE(arena, network->body_first, bodies);
     CPSI_PLACE(arena, network->stiffness, bodies);
+    cpsi_hinges_layout(&network->hinges, arena, 3 * joints);
     CPSI_PLACE(arena, network->kept, 3 * (size_t)n);
 }

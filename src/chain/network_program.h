@@ -19,6 +19,17 @@
 /* The first and the last node of a chain. */
 enum { CPSI_FIRST_NODE, CPSI_LAST_NODE, CPSI_END_NODES, CPSI_NO_JOINT = -1 };
 
+/* Forces of a bounded size on joints (hinge.c): the energy A max(0, d.x_J - gap) adds to a joint
+ * the force -R d, R in [0, A]. A is the bound times the weight. */
+typedef struct CpsiHinges {
+    int count;
+    int *first;             /* (count) the first of the joint's three unknowns */
+    double (*direction)[3]; /* (count) d in the common axes */
+    double *bound, *weight; /* (count) > 0 */
+    double *gap;            /* (count) of any sign */
+    double (*s)[2], (*z)[2], (*q)[2], (*ds)[2], (*dz)[2];
+} CpsiHinges;
+
 typedef struct CpsiNetworkProgram {
     CpsiProgram base;             /* of the joints and bodies: u, load, .. */
     int count;                    /* chains */
@@ -30,9 +41,15 @@ typedef struct CpsiNetworkProgram {
     int bodies;
     int *body_first;         /* (bodies) their first unknown */
     double (*stiffness)[36]; /* (bodies) of the quadratic energy u' K u/2, K symmetric and >= 0 */
+    CpsiHinges hinges;
     CpsiGraphMatrix *matrix; /* of the joints and bodies, whose blocks in use are its unknowns */
     double *kept;            /* right-hand side of the chain that is being solved */
 } CpsiNetworkProgram;
+
+extern const CpsiKind cpsi_hinge;
+void cpsi_hinges_layout(CpsiHinges *hinges, CpsiArena *arena, int count);
+/* Add the hinges' stiffness to the matrix of the joints. */
+void cpsi_hinges_add(const CpsiHinges *hinges, CpsiGraphMatrix *matrix);
 
 /* Place the arrays for so many chains of at most n nodes, points included, joints, and bodies; the
  * chains' own arrays are placed by the caller, to whom the matrix belongs. */

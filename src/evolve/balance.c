@@ -16,6 +16,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "evolve/anchors.h"
 #include "evolve/balance_report.h"
 #include "evolve/bodies.h"
 #include "evolve/checkpoint.h"
@@ -278,6 +279,7 @@ void cpsi_balance_start(CpsEvolution *evolution) {
         cpsi_trial_find_obstacle(evolution, &at[k]);
         cpsi_point_load(point, evolution->gravity, load);
         at[k].rest = vec3_load(load);
+        at[k].rest.z += cpsi_buoyancy_at(&evolution->points, point, evolution->gravity);
     }
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++) {
@@ -298,7 +300,9 @@ static void begin_again(CpsiBalance *balance) {
     for (int k = 0; k < balance->count; k++) {
         const int point = balance->at[k].point;
         balance->at[k] = (CpsiFree){.point = point,
-                                    .place = vec3_load(evolution->points.point[point].before),
+                                    .place = vec3_load(cpsi_point_drags(&evolution->points, point)
+                                                           ? evolution->points.point[point].position
+                                                           : evolution->points.point[point].before),
                                     .obstacle = CPS_NO_OBSTACLE};
     }
     for (int k = 0; k < balance->body_count; k++)
@@ -353,7 +357,7 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     bool any = false;
     for (int i = 0; i < points->count; i++) {
         points->point[i].reaction_before = points->point[i].report.reaction;
-        any = any || points->point[i].kind == CPS_POINT_KIND_FREE;
+        any = any || points->point[i].kind == CPS_POINT_KIND_FREE || cpsi_point_drags(points, i);
     }
     for (int i = 0; i < evolution->bodies.count; i++)
         any = any || evolution->bodies.body[i].kind == CPS_BODY_KIND_FREE;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/newton_step.h"
 #include "evolve/points.h"
@@ -23,8 +24,11 @@ static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
                                .dissipated = fmax(0, dissipated),
                                .trial_count = balance->trials};
     cpsi_point_load(point, evolution->gravity, report->load);
+    report->water = cpsi_water_state(&at->water, touch);
+    report->buoyancy = at->water.buoyancy;
+    report->displaced = at->water.displaced;
     vec3_store(report->position, at->place);
-    vec3_store(report->lines, vec3_sub(at->rest, vec3_load(report->load)));
+    vec3_store(report->lines, vec3_sub(cpsi_rest_with(at, 0), vec3_load(report->load)));
     vec3_store(report->friction, at->force);
     vec3_store(report->residual, at->left);
     if (touches) vec3_store(report->normal, at->normal);
@@ -113,6 +117,23 @@ static void report_held_body(CpsEvolution *evolution, int index) {
     for (int i = 0; i < 6; i++) report->support[i] = -report->lines[i] - report->load[i];
 }
 
+/* What holds a held point; of it, what the obstacle on which it lies bears is its reaction. */
+static void report_support(const CpsEvolution *evolution, int index, Vec3 place, Vec3 support,
+                           CpsPointReport *report) {
+    const CpsiPoint *point = &evolution->points.point[index];
+    double gap;
+    Vec3 normal = vec3(0, 0, 0);
+    const int obstacle = cpsi_trial_nearest(evolution, place, &gap, &normal);
+    if (point->kind == CPS_POINT_KIND_HELD && gap <= CPS_TOUCH * point->length &&
+        vec3_dot(support, normal) > 0) {
+        report->obstacle = obstacle;
+        report->reaction = vec3_dot(support, normal);
+        vec3_store(report->normal, normal);
+        support = vec3_reject(support, normal);
+    }
+    vec3_store(report->support, support);
+}
+
 static void report_held(CpsEvolution *evolution, int index) {
     CpsiPoint *point = &evolution->points.point[index];
     CpsPointReport *report = &point->report;
@@ -126,24 +147,45 @@ static void report_held(CpsEvolution *evolution, int index) {
                                                                      : CPS_POINT_STATE_ON_BODY,
                          .obstacle = CPS_NO_OBSTACLE,
                          .has_place = true};
-    CpsiFree at = {.point = index, .place = vec3_load(point->position)};
-    cpsi_trial_find_obstacle(evolution, &at);
     memcpy(report->position, point->position, sizeof report->position);
     vec3_store(report->lines, lines);
-    Vec3 support = vec3_scale(-1, lines);
-    if (point->kind == CPS_POINT_KIND_HELD && at.gap <= CPS_TOUCH * point->length &&
-        vec3_dot(support, at.normal) > 0) {
-        report->obstacle = at.obstacle;
-        report->reaction = vec3_dot(support, at.normal);
-        vec3_store(report->normal, at.normal);
-        support = vec3_reject(support, at.normal);
-    }
-    vec3_store(report->support, support);
+    const Vec3 support = vec3_scale(-1, lines);
+    report_support(evolution, index, vec3_load(point->position), support, report);
+    if (point->kind == CPS_POINT_KIND_HELD) cpsi_anchor_use(evolution, index, support, report);
+}
+
+/* An anchor that drags. */
+static void report_anchor(const CpsiBalance *balance, const CpsiFree *at) {
+    CpsEvolution *evolution = balance->evolution;
+    CpsiPoint *point = &evolution->points.point[at->point];
+    CpsPointReport *report = &point->report;
+    const Vec3 across = vec3_scale(vec3_dot(at->rest, at->normal), at->normal),
+               support = vec3_sub(at->force, across);
+    point->dragged += vec3_norm(at->slip);
+    *report = (CpsPointReport){.state = CPS_POINT_STATE_HELD,
+                               .obstacle = CPS_NO_OBSTACLE,
+                               .dragged = point->dragged,
+                               .dissipated = fmax(0, -vec3_dot(at->force, at->slip)),
+                               .trial_count = balance->trials};
+    vec3_store(report->position, at->place);
+    vec3_store(report->lines, at->rest);
+    vec3_store(report->drag, at->slip);
+    vec3_store(report->residual, at->left);
+    cpsi_anchor_use(evolution, at->point, support, report);
+    report_support(evolution, at->point, at->place, support, report);
+    report->has_place = cpsi_is_balanced(balance, vec3_norm(at->left));
+    for (int a = 0; a < 3; a++) point->move[a] = report->position[a] - point->before[a];
+    memcpy(point->position, report->position, sizeof point->position);
 }
 
 void cpsi_report_found(CpsiBalance *balance) {
     if (balance->body_count > 0) cpsi_fill_matrix(balance);
-    for (int k = 0; k < balance->count; k++) report_point(balance, &balance->at[k]);
+    for (int k = 0; k < balance->count; k++) {
+        if (balance->at[k].drags)
+            report_anchor(balance, &balance->at[k]);
+        else
+            report_point(balance, &balance->at[k]);
+    }
     for (int k = 0; k < balance->body_count; k++) report_body(balance, k);
     report_lines(balance);
 }
@@ -152,7 +194,8 @@ void cpsi_report_held(CpsEvolution *evolution) {
     const CpsiPoints *points = &evolution->points;
     for (int i = 0; i < points->count; i++) {
         if (points->point[i].kind == CPS_POINT_KIND_ON_BODY) follow_body(evolution, i);
-        if (points->point[i].kind != CPS_POINT_KIND_FREE) report_held(evolution, i);
+        if (points->point[i].kind != CPS_POINT_KIND_FREE && !cpsi_point_drags(points, i))
+            report_held(evolution, i);
     }
     for (int i = 0; i < evolution->bodies.count; i++)
         if (evolution->bodies.body[i].kind == CPS_BODY_KIND_HELD) report_held_body(evolution, i);

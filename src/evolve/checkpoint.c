@@ -61,7 +61,7 @@ _Static_assert(sizeof(CpsLineReport) == 26 * 8 + sizeof(CpsCertificate) + sizeof
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
                "add the new field to pass_step_report, then its size here");
 _Static_assert(sizeof(CpsBodyReport) == 69 * 8, "add the new field to pass_body, then its size");
-_Static_assert(sizeof(CpsPointReport) == 29 * 8,
+_Static_assert(sizeof(CpsPointReport) == 37 * 8,
                "add the new field to pass_point, then its size here");
 _Static_assert(sizeof(CpsEnd) == 4 * 8, "add the new field to pass_end, then its size here");
 #endif
@@ -203,10 +203,18 @@ static void pass_point(Tape *tape, CpsiPoint *point) {
     PASS(tape, point->before);
     PASS(tape, point->move);
     PASS(tape, report->state);
+    PASS(tape, report->water);
     PASS(tape, report->position);
     PASS(tape, report->lines);
     PASS(tape, report->load);
     PASS(tape, report->support);
+    PASS(tape, report->buoyancy);
+    PASS(tape, report->displaced);
+    PASS(tape, report->capacity_used);
+    PASS(tape, report->uplift_used);
+    PASS(tape, report->drag);
+    PASS(tape, report->dragged);
+    PASS(tape, point->dragged);
     PASS(tape, report->reaction);
     PASS(tape, report->normal);
     PASS(tape, report->friction);
@@ -383,6 +391,14 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     hash_numbers(hash, 2, form->origin);
 }
 
+static void hash_anchor(uint64_t *hash, const CpsPoint *given) {
+    const int has[] = {given->has_holding_capacity, given->has_uplift_limit, given->drags};
+    const double limit[] = {given->has_holding_capacity ? given->holding_capacity : 0,
+                            given->has_uplift_limit ? given->uplift_limit : 0};
+    hash_bytes(hash, has, sizeof has);
+    hash_numbers(hash, 2, limit);
+}
+
 static void hash_points(uint64_t *hash, const CpsEvolution *evolution) {
     const CpsiPoints *points = &evolution->points;
     hash_bytes(hash, points->tie, 2 * (size_t)evolution->line_count * sizeof *points->tie);
@@ -394,7 +410,12 @@ static void hash_points(uint64_t *hash, const CpsEvolution *evolution) {
         hash_numbers(hash, 3, point->position);
         hash_numbers(hash, 3, point->force);
         hash_numbers(hash, 1, &point->mass);
+        hash_numbers(hash, 1, &point->displaced_mass);
+        hash_anchor(hash, &points->given[i]);
     }
+    const int surface = points->has_surface;
+    hash_bytes(hash, &surface, sizeof surface);
+    hash_numbers(hash, 1, &points->surface);
 }
 
 static void hash_body(uint64_t *hash, const CpsiBody *body) {

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/newton_step.h"
 #include "evolve/points.h"
@@ -14,6 +15,8 @@
 enum { ROUNDS = 12, POINT_ROUNDS = 40 };
 /* A stiffness is made positive definite by no more than this share of the forces. */
 static const double MOST_HELD = 1e9;
+/* What a guess moves by no more than this, per length, is at rest. */
+static const double AT_REST = 1e-6;
 static const double SETTLED = 1e-3, FARTHEST_TURN = 0.3, ON_ITS_PLANE = 1e-6;
 /* Relative gap of a program whose planes are still to turn by more than NEAR [rad], and of the
  * others. A point touches a plane within this share of its longest line. */
@@ -56,9 +59,16 @@ static int place_joints(CpsiBalance *balance, bool first) {
         CpsiFree *at = &balance->at[k];
         const CpsiPoint *point = &evolution->points.point[at->point];
         double load[3];
-        if (first) at->place = vec3_load(point->before);
+        const bool drags = cpsi_point_drags(&evolution->points, at->point);
+        if (first) at->place = vec3_load(drags ? point->position : point->before);
         cpsi_trial_find_obstacle(evolution, at);
-        cpsi_point_load(point, evolution->gravity, load);
+        CpsiWater water = {0};
+        memset(load, 0, sizeof load);
+        if (!drags) {
+            cpsi_point_load(point, evolution->gravity, load);
+            water = cpsi_water_at(&evolution->points, at->point, evolution->gravity, at->place.z);
+            load[2] += water.displaced;
+        }
         balance->joint_of[at->point] = k;
         balance->joint[k] = (CpsiJoint){.position = at->place,
                                         .load = vec3_load(load),
@@ -69,6 +79,12 @@ static int place_joints(CpsiBalance *balance, bool first) {
                                         .slip = first ? vec3(0, 0, 0) : at->slip,
                                         .friction = at->friction,
                                         .bound = at->friction * point->reaction_before,
+                                        .drags = drags,
+                                        .normal = at->normal,
+                                        .capacity = at->bound,
+                                        .dragged = drags ? at->slip : vec3(0, 0, 0),
+                                        .displaced = water.displaced,
+                                        .depth = -water.height,
                                         .body = -1};
     }
     for (int i = 0; i < evolution->points.count; i++) {
@@ -131,6 +147,12 @@ static void hold_bodies(CpsiBalance *balance, bool turns) {
     }
 }
 
+/* The place of an anchor in its plane: where it was, if the guess does not move it. */
+static Vec3 near_its_place(const CpsiFree *at, double length) {
+    const Vec3 drag = vec3_reject(vec3_sub(at->place, at->start), at->normal);
+    return vec3_norm(drag) <= AT_REST * length ? at->start : vec3_add(at->start, drag);
+}
+
 /* Move free point k; returns by how much [rad] the normal of its obstacle turns where it is on
  * its tangent plane, or how far it has gone into an obstacle, over its longest line. A tangent
  * plane of a round obstacle leaves out places that are free, and none that are not: so the energy
@@ -144,6 +166,8 @@ static double move_point(CpsiBalance *balance, int k) {
     at->place =
         cpsi_place_after(balance, &(CpsiFree){.place = at->place, .obstacle = CPS_NO_OBSTACLE},
                          move, 1);
+    if (at->drags) at->place = near_its_place(at, length);
+    if (!at->drags) at->place.z = cpsi_water_near(&evolution->points, at->point, at->place.z);
     if (at->obstacle == CPS_NO_OBSTACLE) return 0;
     const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
     const double pushed = vec3_norm(vec3_sub(at->place, straight)) / length;

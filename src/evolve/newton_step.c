@@ -16,6 +16,9 @@ static const double FARTHEST = 0.5, FARTHEST_TURN = 0.3;
 /* The share at which a body that is held back no longer moves. */
 static const double MOST_HELD = 1e6;
 
+/* Of a buoyancy, and of a place on a curve, to the last digits. */
+enum { BISECTIONS = 60, NEWTON = 4 };
+
 static CpsiJointMap map_of(const CpsiBalance *balance, int point) {
     CpsiJointMap out = {.by = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     if (point == CPSI_NO_POINT) return out;
@@ -182,9 +185,17 @@ static void add_curvature(Equation *out, const CpsiFree *at, const CpsiObstacle 
                       vec3_load(&axes[3 * b]));
 }
 
-static Equation equation_of(const CpsiFree *at, const CpsiObstacle *on, bool follows, bool turns) {
+static Equation equation_of_touch(const CpsiFree *at, const CpsiObstacle *on, bool follows,
+                                  bool turns) {
     Equation out = {.v = vec3(0, 0, 0)};
-    if (!on) {
+    if (at->drags) {
+        const double off = vec3_dot(vec3_sub(at->place, at->start), at->normal);
+        add_tangential(&out, at, false);
+        add_outer(out.q, at->stiffness, at->normal, at->normal);
+        out.v = vec3_axpy(-at->stiffness * off, at->normal, out.v);
+        return out;
+    }
+    if (at->obstacle == CPS_NO_OBSTACLE) {
         add_identity(out.p, 1);
         out.v = at->rest;
         return out;
@@ -192,6 +203,68 @@ static Equation equation_of(const CpsiFree *at, const CpsiObstacle *on, bool fol
     add_tangential(&out, at, follows);
     add_normal(&out, at);
     if (turns) add_curvature(&out, at, on);
+    return out;
+}
+
+/* The same with another buoyancy. */
+static Equation equation_with(const CpsiFree *at, const CpsiObstacle *on, bool follows, bool turns,
+                              double buoyancy) {
+    CpsiFree other = *at;
+    other.rest = cpsi_rest_with(at, buoyancy);
+    other.water.buoyancy = buoyancy;
+    return equation_of_touch(&other, on, follows, turns);
+}
+
+/* rho times the height above the surface to which a buoyancy brings the point without its lines; it
+ * rises with the buoyancy. */
+static double lifted_by(const CpsiFree *at, bool follows, double buoyancy) {
+    return at->stiffness * at->water.height + equation_with(at, NULL, follows, false, buoyancy).v.z;
+}
+
+/* The buoyancy with which the step is to be taken: none above the water, all below it, or, where
+ * the point is to float, that which brings it to the surface. */
+static double buoyancy_of_step(const CpsiFree *at, bool follows, bool *floats) {
+    double low = 0, high = at->water.displaced;
+    *floats = false;
+    if (!(high > 0) || lifted_by(at, follows, low) >= 0) return low;
+    if (lifted_by(at, follows, high) <= 0) return high;
+    *floats = true;
+    for (int i = 0; i < BISECTIONS; i++) {
+        const double middle = 0.5 * (low + high);
+        *(lifted_by(at, follows, middle) < 0 ? &low : &high) = middle;
+    }
+    return high;
+}
+
+/* Replace the equation along c = P up by: the point goes to the surface. */
+static void bring_to_surface(Equation *out, const CpsiFree *at) {
+    const double c[3] = {out->p[0][2], out->p[1][2], out->p[2][2]};
+    const double size = vec3_norm(vec3_load(c));
+    if (!(size > 0)) return; /* friction holds it there */
+    double v[3], e[3];
+    vec3_store(v, out->v);
+    for (int a = 0; a < 3; a++) e[a] = c[a] / size;
+    for (int j = 0; j < 3; j++) {
+        double p = 0, q = 0;
+        for (int a = 0; a < 3; a++) {
+            p += e[a] * out->p[a][j];
+            q += e[a] * out->q[a][j];
+        }
+        for (int a = 0; a < 3; a++) {
+            out->p[a][j] -= e[a] * p;
+            out->q[a][j] += e[a] * ((j == 2 ? at->stiffness : 0) - q);
+        }
+    }
+    const double along = e[0] * v[0] + e[1] * v[1] + e[2] * v[2];
+    for (int a = 0; a < 3; a++) v[a] -= e[a] * (along + at->stiffness * at->water.height);
+    out->v = vec3_load(v);
+}
+
+static Equation equation_of(const CpsiFree *at, const CpsiObstacle *on, bool follows, bool turns) {
+    if (!(at->water.displaced > 0)) return equation_of_touch(at, on, follows, turns);
+    bool floats;
+    Equation out = equation_with(at, on, follows, turns, buoyancy_of_step(at, follows, &floats));
+    if (floats) bring_to_surface(&out, at);
     return out;
 }
 
@@ -374,19 +447,41 @@ void cpsi_limit_step(CpsiBalance *balance) {
     }
 }
 
+/* Where an obstacle meets the surface of the water, near x. */
+static Vec3 along_the_waterline(const CpsiObstacle *on, double surface, Vec3 x) {
+    x.z = surface;
+    for (int i = 0; i < NEWTON; i++) {
+        const Vec3 n = cpsi_obstacle_normal(on, x), level = vec3(n.x, n.y, 0);
+        const double size = vec3_dot(level, level);
+        if (size > 0) x = vec3_axpy(-cpsi_obstacle_gap(on, x) / size, level, x);
+    }
+    return x;
+}
+
 /* The place of a point after a share of the step: out of every obstacle, and on that on which it is
  * to lie; exactly where it was where it is to stick. */
 Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const double step[3],
                       double share) {
     const CpsEvolution *evolution = balance->evolution;
     Vec3 x = vec3_axpy(share, vec3_load(step), from->place);
-    const bool touches = is_to_touch(from);
+    if (from->drags) {
+        if (cpsi_is_to_stick(from) && share == 1) return from->start;
+        return vec3_axpy(-vec3_dot(vec3_sub(x, from->start), from->normal), from->normal, x);
+    }
+    bool floats;
+    CpsiFree next = *from;
+    next.rest = cpsi_rest_with(from, buoyancy_of_step(from, balance->follows, &floats));
+    const bool touches = is_to_touch(&next);
     if (touches && cpsi_is_to_stick(from) && share == 1) return from->start;
     if (touches) {
         const CpsiObstacle *on = &evolution->obstacle[from->obstacle];
         const double gap = cpsi_obstacle_gap(on, x);
         if (share == 1 || gap < 0) x = vec3_axpy(-gap, cpsi_obstacle_normal(on, x), x);
     }
+    if (from->water.displaced > 0 && !touches)
+        x.z = cpsi_water_stop(&from->water, evolution->points.surface, x.z);
+    if (floats && touches && share == 1)
+        x = along_the_waterline(&evolution->obstacle[from->obstacle], evolution->points.surface, x);
     for (int k = 0; k < evolution->obstacle_count; k++) {
         const double gap = cpsi_obstacle_gap(&evolution->obstacle[k], x);
         if (gap < 0) x = vec3_axpy(-gap, cpsi_obstacle_normal(&evolution->obstacle[k], x), x);

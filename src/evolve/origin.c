@@ -137,6 +137,7 @@ CpsStatus cpsi_local_scene(const CpsScene *scene, CpsiLocalScene *out, CpsError 
     CpsBody *body = copy(block, &used, scene->body, (size_t)scene->body_count * sizeof *body);
     for (int i = 0; i < scene->body_count; i++) shift(body[i].position, origin);
     out->scene.body = body;
+    out->scene.water_surface -= origin[2];
     out->scene.obstacle = obstacle;
     out->scene.line = line;
     out->scene.stage = stage;

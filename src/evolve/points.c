@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "evolve/anchor_check.h"
 #include "evolve/bodies.h"
 #include "evolve/names.h"
 #include "evolve/origin.h"
@@ -125,6 +126,11 @@ static CpsStatus check_point(const CpsScene *scene, const PointNames *names, int
                            "point '%s': force (%g, %g, %g) N and weight %g N, expected finite "
                            "numbers",
                            point->name, f[0], f[1], f[2], point->weight);
+    else if (!cpsi_is_usable(point->displaced_weight) || point->displaced_weight < 0)
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "point '%s': it displaces water of %g N, expected a finite number, at "
+                           "least 0",
+                           point->name, point->displaced_weight);
     else if (point->kind == CPS_POINT_KIND_HELD && (f[0] != 0 || f[1] != 0 || f[2] != 0))
         status = cpsi_fail(err, CPS_ERR_ARGUMENT,
                            "point '%s': a force of (%g, %g, %g) N acts on it, but it is held: "
@@ -144,8 +150,9 @@ static CpsStatus check_point(const CpsScene *scene, const PointNames *names, int
     else if (depth_below(scene, length, at, &below) > 0)
         status = cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': it is %g m below obstacle '%s'",
                            point->name, depth_below(scene, length, at, &below), below);
-    else if (point->kind == CPS_POINT_KIND_FREE)
+    else if (point->kind == CPS_POINT_KIND_FREE || point->drags)
         status = cpsi_isotropy_check(scene, "point", point->name, err);
+    if (status == CPS_OK) status = cpsi_anchor_check(scene, point, length, err);
     if (status == CPS_OK)
         status = cpsi_gravity_check(scene, "point", point->name, point->weight != 0, err);
     return cpsi_fail_inside(err, status, "points.%s", point->name);
@@ -278,6 +285,8 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
     const double pull = vec3_norm(vec3_load(scene->gravity));
     points->count = scene->point_count;
     for (int i = 0; i < scene->point_count; i++) points->point[i].length = 0;
+    points->has_surface = local->has_water_surface;
+    points->surface = local->has_water_surface ? local->water_surface : 0;
     for (int i = 0; i < scene->line_count; i++)
         for (int end = 0; end < 2; end++)
             points->tie[2 * i + end] = cpsi_point_of(&scene->line[i], end);
@@ -294,6 +303,10 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
         memcpy(point->before, point->position, sizeof point->before);
         memcpy(point->force, from->force, sizeof point->force);
         point->mass = pull > 0 ? from->weight / pull : 0;
+        if (scene->has_water_surface && pull > 0 && from->displaced_weight > 0) {
+            point->mass = (from->weight + from->displaced_weight) / pull;
+            point->displaced_mass = from->displaced_weight / pull;
+        }
         point->report = (CpsPointReport){.obstacle = CPS_NO_OBSTACLE,
                                          .has_place = true,
                                          .state = state_of(from->kind)};
@@ -328,6 +341,7 @@ void cpsi_points_group(CpsiPoints *points, const CpsiBodies *bodies, int lines) 
     for (int i = 0; i < points->count; i++) {
         const CpsPoint *given = &points->given[i];
         const bool moves = points->point[i].kind == CPS_POINT_KIND_FREE ||
+                           cpsi_point_drags(points, i) ||
                            (given->kind == CPS_POINT_KIND_ON_BODY &&
                             bodies->body[given->body].kind == CPS_BODY_KIND_FREE);
         group[i] = moves ? i : CPSI_NO_POINT;

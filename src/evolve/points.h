@@ -21,7 +21,9 @@ typedef struct CpsiPoint {
     double move[3];         /* [m] of the last step */
     double reaction_before; /* [N] on it where the step began */
     bool is_moving;         /* the step under way goes on as the last one did */
-    double mass;            /* [kg] weight per gravity */
+    double mass;            /* [kg] weight per gravity, in air where it may leave the water */
+    double dragged;         /* [m] as an anchor, since the start */
+    double displaced_mass;  /* [kg] of water; 0 where it cannot leave the water */
     double length;          /* [m] of the longest line that ends here */
     CpsPointReport report;  /* its position relative to the origin */
 } CpsiPoint;
@@ -36,6 +38,8 @@ typedef struct CpsiPoints {
     int *tie;             /* (lines, 2) the point of an end, or CPSI_NO_POINT */
     int *group;           /* (count) first point of a free one's group, else CPSI_NO_POINT */
     CpsiBalance *balance; /* NULL: no point is ever free */
+    bool has_surface;
+    double surface; /* [m] z of the water's surface */
 } CpsiPoints;
 
 /* Check the points, and which ends are at which. */
@@ -74,7 +78,12 @@ static inline int cpsi_group_of_line(const CpsiPoints *points, int line) {
     return CPSI_NO_POINT;
 }
 
-/* [N] Weight and force on a free point. */
+/* Is it held, and an anchor that drags? */
+static inline bool cpsi_point_drags(const CpsiPoints *points, int point) {
+    return points->given[point].drags && points->point[point].kind == CPS_POINT_KIND_HELD;
+}
+
+/* [N] Weight and force on a free point; without a buoyancy that depends on its place. */
 static inline void cpsi_point_load(const CpsiPoint *point, const double gravity[3],
                                    double load[3]) {
     for (int a = 0; a < 3; a++) load[a] = point->force[a] + point->mass * gravity[a];

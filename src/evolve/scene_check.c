@@ -21,6 +21,7 @@
 #include "evolve/sections.h"
 #include "evolve/stage_check.h"
 #include "evolve/start.h"
+#include "evolve/water.h"
 #include "geometry/obstacle.h"
 
 enum { SCENE_COOKIE = 0x5ce9e501, LINE_COOKIE = 0x11e00e02, OBSTACLE_COOKIE = 0x0b57ac03 };
@@ -487,7 +488,11 @@ static CpsStatus check_options(const CpsScene *scene, CpsError *err) {
         return CPSI_FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
                             "gravity: is (%g, %g, %g) m/s2, expected finite numbers",
                             scene->gravity[0], scene->gravity[1], scene->gravity[2]);
-    return CPS_OK;
+    if (scene->has_water_surface && !cpsi_is_usable(scene->water_surface))
+        return CPSI_FAIL_AT("water_surface", err, CPS_ERR_ARGUMENT,
+                            "water_surface: is %g m, expected a finite number",
+                            scene->water_surface);
+    return cpsi_water_check(scene, scene->gravity, "gravity", err);
 }
 
 CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {

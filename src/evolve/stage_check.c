@@ -13,6 +13,7 @@
 #include "evolve/points.h"
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
+#include "evolve/water.h"
 
 enum { STAGE_COOKIE = 0x57a9e004 };
 
@@ -116,7 +117,9 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
                             "%s: gravity changes, but that of the scene is zero, so that nothing "
                             "has a mass: give the scene a gravity, and change it in its history",
                             what);
-    CpsStatus status = check_turns(scene, stage, what, err);
+    CpsStatus status =
+        stage->gravity_changes ? cpsi_water_check(scene, stage->gravity, what, err) : CPS_OK;
+    if (status == CPS_OK) status = check_turns(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_stage_shifts_check(scene, stage, what, err);
     for (int i = 0; i < stage->change_count && status == CPS_OK; i++)
         status = check_change(scene, stage, i, what, err);

@@ -8,6 +8,7 @@
 #include "evolve/grasps.h"
 #include "evolve/path_check.h"
 #include "evolve/shifts.h"
+#include "evolve/water.h"
 
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
                        int bodies, int turns, int grasps, int shifts) {
@@ -77,6 +78,8 @@ CpsScene cpsi_stage_scene(const CpsEvolution *evolution) {
                       .line = evolution->given_line,
                       .point_count = evolution->points.count,
                       .point = evolution->points.given,
+                      .has_water_surface = evolution->points.has_surface,
+                      .water_surface = evolution->points.surface + evolution->origin[2],
                       .body_count = evolution->bodies.count,
                       .body = evolution->given_body};
 }
@@ -177,10 +180,12 @@ static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage
         const bool held = change->kind == CPS_POINT_KIND_HELD;
         if (part == 0) {
             const bool was_free = point->kind == CPS_POINT_KIND_FREE;
+            const double lift = cpsi_buoyancy_at(points, point, evolution->gravity_from);
             for (int a = 0; a < 3; a++) {
-                const double load =
-                    was_free ? point->force[a]
-                             : point->report.support[a] - point->mass * evolution->gravity_from[a];
+                const double load = was_free ? point->force[a]
+                                             : point->report.support[a] -
+                                                   point->mass * evolution->gravity_from[a] -
+                                                   (a == 2 ? lift : 0);
                 point->from[a] = held ? point->position[a] : load;
             }
             point->kind = change->kind;

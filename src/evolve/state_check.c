@@ -131,11 +131,15 @@ static bool is_point(const CpsiPoint *point, int obstacles) {
     const CpsPointReport *report = &point->report;
     return within(point->kind, CPS_POINT_KIND_HELD, CPS_POINT_KIND_ON_BODY) &&
            within(report->state, CPS_POINT_STATE_HELD, CPS_POINT_STATE_ON_BODY) &&
+           within(report->water, CPS_POINT_WATER_NONE, CPS_POINT_WATER_ABOVE) &&
            within(report->obstacle, CPS_NO_OBSTACLE, obstacles - 1) && report->trial_count >= 0 &&
            all_finite(point->position, 3) && all_finite(point->force, 3) &&
            all_finite(point->from, 3) && all_finite(point->before, 3) &&
            all_finite(point->move, 3) && all_finite(report->support, 3) &&
-           all_finite(&report->reaction, 1);
+           all_finite(&report->reaction, 1) && all_finite(&report->buoyancy, 1) &&
+           all_finite(&report->displaced, 1) && all_finite(&report->capacity_used, 1) &&
+           all_finite(&report->uplift_used, 1) && all_finite(report->drag, 3) &&
+           all_finite(&report->dragged, 1) && all_finite(&point->dragged, 1);
 }
 
 static bool is_body(const CpsiBody *body) {

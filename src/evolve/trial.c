@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/checkpoint.h"
 #include "evolve/joint_system.h"
@@ -13,6 +14,8 @@
 
 /* What is left counts as balanced up to so many tolerances of the largest force. */
 static const double BALANCED = 100;
+/* Of a buoyancy at an obstacle, to the last digits. */
+enum { BISECTIONS = 60 };
 
 CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
     const size_t points = (size_t)evolution->points.count, lines = (size_t)evolution->line_count,
@@ -114,20 +117,36 @@ static void impose(CpsiBalance *balance) {
     }
 }
 
+int cpsi_trial_nearest(const CpsEvolution *evolution, Vec3 place, double *gap, Vec3 *normal) {
+    int nearest = CPS_NO_OBSTACLE;
+    *gap = INFINITY;
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        const double to = cpsi_obstacle_gap(&evolution->obstacle[k], place);
+        if (!(to < *gap)) continue;
+        *gap = to;
+        nearest = k;
+    }
+    if (nearest != CPS_NO_OBSTACLE)
+        *normal = cpsi_obstacle_normal(&evolution->obstacle[nearest], place);
+    return nearest;
+}
+
 /* The nearest obstacle, and where the point was on it when the step began. */
 void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     const CpsiPoint *point = &evolution->points.point[at->point];
     at->obstacle = CPS_NO_OBSTACLE;
     at->gap = INFINITY;
-    for (int k = 0; k < evolution->obstacle_count; k++) {
-        const double gap = cpsi_obstacle_gap(&evolution->obstacle[k], at->place);
-        if (!(gap < at->gap)) continue;
-        at->gap = gap;
-        at->obstacle = k;
+    at->drags = cpsi_point_drags(&evolution->points, at->point);
+    if (at->drags) {
+        at->start = vec3_load(point->position);
+        at->normal = cpsi_anchor_normal(evolution, at->point);
+        at->slip = vec3_reject(vec3_sub(at->place, at->start), at->normal);
+        at->bound = evolution->points.given[at->point].holding_capacity;
+        return;
     }
+    at->obstacle = cpsi_trial_nearest(evolution, at->place, &at->gap, &at->normal);
     if (at->obstacle == CPS_NO_OBSTACLE) return;
     const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
-    at->normal = cpsi_obstacle_normal(on, at->place);
     at->friction = evolution->has_static && evolution->done == 0 ? 0 : on->friction[0];
     const Vec3 before =
         cpsi_obstacle_carry(on, vec3_load(point->before), evolution->shift[at->obstacle],
@@ -151,12 +170,30 @@ bool cpsi_is_to_stick(const CpsiFree *at) {
     return at->bound > 0 && vec3_norm(cpsi_trial_friction_test(at)) <= at->bound;
 }
 
-/* What the obstacle does to the point, and what nothing balances. The friction bound follows the
- * reaction, or is that of the reference, and then acts off the obstacle as well (S90 (35)). The
- * friction is the force within its bound that is nearest to F - rho s, F what would balance: at a
- * solution it is F and opposite to the slip, elsewhere what is left is continuous in the place.
+/* The friction is the force within its bound that is nearest to F - rho s, F what would balance: at
+ * a solution it is F and opposite to the slip, elsewhere what is left is continuous in the place.
  * Until the stiffness rho is known, what has slid by CPS_TOUCH slides. */
-static void find_contact(const CpsiBalance *balance, CpsiFree *at) {
+static void find_friction(CpsiFree *at, double touch) {
+    if (!(at->stiffness > 0)) at->stiffness = at->bound / touch;
+    const Vec3 test = cpsi_trial_friction_test(at);
+    const double size = vec3_norm(test);
+    at->force = vec3_scale(size > at->bound ? -at->bound / size : -1, test);
+}
+
+/* What holds an anchor that drags, and what of that nothing balances: nothing across its plane. */
+static void find_hold(const CpsiBalance *balance, CpsiFree *at) {
+    at->reaction = 0;
+    find_friction(at, cpsi_trial_touch(balance, at));
+    at->left = vec3_add(vec3_reject(at->rest, at->normal), at->force);
+}
+
+/* What the obstacle does to the point, and what nothing balances. The friction bound follows the
+ * reaction, or is that of the reference, and then acts off the obstacle as well (S90 (35)). */
+static void find_touch(const CpsiBalance *balance, CpsiFree *at) {
+    if (at->drags) {
+        find_hold(balance, at);
+        return;
+    }
     const CpsiPoint *point = &balance->evolution->points.point[at->point];
     const double touch = cpsi_trial_touch(balance, at);
     at->reaction = at->bound = 0;
@@ -165,11 +202,33 @@ static void find_contact(const CpsiBalance *balance, CpsiFree *at) {
     if (at->obstacle == CPS_NO_OBSTACLE) return;
     if (at->gap <= touch) at->reaction = fmax(0, -vec3_dot(at->rest, at->normal));
     at->bound = at->friction * (balance->follows ? at->reaction : point->reaction_before);
-    if (!(at->stiffness > 0)) at->stiffness = at->bound / touch;
-    const Vec3 test = cpsi_trial_friction_test(at);
-    const double size = vec3_norm(test);
-    at->force = vec3_scale(size > at->bound ? -at->bound / size : -1, test);
+    find_friction(at, touch);
     at->left = vec3_add(vec3_axpy(at->reaction, at->normal, at->rest), at->force);
+}
+
+/* ... with another buoyancy. */
+static void find_touch_with(const CpsiBalance *balance, CpsiFree *at, double buoyancy) {
+    at->rest = cpsi_rest_with(at, buoyancy);
+    at->water.buoyancy = buoyancy;
+    find_touch(balance, at);
+}
+
+/* ... and what the water does: at the surface the buoyancy that leaves nothing upright. What is
+ * left upright rises with it, also where the point lies on an obstacle. */
+static void find_contact(const CpsiBalance *balance, CpsiFree *at) {
+    if (!(at->water.displaced > 0)) {
+        find_touch(balance, at);
+        return;
+    }
+    double range[2], stiffness = at->stiffness;
+    cpsi_water_range(&at->water, cpsi_trial_touch(balance, at), range);
+    find_touch_with(balance, at, fmin(fmax(-at->rest.z, range[0]), range[1]));
+    if (range[0] == range[1] || (at->reaction == 0 && at->bound == 0)) return;
+    for (int i = 0; i < BISECTIONS; i++) {
+        at->stiffness = stiffness;
+        find_touch_with(balance, at, 0.5 * (range[0] + range[1]));
+        range[at->left.z < 0 ? 0 : 1] = at->water.buoyancy;
+    }
 }
 
 /* From the reference point of a free body to a point on it, in the axes of the scene. */
@@ -223,10 +282,14 @@ void cpsi_try_places(CpsiBalance *balance) {
     balance->force = 0;
     balance->certified = true;
     for (int k = 0; k < balance->count; k++) {
+        CpsiFree *at = &balance->at[k];
         double load[3];
-        cpsi_point_load(&evolution->points.point[balance->at[k].point], evolution->gravity, load);
-        balance->at[k].rest = vec3_load(load);
-        balance->force = fmax(balance->force, vec3_norm(balance->at[k].rest));
+        at->rest = vec3(0, 0, 0);
+        if (cpsi_point_drags(&evolution->points, at->point)) continue;
+        cpsi_point_load(&evolution->points.point[at->point], evolution->gravity, load);
+        at->rest = vec3_load(load);
+        at->water = cpsi_water_at(&evolution->points, at->point, evolution->gravity, at->place.z);
+        balance->force = fmax(balance->force, vec3_norm(at->rest));
     }
     for (int k = 0; k < balance->body_count; k++)
         balance->rigid[k].lines = (CpsiWrench){vec3(0, 0, 0), vec3(0, 0, 0)};

@@ -6,6 +6,7 @@
 
 #include "cable/network.h"
 #include "evolve/state.h"
+#include "evolve/water.h"
 #include "linalg/graph_matrix.h"
 
 /* Stiffness added, in units of the largest force over the length of a point's longest line: where
@@ -22,8 +23,15 @@ typedef struct CpsiFree {
     int obstacle;
     double gap, friction, bound, reaction;
     Vec3 normal, slip, force; /* force: F */
+    bool drags;               /* an anchor: in a plane across `normal`, within its bound */
+    CpsiWater water;          /* whose buoyancy is in `rest` */
     Vec3 start;               /* where the point was, on the surface and turned with it */
 } CpsiFree;
+
+/* `rest` with another buoyancy. */
+static inline Vec3 cpsi_rest_with(const CpsiFree *at, double buoyancy) {
+    return vec3(at->rest.x, at->rest.y, at->rest.z + (buoyancy - at->water.buoyancy));
+}
 
 /* A free body in a trial: what acts on it, and what of that nothing balances. */
 typedef struct CpsiRigid {
@@ -72,7 +80,11 @@ void cpsi_balance_free(CpsiBalance *balance);
 
 /* The place of a point in the trial; false where it is neither free nor on a free body. */
 bool cpsi_trial_place(const CpsiBalance *balance, int point, Vec3 *place);
-/* The nearest obstacle, and where the point was on it when the step began. */
+/* The obstacle nearest to a place, how far it is [m], and its normal; CPS_NO_OBSTACLE without one,
+ * then the gap is infinite. */
+int cpsi_trial_nearest(const CpsEvolution *evolution, Vec3 place, double *gap, Vec3 *normal);
+/* The nearest obstacle, and where the point was on it when the step began. Of an anchor that drags:
+ * the plane in which it does, and where it is held. */
 void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at);
 /* [m] A point that is no farther from an obstacle, or has slid no farther, touches it, or is at
  * rest. */

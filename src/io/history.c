@@ -47,6 +47,14 @@ const char *cpsi_point_state(CpsPointState state) {
     return NAME[state];
 }
 
+const char *cpsi_point_water(CpsPointWater water) {
+    static const char *const NAME[] = {[CPS_POINT_WATER_NONE] = "",
+                                       [CPS_POINT_WATER_SUBMERGED] = "submerged",
+                                       [CPS_POINT_WATER_FLOATING] = "floating",
+                                       [CPS_POINT_WATER_ABOVE] = "above"};
+    return NAME[water];
+}
+
 double cpsi_point_residual(const CpsPointReport *report) {
     return hypot(hypot(report->residual[0], report->residual[1]), report->residual[2]);
 }

@@ -78,6 +78,8 @@ struct CpsResults {
     char *title; /* "" when the scene has none */
     double gravity[3];
     double origin[3]; /* [m] origin of the views */
+    bool has_water_surface;
+    double water_surface; /* [m] z, relative to the origin of the views */
     int obstacle_count;
     /* (obstacle_count), without friction sets, relative to the origin of the views */
     CpsObstacle *obstacle;
@@ -112,6 +114,7 @@ double cpsi_results_turned(const CpsResults *results, int step, int obstacle);
 /* The point in words: held, free, stick, slip, on_body; and how large a force nothing balances
  * there [N]. */
 const char *cpsi_point_state(CpsPointState state);
+const char *cpsi_point_water(CpsPointWater water); /* empty: none */
 double cpsi_point_residual(const CpsPointReport *report);
 /* The body in words: held, free; and the rows of reports, angles and residuals of all bodies. */
 const char *cpsi_body_kind(CpsBodyKind kind);

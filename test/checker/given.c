@@ -11,10 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "anchors.h"
 #include "compare.h"
 #include "given_bodies.h"
 #include "grasps.h"
 #include "record.h"
+#include "water.h"
 
 /* ---- what holds for the whole run ---- */
 
@@ -375,10 +377,27 @@ static void impose_on_point(const Compare *compare, ImposedPoint *point,
         point->now[k] = part == parts ? to[k] : point->from[k] + share * (to[k] - point->from[k]);
 }
 
+/* Where an anchor that drags is held: where the stage puts it, or where it was; and from there it
+ * has given way. */
+static void add_drag(Compare *compare, const CpsPoint *given, ImposedPoint *point, size_t k,
+                     size_t step, bool is_moved, const Junction *before) {
+    if (!given->drags || point->kind != CPS_POINT_KIND_HELD) return;
+    Anchor *anchor = calloc(compare->source.points, sizeof *anchor);
+    if (!anchor || anchors_open(&compare->source, anchor, compare->log) ||
+        anchors_read(&compare->source, step, anchor, compare->log))
+        find(compare, "drag_of_point, step %zu", step);
+    else
+        for (int a = 0; a < 3; a++)
+            point->now[a] =
+                (is_moved || !before ? point->now[a] : before->position[a]) + anchor[k].drag[a];
+    free(anchor);
+}
+
 static void compare_point(Compare *compare, const CpsPoint *given, const ImposedPoint *point,
                           size_t step, const double g[3], const Junction *at) {
     const bool is_held = point->kind == CPS_POINT_KIND_HELD;
-    const double pull = size(compare->scene->gravity);
+    const double pull = size(compare->scene->gravity),
+                 out = compare->scene->has_water_surface ? given->displaced_weight : 0;
     double wanted[3], noise = 0;
     if (point->kind == CPS_POINT_KIND_ON_BODY) { /* where it is follows from its body */
         if (at->state != POINT_ON_BODY)
@@ -391,7 +410,7 @@ static void compare_point(Compare *compare, const CpsPoint *given, const Imposed
     }
     if (!point->is_known) return;
     for (int k = 0; k < 3; k++) {
-        const double weight = is_held || pull == 0 ? 0 : given->weight / pull * g[k];
+        const double weight = is_held || pull == 0 ? 0 : (given->weight + out) / pull * g[k];
         wanted[k] = point->now[k] + weight;
         noise += fabs(point->now[k]) + fabs(point->from[k]) + fabs(weight);
         if (is_held) noise += fabs(compare->source.origin[k]);
@@ -401,6 +420,28 @@ static void compare_point(Compare *compare, const CpsPoint *given, const Imposed
         if (!(fabs(found[k] - wanted[k]) <= COPIED * noise))
             find(compare, "%s_of_point of %s, step %zu, is %.17g, in the scene %.17g",
                  is_held ? "position" : "load", given->name, step, found[k], wanted[k]);
+}
+
+/* What the free points displace, under the gravity of the step. */
+static void compare_water(Compare *compare, size_t step, const ImposedPoint *imposed,
+                          const double g[3]) {
+    const CpsScene *scene = compare->scene;
+    const double pull = size(scene->gravity);
+    Water *water = calloc((size_t)scene->point_count, sizeof *water);
+    if (!water || water_read(&compare->source, step, water, compare->log)) {
+        find(compare, "water_of_point, step %zu", step);
+        free(water);
+        return;
+    }
+    for (int k = 0; k < scene->point_count; k++) {
+        const bool floats = scene->has_water_surface && imposed[k].kind == CPS_POINT_KIND_FREE;
+        const double wanted =
+            floats && pull > 0 ? scene->point[k].displaced_weight / pull * size(g) : 0;
+        if (!(fabs(water[k].displaced - wanted) <= COPIED * wanted))
+            find(compare, "displaced_of_point of %s, step %zu, is %.17g, in the scene %.17g",
+                 scene->point[k].name, step, water[k].displaced, wanted);
+    }
+    free(water);
 }
 
 static void compare_points_at(Compare *compare, size_t step, ImposedPoint *imposed,
@@ -416,13 +457,32 @@ static void compare_points_at(Compare *compare, size_t step, ImposedPoint *impos
         impose_on_point(compare, &imposed[change->point], change, part, at->step_count,
                         step > 0 ? &before[change->point] : NULL);
     }
-    for (int k = 0; k < compare->scene->point_count; k++)
+    for (int k = 0; k < compare->scene->point_count; k++) {
+        bool is_moved = false;
+        for (int i = 0; i < changes; i++) is_moved = is_moved || at->point_change[i].point == k;
+        add_drag(compare, &compare->scene->point[k], &imposed[k], (size_t)k, step, is_moved,
+                 step > 0 ? &before[k] : NULL);
         compare_point(compare, &compare->scene->point[k], &imposed[k], step, g, &now[k]);
+    }
+    compare_water(compare, step, imposed, g);
 }
 
 /* Names, kinds and weights; and what is imposed at first. */
 static void compare_given_points(Compare *compare, ImposedPoint *imposed) {
     const Source *source = &compare->source;
+    const CpsScene *scene = compare->scene;
+    double surface;
+    Anchor *anchor = calloc(source->points, sizeof *anchor);
+    if (!anchor || anchors_open(source, anchor, compare->log)) {
+        find(compare, "holding_capacity_of_point");
+        free(anchor);
+        return;
+    }
+    if (water_surface(source, &surface) != scene->has_water_surface ||
+        (scene->has_water_surface &&
+         !(fabs(surface - (scene->water_surface - source->origin[2])) <=
+           COPIED * (fabs(scene->water_surface) + fabs(source->origin[2])))))
+        find(compare, "water_surface");
     for (int k = 0; k < compare->scene->point_count; k++) {
         const CpsPoint *point = &compare->scene->point[k];
         const bool is_held = point->kind == CPS_POINT_KIND_HELD;
@@ -434,11 +494,17 @@ static void compare_given_points(Compare *compare, ImposedPoint *imposed) {
         if (source->point_kind[k] != kind) find(compare, "kind_of_point of %s", point->name);
         same_number(compare, "weight_of_point", point->name, source->point_weight[k],
                     point->weight);
+        same_number(compare, "holding_capacity_of_point", point->name, anchor[k].capacity,
+                    point->has_holding_capacity ? point->holding_capacity : 0);
+        same_number(compare, "uplift_limit_of_point", point->name, anchor[k].limit,
+                    point->has_uplift_limit ? point->uplift_limit : 0);
+        if (anchor[k].drags != point->drags) find(compare, "drags_of_point of %s", point->name);
         imposed[k] = (ImposedPoint){.kind = point->kind, .is_known = true};
         for (int a = 0; a < 3; a++)
             imposed[k].now[a] = imposed[k].from[a] =
                 is_held ? point->position[a] - source->origin[a] : point->force[a];
     }
+    free(anchor);
 }
 
 static int compare_points(Compare *compare) {

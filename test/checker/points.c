@@ -5,7 +5,7 @@
  * free point, or the support of a held one; and of an obstacle that it touches the reaction R along
  * the normal and friction F:
  *
- *     lines + load + support + R n + F = residual,    R >= 0,  |F| <= mu R
+ *     lines + load + support + R n + F + buoyancy = residual,    R >= 0,  |F| <= mu R
  *
  * It sticks, or slides by s on the obstacle, which may turn meanwhile, and then mu R |s| + F.s
  * vanishes. */
@@ -14,6 +14,9 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
+
+#include "anchors.h"
+#include "water.h"
 
 /* Sums of a few numbers of the file, per largest force; a balance, in tolerances of the step: what
  * the search for the places of points may leave; places and slips per length, as those of lines. */
@@ -25,8 +28,13 @@ typedef struct Points {
     const Source *source;
     Record *line;           /* (lines) of the step */
     Junction *now, *before; /* (points) */
-    double *length;         /* (points) [m] of the longest line that ends there */
-    double largest;         /* [N] of the step */
+    Water *water;           /* (points) of the step */
+    Anchor *anchor;         /* (points) */
+    double *dragged;        /* (points) [m] before the step */
+    double surface;         /* [m] z of the water's surface */
+    bool has_surface;
+    double *length; /* (points) [m] of the longest line that ends there */
+    double largest; /* [N] of the step */
     bool certified, has_friction;
     size_t step, point;
     PointFinding *find;
@@ -89,9 +97,10 @@ static void check_lines(const Points *p, const Junction *at) {
 
 static void check_balance(const Points *p, const Junction *at) {
     Real sum[3];
+    const Real up[3] = {0, 0, p->water[p->point].buoyancy};
     for (int k = 0; k < 3; k++)
         sum[k] = (Real)at->lines[k] + at->load[k] + at->support[k] + at->friction[k] +
-                 (Real)at->reaction * at->normal[k];
+                 (Real)at->reaction * at->normal[k] + up[k];
     at_most(p, "residual against the sum of the forces", apart(at->residual, sum),
             SUMS * p->largest);
     at_most(p, is_held(at) ? "load of a held point" : "support of a free point",
@@ -105,6 +114,89 @@ static void check_balance(const Points *p, const Junction *at) {
         find(p, "it is said to have a place, but %.6g N are left, of %.6g N", left, p->largest);
     if (!at->has_place && p->certified)
         find(p, "it has no place, but lines that end at free points are certified");
+}
+
+/* The plane in which an anchor bears: a plane on which it lies, or a level one. */
+static void ground_of(const Points *p, const Junction *at, double normal[3]) {
+    const Source *source = p->source;
+    const double place = PLACES * (p->length[p->point] + size(at->position)),
+                 down = size(source->gravity);
+    Real x[3], n[3];
+    widen(at->position, x);
+    for (int a = 0; a < 3; a++) normal[a] = down > 0 ? -source->gravity[a] / down : a == 2 ? 1 : 0;
+    for (size_t k = 0; k < source->surfaces; k++) {
+        if (source->surface[k].kind != SURFACE_PLANE ||
+            (double)surface_distance(&source->surface[k], x) > place)
+            continue;
+        surface_normal(&source->surface[k], x, n);
+        for (int a = 0; a < 3; a++) normal[a] = (double)n[a];
+        return;
+    }
+}
+
+/* An anchor bears along the ground no more than its capacity if it drags, and all of that, against
+ * its drag, where it has given way. What it uses of its limits follows from what holds it. */
+static void check_anchor(const Points *p, const Junction *at) {
+    const Anchor *anchor = &p->anchor[p->point];
+    const double far = size(anchor->drag), way = PLACES * p->length[p->point];
+    double normal[3], support[3], along[3], up;
+    at_most(p, "dragged length against the sum of the drags",
+            fabs(anchor->dragged - p->dragged[p->point] - far), way);
+    p->dragged[p->point] = anchor->dragged;
+    if (!(anchor->drags && at->state == POINT_HELD)) at_most(p, "drag of what does not", far, 0);
+    if (at->state != POINT_HELD) {
+        at_most(p, "capacity or limit used by a free point",
+                fabs(anchor->capacity_used) + fabs(anchor->uplift_used), 0);
+        return;
+    }
+    ground_of(p, at, normal);
+    for (int a = 0; a < 3; a++) support[a] = at->support[a] + at->reaction * at->normal[a];
+    up = -dot(support, normal);
+    for (int a = 0; a < 3; a++) along[a] = support[a] + up * normal[a];
+    const double noise = FORCES * p->largest;
+    at_most(p, "used capacity against the force along the ground",
+            anchor->capacity > 0
+                ? fabs(anchor->capacity_used * anchor->capacity - size(along)) - noise
+                : fabs(anchor->capacity_used),
+            0);
+    at_most(p, "used limit against the force up from the ground",
+            anchor->limit > 0 ? fabs(anchor->uplift_used * anchor->limit - fmax(0, up)) - noise
+                              : fabs(anchor->uplift_used),
+            0);
+    if (!anchor->drags || !at->has_place) return;
+    at_most(p, "force along the ground above the capacity", size(along) - anchor->capacity, noise);
+    at_most(p, "drag out of the ground", fabs(dot(anchor->drag, normal)), way);
+    at_most(p, "what a drag lacks of the capacity",
+            anchor->capacity * far + dot(along, anchor->drag),
+            (BALANCED * p->source->tolerance * p->largest + noise) * (far + way));
+    at_most(p, "dissipated energy against the work of the drag",
+            fabs(at->dissipated - fmax(0, -dot(along, anchor->drag))), noise * (far + way));
+}
+
+/* A free point with a displaced weight has all of it as buoyancy below the surface, none above it,
+ * and any part of it at the surface. */
+static void check_water(const Points *p, const Junction *at) {
+    const Water *water = &p->water[p->point];
+    const double place = PLACES * (p->length[p->point] + size(at->position)),
+                 height = at->position[2] - p->surface;
+    const bool is_in = p->has_surface && at->state != POINT_HELD && water->displaced > 0;
+    at_most(p, "weight of displaced water below 0", -water->displaced, 0);
+    if (is_in != (water->state != WATER_NONE))
+        find(p, "where it is in the water is not said, or is said of one that cannot float");
+    if (!is_in) {
+        at_most(p, "buoyancy of a point that does not float", fabs(water->buoyancy), 0);
+        return;
+    }
+    const double least = height < -place ? water->displaced : 0,
+                 most = height > place ? 0 : water->displaced;
+    at_most(p, "buoyancy above what its place allows", water->buoyancy - most, SUMS * p->largest);
+    at_most(p, "buoyancy below what its place demands", least - water->buoyancy, SUMS * p->largest);
+    if (water->state == WATER_FLOATING)
+        at_most(p, "distance from the surface", fabs(height), place);
+    if (water->state == WATER_SUBMERGED && height > place)
+        find(p, "it is said to be submerged %.6g m above the surface", height);
+    if (water->state == WATER_ABOVE && height < -place)
+        find(p, "it is said to be above the water %.6g m below the surface", -height);
 }
 
 /* No point is below an obstacle, and what touches one is on it. */
@@ -179,14 +271,17 @@ static void check_step(Points *p) {
     const Source *source = p->source;
     p->largest = 0;
     p->certified = false;
-    for (size_t i = 0; i < source->points; i++) p->largest = fmax(p->largest, size(p->now[i].load));
+    for (size_t i = 0; i < source->points; i++)
+        p->largest = fmax(p->largest, fmax(size(p->now[i].load), p->water[i].buoyancy));
     for (size_t i = 0; i < source->lines; i++)
         p->largest = fmax(p->largest, p->line[i].claim[CLAIM_LARGEST_FORCE]);
     for (p->point = 0; p->point < source->points; p->point++) {
         const Junction *at = &p->now[p->point];
         check_lines(p, at);
+        check_water(p, at);
         check_contact(p, at);
         check_friction(p, at);
+        check_anchor(p, at);
     }
 }
 
@@ -203,7 +298,9 @@ static bool is_claimed(const Points *p, bool (*certified)(int outcome)) {
 static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
     const Source *source = p->source;
     for (p->step = 0; p->step < source->steps; p->step++) {
-        int bad = junctions_read(source, p->step, p->now, log);
+        int bad = junctions_read(source, p->step, p->now, log) ||
+                  water_read(source, p->step, p->water, log) ||
+                  anchors_read(source, p->step, p->anchor, log);
         for (size_t i = 0; i < source->lines && !bad; i++)
             bad = record_read(source, source->line_name[i], p->step, &p->line[i], log);
         if (bad) return -1;
@@ -241,12 +338,20 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     p.now = calloc(source->points, sizeof *p.now);
     p.before = calloc(source->points, sizeof *p.before);
     p.length = calloc(source->points, sizeof *p.length);
-    int bad = !p.line || !p.now || !p.before || !p.length ? -1 : open_lines(&p, log);
+    p.water = calloc(source->points, sizeof *p.water);
+    p.anchor = calloc(source->points, sizeof *p.anchor);
+    p.dragged = calloc(source->points, sizeof *p.dragged);
+    p.has_surface = water_surface(source, &p.surface);
+    int bad = !p.line || !p.water || !p.now || !p.before || !p.length ? -1 : open_lines(&p, log);
+    if (!bad) bad = !p.anchor || !p.dragged ? -1 : anchors_open(source, p.anchor, log);
     if (!bad) bad = check_steps(&p, certified, log);
     for (size_t i = 0; i < source->lines && p.line; i++) record_destroy(&p.line[i]);
     free(p.line);
     free(p.now);
     free(p.before);
     free(p.length);
+    free(p.water);
+    free(p.anchor);
+    free(p.dragged);
     return bad;
 }

@@ -40,7 +40,7 @@ HELD = "  anchor: {held: [0, 0, 0]}\n"
 KNOT = "{free: [10, 0, 0], force: [1, 2, 3], weight: 50}"
 PULL = "  - {name: pull, knot.point: {force: [1, 0, 0]}}\n"
 RISER = "ends: {A: {point: knot}, B: {point: buoy}}"
-LIST = "a mapping with held, free, body, at, force, mass, weight, volume"
+LIST = "a mapping with held, free, body, at, force, mass, weight, volume, holding_capacity, uplift_limit, drags"
 
 # name, what is replaced in GOOD, by what, expected after "FILE:"
 CHANGES = [
@@ -86,6 +86,21 @@ CHANGES = [
     ("an end at a point misspelt", RISER, "ends: {A: {pont: knot}, B: {point: buoy}}", "17:16: 'A': unknown key 'pont'; did you mean 'point'?"),
     ("a start away from its point", "stiffness: 1e6\n    start: static", "stiffness: 1e6\n    start: {straight: {from: [0, 0, 0], to: [8, 0, 0]}}", "17:12: line 'riser': ends: end A is held at (10, 0, 0) m, but the start puts it at (0, 0, 0) m"),
     ("points without points", GOOD[GOOD.index("points:"):], GOOD[GOOD.index("lines:"):GOOD.index("history:")], "4:85: 'point': found 'anchor', but the scene has no 'points': give it there, held or free"),
+    # water
+    ("a surface without water", "capstan: 1\n", "capstan: 1\nwater_surface: 3\n", "2:1: 'water_surface': it goes with 'water_density', which is not given"),
+    ("a surface in words", "capstan: 1\n", "capstan: 1\nwater_density: 1e3\nwater_surface: high\n", "3:1: 'water_surface': found 'high', expected a number in m"),
+    ("a surface that is no number", "capstan: 1\n", "capstan: 1\nwater_density: 1e3\nwater_surface: .nan\n", "3:1: 'water_surface': found '.nan', expected a number in m"),
+    ("a surface and gravity that tilts", "capstan: 1\n", "capstan: 1\nwater_density: 1e3\nwater_surface: 3\ngravity: [1, 0, -9]\n", "4:1: gravity: (1, 0, -9) m/s2 in a scene with a water surface, which is a plane z = constant: expected (0, 0, -g)"),
+    ("a surface and gravity that rises", "capstan: 1\n", "capstan: 1\nwater_density: 1e3\nwater_surface: 3\ngravity: [0, 0, 9]\n", "4:1: gravity: (0, 0, 9) m/s2 in a scene with a water surface"),
+    # anchors
+    ("an anchor that is free", KNOT, "{free: [10, 0, 0], holding_capacity: 5}", "5:28: 'holding_capacity': it goes with 'held', which is not given"),
+    ("a limit of a free point", KNOT, "{free: [10, 0, 0], uplift_limit: 5}", "5:28: 'uplift_limit': it goes with 'held', which is not given"),
+    ("a capacity of nothing", HELD, "  anchor: {held: [0, 0, 0], holding_capacity: 0}\n", "4:29: 'holding_capacity': found '0', expected a number in N, greater than 0"),
+    ("a limit below nothing", HELD, "  anchor: {held: [0, 0, 0], uplift_limit: -1}\n", "4:29: 'uplift_limit': found '-1', expected a number in N, greater than 0"),
+    ("an infinite capacity", HELD, "  anchor: {held: [0, 0, 0], holding_capacity: .inf}\n", "4:29: 'holding_capacity': found '.inf', expected a number in N"),
+    ("drags without a capacity", HELD, "  anchor: {held: [0, 0, 0], drags: true}\n", "4:29: 'drags': it goes with 'holding_capacity', which is not given"),
+    ("drags in words", HELD, "  anchor: {held: [0, 0, 0], holding_capacity: 5, drags: a bit}\n", "4:50: 'drags': found 'a bit', expected true or false"),
+    ("a move of an anchor that drags", HELD, "  anchor: {held: [0, 0, 0], holding_capacity: 5, drags: true}\n", "21:33: 'anchor.point': found a move, but the point's position before it is not known (it is free, or an anchor that drags): give a position instead"),
     # history
     ("an unknown point in the history", "knot.point:", "konot.point:", "20:18: 'konot.point': there is no such point; did you mean 'knot.point'?"),
     ("an unknown point in the history, nothing near", "knot.point:", "platform.point:", "20:18: 'platform.point': there is no such point under 'points'"),
@@ -118,6 +133,13 @@ ACCEPTED = [
     ([("weight: 50", "mass: 50, volume: 0.01"), WATER], "clump of 392.4 N"),
     ([("weight: 50", "mass: 50, volume: 0.15"), WATER], "buoy of 981 N"),
     ([WATER], "clump of 50 N"),
+    ([("{held: [0, 0, 0]}", "{held: [0, 0, 0], holding_capacity: 5e3, uplift_limit: 10}")], "held at (0, 0, 0) m, holding capacity 5000 N, uplift limit 10 N\n"),
+    ([("{held: [0, 0, 0]}", "{held: [0, 0, 0], holding_capacity: 5e3, drags: true}"), ("anchor.point: {move:", "anchor.point: {position:")],
+     "held at (0, 0, 0) m, holding capacity 5000 N, drags\n"),
+    ([("weight: 50", "mass: 50, volume: 0.15"), ("capstan: 1\n", WATER[1] + "water_surface: 7\n")],
+     "surface of the water at z = 7 m\nobstacle bed"),
+    ([("weight: 50", "mass: 50, volume: 0.15"), ("capstan: 1\n", WATER[1] + "water_surface: 7\n")],
+     "buoy of 981 N, displaces water of 1471.5 N, force"),
     ([("{held: [0, 0, 0]}", "{held: [0, 0, 0], weight: 5}")], "point anchor: held at (0, 0, 0) m, clump of 5 N\n"),
     # relative moves add up from where the entry before has put the point: (1, 0, 2) m and then down to the bed
     ([("anchor.point: {move: [1, 0, 0]}}", "anchor.point: {position: [1, 0, 2]}}\n  - {anchor.point: {move: [0, 0, -2]}}")],

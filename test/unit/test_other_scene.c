@@ -63,9 +63,10 @@ static const char SCENE[] =
 static const char POINTS_SCENE[] =
     "capstan: 1\n"
     "water_density: 900\n"
+    "water_surface: 2\n"
     "obstacles: {bed: {plane: {point: [0, 0, -9]}, friction: 0.3}}\n"
     "points:\n"
-    "  anchor: {held: [0, 0, 0]}\n"
+    "  anchor: {held: [0, 0, 0], holding_capacity: 1e4, uplift_limit: 900, drags: true}\n"
     "  ring: {held: [8, 4, 0], weight: 2}\n"
     "  knot: {free: [4, 0, -3], force: [1, 0, 0], mass: 3, volume: 0.001}\n"
     "lines:\n"
@@ -82,7 +83,8 @@ static const char POINTS_SCENE[] =
     "types: {rope: {weight: 2, stiffness: 1000}}\n"
     "history:\n"
     "  - {name: pull, steps: 2, knot.point: {force: [2, 0, 0]}}\n"
-    "  - {anchor.point: {move: [1, 0, 0]}, ring.point: {position: [8, 5, 0]}}\n";
+    "  - {anchor.point: {position: [1, 0, 0]}, ring.point: {position: [8, 5, 0]}}\n"
+    "  - {ring.point: {move: [0, 0, 1]}}\n";
 
 /* Rigid bodies, and points on them. */
 #define SPAR                                                                                   \
@@ -210,6 +212,8 @@ static const struct Change POINT_CHANGE[] = {
      " volume: 0.001}\n",
      "  knot: {free: [4, 0, -3], force: [1, 0, 0], mass: 3, volume: 0.001}\n"
      "  ring: {held: [8, 4, 0], weight: 2}\n"},
+    {"water_surface", "water_surface: 2", "water_surface: 2.5"},
+    {"water_surface", "water_surface: 2\n", ""},
     {"held", "held: [8, 4, 0]", "held: [8, 4.5, 0]"},
     {"held", "held: [8, 4, 0]", "free: [8, 4, 0]"},
     {"free", "free: [4, 0, -3]", "free: [4, 0, -3.5]"},
@@ -228,7 +232,10 @@ static const struct Change POINT_CHANGE[] = {
     {"POINT.point", "knot.point: {", "ring.point: {"},
     {"force", "force: [2, 0, 0]", "force: [2, 0, 1]"},
     {"position", "position: [8, 5, 0]", "position: [8, 6, 0]"},
-    {"move", "move: [1, 0, 0]", "move: [1, 1, 0]"},
+    {"position", "position: [1, 0, 0]", "position: [1, 1, 0]"},
+    {"holding_capacity", "holding_capacity: 1e4", "holding_capacity: 2e4"},
+    {"uplift_limit", "uplift_limit: 900", "uplift_limit: 800"},
+    {"drags", ", drags: true", ""},
 };
 
 static const struct Change BODY_CHANGE[] = {

@@ -208,10 +208,15 @@ static CpsStatus build_points(Build *b, const CpsiList *points) {
         point[k] = values[k].point;
         point[k].weight = cpsi_weight_in_water(&b->materials, values[k].mass, values[k].volume,
                                                values[k].point.weight);
+        point[k].has_holding_capacity = !isnan(point[k].holding_capacity);
+        if (!point[k].has_holding_capacity) point[k].holding_capacity = 0;
+        point[k].has_uplift_limit = !isnan(point[k].uplift_limit);
+        if (!point[k].has_uplift_limit) point[k].uplift_limit = 0;
+        point[k].displaced_weight = cpsi_displaced_weight(&b->materials, values[k].volume);
         point[k].name = copy_text(b, values[k].node->key);
         if (!point[k].name) return cpsi_document_no_memory(b->d);
         copy_vector(b->held_point[k], point[k].position);
-        if (point[k].kind == CPS_POINT_KIND_FREE) b->held_point[k][0] = NAN;
+        if (point[k].kind == CPS_POINT_KIND_FREE || point[k].drags) b->held_point[k][0] = NAN;
         if (values[k].body) {
             const CpsiYaml *name = cpsi_yaml_child(values[k].node, "body");
             const CpsStatus status = cpsi_body_find(b->d, b->scene, name, &point[k].body);
@@ -466,12 +471,14 @@ static CpsStatus build_point_change(const Build *b, const CpsiChangeValues *valu
                                   b->scene->body[point->body].name);
     change->kind = values->kind == CPSI_CHANGE_FORCE ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_HELD;
     double *held = b->held_point[change->point];
+    const bool drags = b->scene->point[change->point].drags;
     if (values->kind == CPSI_CHANGE_MOVE && isnan(held[0]))
         return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
                                   "'%s': found a move, but the point's position before it is not "
-                                  "known (it is free): give a position instead",
-                                  key);
+                                  "known (it is free%s): give a position instead",
+                                  key, drags ? ", or an anchor that drags" : "");
     build_value(values, held, change->value);
+    if (drags) held[0] = NAN;
     return CPS_OK;
 }
 
@@ -611,6 +618,8 @@ CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values,
                            CpsScene *scene) {
     Build b = {.d = d, .pool = pool, .scene = scene, .set = {.d = d}};
     *scene = values->scene;
+    scene->has_water_surface = !isnan(scene->water_surface);
+    if (!scene->has_water_surface) scene->water_surface = 0;
     const double *g = scene->gravity;
     b.materials = (CpsiMaterials){.d = d,
                                   .pool = pool,

@@ -204,6 +204,10 @@ double cpsi_weight_in_water(const CpsiMaterials *m, double mass, double volume, 
     return isnan(mass) ? weight : (mass - m->water * volume) * m->gravity;
 }
 
+double cpsi_displaced_weight(const CpsiMaterials *m, double volume) {
+    return m->water * volume * m->gravity;
+}
+
 CpsStatus cpsi_point_weights_build(const CpsiMaterials *m, const CpsiList *points, CpsLine *line) {
     const CpsiPointWeightValues *values = points->item;
     if (points->count == 0) return CPS_OK;

@@ -47,6 +47,9 @@ CpsStatus cpsi_sections_build(const CpsiMaterials *materials, const CpsiLineValu
 double cpsi_weight_in_water(const CpsiMaterials *materials, double mass, double volume,
                             double weight);
 
+/* [N] Of the water that this volume [m3] displaces. */
+double cpsi_displaced_weight(const CpsiMaterials *materials, double volume);
+
 CpsStatus cpsi_point_weights_build(const CpsiMaterials *materials, const CpsiList *points,
                                    CpsLine *line);
 

@@ -28,11 +28,12 @@ void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles
 /* Free the conic forms of the sets. */
 void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
 
-enum { CPSI_POINT_VECTORS = 8, CPSI_POINT_NUMBERS = 2, CPSI_POINT_INTS = 4 };
+enum { CPSI_POINT_VECTORS = 9, CPSI_POINT_NUMBERS = 7, CPSI_POINT_INTS = 5 };
 
 typedef struct CpsiNetcdfPoints {
     int count;
     int dimension, kind, weight; /* these and the next ones are unused without points */
+    int capacity, limit, drags;
     int vector[CPSI_POINT_VECTORS], number[CPSI_POINT_NUMBERS], whole[CPSI_POINT_INTS];
 } CpsiNetcdfPoints;
 

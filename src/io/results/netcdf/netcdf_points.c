@@ -28,6 +28,8 @@ static const struct {
     {"friction_of_point", "friction of that obstacle on it", "N",
      offsetof(CpsPointReport, friction)},
     {"slip_of_point", "slip on that obstacle in the step", "m", offsetof(CpsPointReport, slip)},
+    {"drag_of_point", "by which an anchor has given way in the step", "m",
+     offsetof(CpsPointReport, drag)},
     {"residual_of_point", "sum of all forces on it", "N", offsetof(CpsPointReport, residual)},
 };
 
@@ -39,9 +41,25 @@ static const struct {
      CPSI_MEMBER(CpsPointReport, reaction)},
     {"dissipated_of_point", "energy dissipated by its friction in the step", "J",
      CPSI_MEMBER(CpsPointReport, dissipated)},
+    {"buoyancy_of_point", "buoyancy of a point that may leave the water", "N",
+     CPSI_MEMBER(CpsPointReport, buoyancy)},
+    {"displaced_of_point", "weight of the water that it displaces when submerged", "N",
+     CPSI_MEMBER(CpsPointReport, displaced)},
+    {"capacity_used_of_point", "force along the ground over the holding capacity of an anchor", "1",
+     CPSI_MEMBER(CpsPointReport, capacity_used)},
+    {"uplift_used_of_point", "force up from the ground over the uplift limit of an anchor", "1",
+     CPSI_MEMBER(CpsPointReport, uplift_used)},
+    {"dragged_of_point", "sum of the lengths of its drags since the start", "m",
+     CPSI_MEMBER(CpsPointReport, dragged)},
 };
 
-typedef enum PointInt { POINT_STATE, POINT_OBSTACLE, POINT_TRIALS, POINT_HAS_PLACE } PointInt;
+typedef enum PointInt {
+    POINT_STATE,
+    POINT_OBSTACLE,
+    POINT_TRIALS,
+    POINT_HAS_PLACE,
+    POINT_WATER
+} PointInt;
 
 static const struct {
     const char *name, *long_name;
@@ -51,6 +69,7 @@ static const struct {
                         "place of the obstacle that it touches in the scene, -1: none"},
     [POINT_TRIALS] = {"trials_of_point", "places tried in the step"},
     [POINT_HAS_PLACE] = {"has_place_of_point", "was a place found where the forces balance"},
+    [POINT_WATER] = {"water_of_point", "where a point that may leave the water is"},
 };
 
 static const char *point_name(const CpsScene *scene, int k) { return scene->point[k].name; }
@@ -87,6 +106,19 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
     points->weight =
         cpsi_netcdf_variable(file, "", "weight_of_point", NC_DOUBLE, 1, &points->dimension,
                              "weight under the gravity of the scene, negative: it is lifted", "N");
+    points->capacity = cpsi_netcdf_variable(file, "", "holding_capacity_of_point", NC_DOUBLE, 1,
+                                            &points->dimension,
+                                            "force along the ground that an anchor can bear, 0: "
+                                            "not given",
+                                            "N");
+    points->limit =
+        cpsi_netcdf_variable(file, "", "uplift_limit_of_point", NC_DOUBLE, 1, &points->dimension,
+                             "force up from the ground that an anchor can bear, 0: not "
+                             "given",
+                             "N");
+    points->drags = cpsi_netcdf_variable(file, "", "drags_of_point", NC_INT, 1, &points->dimension,
+                                         "does an anchor give way above its capacity", "1");
+    cpsi_netcdf_flags(file, points->drags, NC_INT, 2, NULL, "no yes");
     for (int i = 0; i < CPSI_POINT_VECTORS; ++i)
         points->vector[i] = cpsi_netcdf_variable(file, "", VECTOR[i].name, NC_DOUBLE, 3, shape,
                                                  VECTOR[i].long_name, VECTOR[i].units);
@@ -99,6 +131,8 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
     cpsi_netcdf_flags(file, points->whole[POINT_STATE], NC_INT, (size_t)kinds + 2, NULL,
                       kinds == 3 ? "held free stick slip on_body" : "held free stick slip");
     cpsi_netcdf_flags(file, points->whole[POINT_HAS_PLACE], NC_INT, 2, NULL, "no yes");
+    cpsi_netcdf_flags(file, points->whole[POINT_WATER], NC_INT, 4, NULL,
+                      "none submerged floating above");
 }
 
 void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points,
@@ -107,6 +141,12 @@ void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poin
         static const size_t ONE[] = {1};
         cpsi_netcdf_int(file, points->kind, &k, (int)scene->point[k].kind);
         cpsi_netcdf_doubles(file, points->weight, &k, ONE, &scene->point[k].weight);
+        const CpsPoint *point = &scene->point[k];
+        const double capacity = point->has_holding_capacity ? point->holding_capacity : 0,
+                     limit = point->has_uplift_limit ? point->uplift_limit : 0;
+        cpsi_netcdf_doubles(file, points->capacity, &k, ONE, &capacity);
+        cpsi_netcdf_doubles(file, points->limit, &k, ONE, &limit);
+        cpsi_netcdf_int(file, points->drags, &k, point->drags);
     }
 }
 
@@ -127,7 +167,8 @@ static void append_point(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, s
     const int whole[CPSI_POINT_INTS] = {[POINT_STATE] = (int)report->state,
                                         [POINT_OBSTACLE] = report->obstacle,
                                         [POINT_TRIALS] = report->trial_count,
-                                        [POINT_HAS_PLACE] = report->has_place};
+                                        [POINT_HAS_PLACE] = report->has_place,
+                                        [POINT_WATER] = (int)report->water};
     for (int i = 0; i < CPSI_POINT_INTS; ++i)
         cpsi_netcdf_int(file, points->whole[i], start, whole[i]);
 }

@@ -210,6 +210,8 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     cpsi_netcdf_numbers(&nc->file, "tolerance", 1, &scene->solver.tolerance);
     if (origin[0] != 0 || origin[1] != 0 || origin[2] != 0)
         cpsi_netcdf_numbers(&nc->file, "origin", XYZ, origin);
+    const double surface = scene->water_surface - origin[2];
+    if (scene->has_water_surface) cpsi_netcdf_numbers(&nc->file, "water_surface", 1, &surface);
 
     nc->step = cpsi_netcdf_dimension(&nc->file, "step", NC_UNLIMITED);
     nc->xyz = cpsi_netcdf_dimension(&nc->file, "xyz", XYZ);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The points where lines meet, and the rigid bodies, as CSV (RFC 4180): a row of names, a row of
- * units, then a row per step and point or body. The obstacle is empty where a point touches
- * none. */
+ * units, then a row per step and point or body. The obstacle is empty where a point touches none,
+ * the water where it cannot leave it. */
 #include "io/base/text/columns.h"
 #include "io/base/text/escape.h"
 #include "io/results/writers.h"
@@ -13,12 +13,24 @@
     }
 
 static const CpsiColumn COLUMN[] = {
-    {"x", "m", POINT(position[0])},     {"y", "m", POINT(position[1])},
-    {"z", "m", POINT(position[2])},     VECTOR("lines", "N", lines),
-    VECTOR("load", "N", load),          VECTOR("support", "N", support),
-    {"reaction", "N", POINT(reaction)}, VECTOR("normal", "1", normal),
-    VECTOR("friction", "N", friction),  VECTOR("slip", "m", slip),
-    VECTOR("residual", "N", residual),  {"dissipated", "J", POINT(dissipated)},
+    {"x", "m", POINT(position[0])},
+    {"y", "m", POINT(position[1])},
+    {"z", "m", POINT(position[2])},
+    VECTOR("lines", "N", lines),
+    VECTOR("load", "N", load),
+    VECTOR("support", "N", support),
+    {"reaction", "N", POINT(reaction)},
+    VECTOR("normal", "1", normal),
+    VECTOR("friction", "N", friction),
+    VECTOR("slip", "m", slip),
+    VECTOR("residual", "N", residual),
+    {"dissipated", "J", POINT(dissipated)},
+    {"buoyancy", "N", POINT(buoyancy)},
+    {"displaced", "N", POINT(displaced)},
+    {"capacity_used", "1", POINT(capacity_used)},
+    {"uplift_used", "1", POINT(uplift_used)},
+    VECTOR("drag", "m", drag),
+    {"dragged", "m", POINT(dragged)},
 };
 
 #define BODY(member) CPSI_MEMBER(CpsiBodyRow, member)
@@ -64,15 +76,16 @@ static void write_row(FILE *out, const CpsResults *results, const CpsiRow *row, 
     fputc(',', out);
     if (report->obstacle != CPS_NO_OBSTACLE)
         cpsi_write_csv(out, results->obstacle[report->obstacle].name);
-    fprintf(out, ",%d,%d\n", report->trial_count, (int)report->has_place);
+    fprintf(out, ",%d,%d,%s\n", report->trial_count, (int)report->has_place,
+            cpsi_point_water(report->water));
 }
 
 void cpsi_points_write(const CpsResults *results, FILE *out) {
     fputs("step,name,point,state", out);
     cpsi_csv_names(out, COLUMN, COLUMNS, NULL);
-    fputs(",obstacle,trials,has_place\n1,,,", out);
+    fputs(",obstacle,trials,has_place,water\n1,,,", out);
     cpsi_csv_units(out, COLUMN, COLUMNS);
-    fputs(",,1,1\n", out);
+    fputs(",,1,1,\n", out);
     for (int r = 0; r < results->row_count; ++r)
         for (int i = 0; i < results->point_count; ++i) write_row(out, results, &results->row[r], i);
 }

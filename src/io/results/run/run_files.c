@@ -91,6 +91,8 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->planned_steps = cps_evolution_step_count(evolution);
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
+    results->has_water_surface = scene->has_water_surface;
+    results->water_surface = scene->water_surface - results->origin[2];
     memcpy(results->origin, cps_evolution_line_view(evolution, 0).origin, sizeof results->origin);
     const size_t lines = (size_t)cps_evolution_line_count(evolution);
     results->line_name = calloc(lines, sizeof *results->line_name);

@@ -189,6 +189,19 @@ static void write_points(FILE *out, const CpsResults *results, const CpsiRow *ro
             write_vector(out, "slip_m", report->slip, ", ");
             write_number(out, "dissipated_J", report->dissipated, ",\n          ");
         }
+        const CpsPoint *point = &results->point[i];
+        if (point->has_holding_capacity)
+            write_number(out, "capacity_used", report->capacity_used, ", ");
+        if (point->has_uplift_limit) write_number(out, "uplift_used", report->uplift_used, ", ");
+        if (point->drags) {
+            write_vector(out, "drag_m", report->drag, ", ");
+            write_number(out, "dragged_m", report->dragged, ",\n          ");
+        }
+        if (report->water != CPS_POINT_WATER_NONE) {
+            write_string(out, "water", cpsi_point_water(report->water), ", ");
+            write_number(out, "buoyancy_N", report->buoyancy, ", ");
+            write_number(out, "displaced_N", report->displaced, ",\n          ");
+        }
         write_number(out, "residual_N", cpsi_point_residual(report), "}");
         fputs(i + 1 < results->point_count ? ",\n" : "\n", out);
     }

@@ -176,12 +176,20 @@ static const CpsiKey SCENE_POINT_KEYS[] = {
      .help = "weight (in water: the submerged one), instead of mass; negative: a buoy"},
     {"volume", OPTIONAL, NUMBER(ScenePoint, volume), NOT_NEGATIVE, .unit = "m3", .with = "mass",
      .fallback = "0", .help = "of the water it displaces"},
+    {"holding_capacity", OPTIONAL, NUMBER(ScenePoint, point.holding_capacity), POSITIVE,
+     .unit = "N", .with = "held",
+     .help = "of an anchor: the force along the ground that it can bear; what exceeds it is said"},
+    {"uplift_limit", OPTIONAL, NUMBER(ScenePoint, point.uplift_limit), POSITIVE, .unit = "N",
+     .with = "held", .help = "of an anchor: the force up from the ground that it can bear"},
+    {"drags", OPTIONAL, FLAG(ScenePoint, point.drags), .with = "holding_capacity",
+     .help = "the anchor gives way along the ground to a force above its capacity; false unless "
+             "given"},
 };
 
 static void begin_scene_point(void *values) {
     CpsiScenePointValues *point = values;
     point->point = cps_point_default();
-    point->mass = NAN;
+    point->mass = point->point.holding_capacity = point->point.uplift_limit = NAN;
 }
 
 static const CpsiMapping SCENE_POINT = {"point", KEYS(SCENE_POINT_KEYS), INTO(ScenePoint),
@@ -517,6 +525,10 @@ static const CpsiKey SCENE_KEYS[] = {
     {"water_density", OPTIONAL, NUMBER(Scene, water), NOT_NEGATIVE, .unit = "kg/m3",
      .fallback = "0",
      .help = "of the water around everything that is given by its mass: 1025 in the sea, 0 in air"},
+    {"water_surface", OPTIONAL, NUMBER(Scene, scene.water_surface), ANY, .unit = "m",
+     .with = "water_density",
+     .help = "height z of the surface of the still water, at which free points with a volume "
+             "float; without it all is under water"},
     {"types", OPTIONAL, NAMED(Scene, types), .inside = &TYPE, .fallback = "{}",
      .help = "what sections of lines are made of, by name"},
     {"obstacles", OPTIONAL, NAMED(Scene, obstacles), .inside = &OBSTACLE, .fallback = "{}",
@@ -544,6 +556,10 @@ static const CpsiKey SCENE_KEYS[] = {
              "turn"},
 };
 
-static void begin_scene(void *values) { ((CpsiSceneValues *)values)->scene = cps_scene_default(); }
+static void begin_scene(void *values) {
+    CpsScene *scene = &((CpsiSceneValues *)values)->scene;
+    *scene = cps_scene_default();
+    scene->water_surface = NAN; /* not given */
+}
 
 const CpsiMapping cpsi_scene_file = {"scene", KEYS(SCENE_KEYS), INTO(Scene), .begin = begin_scene};

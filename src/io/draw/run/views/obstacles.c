@@ -4,7 +4,7 @@
  * A plane seen from above fills the frame and shows its slope; otherwise its intersection with the
  * paper is shown. Cylinders and balls are shown by their silhouettes: a circle, or the band of a
  * cylinder seen from its side, which has no ends. An obstacle that turns and is seen along its axis
- * has a spoke that turns with it. */
+ * has a spoke that turns with it. The water is what is below its surface, in elevations. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,8 @@
 #include "io/draw/run/run_picture.h"
 
 static const char FILL[] = "#efe7d6", ROUND_FILL[] = "#e6dcc4", EDGE[] = "#b9a67c",
-                  SEEN_FROM_ABOVE[] = "#faf7f0", TEXT[] = "#9a8350";
+                  SEEN_FROM_ABOVE[] = "#faf7f0", TEXT[] = "#9a8350", WATER[] = "#edf5fb",
+                  SURFACE[] = "#5b8fbf";
 
 /* A cylinder whose axis is this short on paper is shown as a circle. */
 static const double END_ON = 0.1;
@@ -154,8 +155,17 @@ static bool ever_turns(const CpsResults *results, int k) {
     return false;
 }
 
+/* The water below its surface, seen from the side. */
+static void draw_water(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
+                       FILE *out) {
+    if (!results->has_water_surface || view->plan) return;
+    const Polygon all = whole(frame), below = cut(&all, 0, 1, results->water_surface * view->up.z);
+    draw_polygon(frame, &below, WATER, SURFACE, out);
+}
+
 void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
                             int step, FILE *out) {
+    draw_water(results, view, frame, out);
     for (int k = 0; k < results->obstacle_count; ++k)
         if (results->obstacle[k].kind == CPS_OBSTACLE_PLANE)
             draw_plane(&results->obstacle[k], view, frame, out);

@@ -111,6 +111,8 @@ static void measure(const CpsResults *results, CpsiView *view) {
         include_bodies(results, &results->row[results->snapshot[s].step], view);
     }
     view->cut = sum / count;
+    if (results->has_water_surface && !view->plan)
+        cpsi_range_include(view->y, results->water_surface * view->up.z);
     include_round(results, view);
 }
 

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Anchors with a holding capacity: answers by hand, and what is refused. */
+#include <math.h>
+#include <string.h>
+
+#include "cases.h"
+
+/* An anchor at the origin, from which a weightless string of one element leads to a held end. */
+static const double LENGTH = 10, EA = 2e4, CAPACITY = 500, LIMIT = 200;
+
+enum { MOST_STAGES = 8 };
+
+typedef struct Pull {
+    CpsLine line;
+    CpsPoint anchor;
+    CpsObstacle bed;
+    CpsChange change[MOST_STAGES];
+    CpsStage stage[MOST_STAGES];
+    CpsScene scene;
+} Pull;
+
+static void make(Pull *p, double x, double y, double z) {
+    *p = (Pull){.scene = cps_scene_default(), .bed = cps_obstacle_default()};
+    p->anchor = cps_point_default();
+    p->anchor.name = "anchor";
+    p->anchor.has_holding_capacity = true;
+    p->anchor.holding_capacity = CAPACITY;
+    p->anchor.drags = true;
+    p->line = cps_line_default();
+    p->line.name = "string";
+    p->line.length = LENGTH;
+    p->line.element_count = 1;
+    p->line.stiffness = EA;
+    p->line.start.kind = CPS_START_STATIC;
+    p->line.end[CPS_END_A].kind = CPS_END_KIND_POINT;
+    p->line.end[CPS_END_B] = (CpsEnd){CPS_END_KIND_HELD, {x, y, z}};
+    p->scene.line_count = 1;
+    p->scene.line = &p->line;
+    p->scene.point_count = 1;
+    p->scene.point = &p->anchor;
+    p->scene.stage = p->stage;
+}
+
+static void then(Pull *p, double x, double y, double z) {
+    const int k = p->scene.stage_count++;
+    p->change[k] = (CpsChange){.end = CPS_END_B, .to = {CPS_END_KIND_HELD, {x, y, z}}};
+    p->stage[k] = cps_stage_default();
+    p->stage[k].name = "pull";
+    p->stage[k].change_count = 1;
+    p->stage[k].change = &p->change[k];
+}
+
+static CpsEvolution *evolve(const Pull *p) {
+    CpsEvolution *evolution = NULL;
+    CpsError err;
+    if (cps_evolution_create(&p->scene, &evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+    return evolution;
+}
+
+static CpsPointReport step(CpsEvolution *evolution) {
+    CpsError err;
+    if (cps_evolution_step(evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+    assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
+    return cps_evolution_point_report(evolution, 0);
+}
+
+static double size(const double v[3]) { return hypot(hypot(v[0], v[1]), v[2]); }
+
+/* Where the string has the tension of the capacity, EA (d/l - 1) = C. */
+static double reach(void) { return LENGTH * (1 + CAPACITY / EA); }
+
+/* Pulled along the string it holds up to its capacity, then follows at the distance at which the
+ * tension is that; let go, it stays, slack or taut; pulled the other way, it comes back. */
+static void along_a_line(void **unused) {
+    (void)unused;
+    static const double END[] = {10.1, 10.2, 12, 11.9, 5, 12, 14, -20};
+    enum { STEPS = sizeof END / sizeof *END };
+    Pull p;
+    make(&p, END[0], 0, 0);
+    for (int k = 1; k < STEPS; k++) then(&p, END[k], 0, 0);
+    CpsEvolution *evolution = evolve(&p);
+    double at = 0, dragged = 0;
+    for (int k = 0; k < STEPS; k++) {
+        const CpsPointReport anchor = step(evolution);
+        const double before = at;
+        if (END[k] - at > reach()) at = END[k] - reach();
+        if (at - END[k] > reach()) at = END[k] + reach();
+        dragged += fabs(at - before);
+        const double tension = EA * fmax(0, fabs(END[k] - at) / LENGTH - 1);
+        CHECK_NEAR(anchor.position[0], at, 1e-9 * LENGTH);
+        CHECK_NEAR(hypot(anchor.position[1], anchor.position[2]), 0, 1e-12);
+        CHECK_NEAR(anchor.drag[0], at - before, 1e-9 * LENGTH);
+        CHECK_NEAR(anchor.dragged, dragged, 1e-8 * LENGTH);
+        CHECK_NEAR(anchor.capacity_used, tension / CAPACITY, 1e-8);
+        CHECK_NEAR(anchor.dissipated, CAPACITY * fabs(at - before), 1e-6);
+        CHECK_NEAR(anchor.uplift_used, 0, 0);
+        assert_int_equal(anchor.state, CPS_POINT_STATE_HELD);
+        /* it stays exactly */
+        if (at == before) CHECK_NEAR(size(anchor.drag), 0, 0);
+    }
+    cps_evolution_destroy(evolution);
+}
+
+/* Pulled upwards at an angle it gives way until the horizontal part of the tension is its capacity;
+ * across it holds what there is, and says what of its limit that is. */
+static void at_an_angle(void **unused) {
+    (void)unused;
+    static const double X = 9, Y = 2, Z = 6;
+    Pull p;
+    make(&p, X, Y, Z);
+    p.anchor.has_uplift_limit = true;
+    p.anchor.uplift_limit = LIMIT;
+    CpsEvolution *evolution = evolve(&p);
+    const CpsPointReport anchor = step(evolution);
+    const double x = X - anchor.position[0], y = Y - anchor.position[1], flat = hypot(x, y),
+                 d = hypot(flat, Z), tension = EA * (d / LENGTH - 1);
+    CHECK_NEAR(anchor.position[2], 0, 0);
+    CHECK_NEAR(tension * flat / d, CAPACITY, 1e-5);
+    CHECK_NEAR(x * Y - y * X, 0, 1e-7);
+    CHECK_NEAR(anchor.capacity_used, 1, 1e-8);
+    CHECK_NEAR(anchor.uplift_used, tension * Z / d / LIMIT, 1e-6);
+    CHECK_NEAR(anchor.support[2], -tension * Z / d, 1e-5);
+    assert_true(anchor.dragged > 0.1);
+    cps_evolution_destroy(evolution);
+}
+
+/* On a bed it drags along the bed, also down a slope; what presses it is the bed's reaction. */
+static void on_a_slope(void **unused) {
+    (void)unused;
+    static const double DOWN = 4, AWAY = 3; /* normal (3, 0, 4)/5 */
+    Pull p;
+    make(&p, 0.8 * 12, 0, -0.6 * 12);
+    p.bed.name = "bed";
+    p.bed.normal[0] = AWAY;
+    p.bed.normal[2] = DOWN;
+    p.bed.friction = 0.3;
+    p.scene.obstacle_count = 1;
+    p.scene.obstacle = &p.bed;
+    CpsEvolution *evolution = evolve(&p);
+    const CpsPointReport anchor = step(evolution);
+    const double at = 12 - reach(), place[3] = {0.8 * at, 0, -0.6 * at};
+    CHECK_VECTOR(anchor.position, place, 1e-8);
+    CHECK_NEAR(anchor.capacity_used, 1, 1e-8);
+    cps_evolution_destroy(evolution);
+}
+
+/* Without `drags` it holds, and says how much too much that is. */
+static void without_drags(void **unused) {
+    (void)unused;
+    Pull p;
+    make(&p, 12, 0, 5);
+    p.anchor.drags = false;
+    p.anchor.has_uplift_limit = true;
+    p.anchor.uplift_limit = LIMIT;
+    CpsEvolution *evolution = evolve(&p);
+    const CpsPointReport anchor = step(evolution);
+    const double tension = EA * (13.0 / LENGTH - 1);
+    CHECK_NEAR(anchor.capacity_used, tension * 12 / 13 / CAPACITY, 1e-9);
+    CHECK_NEAR(anchor.uplift_used, tension * 5 / 13 / LIMIT, 1e-9);
+    CHECK_NEAR(size(anchor.position), 0, 0);
+    CHECK_NEAR(anchor.dragged, 0, 0);
+    cps_evolution_destroy(evolution);
+}
+
+/* An inextensible line whose end goes out of reach: the anchor is drawn after it until the line
+ * hangs with the tension of its capacity C over the span l (1 - (w l/C)^2/24), the catenary to
+ * second order, of which 8 elements leave 1/64. */
+static void inextensible(void **unused) {
+    (void)unused;
+    Pull p;
+    make(&p, 9, 0, 0);
+    p.line.stiffness = INFINITY;
+    p.line.weight = 1;
+    p.line.element_count = 8;
+    then(&p, 9.5, 0, 0);
+    then(&p, 14, 0, 0);
+    CpsEvolution *evolution = evolve(&p);
+    CHECK_NEAR(step(evolution).dragged, 0, 0);
+    CHECK_NEAR(step(evolution).dragged, 0, 0);
+    const double sag = LENGTH * pow(p.line.weight * LENGTH / CAPACITY, 2) / 24;
+    CHECK_NEAR(step(evolution).dragged, 14 - LENGTH + sag, 0.02 * sag);
+    cps_evolution_destroy(evolution);
+}
+
+static void refused(const Pull *p, const char *expected) {
+    CpsEvolution *evolution = NULL;
+    CpsError err;
+    assert_int_equal(cps_evolution_create(&p->scene, &evolution, &err), CPS_ERR_ARGUMENT);
+    if (!strstr(err.message, expected)) fail_msg("%s", err.message);
+}
+
+static void what_is_refused(void **unused) {
+    (void)unused;
+    Pull p;
+    const double wrong[] = {0, -1, NAN, INFINITY};
+    for (int k = 0; k < 4; k++) {
+        make(&p, 9, 0, 0);
+        p.anchor.holding_capacity = wrong[k];
+        refused(&p, "point 'anchor': a holding capacity of");
+        make(&p, 9, 0, 0);
+        p.anchor.has_uplift_limit = true;
+        p.anchor.uplift_limit = wrong[k];
+        refused(&p, "point 'anchor': an uplift limit of");
+    }
+    make(&p, 9, 0, 0);
+    p.anchor.has_holding_capacity = false;
+    refused(&p, "point 'anchor': it drags, but has no holding capacity");
+    make(&p, 9, 0, 0);
+    p.anchor.kind = CPS_POINT_KIND_FREE;
+    refused(&p, "point 'anchor': it has the limits of an anchor, but is not held");
+    make(&p, 9, 0, 0);
+    p.bed.name = "ball";
+    p.bed.kind = CPS_OBSTACLE_SPHERE;
+    p.bed.radius = 1;
+    p.bed.point[2] = -1;
+    p.scene.obstacle_count = 1;
+    p.scene.obstacle = &p.bed;
+    refused(&p, "it drags, but lies on obstacle 'ball', which is round");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(along_a_line), cmocka_unit_test(at_an_angle),
+        cmocka_unit_test(on_a_slope),   cmocka_unit_test(without_drags),
+        cmocka_unit_test(inextensible), cmocka_unit_test(what_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Points at the surface of the water and anchors, from a scene to the checker: the file is sound
+ * and the scene's, and copies with a number changed are refused. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "capstan/io.h"
+#include "check.h"
+#include "checker.h"
+#include "given.h"
+#include "run_scene.h"
+#include "sample.h"
+
+/* A float that is pulled under, one that is lifted out of the water and drags its anchor, and a
+ * knot without a volume; then gravity changes. */
+static const char SCENE[] =
+    "capstan: 1\ngravity: [0, 0, -10]\nwater_density: 1000\nwater_surface: 3\n"
+    "points:\n"
+    "  foot: {held: [0, 0, -5], mass: 9, volume: 0.1}\n"
+    "  float: {free: [1, 0, 3], mass: 20, volume: 0.08}\n"
+    "  can: {free: [9, 0, 3], mass: 10, volume: 0.02}\n"
+    "  knot: {free: [5, 0, 0], weight: 50}\n"
+    "  claw: {held: [10, 0, -5], holding_capacity: 60, uplift_limit: 50, drags: true}\n"
+    "lines:\n"
+    "  a: {length: 9, elements: 6, weight: 1, stiffness: 1e5, start: static, ends: {A: {point: "
+    "foot}, B: {point: float}}}\n"
+    "  b: {length: 5, elements: 4, weight: 1, stiffness: 1e5, start: static, ends: {A: {point: "
+    "knot}, B: {point: float}}}\n"
+    "  c: {length: 5, elements: 4, weight: 1, stiffness: 1e5, start: static, ends: {A: {point: "
+    "knot}, B: {point: can}}}\n"
+    "  d: {length: 9, elements: 6, weight: 1, stiffness: 1e5, start: static, ends: {A: {point: "
+    "claw}, B: {point: can}}}\n"
+    "history:\n"
+    "  - {name: under, foot.point: {position: [0, 0, -9]}}\n"
+    "  - {name: out, can.point: {force: [400, 0, 600]}}\n"
+    "  - {name: lighter, gravity: [0, 0, -8]}\n";
+enum { STEPS = 4, POINTS = 5, FOOT = 0, FLOAT = 1, CAN = 2, KNOT = 3, CLAW = 4 };
+enum { NONE = 0, SUBMERGED = 1, FLOATING = 2, ABOVE = 3 };
+
+static char copy[80];
+static CpsSceneFile *scene;
+
+static int solve(void **state) {
+    CpsError err;
+    if (make_scene_directory(state) != 0) return -1;
+    FILE *out = fopen(scene_path, "w");
+    if (!out || fputs(SCENE, out) < 0 || fclose(out) != 0) return -1;
+    run_scene();
+    snprintf(copy, sizeof copy, "%s-copy", scene_result);
+    return cps_scene_read(scene_path, NULL, &scene, &err) != CPS_OK;
+}
+
+static int clean(void **state) {
+    cps_scene_file_destroy(scene);
+    return remove_scene_directory(state);
+}
+
+static void copy_result(void) {
+    FILE *from = fopen(scene_result, "rb"), *to = fopen(copy, "wb");
+    assert_true(from && to);
+    for (int c; (c = getc(from)) != EOF;) putc(c, to);
+    fclose(from);
+    assert_int_equal(fclose(to), 0);
+}
+
+static void sound_file_is_the_scenes(void **state) {
+    (void)state;
+    CheckerReport report;
+    CHECK_INT(checker_file(scene_result, &report, stdout), 0);
+    CHECK_INT(report.certified, 4 * STEPS);
+    CHECK_INT(given_file(scene_result, cps_scene_file_scene(scene), stdout), 0);
+}
+
+/* A number of a step and a point, or its component a. */
+#define NUMBER(step, point)    ((step)*POINTS + (point))
+#define VECTOR(step, point, a) (3 * NUMBER(step, point) + (a))
+
+static const struct {
+    const char *variable;
+    size_t index;
+    double value;
+    const char *finding;
+} FALSE[] = {
+    {"water_of_point", NUMBER(0, FLOAT), NONE, "point float: where it is in the water is not said"},
+    {"water_of_point", NUMBER(0, KNOT), FLOATING, "point knot: where it is in the water is not"},
+    {"water_of_point", NUMBER(0, FOOT), SUBMERGED, "point foot: where it is in the water is not"},
+    {"water_of_point", NUMBER(1, FLOAT), FLOATING, "point float: distance from the surface"},
+    {"water_of_point", NUMBER(1, FLOAT), ABOVE, "point float: it is said to be above the water"},
+    {"water_of_point", NUMBER(2, CAN), SUBMERGED, "point can: it is said to be submerged"},
+    {"water_of_point", NUMBER(2, CAN), 4, "unknown state in the water of point"},
+    {"buoyancy_of_point", NUMBER(0, FLOAT), 900, "point float: buoyancy above"},
+    {"buoyancy_of_point", NUMBER(0, FLOAT), 300, "point float: residual against the sum"},
+    {"buoyancy_of_point", NUMBER(1, FLOAT), 700, "point float: buoyancy below what its place"},
+    {"buoyancy_of_point", NUMBER(2, CAN), 1, "point can: buoyancy above what its place allows"},
+    {"buoyancy_of_point", NUMBER(1, KNOT), 1, "point knot: buoyancy of a point that does not"},
+    {"displaced_of_point", NUMBER(1, FLOAT), 700, "point float: buoyancy above what its place"},
+    {"displaced_of_point", NUMBER(0, FOOT), -1, "point foot: weight of displaced water below 0"},
+    {"position_of_point", VECTOR(0, FLOAT, 2), 2.9, "point float: distance from the surface"},
+    {"load_of_point", VECTOR(1, FLOAT, 2), 600, "point float: residual against the sum"},
+    {"capacity_used_of_point", NUMBER(2, CLAW), 0.9, "point claw: used capacity against the force"},
+    {"capacity_used_of_point", NUMBER(0, FOOT), 0.9, "point foot: used capacity against the force"},
+    {"capacity_used_of_point", NUMBER(0, CAN), 0.9, "point can: capacity or limit used by a free"},
+    {"uplift_used_of_point", NUMBER(2, CLAW), 0, "point claw: used limit against the force"},
+    {"drag_of_point", VECTOR(0, CLAW, 0), 0.1, "point claw: dragged length against the sum"},
+    {"drag_of_point", VECTOR(0, FOOT, 0), 0.1, "point foot: drag of what does not"},
+    {"drag_of_point", VECTOR(2, CLAW, 2), 0.1, "point claw: drag out of the ground"},
+    {"drag_of_point", VECTOR(2, CLAW, 0), 0, "point claw: dragged length against the sum"},
+    {"dragged_of_point", NUMBER(2, CLAW), 9, "point claw: dragged length against the sum"},
+    {"dissipated_of_point", NUMBER(2, CLAW), 9, "point claw: dissipated energy against the work"},
+    {"holding_capacity_of_point", CLAW, 50,
+     "point claw: force along the ground above the capacity"},
+    {"holding_capacity_of_point", CLAW, 70, "point claw: what a drag lacks of the capacity"},
+};
+
+static void falsified_copies_are_refused(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof FALSE / sizeof *FALSE; i++) {
+        copy_result();
+        CHECK_INT(sample_poke(copy, FALSE[i].variable, FALSE[i].index, FALSE[i].value), 0);
+        char *text = NULL;
+        size_t size = 0;
+        FILE *log = open_memstream(&text, &size);
+        const int found = checker_file(copy, NULL, log);
+        fclose(log);
+        if (found == 0 || !strstr(text, FALSE[i].finding))
+            fail_msg("%s[%zu] = %g: expected \"%s\", got %d:\n%s", FALSE[i].variable,
+                     FALSE[i].index, FALSE[i].value, FALSE[i].finding, found, text);
+        free(text);
+    }
+    remove(copy);
+}
+
+/* Scenes with other water. */
+static void other_scenes_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *from, *to;
+    } CHANGE[] = {
+        {"water_surface: 3", "water_surface: 3.0000001"},
+        {"water_surface: 3\n", ""},
+        {"mass: 20, volume: 0.08", "mass: 20.00001, volume: 0.08"},
+        {"mass: 10, volume: 0.02", "mass: 10, volume: 0.0200001"},
+        {"gravity: [0, 0, -8]", "gravity: [0, 0, -8.00001]"},
+        {"holding_capacity: 60", "holding_capacity: 60.0001"},
+        {"uplift_limit: 50", "uplift_limit: 50.0001"},
+        {", drags: true", ""},
+        {"held: [10, 0, -5]", "held: [10.00001, 0, -5]"},
+    };
+    for (size_t i = 0; i < sizeof CHANGE / sizeof *CHANGE; i++) {
+        char text[sizeof SCENE + 200];
+        CpsSceneFile *other = NULL;
+        CpsError err = {0};
+        const char *at = strstr(SCENE, CHANGE[i].from);
+        assert_non_null(at);
+        snprintf(text, sizeof text, "%.*s%s%s", (int)(at - SCENE), SCENE, CHANGE[i].to,
+                 at + strlen(CHANGE[i].from));
+        FILE *out = fopen(scene_path, "w");
+        assert_true(out && fputs(text, out) >= 0 && fclose(out) == 0);
+        if (cps_scene_read(scene_path, NULL, &other, &err) != CPS_OK) fail_msg("%s", err.message);
+        if (given_file(scene_result, cps_scene_file_scene(other), NULL) < 1)
+            fail_msg("'%s' is accepted in place of '%s'", CHANGE[i].to, CHANGE[i].from);
+        cps_scene_file_destroy(other);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
+                                       cmocka_unit_test(falsified_copies_are_refused),
+                                       cmocka_unit_test(other_scenes_are_refused)};
+    return cmocka_run_group_tests(tests, solve, clean);
+}
