@@ -167,6 +167,18 @@ static void print_body(FILE *table, const char *name, const CpsBodyReport *body)
             tidy(DEGREES * angle[2]), body->is_stable ? "" : "; not stable");
 }
 
+/* Is there a point without a place, though not by a proof that a line there has none? */
+static bool is_unbalanced(const CpsScene *scene, const CpsEvolution *evolution, int point) {
+    if (cps_evolution_point_report(evolution, point).has_place) return false;
+    for (int i = 0; i < scene->line_count; ++i)
+        for (int e = 0; e < 2; ++e)
+            if (scene->line[i].end[e].kind == CPS_END_KIND_POINT &&
+                scene->line[i].end_point[e] == point &&
+                cps_outcome_is_final(cps_evolution_line_report(evolution, i).outcome))
+                return false;
+    return true;
+}
+
 static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
                        const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
@@ -197,10 +209,8 @@ static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
     }
     for (int i = 0; i < cps_evolution_point_count(evolution); ++i) {
         const CpsPointReport point = cps_evolution_point_report(evolution, i);
-        if (point.has_place) {
-            print_anchor(table, &scene->point[i], &point);
-            continue;
-        }
+        if (point.has_place) print_anchor(table, &scene->point[i], &point);
+        if (!is_unbalanced(scene, evolution, i)) continue;
         fprintf(table, "%*s", NAME_WIDTH + 1, "");
         print_unbalanced(table, scene->point[i].name, &point);
     }
@@ -211,8 +221,18 @@ static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
 }
 
 /* print that the ends are too far apart, or that an element is too long to go round an obstacle */
-static void print_shortfall(const CpsScene *scene, const CpsLineReport *line) {
+static void print_shortfall(const CpsScene *scene, int index, const CpsLineReport *line) {
     const double *d = line->proof;
+    const CpsEnd *end = scene->line[index].end;
+    const bool at_point =
+        end[CPS_END_A].kind == CPS_END_KIND_POINT || end[CPS_END_B].kind == CPS_END_KIND_POINT;
+    if (at_point && !line->has_proof_obstacle) {
+        fprintf(stderr,
+                "no configuration: the inextensible lines that meet at points are too short (by "
+                "%.6g m for the self-stress that is (%.4g, %.4g, %.4g) in this line)",
+                line->proof_length, d[0], d[1], d[2]);
+        return;
+    }
     if (d[0] == 0 && d[1] == 0 && d[2] == 0) {
         fputs("no configuration: an element is too long to go round obstacle ", stderr);
         cli_print_text(stderr, scene->obstacle[line->proof_obstacle].name, 80, false);
@@ -255,7 +275,7 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         const double *d = line.proof;
         const CpsCertificate *c = &line.certificate;
         if (line.outcome == CPS_OUTCOME_INFEASIBLE) {
-            print_shortfall(scene, &line);
+            print_shortfall(scene, i, &line);
         } else if (line.outcome == CPS_OUTCOME_UNBOUNDED || line.outcome == CPS_OUTCOME_SLIDES) {
             fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_force, d[0], d[1],
                     d[2]);
@@ -281,7 +301,7 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
     }
     for (int i = 0; i < cps_evolution_point_count(evolution); ++i) {
         const CpsPointReport point = cps_evolution_point_report(evolution, i);
-        if (point.has_place) continue;
+        if (!is_unbalanced(scene, evolution, i)) continue;
         fputs("capstan: step ", stderr);
         cli_print_text(stderr, step.name, 80, false);
         fputs(", ", stderr);

@@ -87,8 +87,12 @@ typedef enum CpsPointWater {
     CPS_POINT_WATER_ABOVE = 3
 } CpsPointWater;
 
-/* The report on a point. Forces are on the point. On an obstacle the point bears all that the lines
- * bring there, the halves of their last elements included. */
+/* The report on a point. Where lines that free points connect have no equilibrium together, each of
+ * them is infeasible or unbounded, and its `proof` (step.h) is a part of theirs: of a self-stress,
+ * which lacks `proof_length` in all, the force in this line from end A towards end B, the largest
+ * being 1; of a motion, which lowers their energy by `proof_force` in all, its direction. The
+ * points then stay where they are, without a place. Forces are on the point. On an obstacle the
+ * point bears all that the lines bring there, the halves of their last elements included. */
 typedef struct CpsPointReport {
     CpsPointState state;
     CpsPointWater water;

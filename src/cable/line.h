@@ -60,7 +60,9 @@ typedef struct CpsiLine {
     double *spring_start, *spring_stiffness; /* (spring_count) [-], [N] */
     double *weight_length; /* (n) [m] natural length of `weight` that the node carries, with that
                               of its point masses; negative where a buoy lifts it */
-    CpsEnd end_before[2];  /* imposed at the beginning of the substep */
+    /* (line_solve.h) its part of a solution that the step is to take; NULL: it is solved alone */
+    const struct CpsiJoined *joined;
+    CpsEnd end_before[2]; /* imposed at the beginning of the substep */
     int grasp_count;
     CpsGrasp grasp[CPS_MAX_GRASPS]; /* nodes between the ends that are held or pulled, in order */
     CpsEnd grasp_before[CPS_MAX_GRASPS]; /* imposed on them at the beginning of the substep */

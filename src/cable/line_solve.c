@@ -12,12 +12,6 @@
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
 
-/* Steps to the centre once the target is reached: each squares what is left of the angle between
- * the force of an element and the element. */
-static const int CENTERING_STEPS = 2;
-/* Steps after these towards smaller complementarity products: each halves the spurious slip of a
- * node at its limit, and takes two digits off what the force of a slipping node lacks. */
-static const int REFINEMENT_STEPS = 6;
 /* A solution with a node farther away than this many line lengths is treated as unbounded. */
 static const double MAX_DISPLACEMENT = 1e4;
 /* Reference tensions above this multiple of the load scale count as prestress and set the force
@@ -334,8 +328,8 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                                                                  : CPSI_TARGET,
                                         .scale = loads > 0 ? loads : 1,
                                         .max_iterations = most_iterations(line, options),
-                                        .centering_steps = refined ? CENTERING_STEPS : 0,
-                                        .sharpenings = refined ? REFINEMENT_STEPS : 0};
+                                        .centering_steps = refined ? CPSI_CENTERING_STEPS : 0,
+                                        .sharpenings = refined ? CPSI_REFINEMENT_STEPS : 0};
     const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     scale.force = force;
     cpsi_step_program_unpack(line, program, &scale);

@@ -17,6 +17,11 @@
 /* The interior point is driven to this relative gap: the limit of the arithmetic, well below any
  * admissible tolerance. */
 #define CPSI_TARGET 1e-13
+/* Steps to the centre once the target is reached: each squares what is left of the angle between
+ * the force of an element and the element. Steps after these towards smaller complementarity
+ * products: each halves the spurious slip of a node at its limit, and takes two digits off what the
+ * force of a slipping node lacks. */
+enum { CPSI_CENTERING_STEPS = 2, CPSI_REFINEMENT_STEPS = 6 };
 /* Up to this tolerance every program is solved to CPSI_TARGET and refined, so that nodes that stick
  * are told from nodes that slip: the default tolerance. */
 #define CPSI_RESOLVING 1e-8
@@ -35,6 +40,15 @@ bool cpsi_line_is_near(const CpsiLine *line);
  * tension is far above what loads and ends explain, obstacles hold the line and that tension is the
  * unit. The unit is at least the sum of trial bounds, which may balance as large a force. */
 double cpsi_line_unit_force(const CpsiLine *line, CpsiBounds bounds);
+
+/* The solution of a step together with other lines (network.h): the line's part of the program, its
+ * units, and how it was solved. */
+typedef struct CpsiJoined {
+    const CpsiChainProgram *program;
+    CpsiStepScale scale;
+    CpsiIpmReport ipm;
+    double shift[3]; /* [N] to be added to the force of every element */
+} CpsiJoined;
 
 /* How one program of a step is posed and solved. */
 typedef struct CpsiRound {

@@ -256,6 +256,20 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
     }
 }
 
+/* Take the line's part of a solution of the step together with other lines. */
+static void take_joined(CpsiLine *line, const CpsiStepOptions *options) {
+    const CpsiJoined *joined = line->joined;
+    const CpsiChainProgram *program = joined->program;
+    cpsi_step_program_unpack(line, program, &joined->scale);
+    for (int e = 0; e + 1 < line->n; e++)
+        for (int a = 0; a < 3; a++) line->segment_force[3 * e + a] += joined->shift[a];
+    line->report.iteration_count = joined->ipm.iterations;
+    cpsi_places_as_found(line, program);
+    cpsi_contact_plane_slip(line);
+    if (joined->scale.bounds == CPSI_BOUNDS_COUPLED) cpsi_line_release_open_contacts(line, program);
+    cpsi_line_certify(line, options, &joined->ipm);
+}
+
 /* the step ------------------------------------------------------------------------------------- */
 
 /* Are all numbers of the certificate finite? */
@@ -387,6 +401,19 @@ bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options) 
     return true;
 }
 
+void cpsi_line_refuse_step(CpsiLine *line, const CpsiStepOptions *options, CpsOutcome outcome) {
+    const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
+    report_initial_ends(line);
+    cpsi_line_set_reference(line, options);
+    line->report.outcome = outcome;
+    line->report.substep_count = 1;
+    line->report.share = 1;
+    line->last_change.known = false;
+    memset(line->friction_force, 0, 3 * contacts * sizeof *line->friction_force);
+    memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
+    memset(line->tension, 0, n * sizeof *line->tension);
+}
+
 /* Report the bend at which the mesh changes the friction law most. If it holds any tension, the
  * step is not certified. */
 static void report_bend(CpsiLine *line) {
@@ -405,7 +432,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     report_initial_ends(line);
     store_forces_before(line);
     cpsi_line_set_reference(line, options);
-    if (cpsi_line_stands_still(line, options, &before)) {
+    if (!line->joined && cpsi_line_stands_still(line, options, &before)) {
         report_piercing(line);
         cpsi_line_report_ends(line);
         cpsi_line_report_lengths(line);
@@ -415,16 +442,18 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     }
     line->report.certificate = (CpsCertificate){0};
     line->report.outcome = CPS_OUTCOME_SOLVED;
-    if (cpsi_line_has_no_equilibrium(line, options)) return;
-    if (options->across)
+    if (!line->joined && cpsi_line_has_no_equilibrium(line, options)) return;
+    if (line->joined)
+        take_joined(line, options);
+    else if (options->across)
         solve_across(line, program, options);
     else
         solve_with_fallbacks(line, program, options, guess);
     if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
     report_piercing(line);
-    classify(line, program);
-    choose_forces(line, program, options);
+    classify(line, line->joined ? line->joined->program : program);
+    if (!line->joined) choose_forces(line, program, options);
     /* free contacts may be nearest to other obstacles after the last round; the other contacts keep
      * the forces that were certified */
     const bool looked =

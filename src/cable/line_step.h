@@ -38,4 +38,8 @@ bool cpsi_line_step_is_caught(CpsiLine *line, const CpsiStepOptions *options);
  * not changed. */
 bool cpsi_line_step_falls_short(CpsiLine *line, const CpsiStepOptions *options);
 
+/* There is no equilibrium, by a proof that is not the line's alone: the line stays where it is,
+ * with this outcome and without forces. What the step imposes is set. */
+void cpsi_line_refuse_step(CpsiLine *line, const CpsiStepOptions *options, CpsOutcome outcome);
+
 #endif

@@ -11,7 +11,7 @@
 #include "cable/line_solve.h"
 #include "chain/frame.h"
 
-enum { ITERATIONS = 100, CENTERING_STEPS = 2, REFINEMENT_STEPS = 6 };
+enum { ITERATIONS = 100 };
 /* A solution that has come so near is one, whether or not it was to be better. */
 static const double ENOUGH = 1e-10;
 /* Bounded forces that are far larger than those of the lines slow the first iterations, in which
@@ -28,6 +28,7 @@ void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *
     *network = (CpsiNetwork){.lines = count, .joints = joints};
     cpsi_network_layout(&network->program, arena, count + joints, 2 * most, joints, bodies, matrix);
     CPSI_PLACE(arena, network->chain, count + joints);
+    CPSI_PLACE(arena, network->joined, count);
     for (int k = 0; k < count + joints; k++) {
         CpsiChainProgram none, *chain = network->chain ? &network->chain[k] : &none;
         if (k < count)
@@ -251,8 +252,9 @@ static CpsiJointState state_of(const CpsiChainProgram *chain) {
     return inside > disc->s[0][0] ? CPSI_JOINT_STICKS : CPSI_JOINT_SLIDES;
 }
 
-bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
-                        const CpsiStepOptions *options, const CpsiNetworkMove *out) {
+/* Solve the program as `ipm` says, in units of its loads. */
+static bool solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
+                  const CpsiStepOptions *options, CpsiIpmOptions ipm, const CpsiNetworkMove *out) {
     const bool coupled = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
                          !options->frictionless && line->obstacle_count > 0;
     const double *axes = line[part->number[0]].common_axes, *u = network->program.base.u;
@@ -263,13 +265,12 @@ bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkP
     const CpsiStepScale scale =
         scale_of(line, part, coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED);
     const double loads = fill(network, line, part, &scale);
-    const CpsiIpmOptions ipm = {.target = part->target,
-                                .scale = loads > 0 ? loads : 1,
-                                .max_iterations = ITERATIONS,
-                                .centering_steps = part->is_refined ? CENTERING_STEPS : 0,
-                                .sharpenings = part->is_refined ? REFINEMENT_STEPS : 0,
-                                .patience = network->program.hinges.count > 0 ? PATIENT : 0};
+    ipm.scale = loads > 0 ? loads : 1;
+    ipm.patience = network->program.hinges.count > 0 ? PATIENT : 0;
     const CpsiIpmReport report = cpsi_ipm_solve(&network->program.base, &ipm);
+    network->found = report.outcome;
+    for (int k = 0; k < part->lines; k++)
+        network->joined[k] = (CpsiJoined){&network->program.chain[k], scale, report, {0, 0, 0}};
     for (int k = 0; k < part->own; k++) {
         cpsi_frame_from(&out->joint[3 * k], axes, &u[3 * k]);
         for (int a = 0; a < 3; a++) out->joint[3 * k + a] *= scale.length;
@@ -292,4 +293,22 @@ bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkP
         }
     return report.outcome == CPSI_IPM_SOLVED ||
            (part->is_refined && report.gap + fmax(report.imbalance, report.residual) <= ENOUGH);
+}
+
+bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
+                        const CpsiStepOptions *options, const CpsiNetworkMove *out) {
+    const CpsiIpmOptions ipm = {.target = part->target,
+                                .max_iterations = ITERATIONS,
+                                .centering_steps = part->is_refined ? CPSI_CENTERING_STEPS : 0,
+                                .sharpenings = part->is_refined ? CPSI_REFINEMENT_STEPS : 0};
+    return solve(network, line, part, options, ipm, out);
+}
+
+bool cpsi_network_solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
+                        const CpsiStepOptions *options, const CpsiNetworkMove *out) {
+    const CpsiIpmOptions ipm = {.target = CPSI_TARGET,
+                                .max_iterations = ITERATIONS,
+                                .centering_steps = CPSI_CENTERING_STEPS,
+                                .sharpenings = CPSI_REFINEMENT_STEPS};
+    return solve(network, line, part, options, ipm, out);
 }

@@ -6,6 +6,7 @@
 #define CAPSTAN_SRC_CABLE_NETWORK_H
 
 #include "cable/line.h"
+#include "cable/line_solve.h"
 #include "cable/step_options.h"
 #include "chain/network_program.h"
 
@@ -39,6 +40,8 @@ typedef struct CpsiNetwork {
     CpsiNetworkProgram program;
     int lines, joints;       /* that it was laid out for */
     CpsiChainProgram *chain; /* (lines + joints) a program for each, of which some take part */
+    CpsiIpmOutcome found;    /* how the last program ended */
+    CpsiJoined *joined;      /* (lines) each line's part of the solution */
 } CpsiNetwork;
 
 /* Place the arrays for the lines (count) and so many joints and bodies, whose matrix belongs to the
@@ -73,6 +76,12 @@ typedef struct CpsiNetworkMove {
  * joints are, and what else the step imposes is set. False where the program has no solution. The
  * lines' steps are overwritten. */
 bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
+                        const CpsiStepOptions *options, const CpsiNetworkMove *out);
+
+/* The same to the limit of the arithmetic, as the program of a line alone is solved: the answer of
+ * the step where the tangent planes are the obstacles themselves. network->joined has the parts of
+ * the lines. */
+bool cpsi_network_solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
                         const CpsiStepOptions *options, const CpsiNetworkMove *out);
 
 #endif

@@ -21,6 +21,8 @@
 #include "evolve/bodies.h"
 #include "evolve/checkpoint.h"
 #include "evolve/first_guess.h"
+#include "evolve/graph_existence.h"
+#include "evolve/joint_answer.h"
 #include "evolve/newton_step.h"
 #include "evolve/points.h"
 #include "evolve/trial.h"
@@ -171,17 +173,6 @@ static void take_body(CpsiBalance *balance, int point) {
     balance->rigid_of[point] = k;
 }
 
-/* Use the blocks of the free points and bodies of the search (joint_system.h). */
-static void use_blocks(CpsiBalance *balance) {
-    int *node = balance->node;
-    const int points = balance->evolution->points.count;
-    for (int k = 0; k < balance->count; k++) node[k] = balance->at[k].point;
-    for (int k = 0; k < balance->body_count; k++)
-        for (int part = 0; part < 2; part++)
-            node[balance->count + 2 * k + part] = points + 2 * balance->rigid[k].body + part;
-    cpsi_graph_matrix_use(balance->matrix, balance->count + 2 * balance->body_count, node);
-}
-
 /* Find the points, bodies and lines of a group. */
 static void begin(CpsiBalance *balance, int group) {
     CpsEvolution *evolution = balance->evolution;
@@ -202,7 +193,7 @@ static void begin(CpsiBalance *balance, int group) {
                                                    .obstacle = CPS_NO_OBSTACLE};
     }
     balance->unknowns = 3 * balance->count + 6 * balance->body_count;
-    use_blocks(balance);
+    cpsi_trial_use_blocks(balance);
     for (int i = 0; i < evolution->line_count; i++) {
         if (cpsi_group_of_line(points, i) != group) continue;
         balance->line[balance->line_count++] = i;
@@ -226,7 +217,7 @@ static bool search(CpsiBalance *balance, int trials) {
             memcpy(balance->best, balance->at, bytes);
             memcpy(balance->rigid_best, balance->rigid, rigid);
         }
-        if (balance->certified && left <= TARGET * balance->force) return true;
+        if (left <= TARGET * balance->force && cpsi_is_answer(balance)) return true;
         waited++;
         if (balance->certified && left <= 0.5 * halved) {
             waited = 0;
@@ -247,7 +238,7 @@ static bool search(CpsiBalance *balance, int trials) {
         memcpy(balance->rigid, balance->rigid_best, rigid);
         cpsi_try_places(balance);
     }
-    return balance->certified && cpsi_is_balanced(balance, cpsi_left_now(balance));
+    return cpsi_is_answer(balance);
 }
 
 /* Search with soft lines, and then with stiffer ones up to their own stiffness: a body that starts
@@ -294,21 +285,6 @@ void cpsi_balance_start(CpsEvolution *evolution) {
     }
 }
 
-/* Where the step began. */
-static void begin_again(CpsiBalance *balance) {
-    const CpsEvolution *evolution = balance->evolution;
-    for (int k = 0; k < balance->count; k++) {
-        const int point = balance->at[k].point;
-        balance->at[k] = (CpsiFree){.point = point,
-                                    .place = vec3_load(cpsi_point_drags(&evolution->points, point)
-                                                           ? evolution->points.point[point].position
-                                                           : evolution->points.point[point].before),
-                                    .obstacle = CPS_NO_OBSTACLE};
-    }
-    for (int k = 0; k < balance->body_count; k++)
-        balance->rigid[k].pose = evolution->bodies.body[balance->rigid[k].body].pose;
-}
-
 /* Search once more, from a guess to the last digits; where there is none, things stay as they are.
  */
 static bool search_again(CpsiBalance *balance) {
@@ -332,22 +308,37 @@ static bool search_again(CpsiBalance *balance) {
 static void find_places(CpsiBalance *balance, int group) {
     CpsEvolution *evolution = balance->evolution;
     const bool is_static = evolution->has_static && evolution->done == 0;
+    /* frozen bounds may grow while lines take their step in parts: these are tried first */
+    const bool frozen =
+        evolution->options.friction_policy == CPS_FRICTION_POLICY_FROZEN && !is_static;
     begin(balance, group);
+    if (!frozen && cpsi_group_falls(balance)) return;
     if (!is_static && balance->body_count > 0) {
         cpsi_extrapolate_places(balance);
         if (search(balance, FEW_TRIALS)) {
             cpsi_report_found(balance);
             return;
         }
-        begin_again(balance);
+        cpsi_begin_again(balance);
     }
-    if (!cpsi_guess_places(balance, false)) cpsi_extrapolate_places(balance);
+    /* their tension is no function of the places */
+    if (cpsi_has_inextensible(balance) && cpsi_take_joint_answer(balance)) {
+        cpsi_report_found(balance);
+        return;
+    }
+    const bool guessed = cpsi_guess_places(balance, false);
+    if (!guessed && cpsi_group_is_too_short(balance)) return;
+    if (!guessed) cpsi_extrapolate_places(balance);
     bool found = search(balance, MOST_TRIALS);
     if (!found && !is_over(balance) && balance->body_count == 0) found = search_again(balance);
     if (!found && is_static && balance->body_count > 0) {
-        begin_again(balance);
+        cpsi_begin_again(balance);
         search_softly(balance);
+        found = cpsi_is_answer(balance);
     }
+    if (!found && !cpsi_has_inextensible(balance)) found = cpsi_take_joint_answer(balance);
+    if (!found && (cpsi_group_is_too_short(balance) || (frozen && cpsi_group_falls(balance))))
+        return;
     cpsi_report_found(balance);
 }
 

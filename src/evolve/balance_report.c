@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/certificate.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/newton_step.h"
@@ -33,9 +34,23 @@ static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
     vec3_store(report->residual, at->left);
     if (touches) vec3_store(report->normal, at->normal);
     if (touches) vec3_store(report->slip, at->slip);
-    report->has_place = cpsi_is_balanced(balance, vec3_norm(at->left));
+    report->has_place =
+        cpsi_is_balanced(balance, vec3_norm(at->left)) && cpsi_obeys_friction(balance, at);
     for (int a = 0; a < 3; a++) point->move[a] = report->position[a] - point->before[a];
     memcpy(point->position, report->position, sizeof point->position);
+}
+
+/* A line of which a trial has proved that it has no equilibrium there is not certified, with the
+ * forces that it has. */
+static void withdraw_proof(CpsEvolution *evolution, int index) {
+    CpsiLine *line = &evolution->line[index];
+    CpsLineReport *report = &line->report;
+    report->outcome = CPS_OUTCOME_STALLED;
+    memset(report->proof, 0, sizeof report->proof);
+    report->proof_length = report->proof_force = report->coulomb = 0;
+    report->has_proof_obstacle = report->has_proof_plane = false;
+    report->proof_obstacle = report->proof_plane = 0;
+    report->certificate = cpsi_certificate(line, evolution->options.solver.tolerance);
 }
 
 /* Is there a free point without a place? Then the lines there are not certified; nor do they prove
@@ -50,9 +65,9 @@ static void report_lines(CpsiBalance *balance) {
     for (int item = 0; item < balance->line_count; item++) {
         CpsLineReport *report = &evolution->line[balance->line[item]].report;
         report->iteration_count += balance->iterations[balance->line[item]];
-        const bool claims =
-            cps_outcome_is_certified(report->outcome) || cps_outcome_is_final(report->outcome);
-        if (!all && claims) report->outcome = CPS_OUTCOME_STALLED;
+        if (all) continue;
+        if (cps_outcome_is_final(report->outcome)) withdraw_proof(evolution, balance->line[item]);
+        if (cps_outcome_is_certified(report->outcome)) report->outcome = CPS_OUTCOME_STALLED;
     }
 }
 
@@ -188,6 +203,35 @@ void cpsi_report_found(CpsiBalance *balance) {
     }
     for (int k = 0; k < balance->body_count; k++) report_body(balance, k);
     report_lines(balance);
+}
+
+void cpsi_report_no_place(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    for (int k = 0; k < balance->count; k++) {
+        CpsiPoint *point = &evolution->points.point[balance->at[k].point];
+        CpsPointReport *report = &point->report;
+        *report = (CpsPointReport){.state = CPS_POINT_STATE_FREE,
+                                   .obstacle = CPS_NO_OBSTACLE,
+                                   .trial_count = balance->trials};
+        memcpy(report->position, point->before, sizeof report->position);
+        cpsi_point_load(point, evolution->gravity, report->load);
+        memcpy(report->residual, report->load, sizeof report->residual);
+    }
+    for (int k = 0; k < balance->body_count; k++) {
+        CpsiRigid *rigid = &balance->rigid[k];
+        CpsiBody *body = &evolution->bodies.body[rigid->body];
+        const CpsiWrench load = cpsi_body_load(body, &rigid->pose, evolution->gravity);
+        body->report = (CpsBodyReport){.kind = CPS_BODY_KIND_FREE, .trial_count = balance->trials};
+        vec3_store(body->report.position, rigid->pose.place);
+        rotation_store(body->report.rotation, rigid->pose.turn);
+        store(body->report.load, &load);
+        store(body->report.residual, &load);
+        for (int i = 0; i < 6; i++)
+            if (body->given.fixed[i]) {
+                body->report.support[i] = -body->report.load[i];
+                body->report.residual[i] = 0;
+            }
+    }
 }
 
 void cpsi_report_held(CpsEvolution *evolution) {

@@ -8,6 +8,8 @@
 /* Of those that the search has found, in its last trial; the lines there are not certified where a
  * place is not found. */
 void cpsi_report_found(CpsiBalance *balance);
+/* Of those of a group that has none, where the step began, its lines reported on. */
+void cpsi_report_no_place(CpsiBalance *balance);
 /* Of those that are held, or on a body. */
 void cpsi_report_held(CpsEvolution *evolution);
 

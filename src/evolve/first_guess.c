@@ -22,8 +22,7 @@ static const double SETTLED = 1e-3, FARTHEST_TURN = 0.3, ON_ITS_PLANE = 1e-6;
  * others. A point touches a plane within this share of its longest line. */
 static const double ROUGH = 1e-5, FINE = 1e-10, REFINED = 1e-12, NEAR = 1e-2, TOUCHES = 1e-3;
 
-/* Let line i begin and end the step as planned, its ends at joints where these are. */
-static void impose_plan(CpsiBalance *balance, int item) {
+void cpsi_impose_plan(CpsiBalance *balance, int item) {
     CpsEvolution *evolution = balance->evolution;
     const int i = balance->line[item];
     CpsiLine *line = &evolution->line[i];
@@ -50,9 +49,7 @@ static void impose_plan(CpsiBalance *balance, int item) {
     }
 }
 
-/* The joints of the program: free points where the step began, in later rounds where the last one
- * led, then the points on free bodies where these are in the trial. Returns how many. */
-static int place_joints(CpsiBalance *balance, bool first) {
+int cpsi_place_joints(CpsiBalance *balance, bool first) {
     CpsEvolution *evolution = balance->evolution;
     int count = balance->count;
     for (int k = 0; k < balance->count; k++) {
@@ -188,31 +185,45 @@ typedef struct Guess {
     bool several, refined;
 } Guess;
 
+CpsiNetworkPart cpsi_network_part(CpsiBalance *balance, bool first) {
+    const CpsiNetworkPart part = {.lines = balance->line_count,
+                                  .joints = cpsi_place_joints(balance, first),
+                                  .bodies = balance->body_count,
+                                  .own = balance->count,
+                                  .number = balance->line,
+                                  .at = (const int(*)[2])balance->ends,
+                                  .joint = balance->joint,
+                                  .body = balance->held};
+    for (int item = 0; item < balance->line_count; item++) cpsi_impose_plan(balance, item);
+    for (int item = 0; item < balance->line_count; item++)
+        for (int end = 0; end < 2; end++) {
+            const CpsiLine *line = &balance->evolution->line[balance->line[item]];
+            const int k = balance->ends[item][end], e = end == CPS_END_A ? 0 : line->n - 2;
+            if (k != CPSI_NO_JOINT) balance->joint[k].share += 0.5 * line->element_length[e];
+        }
+    return part;
+}
+
+void cpsi_solve_places(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    const CpsiStepOptions options = cpsi_trial_options(evolution);
+    for (int item = 0; item < balance->line_count; item++)
+        cpsi_trial_restore_line(balance, balance->line[item]);
+    const CpsiNetworkPart part = cpsi_network_part(balance, true);
+    (void)cpsi_network_solve(&balance->network, evolution->line, &part, &options, &balance->guess);
+    for (int item = 0; item < balance->line_count; item++)
+        cpsi_trial_restore_line(balance, balance->line[item]);
+}
+
 /* One program on the tangent planes of the last round, or where there is one plane of the
  * reference, from the poses of the trial; false where it has no solution. */
 static bool guess_round(CpsiBalance *balance, const CpsiStepOptions *options, int round,
                         const Guess *guess, Turned *turned) {
     CpsEvolution *evolution = balance->evolution;
-    const CpsiNetworkPart part = {.lines = balance->line_count,
-                                  .joints = place_joints(balance, round == 0 || !guess->several),
-                                  .bodies = balance->body_count,
-                                  .own = balance->count,
-                                  .target = turned->points > NEAR ? ROUGH
-                                            : guess->refined      ? REFINED
-                                                                  : FINE,
-                                  .is_refined = guess->refined && turned->points <= NEAR,
-                                  .number = balance->line,
-                                  .at = (const int(*)[2])balance->ends,
-                                  .joint = balance->joint,
-                                  .body = balance->held};
+    CpsiNetworkPart part = cpsi_network_part(balance, round == 0 || !guess->several);
+    part.target = turned->points > NEAR ? ROUGH : guess->refined ? REFINED : FINE;
+    part.is_refined = guess->refined && turned->points <= NEAR;
     hold_bodies(balance, round > 0);
-    for (int item = 0; item < balance->line_count; item++) impose_plan(balance, item);
-    for (int item = 0; item < balance->line_count; item++)
-        for (int end = 0; end < 2; end++) {
-            const CpsiLine *line = &evolution->line[balance->line[item]];
-            const int k = balance->ends[item][end], e = end == CPS_END_A ? 0 : line->n - 2;
-            if (k != CPSI_NO_JOINT) balance->joint[k].share += 0.5 * line->element_length[e];
-        }
     const bool found =
         cpsi_network_guess(&balance->network, evolution->line, &part, options, &balance->guess);
     for (int item = 0; item < balance->line_count; item++)
@@ -254,11 +265,7 @@ static void settle_points(CpsiBalance *balance) {
 
 bool cpsi_guess_places(CpsiBalance *balance, bool refined) {
     CpsEvolution *evolution = balance->evolution;
-    CpsiStepOptions options = evolution->options;
-    if (evolution->has_static && evolution->done == 0) {
-        options.frictionless = true;
-        options.contact_policy = CPS_CONTACT_POLICY_REACHED;
-    }
+    const CpsiStepOptions options = cpsi_trial_options(evolution);
     const Guess guess = {has_several_planes(evolution), refined};
     Turned turned = {0, guess.several ? INFINITY : 0};
     for (int round = 0; round < POINT_ROUNDS; round++) {

@@ -9,7 +9,19 @@
  * the poses of the round before; false where that has no solution. `refined`: to the last digits,
  * and what sticks stays where it is. */
 bool cpsi_guess_places(CpsiBalance *balance, bool refined);
+/* The same program solved to the limit of the arithmetic: balance->guess and
+ * balance->network.joined have the solution, as far as it was found. */
+void cpsi_solve_places(CpsiBalance *balance);
 /* Where the last step of the same stage leads. */
 void cpsi_extrapolate_places(CpsiBalance *balance);
+
+/* The joints of a program of the group: free points where the step began, in later rounds where the
+ * last one led, then the points on free bodies where these are in the trial. Returns how many. */
+int cpsi_place_joints(CpsiBalance *balance, bool first);
+/* Let line `item` of the group begin and end the step as planned, its ends at joints where these
+ * are. */
+void cpsi_impose_plan(CpsiBalance *balance, int item);
+/* Both, for all its lines, as the part of a network. */
+CpsiNetworkPart cpsi_network_part(CpsiBalance *balance, bool first);
 
 #endif

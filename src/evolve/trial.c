@@ -259,6 +259,41 @@ static void find_rest(CpsiBalance *balance, CpsiRigid *rigid) {
     balance->force = cpsi_max_nan(balance->force, vec3_norm(body->load.moment) / body->arm);
 }
 
+CpsiStepOptions cpsi_trial_options(const CpsEvolution *evolution) {
+    CpsiStepOptions options = evolution->options;
+    if (evolution->has_static && evolution->done == 0) {
+        options.frictionless = true;
+        options.contact_policy = CPS_CONTACT_POLICY_REACHED;
+    }
+    return options;
+}
+
+/* Is the group without points that may float and anchors that drag, whose forces are bounded? */
+bool cpsi_is_without_bounds(const CpsiBalance *balance) {
+    const CpsiPoints *points = &balance->evolution->points;
+    for (int k = 0; k < balance->count; k++) {
+        const int point = balance->at[k].point;
+        if (cpsi_point_drags(points, point) ||
+            (points->has_surface && points->point[point].displaced_mass > 0))
+            return false;
+    }
+    return true;
+}
+
+void cpsi_begin_again(CpsiBalance *balance) {
+    const CpsEvolution *evolution = balance->evolution;
+    for (int k = 0; k < balance->count; k++) {
+        const int point = balance->at[k].point;
+        balance->at[k] = (CpsiFree){.point = point,
+                                    .place = vec3_load(cpsi_point_drags(&evolution->points, point)
+                                                           ? evolution->points.point[point].position
+                                                           : evolution->points.point[point].before),
+                                    .obstacle = CPS_NO_OBSTACLE};
+    }
+    for (int k = 0; k < balance->body_count; k++)
+        balance->rigid[k].pose = evolution->bodies.body[balance->rigid[k].body].pose;
+}
+
 void cpsi_trial_restore_line(CpsiBalance *balance, int line) {
     cpsi_line_restore(&balance->evolution->line[line], &balance->state[balance->offset[line]]);
 }
@@ -339,4 +374,32 @@ double cpsi_left_now(const CpsiBalance *balance) {
  * tolerance give: these are of second order. */
 bool cpsi_is_balanced(const CpsiBalance *balance, double left) {
     return left <= BALANCED * balance->evolution->options.solver.tolerance * balance->force;
+}
+
+bool cpsi_obeys_friction(const CpsiBalance *balance, const CpsiFree *at) {
+    const double slip = vec3_norm(at->slip);
+    if (at->obstacle == CPS_NO_OBSTACLE || slip <= cpsi_trial_touch(balance, at)) return true;
+    return cpsi_is_balanced(balance, at->bound + vec3_dot(at->force, at->slip) / slip);
+}
+
+bool cpsi_is_answer(const CpsiBalance *balance) {
+    for (int k = 0; k < balance->count; k++)
+        if (!cpsi_obeys_friction(balance, &balance->at[k])) return false;
+    return balance->certified && cpsi_is_balanced(balance, cpsi_left_now(balance));
+}
+
+bool cpsi_has_inextensible(const CpsiBalance *balance) {
+    for (int item = 0; item < balance->line_count; item++)
+        if (balance->evolution->line[balance->line[item]].compliance == 0) return true;
+    return false;
+}
+
+void cpsi_trial_use_blocks(CpsiBalance *balance) {
+    int *node = balance->node;
+    const int points = balance->evolution->points.count;
+    for (int k = 0; k < balance->count; k++) node[k] = balance->at[k].point;
+    for (int k = 0; k < balance->body_count; k++)
+        for (int part = 0; part < 2; part++)
+            node[balance->count + 2 * k + part] = points + 2 * balance->rigid[k].body + part;
+    cpsi_graph_matrix_use(balance->matrix, balance->count + 2 * balance->body_count, node);
 }

@@ -25,6 +25,7 @@ typedef struct CpsiFree {
     Vec3 normal, slip, force; /* force: F */
     bool drags;               /* an anchor: in a plane across `normal`, within its bound */
     CpsiWater water;          /* whose buoyancy is in `rest` */
+    bool reached;             /* by the forest along which the points are balanced */
     Vec3 start;               /* where the point was, on the surface and turned with it */
 } CpsiFree;
 
@@ -95,6 +96,16 @@ bool cpsi_is_to_stick(const CpsiFree *at);
 /* From the reference point of a free body to a point on it, in the axes of the scene. */
 Vec3 cpsi_trial_arm(const CpsiBalance *balance, const CpsiRigid *rigid, int point);
 
+/* Use the blocks of the free points and bodies of the search (joint_system.h). */
+void cpsi_trial_use_blocks(CpsiBalance *balance);
+/* The options of the step: without friction where lines are placed by statics. */
+CpsiStepOptions cpsi_trial_options(const CpsEvolution *evolution);
+/* The points and bodies where the step began. */
+void cpsi_begin_again(CpsiBalance *balance);
+
+/* Do no forces of a bounded size act on its points but friction: does none float, and no anchor
+ * drag? Otherwise it has no proof, and no answer as one program. */
+bool cpsi_is_without_bounds(const CpsiBalance *balance);
 /* The line as it was before the step. */
 void cpsi_trial_restore_line(CpsiBalance *balance, int line);
 /* Take the step of the lines of the search, as it is imposed on them. */
@@ -106,5 +117,13 @@ double cpsi_largest_left(const CpsiBalance *balance, const CpsiFree *at, const C
 double cpsi_left_now(const CpsiBalance *balance);
 /* Is so much left within the tolerance? */
 bool cpsi_is_balanced(const CpsiBalance *balance, double left);
+/* Is a line of the group inextensible? */
+bool cpsi_has_inextensible(const CpsiBalance *balance);
+/* Is a point at rest, or its friction at its bound and against the slip, to the same tolerance?
+ * Where hardly anything is stiff, what is left at a point does not tell. */
+bool cpsi_obeys_friction(const CpsiBalance *balance, const CpsiFree *at);
+/* Is the trial an answer: lines certified, points and bodies balanced by forces that obey their
+ * laws? */
+bool cpsi_is_answer(const CpsiBalance *balance);
 
 #endif

@@ -249,7 +249,8 @@ static void moves_of_points(void **unused) {
 }
 
 /* Points that no line connects do not count for each other: a light point beside a mooring with
- * forces that are 1e9 times as large has its own place, and what falls there is not certified. */
+ * forces that are 1e9 times as large has its own place, and what falls there is told to fall, by
+ * its whole weight. */
 static void a_light_point_beside_a_heavy_one(void **unused) {
     (void)unused;
     for (int falls = 0; falls < 2; falls++) {
@@ -287,7 +288,11 @@ static void a_light_point_beside_a_heavy_one(void **unused) {
         if (!falls) CHECK_VECTOR(knot.position, at, 1e-10);
         for (int i = 0; i < 4; i++)
             assert_int_equal(cps_evolution_line_report(evolution, i).outcome,
-                             i < 2 && falls ? CPS_OUTCOME_STALLED : CPS_OUTCOME_SOLVED);
+                             i < 2 && falls ? CPS_OUTCOME_UNBOUNDED : CPS_OUTCOME_SOLVED);
+        const CpsLineReport report = cps_evolution_line_report(evolution, 1);
+        const double down[3] = {0, 0, -1};
+        if (falls) CHECK_NEAR(report.proof_force / WEIGHT, 1, 1e-12);
+        if (falls) CHECK_VECTOR(report.proof, down, 1e-12);
         cps_evolution_destroy(evolution);
     }
 }

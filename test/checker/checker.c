@@ -10,6 +10,7 @@
 #include "caught.h"
 #include "ends.h"
 #include "grasps.h"
+#include "groups.h"
 #include "long_element.h"
 #include "measure.h"
 #include "motion.h"
@@ -497,6 +498,7 @@ static void check_record(const Source *source, const Record *r, const char *line
             break;
         case OUTCOME_TAUT: check_taut(&findings, r, &m); break;
         case OUTCOME_INFEASIBLE:
+            if (groups_claim(r)) break; // checked with the points
             if (r->proof_plane >= 0)
                 check_caught(&findings, source, r, &m);
             else if (r->proof_obstacle >= 0 && r->proof[0] == 0 && r->proof[1] == 0 &&
@@ -507,7 +509,9 @@ static void check_record(const Source *source, const Record *r, const char *line
             else
                 check_infeasible(&findings, r, &m);
             break;
-        case OUTCOME_UNBOUNDED: check_unbounded(&findings, r, &m); break;
+        case OUTCOME_UNBOUNDED:
+            if (!groups_claim(r)) check_unbounded(&findings, r, &m);
+            break;
         case OUTCOME_SLIDES: check_slides(&findings, source, r); break;
         default:
             check_claims(&findings, r, &m,

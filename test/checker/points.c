@@ -16,6 +16,7 @@
 #include <stdlib.h>
 
 #include "anchors.h"
+#include "groups.h"
 #include "water.h"
 
 /* Sums of a few numbers of the file, per largest force; a balance, in tolerances of the step: what
@@ -285,12 +286,15 @@ static void check_step(Points *p) {
     }
 }
 
-/* Whether a line that ends at a free point claims to be certified. */
+/* Whether a line that ends at a free point claims to be certified, other than by a proof that there
+ * is nothing to find. */
 static bool is_claimed(const Points *p, bool (*certified)(int outcome)) {
     for (size_t i = 0; i < p->source->lines; i++)
         for (int e = 0; e < 2; e++) {
             const int k = p->line[i].end_point[e];
-            if (k >= 0 && !is_held(&p->now[k]) && certified(p->line[i].outcome)) return true;
+            if (k >= 0 && !is_held(&p->now[k]) && certified(p->line[i].outcome) &&
+                !groups_claim(&p->line[i]))
+                return true;
         }
     return false;
 }
@@ -309,6 +313,9 @@ static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
         p->certified = is_claimed(p, certified);
         for (p->point = 0; p->point < source->points; p->point++)
             check_balance(p, &p->now[p->point]);
+        const GroupStep at = {source,  p->line, p->now, p->step > 0 ? p->before : NULL,
+                              p->step, p->find, p->user};
+        if (groups_check(&at, log)) return -1;
         Junction *swap = p->before;
         p->before = p->now;
         p->now = swap;

@@ -52,13 +52,37 @@ capstan: 1
 lines:
   stray: {length: 12, elements: 4, weight: 30, stiffness: 1e7, start: static, ends: {A: {held: [0, 0, 9]}, B: {held: [8, 0, 9]}}}
 """
-# the line hangs on nothing but the knot, which falls with it
+# the line hangs on nothing but the knot, which falls with it by its own 5 N, the force of 1 N and the line's 10 N
 FALLING = """
 capstan: 1
 points: {knot: {free: [0, 0, 0], weight: 5}}
 lines:
   tail: {length: 10, elements: 4, weight: 1, stiffness: 1e6, start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}}, ends: {A: {point: knot}, B: free}}
 history: [{name: fall, knot.point: {force: [1, 0, 0]}}]
+"""
+# two planes would have to hold the clump in the groove between them
+GROOVE = """
+capstan: 1
+obstacles:
+  left: {plane: {normal: [1, 0, 1]}, friction: 0.1}
+  right: {plane: {normal: [-1, 0, 1]}, friction: 0.1}
+points: {knot: {free: [0, 0, 0.5], weight: 15}}
+lines:
+  tail: {length: 12, elements: 4, weight: 1, stiffness: 1e6, start: static, ends: {A: {held: [0, 0, 10]}, B: {point: knot}}}
+"""
+# an equilateral triangle of anchors at the radius 1 from a knot, by lines of 0.9: every pair of them reaches (3^0.5 < 1.8), all three do not
+SHORT = """
+capstan: 1
+points:
+  east: {held: [1, 0, 0]}
+  north: {held: [-0.5, 0.86602540378443865, 0]}
+  south: {held: [-0.5, -0.86602540378443865, 0]}
+  knot: {free: [0, 0, 0]}
+lines:
+  one: {length: 0.9, elements: 4, weight: 1, stiffness: .inf, start: static, ends: {A: {point: east}, B: {point: knot}}}
+  two: {length: 0.9, elements: 4, weight: 1, stiffness: .inf, start: static, ends: {A: {point: knot}, B: {point: north}}}
+  three: {length: 0.9, elements: 4, weight: 1, stiffness: .inf, start: static, ends: {A: {point: south}, B: {point: knot}}}
+  elastic: {length: 3, elements: 4, weight: 1, stiffness: 1e5, start: static, ends: {A: {held: [0, 0, 1]}, B: {point: knot}}}
 """
 
 faults = []
@@ -226,6 +250,8 @@ def main():
         write("scene.yaml", SCENE)
         write("plain.yaml", PLAIN)
         write("falling.yaml", FALLING)
+        write("groove.yaml", GROOVE)
+        write("short.yaml", SHORT)
         said = run("scene.yaml", "-o", "out").stdout
         check("said", "points.csv" in said, said)
         results = Results("out/result.nc")
@@ -255,13 +281,28 @@ def main():
         check("a file of somebody else", read("mine/points.csv") == b"mine")
 
         # no place
-        done = run("falling.yaml", "-o", "falling", code=1)
+        done = run("groove.yaml", "-o", "groove", code=1)
         told = r"point knot: no place found where the forces on it balance \([0-9.e+]+ N are left after \d+ trials\)\n"
         check("told in the table", re.search("^ +" + told, done.stdout, re.M), done.stdout)
-        check("told", re.search("^capstan: step fall, " + told, done.stderr, re.M), done.stderr)
-        _, rows = table("falling")
-        check("without a place", rows[-1]["has_place"] == "0" and float(rows[-1]["residual_z"]) == -15, rows[-1])
-        check("in the summary", json.loads(read("falling/summary.json"))["points"]["knot"]["steps_without_place"] == 1)
+        check("told", re.search("^capstan: step static, " + told, done.stderr, re.M), done.stderr)
+        _, rows = table("groove")
+        check("without a place", rows[-1]["has_place"] == "0" and float(rows[-1]["residual_z"]) != 0, rows[-1])
+        check("in the summary", json.loads(read("groove/summary.json"))["points"]["knot"]["steps_without_place"] == 1)
+
+        # no equilibrium, with the proof of the group in each of its lines
+        done = run("falling.yaml", "-o", "falling", code=5)
+        check("falls", "no place found" not in done.stdout + done.stderr and "(15.0333 N along (0.06652, 0, -0.9978))" in done.stderr, done.stderr)
+        proof = json.loads(read("falling/summary.json"))["steps"][-1]["lines"]["tail"]["proof"]
+        fall = (1 + 15*15)**0.5
+        check("fall", abs(proof["fall_N"] - fall) <= 1e-12*fall
+              and size([a - b/fall for a, b in zip(proof["direction"], (1, 0, -15))]) <= 1e-12, proof)
+        done = run("short.yaml", "-o", "short", code=5)
+        check("short", "no place found" not in done.stdout + done.stderr and "too short (by 0.3 m for the self-stress that is " in done.stderr, done.stderr)
+        lines = json.loads(read("short/summary.json"))["steps"][-1]["lines"]
+        for name, pull in (("one", (-1, 0, 0)), ("two", (-0.5, 3**0.5/2, 0)), ("three", (0.5, 3**0.5/2, 0)), ("elastic", (0, 0, 0))):
+            proof = lines[name]["proof"]
+            check(f"self-stress of {name}", lines[name]["outcome"] == "infeasible" and abs(proof["excess_m"] - 0.3) <= 1e-9
+                  and size([a - b for a, b in zip(proof["direction"], pull)]) <= 1e-9, proof)
 
         # the method of 1990
         for arguments in (["run", "scene.yaml", "--method", "regularized"], ["study", "scene.yaml", "--history"]):

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Proofs that lines which meet at free points or bodies have no equilibrium (docs/theory.md 5a). */
+#ifndef CAPSTAN_SRC_EVOLVE_GRAPH_EXISTENCE_H
+#define CAPSTAN_SRC_EVOLVE_GRAPH_EXISTENCE_H
+
+#include "evolve/trial.h"
+
+/* Does nothing hold the group, and do its loads fall along a translation that neither reactions nor
+ * friction stop? Then its lines, points and bodies are where they were before the step, with the
+ * outcome unbounded and the proof in the report of each of its lines. Otherwise they are as before,
+ * but for what a step imposes on them. */
+bool cpsi_group_falls(CpsiBalance *balance);
+
+/* Are the inextensible lines of the group too short to be laid between what holds it? Reported
+ * likewise, as infeasible. */
+bool cpsi_group_is_too_short(CpsiBalance *balance);
+
+#endif

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The step of a group as one program (joint_answer.h).
+ *
+ * The search goes through the places of the points, at each of which every line finds its own
+ * answer. Where slack is dragged over a rough bed a line has several, and its force on a point may
+ * jump from one to another while the place hardly moves, so that no force between is met. Of
+ * inextensible lines that are pulled straight there is no tangent to go by. The program of lines
+ * and points together has neither difficulty; on one plane, or without obstacles, it is the step
+ * itself. Each line takes its part of the solution as the answer to its own program, and is
+ * certified as ever; a line that is not, because its forces are far below the largest ones, is
+ * solved alone between the places found. What is left at the points then, by rounding in a matrix
+ * that holds the stiffness of inextensible lines, goes along lines to what is held. */
+#include "evolve/joint_answer.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cable/line_solve.h"
+#include "evolve/first_guess.h"
+#include "evolve/points.h"
+
+/* A point whose friction is below its bound by this share rests. */
+static const double CLEARLY = 1e-6;
+
+static bool is_for_it(const CpsiBalance *balance) {
+    if (balance->body_count > 0 || !cpsi_is_without_bounds(balance)) return false;
+    for (int item = 0; item < balance->line_count; item++) {
+        const CpsiLine *line = &balance->evolution->line[balance->line[item]];
+        if (line->has_local_axes || line->grasp_count > 0) return false;
+    }
+    return true;
+}
+
+/* The place of point k in the solution: on what it touches, and where it was if it rests there. */
+static Vec3 place_of(const CpsiBalance *balance, int k) {
+    const CpsEvolution *evolution = balance->evolution;
+    const CpsiNetworkProgram *program = &balance->network.program;
+    const CpsiChainProgram *chain = &program->chain[balance->line_count + k];
+    CpsiFree at = balance->at[k];
+    at.place = vec3_add(vec3_load(evolution->points.point[at.point].before),
+                        vec3_load(&balance->guess.joint[3 * k]));
+    const bool touches =
+        chain->unilateral.count > 0 && chain->unilateral.z[0] > chain->unilateral.s[0];
+    if (!touches) return at.place;
+    cpsi_trial_find_obstacle(evolution, &at);
+    const double *z = chain->disc.z[0];
+    if (chain->disc.count > 0 && hypot(z[1], z[2]) < (1 - CLEARLY) * z[0] &&
+        vec3_norm(at.slip) <= cpsi_trial_touch(balance, &at))
+        return at.start;
+    return vec3_axpy(-at.gap, at.normal, at.place);
+}
+
+/* Try the places, the lines that are `joined` with their parts of the solution. */
+static void try_joined(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    const int halvings = evolution->options.solver.max_halvings;
+    evolution->options.solver.max_halvings = 0;
+    cpsi_try_places(balance);
+    evolution->options.solver.max_halvings = halvings;
+}
+
+/* The weakest force [N] in a line: one that hangs or lies slack bears no other. */
+static double weakest_force(const CpsiLine *line) {
+    double least = INFINITY;
+    for (int e = 0; e + 1 < line->n; e++)
+        least = fmin(least, vec3_norm(vec3_at(line->segment_force, e)));
+    return least;
+}
+
+/* The point of the group at an end of line `item`, else -1. */
+static int point_at(const CpsiBalance *balance, int item, int end) {
+    const int point = balance->evolution->points.tie[2 * balance->line[item] + end];
+    return point == CPSI_NO_POINT ? -1 : balance->number[point];
+}
+
+/* The next line of the forest: the strongest one that takes part in the solution and leads from
+ * what is reached to a point that is not. Returns its item, else -1, and the end at that point. */
+static int next_of_forest(const CpsiBalance *balance, int *outer) {
+    double strongest = 0;
+    int next = -1;
+    for (int item = 0; item < balance->line_count; item++)
+        for (int end = 0; end < 2; end++) {
+            const CpsiLine *line = &balance->evolution->line[balance->line[item]];
+            const int to = point_at(balance, item, end), from = point_at(balance, item, !end);
+            const bool leads = to >= 0 && !balance->from[to].reached &&
+                               (from >= 0 ? balance->from[from].reached
+                                          : line->end[!end].kind == CPS_END_KIND_HELD);
+            if (!line->joined || !leads || !(weakest_force(line) > strongest)) continue;
+            strongest = weakest_force(line);
+            next = item;
+            *outer = end;
+        }
+    return next;
+}
+
+/* What nothing balances at a point goes along a line to the next one, and so on to what is held:
+ * every force of that line changes by as much. The lines form a forest (Prim), each point reached
+ * by the strongest. balance->ends holds it: the item and the end of each line, in the order in
+ * which the points are reached. */
+static void balance_along_forest(CpsiBalance *balance) {
+    int count = 0, outer = 0;
+    for (int k = 0; k < balance->count; k++) balance->from[k].reached = false;
+    for (int item; (item = next_of_forest(balance, &outer)) >= 0;) {
+        balance->from[point_at(balance, item, outer)].reached = true;
+        balance->ends[count][0] = item;
+        balance->ends[count++][1] = outer;
+    }
+    for (int k = 0; k < balance->count; k++) balance->from[k].left = balance->at[k].left;
+    while (count-- > 0) {
+        const int item = balance->ends[count][0], end = balance->ends[count][1];
+        const Vec3 left = balance->from[point_at(balance, item, end)].left;
+        const int inner = point_at(balance, item, !end);
+        double *shift = balance->network.joined[item].shift;
+        vec3_store(shift, vec3_axpy(end == CPS_END_A ? -1 : 1, left, vec3_load(shift)));
+        if (inner >= 0) balance->from[inner].left = vec3_add(balance->from[inner].left, left);
+    }
+}
+
+bool cpsi_take_joint_answer(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    if (!is_for_it(balance)) return false;
+    cpsi_solve_places(balance);
+    const CpsiIpmOutcome outcome = balance->network.found;
+    if (outcome == CPSI_IPM_INFEASIBLE || outcome == CPSI_IPM_UNBOUNDED) return false;
+    const size_t bytes = (size_t)balance->count * sizeof *balance->at;
+    memcpy(balance->best, balance->at, bytes);
+    for (int k = 0; k < balance->count; k++) balance->from[k].place = place_of(balance, k);
+    for (int k = 0; k < balance->count; k++) balance->at[k].place = balance->from[k].place;
+    for (int item = 0; item < balance->line_count; item++)
+        evolution->line[balance->line[item]].joined = &balance->network.joined[item];
+    try_joined(balance);
+    bool found = cpsi_is_answer(balance);
+    if (!found && !balance->certified) {
+        for (int item = 0; item < balance->line_count; item++) {
+            CpsiLine *line = &evolution->line[balance->line[item]];
+            if (!cps_outcome_is_certified(line->report.outcome)) line->joined = NULL;
+        }
+        try_joined(balance);
+        found = cpsi_is_answer(balance);
+    }
+    if (!found && balance->certified) {
+        balance_along_forest(balance);
+        try_joined(balance);
+        found = cpsi_is_answer(balance);
+    }
+    for (int item = 0; item < balance->line_count; item++)
+        evolution->line[balance->line[item]].joined = NULL;
+    if (found) return true;
+    memcpy(balance->at, balance->best, bytes);
+    cpsi_try_places(balance);
+    return false;
+}

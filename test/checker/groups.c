@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Proofs of groups (groups.h).
+ *
+ * Infeasible: forces p_i that are constant along inextensible lines and balance at every free
+ * point. With x the places in the file, and y any others, sum p.(y_B - y_A) = sum p.(x_B - x_A) +
+ * what is left at the free points times y - x. No line allows more than |p| l; so there are no
+ * places if the first sum exceeds sum |p| l by more than the second can bring, no point being
+ * farther from where the file has it than the lines reach.
+ *
+ * Unbounded: a translation v of all that falls, where nothing is held. */
+#include "groups.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include "fall.h"
+
+/* Numbers of the file, which has them in 64 bits, after some thousand sums; unit vectors. */
+static const double COPIED = 1e-9, UNIT = 1e-9;
+/* What lies so near to an obstacle, per length, touches it. */
+static const double TOUCH = 1e-9;
+
+typedef Real Triple[3];
+
+typedef struct Group {
+    const GroupStep *at;
+    size_t first, root;    /* the line that is looked at, and the group's name */
+    const size_t *root_of; /* (lines) */
+    Triple *left;          /* (points) */
+} Group;
+
+__attribute__((format(printf, 2, 3))) static void find(const Group *g, const char *format, ...) {
+    char sentence[300];
+    const Record *r = &g->at->line[g->first];
+    const int point = r->end_point[r->end_point[0] >= 0 ? 0 : 1];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(sentence, sizeof sentence, format, list);
+    va_end(list);
+    g->at->find(g->at->user, g->at->source->point_name[point], g->at->step, sentence);
+}
+
+static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static Real size(const Real *a) { return hypotl(hypotl(a[0], a[1]), a[2]); }
+static void widen(const double *a, Real *out) {
+    for (int k = 0; k < 3; k++) out[k] = a[k];
+}
+
+static bool is_free(const GroupStep *at, int point) {
+    return point >= 0 && at->now[point].state != POINT_HELD &&
+           at->now[point].state != POINT_ON_BODY;
+}
+
+static Real length_of(const Record *r) {
+    Real sum = 0;
+    for (size_t i = 0; i < r->elements; i++) sum += r->element_length[i];
+    return sum;
+}
+
+bool groups_claim(const Record *r) {
+    return (r->outcome == OUTCOME_INFEASIBLE || r->outcome == OUTCOME_UNBOUNDED) &&
+           r->proof_obstacle < 0 && (r->end_point[0] >= 0 || r->end_point[1] >= 0);
+}
+
+/* Give lines that share a free point one name: the least of their numbers. */
+static void name_groups(const GroupStep *at, size_t *root) {
+    const size_t lines = at->source->lines;
+    for (size_t i = 0; i < lines; i++) root[i] = i;
+    for (bool more = true; more;) {
+        more = false;
+        for (size_t i = 0; i < lines; i++)
+            for (size_t j = 0; j < i; j++)
+                for (int e = 0; e < 4; e++) {
+                    const int point = at->line[i].end_point[e / 2];
+                    if (root[i] == root[j] || !is_free(at, point) ||
+                        at->line[j].end_point[e % 2] != point)
+                        continue;
+                    root[i] = root[j] = root[i] < root[j] ? root[i] : root[j];
+                    more = true;
+                }
+    }
+}
+
+static void place_of_end(const GroupStep *at, const Record *r, int e, Real *out) {
+    if (r->end_point[e] >= 0)
+        widen(at->now[r->end_point[e]].position, out);
+    else
+        widen(r->held_position[e], out);
+}
+
+static void check_infeasible(const Group *g) {
+    const GroupStep *at = g->at;
+    Real sum = 0, most = 0, reach = 0, sizes = 0, imbalance = 0;
+    for (size_t i = 0; i < at->source->points; i++) widen((double[]){0, 0, 0}, g->left[i]);
+    for (size_t i = 0; i < at->source->lines; i++) {
+        const Record *r = &at->line[i];
+        if (g->root_of[i] != g->root) continue;
+        Triple p, from = {0}, to = {0}, span;
+        widen(r->proof, p);
+        const Real force = size(p), length = length_of(r);
+        most = fmaxl(most, force);
+        if (force == 0) continue;
+        if (r->compliance != 0) find(g, "infeasible by a force in an elastic line");
+        for (int e = 0; e < 2; e++) {
+            if (r->end_point[e] < 0 && r->end_kind[e] != END_HELD)
+                find(g, "infeasible by a force in a line with a free end");
+            if (!is_free(at, r->end_point[e])) continue;
+            for (int k = 0; k < 3; k++) g->left[r->end_point[e]][k] += e == 0 ? p[k] : -p[k];
+        }
+        place_of_end(at, r, 0, from);
+        place_of_end(at, r, 1, to);
+        for (int k = 0; k < 3; k++) span[k] = to[k] - from[k];
+        sum += dot(p, span) - force * length;
+        sizes += force * (length + size(from) + size(to));
+        reach += length + size(span);
+    }
+    for (size_t i = 0; i < at->source->points; i++) imbalance += size(g->left[i]);
+    if (!(sum > imbalance * reach && sum > 0))
+        find(g, "infeasible, but the self-stress lacks %.6g m, of which %.3g m are its imbalance",
+             (double)sum, (double)(imbalance * reach));
+    if (!(fabsl(most - 1) <= UNIT)) find(g, "the largest force of the proof is %.9g", (double)most);
+    const double claimed = at->line[g->first].proof_length;
+    if (!(fabsl(claimed - sum) <= COPIED * sum + 1e-15L * sizes))
+        find(g, "claimed proof_length %.9g, recomputed %.9g", claimed, (double)sum);
+}
+
+/* What frozen bounds take of a record on one surface, per speed along it. */
+static Real frozen_bounds(const Record *r, size_t surface) {
+    const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
+    Real sum = 0;
+    for (size_t c = 0; c < contacts; c++)
+        if (r->obstacle[c] == (int)surface) sum += r->friction_bound[c];
+    return sum;
+}
+
+/* Does v leave all obstacles, planes, whatever the reactions? *taken: what frozen bounds take. */
+static bool leaves_planes(const Group *g, const Record *r, const Real *v, bool smooth,
+                          Real *taken) {
+    const Source *source = g->at->source;
+    Real factor = 1;
+    for (size_t j = 0; j < (r->factor ? r->nodes : 0); j++) factor = fmaxl(factor, r->factor[j]);
+    for (size_t k = 0; k < source->surfaces; k++) {
+        const Surface *on = &source->surface[k];
+        if (on->kind != SURFACE_PLANE || on->set) return false;
+        Triple n, x = {0};
+        surface_normal(on, x, n);
+        const Real rise = dot(n, v), across = sqrtl(fmaxl(0, 1 - rise * rise));
+        const Real mu = smooth || !source->consistent ? 0 : factor * surface_friction(on);
+        if (!(rise >= mu * across)) return false;
+        if (!source->consistent) *taken += frozen_bounds(r, k) * across;
+    }
+    return true;
+}
+
+/* What frozen friction takes at a free point: the bound is that of the step before. */
+static Real taken_at(const Group *g, int point, const Real *v, bool smooth) {
+    const Source *source = g->at->source;
+    Real taken = 0;
+    if (source->consistent || smooth) return 0;
+    for (size_t k = 0; k < source->surfaces; k++) {
+        const Surface *on = &source->surface[k];
+        Triple n, x;
+        widen(g->at->now[point].position, x);
+        if (surface_friction(on) == 0) continue;
+        surface_normal(on, x, n);
+        const Real rise = dot(n, v), across = sqrtl(fmaxl(0, 1 - rise * rise));
+        const bool touches = surface_distance(on, x) <= TOUCH * (1 + size(x));
+        if (g->at->before)
+            taken += surface_friction(on) * g->at->before[point].reaction * across;
+        else if (touches)
+            taken = INFINITY; /* its reaction where the run begins is not in the file */
+    }
+    return taken;
+}
+
+static bool is_in_group(const Group *g, int point) {
+    for (size_t i = 0; i < g->at->source->lines; i++)
+        if (g->root_of[i] == g->root &&
+            (g->at->line[i].end_point[0] == point || g->at->line[i].end_point[1] == point))
+            return true;
+    return false;
+}
+
+static void check_unbounded(const Group *g) {
+    const GroupStep *at = g->at;
+    const bool smooth = at->source->has_static && at->step == 0;
+    Triple v, b;
+    Real fall = 0, loads = 0, taken = 0;
+    bool leaves = true, clear = true;
+    widen(at->line[g->first].proof, v);
+    if (!(fabsl(size(v) - 1) <= UNIT)) find(g, "unbounded, but its motion has no unit length");
+    for (size_t i = 0; i < at->source->lines; i++) {
+        const Record *r = &at->line[i];
+        if (g->root_of[i] != g->root) continue;
+        for (int k = 0; k < 3; k++)
+            if (r->proof[k] != at->line[g->first].proof[k])
+                find(g, "unbounded, but its lines move in different directions");
+        for (int e = 0; e < 2; e++)
+            if (r->end_point[e] >= 0 ? !is_free(at, r->end_point[e]) : r->end_kind[e] == END_HELD)
+                find(g, "unbounded, but line %s is held", at->source->line_name[i]);
+        for (size_t j = 0; j < r->nodes; j++) {
+            widen(r->load[j], b);
+            fall += dot(b, v);
+            loads += size(b);
+        }
+        leaves = leaves && leaves_planes(g, r, v, smooth, &taken);
+        clear = clear && falls_clear(at->source, r, v);
+    }
+    for (size_t i = 0; i < at->source->points; i++) {
+        if (!is_in_group(g, (int)i)) continue;
+        widen(at->now[i].load, b);
+        fall += dot(b, v);
+        loads += size(b);
+        taken += taken_at(g, (int)i, v, smooth);
+    }
+    if (!leaves && !clear) find(g, "unbounded, but an obstacle may stop it");
+    if (leaves) fall -= taken;
+    if (!(fall > 0)) find(g, "unbounded, but the energy falls by %.3g N", (double)fall);
+    const double claimed = at->line[g->first].proof_force;
+    if (!(fabsl(claimed - fall) <= COPIED * loads))
+        find(g, "claimed proof_force %.9g, recomputed %.9g", claimed, (double)fall);
+}
+
+/* All lines of a group say the same. */
+static void check_agreement(const Group *g) {
+    const Record *first = &g->at->line[g->first];
+    for (size_t i = 0; i < g->at->source->lines; i++) {
+        const Record *r = &g->at->line[i];
+        if (g->root_of[i] != g->root) continue;
+        if (r->outcome != first->outcome || r->proof_length != first->proof_length ||
+            r->proof_force != first->proof_force)
+            find(g, "its lines do not claim the same");
+    }
+}
+
+static void check_all(const GroupStep *at, size_t *root, Triple *left, bool *seen) {
+    name_groups(at, root);
+    for (size_t i = 0; i < at->source->lines; i++) {
+        if (!groups_claim(&at->line[i]) || seen[root[i]]) continue;
+        const Group g = {at, i, root[i], root, left};
+        seen[root[i]] = true;
+        check_agreement(&g);
+        if (at->line[i].outcome == OUTCOME_INFEASIBLE)
+            check_infeasible(&g);
+        else
+            check_unbounded(&g);
+    }
+}
+
+int groups_check(const GroupStep *at, FILE *log) {
+    size_t *root = calloc(at->source->lines, sizeof *root);
+    Triple *left = calloc(at->source->points, sizeof *left);
+    bool *seen = calloc(at->source->lines, sizeof *seen);
+    const int bad = !root || !left || !seen ? -1 : 0;
+    if (bad && log) fprintf(log, "no memory for the groups of lines\n");
+    if (!bad) check_all(at, root, left, seen);
+    free(root);
+    free(left);
+    free(seen);
+    return bad;
+}
