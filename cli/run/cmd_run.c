@@ -149,14 +149,41 @@ static void print_unbalanced_body(FILE *out, const char *name, const CpsBodyRepo
 /* A nanometre, or a billionth of a degree, is rounding. */
 static double tidy(double x) { return fabs(x) < 1e-9 ? 0 : x; }
 
+/* Is there a proof that a line at the point has no equilibrium? */
+static bool has_proof(const CpsScene *scene, const CpsEvolution *evolution, int point) {
+    for (int i = 0; i < scene->line_count; ++i)
+        for (int e = 0; e < 2; ++e)
+            if (scene->line[i].end[e].kind == CPS_END_KIND_POINT &&
+                scene->line[i].end_point[e] == point &&
+                cps_outcome_is_final(cps_evolution_line_report(evolution, i).outcome))
+                return true;
+    return false;
+}
+
+/* Has no place been found for a point, though there is no such proof? The same of a body. */
+static bool is_unbalanced(const CpsScene *scene, const CpsEvolution *evolution, int point) {
+    return !cps_evolution_point_report(evolution, point).has_place &&
+           !has_proof(scene, evolution, point);
+}
+static bool is_unbalanced_body(const CpsScene *scene, const CpsEvolution *evolution, int body) {
+    if (cps_evolution_body_report(evolution, body).has_place) return false;
+    for (int i = 0; i < scene->point_count; ++i)
+        if (scene->point[i].kind == CPS_POINT_KIND_ON_BODY && scene->point[i].body == body &&
+            has_proof(scene, evolution, i))
+            return false;
+    return true;
+}
+
 /* The pose of a body, and what is to be said of it. */
-static void print_body(FILE *table, const char *name, const CpsBodyReport *body) {
+static void print_body(FILE *table, const char *name, const CpsBodyReport *body,
+                       bool is_unbalanced) {
     static const double DEGREES = 57.29577951308232;
     const double *x = body->position;
     double angle[3], heel;
     cps_body_angles(body, angle, &heel);
+    if (!body->has_place && !is_unbalanced) return;
     fprintf(table, "%*s", NAME_WIDTH + 1, "");
-    if (!body->has_place) {
+    if (is_unbalanced) {
         print_unbalanced_body(table, name, body);
         return;
     }
@@ -165,18 +192,6 @@ static void print_body(FILE *table, const char *name, const CpsBodyReport *body)
     fprintf(table, ": at (%.6g, %.6g, %.6g) m, roll %.4g, pitch %.4g, yaw %.4g degrees%s\n",
             tidy(x[0]), tidy(x[1]), tidy(x[2]), tidy(DEGREES * angle[0]), tidy(DEGREES * angle[1]),
             tidy(DEGREES * angle[2]), body->is_stable ? "" : "; not stable");
-}
-
-/* Is there a point without a place, though not by a proof that a line there has none? */
-static bool is_unbalanced(const CpsScene *scene, const CpsEvolution *evolution, int point) {
-    if (cps_evolution_point_report(evolution, point).has_place) return false;
-    for (int i = 0; i < scene->line_count; ++i)
-        for (int e = 0; e < 2; ++e)
-            if (scene->line[i].end[e].kind == CPS_END_KIND_POINT &&
-                scene->line[i].end_point[e] == point &&
-                cps_outcome_is_final(cps_evolution_line_report(evolution, i).outcome))
-                return false;
-    return true;
 }
 
 static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
@@ -216,7 +231,7 @@ static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
     }
     for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {
         const CpsBodyReport body = cps_evolution_body_report(evolution, i);
-        print_body(table, scene->body[i].name, &body);
+        print_body(table, scene->body[i].name, &body, is_unbalanced_body(scene, evolution, i));
     }
 }
 
@@ -309,7 +324,7 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
     }
     for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {
         const CpsBodyReport body = cps_evolution_body_report(evolution, i);
-        if (body.has_place) continue;
+        if (!is_unbalanced_body(scene, evolution, i)) continue;
         fputs("capstan: step ", stderr);
         cli_print_text(stderr, step.name, 80, false);
         fputs(", ", stderr);

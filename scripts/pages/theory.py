@@ -84,8 +84,8 @@ SENTENCES = [
     ("with the cones widened by {} of the largest force", number("cable/force_set.c", "CONE_SLACK")),
     ("shorter than its length by less than {} of it", number("cable/force_set.c", "EXACT")),
     ("or if it moved by less than {} L.", number("cable/force_set.c", "EXACT")),
-    ("If the sum exceeds L (1 + {})", number("cable/line_solve.h", "CPSI_TAUT")),
-    ("exactly straight (within {} of its length)", number("cable/line_solve.h", "CPSI_TAUT")),
+    ("If the sum exceeds L (1 + {})", number("cable/held.h", "CPSI_TAUT")),
+    ("exactly straight (within {} of its length)", number("cable/held.h", "CPSI_TAUT")),
     ("a line longer by one part in {}:", lambda p: f"{1 / float(number('cable/line_solve.c', 'TAUT_SLACK')(p)):.0e}".replace("+0", "")),
     ("P_k must exceed {} of the sum", number("evolve/substeps.c", "SLIDES_LEAST")),
     ("farther than {} lengths from where the step began", number("cable/line_solve.c", "MAX_DISPLACEMENT")),
@@ -98,6 +98,10 @@ SENTENCES = [
     ("moreover its gap must be at most {} of its scale", number("cable/line_solve.h", "CPSI_TARGET")),
     ("A node slips where it has moved by more than {} L on", number(".h", "CPS_TOUCH")),
     ("Points count as found up to {} of the largest force (at the default tolerance; {} times the tolerance)", balanced),
+    ("Up to {} points it is dense.", number("linalg/graph_matrix.c", "DENSE")),
+    ("First rounds stop at a gap of {}, the others at {}, until no normal of a point that touches turns by more than {}.",
+     numbers(*(("evolve/first_guess.c", n) for n in ("ROUGH", "FINE", "ON_ITS_PLANE")))),
+    ("from a guess to {} with the refinement of", number("evolve/first_guess.c", "REFINED")),
     ("its friction is at its bound to {};", number("cable/report.c", "AT_BOUND")),
     ("= 0.0255 x 1 x 9.81 = {} N/m", lambda p: f"{0.0255 * 9.81:.6f}"),
     ("and {} eps of all terms are added", number("drive/certificate.c", "ROUNDING")),
@@ -105,4 +109,4 @@ SENTENCES = [
 # data of the papers, exponents of formulas, and what double precision is
 GIVEN = ["Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a path of 350 degrees is not taken for one of -10",
          "d^3/12 and more", "positions and reactions (1e-16)", "lie 1e-7 beside", "lemma 9.6 for 7.6", "\"A = 0.25 N\"",
-         "slack on 0.6 of its length"]
+         "slack on 0.6 of its length", "120 degrees apart, and three lines of 0.9 to one point", "and lack 0.3 m all the same"]

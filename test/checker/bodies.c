@@ -12,6 +12,8 @@
  * -dE/dt of the pose that turns on by t about each axis, by differences of the energy itself. */
 #include "bodies.h"
 
+#include "groups.h"
+
 #include <math.h>
 #include <netcdf.h>
 #include <stdarg.h>
@@ -486,7 +488,9 @@ static bool is_claimed(const Check *c, bool (*certified)(int outcome)) {
     for (size_t i = 0; i < c->source->lines; i++)
         for (int e = 0; e < 2; e++) {
             const int k = c->line[i].end_point[e];
-            if (k >= 0 && is_on(c, (size_t)k) && certified(c->line[i].outcome)) return true;
+            if (k >= 0 && is_on(c, (size_t)k) && certified(c->line[i].outcome) &&
+                !groups_claim(&c->line[i]))
+                return true;
         }
     return false;
 }

@@ -52,6 +52,24 @@ static bool is_free(const GroupStep *at, int point) {
            at->now[point].state != POINT_ON_BODY;
 }
 
+/* The free body that a point is on, else -1. */
+static int free_body(const GroupStep *at, int point) {
+    const int body = point >= 0 && at->bodies->count > 0 ? at->bodies->of_point[point] : ON_NO_BODY;
+    return body >= 0 && at->body[body].kind == BODY_FREE ? body : -1;
+}
+
+/* Do two ends share a free point, or a free body? */
+static bool are_joined(const GroupStep *at, int a, int b) {
+    const int body = free_body(at, a);
+    return (a == b && is_free(at, a)) || (body >= 0 && body == free_body(at, b));
+}
+
+static bool is_held_end(const GroupStep *at, const Record *r, int e) {
+    const int point = r->end_point[e];
+    return point >= 0 ? !is_free(at, point) && free_body(at, point) < 0
+                      : r->end_kind[e] == END_HELD;
+}
+
 static Real length_of(const Record *r) {
     Real sum = 0;
     for (size_t i = 0; i < r->elements; i++) sum += r->element_length[i];
@@ -63,7 +81,7 @@ bool groups_claim(const Record *r) {
            r->proof_obstacle < 0 && (r->end_point[0] >= 0 || r->end_point[1] >= 0);
 }
 
-/* Give lines that share a free point one name: the least of their numbers. */
+/* Give lines that share a free point or body one name: the least of their numbers. */
 static void name_groups(const GroupStep *at, size_t *root) {
     const size_t lines = at->source->lines;
     for (size_t i = 0; i < lines; i++) root[i] = i;
@@ -73,8 +91,7 @@ static void name_groups(const GroupStep *at, size_t *root) {
             for (size_t j = 0; j < i; j++)
                 for (int e = 0; e < 4; e++) {
                     const int point = at->line[i].end_point[e / 2];
-                    if (root[i] == root[j] || !is_free(at, point) ||
-                        at->line[j].end_point[e % 2] != point)
+                    if (root[i] == root[j] || !are_joined(at, point, at->line[j].end_point[e % 2]))
                         continue;
                     root[i] = root[j] = root[i] < root[j] ? root[i] : root[j];
                     more = true;
@@ -105,6 +122,9 @@ static void check_infeasible(const Group *g) {
         for (int e = 0; e < 2; e++) {
             if (r->end_point[e] < 0 && r->end_kind[e] != END_HELD)
                 find(g, "infeasible by a force in a line with a free end");
+            if (r->end_point[e] >= 0 &&
+                (free_body(at, r->end_point[e]) >= 0 || at->gives[r->end_point[e]]))
+                find(g, "infeasible by a force at a body that is free, or a point that gives way");
             if (!is_free(at, r->end_point[e])) continue;
             for (int k = 0; k < 3; k++) g->left[r->end_point[e]][k] += e == 0 ? p[k] : -p[k];
         }
@@ -182,6 +202,26 @@ static bool is_in_group(const Group *g, int point) {
     return false;
 }
 
+/* The loads of the bodies of the group, of which none may have a stiffness along v. */
+static void add_bodies(const Group *g, const Real *v, Real *fall, Real *loads) {
+    const GroupStep *at = g->at;
+    bool counted = false;
+    for (size_t k = 0; k < at->bodies->count; k++, counted = false) {
+        const BodyData *data = &at->bodies->data[k];
+        Triple load;
+        for (size_t i = 0; i < at->source->points && !counted; i++)
+            counted = free_body(at, (int)i) == (int)k && is_in_group(g, (int)i);
+        if (!counted) continue;
+        widen(at->body[k].load, load);
+        *fall += dot(load, v);
+        *loads += size(load);
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < SIX; b++)
+                if (v[a] != 0 && (data->fixed[a] || data->hydrostatics[SIX * a + b] != 0))
+                    find(g, "unbounded, but %s does not move so", data->name);
+    }
+}
+
 static void check_unbounded(const Group *g) {
     const GroupStep *at = g->at;
     const bool smooth = at->source->has_static && at->step == 0;
@@ -197,7 +237,7 @@ static void check_unbounded(const Group *g) {
             if (r->proof[k] != at->line[g->first].proof[k])
                 find(g, "unbounded, but its lines move in different directions");
         for (int e = 0; e < 2; e++)
-            if (r->end_point[e] >= 0 ? !is_free(at, r->end_point[e]) : r->end_kind[e] == END_HELD)
+            if (is_held_end(at, r, e))
                 find(g, "unbounded, but line %s is held", at->source->line_name[i]);
         for (size_t j = 0; j < r->nodes; j++) {
             widen(r->load[j], b);
@@ -209,11 +249,13 @@ static void check_unbounded(const Group *g) {
     }
     for (size_t i = 0; i < at->source->points; i++) {
         if (!is_in_group(g, (int)i)) continue;
+        if (at->gives[i]) find(g, "unbounded, but %s gives way", at->source->point_name[i]);
         widen(at->now[i].load, b);
         fall += dot(b, v);
         loads += size(b);
         taken += taken_at(g, (int)i, v, smooth);
     }
+    add_bodies(g, v, &fall, &loads);
     if (!leaves && !clear) find(g, "unbounded, but an obstacle may stop it");
     if (leaves) fall -= taken;
     if (!(fall > 0)) find(g, "unbounded, but the energy falls by %.3g N", (double)fall);

@@ -4,6 +4,7 @@
 #ifndef CAPSTAN_CHECKER_GROUPS_H
 #define CAPSTAN_CHECKER_GROUPS_H
 
+#include "bodies.h"
 #include "points.h"
 
 /* Does the record claim a proof that is that of its group? */
@@ -15,6 +16,9 @@ typedef struct GroupStep {
     const Record *line;     /* (lines) */
     const Junction *now;    /* (points) */
     const Junction *before; /* (points) after the step before; NULL in the first one */
+    const bool *gives;      /* (points) it floats, or is an anchor that drags: there is no proof */
+    const Bodies *bodies;
+    const BodyState *body; /* (bodies) */
     size_t step;
     PointFinding *find;
     void *user;

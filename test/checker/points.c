@@ -31,8 +31,11 @@ typedef struct Points {
     Junction *now, *before; /* (points) */
     Water *water;           /* (points) of the step */
     Anchor *anchor;         /* (points) */
-    double *dragged;        /* (points) [m] before the step */
-    double surface;         /* [m] z of the water's surface */
+    bool *gives;            /* (points) of the step: it floats, or is an anchor that drags */
+    Bodies bodies;
+    BodyState *body; /* (bodies) of the step */
+    double *dragged; /* (points) [m] before the step */
+    double surface;  /* [m] z of the water's surface */
     bool has_surface;
     double *length; /* (points) [m] of the longest line that ends there */
     double largest; /* [N] of the step */
@@ -313,8 +316,13 @@ static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
         p->certified = is_claimed(p, certified);
         for (p->point = 0; p->point < source->points; p->point++)
             check_balance(p, &p->now[p->point]);
-        const GroupStep at = {source,  p->line, p->now, p->step > 0 ? p->before : NULL,
-                              p->step, p->find, p->user};
+        for (size_t k = 0; k < source->points; k++)
+            p->gives[k] = p->anchor[k].drags || (p->has_surface && p->water[k].displaced > 0);
+        if (p->bodies.count > 0 && bodies_read(source, &p->bodies, p->step, p->body, log))
+            return -1;
+        const GroupStep at = {source,   p->line,    p->now,  p->step > 0 ? p->before : NULL,
+                              p->gives, &p->bodies, p->body, p->step,
+                              p->find,  p->user};
         if (groups_check(&at, log)) return -1;
         Junction *swap = p->before;
         p->before = p->now;
@@ -337,6 +345,15 @@ static int open_lines(Points *p, FILE *log) {
     return 0;
 }
 
+/* The bodies, or none where they cannot be read: bodies_check says why. */
+static int open_bodies(const Source *source, Bodies *bodies) {
+    if (bodies_open(source, bodies, NULL)) {
+        bodies_close(bodies);
+        *bodies = (Bodies){0};
+    }
+    return 0;
+}
+
 int points_check(const Source *source, bool (*certified)(int outcome), PointFinding *finding,
                  void *user, FILE *log) {
     if (source->points == 0) return 0;
@@ -351,7 +368,13 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     p.has_surface = water_surface(source, &p.surface);
     int bad = !p.line || !p.water || !p.now || !p.before || !p.length ? -1 : open_lines(&p, log);
     if (!bad) bad = !p.anchor || !p.dragged ? -1 : anchors_open(source, p.anchor, log);
-    if (!bad) bad = check_steps(&p, certified, log);
+    p.gives = calloc(source->points, sizeof *p.gives);
+    if (!bad) bad = p.gives ? open_bodies(source, &p.bodies) : -1;
+    p.body = calloc(p.bodies.count + 1, sizeof *p.body);
+    if (!bad) bad = p.body ? check_steps(&p, certified, log) : -1;
+    bodies_close(&p.bodies);
+    free(p.body);
+    free(p.gives);
     for (size_t i = 0; i < source->lines && p.line; i++) record_destroy(&p.line[i]);
     free(p.line);
     free(p.now);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """capstan run on a float and a barge on four lines: bodies.csv, history.csv, summary.json, result.nc, body-stiffness.csv and the ParaView
 files say the same, and forces and moments on each body balance, computed from the ends of the lines and the scene. A killed run that goes
-on ends with the same bytes; bodies without a pose are told.                                                    usage: bodies.py CAPSTAN
+on ends with the same bytes; bodies without a pose are told.                                                    usage: bodies.py CAPSTAN CHECKER
 
 Written by nothing but the layout of classic netCDF files (../property/result_file.py).
 """
@@ -54,6 +54,14 @@ SIX = ["x", "y", "z", "mx", "my", "mz"]
 DIRECTIONS = ["x", "y", "z", "rx", "ry", "rz"]
 
 # nothing holds it
+TWISTED = """
+capstan: 1
+bodies: {stone: {free: [0, 0, -10], weight: 50}}
+points: {hook: {held: [0, 0, 0]}, eye: {body: stone}}
+lines:
+  string: {length: 10, elements: 4, weight: 1, stiffness: 1e6, start: {straight: {from: [0, 0, 0], to: [0, 0, -10]}}, ends: {A: {point: hook}, B: {point: eye}}}
+history: [{name: twist, stone.body: {moment: [0, 0, 3]}}]
+"""
 FALLING = """
 capstan: 1
 bodies: {stone: {free: [0, 0, 0], weight: 5}}
@@ -347,14 +355,24 @@ def main():
             check("a file of somebody else", read(f"{folder}/{name}") == b"mine")
 
         # no pose
-        done = run("falling.yaml", "-o", "falling", code=1)
-        told = r"body stone: no pose found where the forces and moments on it balance \([0-9.e+]+ N and [0-9.e+]+ N m are left after \d+ trials\)\n"
+        write("twisted.yaml", TWISTED)
+        done = run("twisted.yaml", "-o", "twisted", code=1)
+        told = r"body stone: no pose found where the forces and moments on it balance \([0-9.e+-]+ N and [0-9.e+]+ N m are left after \d+ trials\)\n"
         check("told in the table", re.search("^ +" + told, done.stdout, re.M), done.stdout)
-        check("told", re.search("^capstan: step fall, " + told, done.stderr, re.M), done.stderr)
+        check("told", re.search("^capstan: step twist, " + told, done.stderr, re.M), done.stderr)
         check("what may help", "give that direction as 'fixed'\n" in done.stderr, done.stderr)
-        _, rows = table("falling/bodies.csv")
-        check("without a place", rows[-1]["has_place"] == "0" and float(rows[-1]["residual_z"]) < -4, rows[-1])
-        check("in the summary", json.loads(read("falling/summary.json"))["bodies"]["stone"]["steps_without_place"] == 1)
+        _, rows = table("twisted/bodies.csv")
+        check("without a place", rows[-1]["has_place"] == "0" and float(rows[-1]["residual_mz"]) > 2.9, rows[-1])
+        check("in the summary", json.loads(read("twisted/summary.json"))["bodies"]["stone"]["steps_without_place"] == 1)
+
+        # nothing holds it: proved, with its weight and that of its line
+        done = run("falling.yaml", "-o", "falling", code=5)
+        check("proved", "no equilibrium" in done.stderr and "no pose found" not in done.stdout + done.stderr, done.stderr)
+        fall = json.loads(read("falling/summary.json"))["steps"][-1]["lines"]["tail"]["proof"]
+        expected = math.hypot(15, 1)
+        check("by its power", abs(fall["fall_N"] - expected) < 1e-9, fall)
+        checked = subprocess.run([sys.argv[2], "falling/result.nc", "falling.yaml"], capture_output=True, text=True, check=False)
+        check("the checker", checked.returncode == 0, checked.stdout)
 
         # the methods of 1990
         for arguments in (["run", "scene.yaml", "--method", "regularized"], ["study", "scene.yaml", "--history"]):
