@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a net, of a buoy, of a spar and a barge on lines, and of driven systems."""
+"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of an anchor line, of a net, of a buoy, of a spar and a barge on lines, and of driven systems."""
 import os
 import re
 import subprocess
@@ -55,7 +55,20 @@ def moored_buoy(program):
     return os.path.join(place, "elevation.svg")
 
 
+def offset(program):
+    """What the lines of examples/oc3-hywind.yaml oppose to its offset."""
+    _, place = program.run("offset", "examples/oc3-hywind.yaml", "--headings", "0,30,60", "--to", "20", "--steps", "20")
+    return os.path.join(place, "offset.svg")
+
+
+def anchor_line(program):
+    """The elevation of all steps of examples/chain-wire-chain.yaml."""
+    _, place = program.run("run", "examples/chain-wire-chain.yaml")
+    return os.path.join(place, "elevation.svg")
+
+
 PICTURES = {
+    "run-offset": offset, "run-anchor-line": anchor_line,
     "run-rope": first_scene, "run-bridle": bridle, "run-oc3-hywind": spar, "run-barge": barge, "run-net": net, "run-moored-buoy": moored_buoy,
     "drive-wheel-maps": driven("braked-wheel"),
     "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),
