@@ -155,7 +155,7 @@ typedef struct Model {
     double element[NEWTON_LINES][MOST_ELEMENTS];
     CpsPoint point[2 * NEWTON_LINES];
     CpsBody body[NEWTON_BODIES];
-    char name[3 * NEWTON_LINES + NEWTON_BODIES][8];
+    char name[3 * NEWTON_LINES + NEWTON_BODIES][16];
     CpsScene scene;
 } Model;
 
