@@ -76,6 +76,19 @@ static void store(double out[6], const CpsiWrench *wrench) {
     vec3_store(&out[3], wrench->moment);
 }
 
+/* Does a point of the body lie inside an obstacle? Nothing there holds it off. */
+static bool is_inside(const CpsiBalance *balance, int k) {
+    const CpsEvolution *evolution = balance->evolution;
+    for (int i = 0; i < evolution->points.count; i++) {
+        Vec3 place;
+        if (balance->rigid_of[i] != k || !cpsi_trial_place(balance, i, &place)) continue;
+        const double touch = CPS_TOUCH * evolution->points.point[i].length;
+        for (int o = 0; o < evolution->obstacle_count; o++)
+            if (cpsi_obstacle_gap(&evolution->obstacle[o], place) < -touch) return true;
+    }
+    return false;
+}
+
 static void report_body(CpsiBalance *balance, int k) {
     CpsEvolution *evolution = balance->evolution;
     const CpsiRigid *rigid = &balance->rigid[k];
@@ -94,8 +107,10 @@ static void report_body(CpsiBalance *balance, int k) {
         if (body->given.fixed[i]) report->support[i] = -rest[i];
     cpsi_body_block(balance, k, report->stiffness);
     report->is_stable = cpsi_is_definite(report->stiffness, body->given.fixed, body->arm);
-    report->has_place = cpsi_is_balanced(balance, fmax(vec3_norm(rigid->left.force),
-                                                       vec3_norm(rigid->left.moment) / body->arm));
+    report->has_place =
+        cpsi_is_balanced(balance, fmax(vec3_norm(rigid->left.force),
+                                       vec3_norm(rigid->left.moment) / body->arm)) &&
+        !is_inside(balance, k);
     body->pose = rigid->pose;
 }
 

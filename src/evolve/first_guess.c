@@ -144,6 +144,12 @@ static void hold_bodies(CpsiBalance *balance, bool turns) {
     }
 }
 
+/* Nothing moves in the fixed directions of a body, in which the guess only makes it stiff. */
+static void keep_fixed(const CpsiBody *body, double move[6]) {
+    for (int i = 0; i < 6; i++)
+        if (body->given.fixed[i]) move[i] = 0;
+}
+
 /* The place of an anchor in its plane: where it was, if the guess does not move it. */
 static Vec3 near_its_place(const CpsiFree *at, double length) {
     const Vec3 drag = vec3_reject(vec3_sub(at->place, at->start), at->normal);
@@ -236,6 +242,7 @@ static bool guess_round(CpsiBalance *balance, const CpsiStepOptions *options, in
         double *move = &balance->guess.body[6 * k];
         turned->bodies = fmax(turned->bodies, vec3_norm(vec3_load(&move[3])));
         cpsi_limit(&move[3], FARTHEST_TURN);
+        keep_fixed(&evolution->bodies.body[balance->rigid[k].body], move);
         balance->rigid[k].pose = cpsi_pose_after(&balance->rigid[k].pose, move, 1);
     }
     return true;

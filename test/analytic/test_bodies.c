@@ -134,6 +134,59 @@ static void a_float_on_two_strings(void **unused) {
     cps_evolution_destroy(evolution);
 }
 
+/* A light body on a strong line stays where it is in its fixed directions, to the bit, whatever the
+ * line pulls: 1e6 N here, on a weight of 1 N. */
+static void fixed_directions_stay(void **unused) {
+    (void)unused;
+    for (int free = 0; free < 2; free++) { /* 1: along y, in which nothing else acts */
+        Mooring m;
+        begin(&m, 1);
+        m.line[0].length = 10;
+        m.line[0].element_count = 1;
+        m.line[0].stiffness = 1e6;
+        m.point[0].position[0] = m.point[1].position[0] = 1;
+        m.point[0].position[1] = 20;
+        m.body.weight = 1;
+        for (int i = 0; i < 6; i++) m.body.fixed[i] = !(free && i == 1);
+        CpsEvolution *evolution = evolve(&m.scene);
+        const CpsBodyReport found = step(evolution);
+        for (int i = 0; i < 3; i++)
+            if (m.body.fixed[i]) CHECK_NEAR(found.position[i], 0, 0);
+        for (int i = 0; i < 4; i++) CHECK_NEAR(found.rotation[i], i == 0, 0);
+        const double pull = found.lines[1];
+        CHECK_NEAR(pull, free ? 0 : 1e6, 1e-4);
+        CHECK_NEAR(found.support[5], free ? 0 : -1e6, 1e-4);
+        cps_evolution_destroy(evolution);
+    }
+}
+
+/* Nothing holds a body off an obstacle: one that its line lets hang below the bed has no pose. */
+static void below_the_bed(void **unused) {
+    (void)unused;
+    for (int deep = 0; deep < 2; deep++) {
+        Mooring m;
+        CpsError err;
+        begin(&m, 1);
+        m.line[0].length = 5;
+        m.line[0].element_count = 2;
+        m.line[0].stiffness = 1e5;
+        m.point[0].position[2] = 2;
+        m.body.weight = 100;
+        for (int i = 3; i < 6; i++) m.body.fixed[i] = true;
+        m.bed.point[2] = deep ? -1 : -4;
+        m.scene.obstacle_count = 1;
+        m.scene.obstacle = &m.bed;
+        CpsEvolution *evolution = evolve(&m.scene);
+        assert_int_equal(cps_evolution_step(evolution, &err), CPS_OK);
+        const CpsBodyReport found = cps_evolution_body_report(evolution, 0);
+        CHECK_NEAR(found.position[2], 2 - 5 * (1 + 100 / 1e5), 1e-8);
+        CHECK_INT(found.has_place, !deep);
+        CHECK_INT(cps_evolution_report(evolution).outcome,
+                  deep ? CPS_OUTCOME_STALLED : CPS_OUTCOME_SOLVED);
+        cps_evolution_destroy(evolution);
+    }
+}
+
 static void held_wrench(const Mooring *m, const double position[3], const double rotation[4],
                         double wrench[6]) {
     Mooring held = *m;
@@ -500,6 +553,8 @@ static void what_is_refused(void **unused) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pendulum),
+        cmocka_unit_test(fixed_directions_stay),
+        cmocka_unit_test(below_the_bed),
         cmocka_unit_test(a_float_on_two_strings),
         cmocka_unit_test(stiffness_of_a_heeled_body),
         cmocka_unit_test(oc3_at_rest),

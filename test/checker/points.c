@@ -117,7 +117,7 @@ static void check_balance(const Points *p, const Junction *at) {
     if (at->has_place && !is_balanced)
         find(p, "it is said to have a place, but %.6g N are left, of %.6g N", left, p->largest);
     if (!at->has_place && p->certified)
-        find(p, "it has no place, but lines that end at free points are certified");
+        find(p, "it has no place, but lines that end there are certified");
 }
 
 /* The plane in which an anchor bears: a plane on which it lies, or a level one. */
@@ -289,13 +289,13 @@ static void check_step(Points *p) {
     }
 }
 
-/* Whether a line that ends at a free point claims to be certified, other than by a proof that there
+/* Whether a line that ends at the point claims to be certified, other than by a proof that there
  * is nothing to find. */
 static bool is_claimed(const Points *p, bool (*certified)(int outcome)) {
     for (size_t i = 0; i < p->source->lines; i++)
         for (int e = 0; e < 2; e++) {
             const int k = p->line[i].end_point[e];
-            if (k >= 0 && !is_held(&p->now[k]) && certified(p->line[i].outcome) &&
+            if (k == (int)p->point && !is_held(&p->now[k]) && certified(p->line[i].outcome) &&
                 !groups_claim(&p->line[i]))
                 return true;
         }
@@ -313,9 +313,10 @@ static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
         if (bad) return -1;
         p->has_friction = !(source->has_static && p->step == 0);
         check_step(p);
-        p->certified = is_claimed(p, certified);
-        for (p->point = 0; p->point < source->points; p->point++)
+        for (p->point = 0; p->point < source->points; p->point++) {
+            p->certified = is_claimed(p, certified);
             check_balance(p, &p->now[p->point]);
+        }
         for (size_t k = 0; k < source->points; k++)
             p->gives[k] = p->anchor[k].drags || (p->has_surface && p->water[k].displaced > 0);
         if (p->bodies.count > 0 && bodies_read(source, &p->bodies, p->step, p->body, log))

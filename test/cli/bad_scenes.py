@@ -137,6 +137,7 @@ CHANGES = [
     ("a grade that grows", "elements: 4", "elements: 4\n    grade: {towards: B, ratio: 0.5}", INPUT, "7:25: 'ratio': found '0.5', expected a number, from 1 to 1000000"),
     ("a grade without a ratio", PLAIN, made("[{type: chain, length: 10, elements: 4, grade: {towards: A}}]"), INPUT, "8:55: 'grade': 'ratio' is missing"),
     ("a pretension of nothing", "stiffness: 1e6", "stiffness: 1e6\n    pretension: {end: B}", INPUT, "9:5: 'pretension': nothing given, expected exactly one of 'tension', 'horizontal'"),
+    ("a pretension and a grasp", GOOD[GOOD.index("    start"):], "    pretension: {end: B, tension: 1}\n    start: static\n    ends: {A: {held: [0, 0, 0]}, B: {held: [9, 0, 0]}}\nhistory: [{name: x, cable.node: {at: 1, hold: true}}]\n", INPUT, "9:5: 'pretension': the history grasps a node of this line"),
     ("a pretension of both kinds", "stiffness: 1e6", "stiffness: 1e6\n    pretension: {end: B, tension: 1, horizontal: 1}", INPUT, "9:5: 'pretension': too much given, expected exactly one of"),
     ("a negative pretension", "stiffness: 1e6", "stiffness: 1e6\n    pretension: {end: B, tension: -1}", INPUT, "9:26: 'tension': found '-1', expected a number in N, greater than 0"),
     ("a pretension of a shape", "stiffness: 1e6", "stiffness: 1e6\n    pretension: {end: B, tension: 1}", INPUT, "9:5: line 'cable': pretension: the line starts as a shape of its length, expected a static start"),

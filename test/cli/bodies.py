@@ -62,6 +62,21 @@ lines:
   string: {length: 10, elements: 4, weight: 1, stiffness: 1e6, start: {straight: {from: [0, 0, 0], to: [0, 0, -10]}}, ends: {A: {point: hook}, B: {point: eye}}}
 history: [{name: twist, stone.body: {moment: [0, 0, 3]}}]
 """
+TWO_GROUPS = """
+capstan: 1
+bodies: {stone: {held: [9, 9, 9]}}
+points:
+  eye: {body: stone}
+  h: {held: [0, 0, 0]}
+  g: {held: [20, 0, 0]}
+  f: {free: [5, 0, 0], force: [50, 0, 0]}
+  k: {free: [5, 5, 0], weight: 10}
+lines:
+  l: {length: 9, elements: 1, weight: 0, stiffness: .inf, start: static, ends: {A: {point: h}, B: {point: f}}}
+  m: {length: 10, elements: 1, weight: 0, stiffness: .inf, start: static, ends: {A: {point: f}, B: {point: g}}}
+  n: {length: 9, elements: 1, weight: 0, stiffness: .inf, start: static, ends: {A: {point: h}, B: {point: k}}}
+  o: {length: 20, elements: 2, weight: 1, stiffness: 1e6, start: static, ends: {A: {point: eye}, B: {held: [0, 0, 9]}}}
+"""
 FALLING = """
 capstan: 1
 bodies: {stone: {free: [0, 0, 0], weight: 5}}
@@ -373,6 +388,12 @@ def main():
         check("by its power", abs(fall["fall_N"] - expected) < 1e-9, fall)
         checked = subprocess.run([sys.argv[2], "falling/result.nc", "falling.yaml"], capture_output=True, text=True, check=False)
         check("the checker", checked.returncode == 0, checked.stdout)
+
+        # lines too short beside a group that has its places
+        write("groups.yaml", TWO_GROUPS)
+        run("groups.yaml", "-o", "groups", code=5)
+        checked = subprocess.run([sys.argv[2], "groups/result.nc", "groups.yaml"], capture_output=True, text=True, check=False)
+        check("the checker, two groups", checked.returncode == 0, checked.stdout)
 
         # the methods of 1990
         for arguments in (["run", "scene.yaml", "--method", "regularized"], ["study", "scene.yaml", "--history"]):

@@ -669,6 +669,14 @@ static CpsStatus find_length(const CpsiDocument *d, const CpsiPretensionValues *
     return CPS_OK;
 }
 
+/* Does the history grasp a node of the line? */
+static bool is_grasped(const CpsScene *scene, int line) {
+    for (int s = 0; s < scene->stage_count; s++)
+        for (int k = 0; k < scene->stage[s].grasp_change_count; k++)
+            if (scene->stage[s].grasp_change[k].line == line) return true;
+    return false;
+}
+
 CpsStatus cpsi_scene_find_lengths(const CpsiDocument *d, const CpsiSceneValues *values,
                                   CpsiPool *pool, CpsScene *scene) {
     const CpsiLineValues *from = values->lines.item;
@@ -681,7 +689,13 @@ CpsStatus cpsi_scene_find_lengths(const CpsiDocument *d, const CpsiSceneValues *
     scene->line = line;
     CpsStatus status = CPS_OK;
     for (int i = 0; i < scene->line_count && status == CPS_OK; i++)
-        if (from[i].pretension.node)
+        if (from[i].pretension.node && is_grasped(scene, i))
+            status = cpsi_document_fail(
+                d, CPS_ERR_INPUT, from[i].pretension.node,
+                "'pretension': the history grasps a node of this line, whose arc length is not "
+                "known before the length is found; give the line the length that `capstan check` "
+                "prints without these entries, and no pretension");
+        else if (from[i].pretension.node)
             status = find_length(d, &from[i].pretension, pool, scene, &line[i]);
     return status;
 }
