@@ -18,7 +18,7 @@
 #include "signals.h"
 
 enum { MAX_CURVES = 72, MAX_STEPS = 1000, DEFAULT_STEPS = 10, NAME_WIDTH = 16 };
-/* Without --to: this share of the longest line, about what holds a mooring of usual slackness. */
+/* Without --to the largest offset is this share of the longest line: a choice, not a limit. */
 static const double DEFAULT_SHARE = 0.01;
 
 static const char *const DEFAULT_HEADINGS = "0,45,90,135,180,225,270,315";

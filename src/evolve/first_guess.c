@@ -255,8 +255,6 @@ static bool has_several_planes(const CpsEvolution *evolution) {
     return evolution->obstacle_count > 1;
 }
 
-/* Begin where the points and bodies go on the tangent planes of the reference, the bodies in rounds
- * about the poses of the round before; false where that has no solution. */
 /* Points that stick stay where they were, and others that touch are on the surface. */
 static void settle_points(CpsiBalance *balance) {
     for (int k = 0; k < balance->count; k++) {
@@ -270,6 +268,8 @@ static void settle_points(CpsiBalance *balance) {
     }
 }
 
+/* Begin where the points and bodies go on the tangent planes of the reference, the bodies in rounds
+ * about the poses of the round before; false where that has no solution. */
 bool cpsi_guess_places(CpsiBalance *balance, bool refined) {
     CpsEvolution *evolution = balance->evolution;
     const CpsiStepOptions options = cpsi_trial_options(evolution);
