@@ -474,13 +474,27 @@ static void check_stable(const Check *c, const BodyState *at) {
 
 /* A free body does not move along its fixed axes. */
 static void check_fixed(const Check *c, const BodyState *at) {
+    const BodyData *data = &c->bodies->data[c->body];
     const BodyState *was = &c->before[c->body];
-    if (c->step == 0 || at->kind != BODY_FREE || was->kind != BODY_FREE) return;
+    const bool first = c->step == 0;
+    if (at->kind != BODY_FREE || (first ? data->kind : was->kind) != BODY_FREE) return;
+    const double *from = first ? data->start_position : was->position,
+                 *turned = first ? data->start_rotation : was->rotation;
+    const double allowed =
+        COPIED * (size(at->position) + size(c->source->origin) + c->arm[c->body]);
     for (int i = 0; i < 3; i++)
-        if (c->bodies->data[c->body].fixed[i])
-            at_most(c, "displacement in a fixed direction",
-                    fabs(at->position[i] - was->position[i]),
-                    COPIED * (size(at->position) + size(c->source->origin) + c->arm[c->body]));
+        if (data->fixed[i])
+            at_most(c, "displacement in a fixed direction", fabs(at->position[i] - from[i]),
+                    allowed);
+    double product = 0, sizes[2] = {0};
+    for (int k = 0; k < FOUR; k++) {
+        product += at->rotation[k] * turned[k];
+        sizes[0] += at->rotation[k] * at->rotation[k];
+        sizes[1] += turned[k] * turned[k];
+    }
+    if (data->fixed[3] && data->fixed[4] && data->fixed[5]) /* 1 - cos of half the turn */
+        at_most(c, "rotation of a body that does not turn",
+                1 - fabs(product) / sqrt(sizes[0] * sizes[1]), COPIED);
 }
 
 /* Whether a line that ends on it claims to be certified. */
