@@ -26,5 +26,5 @@ def parting_lines(program):
             f"| {scenes} | {steps} | {breaks} | {fallen} | {opened} | {near} | {off} | {wrong} |", ""]
 
 
-FIGURES = {"warm-steps": warm_steps, "parting-lines": parting_lines, "spar-thrust": spar.thrust}
+FIGURES = {"warm-steps": warm_steps, "parting-lines": parting_lines, "spar-thrust": spar.thrust, "spar-lifts": spar.lifts}
 PICTURES = {"spar-thrust": spar.loops}
