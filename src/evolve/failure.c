@@ -37,6 +37,12 @@ void cpsi_release_end(CpsEvolution *evolution, int line, int end, CpsRelease by)
     cpsi_follow_releases(evolution);
 }
 
+CpsEnd cpsi_end_now(const CpsEvolution *evolution, int line, int end) {
+    const CpsRelease release = evolution->release[2 * line + end];
+    const bool is_let_go = release == CPS_RELEASE_BY_STAGE || release == CPS_RELEASE_BY_BREAK;
+    return is_let_go ? (CpsEnd){.kind = CPS_END_KIND_FREE} : evolution->line[line].end[end];
+}
+
 bool cpsi_change_is_lost(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
                          const CpsChange *change) {
     return stage != &evolution->live &&
@@ -72,10 +78,10 @@ static Share share_of(const CpsiLine *line) {
 }
 
 /* Is there something to let go at an end: is it held, or does a force act on it? */
-static bool is_loaded(const CpsiLine *line, int end) {
-    const double *value = line->end[end].value;
-    return line->end[end].kind == CPS_END_KIND_HELD || value[0] != 0 || value[1] != 0 ||
-           value[2] != 0;
+static bool is_loaded(const CpsEvolution *evolution, int line, int end) {
+    const CpsEnd now = cpsi_end_now(evolution, line, end);
+    return now.kind == CPS_END_KIND_HELD || now.value[0] != 0 || now.value[1] != 0 ||
+           now.value[2] != 0;
 }
 
 CpsBreak cpsi_break_due(const CpsEvolution *evolution) {
@@ -86,7 +92,8 @@ CpsBreak cpsi_break_due(const CpsEvolution *evolution) {
     double most = 1;
     for (int i = 0; i < evolution->line_count; i++) {
         const CpsiLine *line = &evolution->line[i];
-        if (!line->has_break_at || !(is_loaded(line, CPS_END_A) || is_loaded(line, CPS_END_B)))
+        if (!line->has_break_at ||
+            !(is_loaded(evolution, i, CPS_END_A) || is_loaded(evolution, i, CPS_END_B)))
             continue;
         const Share share = share_of(line);
         if (!(share.most > most * (due.is_break ? 1 + EQUAL : 1))) continue;
@@ -94,7 +101,7 @@ CpsBreak cpsi_break_due(const CpsEvolution *evolution) {
         const int nearest = share.arc_length < 0.5 * line->length ? CPS_END_A : CPS_END_B;
         due = (CpsBreak){.is_break = true,
                          .line = i,
-                         .end = is_loaded(line, nearest) ? nearest : 1 - nearest,
+                         .end = is_loaded(evolution, i, nearest) ? nearest : 1 - nearest,
                          .tension = share.tension,
                          .break_at = share.break_at,
                          .arc_length = share.arc_length};

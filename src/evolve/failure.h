@@ -12,6 +12,10 @@ void cpsi_release_end(CpsEvolution *evolution, int line, int end, CpsRelease by)
 /* Set which ends are at points, after releases have changed. */
 void cpsi_follow_releases(CpsEvolution *evolution);
 
+/* What is imposed on an end now. One that was let go is free, also after a step without a certified
+ * answer, which has left the line as it was before. */
+CpsEnd cpsi_end_now(const CpsEvolution *evolution, int line, int end);
+
 /* Does a change of a stage name an end that has parted, which it leaves alone? */
 bool cpsi_change_is_lost(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
                          const CpsChange *change);

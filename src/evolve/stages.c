@@ -255,7 +255,8 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
     plan_weights(evolution, stage, part);
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++)
-            evolution->move[i].from[end] = evolution->move[i].to[end] = evolution->line[i].end[end];
+            evolution->move[i].from[end] = evolution->move[i].to[end] =
+                cpsi_end_now(evolution, i, end);
     for (int k = 0; k < stage->change_count; k++) {
         const CpsChange *change = &stage->change[k];
         if (cpsi_change_is_lost(evolution, stage, change)) continue;
@@ -292,7 +293,8 @@ static void plan_rest(CpsEvolution *evolution) {
     for (int i = 0; i < evolution->line_count; i++) {
         const CpsiLine *line = &evolution->line[i];
         CpsiMove *move = &evolution->move[i];
-        for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
+        for (int end = 0; end < 2; end++)
+            move->from[end] = move->to[end] = cpsi_end_now(evolution, i, end);
         move->grasp_count = line->grasp_count;
         for (int k = 0; k < line->grasp_count; k++)
             move->grasp_from[k] = move->grasp_to[k] = line->grasp[k].imposed;

@@ -201,7 +201,9 @@ static void check_ends(const Failures *f) {
             const bool own = breaks && (size_t)source->break_line[f->step] == i &&
                              (int)source->break_end[f->step] == e;
             const double *force = r->applied_force[e];
-            const bool let_go = r->release[e] == RELEASE_STAGE || r->release[e] == RELEASE_BREAK;
+            /* what is not certified is left as it was before */
+            const bool let_go = r->outcome <= OUTCOME_TAUT &&
+                                (r->release[e] == RELEASE_STAGE || r->release[e] == RELEASE_BREAK);
             if (r->release[e] == RELEASE_BREAK && was != RELEASE_BREAK && !own)
                 find(f, i, "end %c has parted, but the step is no break of it", e ? 'B' : 'A');
             if (r->release[e] == RELEASE_NONE && was != RELEASE_NONE)
