@@ -22,12 +22,13 @@ enum { PATIENT = 40 };
 static const double ACROSS = 1e3;
 
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
-                        int joints, int bodies, const CpsiLinsysOps *ops, CpsiGraphMatrix *matrix) {
+                        int joints, int bodies, const CpsiLinsysOps *ops,
+                        const CpsiNetworkTools *tools) {
     const bool own_axes = count > 0 && line[0].has_local_axes;
     int most = 1;
     for (int k = 0; k < count; k++) most = line[k].n > most ? line[k].n : most;
     *network = (CpsiNetwork){.lines = count, .joints = joints};
-    cpsi_network_layout(&network->program, arena, count + joints, 2 * most, joints, bodies, matrix);
+    cpsi_network_layout(&network->program, arena, count + joints, 2 * most, joints, bodies, tools);
     CPSI_PLACE(arena, network->chain, count + joints);
     CPSI_PLACE(arena, network->joined, count);
     for (int k = 0; k < count + joints; k++) {

@@ -45,10 +45,10 @@ typedef struct CpsiNetwork {
     CpsiJoined *joined;      /* (lines) each line's part of the solution */
 } CpsiNetwork;
 
-/* Place the arrays for the lines (count) and so many joints and bodies, whose matrix belongs to the
- * caller. */
+/* Place the arrays for the lines (count) and so many joints and bodies. */
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
-                        int joints, int bodies, const CpsiLinsysOps *ops, CpsiGraphMatrix *matrix);
+                        int joints, int bodies, const CpsiLinsysOps *ops,
+                        const CpsiNetworkTools *tools);
 
 /* The part of it that a step moves. */
 typedef struct CpsiNetworkPart {

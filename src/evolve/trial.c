@@ -23,6 +23,7 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
     CpsiGraphMatrix *matrix =
         cpsi_joint_system(&evolution->points, &evolution->bodies, evolution->line_count);
     if (!matrix) return NULL;
+    const CpsiNetworkTools tools = {matrix, evolution->workers, evolution->workspace_count};
     CpsiBalance *balance = NULL, measured = {0};
     CpsiArena arena = {0};
     for (int pass = 0; pass < 2; pass++) {
@@ -53,7 +54,7 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->guess.body, 6 * bodies);
         CPSI_PLACE(&arena, to->guess.pull, 6 * lines);
         cpsi_network_place(&to->network, &arena, evolution->line, (int)lines, (int)points,
-                           (int)bodies, evolution->workspace[0].program.ops, matrix);
+                           (int)bodies, evolution->workspace[0].program.ops, &tools);
         size_t all = 0;
         for (size_t i = 0; i < lines; i++) {
             if (placed) to->offset[i] = all;
