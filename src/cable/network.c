@@ -323,9 +323,10 @@ bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkP
                                 .sharpenings = part->is_refined ? CPSI_REFINEMENT_STEPS : 0};
     const bool solved = solve(network, line, part, options, ipm, out);
     network->turned = 0;
-    for (int k = 0; k < part->lines && solved; k++)
+    if (!solved) return false;
+    for (int k = 0; k < part->lines; k++)
         follow(&line[part->number[k]], &network->joined[k], options, &network->turned);
-    return solved;
+    return true;
 }
 
 bool cpsi_network_solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,

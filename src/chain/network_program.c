@@ -284,25 +284,25 @@ static int chains_of_item(const CpsiNetworkProgram *network) {
 }
 
 /* What a thread does of a pass over the chains: those of one item. */
-typedef struct Work {
+typedef struct Pass {
     CpsiNetworkProgram *network;
     int chains; /* of an item */
     void (*of_chain)(CpsiNetworkProgram *network, double *kept, int k);
-} Work;
+} Pass;
 
-static void work_on_item(void *data, int worker, int item) {
-    const Work *work = data;
-    CpsiNetworkProgram *network = work->network;
-    const int first = item * work->chains, past = first + work->chains;
+static void pass_over_item(void *data, int worker, int item) {
+    const Pass *pass = data;
+    CpsiNetworkProgram *network = pass->network;
+    const int first = item * pass->chains, past = first + pass->chains;
     double *kept = &network->kept[(size_t)worker * (size_t)network->longest];
-    for (int k = first; k < past && k < network->count; k++) work->of_chain(network, kept, k);
+    for (int k = first; k < past && k < network->count; k++) pass->of_chain(network, kept, k);
 }
 
 static void for_each_chain(CpsiNetworkProgram *network,
                            void (*of_chain)(CpsiNetworkProgram *, double *, int)) {
-    Work work = {network, chains_of_item(network), of_chain};
-    const int items = (network->count + work.chains - 1) / work.chains;
-    cpsi_workers_run(items > 1 ? network->workers : NULL, work_on_item, &work, items);
+    Pass pass = {network, chains_of_item(network), of_chain};
+    const int items = (network->count + pass.chains - 1) / pass.chains;
+    cpsi_workers_run(items > 1 ? network->workers : NULL, pass_over_item, &pass, items);
 }
 
 static void factor_chain(CpsiNetworkProgram *network, double *kept, int k) {
