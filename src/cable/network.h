@@ -53,6 +53,7 @@ void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *
 typedef struct CpsiNetworkPart {
     int lines, joints, bodies;
     int own;                     /* the first joints are on no body */
+    double longer;               /* factor of the elements' lengths */
     double target;               /* relative gap of the solution */
     bool is_refined;             /* by steps in which what sticks moves ever less */
     const int *number;           /* (lines) of those that the network was laid out for */
