@@ -130,7 +130,7 @@ static void add_bounded_forces(const CpsiJoint *joint, int k, const double axes[
 /* The units of all lines. */
 static CpsiStepScale scale_of(const CpsiLine *line, const CpsiNetworkPart *part,
                               CpsiBounds bounds) {
-    CpsiStepScale scale = {.longer = 1, .bounds = bounds};
+    CpsiStepScale scale = {.longer = part->longer, .bounds = bounds};
     for (int k = 0; k < part->lines; k++) {
         const CpsiLine *one = &line[part->number[k]];
         scale.length = fmax(scale.length, one->length);

@@ -54,6 +54,7 @@ void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *
 typedef struct CpsiNetworkPart {
     int lines, joints, bodies;
     int own;                     /* the first joints are on no body */
+    double longer;               /* factor of the elements' lengths */
     double target;               /* relative gap of the solution */
     bool is_refined;             /* by steps in which what sticks moves ever less */
     bool continues;              /* on the tangent planes to which the last guess has led */

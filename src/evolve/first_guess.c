@@ -196,6 +196,7 @@ CpsiNetworkPart cpsi_network_part(CpsiBalance *balance, bool first) {
                                   .joints = cpsi_place_joints(balance, first),
                                   .bodies = balance->body_count,
                                   .own = balance->count,
+                                  .longer = 1,
                                   .number = balance->line,
                                   .at = (const int(*)[2])balance->ends,
                                   .joint = balance->joint,
@@ -215,11 +216,12 @@ static void restore_lines(CpsiBalance *balance) {
         cpsi_trial_restore_line(balance, balance->line[item]);
 }
 
-void cpsi_solve_places(CpsiBalance *balance) {
+void cpsi_solve_places(CpsiBalance *balance, double longer) {
     CpsEvolution *evolution = balance->evolution;
     const CpsiStepOptions options = cpsi_trial_options(evolution);
     restore_lines(balance);
-    const CpsiNetworkPart part = cpsi_network_part(balance, true);
+    CpsiNetworkPart part = cpsi_network_part(balance, true);
+    part.longer = longer;
     (void)cpsi_network_solve(&balance->network, evolution->line, &part, &options, &balance->guess);
     restore_lines(balance);
 }

@@ -36,11 +36,10 @@ static const char *const CLASS[CLASSES] = {"star", "tree",  "ring",         "net
 /* The share of steps of a class that are to have no equilibrium, so that proofs are tested. */
 static const double REFUSED[CLASSES] = {[LOOSE] = 0.1, [SHORT] = 0.05};
 
-/* What is left of the forces on a point, per largest force, the loads of all points included:
- * points balance to 1e-6. The tension of what rests slack on the bed is known to the strain RESTING
- * times EA, as random_joined finds it of single lines too, or to what the rms bound of the line's
- * certificate allows in one element; and any to what the certificate says of its strains and
- * tensions. All these are to be known to STRAIN and TENSION. */
+/* What is left of the forces on a point, per largest force: points balance to 1e-6. The
+ * tension of what rests slack on the bed is known to the strain RESTING times EA, as random_joined
+ * finds it of single lines too, and any to what the line's certificate says of its strains and
+ * tensions, which are to be known to STRAIN and TENSION. */
 static const double LEFT = 2e-6, RESTING = 3e-8, STRAIN = 1e-7, TENSION = 1e-4;
 /* Share of the steps of a class that may be open. */
 static const double OPEN_SHARE = 0.005;
@@ -336,7 +335,7 @@ typedef struct Pulls {
     double sum[3], largest, known; /* [N]; known: how well the forces follow from the places */
 } Pulls;
 
-/* The pulls on all points; returns the largest force in any line or on a point. */
+/* The pulls on all points; returns the largest force in any line. */
 static double add_pulls(const Graph *g, const CpsEvolution *evolution, Pulls *pulls) {
     double largest = 0;
     memset(pulls, 0, (size_t)g->scene.point_count * sizeof *pulls);
@@ -347,18 +346,13 @@ static double add_pulls(const Graph *g, const CpsEvolution *evolution, Pulls *pu
         largest = fmax(largest, line.largest_force);
         for (int end = 0; end < 2; end++) {
             Pulls *at = &pulls[g->line[k].end_point[end]];
-            const int e = end == CPS_END_A ? 0 : view.element_count - 1;
-            const double EA = g->line[k].stiffness,
-                         one = line.tension_bound *
-                               sqrt(g->line[k].length / view.element_length[e]) / EA;
+            const double EA = g->line[k].stiffness;
             add_pull(&view, EA, end, weight, at->sum, &at->largest);
-            at->known += (isfinite(EA) ? EA : 0) * (fmax(RESTING, fmin(one, STRAIN)) +
-                                                    fmin(line.elongation_residual, STRAIN)) +
-                         fmin(line.tension_estimate, TENSION * line.largest_force);
+            at->known +=
+                (isfinite(EA) ? EA : 0) * (RESTING + fmin(line.elongation_residual, STRAIN)) +
+                fmin(line.tension_estimate, TENSION * line.largest_force);
         }
     }
-    for (int k = 0; k < g->scene.point_count; k++)
-        largest = fmax(largest, norm(cps_evolution_point_report(evolution, k).load));
     return largest;
 }
 
