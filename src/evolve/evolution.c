@@ -297,11 +297,24 @@ CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line)
     return report;
 }
 
-bool cps_evolution_obstacle(const CpsEvolution *evolution, int obstacle, double point[3]) {
-    if (!evolution || !point || obstacle < 0 || obstacle >= evolution->obstacle_count) return false;
-    vec3_store(point,
-               vec3_add(evolution->obstacle[obstacle].frame.point, vec3_load(evolution->origin)));
-    return true;
+int cps_evolution_obstacle_count(const CpsEvolution *evolution) {
+    return evolution ? evolution->obstacle_count : 0;
+}
+
+CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution, int obstacle) {
+    CpsObstacleReport report = {.turned = 0};
+    if (obstacle < 0 || obstacle >= cps_evolution_obstacle_count(evolution)) return report;
+    const CpsiObstacle *now = &evolution->obstacle[obstacle];
+    const CpsiShift *shift = &evolution->shift[obstacle];
+    vec3_store(report.point, vec3_add(now->frame.point, vec3_load(evolution->origin)));
+    vec3_store(report.axis, now->frame.axis[2]);
+    vec3_store(report.grain, now->grain);
+    vec3_store(report.by, shift->by);
+    vec3_store(report.turn, shift->turn);
+    if (!cpsi_vec3_is_zero(shift->turn))
+        vec3_store(report.about, vec3_add(shift->about, vec3_load(evolution->origin)));
+    report.turned = evolution->angle[obstacle];
+    return report;
 }
 
 int cps_evolution_point_count(const CpsEvolution *evolution) {

@@ -150,7 +150,7 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
     at->friction = evolution->has_static && evolution->done == 0 ? 0 : on->friction[0];
     const Vec3 before =
-        cpsi_obstacle_carry(on, vec3_load(point->before), evolution->shift[at->obstacle],
+        cpsi_obstacle_carry(on, vec3_load(point->before), &evolution->shift[at->obstacle],
                             evolution->angle[at->obstacle]);
     at->slip = cpsi_obstacle_slip(on, before, at->place);
     at->start = vec3_axpy(-cpsi_obstacle_gap(on, before), cpsi_obstacle_normal(on, before), before);
