@@ -96,12 +96,14 @@ static void start(CpsiProgram *program, double mu, double margin) {
     }
 }
 
-static void measure(CpsiProgram *program, CpsiSums *sums) {
+static void measure(CpsiProgram *program, double alpha, CpsiSums *sums) {
     CpsiNetworkProgram *network = network_of(program);
     for (int k = 0; k < network->count; k++) {
         CpsiProgram *chain = &network->chain[k].base;
         memcpy(chain->residual, chain->load, numbers(&network->chain[k]) * sizeof(double));
-        for (int i = 0; i < chain->kind_count; i++) chain->kind[i]->measure(chain, sums);
+        if (alpha != 0)
+            for (int i = 0; i < chain->size; i++) chain->u[i] += alpha * chain->du[i];
+        for (int i = 0; i < chain->kind_count; i++) chain->kind[i]->measure(chain, alpha, sums);
         gather(network, k, chain->residual, program->residual);
     }
     for (int k = 0; k < network->bodies; k++) {
@@ -122,55 +124,27 @@ static void scale(CpsiProgram *program) {
     }
 }
 
-static void predict(CpsiProgram *program) {
+static void load(CpsiProgram *program, const CpsiIpmAim *aim) {
     CpsiNetworkProgram *network = network_of(program);
     for (int k = 0; k < network->count; k++) {
         CpsiProgram *chain = &network->chain[k].base;
+        for (int i = 0; i < chain->size; i++) chain->du[i] = aim->keep * chain->residual[i];
         for (int i = 0; i < chain->kind_count; i++)
-            if (chain->kind[i]->predict) chain->kind[i]->predict(chain);
-    }
-}
-
-static void load(CpsiProgram *program, double keep) {
-    CpsiNetworkProgram *network = network_of(program);
-    for (int k = 0; k < network->count; k++) {
-        CpsiProgram *chain = &network->chain[k].base;
-        for (int i = 0; i < chain->size; i++) chain->du[i] = keep * chain->residual[i];
-        for (int i = 0; i < chain->kind_count; i++)
-            if (chain->kind[i]->load) chain->kind[i]->load(chain, keep);
+            if (chain->kind[i]->load) chain->kind[i]->load(chain, aim);
         gather(network, k, chain->du, program->du);
     }
 }
 
-static void direct(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums) {
+static void direct(CpsiProgram *program, const CpsiIpmAim *aim, CpsiSums *sums) {
     CpsiNetworkProgram *network = network_of(program);
     for (int k = 0; k < network->count; k++) {
         CpsiProgram *chain = &network->chain[k].base;
         for (int i = 0; i < chain->kind_count; i++)
-            if (chain->kind[i]->direct) chain->kind[i]->direct(chain, keep, predictor, sums);
+            if (chain->kind[i]->direct) chain->kind[i]->direct(chain, aim, sums);
     }
 }
 
-static void aim(CpsiProgram *program, double target, bool second_order) {
-    CpsiNetworkProgram *network = network_of(program);
-    for (int k = 0; k < network->count; k++) {
-        CpsiProgram *chain = &network->chain[k].base;
-        for (int i = 0; i < chain->kind_count; i++)
-            if (chain->kind[i]->aim) chain->kind[i]->aim(chain, target, second_order);
-    }
-}
-
-static void advance(CpsiProgram *program, double alpha) {
-    CpsiNetworkProgram *network = network_of(program);
-    for (int k = 0; k < network->count; k++) {
-        CpsiProgram *chain = &network->chain[k].base;
-        for (int i = 0; i < chain->size; i++) chain->u[i] += alpha * chain->du[i];
-        for (int i = 0; i < chain->kind_count; i++)
-            if (chain->kind[i]->advance) chain->kind[i]->advance(chain, alpha);
-    }
-}
-
-static const CpsiKind NETWORK = {start, measure, scale, predict, load, direct, aim, advance};
+static const CpsiKind NETWORK = {start, measure, scale, load, direct};
 static const CpsiKind *const KINDS[] = {&NETWORK, &cpsi_hinge};
 
 /* the linear system ---------------------------------------------------------------------------- */
