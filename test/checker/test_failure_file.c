@@ -1,16 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Ends that are let go and lines that part, from a scene to the checker: the file is sound and the
  * scene's, and copies with a number changed are refused, by themselves or beside their scene. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "capstan/io.h"
 #include "check.h"
-#include "checker.h"
-#include "given.h"
-#include "run_scene.h"
-#include "sample.h"
+#include "falsified.h"
 
 /* Three legs on a bed hold a buoy. It is pulled until the first leg parts, and then, in the same
  * stage, while a drum turns aside, on; the second leg is let go by the history, and its end taken
@@ -37,52 +29,19 @@ static const char SCENE[] =
     "  - {name: let go, steps: 2, b.A: {release: true}}\n"
     "  - {name: take, steps: 2, b.A: {position: [2, 3, -6]}}\n"
     "  - {name: last, a.A: {move: [1, 0, 0]}}\n";
-enum { STEPS = 10, BREAK = 3, A = 0, B = 1 };
+enum { STEPS = 10, LINES = 3, BREAK = 3, A = 0, B = 1 };
 
-static char copy[80];
-static CpsSceneFile *scene;
-
-static int solve(void **state) {
-    CpsError err;
-    if (make_scene_directory(state) != 0) return -1;
-    FILE *out = fopen(scene_path, "w");
-    if (!out || fputs(SCENE, out) < 0 || fclose(out) != 0) return -1;
-    run_scene();
-    snprintf(copy, sizeof copy, "%s-copy", scene_result);
-    return cps_scene_read(scene_path, NULL, &scene, &err) != CPS_OK;
-}
-
-static int clean(void **state) {
-    cps_scene_file_destroy(scene);
-    return remove_scene_directory(state);
-}
-
-static void copy_result(void) {
-    FILE *from = fopen(scene_result, "rb"), *to = fopen(copy, "wb");
-    assert_true(from && to);
-    for (int c; (c = getc(from)) != EOF;) putc(c, to);
-    fclose(from);
-    assert_int_equal(fclose(to), 0);
-}
+static int begin(void **state) { return falsified_begin(SCENE, state); }
 
 static void sound_file_is_the_scenes(void **state) {
     (void)state;
-    CheckerReport report;
-    CHECK_INT(checker_file(scene_result, &report, stdout), 0);
-    CHECK_INT(report.steps, STEPS);
-    CHECK_INT(report.certified, 3 * STEPS);
-    CHECK_INT(given_file(scene_result, cps_scene_file_scene(scene), stdout), 0);
+    falsified_check_sound(LINES * STEPS);
 }
 
 /* Ends A and B of a line in a step. */
 #define END(step, end) (2 * (step) + (end))
 
-static const struct {
-    const char *variable;
-    size_t index;
-    double value;
-    const char *finding; /* of the file by itself; NULL: it is sound, but not the scene's */
-} FALSE[] = {
+static const FalseNumber FALSE[] = {
     {"break_line", BREAK, -1, "no line, end or tension"},
     {"break_line", BREAK, 1, "line b: it parts, but was at"},
     {"break_line", BREAK, 3, "no line, end or tension"},
@@ -112,64 +71,32 @@ static const struct {
 
 static void falsified_copies_are_refused(void **state) {
     (void)state;
-    for (size_t i = 0; i < sizeof FALSE / sizeof *FALSE; i++) {
-        copy_result();
-        CHECK_INT(sample_poke(copy, FALSE[i].variable, FALSE[i].index, FALSE[i].value), 0);
-        char *text = NULL;
-        size_t size = 0;
-        FILE *log = open_memstream(&text, &size);
-        const int found = checker_file(copy, NULL, log);
-        fclose(log);
-        const bool is_refused =
-            FALSE[i].finding ? found != 0 && strstr(text, FALSE[i].finding) : found == 0;
-        if (!is_refused)
-            fail_msg("%s[%zu] = %g: expected \"%s\", got %d:\n%s", FALSE[i].variable,
-                     FALSE[i].index, FALSE[i].value, FALSE[i].finding ? FALSE[i].finding : "sound",
-                     found, text);
-        free(text);
-        if (!FALSE[i].finding) CHECK_INT(given_file(copy, cps_scene_file_scene(scene), NULL), 1);
-    }
-    remove(copy);
+    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
 }
 
 /* Scenes in which something else parts or is let go. */
+static const OtherScene OTHER[] = {
+    {"break_at: 600", "break_at: 601"},
+    {", break_at: 3000", ""},
+    {"b.A: {release: true}", "b.A: {release: true}, b.B: {release: true}"},
+    {"b.A: {release: true}", "b.A: {release: true}, c.B: {release: true}"},
+    {"b.A: {position: [2, 3, -6]}", "b.A: {position: [2, 3, -6.00001]}"},
+    {"b.A: {position: [2, 3, -6]}", "b.A: {release: true}"},
+    {"steps: 3, buoy.point", "steps: 4, buoy.point"},
+    {"force: [-900, 0, 0]", "force: [-900, 0, 1e-6]"},
+    {"drum.turn: 30", "drum.turn: 30.0001"},
+    {"-10.5", "-10.5001"},
+    {"  - {name: last, a.A: {move: [1, 0, 0]}}\n", ""},
+};
+
 static void other_scenes_are_refused(void **state) {
     (void)state;
-    static const struct {
-        const char *from, *to;
-    } CHANGE[] = {
-        {"break_at: 600", "break_at: 601"},
-        {", break_at: 3000", ""},
-        {"b.A: {release: true}", "b.A: {release: true}, b.B: {release: true}"},
-        {"b.A: {release: true}", "b.A: {release: true}, c.B: {release: true}"},
-        {"b.A: {position: [2, 3, -6]}", "b.A: {position: [2, 3, -6.00001]}"},
-        {"b.A: {position: [2, 3, -6]}", "b.A: {release: true}"},
-        {"steps: 3, buoy.point", "steps: 4, buoy.point"},
-        {"force: [-900, 0, 0]", "force: [-900, 0, 1e-6]"},
-        {"drum.turn: 30", "drum.turn: 30.0001"},
-        {"-10.5", "-10.5001"},
-        {"  - {name: last, a.A: {move: [1, 0, 0]}}\n", ""},
-    };
-    for (size_t i = 0; i < sizeof CHANGE / sizeof *CHANGE; i++) {
-        char text[sizeof SCENE + 200];
-        CpsSceneFile *other = NULL;
-        CpsError err = {0};
-        const char *at = strstr(SCENE, CHANGE[i].from);
-        assert_non_null(at);
-        snprintf(text, sizeof text, "%.*s%s%s", (int)(at - SCENE), SCENE, CHANGE[i].to,
-                 at + strlen(CHANGE[i].from));
-        FILE *out = fopen(scene_path, "w");
-        assert_true(out && fputs(text, out) >= 0 && fclose(out) == 0);
-        if (cps_scene_read(scene_path, NULL, &other, &err) != CPS_OK) fail_msg("%s", err.message);
-        if (given_file(scene_result, cps_scene_file_scene(other), NULL) < 1)
-            fail_msg("%s is accepted in place of %s", CHANGE[i].to, CHANGE[i].from);
-        cps_scene_file_destroy(other);
-    }
+    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
                                        cmocka_unit_test(falsified_copies_are_refused),
                                        cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, solve, clean);
+    return cmocka_run_group_tests(tests, begin, falsified_end);
 }
