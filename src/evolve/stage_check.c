@@ -80,8 +80,9 @@ static CpsStatus check_turns(const CpsScene *scene, const CpsStage *stage, const
         snprintf(place, sizeof place, "%s.turn", obstacle->name);
         if (obstacle->kind == CPS_OBSTACLE_PLANE)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                                "%s: obstacle '%s' is a plane: only a cylinder or a sphere turns",
-                                what, obstacle->name);
+                                "%s: obstacle '%s' is a plane: only a cylinder or a sphere turns "
+                                "about its own axis; %s.obstacle has turns about any",
+                                what, obstacle->name, obstacle->name);
         if (!cpsi_is_usable(turn->angle))
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                                 "%s: obstacle '%s' turns by %g, expected a finite angle", what,

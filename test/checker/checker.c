@@ -15,6 +15,7 @@
 #include "measure.h"
 #include "motion.h"
 #include "passing.h"
+#include "places.h"
 #include "points.h"
 #include "ranges.h"
 #include "reach.h"
@@ -145,7 +146,8 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
     check_unaccounted(findings, r, m);
     same(findings, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
     same(findings, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
-    same(findings, "ledger_obstacles", entry[LEDGER_OBSTACLES], m->carried + ends_carried, floor);
+    same(findings, "ledger_obstacles", entry[LEDGER_OBSTACLES],
+         m->carried + m->pushed + ends_carried, floor);
 }
 
 /* Forces, tensions and friction of the half elements at the ends; the sums of their dissipation and
@@ -467,10 +469,12 @@ static void check_bend(Findings *findings, const Record *r, const Measures *m) {
     same(findings, "turn at bend_at", r->bend_turn, bend->there, BEND_TOLERANCE);
 }
 
-static void check_record(const Source *source, const Record *r, const char *line, size_t step,
-                         FILE *log, CheckerReport *report) {
+/* `before` is the step before it, or NULL. */
+static void check_record(const Source *source, const Record *r, const Record *before,
+                         const char *line, size_t step, FILE *log, CheckerReport *report) {
     Findings findings = {log, line, step, 0};
     Measures m = measure_where(source, r, step);
+    if (source->moves && !m.missing) m.pushed = (double)places_work(source, r, before);
     const char *wrong;
     bool laid;
     report->records++;
@@ -663,7 +667,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
     for (size_t step = 0; step < source->steps && !bad; step++) {
         bad = record_read(source, line, step, &record, log);
         if (bad) break;
-        check_record(source, &record, line, step, log, report);
+        check_record(source, &record, step > 0 ? &previous : NULL, line, step, log, report);
         Findings findings = {log, line, step, 0};
         if (step > 0 && record.substeps == 1 &&
             memcmp(record.reference, previous.position, record.nodes * sizeof(Vector)) != 0)

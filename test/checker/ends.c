@@ -82,9 +82,9 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
     widen(r->position[j], x);
     widen(r->reference[j], reference);
     surface_normal(surface, x, n);
-    surface_carry(surface, reference, (Real)r->share * r->turn[k], carried);
+    surface_carry(surface, reference, r->share, r->turn[k], carried);
     surface_slip(surface, carried, x, slip);
-    surface_slip(surface, reference, x, own);
+    surface_own(surface, x, reference, r->share, own);
     end.reaction = fmaxl(0, dot(n, end.force));
     const bool neighbour_held = (next == 0 && r->end_kind[0] == END_HELD) ||
                                 (next == r->elements && r->end_kind[1] == END_HELD);
@@ -92,7 +92,8 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
         set_friction(source, r, j, next, k, n, end.reaction, slip, end.friction);
     for (int i = 0; i < 3; i++) end.force[i] -= end.reaction * n[i] + end.friction[i];
     end.slid = -dot(end.friction, slip);
-    end.carried = r->turn[k] != 0 ? dot(end.friction, own) - dot(end.friction, slip) : 0;
+    const bool moves = r->turn[k] != 0 || surface_moves(surface);
+    end.carried = moves ? dot(end.friction, own) - dot(end.friction, slip) : 0;
     return end;
 }
 

@@ -335,6 +335,38 @@ static void compare_turns(Compare *compare, size_t step, const Record *r) {
     }
 }
 
+/* The shift of obstacle k in a step: the scene's, in equal parts. */
+static void compare_shifts(Compare *compare, size_t step) {
+    int stage = 0, part = 0;
+    const bool staged = stage_of(compare, step, &stage, &part);
+    for (int k = 0; k < compare->scene->obstacle_count; k++) {
+        const Surface *s = &compare->source.surface[k];
+        const CpsStage *at = staged ? &compare->scene->stage[stage] : NULL;
+        double given[9] = {0}, size = 0;
+        for (int i = 0; at && i < at->shift_count; i++) {
+            const CpsShift *shift = &at->shift[i];
+            if (shift->obstacle != k) continue;
+            for (int a = 0; a < 3; a++) {
+                given[a] = shift->by[a] / at->step_count;
+                given[3 + a] = shift->turn[a] / at->step_count;
+                given[6 + a] = shift->about[a] + (part - 1) * given[a] - compare->source.origin[a];
+            }
+            const double *turn = shift->turn;
+            if (turn[0] == 0 && turn[1] == 0 && turn[2] == 0)
+                for (int a = 0; a < 3; a++) given[6 + a] = 0;
+        }
+        for (int a = 0; a < 9; a++) size = fmax(size, fabs(given[a]));
+        for (int a = 0; a < 9; a++) {
+            const double found = (double)(a < 3   ? s->by[a]
+                                          : a < 6 ? s->spin[a - 3]
+                                                  : s->about[a - 6]);
+            if (!(fabs(found - given[a]) <= COMPUTED * size))
+                find(compare, "shift of obstacle %s, step %zu, is %.17g, in the scene %.17g",
+                     compare->scene->obstacle[k].name, step, found, given[a]);
+        }
+    }
+}
+
 /* Whether the end is at a point, the same as in the scene: then nothing is imposed on it here. */
 static bool is_at_point(Compare *compare, const CpsLine *line, int e, const Record *r) {
     const bool is_at = line->end[e].kind == CPS_END_KIND_POINT;
@@ -655,6 +687,7 @@ static int compare_steps(Compare *compare, int index) {
         if (!bad) compare_grasps(compare, line, index, step, step > 0 ? &before : NULL, &now);
         if (!bad) compare_loads(compare, line, step, &now);
         if (!bad && index == 0) compare_turns(compare, step, &now);
+        if (!bad && index == 0) compare_shifts(compare, step);
         const Record swap = before;
         before = now;
         now = swap;

@@ -266,7 +266,7 @@ static void check_friction(const Points *p, const Junction *at) {
     Real from[3], to[3], carried[3], slip[3];
     widen(p->before[p->point].position, from);
     widen(at->position, to);
-    surface_carry(surface, from, p->line[0].turn[at->obstacle], carried);
+    surface_carry(surface, from, 1, p->line[0].turn[at->obstacle], carried);
     surface_slip(surface, carried, to, slip);
     at_most(p, "error of the slip", apart(at->slip, slip), 2 * way);
 }

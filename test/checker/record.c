@@ -5,6 +5,7 @@
 #include "record.h"
 #include "elongation.h"
 #include "grasps.h"
+#include "places.h"
 
 #include <math.h>
 #include <netcdf.h>
@@ -307,7 +308,7 @@ int source_open(const char *path, Source *source, FILE *log) {
     source->consistent = attribute_is(source, "friction_policy", "consistent");
     source->touching_only = attribute_is(source, "contact_policy", "reference");
     source->has_static = first_step_is_static(source);
-    if (read_surfaces(source, log)) return -1;
+    if (read_surfaces(source, log) || places_open(source, log)) return -1;
 
     if (read_names(source, "lines", &source->line_name, &source->lines, log)) return -1;
     return read_points(source, log);
@@ -323,6 +324,7 @@ void source_close(Source *source) {
     if (source->surface)
         for (size_t k = 0; k < source->surfaces; k++) conic_free(source->surface[k].set);
     free(source->surface);
+    places_close(source);
     if (source->line_name || source->nc >= 0) nc_close(source->nc);
     *source = (Source){.nc = -1};
 }
@@ -726,6 +728,7 @@ static int read_weight_before(const Source *source, const char *line, size_t ste
 
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
     size_t n = record->nodes, elements = record->elements;
+    if (places_at(source, step, log)) return -1;
     int bad = read_step(source, line, "reference", step, n, 3, record->reference[0], log);
     bad |= read_step(source, line, "position", step, n, 3, record->position[0], log);
     bad |= read_step(source, line, "load", step, n, 3, record->load[0], log);

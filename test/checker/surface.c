@@ -56,14 +56,57 @@ Real surface_facing(const Surface *s, const Real *a, const Real *b) {
     return (dot(from, from) - dot(from, to)) / dot(chord, chord);
 }
 
-void surface_carry(const Surface *s, const Real *x, Real angle, Real *out) {
-    Real v[3], around[3];
-    for (int k = 0; k < 3; k++) v[k] = x[k] - s->point[k];
-    cross(s->axis, v, around);
+bool surface_moves(const Surface *s) { return size(s->by) != 0 || size(s->spin) != 0; }
+
+void surface_spin(const Real *v, const Real *spin, Real *out) {
+    const Real angle = size(spin), half = sinl(angle / 2), versine = 2 * half * half;
+    Real unit[3] = {0, 0, 1}, around[3];
+    for (int k = 0; k < 3 && angle > 0; k++) unit[k] = spin[k] / angle;
+    cross(unit, v, around);
+    const Real along = dot(unit, v);
     /* 1 - cos without cancellation */
-    Real along = dot(s->axis, v), half = sinl(angle / 2), versine = 2 * half * half;
     for (int k = 0; k < 3; k++)
-        out[k] = x[k] + sinl(angle) * around[k] - versine * (v[k] - along * s->axis[k]);
+        out[k] = v[k] + sinl(angle) * around[k] - versine * (v[k] - along * unit[k]);
+}
+
+void surface_shift(const Surface *s, const Real *x, Real share, Real *out) {
+    Real centre[3], arm[3], spin[3], turned[3];
+    for (int k = 0; k < 3; k++) {
+        centre[k] = s->about[k] + (1 - share) * s->by[k];
+        arm[k] = x[k] - centre[k];
+        spin[k] = share * s->spin[k];
+    }
+    surface_spin(arm, spin, turned);
+    for (int k = 0; k < 3; k++) out[k] = x[k] + (turned[k] - arm[k]) + share * s->by[k];
+}
+
+void surface_unshift(const Surface *s, const Real *x, Real share, Real *out) {
+    Real arm[3], spin[3], turned[3];
+    for (int k = 0; k < 3; k++) { /* about where the point is in the end */
+        arm[k] = x[k] - s->about[k] - s->by[k];
+        spin[k] = -share * s->spin[k];
+    }
+    surface_spin(arm, spin, turned);
+    for (int k = 0; k < 3; k++) out[k] = x[k] + (turned[k] - arm[k]) - share * s->by[k];
+}
+
+void surface_carry(const Surface *s, const Real *x, Real share, Real turn, Real *out) {
+    Real here[3], v[3], spin[3], turned[3];
+    surface_shift(s, x, share, here);
+    for (int k = 0; k < 3; k++) {
+        v[k] = here[k] - s->point[k];
+        spin[k] = share * turn * s->axis[k];
+    }
+    surface_spin(v, spin, turned);
+    for (int k = 0; k < 3; k++) out[k] = here[k] + (turned[k] - v[k]);
+}
+
+void surface_own(const Surface *s, const Real *x, const Real *reference, Real share, Real *out) {
+    Real from[3], was[3];
+    surface_shift(s, reference, share, from);
+    surface_slip(s, from, x, out);
+    surface_unshift(s, x, share, was);
+    for (int k = 0; k < 3; k++) out[k] += x[k] - was[k];
 }
 
 void surface_slip(const Surface *s, const Real *from, const Real *to, Real *out) {

@@ -16,6 +16,8 @@ typedef struct Surface {
     bool box, grained;
     Real point[3], axis[3], radius; /* axis of length 1 */
     Real mu[2], grain[3];           /* along the line or the grain, and across */
+    /* shift of the last step: it turned by the vector `spin` about a point, which went by `by` */
+    Real by[3], spin[3], about[3];
     Conic *set; /* forces per unit normal force in place of the coefficients, or NULL */
 } Surface;
 
@@ -33,8 +35,18 @@ Real surface_facing(const Surface *surface, const Real *a, const Real *b);
 Real surface_pierced(const Surface *surface, const Real *a, const Real *b, Real l);
 /* Unit normal at the foot of x. */
 void surface_normal(const Surface *surface, const Real *x, Real *n);
-/* x carried along by a turn of the surface. */
-void surface_carry(const Surface *surface, const Real *x, Real angle, Real *out);
+/* Is it shifted in the step? */
+bool surface_moves(const Surface *surface);
+/* v turned by the angle |spin| about `spin`. */
+void surface_spin(const Real *v, const Real *spin, Real *out);
+/* x carried along by the last part, a share, of the shift, and back. */
+void surface_shift(const Surface *surface, const Real *x, Real share, Real *out);
+void surface_unshift(const Surface *surface, const Real *x, Real share, Real *out);
+/* x carried along by that, and by a share of a turn about the surface's own axis. */
+void surface_carry(const Surface *surface, const Real *x, Real share, Real turn, Real *out);
+/* The path of the surface under x, where a node has come to from `reference`, plus its slip. */
+void surface_own(const Surface *surface, const Real *x, const Real *reference, Real share,
+                 Real *out);
 /* The shorter geodesic between the feet of two points, as the tangent vector of its length with
  * which it arrives. */
 void surface_slip(const Surface *surface, const Real *from, const Real *to, Real *out);

@@ -494,7 +494,7 @@ static void slips_are_geodesics(void **state) {
     surface_slip(&bed, east, higher, slip);
     CHECK_VECTOR(((double[]){(double)slip[0], (double)slip[1], (double)slip[2]}),
                  ((double[]){-2, 2.5, 0}), 1e-15);
-    surface_carry(&pipe, east, pi / 2, carried);
+    surface_carry(&pipe, east, 1, pi / 2, carried);
     CHECK_VECTOR(((double[]){(double)carried[0], (double)carried[1], (double)carried[2]}),
                  ((double[]){1, 2, 0}), 1e-15);
     CHECK_NEAR((double)surface_distance(&pipe, higher), 0.5, 1e-15);

@@ -24,7 +24,7 @@ typedef struct CpsiView {
 CpsiView cpsi_view_plan(const CpsResults *results);
 CpsiView cpsi_view_elevation(const CpsResults *results);
 
-/* The obstacles, under everything else, turned as after a step, or for all steps (-1). */
+/* The obstacles, under everything else, as after a step, or for all steps (-1). */
 void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
                             int step, FILE *out);
 

@@ -37,6 +37,25 @@ static const struct {
     {"obstacle_friction_grain", "axial direction, 0: that of the line", "1", true},
 };
 
+/* Of each step, where an obstacle moves. */
+typedef enum ObstacleMove {
+    OBSTACLE_PLACE,
+    OBSTACLE_DIRECTION,
+    OBSTACLE_SHIFT,
+    OBSTACLE_SHIFT_TURN,
+    OBSTACLE_SHIFT_ABOUT
+} ObstacleMove;
+
+static const struct {
+    const char *name, *long_name, *units;
+} MOVE[CPSI_OBSTACLE_MOVES] = {
+    {"obstacle_place", "where obstacle_point is after the step", "m"},
+    {"obstacle_direction", "normal or axis after the step, of length 1", "1"},
+    {"obstacle_shift", "translation in the step", "m"},
+    {"obstacle_shift_turn", "rotation in the step, its angle along its axis", "rad"},
+    {"obstacle_shift_about", "point that the rotation turns about, before the translation", "m"},
+};
+
 /* Friction sets {origin + P v : A v + b in K}, padded with zeros to the largest. */
 typedef enum SetField { SET_ORIGIN, SET_MAP, SET_CONE, SET_ROWS, SET_OFFSET } SetField;
 
@@ -112,6 +131,11 @@ void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o,
     cpsi_netcdf_flags(file, o->field[OBSTACLE_SHAPE], NC_DOUBLE, 3, NULL, "ellipse box set");
     o->turn = cpsi_netcdf_variable(file, "", "obstacle_turn", NC_DOUBLE, 2, turned,
                                    "angle turned about its axis in the step", "rad");
+    for (int k = 0; k < scene->obstacle_count; ++k) o->moves = o->moves || scene->obstacle[k].moves;
+    const int moved[] = {step, o->dimension, xyz};
+    for (int f = 0; o->moves && f < CPSI_OBSTACLE_MOVES; ++f)
+        o->move[f] = cpsi_netcdf_variable(file, "", MOVE[f].name, NC_DOUBLE, 3, moved,
+                                          MOVE[f].long_name, MOVE[f].units);
     define_sets(file, o, scene);
 }
 
@@ -174,6 +198,29 @@ static void write_sets(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *o) {
         write_padded(file, o->set_field[SET_OFFSET], k, (size_t[]){rows, 1}, set->row_count, 0,
                      set->b);
         free(cone);
+    }
+}
+
+void cpsi_netcdf_append_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
+                                  size_t step, const CpsEvolution *evolution,
+                                  const double origin[XYZ]) {
+    for (size_t k = 0; k < (size_t)obstacles->count; ++k) {
+        const CpsObstacleReport now = cps_evolution_obstacle_report(evolution, (int)k);
+        const size_t start[] = {step, k, 0}, count[] = {1, 1, XYZ};
+        const bool turns = now.turn[0] != 0 || now.turn[1] != 0 || now.turn[2] != 0;
+        double place[XYZ], about[XYZ];
+        for (int a = 0; a < XYZ; ++a) {
+            place[a] = now.point[a] - origin[a];
+            about[a] = turns ? now.about[a] - origin[a] : 0;
+        }
+        const double *value[CPSI_OBSTACLE_MOVES] = {[OBSTACLE_PLACE] = place,
+                                                    [OBSTACLE_DIRECTION] = now.axis,
+                                                    [OBSTACLE_SHIFT] = now.by,
+                                                    [OBSTACLE_SHIFT_TURN] = now.turn,
+                                                    [OBSTACLE_SHIFT_ABOUT] = about};
+        cpsi_netcdf_doubles(file, obstacles->turn, start, count, &now.turned);
+        for (int f = 0; obstacles->moves && f < CPSI_OBSTACLE_MOVES; ++f)
+            cpsi_netcdf_doubles(file, obstacles->move[f], start, count, value[f]);
     }
 }
 

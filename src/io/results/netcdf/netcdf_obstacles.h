@@ -8,10 +8,12 @@
 #include "capstan/set.h"
 #include "io/results/netcdf/netcdf_file.h"
 
-enum { CPSI_OBSTACLE_FIELDS = 8, CPSI_SET_FIELDS = 5 };
+enum { CPSI_OBSTACLE_FIELDS = 8, CPSI_OBSTACLE_MOVES = 5, CPSI_SET_FIELDS = 5 };
 
 typedef struct CpsiNetcdfObstacles {
     int count;
+    bool moves;                    /* one of them does; else the next ones are unused */
+    int move[CPSI_OBSTACLE_MOVES]; /* of each step */
     int dimension, turn, field[CPSI_OBSTACLE_FIELDS]; /* unused without obstacles */
     int set_field[CPSI_SET_FIELDS];                   /* unused without sets, */
     size_t set_rows, set_unknowns;                    /* where these are 0 */
@@ -25,6 +27,10 @@ void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *out
 /* Write everything that does not change, relative to the origin of the lines' coordinates. */
 void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
                                  const CpsScene *scene, const double origin[3]);
+/* Write how they moved in the last step, as step number `step`, and where they are. */
+void cpsi_netcdf_append_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
+                                  size_t step, const CpsEvolution *evolution,
+                                  const double origin[3]);
 /* Free the conic forms of the sets. */
 void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The obstacles as quadrilaterals for ParaView, in text: obstacles.vtp, and step-N-obstacles.vtp
- * for each step in which an obstacle turns. Balls are complete; planes and cylinders, which have no
- * ends, extend a little farther than the lines. Cells carry the number of their sector of the
- * obstacle, which makes a turn visible. */
+ * for each step in which an obstacle turns or moves. Balls are complete; planes and cylinders,
+ * which have no ends, extend a little farther than the lines. Cells carry the number of their
+ * sector of the obstacle, which makes a turn visible. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -50,10 +50,14 @@ static void reach_along(const CpsResults *results, Vec3 centre, Vec3 direction, 
     range[1] += MARGIN * extent;
 }
 
-static Patch patch_of(const CpsResults *results, const CpsObstacle *obstacle) {
+/* after a step; before the first one, step is -1 */
+static Patch patch_of(const CpsResults *results, int step, int k) {
+    const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
     const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE,
                ball = obstacle->kind == CPS_OBSTACLE_SPHERE;
-    Patch patch = {.obstacle = obstacle, .rows = ball ? ALONG : 1, .columns = plane ? 1 : AROUND};
+    Patch patch = {.obstacle = &results->obstacle[k],
+                   .rows = ball ? ALONG : 1,
+                   .columns = plane ? 1 : AROUND};
     const Vec3 axis = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));
     const Vec3 seed = fabs(axis.x) <= 0.75 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     patch.centre = vec3_load(obstacle->point);
@@ -156,11 +160,12 @@ void cpsi_paraview_obstacles_name(int step, char name[32]) {
         snprintf(name, 32, "step-%05d-obstacles.vtp", step);
 }
 
-bool cpsi_paraview_obstacles_turn(const CpsResults *results, int step) {
-    bool turn = false;
+bool cpsi_paraview_obstacles_move(const CpsResults *results, int step) {
+    bool moves = false;
     for (int k = 0; k < results->obstacle_count; ++k)
-        turn = turn || cpsi_results_turn(results, step, k) != 0;
-    return turn;
+        moves =
+            moves || cpsi_results_turns(results, step, k) || cpsi_results_moves(results, step, k);
+    return moves;
 }
 
 /* after a step; before the first one, step is -1 */
@@ -170,8 +175,10 @@ static CpsStatus write_file(CpsResults *results, int step, Patch *patch, CpsErro
     cpsi_paraview_obstacles_name(step, name);
     const CpsStatus status = cpsi_directory_create(results->directory, name, &out, err);
     if (status) return status;
-    for (int k = 0; k < results->obstacle_count; ++k)
+    for (int k = 0; k < results->obstacle_count; ++k) {
+        if (step < 0 || results->obstacle[k].moves) patch[k] = patch_of(results, step, k);
         patch[k].turned = cpsi_results_turned(results, step, k);
+    }
     write_obstacles(results->obstacle_count, patch, out);
     return cpsi_directory_close_file(results->directory, out, err);
 }
@@ -180,11 +187,9 @@ CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err) {
     if (results->obstacle_count == 0 || results->snapshot_count == 0) return CPS_OK;
     Patch *patch = calloc((size_t)results->obstacle_count, sizeof *patch);
     if (!patch) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the surfaces of obstacles");
-    for (int k = 0; k < results->obstacle_count; ++k)
-        patch[k] = patch_of(results, &results->obstacle[k]);
     CpsStatus status = write_file(results, -1, patch, err);
     for (int step = 0; step < results->row_count && !status; ++step)
-        if (cpsi_paraview_obstacles_turn(results, step))
+        if (cpsi_paraview_obstacles_move(results, step))
             status = write_file(results, step, patch, err);
     free(patch);
     return status;

@@ -477,6 +477,28 @@ static const CpsiKey GRASP_KEYS[] = {
 };
 static const CpsiMapping GRASP = {"grasp", KEYS(GRASP_KEYS), INTO(Grasp), WHICH(Grasp, kind)};
 
+static const CpsiKey SHIFT_KEYS[] = {
+    {"move", OPTIONAL, POINT(Shift, move, 3), ANY, .unit = "m", .fallback = "[0, 0, 0]",
+     .help = "move the obstacle by this much in this entry; what sticks to it moves with it"},
+    {"turn", OPTIONAL, NUMBER(Shift, turn), ANY, .unit = "degrees", .with = "axis",
+     .help = "turn it by so much, by the right-hand rule about the axis given"},
+    {"axis", OPTIONAL, POINT(Shift, axis, 3), ANY, .with = "turn",
+     .help = "direction of the axis that it turns about, of any length but zero"},
+    {"about", OPTIONAL, POINT(Shift, about, 3), ANY, .unit = "m", .with = "turn",
+     .fallback = "[0, 0, 0]",
+     .help = "a point of that axis as the entry begins; a move takes it along"},
+};
+
+static void begin_shift(void *values) { ((CpsiShiftValues *)values)->turn = NAN; }
+
+static const CpsiMapping SHIFT = {
+    "change",
+    KEYS(SHIFT_KEYS),
+    INTO(Shift),
+    .definition = "obstacle_change",
+    .begin = begin_shift,
+    .also = "\"anyOf\": [{\"required\": [\"move\"]}, {\"required\": [\"turn\"]}]"};
+
 static const CpsiKey STAGE_KEYS[] = {
     {"name", OPTIONAL, TEXT(Stage, stage.name, 0),
      .help = "name of the entry in the results; by default its number"},
@@ -504,6 +526,9 @@ static const CpsiKey STAGE_KEYS[] = {
     {"BODY.body", OPTIONAL, OWNED(Stage, body_changes), .owner = "bodies", .after = "body",
      .inside = &BODY_CHANGE,
      .help = "what happens to a body, as in spar.body; all others stay as they are"},
+    {"OBSTACLE.obstacle", OPTIONAL, OWNED(Stage, shifts), .owner = "obstacles", .after = "obstacle",
+     .inside = &SHIFT,
+     .help = "how an obstacle moves, as in bollard.obstacle; all others stay where they are"},
 };
 
 static void begin_stage(void *values) {
@@ -552,8 +577,8 @@ static const CpsiKey SCENE_KEYS[] = {
     {"solver", OPTIONAL, AROUND, .inside = &SOLVER, .fallback = "{}",
      .help = "how steps are solved"},
     {"history", OPTIONAL, LIST(Scene, history, 0), .inside = &STAGE, .fallback = "[]",
-     .help = "what happens to the lines' ends, to points, to bodies and to obstacles that turn, in "
-             "turn"},
+     .help = "what happens to the lines' ends, to points, to bodies and to obstacles that turn or "
+             "move, in turn"},
 };
 
 static void begin_scene(void *values) {

@@ -175,6 +175,15 @@ typedef struct CpsiBodyChangeValues {
     CpsiRotationValues rotation;
     double force[3], moment[3], arm[3];
 } CpsiBodyChangeValues;
+
+/* A shift of an obstacle. */
+typedef struct CpsiShiftValues {
+    const CpsiYaml *node; /* the key is OBSTACLE.obstacle */
+    double move[3];
+    double turn; /* [degrees] NaN: not given */
+    double axis[3], about[3];
+} CpsiShiftValues;
+
 /* Which of its keys a grasp of a node has. */
 typedef enum CpsiGraspKind {
     CPSI_GRASP_POSITION,
@@ -199,6 +208,7 @@ typedef struct CpsiStageValues {
     CpsiList body_changes;  /* CpsiBodyChangeValues */
     CpsiList grasps;        /* CpsiGraspValues, with the key LINE.node */
     CpsiList turns;         /* CpsiNumberItem, with the key OBSTACLE.turn */
+    CpsiList shifts;        /* CpsiShiftValues */
 } CpsiStageValues;
 
 extern const CpsiMapping cpsi_scene_file;
