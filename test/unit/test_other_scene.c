@@ -83,7 +83,8 @@ static const char POINTS_SCENE[] =
     "types: {rope: {weight: 2, stiffness: 1000}}\n"
     "history:\n"
     "  - {name: pull, steps: 2, knot.point: {force: [2, 0, 0]}}\n"
-    "  - {anchor.point: {position: [1, 0, 0]}, ring.point: {position: [8, 5, 0]}}\n"
+    "  - {anchor.point: {position: [1, 0, 0]}, ring.point: {position: [8, 5, 0]},"
+    " bed.obstacle: {move: [0, 0, -1], turn: 1, axis: [0, 1, 0], about: [2, 0, -9]}}\n"
     "  - {ring.point: {move: [0, 0, 1]}}\n";
 
 /* Rigid bodies, and points on them. */
@@ -207,6 +208,10 @@ static const struct Change {
 };
 
 static const struct Change POINT_CHANGE[] = {
+    {"OBSTACLE.obstacle", "move: [0, 0, -1]", "move: [0, 0, -2]"},
+    {"turn", "turn: 1,", "turn: 2,"},
+    {"axis", "axis: [0, 1, 0]", "axis: [1, 1, 0]"},
+    {"about", "about: [2, 0, -9]", "about: [1, 0, -9]"},
     {"points",
      "  ring: {held: [8, 4, 0], weight: 2}\n  knot: {free: [4, 0, -3], force: [1, 0, 0], mass: 3,"
      " volume: 0.001}\n",
