@@ -61,7 +61,8 @@ bool surface_moves(const Surface *s) { return size(s->by) != 0 || size(s->spin) 
 void surface_spin(const Real *v, const Real *spin, Real *out) {
     const Real angle = size(spin), half = sinl(angle / 2), versine = 2 * half * half;
     Real unit[3] = {0, 0, 1}, around[3];
-    for (int k = 0; k < 3 && angle > 0; k++) unit[k] = spin[k] / angle;
+    if (angle > 0)
+        for (int k = 0; k < 3; k++) unit[k] = spin[k] / angle;
     cross(unit, v, around);
     const Real along = dot(unit, v);
     /* 1 - cos without cancellation */

@@ -133,9 +133,10 @@ void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o,
                                    "angle turned about its axis in the step", "rad");
     for (int k = 0; k < scene->obstacle_count; ++k) o->moves = o->moves || scene->obstacle[k].moves;
     const int moved[] = {step, o->dimension, xyz};
-    for (int f = 0; o->moves && f < CPSI_OBSTACLE_MOVES; ++f)
-        o->move[f] = cpsi_netcdf_variable(file, "", MOVE[f].name, NC_DOUBLE, 3, moved,
-                                          MOVE[f].long_name, MOVE[f].units);
+    if (o->moves)
+        for (int f = 0; f < CPSI_OBSTACLE_MOVES; ++f)
+            o->move[f] = cpsi_netcdf_variable(file, "", MOVE[f].name, NC_DOUBLE, 3, moved,
+                                              MOVE[f].long_name, MOVE[f].units);
     define_sets(file, o, scene);
 }
 
@@ -219,7 +220,8 @@ void cpsi_netcdf_append_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacle
                                                     [OBSTACLE_SHIFT_TURN] = now.turn,
                                                     [OBSTACLE_SHIFT_ABOUT] = about};
         cpsi_netcdf_doubles(file, obstacles->turn, start, count, &now.turned);
-        for (int f = 0; obstacles->moves && f < CPSI_OBSTACLE_MOVES; ++f)
+        if (!obstacles->moves) continue;
+        for (int f = 0; f < CPSI_OBSTACLE_MOVES; ++f)
             cpsi_netcdf_doubles(file, obstacles->move[f], start, count, value[f]);
     }
 }
