@@ -100,6 +100,17 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->element_penetration = cpsi_max_nan(to->element_penetration, from->element_penetration);
 }
 
+/* Add the friction of the points, and the work that the forces at them do for it beside that which
+ * the lines get. */
+static void add_friction_of_points(CpsStepReport *step, const CpsiPoints *points) {
+    for (int i = 0; i < points->count; i++) {
+        const double dissipated = points->point[i].report.dissipated;
+        step->dissipated += dissipated;
+        step->ledger.dissipated += dissipated;
+        step->ledger.ends += dissipated;
+    }
+}
+
 static double seconds(void) {
     struct timespec now = {0}; /* no time passes where there is no such clock */
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -176,6 +187,7 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
                                         .certificate.has_tension_bound = true};
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);
+    add_friction_of_points(&evolution->report, &evolution->points);
     for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i]);
     evolution->ended = !is_move && cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;
