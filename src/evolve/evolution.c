@@ -100,14 +100,28 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->element_penetration = cpsi_max_nan(to->element_penetration, from->element_penetration);
 }
 
-/* Add the friction of the points, and the work that the forces at them do for it beside that which
- * the lines get. */
-static void add_friction_of_points(CpsStepReport *step, const CpsiPoints *points) {
+/* [J] The work that an obstacle which turns or moves does on a point that touches it. */
+static double work_on_point(const CpsEvolution *evolution, const CpsPointReport *point) {
+    const int k = point->obstacle;
+    if (k < 0 || (evolution->angle[k] == 0 && cpsi_shift_is_none(&evolution->shift[k]))) return 0;
+    const Vec3 x = vec3_load(point->position),
+               before = cpsi_obstacle_turn(&evolution->obstacle[k], x, -evolution->angle[k]),
+               moved = vec3_add(vec3_sub(x, before), cpsi_shift_to(&evolution->shift[k], before));
+    return vec3_dot(moved, vec3_axpy(point->reaction, vec3_load(point->normal),
+                                     vec3_load(point->friction)));
+}
+
+/* Add the friction of the points, and the work that the forces at them and the obstacles under them
+ * do for it beside that which the lines get. */
+static void add_friction_of_points(CpsStepReport *step, const CpsEvolution *evolution) {
+    const CpsiPoints *points = &evolution->points;
     for (int i = 0; i < points->count; i++) {
-        const double dissipated = points->point[i].report.dissipated;
-        step->dissipated += dissipated;
-        step->ledger.dissipated += dissipated;
-        step->ledger.ends += dissipated;
+        const CpsPointReport *report = &points->point[i].report;
+        const double work = work_on_point(evolution, report);
+        step->dissipated += report->dissipated;
+        step->ledger.dissipated += report->dissipated;
+        step->ledger.ends += report->dissipated - work;
+        step->ledger.obstacles += work;
     }
 }
 
@@ -187,7 +201,7 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
                                         .certificate.has_tension_bound = true};
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);
-    add_friction_of_points(&evolution->report, &evolution->points);
+    add_friction_of_points(&evolution->report, evolution);
     for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i]);
     evolution->ended = !is_move && cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;

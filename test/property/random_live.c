@@ -330,7 +330,7 @@ static CpsEvolution *handed_over(CpsEvolution *evolution, const Live *live, Tall
 }
 
 /* One call, and what becomes of it: true, and *move, where it is kept. */
-static bool call(CpsEvolution *live_one, const Live *live, bool is_first, Move *move,
+static bool call(CpsEvolution *live_one, const Live *live, bool *is_first, Move *move,
                  Tally *tally) {
     *move = draw(live_one, live, chance(0.1));
     if (chance(0.05)) move->stage.shift_count = -1;
@@ -338,7 +338,8 @@ static bool call(CpsEvolution *live_one, const Live *live, bool is_first, Move *
     unsigned char *before = saved_state(live_one, &size);
     const int allocated = allocations;
     const CpsStatus status = cps_evolution_move(live_one, stage_of(move), NULL);
-    if (!is_first && allocations != allocated) tally->allocated++;
+    if (!*is_first && allocations != allocated) tally->allocated++;
+    *is_first = *is_first && status != CPS_OK; /* which makes room for the state before it */
     bool kept = false, untouched = true;
     if (status != CPS_OK) {
         tally->refused++;
@@ -444,8 +445,7 @@ static void try_seed(uint64_t seed, const char *folder, Tally *tally) {
     CpsEvolution *evolution = begin(&live.scene);
     bool is_first = true;
     for (int i = 0; i < CALLS; i++) {
-        const bool keeps = call(evolution, &live, is_first, &kept[count], tally);
-        is_first = false;
+        const bool keeps = call(evolution, &live, &is_first, &kept[count], tally);
         count += keeps;
         if (keeps && chance(0.2)) {
             evolution = handed_over(evolution, &live, tally);
