@@ -127,6 +127,8 @@ typedef struct Stuff {
     const CpsStiffnessRow *row;
     bool breaks;
     double breaking_load;
+    bool parts;
+    double break_at;
 } Stuff;
 
 static void print_make(const Stuff *make) {
@@ -144,6 +146,7 @@ static void print_make(const Stuff *make) {
         printf("stiffness %g N", make->stiffness);
     }
     if (make->breaks) printf(", breaks at %g N", make->breaking_load);
+    if (make->parts) printf(", parts above %g N", make->break_at);
 }
 
 /* Print the number of elements that end between two arc lengths, and how long they are. */
@@ -172,7 +175,8 @@ static void print_line(const CpsScene *scene, const CpsLine *line) {
     printf(", ");
     if (line->section_count == 0) {
         print_make(&(Stuff){line->weight, line->stiffness, line->stiffness_row_count,
-                            line->stiffness_row, line->has_breaking_load, line->breaking_load});
+                            line->stiffness_row, line->has_breaking_load, line->breaking_load,
+                            line->has_break_at, line->break_at});
         printf(", ");
     }
     printf("start %s\n", START[line->start.kind]);
@@ -186,7 +190,7 @@ static void print_line(const CpsScene *scene, const CpsLine *line) {
         printf(", ");
         print_make(&(Stuff){section->weight, section->stiffness, section->stiffness_row_count,
                             section->stiffness_row, section->has_breaking_load,
-                            section->breaking_load});
+                            section->breaking_load, section->has_break_at, section->break_at});
         putchar('\n');
     }
     for (int k = 0; k < line->point_weight_count; k++)

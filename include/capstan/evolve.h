@@ -41,9 +41,9 @@ CPS_API void cps_evolution_destroy(CpsEvolution *evolution);
  * saving it, or to NULL, does nothing. Where there is no such line, or no evolution, the outcome of
  * the report is CPS_OUTCOME_STALLED and the view has no elements and no arrays. */
 
-/* Number of load steps in all (a start computed by statics is the first; with the moves taken),
- * and of those of the history still to do. 0 remain after an infeasible or unbounded step: nothing
- * can follow it. */
+/* Number of load steps in all (a start computed by statics is the first; with the moves and breaks
+ * taken), and of those still to do: of the history, and a break that is due (failure.h). 0 remain
+ * after an infeasible or unbounded step: nothing can follow it. */
 CPS_API int cps_evolution_step_count(const CpsEvolution *evolution);
 CPS_API int cps_evolution_remaining_count(const CpsEvolution *evolution);
 

@@ -123,6 +123,8 @@ typedef struct CpsSection {
     const CpsStiffnessRow *stiffness_row;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
+    bool has_break_at;      /* default false */
+    double break_at;        /* [N] > 0, with the flag: above this tension it parts (failure.h) */
 } CpsSection;
 
 /* A clump or a buoy at a node of a line. */
@@ -144,9 +146,11 @@ typedef struct CpsLine {
     const CpsStiffnessRow *stiffness_row;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
+    bool has_break_at;      /* default false */
+    double break_at;        /* [N] > 0, with the flag: above this tension it parts (failure.h) */
     /* (section_count) from A to B, each ending at a node; their lengths make up `length`. NULL, the
-     * default: the line is of one make, with the weight, stiffness and breaking load above, which
-     * are not read otherwise. */
+     * default: the line is of one make, with the weight, stiffness, breaking load and break_at
+     * above, which are not read otherwise. */
     int section_count;
     const CpsSection *section;
     int point_weight_count;             /* >= 0, default 0 */
@@ -165,7 +169,8 @@ typedef struct CpsLine {
 
 /* A new imposed position or force of one end of one line, reached in equal increments over the
  * stage. A free end that gets a position is held where it is and moved from there; a held end that
- * gets a force is released, and the force begins with that which it carried. */
+ * gets a force is released, and the force begins with that which it carried; one of the kind
+ * CPS_END_KIND_RELEASED is let go at once (failure.h). */
 typedef struct CpsChange {
     int line; /* index in the scene */
     int end;  /* CPS_END_A or CPS_END_B */

@@ -41,6 +41,12 @@ def spar(program):
     return os.path.join(place, "step-00004-elevation.svg")
 
 
+def parting_lines(program):
+    """The plan of examples/parting-lines.yaml where its first line has parted."""
+    _, place = program.run("run", "examples/parting-lines.yaml")
+    return os.path.join(place, "step-00008-plan.svg")
+
+
 def barge(program):
     """The plan of examples/barge.yaml in the full wind."""
     _, place = program.run("run", "examples/barge.yaml")
@@ -75,7 +81,8 @@ def anchor_line(program):
 
 PICTURES = {
     "run-offset": offset, "run-anchor-line": anchor_line,
-    "run-rope": first_scene, "run-bridle": bridle, "run-moved-bollard": moved_bollard, "run-oc3-hywind": spar, "run-barge": barge, "run-net": net, "run-moored-buoy": moored_buoy,
+    "run-rope": first_scene, "run-bridle": bridle, "run-moved-bollard": moved_bollard, "run-oc3-hywind": spar, "run-barge": barge,
+    "run-parting-lines": parting_lines, "run-net": net, "run-moored-buoy": moored_buoy,
     "drive-wheel-maps": driven("braked-wheel"),
     "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),
     "drive-disc": driven("disc"), "drive-plate": driven("plate"), "drive-car": driven("car"), "drive-planimeter": driven("planimeter"),

@@ -28,6 +28,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->spring_stiffness, line->spring_count);
     }
     if (line->has_breaking_load) CPSI_PLACE(arena, line->breaking_load, n);
+    if (line->has_break_at) CPSI_PLACE(arena, line->break_at, n);
     CPSI_PLACE(arena, line->friction_law, contacts);
     CPSI_PLACE(arena, line->friction_bound, contacts);
     CPSI_PLACE(arena, line->friction_force, 3 * contacts);

@@ -9,6 +9,7 @@
 #include "capstan/evolve.h"
 #include "evolve/balance.h"
 #include "evolve/checkpoint.h"
+#include "evolve/failure.h"
 #include "evolve/friction_zone.h"
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
@@ -77,6 +78,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     CPSI_PLACE(arena, evolution->shift, scene->obstacle_count + 1);
     CPSI_PLACE(arena, evolution->move, scene->line_count);
     CPSI_PLACE(arena, evolution->from, 2 * scene->line_count);
+    CPSI_PLACE(arena, evolution->release, 2 * scene->line_count);
     layout_given(evolution, arena, scene, real);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
                               .contacts = scene->obstacle_count > 1 ? 2 : 1,
@@ -97,6 +99,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->has_zones = scene->line[i].zone_count > 0;
         line->has_sections = cpsi_has_sections(&scene->line[i]);
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
+        line->has_break_at = cpsi_has_break_at(&scene->line[i]);
         line->compliance = line->spring_compliance = cpsi_mean_compliance(&scene->line[i]);
         line->spring_count = cpsi_spring_count(&scene->line[i]);
         cpsi_line_layout(line, arena);
@@ -184,7 +187,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
             def->element_length ? def->element_length[e] : def->length / def->element_count;
     cpsi_line_set_arc_length(line);
     fill_friction_factor(line, def);
-    if (line->has_sections || line->has_breaking_load || line->spring_count > 0)
+    if (line->has_sections || line->has_breaking_load || line->has_break_at ||
+        line->spring_count > 0)
         cpsi_sections_fill(line, def);
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++)
@@ -266,10 +270,7 @@ static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, con
     cpsi_bodies_fill(&evolution->bodies, scene, local);
     for (int i = 0; i < scene->body_count; i++)
         evolution->given_body[i] = evolution->bodies.body[i].given;
-    for (int i = 0; i < evolution->line_count; i++)
-        for (int end = 0; end < 2; end++)
-            evolution->line[i].is_at_point[end] =
-                evolution->points.tie[2 * i + end] != CPSI_NO_POINT;
+    cpsi_follow_releases(evolution);
     bool isotropic = true;
     for (int k = 0; k < evolution->obstacle_count; k++)
         isotropic = isotropic && cpsi_obstacle_is_isotropic(&evolution->obstacle[k]);

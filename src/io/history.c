@@ -12,14 +12,39 @@ enum {
     EVEN_SELECTION = 12
 };
 
+/* A step that is not taken yet is none. */
+static bool is_break(const CpsResults *results, int step) {
+    return step < results->row_count && results->row[step].parted.is_break;
+}
+
 bool cpsi_results_pictured(const CpsResults *results, int step) {
     const int steps = results->planned_steps;
-    if (steps <= SHORT_HISTORY || step == 0 || step == steps - 1) return true;
+    if (steps <= SHORT_HISTORY || step == 0 || step == steps - 1 || is_break(results, step))
+        return true;
     if (results->stage_count < 4 || results->stage_count > SHORT_HISTORY)
         return step % ((steps + EVEN_SELECTION - 1) / EVEN_SELECTION) == 0;
     for (int i = 0; i < results->stage_count; ++i)
         if (results->stage[i].last == step) return true;
     return false;
+}
+
+bool cpsi_lets_go(const CpsScene *scene) {
+    bool found = false;
+    for (int i = 0; i < scene->line_count; ++i) {
+        const CpsLine *line = &scene->line[i];
+        found = found || (line->section_count == 0 && line->has_break_at);
+        for (int k = 0; k < line->section_count; ++k)
+            found = found || line->section[k].has_break_at;
+    }
+    for (int s = 0; s < scene->stage_count; ++s)
+        for (int k = 0; k < scene->stage[s].change_count; ++k)
+            found = found || scene->stage[s].change[k].to.kind == CPS_END_KIND_RELEASED;
+    return found;
+}
+
+int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end) {
+    const bool is_there = row->line[line].failure.release[end] == CPS_RELEASE_NONE;
+    return is_there ? results->line_point[line][end] : CPSI_AT_NO_POINT;
 }
 
 CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obstacle) {

@@ -10,6 +10,7 @@
 #include <locale.h>
 #include <stdbool.h>
 
+#include "capstan/failure.h"
 #include "capstan/results.h"
 #include "io/base/directory/write_directory.h"
 
@@ -17,8 +18,9 @@ typedef struct CpsiNetcdf CpsiNetcdf;
 
 typedef struct CpsiLineRow {
     CpsLineReport report;
-    bool held[2];         /* whether the position of this end, or of its point, was imposed */
-    double open_reaction; /* [N] largest reaction on a node without contact */
+    bool held[2];           /* whether the position of this end, or of its point, was imposed */
+    CpsLineFailure failure; /* without its array */
+    double open_reaction;   /* [N] largest reaction on a node without contact */
 } CpsiLineRow;
 
 typedef struct CpsiBodyRow {
@@ -38,6 +40,7 @@ typedef struct CpsiObstacleRow {
 typedef struct CpsiRow {
     CpsStepReport report; /* its name is `name` */
     char *name;
+    CpsBreak parted;
     double open_reaction; /* [N] largest over the lines */
     CpsiLineRow *line;
     CpsPointReport *point;           /* (points) NULL without points */
@@ -102,7 +105,8 @@ struct CpsResults {
     CpsBody *body; /* (body_count) */
     int stage_count;
     CpsiStage *stage;
-    int planned_steps;
+    int planned_steps;  /* with the breaks so far */
+    bool lets_go;       /* cpsi_lets_go */
     bool begins_static; /* the first step places lines by statics */
 
     int row_count, row_capacity;
@@ -112,8 +116,15 @@ struct CpsResults {
 };
 
 /* Whether this step has its own plan view and elevation. All steps of a short history have; of a
- * long one the ends of its stages, or an even selection, and always the first and the last step. */
+ * long one the ends of its stages, or an even selection, and always the first and the last step,
+ * and those in which a line parts. */
 bool cpsi_results_pictured(const CpsResults *results, int step);
+
+/* Whether ends of the scene's lines may be let go: its history does, or lines may part. Only then
+ * do results say which ends were. */
+bool cpsi_lets_go(const CpsScene *scene);
+/* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
+int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
 
 /* An obstacle as it is after a step; of step -1 at the start. */
 CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obstacle);

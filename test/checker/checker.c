@@ -9,6 +9,7 @@
 #include "bodies.h"
 #include "caught.h"
 #include "ends.h"
+#include "failure.h"
 #include "grasps.h"
 #include "groups.h"
 #include "long_element.h"
@@ -722,6 +723,12 @@ static void find_at_body(void *user, const char *name, size_t step, const char *
     if (findings->log) fprintf(findings->log, "step %zu body %s: %s\n", step, name, sentence);
 }
 
+static void find_at_line(void *user, const char *name, size_t step, const char *sentence) {
+    const PointFindings *findings = user;
+    findings->report->refuted++;
+    if (findings->log) fprintf(findings->log, "step %zu line %s: %s\n", step, name, sentence);
+}
+
 int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     CheckerReport unused, *report = worst ? worst : &unused;
     *report = (CheckerReport){0};
@@ -734,6 +741,7 @@ int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     PointFindings findings = {log, report};
     if (!bad) bad = points_check(&source, is_certified, find_at_point, &findings, log);
     if (!bad) bad = bodies_check(&source, is_certified, find_at_body, &findings, log);
+    if (!bad) bad = failures_check(&source, find_at_line, &findings, log);
     source_close(&source);
     if (bad) report->refuted++;
     if (bad) return 2;

@@ -15,6 +15,8 @@
 
 #include <math.h>
 
+#include "failure.h"
+
 typedef Real Triple[3];
 
 /* An end lies on an obstacle when it is as near as this per length; within a factor of two nobody
@@ -142,7 +144,9 @@ Real ends_work(const Record *r, const Record *before) {
             const Real after = (Real)r->end_force[e][i] + r->end_friction_force[e][i],
                        stored = r->end_friction_force[e][i];
             const Real first =
-                (Real)before->end_force[e][i] + (free ? 0 : before->end_friction_force[e][i]);
+                is_let_go(r, before, e)
+                    ? 0
+                    : (Real)before->end_force[e][i] + (free ? 0 : before->end_friction_force[e][i]);
             work += ((first + after) / 2 - stored) * ((Real)r->position[j][i] - r->reference[j][i]);
         }
     }

@@ -13,6 +13,7 @@
 
 #include "anchors.h"
 #include "compare.h"
+#include "failure.h"
 #include "given_bodies.h"
 #include "grasps.h"
 #include "record.h"
@@ -83,9 +84,10 @@ static void compare_run(Compare *compare) {
 
 /* ---- steps ---- */
 
-/* The stage and its part that a step is; false: the statics of lines laid, or a scene without
- * stages. */
+/* The stage and its part that a step is, a break those of the step before it; false: the statics of
+ * lines laid, or a scene without stages. */
 static bool stage_of(const Compare *compare, size_t step, int *stage, int *part) {
+    for (size_t i = step + 1; i-- > 0;) step -= is_break(&compare->source, i);
     if (compare->source.has_static && step-- == 0) return false;
     for (*stage = 0; *stage < compare->scene->stage_count; ++*stage) {
         const size_t steps = (size_t)compare->scene->stage[*stage].step_count;
@@ -96,21 +98,30 @@ static bool stage_of(const Compare *compare, size_t step, int *stage, int *part)
     return false;
 }
 
+/* How many steps the scene has, with the breaks of the file. */
 static size_t planned(const Compare *compare) {
-    size_t steps = 0;
+    size_t steps = 0, breaks = 0;
     bool first = false;
     for (int i = 0; i < compare->scene->stage_count; i++)
         steps += (size_t)compare->scene->stage[i].step_count;
     for (int i = 0; i < compare->scene->line_count; i++)
         first = first || compare->scene->line[i].start.kind == CPS_START_STATIC;
-    return steps + first > 0 ? steps + first : 1;
+    for (size_t i = 0; i < compare->source.steps; i++) breaks += is_break(&compare->source, i);
+    return (steps + first > 0 ? steps + first : 1) + breaks;
 }
 
 /* An end of a line as the scene has it. */
 typedef struct Imposed {
     CpsEnd from, now;
     double noise; /* COPIED, or COMPUTED where it starts from the end of an arc, a sum of angles */
+    int release;  /* whether it was let go (failure.h) */
 } Imposed;
+
+/* An end that is let go is free without a force. */
+static void let_go(Imposed *end, int release) {
+    end->now = (CpsEnd){.kind = CPS_END_KIND_FREE};
+    end->release = release;
+}
 
 /* What is imposed, places about the origin of the file; NaN stays NaN. */
 static CpsEnd about(const Source *source, CpsEnd end) {
@@ -171,8 +182,13 @@ static void impose(const Source *source, Imposed *end, const CpsStage *stage, in
                    int e, const Record *before, const double start[3]) {
     for (int i = 0; i < stage->change_count; i++) {
         const CpsChange *change = &stage->change[i];
-        if (change->line != line || change->end != e) continue;
+        if (change->line != line || change->end != e || end->release == RELEASE_BREAK) continue;
+        if (change->to.kind == CPS_END_KIND_RELEASED) {
+            let_go(end, RELEASE_STAGE);
+            continue;
+        }
         if (part == 1) end->from = end->now;
+        if (part == 1 && end->release != RELEASE_NONE) end->release = RELEASE_TAKEN;
         const double *place = before ? before->position[e ? before->elements : 0] : start;
         if (part == 1 && before) end->noise = COPIED;
         if (part == 1 && change->to.kind != end->now.kind)
@@ -231,7 +247,7 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
     double g[3], was[3];
     const bool staged = stage_of(compare, step, &stage, &part);
     gravity_at(compare, staged, stage, part, g);
-    gravity_at(compare, staged, stage, part - 1, was);
+    gravity_at(compare, staged, stage, is_break(&compare->source, step) ? part : part - 1, was);
     if ((r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE ||
          r->outcome == OUTCOME_SLIDES) &&
         memcmp(g, was, sizeof g) != 0)
@@ -323,7 +339,7 @@ static void compare_turns(Compare *compare, size_t step, const Record *r) {
     const bool staged = stage_of(compare, step, &stage, &part);
     for (int k = 0; k < compare->scene->obstacle_count; k++) {
         double angle = 0;
-        if (staged)
+        if (staged && !is_break(&compare->source, step))
             for (int i = 0; i < compare->scene->stage[stage].turn_count; i++) {
                 const CpsTurn *turn = &compare->scene->stage[stage].turn[i];
                 if (turn->obstacle == k)
@@ -341,7 +357,8 @@ static void compare_shifts(Compare *compare, size_t step) {
     const bool staged = stage_of(compare, step, &stage, &part);
     for (int k = 0; k < compare->scene->obstacle_count; k++) {
         const Surface *s = &compare->source.surface[k];
-        const CpsStage *at = staged ? &compare->scene->stage[stage] : NULL;
+        const CpsStage *at =
+            staged && !is_break(&compare->source, step) ? &compare->scene->stage[stage] : NULL;
         double given[9] = {0}, size = 0;
         for (int i = 0; at && i < at->shift_count; i++) {
             const CpsShift *shift = &at->shift[i];
@@ -367,13 +384,14 @@ static void compare_shifts(Compare *compare, size_t step) {
     }
 }
 
-/* Whether the end is at a point, the same as in the scene: then nothing is imposed on it here. */
-static bool is_at_point(Compare *compare, const CpsLine *line, int e, const Record *r) {
+/* Whether the end begins at a point, the same as in the scene: while it is there nothing is imposed
+ * on it here. */
+static bool begins_at_point(Compare *compare, const CpsLine *line, int e, const Record *r) {
     const bool is_at = line->end[e].kind == CPS_END_KIND_POINT;
     const int point = is_at ? line->end_point[e] : -1;
-    if (r->end_point[e] != point)
+    if (r->given_point[e] != point)
         find(compare, "end_point of %s, end %c, is %d, in the scene %d", line->name, e ? 'B' : 'A',
-             r->end_point[e], point);
+             r->given_point[e], point);
     return is_at;
 }
 
@@ -483,7 +501,7 @@ static void compare_points_at(Compare *compare, size_t step, ImposedPoint *impos
     const bool staged = stage_of(compare, step, &stage, &part);
     gravity_at(compare, staged, stage, part, g);
     const CpsStage *at = staged ? &compare->scene->stage[stage] : NULL;
-    const int changes = staged ? at->point_change_count : 0;
+    const int changes = staged && !is_break(&compare->source, step) ? at->point_change_count : 0;
     for (int i = 0; i < changes; i++) {
         const CpsPointChange *change = &at->point_change[i];
         impose_on_point(compare, &imposed[change->point], change, part, at->step_count,
@@ -572,7 +590,8 @@ static GivenStep step_of(const void *user, size_t step) {
     GivenStep given = {0};
     const bool staged = stage_of(compare, step, &stage, &part);
     gravity_at(compare, staged, stage, part, given.gravity);
-    given.stage = staged ? &compare->scene->stage[stage] : NULL;
+    const bool stays = is_break(&compare->source, step);
+    given.stage = staged && !stays ? &compare->scene->stage[stage] : NULL;
     given.part = part;
     return given;
 }
@@ -613,7 +632,7 @@ static void compare_grasps(Compare *compare, const CpsLine *line, int index, siz
                ended = r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE ||
                        r->outcome == OUTCOME_SLIDES;
     const CpsStage *at = &compare->scene->stage[stage];
-    const int changes = staged ? at->grasp_change_count : 0;
+    const int changes = staged && !is_break(&compare->source, step) ? at->grasp_change_count : 0;
     size_t named = 0, kept = 0;
     if (ended) return;
     for (int i = 0; i < changes; i++) {
@@ -658,6 +677,20 @@ static void compare_grasps(Compare *compare, const CpsLine *line, int index, siz
              line->name, step, named + kept);
 }
 
+/* The end in a break. */
+static void part_end(const Source *source, size_t step, int line, int e, Imposed *end) {
+    if ((int)source->break_line[step] == line && (int)source->break_end[step] == e)
+        let_go(end, RELEASE_BREAK);
+}
+
+/* A line that is above its break_at after the last step of the scene would have parted. */
+static void compare_end_of_run(Compare *compare, const CpsLine *line, const Record *last) {
+    const double share = failure_is_loaded(last) ? failure_share(last) : 0;
+    if (compare->source.steps == planned(compare) && last->outcome <= OUTCOME_TAUT &&
+        share > 1 + 1e-9)
+        find(compare, "%s is at %.9g of its break_at in the last step", line->name, share);
+}
+
 static int compare_steps(Compare *compare, int index) {
     const CpsLine *line = &compare->scene->line[index];
     Record now = {0}, before = {0};
@@ -670,17 +703,23 @@ static int compare_steps(Compare *compare, int index) {
         int stage, part;
         if (!bad)
             for (int e = 0; e < 2; e++) {
-                if (is_at_point(compare, line, e, &now)) continue;
-                if (step == 0) {
+                const bool at_point = begins_at_point(compare, line, e, &now);
+                if (step == 0 && !at_point) {
                     end[e].now = first_end(&compare->source, line, e, &now);
                     end[e].noise = line->start.kind == CPS_START_ARC ? COMPUTED : COPIED;
                 }
                 const CpsEnd was = end[e].now;
                 double start[3];
                 start_place(&compare->source, line, e, &now, start);
-                if (stage_of(compare, step, &stage, &part))
+                if (is_break(&compare->source, step))
+                    part_end(&compare->source, step, index, e, &end[e]);
+                else if (stage_of(compare, step, &stage, &part))
                     impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e,
                            step > 0 ? &before : NULL, start);
+                if (now.release[e] != end[e].release)
+                    find(compare, "end_release of %s, end %c, step %zu", line->name, e ? 'B' : 'A',
+                         step);
+                if (at_point && end[e].release == RELEASE_NONE) continue;
                 compare_end(compare, line, e, &end[e], &was, step, &now);
             }
         if (!bad && step == 0) compare_nodes(compare, line, &now);
@@ -692,6 +731,7 @@ static int compare_steps(Compare *compare, int index) {
         before = now;
         now = swap;
     }
+    if (!bad && compare->findings == 0) compare_end_of_run(compare, line, &before);
     record_destroy(&now);
     record_destroy(&before);
     return bad;

@@ -4,6 +4,7 @@
  * anything is allocated. */
 #include "record.h"
 #include "elongation.h"
+#include "failure.h"
 #include "grasps.h"
 #include "places.h"
 
@@ -311,6 +312,7 @@ int source_open(const char *path, Source *source, FILE *log) {
     if (read_surfaces(source, log) || places_open(source, log)) return -1;
 
     if (read_names(source, "lines", &source->line_name, &source->lines, log)) return -1;
+    if (failures_open(source, log)) return -1;
     return read_points(source, log);
 }
 
@@ -320,6 +322,7 @@ void source_close(Source *source) {
     free(source->point_name);
     free(source->point_weight);
     free(source->point_kind);
+    failures_close(source);
     free(source->line_name);
     if (source->surface)
         for (size_t k = 0; k < source->surfaces; k++) conic_free(source->surface[k].set);
@@ -498,7 +501,7 @@ static int read_end_points(const Source *source, const char *line, Record *recor
     for (int e = 0; e < 2; e++) {
         if (!(point[e] >= -1 && point[e] < (double)source->points))
             return complain(log, "unknown point at an end of line", line, 0);
-        record->end_point[e] = (int)point[e];
+        record->end_point[e] = record->given_point[e] = (int)point[e];
     }
     return 0;
 }
@@ -533,6 +536,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (elongation_read(source, line, record, log)) return -1;
     if (read_breaking_load(source, line, record, log)) return -1;
     if (read_end_points(source, line, record, log)) return -1;
+    if (failure_create(source, line, record, log)) return -1;
     return read_zones(source, line, record, log);
 }
 
@@ -547,6 +551,7 @@ void record_destroy(Record *record) {
     free(record->element_compliance);
     free(record->weight_length);
     free(record->breaking_load);
+    free(record->break_at);
     elongation_free(record);
     free(record->gap);
     free(record->friction_bound);
@@ -745,6 +750,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= read_proof_obstacle(source, line, "proof_plane", step, &record->proof_plane, log);
     bad |= read_weight_before(source, line, step, record, log);
     bad |= grasps_read(source, line, step, record, log);
+    bad |= failure_read(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }
 

@@ -38,6 +38,7 @@ static const char SCENE[] =
     " element_length: 1.5}], point_weights: [{at: 2, mass: 5, volume: 0.003}, {at: 4, weight: 3}],"
     " start: {straight: {from: [0, 200, 0], to: [0, 210, 0]}}, ends: {A: held, B: free}}\n"
     "  wet: {length: 3, elements: 3, mass: 4, diameter: 0.04, stiffness: 2000, breaking_load: 80,"
+    " break_at: 90000,"
     " start: {straight: {from: [0, 300, 0], to: [3, 300, 0]}}, ends: {A: held, B: free}}\n"
     "  soft: {sections: [{type: rope, length: 3, elements: 2}],"
     " start: {straight: {from: [0, 400, 0], to: [3, 400, 0]}}, ends: {A: held, B: free}}\n"
@@ -147,6 +148,7 @@ static const struct Change {
     {"breaking_load", "stiffness: 3000, breaking_load: 900}",
      "stiffness: 3000, breaking_load: 901}"},
     {"breaking_load", "stiffness: 2000, breaking_load: 80", "stiffness: 2000"},
+    {"break_at", "break_at: 90000", "break_at: 90001"},
     {"element_length", "element_length: 0.9", "element_length: 0.3"},
     {"grade", "grade: {towards: B, ratio: 4}, element", "element"},
     {"towards", "towards: B", "towards: A"},

@@ -31,6 +31,7 @@ typedef struct Build {
     CpsiSetBuild set; /* of friction sets */
     double elements;  /* number of elements of the lines so far */
     CpsiMaterials materials;
+    bool (*released)[2]; /* (lines) ends that the history has let go so far */
     /* (lines) [m] position at which each end is held after the preceding entry; NaN: not held, or
      * not known */
     double (*held)[2][3];
@@ -334,6 +335,8 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
     if (!line->name) return cpsi_document_no_memory(b->d);
     line->has_breaking_load = !isnan(values->breaking_load);
     if (line->has_breaking_load) line->breaking_load = values->breaking_load;
+    line->has_break_at = !isnan(values->break_at);
+    if (line->has_break_at) line->break_at = values->break_at;
     CpsStatus status = cpsi_line_weight_build(&b->materials, values, line);
     if (status == CPS_OK)
         status = cpsi_stiffness_build(&b->materials, &values->table, &line->stiffness_row_count,
@@ -358,7 +361,9 @@ static CpsStatus build_lines(Build *b, const CpsiList *lines) {
     const CpsiLineValues *values = lines->item;
     b->line = CPSI_POOL_TAKE(b->pool, lines->count, CpsLine);
     b->held = CPSI_POOL_TAKE(b->pool, lines->count, double[2][3]);
-    if (!b->line || !b->held) return cpsi_document_no_memory(b->d);
+    b->released = CPSI_POOL_TAKE(b->pool, lines->count, bool[2]);
+    if (!b->line || !b->held || !b->released) return cpsi_document_no_memory(b->d);
+    for (int i = 0; i < lines->count; i++) b->released[i][0] = b->released[i][1] = false;
     b->scene->line = b->line;
     b->scene->line_count = lines->count;
     CpsStatus status = CPS_OK;
@@ -434,20 +439,36 @@ static int find_owner_point(const Build *b, const char *key) {
     return i;
 }
 
+/* An end that is let go; it is at no point from then on. */
+static CpsStatus build_release(const Build *b, const CpsiChangeValues *values, CpsChange *change) {
+    if (!values->yes)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': found false, expected true; leave the key out to leave "
+                                  "the end as it is",
+                                  values->node->key);
+    *change = (CpsChange){.line = change->line,
+                          .end = change->end,
+                          .to = {.kind = CPS_END_KIND_RELEASED}};
+    b->held[change->line][change->end][0] = NAN;
+    b->released[change->line][change->end] = true;
+    return CPS_OK;
+}
+
 static CpsStatus build_change(const Build *b, const CpsiChangeValues *values, CpsChange *change) {
     const char *key = values->node->key;
-    change->line = find_line(b, key);
+    *change = (CpsChange){.line = find_line(b, key)};
     change->end = key[strlen(key) - 1] == 'A' ? CPS_END_A : CPS_END_B;
+    if (values->kind == CPSI_CHANGE_RELEASE) return build_release(b, values, change);
     change->to.kind = values->kind == CPSI_CHANGE_FORCE ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
     const CpsLine *line = &b->line[change->line];
-    const char *point = line->end[change->end].kind == CPS_END_KIND_POINT
-                            ? b->scene->point[line->end_point[change->end]].name
-                            : NULL;
+    const bool at_point = line->end[change->end].kind == CPS_END_KIND_POINT &&
+                          !b->released[change->line][change->end];
+    const char *point = at_point ? b->scene->point[line->end_point[change->end]].name : NULL;
     double *held = b->held[change->line][change->end];
     if (point)
         return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
                                   "'%s': this end is at the point '%s', expected a change of the "
-                                  "point: write '%s.point'",
+                                  "point: write '%s.point', or release the end in an entry before",
                                   key, point, point);
     if (values->kind == CPSI_CHANGE_MOVE && isnan(held[0]))
         return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,

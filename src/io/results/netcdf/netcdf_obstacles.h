@@ -4,7 +4,7 @@
 #ifndef CAPSTAN_SRC_IO_RESULTS_NETCDF_NETCDF_OBSTACLES_H
 #define CAPSTAN_SRC_IO_RESULTS_NETCDF_NETCDF_OBSTACLES_H
 
-#include "capstan/evolve.h"
+#include "capstan/failure.h"
 #include "capstan/set.h"
 #include "io/results/netcdf/netcdf_file.h"
 
@@ -69,6 +69,30 @@ void cpsi_netcdf_write_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodi
                               const CpsScene *scene, const double origin[3]);
 void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies, size_t step,
                                const CpsEvolution *evolution, const double origin[3]);
+/* Ends that are let go and lines that part. */
+typedef struct CpsiNetcdfBreaks {
+    bool is_there; /* cpsi_lets_go */
+    int line, end, tension;
+} CpsiNetcdfBreaks;
+typedef struct CpsiNetcdfFailure {
+    int release, break_at; /* break_at: unused where no element has one */
+} CpsiNetcdfFailure;
+
+/* Define the variables of the run, and of line number i; none in a scene that lets nothing go. */
+void cpsi_netcdf_define_breaks(CpsiNetcdfFile *file, CpsiNetcdfBreaks *ids, const CpsScene *scene,
+                               int step);
+void cpsi_netcdf_define_failure(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *breaks,
+                                CpsiNetcdfFailure *ids, const CpsEvolution *evolution, int i,
+                                const int dimension[3]); /* of steps, ends, and elements */
+/* Write what does not change, and what the last step has found. */
+void cpsi_netcdf_write_failure(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *breaks,
+                               const CpsiNetcdfFailure *ids, const CpsEvolution *evolution, int i);
+void cpsi_netcdf_append_breaks(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *ids, size_t step,
+                               const CpsEvolution *evolution);
+void cpsi_netcdf_append_failure(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *breaks,
+                                const CpsiNetcdfFailure *ids, size_t step,
+                                const CpsEvolution *evolution, int i);
+
 /* Nodes of a line between its ends that are held or pulled. */
 typedef struct CpsiNetcdfGrasps {
     bool is_there; /* the history grasps nodes of the line */

@@ -91,6 +91,7 @@ static int point_of(const CpsLine *line, int end) {
 
 static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvolution *evolution) {
     results->planned_steps = cps_evolution_step_count(evolution);
+    results->lets_go = cpsi_lets_go(scene);
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
     results->has_water_surface = scene->has_water_surface;
@@ -229,7 +230,7 @@ static void find_stiffness(const CpsEvolution *evolution, int i, CpsStiffness fo
  * body with that. */
 static bool is_held(const CpsResults *results, const CpsiRow *row, const CpsLineView *view, int l,
                     int e) {
-    const int point = results->line_point[l][e];
+    const int point = cpsi_results_point_of(results, row, l, e);
     if (point == CPSI_AT_NO_POINT) return view->end[e].kind == CPS_END_KIND_HELD;
     if (row->point[point].state != CPS_POINT_STATE_ON_BODY)
         return row->point[point].state == CPS_POINT_STATE_HELD;
@@ -247,6 +248,18 @@ static bool reserve_points(const CpsResults *results, CpsiRow *row) {
            (row->place || results->obstacle_count == 0);
 }
 
+/* The last row is a break, of which the stages know nothing: it belongs to the one under way, or to
+ * the one that has just ended, and those to come begin later. */
+static void insert_break(CpsResults *results) {
+    const int row = results->row_count - 1;
+    results->planned_steps++;
+    for (int i = 0; i < results->stage_count; ++i) {
+        CpsiStage *stage = &results->stage[i];
+        if (stage->first >= row) stage->first++;
+        if (stage->last >= row - 1) stage->last++;
+    }
+}
+
 static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
     if (results->row_count == results->row_capacity) {
         const size_t capacity = results->row_capacity ? 2 * (size_t)results->row_capacity : 64;
@@ -255,7 +268,8 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         results->row = grown;
         results->row_capacity = (int)capacity;
     }
-    CpsiRow row = {.report = cps_evolution_report(evolution)};
+    CpsiRow row = {.report = cps_evolution_report(evolution),
+                   .parted = cps_evolution_break(evolution)};
     row.name = copy_text(row.report.name);
     row.report.name = row.name;
     row.line = calloc((size_t)results->line_count, sizeof *row.line);
@@ -275,12 +289,15 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         CpsiLineRow *line = &row.line[i];
         line->report = cps_evolution_line_report(evolution, i);
+        line->failure = cps_evolution_line_failure(evolution, i);
+        line->failure.break_at = NULL;
         line->open_reaction = open_reaction(&view);
         for (int e = 0; e < 2; ++e) line->held[e] = is_held(results, &row, &view, i, e);
         if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
         if (row.stiffness) find_stiffness(evolution, i, row.stiffness[i]);
     }
     results->row[results->row_count++] = row;
+    if (row.parted.is_break) insert_break(results);
     return true;
 }
 
@@ -304,6 +321,15 @@ static bool has_these_lines(const CpsResults *results, const CpsEvolution *evolu
     return true;
 }
 
+static bool has_let_go(const CpsEvolution *evolution) {
+    for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
+        const CpsLineFailure failure = cps_evolution_line_failure(evolution, i);
+        for (int end = 0; end < 2; ++end)
+            if (failure.release[end] != CPS_RELEASE_NONE) return true;
+    }
+    return false;
+}
+
 static CpsStatus refuse_failed(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_ARGUMENT,
                      "these results have failed or are finished; destroy them and open new ones");
@@ -318,6 +344,10 @@ CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution,
             err, CPS_ERR_ARGUMENT,
             "the evolution has other lines, points or bodies than the one that these results were "
             "opened for");
+    if (!results->lets_go && has_let_go(evolution))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "an end of a line was let go, but these results were opened for a scene "
+                         "in which none can be: give a line a break_at, however large");
     const CpsStepReport report = cps_evolution_report(evolution);
     if (report.step_count != results->row_count + 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,

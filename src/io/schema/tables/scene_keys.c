@@ -321,13 +321,15 @@ static const CpsiKey TYPE_KEYS[] = {
      .help = "axial stiffness EA; .inf for an inextensible type; or a table of strain and tension"},
     {"breaking_load", OPTIONAL, NUMBER(Type, breaking_load), POSITIVE, .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over it"},
+    {"break_at", OPTIONAL, NUMBER(Type, break_at), POSITIVE, .unit = "N",
+     .help = "tension above which a line of it parts: it is let go at the nearest end"},
     {"friction", OPTIONAL, NUMBER(Type, friction), NOT_NEGATIVE, .fallback = "1",
      .help = "factor of the friction of whatever it touches"},
 };
 
 static void begin_type(void *values) {
     CpsiTypeValues *type = values;
-    type->mass = type->breaking_load = NAN;
+    type->mass = type->breaking_load = type->break_at = NAN;
     type->friction = 1;
 }
 
@@ -378,6 +380,8 @@ static const CpsiKey LINE_KEYS[] = {
      .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over "
              "it"},
+    {"break_at", OPTIONAL, NUMBER(Line, break_at), POSITIVE, .unless = "sections", .unit = "N",
+     .help = "tension above which it parts: it is let go at the nearest end"},
     {"point_weights", OPTIONAL, LIST(Line, point_weights, 0), .inside = &POINT_WEIGHT,
      .fallback = "[]", .help = "clumps and buoys between the ends, in order from A to B"},
     {"friction_zones", OPTIONAL, LIST(Line, zones, 0), .inside = &ZONE, .fallback = "[]",
@@ -396,7 +400,7 @@ static const CpsiKey LINE_KEYS[] = {
 static void begin_line(void *values) {
     CpsiLineValues *line = values;
     line->line = cps_line_default();
-    line->mass = line->count = line->breaking_load = line->element_length = NAN;
+    line->mass = line->count = line->breaking_load = line->break_at = line->element_length = NAN;
 }
 
 static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};
@@ -430,6 +434,8 @@ static const CpsiKey CHANGE_KEYS[] = {
      .help = "move the end by this much from where the entry before has put it"},
     {"force", ONE_OF, POINT(Change, value, 3), ANY, .unit = "N",
      .help = "pull with this force; a held end is let go, from the force it carries"},
+    {"release", ONE_OF, FLAG(Change, yes),
+     .help = "true: let the end go at once, without force, also from its point"},
 };
 static const CpsiMapping CHANGE = {"change", KEYS(CHANGE_KEYS), INTO(Change), WHICH(Change, kind)};
 

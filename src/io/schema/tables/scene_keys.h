@@ -80,6 +80,7 @@ typedef struct CpsiTypeValues {
     double mass, diameter, weight, stiffness, friction;
     CpsiStiffnessValues table; /* in place of `stiffness` */
     double breaking_load;      /* NaN: not given */
+    double break_at;           /* NaN: not given */
 } CpsiTypeValues;
 
 /* Elements that become shorter towards an end, or towards both. */
@@ -143,6 +144,7 @@ typedef struct CpsiLineValues {
     CpsLine line;
     double mass, count, diameter; /* count: number of elements; NaN: not given */
     double breaking_load;         /* NaN: not given */
+    double break_at;              /* NaN: not given */
     CpsiStiffnessValues table;    /* in place of line.stiffness */
     CpsiPretensionValues pretension;
     CpsiList sections;        /* CpsiSectionValues */
@@ -159,13 +161,15 @@ typedef struct CpsiLineValues {
 typedef enum CpsiChangeKind {
     CPSI_CHANGE_POSITION,
     CPSI_CHANGE_MOVE,
-    CPSI_CHANGE_FORCE
+    CPSI_CHANGE_FORCE,
+    CPSI_CHANGE_RELEASE /* of an end only */
 } CpsiChangeKind;
 
 typedef struct CpsiChangeValues {
     const CpsiYaml *node; /* the key is LINE.END or POINT.point */
     int kind;             /* CpsiChangeKind */
     double value[3];
+    bool yes; /* of `release` */
 } CpsiChangeValues;
 
 /* A change of a body: its pose, or the load on it. A key is given where the mapping has it. */
