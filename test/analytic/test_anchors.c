@@ -218,11 +218,73 @@ static void what_is_refused(void **unused) {
     refused(&p, "it drags, but lies on obstacle 'ball', which is round");
 }
 
+/* Pulled with exactly its capacity an anchor balances wherever a slack line lets it go, in each of
+ * many directions and sizes. It stays where it was, and most steps say that this is not the only
+ * place; so does a clump that is pulled with exactly its friction limit. */
+static void at_exactly_the_limit(void **unused) {
+    (void)unused;
+    static const double SLACK = 10;
+    int told = 0;
+    for (int k = 0; k < 24; k++) {
+        const bool clump = k % 2 == 1;
+        const double angle = 0.1 + 0.7 * k, scale = pow(10, k % 5 - 2), capacity = CAPACITY * scale;
+        Pull p;
+        make(&p, 0, 0, 0);
+        p.line.stiffness *= scale;
+        CpsLine line[2] = {p.line, p.line};
+        p.scene.line = line;
+        p.scene.line_count = 2;
+        p.anchor.holding_capacity = capacity;
+        if (clump) {
+            p.anchor.drags = p.anchor.has_holding_capacity = false;
+            p.anchor.kind = CPS_POINT_KIND_FREE;
+            p.anchor.weight = 2 * capacity;
+            p.bed.name = "bed";
+            p.bed.friction = 0.5;
+            p.scene.obstacle = &p.bed;
+            p.scene.obstacle_count = 1;
+        }
+        const double pull[3] = {capacity * cos(angle), capacity * sin(angle), 0};
+        CpsChange change[2];
+        for (int i = 0; i < 2; i++) {
+            change[i] = (CpsChange){.end = CPS_END_B, .to = {CPS_END_KIND_FREE, {0}}};
+            for (int a = 0; a < 3; a++) change[i].to.value[a] = (i == 0 ? 1 : 0.999) * pull[a];
+        }
+        line[0].end[CPS_END_B] = change[0].to;
+        /* statics knows no friction */
+        if (clump) memset(line[0].end[CPS_END_B].value, 0, sizeof line[0].end[CPS_END_B].value);
+        line[1].name = "slack";
+        line[1].length = SLACK * LENGTH;
+        line[1].end[CPS_END_B] =
+            (CpsEnd){CPS_END_KIND_HELD, {-3 * LENGTH * cos(angle), -3 * LENGTH * sin(angle), 0}};
+        for (int i = 0; i < 3; i++) {
+            p.stage[i] = cps_stage_default();
+            p.stage[i].name = "pull";
+            p.stage[i].change_count = 1;
+            p.stage[i].change = &change[i == 2];
+        }
+        p.scene.stage_count = 3;
+        CpsEvolution *evolution = evolve(&p);
+        for (int i = 0; i < 4; i++) {
+            const CpsPointReport anchor = step(evolution);
+            CHECK_NEAR(size(anchor.position), 0, 0);
+            CHECK_NEAR(size(anchor.slip) + size(anchor.drag), 0, 0);
+            CHECK_NEAR(anchor.dragged, 0, 0);
+            if (!clump) CHECK_NEAR(anchor.capacity_used, i < 3 ? 1 : 0.999, 1e-8);
+            told += cps_evolution_line_report(evolution, 1).places == CPS_PLACES_NEAREST;
+        }
+        cps_evolution_destroy(evolution);
+    }
+    /* not where the search begins at the nearest place, and sees no other */
+    assert_true(told > 12);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(along_a_line), cmocka_unit_test(at_an_angle),
-        cmocka_unit_test(on_a_slope),   cmocka_unit_test(without_drags),
-        cmocka_unit_test(inextensible), cmocka_unit_test(what_is_refused),
+        cmocka_unit_test(along_a_line),    cmocka_unit_test(at_an_angle),
+        cmocka_unit_test(on_a_slope),      cmocka_unit_test(without_drags),
+        cmocka_unit_test(inextensible),    cmocka_unit_test(at_exactly_the_limit),
+        cmocka_unit_test(what_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
