@@ -419,7 +419,8 @@ bool cpsi_is_balanced(const CpsiBalance *balance, double left) {
 
 bool cpsi_obeys_friction(const CpsiBalance *balance, const CpsiFree *at) {
     const double slip = vec3_norm(at->slip);
-    if (at->obstacle == CPS_NO_OBSTACLE || slip <= cpsi_trial_touch(balance, at)) return true;
+    if ((at->obstacle == CPS_NO_OBSTACLE && !at->drags) || slip <= cpsi_trial_touch(balance, at))
+        return true;
     return cpsi_is_balanced(balance, at->bound + vec3_dot(at->force, at->slip) / slip);
 }
 

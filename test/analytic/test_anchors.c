@@ -279,12 +279,83 @@ static void at_exactly_the_limit(void **unused) {
     assert_true(told > 12);
 }
 
+static void turn(double angle, const double from[3], double to[3]) {
+    to[0] = cos(angle) * from[0] - sin(angle) * from[1];
+    to[1] = sin(angle) * from[0] + cos(angle) * from[1];
+    to[2] = from[2];
+}
+
+/* A mooring whose anchor drags in statics and in a step, turned about z by many angles: it is
+ * solved at each, and everything turns with it. */
+static void turned_about_z(void **unused) {
+    (void)unused;
+    enum { TURNS = 24, POINTS = 3, LINES = 3, STEPS = 2 };
+    static const double PLACE[POINTS][3] = {{9.95, 1, 2.2}, {-9.8, -1.9, 1.15}, {-1.4, -0.9, 6}},
+                        THEN[3] = {-8.9, -2.1, 1.15};
+    static const double LONG[LINES] = {12, 9.8, 9.6}, HEAVY[LINES] = {300, 1000, 1000},
+                        STIFF[LINES] = {1e9, 1e5, 1e5};
+    static const char *const NAME[] = {"anchor", "fixed", "knot", "one", "two", "three"};
+    double first[STEPS][POINTS][3];
+    for (int t = 0; t < TURNS; t++) {
+        const double angle = 0.27 * t;
+        CpsPoint point[POINTS];
+        CpsLine line[LINES];
+        CpsScene scene = cps_scene_default();
+        CpsPointChange change = {.point = 1, .kind = CPS_POINT_KIND_HELD};
+        CpsStage stage = cps_stage_default();
+        turn(angle, THEN, change.value);
+        stage.name = "move";
+        stage.point_change_count = 1;
+        stage.point_change = &change;
+        for (int k = 0; k < POINTS; k++) {
+            point[k] = cps_point_default();
+            point[k].name = NAME[k];
+            point[k].kind = k == 2 ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_HELD;
+            turn(angle, PLACE[k], point[k].position);
+        }
+        point[0].has_holding_capacity = point[0].drags = true;
+        point[0].holding_capacity = 1000;
+        for (int k = 0; k < LINES; k++) {
+            line[k] = cps_line_default();
+            line[k].name = NAME[POINTS + k];
+            line[k].length = LONG[k];
+            line[k].element_count = k == 0 ? 1 : 2;
+            line[k].weight = HEAVY[k];
+            line[k].stiffness = STIFF[k];
+            line[k].start.kind = CPS_START_STATIC;
+            for (int end = 0; end < 2; end++) line[k].end[end].kind = CPS_END_KIND_POINT;
+            line[k].end_point[CPS_END_A] = k == 0 ? 0 : 1;
+            line[k].end_point[CPS_END_B] = 2;
+        }
+        scene.point = point;
+        scene.point_count = POINTS;
+        scene.line = line;
+        scene.line_count = LINES;
+        scene.stage = &stage;
+        scene.stage_count = 1;
+        Pull p = {.scene = scene};
+        CpsEvolution *evolution = evolve(&p);
+        for (int i = 0; i < STEPS; i++) {
+            step(evolution);
+            for (int k = 0; k < POINTS; k++) {
+                const CpsPointReport at = cps_evolution_point_report(evolution, k);
+                double back[3];
+                turn(-angle, at.position, back);
+                if (t == 0) memcpy(first[i][k], back, sizeof back);
+                for (int a = 0; a < 3; a++) CHECK_NEAR(back[a], first[i][k][a], 1e-6 * LONG[0]);
+            }
+        }
+        assert_true(cps_evolution_point_report(evolution, 0).dragged > 0.01);
+        cps_evolution_destroy(evolution);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(along_a_line),    cmocka_unit_test(at_an_angle),
-        cmocka_unit_test(on_a_slope),      cmocka_unit_test(without_drags),
-        cmocka_unit_test(inextensible),    cmocka_unit_test(at_exactly_the_limit),
-        cmocka_unit_test(what_is_refused),
+        cmocka_unit_test(along_a_line),         cmocka_unit_test(at_an_angle),
+        cmocka_unit_test(on_a_slope),           cmocka_unit_test(without_drags),
+        cmocka_unit_test(inextensible),         cmocka_unit_test(turned_about_z),
+        cmocka_unit_test(at_exactly_the_limit), cmocka_unit_test(what_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
