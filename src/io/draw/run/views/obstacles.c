@@ -3,7 +3,8 @@
  *
  * A plane seen from above fills the frame and shows its slope; otherwise its intersection with the
  * paper is shown. Cylinders and balls are shown by their silhouettes: a circle, or the band of a
- * cylinder seen from its side, which has no ends. An obstacle that turns and is seen along its axis
+ * cylinder seen from its side, which has no ends. Ground has a picture of its own (ground.c);
+ * surfaces given as functions are not shown. An obstacle that turns and is seen along its axis
  * has a spoke that turns with it. The water is what is below its surface, in elevations. */
 #include <math.h>
 #include <string.h>
@@ -166,12 +167,16 @@ static void draw_water(const CpsResults *results, const CpsiView *view, const Cp
 void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
                             int step, FILE *out) {
     draw_water(results, view, frame, out);
-    for (int k = 0; k < results->obstacle_count; ++k)
+    for (int k = 0; k < results->obstacle_count; ++k) {
         if (results->obstacle[k].kind == CPS_OBSTACLE_PLANE)
             draw_plane(&results->obstacle[k], view, frame, out);
+        if (results->obstacle[k].kind == CPS_OBSTACLE_GROUND)
+            cpsi_picture_ground(&results->obstacle[k], view, frame, out);
+    }
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle *obstacle = &results->obstacle[k];
-        if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
+        if (obstacle->kind != CPS_OBSTACLE_CYLINDER && obstacle->kind != CPS_OBSTACLE_SPHERE)
+            continue;
         const Vec3 axis = unit(obstacle->axis);
         if (cpsi_obstacle_is_circle(obstacle, view))
             draw_circle(obstacle, view, frame, out);

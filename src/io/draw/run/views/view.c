@@ -57,12 +57,16 @@ static double apart(const double range[2], double c, double r) {
     return fmax(0, fmax(range[0] - (c + r), (c - r) - range[1]));
 }
 
+static bool is_round(const CpsObstacle *obstacle) {
+    return obstacle->kind == CPS_OBSTACLE_CYLINDER || obstacle->kind == CPS_OBSTACLE_SPHERE;
+}
+
 /* include round silhouettes, unless the lines would be too small beside them */
 static void include_round(const CpsResults *results, CpsiView *view) {
     const double spread = hypot(view->x[1] - view->x[0], view->y[1] - view->y[0]);
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle *obstacle = &results->obstacle[k];
-        if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
+        if (!is_round(obstacle)) continue;
         view->true_scale = true;
         const Vec3 centre = vec3_load(obstacle->point);
         const double x = vec3_dot(view->right, centre), y = vec3_dot(view->up, centre),
@@ -177,7 +181,8 @@ static double longest_chord(const CpsResults *results) {
 static double elevation_angle(const CpsResults *results, Vec3 east, Vec3 north) {
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle *obstacle = &results->obstacle[k];
-        if (obstacle->kind == CPS_OBSTACLE_SPHERE) continue;
+        if (obstacle->kind != CPS_OBSTACLE_PLANE && obstacle->kind != CPS_OBSTACLE_CYLINDER)
+            continue;
         const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE;
         const Vec3 d = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));
         const double e = vec3_dot(d, east), n = vec3_dot(d, north), x = plane ? e : n,
