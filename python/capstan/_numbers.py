@@ -10,23 +10,40 @@ import numpy as np
 from ._errors import ArgumentError
 
 
-def array(value: Any, shape: Tuple[Optional[int], ...], what: str) -> np.ndarray:
+def array(value: Any, shape: Tuple[Optional[int], ...], what: str, infinite: bool = False) -> np.ndarray:
     """`value` as a C-contiguous float64 array of this shape, where None stands for any size.
 
     Integers and real numbers of any size and stride are converted; texts, None, complex numbers and ragged lists are
-    refused, as are NaN and infinite numbers."""
+    refused, as are NaN and, but where `infinite` says so, infinite numbers."""
+    raw = _numeric(value, what)
+    fits = raw.ndim == len(shape) and all(n is None or n == m for n, m in zip(shape, raw.shape))
+    if not fits:
+        wanted = " x ".join("any" if n is None else str(n) for n in shape)
+        raise ArgumentError(f"{what}: found the shape {raw.shape}, expected {wanted}")
+    made = np.ascontiguousarray(raw, dtype=np.float64)
+    return _finite(made, what, infinite)
+
+
+def rows(value: Any, n: int, what: str) -> np.ndarray:
+    """`value` as a float64 array of vectors: any shape whose last dimension is n."""
+    raw = _numeric(value, what)
+    if raw.ndim == 0 or raw.shape[-1] != n:
+        raise ArgumentError(f"{what}: found the shape {raw.shape}, expected (.., {n})")
+    return _finite(np.ascontiguousarray(raw, dtype=np.float64), what, False)
+
+
+def _numeric(value: Any, what: str) -> np.ndarray:
     try:
         raw = np.asarray(value)
     except (ValueError, TypeError) as error:
         raise ArgumentError(f"{what}: no array of numbers ({error})") from None
     if raw.dtype.kind not in "iuf":
         raise ArgumentError(f"{what}: found {_named(value, raw)}, expected numbers")
-    fits = raw.ndim == len(shape) and all(n is None or n == m for n, m in zip(shape, raw.shape))
-    if not fits:
-        wanted = " x ".join("any" if n is None else str(n) for n in shape)
-        raise ArgumentError(f"{what}: found the shape {raw.shape}, expected {wanted}")
-    made = np.ascontiguousarray(raw, dtype=np.float64)
-    if not np.isfinite(made).all():
+    return raw
+
+
+def _finite(made: np.ndarray, what: str, infinite: bool) -> np.ndarray:
+    if np.isnan(made).any() or not (infinite or np.isfinite(made).all()):
         raise ArgumentError(f"{what}: found a number that is not finite")
     return made
 
