@@ -19,6 +19,7 @@ from .results import LineHistory, Results, SavedResults, Step, open_results as o
 from .laws import Law, Resistance
 from .scene import Body, Friction, Line, Obstacle, Point, Scene
 from .sets import Set
+from .sweeps import sweep
 from .systems import Motion, System
 
 __version__ = _text(_lib.cps_version())
@@ -26,4 +27,4 @@ __version__ = _text(_lib.cps_version())
 __all__ = ["ARRAYS", "ArgumentError", "Body", "Error", "Evolution", "FileError", "Friction", "InputError", "Law",
            "LimitError", "Line", "LineHistory", "LineState", "Motion", "Move", "NoAnswer", "Obstacle",
            "OutOfMemory", "Place", "Point", "Record", "Resistance", "Results", "SavedResults", "Scene",
-           "Set", "Step", "System", "__version__", "laws", "open", "run", "sets"]
+           "Set", "Step", "System", "__version__", "laws", "open", "run", "sets", "sweep"]
