@@ -12,7 +12,7 @@ headers of the C library."""
 from ._errors import (ArgumentError, Error, FileError, InputError, LimitError, NoAnswer, OutOfMemory, Place, text as _text)
 from ._native import lib as _lib
 from ._record import Record
-from . import laws, sets
+from . import laws, plots, sets
 from .evolution import ARRAYS, Evolution, LineState
 from .move import Move
 from .results import LineHistory, Results, SavedResults, Step, open_results as open, run  # noqa: A004
@@ -27,4 +27,4 @@ __version__ = _text(_lib.cps_version())
 __all__ = ["ARRAYS", "ArgumentError", "Body", "Error", "Evolution", "FileError", "Friction", "InputError", "Law",
            "LimitError", "Line", "LineHistory", "LineState", "Motion", "Move", "NoAnswer", "Obstacle",
            "OutOfMemory", "Place", "Point", "Record", "Resistance", "Results", "SavedResults", "Scene",
-           "Set", "Step", "System", "__version__", "laws", "open", "run", "sets", "sweep"]
+           "Set", "Step", "System", "__version__", "laws", "open", "plots", "run", "sets", "sweep"]
