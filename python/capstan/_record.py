@@ -15,7 +15,7 @@ import numpy as np
 from ._errors import text
 from ._native import ffi
 
-_NUMBERS = {"double": np.float64, "int": np.int32, "_Bool": np.bool_, "unsigned char": np.uint8}
+_NUMBERS: Dict[str, Any] = {"double": np.float64, "int": np.int32, "_Bool": np.bool_, "unsigned char": np.uint8}
 
 
 @functools.lru_cache(maxsize=None)
@@ -89,7 +89,7 @@ class Record:
             dtype = _NUMBERS.get(kind.item.cname)
             if dtype is None:
                 return tuple(self._value(item, kind.item) for item in value)
-            made = np.frombuffer(ffi.buffer(value), dtype=dtype).copy()
+            made: np.ndarray = np.frombuffer(ffi.buffer(value), dtype=dtype).copy()
             made.flags.writeable = False
             return made
         return value
@@ -113,6 +113,9 @@ class Record:
         return isinstance(other, Record) and _same(self.to_dict(), other.to_dict())
 
     __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a report cannot be pickled or copied: take to_dict()")
 
 
 def _struct(c: Any) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 import weakref
-from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -20,7 +20,7 @@ _DOUBLE, _INT, _BYTE = np.dtype(np.float64), np.dtype(np.int32), np.dtype(np.uin
 
 # Arrays of a line: type, shape and meaning. n nodes, e = n - 1 elements, c contacts of a node (1, or 2 where the scene has
 # several obstacles), s springs of tables of stiffness. They are those of CpsLineView (include/capstan/step.h).
-ARRAYS = {
+ARRAYS: Dict[str, Tuple[np.dtype, str, str]] = {
     "arc_length": (_DOUBLE, "n", "[m] natural arc length of the nodes from end A"),
     "element_length": (_DOUBLE, "e", "[m]"),
     "compliance_factor": (_DOUBLE, "e", "[-] of the mean compliance"),
@@ -168,7 +168,7 @@ class Evolution:
         self._lock = threading.Lock()
         self._handle: Any = None
         self.scene = Scene.of(scene).copy()
-        self._settings = {"threads": threads, "path_tolerance": path_tolerance}
+        self._settings: Dict[str, Any] = {"threads": threads, "path_tolerance": path_tolerance}
         self._file = self.scene._file()
         self._c_scene = ffi.new("CpsScene *", lib.cps_scene_file_scene(self._file)[0])
         if threads is not None:

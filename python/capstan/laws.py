@@ -5,24 +5,28 @@ A friction law is a set C of forces that contains 0, with -V in the normal cone 
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _numbers
-from ._errors import ArgumentError, InputError, check, text
+from ._errors import ArgumentError, check
 from ._native import ffi, lib
 from ._record import Record, enum_word
-from .sets import Answer, Numbers, Set, _answered, _data, disc
+from .sets import Answer, Numbers, Set, _answered, _data
 
 
 class Law:
     """A friction law, or a loaded law: its `set` of forces, and what follows from it.
 
+    >>> from capstan.sets import disc
     >>> ground = Law(disc(500))
     >>> float(ground.dissipation([3, 4])), ground.force([0, 2]).tolist()
     (2500.0, [0.0, -500.0])
     """
+
+    _tree: Optional[Dict[str, Any]]
+    load: Optional[np.ndarray]
 
     def __init__(self, forces: Set, load: Optional[Numbers] = None) -> None:
         """The law whose forces are a set that contains 0; with a constant `load`, the loaded law."""
@@ -35,7 +39,7 @@ class Law:
 
     def _take(self, c: Any, load: Optional[Numbers] = None) -> None:
         self._c = ffi.gc(c, lib.cps_law_release)
-        self._tree: Optional[Dict[str, Any]] = None
+        self._tree = None
         self.composition: Optional[str] = None
         self.load = None
         self.set = Set(lib.cps_law_set(self._c), retain=True)
@@ -160,6 +164,7 @@ def contacts(parts: Sequence[Tuple[Numbers, Law]]) -> Law:
 class Resistance:
     """A resistance law -F in dphi(V): terms that are joined by +. The functions of this module make them.
 
+    >>> from capstan.sets import disc
     >>> law = dry(Law(disc(1))) + viscous([[2, 0], [0, 2]])
     >>> law.potential([1, 0]), law.power([1, 0])
     (2.0, 3.0)

@@ -55,7 +55,7 @@ def _shape(source: Source, axes: Tuple[int, ...], ax: "Axes", step: int, by_tens
         x = data["position"][:, axes]
         ax.plot(*x.T, color=f"C{k}", label=name, linewidth=1)
         if by_tension and len(axes) == 2:
-            pieces = LineCollection(np.stack([x[:-1], x[1:]], 1), cmap="viridis", linewidth=2.5)
+            pieces = LineCollection(list(np.stack([x[:-1], x[1:]], 1)), cmap="viridis", linewidth=2.5)
             pieces.set_array(data["tension"])
             pieces.set_clim(0, most)
             ax.add_collection(pieces)
@@ -73,8 +73,8 @@ def _shape(source: Source, axes: Tuple[int, ...], ax: "Axes", step: int, by_tens
         ax.plot([], [], ".", color=_STATES[state][1], label=_STATES[state][0])
     if len(lines) + len(shown) > 1:
         ax.legend(fontsize="small")
-    for axis, set_label in zip(axes, (ax.set_xlabel, ax.set_ylabel, getattr(ax, "set_zlabel", None))):
-        set_label(f"{'xyz'[axis]} [m]")
+    for axis, place in zip(axes, "xyz"):
+        getattr(ax, f"set_{place}label")(f"{'xyz'[axis]} [m]")
 
 
 def plan(source: Source, step: int = -1, ax: Optional["Axes"] = None, tension: bool = True) -> "Axes":
@@ -162,10 +162,10 @@ def plot_set(set: Set, ax: Optional["Axes"] = None, directions: int = 720, **sty
     count = max(int(np.sqrt(directions)), 12)
     azimuth, polar = np.meshgrid(np.linspace(0, 2 * np.pi, 2 * count), np.linspace(0, np.pi, count))
     w = np.stack([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)], -1)
-    ax = _axes(ax, projection="3d")
-    ax.plot_surface(*np.moveaxis(set.support_point(w), -1, 0), **{"alpha": 0.6, **style})
-    ax.set_aspect("equal")
-    return ax
+    space: Any = _axes(ax, projection="3d")
+    space.plot_surface(*np.moveaxis(set.support_point(w), -1, 0), **{"alpha": 0.6, **style})
+    space.set_aspect("equal")
+    return space
 
 
 def animate(results: Results, path: str, view: str = "elevation", fps: int = 10, **options: Any) -> str:

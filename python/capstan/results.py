@@ -2,12 +2,14 @@
 """Whole runs, and what they have found: in memory, in the files of the command, and as xarray and pandas objects."""
 from __future__ import annotations
 
+import csv
 import json
+import math
 import os
 import shutil
 import sys
 import tempfile
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -15,7 +17,7 @@ from ._errors import ArgumentError, Error, FileError, Place, check, text
 from ._native import ffi, lib
 from ._record import Record, enum_word
 from .evolution import ARRAYS, Evolution
-from .scene import Scene, SceneLike
+from .scene import SceneLike
 
 if TYPE_CHECKING:
     import pandas
@@ -24,6 +26,16 @@ if TYPE_CHECKING:
 Directory = Union[str, "os.PathLike[str]"]
 # called after every step with the number of steps done, that of all, and the report on the step
 Progress = Callable[[int, int, Record], Any]
+
+
+def _column(words: Sequence[str]) -> List[Any]:
+    """Numbers to the last bit, whole ones as integers; an empty cell among them is NaN. Else the words."""
+    for kind in (int, float):
+        try:
+            return [kind(word) if word or kind is int else math.nan for word in words]
+        except ValueError:
+            pass
+    return list(words)
 
 
 class _Files:
@@ -54,11 +66,11 @@ class _Files:
         import pandas
 
         path = os.path.join(self._directory(), "history.csv")
-        units = pandas.read_csv(path, nrows=1, dtype=str, keep_default_na=False).iloc[0].to_dict()
-        # every number as it was written, to the last bit
-        table = pandas.read_csv(path, skiprows=[1], float_precision="round_trip").set_index("step")
-        table.attrs["units"] = units
-        return table
+        with open(path, encoding="utf-8", newline="") as file:
+            names, units, *rows = csv.reader(file)
+        table = pandas.DataFrame({name: _column(column) for name, column in zip(names, zip(*rows))}, columns=names)
+        table.attrs["units"] = dict(zip(names, units))
+        return table.set_index("step")
 
 
 class SavedResults(_Files):

@@ -2,7 +2,6 @@
 """Systems of laws under constraints, driven and eliminated (docs/drive.md)."""
 from __future__ import annotations
 
-import os
 from typing import Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
