@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Build the wheel, install it into an empty virtual environment, and run the example of its README there.
+"""Build a source distribution and of it the wheel, install that into an empty virtual environment, and run the example of its README there.
 
                                                                         usage: wheel.py SOURCE BUILD CMAKE
 
@@ -12,6 +12,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 
 NEEDS = ["scikit-build-core>=0.10", "cffi>=1.15", "setuptools>=61", "numpy>=1.21", "PyYAML>=5.4"]
 
@@ -58,12 +59,26 @@ def main():
     prefix = os.path.join(work, "prefix")
     run(cmake, "--install", build, "--prefix", prefix)
     shutil.rmtree(os.path.join(work, "dist"), ignore_errors=True)
-    # apart from the environment of the build: the folder as it is checked out
-    package = os.path.join(work, "package")
-    shutil.rmtree(package, ignore_errors=True)
-    shutil.copytree(os.path.join(source, "python"), package, ignore=shutil.ignore_patterns("build", "dist", "__pycache__"))
+    os.mkdir(os.path.join(work, "dist"))
+    # a source distribution, made where the library lies around the package as in a checkout
+    tree = os.path.join(work, "tree")
+    shutil.rmtree(tree, ignore_errors=True)
+    package = shutil.copytree(os.path.join(source, "python"), os.path.join(tree, "python"),
+                              ignore=shutil.ignore_patterns("build", "dist", "library", "__pycache__"))
+    for name in ("CMakeLists.txt", "LICENSE", "include", "src", "cli", "packaging"):
+        os.symlink(os.path.join(source, name), os.path.join(tree, name))
+    run(python, "-m", "pip", "install", *offline, *NEEDS[:3])
+    run(python, "-c", f"import build_package; build_package.build_sdist({os.path.join(work, 'dist')!r})", cwd=package)
+    (sdist,) = glob.glob(os.path.join(work, "dist", "*.tar.gz"))
+    with tarfile.open(sdist) as file:
+        inside = {name.split("/", 2)[2] for name in file.getnames() if name.split("/")[1] == "library" and name.count("/") > 1}
+    for folder in ("include", "src", "cli"):
+        there = {os.path.relpath(os.path.join(place, name), source) for place, _, names in os.walk(os.path.join(source, folder)) for name in names}
+        assert there <= inside, f"not in the source distribution: {sorted(there - inside)[:5]}"
+
+    # the wheel is made of it
     run(python, "-m", "pip", "wheel", *offline, "--no-deps", "-w", os.path.join(work, "dist"),
-        "--config-settings=cmake.define.CAPSTAN_INSTALLED=ON", f"--config-settings=cmake.define.CMAKE_PREFIX_PATH={prefix}", package)
+        "--config-settings=cmake.define.CAPSTAN_INSTALLED=ON", f"--config-settings=cmake.define.CMAKE_PREFIX_PATH={prefix}", sdist)
     (wheel,) = glob.glob(os.path.join(work, "dist", "*.whl"))
     assert re.fullmatch(r"capstan_ropes-[0-9.]+-cp39-abi3-\w+\.whl", os.path.basename(wheel)), wheel
 
