@@ -31,8 +31,8 @@ while more > 0.25:
         evolution.take_back()
         more /= 2
 
-print(f"{moves} moves: the bollard holds {pull / HAND:.3f} times the hand's force, Euler {math.exp(FRICTION * math.pi):.3f}")
 # each node of the mesh holds (1 + mu tan(d/2))/(1 - mu tan(d/2)) at its turn d of 3 degrees, 2.4e-4 more in all than
 # exp(0.3 pi); and the search stops at 0.25 N of 257 N, a thousandth
 assert abs(pull / HAND / math.exp(FRICTION * math.pi) - 1) < 1.3e-3
 assert evolution.certified and evolution["rope"].B.tension > 256
+print(f"{moves} moves: the bollard holds {pull / HAND:.3f} times the hand's force, Euler {math.exp(FRICTION * math.pi):.3f}")

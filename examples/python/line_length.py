@@ -26,6 +26,6 @@ def tension(length):
 length = scipy.optimize.brentq(lambda length: tension(length) - WANTED, 895, 905, xtol=1e-9)
 asked = capstan.Evolution(scene(900, pretension={"end": "B", "tension": WANTED}))["mooring"].arc_length[-1]
 
-print(f"length {length:.6f} m by scipy, {asked:.6f} m by the library: {tension(length):.1f} N")
 # the tension grows by some 20 kN when the line is a metre shorter: both find it to 1e-6 N or better
 assert abs(length - asked) < 1e-6 and abs(tension(length) - WANTED) < 1e-2
+print(f"length {length:.6f} m by scipy, {asked:.6f} m by the library: {tension(length):.1f} N")

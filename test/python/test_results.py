@@ -166,3 +166,14 @@ def test_the_command_is_a_module(rope, tmp_path):
     assert subprocess.run([sys.executable, "-m", "capstan", "nonsense"], capture_output=True).returncode == 2
     version = subprocess.run([sys.executable, "-m", "capstan", "--version"], capture_output=True, text=True).stdout
     assert capstan.__version__ in version
+
+
+def test_the_example_of_the_readme(tmp_path):
+    """With the first scene of the README as rope.yaml."""
+    readme = (ROOT / "README.md").read_text()
+    (scene,) = re.findall(r"```yaml\n(.*?)```", readme, re.S)
+    (example,) = re.findall(r"```python\n(.*?)```", readme, re.S)
+    (tmp_path / "rope.yaml").write_text(scene)
+    done = subprocess.run([sys.executable, "-c", example], capture_output=True, text=True)
+    assert done.returncode == 0 and done.stdout.startswith("True ["), done.stderr
+    assert len(capstan.open("out").summary["steps"]) == 5

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import capstan
-from conftest import ROPE
+from conftest import ROOT, ROPE
 
 pytest.importorskip("xarray")
 
@@ -64,7 +64,7 @@ capstan.sweep(test_sweeps.make_scene, {{"friction": [0.01 * i for i in range(1, 
 
 
 def test_a_killed_sweep_goes_on_without_losing_or_repeating_a_case():
-    child = subprocess.Popen([sys.executable, "-c", CHILD.format(here=os.path.dirname(__file__))], start_new_session=True)
+    child = subprocess.Popen([sys.executable, "-c", CHILD.format(here=str(ROOT / "test/python"))], start_new_session=True)
     path, deadline = "kept/cases.jsonl", time.monotonic() + 60
     while time.monotonic() < deadline and (not os.path.exists(path) or open(path, "rb").read().count(b"\n") < 12):
         time.sleep(0.01)
