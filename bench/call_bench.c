@@ -46,23 +46,28 @@ static CpsStatus move(const char *path, int line, int count, CpsError *err) {
     return status;
 }
 
+static void fill_directions(int count, double *w) {
+    for (int i = 0; i < count; ++i) {
+        w[2 * (size_t)i] = cos(0.001 * i);
+        w[2 * (size_t)i + 1] = sin(0.001 * i);
+    }
+}
+
 static CpsStatus support(int count, CpsError *err) {
     CpsSet *disc = NULL, *segment = NULL, *sum = NULL;
     CpsStatus status = cps_set_ball(2, NULL, 2, &disc, err);
     if (!status) status = cps_set_segment(2, (double[]){0, -1}, (double[]){0.5, 1}, &segment, err);
     if (!status) status = cps_set_sum(2, (const CpsSet *const[]){disc, segment}, &sum, err);
     double *w = malloc(2 * (size_t)count * sizeof *w), *value = malloc((size_t)count * sizeof *w);
-    for (int i = 0; w && i < count; ++i) {
-        w[2 * i] = cos(0.001 * i);
-        w[2 * i + 1] = sin(0.001 * i);
-    }
+    if (!w || !value) status = CPS_ERR_MEMORY;
+    if (!status) fill_directions(count, w);
     const double begun = now();
-    for (int i = 0; w && value && i < count && !status; ++i) {
+    for (int i = 0; i < count && !status; ++i) {
         CpsSetAnswer answer;
-        status = cps_set_support(sum, w + 2 * i, NULL, &answer, err);
+        status = cps_set_support(sum, w + 2 * (size_t)i, NULL, &answer, err);
         value[i] = answer.value;
     }
-    if (!status && value) printf("%.9g\n", (now() - begun) / count);
+    if (!status) printf("%.9g\n", (now() - begun) / count);
     free(w);
     free(value);
     cps_set_release(sum);
@@ -72,7 +77,7 @@ static CpsStatus support(int count, CpsError *err) {
 }
 
 int main(int argc, char **argv) {
-    CpsError err;
+    CpsError err = {.message = ""};
     CpsStatus status = CPS_ERR_ARGUMENT;
     if (argc == 3 && strcmp(argv[1], "--support") == 0)
         status = support(atoi(argv[2]), &err);
