@@ -337,7 +337,8 @@ class Evolution:
             return self._names[kind].index(name)
         except ValueError:
             there = ", ".join(self._names[kind]) or "none"
-            raise ArgumentError(f"no {kind} of the name {name!r}: there are {there}") from None
+            one = "body" if kind == "bodies" else kind[:-1]
+            raise ArgumentError(f"no {one} of the name {name!r}: there are {there}") from None
 
     def _reports(self, kind: str, function: Callable[[Any, int], Any]) -> Dict[str, Record]:
         return self._ask(lambda handle: {name: Record(function(handle, i)) for i, name in enumerate(self._names[kind])})

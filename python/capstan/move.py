@@ -38,7 +38,7 @@ class Move:
         target["rope.B"][:] = 1.1, 0, 0.2
         evolution.move(target)
 
-    `move` is resolved when the target is made.
+    `move` is resolved when the target is made. Write to a target between moves, not while another thread takes one.
     """
 
     def __init__(self, evolution: "Evolution", changes: Mapping[str, Any]) -> None:
