@@ -148,8 +148,7 @@ CPS_API CpsBodyReport cps_evolution_body_report(const CpsEvolution *evolution, i
 
 /* The same of the obstacles (shift.h). */
 CPS_API int cps_evolution_obstacle_count(const CpsEvolution *evolution);
-CPS_API CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution,
-                                                        int obstacle);
+CPS_API CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution, int k);
 
 /* The stiffness of an end of a line after the last step, all else as in that step: the other end
  * stays, or keeps its force. An end with a given force is taken as one that is held where the step

@@ -22,8 +22,7 @@
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
 
-/* Largest displacement of a node in one round, per distance from the axis or centre of a round
- * obstacle: the range of its tangent plane. */
+/* Largest displacement of a node in one round, per range of its tangent plane. */
 static const double MAX_MOVE = 0.5;
 /* [rad] Rounding of the angle of a node that is carried along by exactly a quarter of a turn. */
 static const double QUARTER_ROUNDING = 1e-6;
@@ -295,7 +294,7 @@ double cpsi_contact_shorten(CpsiLine *line, bool sides) {
         const int j = cpsi_line_node(line, c);
         const Vec3 from = vec3_at(line->base, j), to = vec3_at(line->position, j);
         const double distance = vec3_norm(vec3_sub(to, from)),
-                     within = obstacle->radius + fmax(0, cpsi_obstacle_gap(obstacle, from));
+                     within = cpsi_obstacle_range(obstacle, from);
         if (distance * share > MAX_MOVE * within) share = MAX_MOVE * within / distance;
     }
     if (sides) share = cpsi_obstacle_side_share(line, line->base, line->position, share);
@@ -315,19 +314,20 @@ static void move_along_surface(CpsiLine *line, int j) {
     vec3_store(&line->position[3 * j], cpsi_obstacle_move(obstacle, from, vec3_sub(to, from)));
 }
 
+/* [m] A node that is held may be so much deeper than others, and is where it is held. Scenes are
+ * checked to this depth (evolve/places.h), twice of which is allowed here for rounding. */
+static double held_depth(const CpsiLine *line) { return 2 * CPSI_TOUCH * line->length; }
+
 /* [m] The distance of node j from the obstacles that it may not enter, INFINITY without any: all of
  * them, or with contact of the reference those of its contacts. */
 static double node_clearance(const CpsiLine *line, int j) {
     const Vec3 to = vec3_at(line->position, j);
     double least = INFINITY;
-    if (line->contact_everywhere) {
-        cpsi_line_nearest(line, to, &least);
-        return least;
-    }
-    for (int c = j; c < cpsi_line_contacts(line); c += line->n)
+    if (line->contact_everywhere) cpsi_line_nearest(line, to, &least);
+    for (int c = j; c < cpsi_line_contacts(line) && !line->contact_everywhere; c += line->n)
         if (isfinite(line->gap[c]))
             least = fmin(least, cpsi_obstacle_gap(cpsi_line_obstacle(line, c), to));
-    return least;
+    return least < 0 && least >= -held_depth(line) && cpsi_line_is_held(line, j) ? 0 : least;
 }
 
 double cpsi_contact_depth(const CpsiLine *line) {

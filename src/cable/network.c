@@ -18,6 +18,8 @@ static const double ENOUGH = 1e-10;
 /* Bounded forces that are far larger than those of the lines slow the first iterations, in which
  * their joints hardly move. */
 enum { PATIENT = 40 };
+/* The cosine of the angle at which planes are the same. */
+static const double LEVEL = 1 - 1e-12;
 /* An anchor holds this many times the largest force across its plane. */
 static const double ACROSS = 1e3;
 
@@ -42,9 +44,38 @@ void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *
     }
 }
 
+/* Along the ground an anchor that drags is held by friction of a given bound. Its disc lies in the
+ * third plane of the axes: of its own, or of the common ones where these lie in the ground. */
+static bool has_disc(const CpsiJoint *joint, bool own_axes, const double axes[9]) {
+    return joint->drags && (own_axes || fabs(vec3_dot(vec3_load(&axes[6]), joint->normal)) > LEVEL);
+}
+
+static void fill_anchor(const CpsiJoint *joint, CpsiChainProgram *chain,
+                        const CpsiStepScale *scale) {
+    CpsiFrictionDisc *disc = &chain->disc;
+    chain->bounds_coupled = false;
+    disc->count = 1;
+    disc->node[0] = disc->contact[0] = disc->unilateral[0] = 0;
+    disc->weight[0] = joint->share / scale->length;
+    disc->z[0][0] = joint->capacity / (scale->force * disc->weight[0]);
+    if (!chain->frame) return;
+    const Vec3 n = joint->normal,
+               across = vec3_cross(n, fabs(n.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0)),
+               one = vec3_scale(1 / vec3_norm(across), across);
+    vec3_store(&chain->frame[0], one);
+    vec3_store(&chain->frame[3], vec3_cross(n, one));
+    vec3_store(&chain->frame[6], n);
+    memset(disc->map[0], 0, sizeof disc->map[0]);
+    disc->map[0][0] = disc->map[0][4] = 1;
+    double gone[3], own[3];
+    vec3_store(gone, joint->dragged);
+    cpsi_frame_to(own, chain->frame, gone);
+    for (int a = 0; a < 2; a++) disc->offset[0][a] = own[a] / scale->length;
+}
+
 /* The chain of one node that holds what the obstacle does to a joint. */
-static void fill_joint(const CpsiJoint *joint, bool own_axes, CpsiChainProgram *chain,
-                       const CpsiStepScale *scale) {
+static void fill_joint(const CpsiJoint *joint, bool own_axes, const double axes[9],
+                       CpsiChainProgram *chain, const CpsiStepScale *scale) {
     cpsi_chain_program_resize(chain, 1, own_axes);
     chain->held[0] = 1;
     chain->drag = 0;
@@ -56,6 +87,7 @@ static void fill_joint(const CpsiJoint *joint, bool own_axes, CpsiChainProgram *
         static const double own[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
         memcpy(chain->frame, own, sizeof own);
     }
+    if (has_disc(joint, own_axes, axes)) fill_anchor(joint, chain, scale);
     if (!joint->obstacle) return;
     double curvature[3];
     if (chain->frame)
@@ -113,8 +145,8 @@ static void add_both_ways(const CpsiJoint *joint, int k, Vec3 d, double size, co
 }
 
 /* What holds a joint back that leaves the water, whose load has the buoyancy of one that is in it;
- * and an anchor, with a square in place of its disc. */
-static void add_bounded_forces(const CpsiJoint *joint, int k, const double axes[9],
+ * and an anchor, without its disc with a square in place of it. */
+static void add_bounded_forces(const CpsiJoint *joint, int k, bool has_disc, const double axes[9],
                                const CpsiStepScale *scale, CpsiNetworkProgram *program) {
     if (joint->displaced > 0)
         add_hinge(joint, k, vec3(0, 0, 1), joint->displaced, joint->depth, axes, scale,
@@ -122,8 +154,10 @@ static void add_bounded_forces(const CpsiJoint *joint, int k, const double axes[
     if (!joint->drags) return;
     const Vec3 n = joint->normal, away = fabs(n.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     const Vec3 across = vec3_cross(n, away), one = vec3_scale(1 / vec3_norm(across), across);
-    add_both_ways(joint, k, one, joint->capacity, axes, scale, program);
-    add_both_ways(joint, k, vec3_cross(n, one), joint->capacity, axes, scale, program);
+    if (!has_disc) {
+        add_both_ways(joint, k, one, joint->capacity, axes, scale, program);
+        add_both_ways(joint, k, vec3_cross(n, one), joint->capacity, axes, scale, program);
+    }
     add_both_ways(joint, k, n, ACROSS * scale->force, axes, scale, program);
 }
 
@@ -233,12 +267,14 @@ static double fill(CpsiNetwork *network, const CpsiLine *line, const CpsiNetwork
         if (k >= part->own) continue;
         CpsiChainProgram *chain = &program->chain[program->count];
         *chain = network->chain[network->lines + k];
-        fill_joint(&part->joint[k], first->has_local_axes, chain, scale);
+        fill_joint(&part->joint[k], first->has_local_axes, axes, chain, scale);
         program->joint[program->count][CPSI_FIRST_NODE] = k;
         program->joint[program->count][CPSI_LAST_NODE] = CPSI_NO_JOINT;
         program->count++;
         loads += fill_load(part->joint[k].load, scale->force, axes, &load[3 * k]);
-        add_bounded_forces(&part->joint[k], k, axes, scale, program);
+        add_bounded_forces(&part->joint[k], k,
+                           has_disc(&part->joint[k], first->has_local_axes, axes), axes, scale,
+                           program);
     }
     for (int k = 0; k < part->bodies; k++) {
         const CpsiNetworkBody *body = &part->body[k];

@@ -24,6 +24,7 @@
 #include "evolve/graph_existence.h"
 #include "evolve/joint_answer.h"
 #include "evolve/lone.h"
+#include "evolve/nearest_places.h"
 #include "evolve/newton_step.h"
 #include "evolve/points.h"
 #include "evolve/trial.h"
@@ -352,6 +353,7 @@ static void find_places(CpsiBalance *balance, int group) {
     if (!is_static && balance->body_count > 0) {
         cpsi_extrapolate_places(balance);
         if (search(balance, FEW_TRIALS)) {
+            cpsi_take_nearest_places(balance);
             cpsi_report_found(balance);
             return;
         }
@@ -372,6 +374,7 @@ static void find_places(CpsiBalance *balance, int group) {
         search_softly(balance);
         found = cpsi_is_answer(balance);
     }
+    if (found) cpsi_take_nearest_places(balance);
     if (!found && !cpsi_has_inextensible(balance)) found = cpsi_take_joint_answer(balance);
     if (!found && !is_interrupted(evolution)) found = stays(balance);
     if (!found && (cpsi_group_is_too_short(balance) || (frozen && cpsi_group_falls(balance))))

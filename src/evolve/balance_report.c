@@ -203,7 +203,8 @@ static void report_anchor(const CpsiBalance *balance, const CpsiFree *at) {
     vec3_store(report->residual, at->left);
     cpsi_anchor_use(evolution, at->point, support, report);
     report_support(evolution, at->point, at->place, support, report);
-    report->has_place = cpsi_is_balanced(balance, vec3_norm(at->left));
+    report->has_place =
+        cpsi_is_balanced(balance, vec3_norm(at->left)) && cpsi_obeys_friction(balance, at);
     for (int a = 0; a < 3; a++) point->move[a] = report->position[a] - point->before[a];
     memcpy(point->position, report->position, sizeof point->position);
 }

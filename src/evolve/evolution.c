@@ -104,14 +104,28 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->element_penetration = cpsi_max_nan(to->element_penetration, from->element_penetration);
 }
 
-/* Add the friction of the points, and the work that the forces at them do for it beside that which
- * the lines get. */
-static void add_friction_of_points(CpsStepReport *step, const CpsiPoints *points) {
+/* [J] The work that an obstacle which turns or moves does on a point that touches it. */
+static double work_on_point(const CpsEvolution *evolution, const CpsPointReport *point) {
+    const int k = point->obstacle;
+    if (k < 0 || (evolution->angle[k] == 0 && cpsi_shift_is_none(&evolution->shift[k]))) return 0;
+    const Vec3 x = vec3_load(point->position),
+               before = cpsi_obstacle_turn(&evolution->obstacle[k], x, -evolution->angle[k]),
+               moved = vec3_add(vec3_sub(x, before), cpsi_shift_to(&evolution->shift[k], before));
+    return vec3_dot(moved, vec3_axpy(point->reaction, vec3_load(point->normal),
+                                     vec3_load(point->friction)));
+}
+
+/* Add the friction of the points, and the work that the forces at them and the obstacles under them
+ * do for it beside that which the lines get. */
+static void add_friction_of_points(CpsStepReport *step, const CpsEvolution *evolution) {
+    const CpsiPoints *points = &evolution->points;
     for (int i = 0; i < points->count; i++) {
-        const double dissipated = points->point[i].report.dissipated;
-        step->dissipated += dissipated;
-        step->ledger.dissipated += dissipated;
-        step->ledger.ends += dissipated;
+        const CpsPointReport *report = &points->point[i].report;
+        const double work = work_on_point(evolution, report);
+        step->dissipated += report->dissipated;
+        step->ledger.dissipated += report->dissipated;
+        step->ledger.ends += report->dissipated - work;
+        step->ledger.obstacles += work;
     }
 }
 
@@ -158,6 +172,27 @@ static void report_sweep(CpsEvolution *evolution, bool is_start) {
     }
 }
 
+/* No line may leave a grid: what is below it there is not known. */
+static CpsStatus check_cover(CpsEvolution *evolution, CpsError *err) {
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        const CpsiObstacle *on = &evolution->obstacle[k];
+        for (int i = 0; i < evolution->line_count && on->ground; i++) {
+            const CpsiLine *line = &evolution->line[i];
+            for (int j = 0; j < line->n; j++) {
+                const Vec3 x = vec3_at(line->position, j);
+                if (cpsi_obstacle_covers(on, x, CPS_TOUCH * line->length)) continue;
+                evolution->ended = true;
+                return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                 "line '%s': node %d at (%.9g, %.9g) m has left the grid of ground "
+                                 "'%s': take a larger grid, or say that it extends",
+                                 line->name, j, x.x + evolution->origin[0],
+                                 x.y + evolution->origin[1], evolution->given_obstacle[k].name);
+            }
+        }
+    }
+    return CPS_OK;
+}
+
 /* Plan a step of a stage, of the move where `is_move`; of no stage the break that is due, or where
  * lines are placed by statics. */
 static void plan_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, bool is_move,
@@ -190,6 +225,8 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
                          "the load step was interrupted, and is not taken");
     }
     report_sweep(evolution, stage == NULL && !parts->is_break);
+    const CpsStatus covered = check_cover(evolution, err);
+    if (covered != CPS_OK) return covered;
     if (parts->is_break)
         evolution->break_count++;
     else if (is_move)
@@ -204,7 +241,7 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
                                         .certificate.has_tension_bound = true};
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);
-    add_friction_of_points(&evolution->report, &evolution->points);
+    add_friction_of_points(&evolution->report, evolution);
     for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i]);
     evolution->ended = !is_move && cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;

@@ -93,6 +93,11 @@ static double *body_diagonal(CpsiBalance *balance, int k, int a) {
     return diagonal(balance, balance->count + 2 * k + a / 3, a % 3);
 }
 
+/* [N/m] What is added to the stiffness of a point or body; of any size where no force acts. */
+static double added_stiffness(const CpsiBalance *balance, double length) {
+    return CPSI_REGULAR * (balance->force > 0 ? balance->force : 1) / length;
+}
+
 /* The size of the points' stiffnesses, and what is added to them where they have none. */
 static void find_stiffness(CpsiBalance *balance) {
     for (int k = 0; k < balance->count; k++) {
@@ -100,15 +105,15 @@ static void find_stiffness(CpsiBalance *balance) {
         double trace = 0;
         for (int a = 0; a < 3; a++) trace += fabs(*diagonal(balance, k, a));
         const double length = balance->evolution->points.point[at->point].length;
-        at->stiffness = fmax(trace / 3, CPSI_REGULAR * balance->force / length);
-        for (int a = 0; a < 3; a++)
-            *diagonal(balance, k, a) += CPSI_REGULAR * balance->force / length;
+        const double added = added_stiffness(balance, length);
+        at->stiffness = fmax(trace / 3, added);
+        for (int a = 0; a < 3; a++) *diagonal(balance, k, a) += added;
     }
     for (int k = 0; k < balance->body_count; k++) {
         const CpsiBody *body = &balance->evolution->bodies.body[balance->rigid[k].body];
         for (int a = 0; a < 6; a++)
             *body_diagonal(balance, k, a) +=
-                CPSI_REGULAR * balance->force / body->length * (a < 3 ? 1 : body->arm * body->arm);
+                added_stiffness(balance, body->length) * (a < 3 ? 1 : body->arm * body->arm);
     }
 }
 
@@ -410,6 +415,26 @@ bool cpsi_find_step(CpsiBalance *balance) {
             cpsi_work_along(balance) > 0)
             return true;
     return false;
+}
+
+bool cpsi_find_least_step(CpsiBalance *balance) {
+    const CpsEvolution *evolution = balance->evolution;
+    (void)set_matrix(balance, true);
+    memset(balance->right, 0, (size_t)balance->unknowns * sizeof *balance->right);
+    for (int k = 0; k < balance->count; k++) {
+        const CpsiFree *at = &balance->at[k];
+        const CpsiPoint *point = &evolution->points.point[at->point];
+        const CpsiObstacle *on =
+            at->obstacle == CPS_NO_OBSTACLE ? NULL : &evolution->obstacle[at->obstacle];
+        const Vec3 was = on || at->drags ? at->start : vec3_load(point->before);
+        const double added = added_stiffness(balance, point->length);
+        const Equation is = equation_of(at, on, balance->follows, true);
+        double back[3];
+        vec3_store(back, vec3_scale(added, vec3_sub(was, at->place)));
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) balance->right[3 * k + i] += is.p[i][j] * back[j];
+    }
+    return solve_step(balance, 0);
 }
 
 /* Without a matrix: every point along the force that is left on it. */

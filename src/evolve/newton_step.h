@@ -19,6 +19,9 @@ bool cpsi_is_definite(const double stiffness[36], const bool fixed[6], double ar
 /* The step of all points and bodies, in balance->step. Where a body in its pose is not stable it
  * might lead up the energy; then the body is held back. False where there is none. */
 bool cpsi_find_step(CpsiBalance *balance);
+/* The step of the points towards where they were in the directions in which nothing is stiff: by
+ * forces of the stiffness that is added to the matrix (CPSI_REGULAR). */
+bool cpsi_find_least_step(CpsiBalance *balance);
 /* Instead: every point along the force that is left on it. */
 void cpsi_follow_forces(CpsiBalance *balance);
 /* Shorten the parts of the step that are too long; a vector to a length. */

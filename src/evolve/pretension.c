@@ -5,10 +5,12 @@
  * The pull at an end falls as the line gets longer, from where it is straight, and may rise again
  * where it hangs deep: it has one minimum. Lengths are tried from the taut side in growing steps,
  * until the pull is below the one wanted; if it rises before, its minimum is looked for by golden
- * section. Between a length on either side the root is enclosed by false position, with bisection
- * where that is slow. */
+ * section. Where nothing is taut it only rises, and lengths are tried until it is above. Between a
+ * length on either side the root is enclosed by false position, with bisection where that is slow.
+ */
 #include "capstan/pretension.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,10 +19,15 @@
 #include "evolve/points.h"
 #include "evolve/ranges.h"
 
-/* The first step away from the straight line, and the last length, per distance of the ends; each
- * step is twice the one before. A line that is only stretched beyond the distance may be so by
- * 1 + LONGEST. */
-static const double FIRST = 1e-9, LONGEST = 100;
+/* The first step away from the straight line, and the last one, per distance of the ends or length
+ * that weighs what is wanted; each step is twice the one before. The least length that is tried,
+ * per length of the section; and one that is well above the distance in which elements end
+ * together. */
+static const double FIRST = 1e-9, LONGEST = 100, LEAST = 1e-6, SHORTEST = 1e-8;
+/* A line that hangs from one place weighs twice the pull; so many times the length that weighs as
+ * much as it are tried. The tension with which a shortest line is made is raised so many times. */
+static const double HANGS = 4;
+enum { TIGHTENINGS = 24 };
 /* ln of pull over wanted that is rounding of a static start. */
 static const double CLOSE = 1e-12;
 /* ... by which it rises where it is not rounding; and beyond which a length does not have the pull:
@@ -35,8 +42,8 @@ typedef struct LengthSearch {
     CpsLineArrays arrays;
     int section, end;
     CpsPull pull;
-    double wanted, rest; /* [N]; [m] length of the other sections */
-    double nearest, at;  /* [N] pull found; [m] */
+    double wanted;      /* [N] */
+    double nearest, at; /* [N] pull found; [m] */
     CpsError *err;
     CpsStatus status;
 } LengthSearch;
@@ -89,6 +96,11 @@ static LengthTrial try_length(LengthSearch *search, double length) {
 }
 
 static CpsStatus none(const LengthSearch *search) {
+    if (!isfinite(search->nearest))
+        return cpsi_fail(search->err, CPS_ERR_ARGUMENT,
+                         "line '%s': pretension: found no length with %g N at end %s: the line has "
+                         "a tension at none of those tried",
+                         search->given->name, search->wanted, cpsi_end_letter(search->end));
     return cpsi_fail(search->err, CPS_ERR_ARGUMENT,
                      "line '%s': pretension: found no length with %g N at end %s: the nearest is "
                      "%g N, at %.9g m",
@@ -118,30 +130,102 @@ static LengthTrial lowest(LengthSearch *search, double low, LengthTrial middle, 
     return middle;
 }
 
-/* Lengths on either side of the one looked for; false: there are none. */
-static bool enclose(LengthSearch *search, double distance, LengthTrial *low, LengthTrial *high) {
-    const double shortest = fmax(distance - search->rest, 1e-6 * distance);
-    *low = try_length(search, shortest);
-    /* shorter than the distance, as an elastic line may be */
-    for (double more = FIRST; !(low->over > 0) && search->status == CPS_OK; more *= 2) {
-        const double length = distance / (1 + more) - search->rest;
-        if (more > LONGEST || !(length > 1e-6 * distance)) return false;
-        *high = *low;
-        *low = try_length(search, length);
-        if (low->over > 0) return true;
+/* [-] The strain of a section, or of a line without sections, at a tension. */
+static double strain_at(double stiffness, const CpsStiffnessRow *row, int rows, double tension) {
+    int k = 1;
+    if (rows == 0) return tension / stiffness;
+    while (k + 1 < rows && row[k].tension < tension) k++;
+    return row[k].strain + (tension - row[k].tension) * (row[k].strain - row[k - 1].strain) /
+                               (row[k].tension - row[k - 1].tension);
+}
+
+/* [m] The length at which the line, pulled straight over the distance, has the tension all along;
+ * not positive: the other sections are long enough for that. */
+static double straight_length(const LengthSearch *search, double distance, double tension) {
+    const CpsLine *line = search->given;
+    double natural = 0, pulled = 0;
+    if (line->section_count == 0)
+        return distance / (1 + strain_at(line->stiffness, line->stiffness_row,
+                                         line->stiffness_row_count, tension));
+    for (int k = 0; k < line->section_count; k++) {
+        const CpsSection *of = &line->section[k];
+        if (k == search->section) continue;
+        natural += of->length;
+        pulled += of->length * (1 + strain_at(of->stiffness, of->stiffness_row,
+                                              of->stiffness_row_count, tension));
     }
+    if (search->section < 0) return distance * natural / pulled;
+    const CpsSection *own = &line->section[search->section];
+    return (distance - pulled) /
+           (1 + strain_at(own->stiffness, own->stiffness_row, own->stiffness_row_count, tension));
+}
+
+/* [N] All that pulls the line down, and what lifts it, at its length. */
+static double weight_of(const CpsLine *line) {
+    double sum = line->section_count == 0 ? line->weight * line->length : 0;
+    for (int k = 0; k < line->section_count; k++)
+        sum += line->section[k].weight * line->section[k].length;
+    for (int k = 0; k < line->point_weight_count; k++) sum += fabs(line->point_weight[k].weight);
+    return sum;
+}
+
+/* [m] Lengths between which the one looked for lies, and the unit of the steps between. */
+typedef struct LengthRange {
+    double least, unit, most, hangs; /* hangs: ... of one whose ends are at one place */
+} LengthRange;
+
+static LengthRange range_of(const LengthSearch *search, double distance) {
+    const CpsLine *line = search->given;
+    const double own = search->section < 0 ? line->length : line->section[search->section].length,
+                 weight = weight_of(line);
+    return (LengthRange){.least = fmax(LEAST * (distance > 0 ? fmin(distance, own) : own),
+                                       SHORTEST * line->length),
+                         .unit = fmax(distance, LEAST * line->length),
+                         .most = LONGEST * distance,
+                         .hangs = weight > 0 && distance <= LEAST * line->length
+                                      ? HANGS * line->length * search->wanted / weight
+                                      : 0};
+}
+
+/* The shortest length to try: that of a line which is straight with the pull and its weight, or
+ * where more is needed, as over a post or straight up, with more; the least one where the other
+ * sections reach. */
+static LengthTrial shortest(LengthSearch *search, double distance, double level,
+                            const LengthRange *range) {
+    const double steep = search->pull == CPS_PULL_HORIZONTAL && level > 0 ? distance / level : 1;
+    double tension = steep * (search->wanted + weight_of(search->given));
+    LengthTrial trial = {.over = NAN};
+    for (int k = 0; k < TIGHTENINGS && search->status == CPS_OK; k++, tension *= 4) {
+        const double length = straight_length(search, distance, tension);
+        trial = try_length(search, fmax(length, range->least));
+        if (trial.over > 0 || !(length > range->least)) break;
+    }
+    return trial;
+}
+
+/* Lengths on either side of the one looked for, the pull of `low` the larger one; false: there are
+ * none. A line whose ends are at one place, and one whose other sections reach, may have no taut
+ * length: there the pull only rises. */
+static bool enclose(LengthSearch *search, Vec3 between, LengthTrial *low, LengthTrial *high) {
+    double way[3];
+    vec3_store(way, between);
+    const double distance = vec3_norm(between), level = pull_of(search, way);
+    const LengthRange range = range_of(search, distance);
+    *low = shortest(search, distance, level, &range);
+    const double from = low->length;
     LengthTrial before = *low, last = *low, least = *low; /* before: the least one */
-    for (double more = FIRST; more <= LONGEST && search->status == CPS_OK; more *= 2) {
-        const LengthTrial next = try_length(search, shortest + more * distance);
-        if (next.over > least.over + RISE) {
+    for (double more = FIRST * range.unit; search->status == CPS_OK; more *= 2) {
+        if (more > range.most && (last.over > 0 || more > range.hangs)) return false;
+        const LengthTrial next = try_length(search, from + more);
+        if ((last.over > 0) != (next.over > 0)) {
+            *low = last.over > 0 ? last : next;
+            *high = last.over > 0 ? next : last;
+            return search->status == CPS_OK;
+        }
+        if (last.over > 0 && next.over > least.over + RISE) {
             *high = lowest(search, before.length, least, next.length);
             *low = before;
             return search->status == CPS_OK && high->over <= 0;
-        }
-        if (next.over <= 0) {
-            *low = last;
-            *high = next;
-            return search->status == CPS_OK;
         }
         if (next.over < least.over) {
             before = last;
@@ -161,7 +245,10 @@ static LengthTrial root(LengthSearch *search, LengthTrial low, LengthTrial high)
         const bool bisect = k % 4 == 3 || !isfinite(low.over) || !isfinite(high.over);
         const double share = bisect ? 0.5 : low.over / (low.over - high.over);
         const LengthTrial next = try_length(search, low.length + share * width);
-        if (!(next.length > low.length) || !(next.length < high.length)) break;
+        if (!((next.length > low.length) == (width > 0)) ||
+            !((next.length < high.length) == (width > 0)) || next.length == low.length ||
+            next.length == high.length)
+            break;
         if (fabs(next.over) < fabs(best.over)) best = next;
         if (next.over > 0) {
             if (stayed > 0) high.over *= 0.5;
@@ -245,16 +332,12 @@ CpsStatus cps_scene_length_for(const CpsScene *scene, int line, int section, int
     search.scene.line = &search.line;
     search.scene.line_count = 1;
     search.scene.point_count = search.scene.body_count = search.scene.stage_count = 0;
-    for (int k = 0; k < search.given->section_count; k++)
-        if (section >= 0 && k != section) search.rest += search.given->section[k].length;
     const Vec3 a = vec3_load(search.given->end[CPS_END_A].value),
                b = vec3_load(search.given->end[CPS_END_B].value);
     void *block = arrays_for(search.given, &search.arrays);
     if (!block) search.status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the search");
     LengthTrial low = {0}, high = {0};
-    const bool enclosed =
-        block &&
-        enclose(&search, fmax(vec3_norm(vec3_sub(b, a)), 1e-9 * search.given->length), &low, &high);
+    const bool enclosed = block && enclose(&search, vec3_sub(b, a), &low, &high);
     if (search.status == CPS_OK && !enclosed) search.status = none(&search);
     if (search.status == CPS_OK) {
         const LengthTrial found = root(&search, low, high);

@@ -2,6 +2,7 @@
 /* Trials (trial.h). */
 #include "evolve/trial.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -14,6 +15,9 @@
 
 /* What is left counts as balanced up to so many tolerances of the largest force. */
 static const double BALANCED = 100;
+/* A strain is known to so many roundings of the coordinates of its nodes: where all forces vanish
+ * that alone is left. */
+static const double ROUNDINGS = 16;
 /* Of a buoyancy at an obstacle, to the last digits. */
 enum { BISECTIONS = 60 };
 
@@ -33,6 +37,7 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->from, points);
         CPSI_PLACE(&arena, to->best, points);
         CPSI_PLACE(&arena, to->number, points);
+        CPSI_PLACE(&arena, to->chose, points);
         CPSI_PLACE(&arena, to->rigid, bodies);
         CPSI_PLACE(&arena, to->rigid_from, bodies);
         CPSI_PLACE(&arena, to->rigid_best, bodies);
@@ -148,7 +153,9 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     at->obstacle = cpsi_trial_nearest(evolution, at->place, &at->gap, &at->normal);
     if (at->obstacle == CPS_NO_OBSTACLE) return;
     const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
-    at->friction = evolution->has_static && evolution->done == 0 ? 0 : on->friction[0];
+    at->friction = evolution->has_static && evolution->done == 0
+                       ? 0
+                       : on->friction[0] * cpsi_obstacle_friction_factor(on, at->place);
     const Vec3 before =
         cpsi_obstacle_carry(on, vec3_load(point->before), &evolution->shift[at->obstacle],
                             evolution->angle[at->obstacle]);
@@ -264,6 +271,11 @@ static void count_line(CpsiBalance *balance, const CpsiLine *line) {
     balance->acting =
         cpsi_max_nan(balance->acting, line->compliance > 0 ? line->report.certificate.largest_force
                                                            : acting_on(line));
+    if (!(line->compliance > 0)) return;
+    const double far = fmax(vec3_norm(vec3_at(line->position, 0)),
+                            vec3_norm(vec3_at(line->position, line->n - 1)));
+    const double strain = ROUNDINGS * DBL_EPSILON * (1 + far / line->element_length[0]);
+    balance->rounding = cpsi_max_nan(balance->rounding, strain / cpsi_line_least_compliance(line));
 }
 
 /* What nothing balances on a free body: nothing in its fixed directions. */
@@ -339,7 +351,7 @@ void cpsi_try_places(CpsiBalance *balance) {
     impose(balance);
     cpsi_step_lines(balance);
     balance->trials++;
-    balance->force = balance->acting = 0;
+    balance->force = balance->acting = balance->rounding = 0;
     balance->certified = true;
     for (int k = 0; k < balance->count; k++) {
         CpsiFree *at = &balance->at[k];
@@ -404,12 +416,14 @@ double cpsi_left_now(const CpsiBalance *balance) {
  * at this tolerance give: these are of second order. */
 bool cpsi_is_balanced(const CpsiBalance *balance, double left) {
     return left <= BALANCED * balance->evolution->options.solver.tolerance *
-                       fmin(balance->force, balance->acting);
+                           fmin(balance->force, balance->acting) +
+                       balance->rounding;
 }
 
 bool cpsi_obeys_friction(const CpsiBalance *balance, const CpsiFree *at) {
     const double slip = vec3_norm(at->slip);
-    if (at->obstacle == CPS_NO_OBSTACLE || slip <= cpsi_trial_touch(balance, at)) return true;
+    if ((at->obstacle == CPS_NO_OBSTACLE && !at->drags) || slip <= cpsi_trial_touch(balance, at))
+        return true;
     return cpsi_is_balanced(balance, at->bound + vec3_dot(at->force, at->slip) / slip);
 }
 

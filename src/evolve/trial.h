@@ -51,6 +51,7 @@ struct CpsiBalance {
     int unknowns;            /* 3 count + 6 body_count */
     int line_count;          /* lines at free points, or at points on free bodies */
     int *line;               /* (line_count) */
+    bool *chose;             /* (count) points with a choice of places */
     int *iterations;         /* (lines) of trials that were not kept */
     unsigned char *state;    /* of all lines before the step */
     size_t *offset;          /* (lines + 1) of each in `state` */
@@ -65,10 +66,11 @@ struct CpsiBalance {
     CpsiNetworkBody *held;   /* (body_count) */
     CpsiNetworkMove guess;
     CpsiNetwork network;
-    double force;   /* [N] the largest of the trial */
-    double acting;  /* [N] ... without the tensions of inextensible lines, which follow from it */
-    bool certified; /* are all lines, in this trial? */
-    bool follows;   /* friction bounds follow the reactions */
+    double force;    /* [N] the largest of the trial */
+    double acting;   /* [N] ... without the tensions of inextensible lines, which follow from it */
+    double rounding; /* [N] of the forces of the lines by that of places */
+    bool certified;  /* are all lines, in this trial? */
+    bool follows;    /* friction bounds follow the reactions */
     int trials;
     int open_trials; /* of this search, in which a line was not certified */
     CpsEvolution *evolution;

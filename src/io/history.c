@@ -3,6 +3,7 @@
 #include "io/history.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/math.h"
 
@@ -46,24 +47,41 @@ int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int lin
     return is_there ? results->line_point[line][end] : CPSI_AT_NO_POINT;
 }
 
-double cpsi_results_turn(const CpsResults *results, int step, int obstacle) {
-    if (is_break(results, step)) return 0;
-    for (int i = 0; i < results->stage_count; ++i)
-        if (step >= results->stage[i].first && step <= results->stage[i].last)
-            return results->stage[i].turn[obstacle];
-    return 0;
+CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obstacle) {
+    CpsObstacle now = results->obstacle[obstacle];
+    if (step < 0 || !now.moves) return now;
+    const CpsiObstacleRow *place = &results->row[step].place[obstacle];
+    const bool plane = now.kind == CPS_OBSTACLE_PLANE;
+    memcpy(now.point, place->point, sizeof now.point);
+    memcpy(plane ? now.normal : now.axis, place->axis, sizeof now.axis);
+    return now;
 }
 
 double cpsi_results_turned(const CpsResults *results, int step, int obstacle) {
-    double sum = 0;
-    for (int i = 0; i < results->stage_count && results->stage[i].first <= step; ++i) {
-        const CpsiStage *stage = &results->stage[i];
-        const int last = step < stage->last ? step : stage->last;
-        int count = last - stage->first + 1;
-        for (int row = stage->first; row <= last; ++row) count -= is_break(results, row);
-        sum += count * stage->turn[obstacle];
+    return step < 0 ? 0 : results->row[step].place[obstacle].turned;
+}
+
+bool cpsi_results_turns(const CpsResults *results, int step, int obstacle) {
+    return results->row[step].place[obstacle].turn != 0;
+}
+
+bool cpsi_results_moves(const CpsResults *results, int step, int obstacle) {
+    return results->row[step].place[obstacle].moved;
+}
+
+void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution,
+                        CpsiObstacleRow *out) {
+    for (int k = 0; k < results->obstacle_count; ++k) {
+        const CpsObstacleReport report = cps_evolution_obstacle_report(evolution, k);
+        out[k] = (CpsiObstacleRow){.turn = report.turned, .turned = report.turned};
+        memcpy(out[k].axis, report.axis, sizeof report.axis);
+        for (int a = 0; a < 3; ++a) {
+            out[k].point[a] = report.point[a] - results->origin[a];
+            out[k].moved = out[k].moved || report.by[a] != 0 || report.turn[a] != 0;
+        }
+        if (results->row_count > 0)
+            out[k].turned += results->row[results->row_count - 1].place[k].turned;
     }
-    return sum;
 }
 
 const char *cpsi_point_state(CpsPointState state) {

@@ -30,6 +30,13 @@ typedef struct CpsiBodyRow {
     CpsBodyStiffness stiffness[2]; /* by kind; where that was asked for */
 } CpsiBodyRow;
 
+/* An obstacle after a step. */
+typedef struct CpsiObstacleRow {
+    double point[3], axis[3]; /* [m] relative to the origin of the views; [-] normal or axis */
+    double turn, turned;      /* [rad] about its own axis in the step, and since the start */
+    bool moved;               /* in the step */
+} CpsiObstacleRow;
+
 typedef struct CpsiRow {
     CpsStepReport report; /* its name is `name` */
     char *name;
@@ -38,6 +45,7 @@ typedef struct CpsiRow {
     CpsiLineRow *line;
     CpsPointReport *point;           /* (points) NULL without points */
     CpsiBodyRow *body;               /* (bodies) NULL without bodies */
+    CpsiObstacleRow *place;          /* (obstacles) NULL without obstacles */
     CpsStiffness (*stiffness)[2][2]; /* (lines) of ends A and B, by kind; NULL: not asked for */
 } CpsiRow;
 
@@ -66,7 +74,7 @@ typedef struct CpsiSnapshot {
 typedef struct CpsiStage {
     char *name;
     int first, last;
-    double *turn; /* (obstacle_count) [rad] turn of each in one load step */
+    bool moves; /* an obstacle turns or moves in it */
 } CpsiStage;
 
 struct CpsResults {
@@ -118,9 +126,16 @@ bool cpsi_lets_go(const CpsScene *scene);
 /* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
 int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
 
-/* [rad] Turn of an obstacle in one step; and since the start, at the end of that step. */
-double cpsi_results_turn(const CpsResults *results, int step, int obstacle);
+/* An obstacle as it is after a step; of step -1 at the start. */
+CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obstacle);
+/* [rad] Its turn about its own axis since the start, after a step. */
 double cpsi_results_turned(const CpsResults *results, int step, int obstacle);
+/* Whether it turns about its own axis in a step, or otherwise moves in it. */
+bool cpsi_results_turns(const CpsResults *results, int step, int obstacle);
+bool cpsi_results_moves(const CpsResults *results, int step, int obstacle);
+/* The places of all after the last step of the evolution, which follows the last row. */
+void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution,
+                        CpsiObstacleRow *out);
 
 /* The point in words: held, free, stick, slip, on_body; and how large a force nothing balances
  * there [N]. */

@@ -218,11 +218,144 @@ static void what_is_refused(void **unused) {
     refused(&p, "it drags, but lies on obstacle 'ball', which is round");
 }
 
+/* Pulled with exactly its capacity an anchor balances wherever a slack line lets it go, in each of
+ * many directions and sizes. It stays where it was, and most steps say that this is not the only
+ * place; so does a clump that is pulled with exactly its friction limit. */
+static void at_exactly_the_limit(void **unused) {
+    (void)unused;
+    static const double SLACK = 10;
+    int told = 0;
+    for (int k = 0; k < 24; k++) {
+        const bool clump = k % 2 == 1;
+        const double angle = 0.1 + 0.7 * k, scale = pow(10, k % 5 - 2), capacity = CAPACITY * scale;
+        Pull p;
+        make(&p, 0, 0, 0);
+        p.line.stiffness *= scale;
+        CpsLine line[2] = {p.line, p.line};
+        p.scene.line = line;
+        p.scene.line_count = 2;
+        p.anchor.holding_capacity = capacity;
+        if (clump) {
+            p.anchor.drags = p.anchor.has_holding_capacity = false;
+            p.anchor.kind = CPS_POINT_KIND_FREE;
+            p.anchor.weight = 2 * capacity;
+            p.bed.name = "bed";
+            p.bed.friction = 0.5;
+            p.scene.obstacle = &p.bed;
+            p.scene.obstacle_count = 1;
+        }
+        const double pull[3] = {capacity * cos(angle), capacity * sin(angle), 0};
+        CpsChange change[2];
+        for (int i = 0; i < 2; i++) {
+            change[i] = (CpsChange){.end = CPS_END_B, .to = {CPS_END_KIND_FREE, {0}}};
+            for (int a = 0; a < 3; a++) change[i].to.value[a] = (i == 0 ? 1 : 0.999) * pull[a];
+        }
+        line[0].end[CPS_END_B] = change[0].to;
+        /* statics knows no friction */
+        if (clump) memset(line[0].end[CPS_END_B].value, 0, sizeof line[0].end[CPS_END_B].value);
+        line[1].name = "slack";
+        line[1].length = SLACK * LENGTH;
+        line[1].end[CPS_END_B] =
+            (CpsEnd){CPS_END_KIND_HELD, {-3 * LENGTH * cos(angle), -3 * LENGTH * sin(angle), 0}};
+        for (int i = 0; i < 3; i++) {
+            p.stage[i] = cps_stage_default();
+            p.stage[i].name = "pull";
+            p.stage[i].change_count = 1;
+            p.stage[i].change = &change[i == 2];
+        }
+        p.scene.stage_count = 3;
+        CpsEvolution *evolution = evolve(&p);
+        for (int i = 0; i < 4; i++) {
+            const CpsPointReport anchor = step(evolution);
+            CHECK_NEAR(size(anchor.position), 0, 0);
+            CHECK_NEAR(size(anchor.slip) + size(anchor.drag), 0, 0);
+            CHECK_NEAR(anchor.dragged, 0, 0);
+            if (!clump) CHECK_NEAR(anchor.capacity_used, i < 3 ? 1 : 0.999, 1e-8);
+            told += cps_evolution_line_report(evolution, 1).places == CPS_PLACES_NEAREST;
+        }
+        cps_evolution_destroy(evolution);
+    }
+    /* not where the search begins at the nearest place, and sees no other */
+    assert_true(told > 12);
+}
+
+static void turn(double angle, const double from[3], double to[3]) {
+    to[0] = cos(angle) * from[0] - sin(angle) * from[1];
+    to[1] = sin(angle) * from[0] + cos(angle) * from[1];
+    to[2] = from[2];
+}
+
+/* A mooring whose anchor drags in statics and in a step, turned about z by many angles: it is
+ * solved at each, and everything turns with it. */
+static void turned_about_z(void **unused) {
+    (void)unused;
+    enum { TURNS = 24, POINTS = 3, LINES = 3, STEPS = 2 };
+    static const double PLACE[POINTS][3] = {{9.95, 1, 2.2}, {-9.8, -1.9, 1.15}, {-1.4, -0.9, 6}},
+                        THEN[3] = {-8.9, -2.1, 1.15};
+    static const double LONG[LINES] = {12, 9.8, 9.6}, HEAVY[LINES] = {300, 1000, 1000},
+                        STIFF[LINES] = {1e9, 1e5, 1e5};
+    static const char *const NAME[] = {"anchor", "fixed", "knot", "one", "two", "three"};
+    double first[STEPS][POINTS][3];
+    for (int t = 0; t < TURNS; t++) {
+        const double angle = 0.27 * t;
+        CpsPoint point[POINTS];
+        CpsLine line[LINES];
+        CpsScene scene = cps_scene_default();
+        CpsPointChange change = {.point = 1, .kind = CPS_POINT_KIND_HELD};
+        CpsStage stage = cps_stage_default();
+        turn(angle, THEN, change.value);
+        stage.name = "move";
+        stage.point_change_count = 1;
+        stage.point_change = &change;
+        for (int k = 0; k < POINTS; k++) {
+            point[k] = cps_point_default();
+            point[k].name = NAME[k];
+            point[k].kind = k == 2 ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_HELD;
+            turn(angle, PLACE[k], point[k].position);
+        }
+        point[0].has_holding_capacity = point[0].drags = true;
+        point[0].holding_capacity = 1000;
+        for (int k = 0; k < LINES; k++) {
+            line[k] = cps_line_default();
+            line[k].name = NAME[POINTS + k];
+            line[k].length = LONG[k];
+            line[k].element_count = k == 0 ? 1 : 2;
+            line[k].weight = HEAVY[k];
+            line[k].stiffness = STIFF[k];
+            line[k].start.kind = CPS_START_STATIC;
+            for (int end = 0; end < 2; end++) line[k].end[end].kind = CPS_END_KIND_POINT;
+            line[k].end_point[CPS_END_A] = k == 0 ? 0 : 1;
+            line[k].end_point[CPS_END_B] = 2;
+        }
+        scene.point = point;
+        scene.point_count = POINTS;
+        scene.line = line;
+        scene.line_count = LINES;
+        scene.stage = &stage;
+        scene.stage_count = 1;
+        Pull p = {.scene = scene};
+        CpsEvolution *evolution = evolve(&p);
+        for (int i = 0; i < STEPS; i++) {
+            step(evolution);
+            for (int k = 0; k < POINTS; k++) {
+                const CpsPointReport at = cps_evolution_point_report(evolution, k);
+                double back[3];
+                turn(-angle, at.position, back);
+                if (t == 0) memcpy(first[i][k], back, sizeof back);
+                for (int a = 0; a < 3; a++) CHECK_NEAR(back[a], first[i][k][a], 1e-6 * LONG[0]);
+            }
+        }
+        assert_true(cps_evolution_point_report(evolution, 0).dragged > 0.01);
+        cps_evolution_destroy(evolution);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(along_a_line), cmocka_unit_test(at_an_angle),
-        cmocka_unit_test(on_a_slope),   cmocka_unit_test(without_drags),
-        cmocka_unit_test(inextensible), cmocka_unit_test(what_is_refused),
+        cmocka_unit_test(along_a_line),         cmocka_unit_test(at_an_angle),
+        cmocka_unit_test(on_a_slope),           cmocka_unit_test(without_drags),
+        cmocka_unit_test(inextensible),         cmocka_unit_test(turned_about_z),
+        cmocka_unit_test(at_exactly_the_limit), cmocka_unit_test(what_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -258,6 +258,54 @@ static void resize(void **state) {
     CHECK_NEAR(s.line.length, 40, 0);
 }
 
+/* Tensions that a static start has at a known length are found again from another one: an adjusting
+ * section that is short beside the rest, a line that stands upright with the pull at its lower end,
+ * ends at one place, and lines that are stretched to several times their length. The length found
+ * is no longer, and has that tension. */
+static void seldom_lines(void **state) {
+    (void)state;
+    enum { KINDS = 4, EACH = 12, SHORT = 0, UPRIGHT = 1, CLOSED = 2, SOFT = 3 };
+    uint64_t seed = 11;
+    for (int k = 0; k < KINDS * EACH; k++) {
+        static Subject s;
+        const int kind = k % KINDS;
+        const double size = pow(10, splitmix(&seed, -1, 3)), w = pow(10, splitmix(&seed, -1, 3)),
+                     ea = w * size * pow(10, splitmix(&seed, 1.5, 4));
+        Mooring m = {.pieces = kind == SHORT ? 2 : 1,
+                     .piece = {{size, w, ea, 0}, {size, w, ea, 0}},
+                     .x = 0.9 * size,
+                     .z = 0.3 * size};
+        const double by[PIECES] = {1, 1, 1};
+        if (kind == SHORT) {
+            const double share = pow(10, splitmix(&seed, -4.5, -2));
+            m.piece[0].length = share * size;
+            m.x = size * (1 + share) * splitmix(&seed, 0.99, 1.0003);
+            m.z = 0.1 * size * splitmix(&seed, -1, 1);
+            m.x = sqrt(m.x * m.x - m.z * m.z);
+        } else if (kind == UPRIGHT) {
+            m.x = 0;
+            m.z = size * splitmix(&seed, 1.001, 1.02) * (1 + 0.5 * w * size / ea);
+        } else if (kind == CLOSED) {
+            m.x = m.z = 0;
+        } else {
+            m.piece[0].stiffness = w * size * pow(10, splitmix(&seed, 0, 1.5));
+            m.x = size * splitmix(&seed, 2, 300);
+        }
+        build(&s, &m, 8, by);
+        const int end = kind == UPRIGHT ? CPS_END_A : k / KINDS % 2;
+        const double wanted = pull_at(&s.scene, end, CPS_PULL_TENSION);
+        const double known = kind == SHORT ? s.section[1].length : s.line.length;
+        const CpsLineArrays arrays = arrays_of(&s);
+        const int section = kind == SHORT ? 1 : CPS_WHOLE_LINE;
+        cps_line_resize(&s.line, section, known * pow(10, splitmix(&seed, -1, 1)), &arrays);
+        const double found = find(&s.scene, section, end, CPS_PULL_TENSION, wanted);
+        assert_true(found <= known * (1 + 1e-6));
+        cps_line_resize(&s.line, section, found, &arrays);
+        /* a length jumps past a pull by no more than OFF of pretension.c */
+        CHECK_NEAR(pull_at(&s.scene, end, CPS_PULL_TENSION) / wanted, 1, 1e-6);
+    }
+}
+
 static void refused(const CpsScene *scene, int section, int end, CpsPull pull, double wanted,
                     const char *message) {
     CpsError err;
@@ -303,8 +351,8 @@ static void refuses(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(catenaries), cmocka_unit_test(grounded), cmocka_unit_test(points_stay),
-        cmocka_unit_test(resize),     cmocka_unit_test(refuses),
+        cmocka_unit_test(catenaries),   cmocka_unit_test(grounded), cmocka_unit_test(points_stay),
+        cmocka_unit_test(seldom_lines), cmocka_unit_test(resize),   cmocka_unit_test(refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,9 +38,27 @@ static void compare_sets(Compare *compare, const CpsObstacle *o, const Surface *
     }
 }
 
+static void compare_ground(Compare *compare, const CpsObstacle *o, const Ground *ground) {
+    const CpsGroundGrid grid = cps_ground_grid(o->ground);
+    if (ground->columns != (size_t)grid.x_count || ground->rows != (size_t)grid.y_count ||
+        ground->extends != grid.extends || !ground->factor != !grid.friction_factor) {
+        find(compare, "grid of %s: another than that of the scene", o->name);
+        return;
+    }
+    const size_t points = ground->columns * ground->rows;
+    same(compare, "grid, x", o->name, ground->x, grid.x, ground->columns, COPIED);
+    same(compare, "grid, y", o->name, ground->y, grid.y, ground->rows, COPIED);
+    same(compare, "grid, z", o->name, ground->z, grid.z, points, COPIED);
+    if (ground->factor)
+        same(compare, "grid, factor of friction", o->name, ground->factor, grid.friction_factor,
+             points, COPIED);
+}
+
 static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s) {
-    const bool plane = o->kind == CPS_OBSTACLE_PLANE;
-    const double *given = plane ? o->normal : o->axis, length = size(given);
+    static const double UP[3] = {0, 0, 1};
+    const bool plane = o->kind == CPS_OBSTACLE_PLANE,
+               round = o->kind == CPS_OBSTACLE_CYLINDER || o->kind == CPS_OBSTACLE_SPHERE;
+    const double *given = plane ? o->normal : round ? o->axis : UP, length = size(given);
     double axis[3], point[3], there[3], grain[3], unit[3];
     for (int k = 0; k < 3; k++) {
         there[k] = o->point[k] - compare->source.origin[k];
@@ -52,7 +70,8 @@ static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surfa
     same_number(compare, "kind", o->name, s->kind, o->kind);
     same(compare, "point", o->name, point, there, 3, COPIED);
     same(compare, "axis", o->name, axis, unit, 3, COMPUTED);
-    same_number(compare, "radius", o->name, (double)s->radius, plane ? 0 : o->radius);
+    same_number(compare, "radius", o->name, (double)s->radius, round ? o->radius : 0);
+    if (o->kind == CPS_OBSTACLE_GROUND && s->ground) compare_ground(compare, o, s->ground);
     if ((s->set != NULL) != (o->friction_set != NULL))
         find(compare, "friction set of %s: one of the two has none", o->name);
     if (s->set && o->friction_set) compare_sets(compare, o, s);
@@ -348,6 +367,39 @@ static void compare_turns(Compare *compare, size_t step, const Record *r) {
         if (!(fabs(r->turn[k] - angle) <= COPIED * fabs(angle)))
             find(compare, "obstacle_turn of %s, step %zu, is %.17g, in the scene %.17g",
                  compare->scene->obstacle[k].name, step, r->turn[k], angle);
+    }
+}
+
+/* The shift of obstacle k in a step: the scene's, in equal parts. */
+static void compare_shifts(Compare *compare, size_t step) {
+    int stage = 0, part = 0;
+    const bool staged = stage_of(compare, step, &stage, &part);
+    for (int k = 0; k < compare->scene->obstacle_count; k++) {
+        const Surface *s = &compare->source.surface[k];
+        const CpsStage *at =
+            staged && !is_break(&compare->source, step) ? &compare->scene->stage[stage] : NULL;
+        double given[9] = {0}, size = 0;
+        for (int i = 0; at && i < at->shift_count; i++) {
+            const CpsShift *shift = &at->shift[i];
+            if (shift->obstacle != k) continue;
+            for (int a = 0; a < 3; a++) {
+                given[a] = shift->by[a] / at->step_count;
+                given[3 + a] = shift->turn[a] / at->step_count;
+                given[6 + a] = shift->about[a] + (part - 1) * given[a] - compare->source.origin[a];
+            }
+            const double *turn = shift->turn;
+            if (turn[0] == 0 && turn[1] == 0 && turn[2] == 0)
+                for (int a = 0; a < 3; a++) given[6 + a] = 0;
+        }
+        for (int a = 0; a < 9; a++) size = fmax(size, fabs(given[a]));
+        for (int a = 0; a < 9; a++) {
+            const double found = (double)(a < 3   ? s->by[a]
+                                          : a < 6 ? s->spin[a - 3]
+                                                  : s->about[a - 6]);
+            if (!(fabs(found - given[a]) <= COMPUTED * size))
+                find(compare, "shift of obstacle %s, step %zu, is %.17g, in the scene %.17g",
+                     compare->scene->obstacle[k].name, step, found, given[a]);
+        }
     }
 }
 
@@ -693,6 +745,7 @@ static int compare_steps(Compare *compare, int index) {
         if (!bad) compare_grasps(compare, line, index, step, step > 0 ? &before : NULL, &now);
         if (!bad) compare_loads(compare, line, step, &now);
         if (!bad && index == 0) compare_turns(compare, step, &now);
+        if (!bad && index == 0) compare_shifts(compare, step);
         const Record swap = before;
         before = now;
         now = swap;

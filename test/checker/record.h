@@ -142,7 +142,9 @@ typedef struct Source {
     bool follows; /* normals are those of where the nodes end up: not one plane with one coefficient
                    */
     size_t surfaces;
-    Surface *surface;
+    Surface *surface; /* where they are after the step read last, if they move */
+    bool moves;
+    struct Places *places; /* places.h */
     size_t points;
     char **point_name;
     double *point_weight; /* (points) [N] under the gravity of the scene */

@@ -12,6 +12,7 @@
 #include "base/math.h"
 #include "capstan/pretension.h"
 #include "io/base/file/read_file.h"
+#include "io/read/ground/ground_build.h"
 #include "io/read/law/set_build.h"
 #include "io/read/scene/node_file.h"
 #include "io/read/scene/section_build.h"
@@ -26,6 +27,7 @@ typedef struct Build {
     const CpsiDocument *d;
     CpsiPool *pool; /* memory of the scene */
     CpsScene *scene;
+    CpsObstacle *obstacle;
     CpsLine *line;
     CpsiSetBuild set; /* of friction sets */
     double elements;  /* number of elements of the lines so far */
@@ -380,8 +382,10 @@ static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsO
     if (!obstacle->has_friction_lateral) obstacle->friction_lateral = 0;
     obstacle->name = copy_text(b, values->node->key);
     if (!obstacle->name) return cpsi_document_no_memory(b->d);
-    const CpsStatus status = values->set ? cpsi_build_set(&b->set, values->set, &set) : CPS_OK;
+    CpsStatus status = values->set ? cpsi_build_set(&b->set, values->set, &set) : CPS_OK;
     obstacle->friction_set = set;
+    if (status == CPS_OK && obstacle->kind == CPS_OBSTACLE_GROUND)
+        status = cpsi_ground_build(b->d, values, (CpsGround **)&obstacle->ground);
     return status;
 }
 
@@ -390,7 +394,7 @@ static CpsStatus build_obstacles(Build *b, const CpsiList *obstacles) {
     if (obstacles->count == 0) return CPS_OK;
     CpsObstacle *obstacle = CPSI_POOL_TAKE(b->pool, obstacles->count, CpsObstacle);
     if (!obstacle) return cpsi_document_no_memory(b->d);
-    b->scene->obstacle = obstacle;
+    b->scene->obstacle = b->obstacle = obstacle;
     b->scene->obstacle_count = obstacles->count;
     CpsStatus status = CPS_OK;
     for (int i = 0; i < obstacles->count && status == CPS_OK; i++)
@@ -594,6 +598,47 @@ static CpsStatus build_grasps(const Build *b, const CpsiList *grasps, CpsStage *
     return status;
 }
 
+static CpsStatus build_shift(const Build *b, const CpsiShiftValues *values, CpsShift *shift) {
+    const double *axis = values->axis, size = hypot(hypot(axis[0], axis[1]), axis[2]),
+                 angle = isnan(values->turn) ? 0 : values->turn * CPSI_DEGREE;
+    if (!cpsi_yaml_child(values->node, "move") && isnan(values->turn))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': nothing given, expected 'move', or 'turn' with its 'axis'",
+                                  values->node->key);
+    if (!isnan(values->turn) && !(size > 0))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "axis"),
+                                  "'axis': found a vector of no length, expected a direction");
+    shift->obstacle = find_obstacle(b, values->node->key);
+    for (int i = 0; i < 3; i++) {
+        shift->by[i] = values->move[i];
+        shift->turn[i] = angle != 0 ? angle * (axis[i] / size) : 0;
+        shift->about[i] = values->about[i];
+    }
+    return CPS_OK;
+}
+
+static CpsStatus build_shifts(const Build *b, const CpsiList *shifts, CpsStage *stage) {
+    const CpsiShiftValues *from = shifts->item;
+    CpsShift *shift = CPSI_POOL_TAKE(b->pool, shifts->count, CpsShift);
+    if (!shift) return cpsi_document_no_memory(b->d);
+    stage->shift = shift;
+    stage->shift_count = shifts->count;
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < shifts->count && status == CPS_OK; k++)
+        status = build_shift(b, &from[k], &shift[k]);
+    return status;
+}
+
+/* Say which obstacles the history moves. */
+static void find_moving(const Build *b, const CpsiList *history) {
+    const CpsiStageValues *values = history->item;
+    for (int i = 0; i < history->count; i++) {
+        const CpsiShiftValues *shift = values[i].shifts.item;
+        for (int k = 0; k < values[i].shifts.count; k++)
+            b->obstacle[find_obstacle(b, shift[k].node->key)].moves = true;
+    }
+}
+
 static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int index,
                              CpsStage *stage) {
     const CpsiNumberItem *turns = values->turns.item;
@@ -611,13 +656,15 @@ static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int 
     for (int k = 0; k < stage->turn_count; k++)
         turn[k] = (CpsTurn){.obstacle = find_obstacle(b, turns[k].node->key),
                             .angle = turns[k].number * CPSI_DEGREE};
-    const CpsStatus status = build_changes(b, values, stage);
+    CpsStatus status = build_changes(b, values, stage);
+    if (status == CPS_OK) status = build_shifts(b, &values->shifts, stage);
     return status == CPS_OK ? build_grasps(b, &values->grasps, stage) : status;
 }
 
 static CpsStatus build_history(const Build *b, const CpsiList *history) {
     const CpsiStageValues *values = history->item;
     if (history->count == 0) return CPS_OK;
+    find_moving(b, history);
     CpsStage *stage = CPSI_POOL_TAKE(b->pool, history->count, CpsStage);
     if (!stage) return cpsi_document_no_memory(b->d);
     b->scene->stage = stage;

@@ -84,8 +84,7 @@ static const Number NUMBER[] = {
     {"ledger_elastic", "growth of the energy of elongation", "J", REPORT(ledger.elastic)},
     {"ledger_gravity", "growth of the weight's potential", "J", REPORT(ledger.gravity)},
     {"ledger_ends", "work of the forces at the ends", "J", REPORT(ledger.ends)},
-    {"ledger_obstacles", "work of the friction of obstacles that turn", "J",
-     REPORT(ledger.obstacles)},
+    {"ledger_obstacles", "work of obstacles that turn or move", "J", REPORT(ledger.obstacles)},
     {"ledger_imbalance", "what the ledger does not close by", "J", REPORT(ledger.imbalance)},
     {"unaccounted",
      "of that, more than 5 % of the energies of substeps that could not be halved any more", "J",
@@ -647,8 +646,7 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
     return status;
 }
 
-CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, const double *turn,
-                             CpsError *err) {
+CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsError *err) {
     const CpsStepReport report = cps_evolution_report(evolution);
     const size_t start[] = {nc->steps, 0}, count[] = {1, NAME_LENGTH};
     char name[NAME_LENGTH] = {0};
@@ -660,10 +658,8 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, cons
                                                                count, name));
     cpsi_netcdf_int(&nc->file, nc->outcome, start, (int)report.outcome);
     cpsi_netcdf_doubles(&nc->file, nc->wall, start, ONE, &report.wall);
-    const size_t turns[] = {1, (size_t)nc->obstacles.count};
-    if (nc->obstacles.count > 0)
-        cpsi_netcdf_doubles(&nc->file, nc->obstacles.turn, start, turns, turn);
     const CpsLineView first = cps_evolution_line_view(evolution, 0);
+    cpsi_netcdf_append_obstacles(&nc->file, &nc->obstacles, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_points(&nc->file, &nc->points, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_bodies(&nc->file, &nc->bodies, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_breaks(&nc->file, &nc->breaks, nc->steps, evolution);

@@ -179,7 +179,7 @@ CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err) {
     char surfaces[32];
     cpsi_paraview_obstacles_name(-1, surfaces);
     for (int i = 0; i < results->row_count; ++i) {
-        if (cpsi_paraview_obstacles_turn(results, i)) cpsi_paraview_obstacles_name(i, surfaces);
+        if (cpsi_paraview_obstacles_move(results, i)) cpsi_paraview_obstacles_name(i, surfaces);
         fprintf(out, "    <DataSet timestep=\"%d\" part=\"0\" file=\"step-%05d.vtp\" name=\"", i,
                 i);
         cpsi_write_xml(out, results->row[i].name);

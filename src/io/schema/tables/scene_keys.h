@@ -24,6 +24,11 @@ typedef struct CpsiObstacleValues {
     const CpsiYaml *node; /* the key is the name */
     CpsObstacle obstacle;
     const CpsiYaml *set; /* set of friction forces */
+    /* of ground: files beside the scene, their form in the order of CpsiGridForm, and the name of a
+     * netCDF file's variable */
+    const char *grid, *factors, *variable;
+    int form;
+    bool are_depths, extends;
 } CpsiObstacleValues;
 
 /* A point at which lines end. */
@@ -179,6 +184,15 @@ typedef struct CpsiBodyChangeValues {
     CpsiRotationValues rotation;
     double force[3], moment[3], arm[3];
 } CpsiBodyChangeValues;
+
+/* A shift of an obstacle. */
+typedef struct CpsiShiftValues {
+    const CpsiYaml *node; /* the key is OBSTACLE.obstacle */
+    double move[3];
+    double turn; /* [degrees] NaN: not given */
+    double axis[3], about[3];
+} CpsiShiftValues;
+
 /* Which of its keys a grasp of a node has. */
 typedef enum CpsiGraspKind {
     CPSI_GRASP_POSITION,
@@ -203,6 +217,7 @@ typedef struct CpsiStageValues {
     CpsiList body_changes;  /* CpsiBodyChangeValues */
     CpsiList grasps;        /* CpsiGraspValues, with the key LINE.node */
     CpsiList turns;         /* CpsiNumberItem, with the key OBSTACLE.turn */
+    CpsiList shifts;        /* CpsiShiftValues */
 } CpsiStageValues;
 
 extern const CpsiMapping cpsi_scene_file;
