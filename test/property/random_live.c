@@ -329,6 +329,11 @@ static CpsEvolution *handed_over(CpsEvolution *evolution, const Live *live, Tall
     return fresh;
 }
 
+/* Not certified: a program takes that back, and tries another target. */
+static bool is_open(const CpsEvolution *evolution) {
+    return !cps_outcome_is_certified(cps_evolution_report(evolution).outcome);
+}
+
 /* One call, and what becomes of it: true, and *move, where it is kept. */
 static bool call(CpsEvolution *live_one, const Live *live, bool *is_first, Move *move,
                  Tally *tally) {
@@ -348,7 +353,8 @@ static bool call(CpsEvolution *live_one, const Live *live, bool *is_first, Move 
         tally->failed++;
         untouched = same_state(live_one, before);
         if (chance(0.5)) untouched &= cps_evolution_take_back(live_one, NULL) == CPS_OK;
-    } else if (move->end[0].to.value[0] > 30 || chance(0.2)) {
+    } else if (move->end[0].to.value[0] > 30 || chance(0.2) || is_open(live_one)) {
+        tally->open += is_open(live_one);
         tally->taken_back++;
         untouched = cps_evolution_take_back(live_one, NULL) == CPS_OK &&
                     same_state(live_one, before) &&
@@ -361,7 +367,6 @@ static bool call(CpsEvolution *live_one, const Live *live, bool *is_first, Move 
             kinds += move->has[i];
         }
         tally->several += kinds > 1;
-        tally->open += !cps_outcome_is_certified(cps_evolution_report(live_one).outcome);
     }
     free(before);
     if (!untouched) {
