@@ -11,9 +11,10 @@
 #include "cable/step_program.h"
 #include "ipm/ipm.h"
 
-/* The guess from which a program is solved. */
+/* The guess from which a program is solved, from CPSI_GUESS_REFERENCE on by Newton's method. */
 typedef enum CpsiGuess {
     CPSI_GUESS_NONE,         /* the interior-point loop, from its own start */
+    CPSI_GUESS_LATER,        /* the same; later rounds start from where the last one ended */
     CPSI_GUESS_REFERENCE,    /* at rest at the reference */
     CPSI_GUESS_EXTRAPOLATED, /* the last move, from the reference */
     CPSI_GUESS_PREDICTED,    /* the same, where the base has been moved there */

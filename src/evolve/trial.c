@@ -27,6 +27,7 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
     CpsiGraphMatrix *matrix =
         cpsi_joint_system(&evolution->points, &evolution->bodies, evolution->line_count);
     if (!matrix) return NULL;
+    const CpsiNetworkTools tools = {matrix, evolution->workers, evolution->workspace_count};
     CpsiBalance *balance = NULL, measured = {0};
     CpsiArena arena = {0};
     for (int pass = 0; pass < 2; pass++) {
@@ -58,7 +59,7 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->guess.body, 6 * bodies);
         CPSI_PLACE(&arena, to->guess.pull, 6 * lines);
         cpsi_network_place(&to->network, &arena, evolution->line, (int)lines, (int)points,
-                           (int)bodies, evolution->workspace[0].program.ops, matrix);
+                           (int)bodies, evolution->workspace[0].program.ops, &tools);
         size_t all = 0;
         for (size_t i = 0; i < lines; i++) {
             if (placed) to->offset[i] = all;
@@ -154,7 +155,7 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
     at->friction = evolution->has_static && evolution->done == 0 ? 0 : on->friction[0];
     const Vec3 before =
-        cpsi_obstacle_carry(on, vec3_load(point->before), evolution->shift[at->obstacle],
+        cpsi_obstacle_carry(on, vec3_load(point->before), &evolution->shift[at->obstacle],
                             evolution->angle[at->obstacle]);
     at->slip = cpsi_obstacle_slip(on, before, at->place);
     at->start = vec3_axpy(-cpsi_obstacle_gap(on, before), cpsi_obstacle_normal(on, before), before);

@@ -4,7 +4,7 @@
  *
  * Wide nets have up to N x N meshes (default 10), each side of them cut and stiff at random, many
  * slack; they hang from their corners or from more of their knots, over a bed, over a ball and
- * pegs, or over nothing. Their sides are one element.
+ * pegs, or over nothing. Their sides are one element, or in half of the nets up to three.
  *
  * The tension of an element follows from the distance of its nodes, T = EA (|x'| - 1)^+. With half
  * the weight of the end elements, what the points carry and what acts on them, the forces on every
@@ -200,6 +200,7 @@ static void make_wide(Graph *g) {
     const double mesh = g->size / fmax(a, b), height = 0.3 * g->size,
                  slack = chance(0.5) ? uniform(1, 1.15) : 1;
     const bool edges = chance(0.3);
+    const int pieces = chance(0.5) ? 1 : 3;
     for (int i = 0; i <= a; i++)
         for (int j = 0; j <= b; j++) {
             const bool side = i == 0 || i == a, end = j == 0 || j == b;
@@ -210,8 +211,8 @@ static void make_wide(Graph *g) {
     for (int i = 0; i <= a; i++)
         for (int j = 0; j <= b; j++) {
             const int at = first + i * (b + 1) + j;
-            if (i < a) add_line(g, at, at + b + 1, slack * uniform(0.98, 1.1), 1);
-            if (j < b) add_line(g, at, at + 1, slack * uniform(0.98, 1.1), 1);
+            if (i < a) add_line(g, at, at + b + 1, slack * uniform(0.98, 1.1), whole(1, pieces));
+            if (j < b) add_line(g, at, at + 1, slack * uniform(0.98, 1.1), whole(1, pieces));
         }
     if (g->scene.obstacle_count > 0 || chance(0.3)) return;
     const double apart = 0.3 * mesh * hypot(a, b);
