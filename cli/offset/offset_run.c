@@ -77,11 +77,16 @@ static CpsStatus walk(CpsEvolution *evolution, int body, double heading, double 
     *count = 0;
     for (int k = 0; status == CPS_OK && k <= 2 * farthest; ++k) {
         const double offset = to * (k <= farthest ? k : 2 * farthest - k) / steps;
+        bool parted = false;
         status = go_to(evolution, body, &from, heading, offset, err);
+        while (status == CPS_OK && cps_evolution_breaks(evolution)) {
+            status = cps_evolution_step(evolution, err);
+            parted = true;
+        }
         if (status != CPS_OK) break;
         place[*count] = place_now(evolution, body, heading, offset);
         if (!place[(*count)++].certified && k <= farthest) {
-            if (k == 0) break;
+            if (k == 0 || parted) break; /* a break is not taken back */
             farthest = k - 1;
             status = cps_evolution_take_back(evolution, err);
             k = farthest;

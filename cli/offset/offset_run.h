@@ -3,7 +3,7 @@
 #ifndef CAPSTAN_CLI_OFFSET_OFFSET_RUN_H
 #define CAPSTAN_CLI_OFFSET_OFFSET_RUN_H
 
-#include "capstan/evolve.h"
+#include "capstan/failure.h"
 #include "capstan/offset.h"
 
 /* Take all steps of the history of `scene`; false, with the outcome in *worst, where one is not

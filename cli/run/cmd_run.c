@@ -12,6 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "capstan/failure.h"
 #include "capstan/io.h"
 #include "capstan/results.h"
 #include "commands.h"
@@ -383,11 +384,23 @@ typedef struct Run {
     bool refused; /* a step could not begin; the steps before it are kept */
 } Run;
 
+/* Say which line has parted, where, and at what tension. */
+static void print_break(FILE *out, const CpsEvolution *evolution) {
+    const CpsBreak parted = cps_evolution_break(evolution);
+    if (!parted.is_break) return;
+    fprintf(out,
+            "line %s parts at end %c: %.6g N at %.6g m, above its break_at of %.6g N (step %d)\n",
+            cps_evolution_line_view(evolution, parted.line).name,
+            parted.end == CPS_END_A ? 'A' : 'B', parted.tension, parted.arc_length, parted.break_at,
+            cps_evolution_report(evolution).step_count - 1);
+}
+
 /* Add the present step of the evolution to the results and the table. */
 static CpsStatus keep_step(Run *run, CpsError *err) {
     const CpsStatus status = cps_results_append(run->results, run->evolution, err);
     if (status) return status;
     const CpsStepReport report = cps_evolution_report(run->evolution);
+    run->progress.steps = cps_evolution_step_count(run->evolution); /* breaks add to them */
     progress_step(&run->progress, report.step_count, report.name);
     warnings_note_step(&run->warnings, run->scene, run->evolution);
     if (!extremes_note_step(&run->extremes, run->evolution)) {
@@ -396,8 +409,10 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     }
     const int steps = cps_evolution_step_count(run->evolution);
     if (cli_is_shown(run->scene, steps, report.step_count - 1) ||
-        report.outcome != CPS_OUTCOME_SOLVED || cli_interrupted())
+        report.outcome != CPS_OUTCOME_SOLVED || cli_interrupted() ||
+        cps_evolution_break(run->evolution).is_break)
         print_rows(run->table, run->solutions, run->scene, run->evolution);
+    print_break(run->solutions, run->evolution);
     if (report.outcome != CPS_OUTCOME_SOLVED) {
         progress_end(&run->progress);
         report_outcomes(run->scene, run->evolution);

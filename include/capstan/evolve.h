@@ -41,9 +41,9 @@ CPS_API void cps_evolution_destroy(CpsEvolution *evolution);
  * saving it, or to NULL, does nothing. Where there is no such line, or no evolution, the outcome of
  * the report is CPS_OUTCOME_STALLED and the view has no elements and no arrays. */
 
-/* Number of load steps in all (a start computed by statics is the first; with the moves taken),
- * and of those of the history still to do. 0 remain after an infeasible or unbounded step: nothing
- * can follow it. */
+/* Number of load steps in all (a start computed by statics is the first; with the moves and breaks
+ * taken), and of those still to do: of the history, and a break that is due (failure.h). 0 remain
+ * after an infeasible or unbounded step: nothing can follow it. */
 CPS_API int cps_evolution_step_count(const CpsEvolution *evolution);
 CPS_API int cps_evolution_remaining_count(const CpsEvolution *evolution);
 
@@ -148,8 +148,7 @@ CPS_API CpsBodyReport cps_evolution_body_report(const CpsEvolution *evolution, i
 
 /* The same of the obstacles (shift.h). */
 CPS_API int cps_evolution_obstacle_count(const CpsEvolution *evolution);
-CPS_API CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution,
-                                                        int obstacle);
+CPS_API CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution, int k);
 
 /* The stiffness of an end of a line after the last step, all else as in that step: the other end
  * stays, or keeps its force. An end with a given force is taken as one that is held where the step

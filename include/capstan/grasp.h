@@ -31,8 +31,10 @@ typedef enum CpsEndKind {
     /* held where the start of the line places it, which must not be static; `value` is not read.
      * For lines only, not for changes */
     CPS_END_KIND_AT_START,
-    CPS_END_KIND_POINT /* at a point of the scene (`end_point` of the line); `value` is not read.
-                          For lines only, not for changes */
+    CPS_END_KIND_POINT,   /* at a point of the scene (`end_point` of the line); `value` is not read.
+                             For lines only, not for changes */
+    CPS_END_KIND_RELEASED /* let go at once, without a force, also from its point (failure.h);
+                             `value` is not read. For changes only, not for lines */
 } CpsEndKind;
 
 typedef struct CpsEnd {

@@ -41,6 +41,14 @@ CPS_API CpsReadLimits cps_read_limits_default(void);
  * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_INPUT, CPS_ERR_IO, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_scene_read(const char *path, const CpsReadLimits *limits, CpsSceneFile **out,
                                  CpsError *err);
+/* Read a scene from a text that ends with a zero byte, as a program has it that writes scenes.
+ *
+ *   name   the file's name in messages; files that the scene names lie beside it. It need not exist
+ *
+ * All else as above. */
+CPS_API CpsStatus cps_scene_read_text(const char *text, const char *name,
+                                      const CpsReadLimits *limits, CpsSceneFile **out,
+                                      CpsError *err);
 CPS_API void cps_scene_file_destroy(CpsSceneFile *file);
 CPS_API const CpsScene *cps_scene_file_scene(const CpsSceneFile *file);
 
@@ -101,6 +109,9 @@ typedef struct CpsLawFile CpsLawFile;
  * file is read in about two seconds; larger ones are made with law.h. */
 CPS_API CpsStatus cps_law_read(const char *path, const CpsReadLimits *limits, CpsLawFile **out,
                                CpsError *err);
+/* The same from a text, as cps_scene_read_text. */
+CPS_API CpsStatus cps_law_read_text(const char *text, const char *name, const CpsReadLimits *limits,
+                                    CpsLawFile **out, CpsError *err);
 CPS_API void cps_law_file_destroy(CpsLawFile *file); /* NULL is accepted */
 
 /* All owned by the file. */
@@ -209,6 +220,10 @@ typedef struct CpsDriveFile {
  * it. */
 CPS_API CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDriveFile **out,
                                  CpsError *err);
+/* The same from a text, as cps_scene_read_text. */
+CPS_API CpsStatus cps_drive_read_text(const char *text, const char *name,
+                                      const CpsReadLimits *limits, CpsDriveFile **out,
+                                      CpsError *err);
 CPS_API void cps_drive_file_destroy(CpsDriveFile *file); /* NULL is accepted */
 
 /* Write the JSON schema (draft 2020-12) of driven systems, from the table of keys of the reader. */

@@ -11,6 +11,7 @@
 
 #include "capstan/body.h"
 #include "capstan/grasp.h"
+#include "capstan/ground.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
 #include "capstan/shift.h"
@@ -22,7 +23,9 @@ extern "C" {
 typedef enum CpsObstacleKind {
     CPS_OBSTACLE_PLANE,    /* a half-space; `normal` points to its free side */
     CPS_OBSTACLE_CYLINDER, /* a solid cylinder of infinite length: a bollard, a pipe, a drum */
-    CPS_OBSTACLE_SPHERE    /* a solid ball */
+    CPS_OBSTACLE_SPHERE,   /* a solid ball */
+    CPS_OBSTACLE_GROUND,   /* what lies below the points of a grid */
+    CPS_OBSTACLE_SURFACE   /* where a function is negative */
 } CpsObstacleKind;
 
 /* The set of friction forces F that two coefficients describe, at the reaction R. By M77 section 4
@@ -38,14 +41,17 @@ typedef struct CpsObstacle {
     uint32_t cookie;
     const char *name;
     CpsObstacleKind kind; /* default plane */
-    /* [m] a point of the plane or of the cylinder's axis, or the centre of the sphere; default
-     * 0 0 0 */
+    /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, or the origin
+     * of a ground or surface; default 0 0 0 */
     double point[3];
     double normal[3]; /* [-] of a plane, of any length but 0; default 0 0 1 */
     /* [-] of a cylinder, and axis of rotation of cylinder and sphere; of any length but 0; default
      * 0 1 0 */
     double axis[3];
     double radius; /* [m] of cylinder and sphere, > 0 */
+    /* ground and surface stay in their place. What an evolution needs of a ground it retains. */
+    const CpsGround *ground; /* of a ground */
+    CpsSurface surface;      /* of a surface */
     /* [-] coefficient mu >= 0, default 0; where two directions differ, along the first one */
     double friction;
     bool has_friction_lateral; /* default false: the coefficient is the same in all directions */
@@ -123,6 +129,8 @@ typedef struct CpsSection {
     const CpsStiffnessRow *stiffness_row;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
+    bool has_break_at;      /* default false */
+    double break_at;        /* [N] > 0, with the flag: above this tension it parts (failure.h) */
 } CpsSection;
 
 /* A clump or a buoy at a node of a line. */
@@ -144,9 +152,11 @@ typedef struct CpsLine {
     const CpsStiffnessRow *stiffness_row;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
+    bool has_break_at;      /* default false */
+    double break_at;        /* [N] > 0, with the flag: above this tension it parts (failure.h) */
     /* (section_count) from A to B, each ending at a node; their lengths make up `length`. NULL, the
-     * default: the line is of one make, with the weight, stiffness and breaking load above, which
-     * are not read otherwise. */
+     * default: the line is of one make, with the weight, stiffness, breaking load and break_at
+     * above, which are not read otherwise. */
     int section_count;
     const CpsSection *section;
     int point_weight_count;             /* >= 0, default 0 */
@@ -165,7 +175,8 @@ typedef struct CpsLine {
 
 /* A new imposed position or force of one end of one line, reached in equal increments over the
  * stage. A free end that gets a position is held where it is and moved from there; a held end that
- * gets a force is released, and the force begins with that which it carried. */
+ * gets a force is released, and the force begins with that which it carried; one of the kind
+ * CPS_END_KIND_RELEASED is let go at once (failure.h). */
 typedef struct CpsChange {
     int line; /* index in the scene */
     int end;  /* CPS_END_A or CPS_END_B */

@@ -44,6 +44,44 @@ def thrust(program):
     return lines
 
 
+# ---- the line that lifts ----
+
+LENGTH, WEIGHT, STIFFNESS, ANCHOR, DEPTH = 902.2, 698.094, 384.243e6, 853.87, 320.0
+
+
+def hanging(height):
+    """H and span of an elastic catenary that is level at its lower end and hangs wholly: V = w L, z = (H/w)(sqrt(1 + (V/H)^2) - 1) + w L^2/(2 EA)."""
+    v, low, high = WEIGHT*LENGTH, 1e4, 1e9
+    for _ in range(200):
+        h = math.sqrt(low*high)
+        rise = h/WEIGHT*(math.sqrt(1 + (v/h)**2) - 1) + WEIGHT*LENGTH**2/(2*STIFFNESS)
+        low, high = (h, high) if rise > height else (low, h)
+    return low, low/WEIGHT*math.asinh(v/low) + low*LENGTH/STIFFNESS
+
+
+def lifts(program):
+    """At which thrust along one line that line hangs wholly: its anchor is pulled up no less than down."""
+    lines = ["| elements a line | thrust [kN] | offset [m] | tension of the anchor [N] | closed form [N] | span [m] | closed form [m] |", "|---|---|---|---|---|---|---|"]
+    text = read(os.path.join(program.root, "examples", "oc3-hywind.yaml"))
+    text = text[:text.index("history:")] + "history:\n" + "".join(
+        f"  - {{name: to {force}, steps: {steps}, spar.body: {{force: [-{force}e3, 0, 0], arm: [0, 0, 90]}}}}\n" for force, steps in ((400, 4), (440, 20)))
+    thrusts = [0, 100, 200, 300, 400] + [400 + 2*k for k in range(1, 21)]
+    for elements in MESHES:
+        scene = program.file(f"spar-lifts-{elements}.yaml", text.replace("elements: 100", f"elements: {elements}"))
+        _, place = program.run("run", scene, "--no-paraview")
+        rows = [{**a, **b} for a, b in zip(table(os.path.join(place, "bodies.csv")), table(os.path.join(place, "history.csv")))]
+        k = next(k for k in range(1, len(rows)) if float(rows[k]["first.A.uplift"]) >= 0)
+        before, after = float(rows[k - 1]["first.A.uplift"]), float(rows[k]["first.A.uplift"])
+        share = -before/(after - before)
+
+        def at(name):
+            return (1 - share)*float(rows[k - 1][name]) + share*float(rows[k][name])
+        h, span = hanging(at("first.B.z") + DEPTH)
+        thrust_there = (1 - share)*thrusts[k - 1] + share*thrusts[k]
+        lines.append(f"| {elements} | {thrust_there:.1f} | {at('x'):.3f} | {abs(at('first.A.fx')):.0f} | {h:.0f} | {ANCHOR - at('first.B.x'):.3f} | {span:.3f} |")
+    return lines
+
+
 # ---- the picture ----
 
 WIDTH, HEIGHT, GAP, LEFT, TOP = 350, 200, 90, 70, 60

@@ -2,6 +2,7 @@
 """The comparison of warm steps with cold ones in docs/validation.md, and the spar under thrust."""
 import glob
 import os
+import re
 import subprocess
 
 import spar
@@ -15,5 +16,15 @@ def warm_steps(program):
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
 
 
-FIGURES = {"warm-steps": warm_steps, "spar-thrust": spar.thrust}
+def parting_lines(program):
+    """What property.random_failure finds in 1000 scenes."""
+    command = [os.path.join(program.build, "test", "property", "random_failure"), "--scenes", "1000"]
+    last = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()[-1]
+    scenes, steps, opened, breaks, fallen, near, off, wrong = re.findall(r"[0-9][0-9.e+-]*", last)
+    return ["", "| scenes | steps | breaks | without a line left | open steps | left as doubtful | tensions differ by | wrong |",
+            "|---|---|---|---|---|---|---|---|",
+            f"| {scenes} | {steps} | {breaks} | {fallen} | {opened} | {near} | {off} | {wrong} |", ""]
+
+
+FIGURES = {"warm-steps": warm_steps, "parting-lines": parting_lines, "spar-thrust": spar.thrust, "spar-lifts": spar.lifts}
 PICTURES = {"spar-thrust": spar.loops}

@@ -38,6 +38,7 @@ typedef struct CpsiLine {
     bool has_zones;     /* friction differs along the line */
     bool has_sections;  /* weight and compliance may, and there may be point masses */
     bool has_breaking_load; /* an element has one */
+    bool has_break_at;      /* likewise */
     bool has_local_axes;    /* each contact has its own axes at its position: not on a single plane
                                with isotropic friction */
     int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
@@ -50,6 +51,7 @@ typedef struct CpsiLine {
     double *arc_length;     /* (n) [m] */
     double *element_length; /* (n - 1) [m] element e joins nodes e and e + 1 */
     double *breaking_load;  /* (n - 1) [N] INFINITY where there is none; NULL: none anywhere */
+    double *break_at;       /* likewise */
     /* of a line of sections or with point masses, else NULL */
     double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
     double *compliance_factor; /* (n - 1) compliance of element e over `compliance`, at T = 0 */

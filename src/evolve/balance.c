@@ -23,6 +23,7 @@
 #include "evolve/first_guess.h"
 #include "evolve/graph_existence.h"
 #include "evolve/joint_answer.h"
+#include "evolve/lone.h"
 #include "evolve/nearest_places.h"
 #include "evolve/newton_step.h"
 #include "evolve/points.h"
@@ -309,6 +310,22 @@ static bool search_again(CpsiBalance *balance) {
     return false;
 }
 
+/* Find the place of a point, or a body, at which no line ends any more. */
+static void find_lone(CpsiBalance *balance) {
+    CpsOutcome outcome = CPS_OUTCOME_SOLVED;
+    if (balance->body_count == 0)
+        outcome = cpsi_lone_point(balance);
+    else if (!search(balance, MOST_TRIALS))
+        outcome = CPS_OUTCOME_STALLED;
+    if (outcome == CPS_OUTCOME_UNBOUNDED) {
+        cpsi_begin_again(balance);
+        cpsi_report_no_place(balance);
+    } else {
+        cpsi_report_found(balance);
+    }
+    balance->evolution->lone = cps_outcome_worse(balance->evolution->lone, outcome);
+}
+
 /* Is where the step began an answer? Otherwise things stay as they are. */
 static bool stays(CpsiBalance *balance) {
     const size_t bytes = (size_t)balance->count * sizeof *balance->at,
@@ -333,6 +350,10 @@ static void find_places(CpsiBalance *balance, int group) {
     const bool frozen =
         evolution->options.friction_policy == CPS_FRICTION_POLICY_FROZEN && !is_static;
     begin(balance, group);
+    if (balance->line_count == 0) {
+        find_lone(balance);
+        return;
+    }
     if (!frozen && cpsi_group_falls(balance)) return;
     if (!is_static && balance->body_count > 0) {
         cpsi_extrapolate_places(balance);
@@ -370,6 +391,7 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     CpsiBalance *balance = evolution->points.balance;
     CpsiPoints *points = &evolution->points;
     bool any = false;
+    evolution->lone = CPS_OUTCOME_SOLVED;
     for (int i = 0; i < points->count; i++) {
         points->point[i].reaction_before = points->point[i].report.reaction;
         any = any || points->point[i].kind == CPS_POINT_KIND_FREE || cpsi_point_drags(points, i);

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "evolve/failure.h"
 #include "evolve/state_check.h"
 
 /* The header of a state. */
@@ -24,7 +25,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '5'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '6'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -63,6 +64,7 @@ _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(
 _Static_assert(sizeof(CpsBodyReport) == 69 * 8, "add the new field to pass_body, then its size");
 _Static_assert(sizeof(CpsPointReport) == 37 * 8,
                "add the new field to pass_point, then its size here");
+_Static_assert(sizeof(CpsBreak) == 5 * 8, "add the new field to pass_break, then its size here");
 _Static_assert(sizeof(CpsEnd) == 4 * 8, "add the new field to pass_end, then its size here");
 #endif
 
@@ -70,6 +72,15 @@ static void pass_energies(Tape *tape, CpsCertificate *certificate, CpsLedger *le
     pass(tape, certificate, offsetof(CpsCertificate, has_tension_bound)); /* numbers */
     pass_flag(tape, &certificate->has_tension_bound);
     PASS(tape, *ledger);
+}
+
+static void pass_break(Tape *tape, CpsBreak *parted) {
+    pass_flag(tape, &parted->is_break);
+    PASS(tape, parted->line);
+    PASS(tape, parted->end);
+    PASS(tape, parted->tension);
+    PASS(tape, parted->break_at);
+    PASS(tape, parted->arc_length);
 }
 
 static void pass_end(Tape *tape, CpsEnd *end) {
@@ -282,6 +293,9 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     PASS(tape, evolution->gravity);
     PASS(tape, evolution->gravity_from);
     for (int i = 0; i < 2 * evolution->line_count; i++) pass_end(tape, &evolution->from[i]);
+    pass(tape, evolution->release, 2 * (size_t)evolution->line_count * sizeof *evolution->release);
+    pass_break(tape, &evolution->parted);
+    PASS(tape, evolution->break_count);
     for (int i = 0; i < evolution->line_count; i++) {
         pass_line(tape, &evolution->line[i]);
         pass(tape, evolution->line[i].start_element,
@@ -328,6 +342,7 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, (size_t)line->spring_count, line->spring_stiffness);
     }
     if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
+    if (line->has_break_at) hash_numbers(hash, (size_t)line->n - 1, line->break_at);
     for (int end = 0; end < 2; end++) {
         hash_bytes(hash, &line->end[end].kind, sizeof line->end[end].kind);
         hash_numbers(hash, 3, line->end[end].value);
@@ -379,6 +394,20 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     }
 }
 
+/* Of a surface the size alone: what its function gives is not known. */
+static void hash_ground(uint64_t *hash, const CpsiObstacle *obstacle) {
+    if (obstacle->kind == CPS_OBSTACLE_SURFACE) hash_numbers(hash, 1, &obstacle->surface.size);
+    if (!obstacle->ground) return;
+    const CpsGroundGrid grid = cps_ground_grid(obstacle->ground);
+    const size_t columns = (size_t)grid.x_count, rows = (size_t)grid.y_count;
+    const int what[3] = {grid.x_count, grid.y_count, grid.extends};
+    hash_bytes(hash, what, sizeof what);
+    hash_numbers(hash, columns, grid.x);
+    hash_numbers(hash, rows, grid.y);
+    hash_numbers(hash, columns * rows, grid.z);
+    if (grid.friction_factor) hash_numbers(hash, columns * rows, grid.friction_factor);
+}
+
 static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
                           const CpsiFrictionSet *set) {
     const int what[5] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain,
@@ -391,6 +420,7 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     hash_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
     hash_numbers(hash, 3,
                  (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
+    hash_ground(hash, obstacle);
     if (!set) return;
     const CpsiConicSet *form = cpsi_friction_set_conic(set);
     hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
@@ -512,6 +542,7 @@ void cps_evolution_save(const CpsEvolution *evolution, void *state) {
 
 void cpsi_evolution_restore(CpsEvolution *evolution, const void *state) {
     pass_state(&(Tape){.in = state}, evolution);
+    cpsi_follow_releases(evolution);
     evolution->report.name = evolution->step_name;
     evolution->ended = cps_outcome_is_final(evolution->report.outcome);
 }

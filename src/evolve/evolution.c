@@ -17,6 +17,7 @@
 #include "cable/tension_field.h"
 #include "evolve/balance.h"
 #include "evolve/checkpoint.h"
+#include "evolve/failure.h"
 #include "evolve/ledger.h"
 #include "evolve/stage_check.h"
 #include "evolve/stages.h"
@@ -24,11 +25,14 @@
 #include "evolve/view.h"
 
 int cps_evolution_step_count(const CpsEvolution *evolution) {
-    return evolution ? evolution->step_count + evolution->move_count : 0;
+    if (!evolution) return 0;
+    return evolution->step_count + evolution->move_count + evolution->break_count +
+           cpsi_break_due(evolution).is_break;
 }
 
 int cps_evolution_remaining_count(const CpsEvolution *evolution) {
-    return !evolution || evolution->ended ? 0 : evolution->step_count - evolution->done;
+    if (!evolution || evolution->ended) return 0;
+    return evolution->step_count - evolution->done + cpsi_break_due(evolution).is_break;
 }
 
 /* The ranges of the tensions at the ends, after the last step of a stage and after statics. */
@@ -58,7 +62,7 @@ static void step_line(void *data, int workspace_index, int i) {
     } else {
         if (evolution->move[i].shift) line->obstacle = workspace->scratch.obstacle;
         cpsi_line_substeps(line, &workspace->program, &options, &evolution->move[i],
-                           &workspace->scratch, evolution->done + evolution->move_count > 0);
+                           &workspace->scratch, evolution->report.step_count > 0);
         line->obstacle = evolution->obstacle;
     }
     if (evolution->part == 0) find_range(line, &options);
@@ -100,14 +104,28 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->element_penetration = cpsi_max_nan(to->element_penetration, from->element_penetration);
 }
 
-/* Add the friction of the points, and the work that the forces at them do for it beside that which
- * the lines get. */
-static void add_friction_of_points(CpsStepReport *step, const CpsiPoints *points) {
+/* [J] The work that an obstacle which turns or moves does on a point that touches it. */
+static double work_on_point(const CpsEvolution *evolution, const CpsPointReport *point) {
+    const int k = point->obstacle;
+    if (k < 0 || (evolution->angle[k] == 0 && cpsi_shift_is_none(&evolution->shift[k]))) return 0;
+    const Vec3 x = vec3_load(point->position),
+               before = cpsi_obstacle_turn(&evolution->obstacle[k], x, -evolution->angle[k]),
+               moved = vec3_add(vec3_sub(x, before), cpsi_shift_to(&evolution->shift[k], before));
+    return vec3_dot(moved, vec3_axpy(point->reaction, vec3_load(point->normal),
+                                     vec3_load(point->friction)));
+}
+
+/* Add the friction of the points, and the work that the forces at them and the obstacles under them
+ * do for it beside that which the lines get. */
+static void add_friction_of_points(CpsStepReport *step, const CpsEvolution *evolution) {
+    const CpsiPoints *points = &evolution->points;
     for (int i = 0; i < points->count; i++) {
-        const double dissipated = points->point[i].report.dissipated;
-        step->dissipated += dissipated;
-        step->ledger.dissipated += dissipated;
-        step->ledger.ends += dissipated;
+        const CpsPointReport *report = &points->point[i].report;
+        const double work = work_on_point(evolution, report);
+        step->dissipated += report->dissipated;
+        step->ledger.dissipated += report->dissipated;
+        step->ledger.ends += report->dissipated - work;
+        step->ledger.obstacles += work;
     }
 }
 
@@ -154,15 +172,34 @@ static void report_sweep(CpsEvolution *evolution, bool is_start) {
     }
 }
 
-/* Take a step of a stage, of the move where `is_move`; of no stage where lines are placed by
- * statics. */
-static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, bool is_move,
-                           CpsError *err) {
-    const double begin = seconds();
-    const CpsiInterrupt *interrupt = &evolution->workspace[0].interrupt;
-    if (interrupt->asked || is_move) cpsi_evolution_keep(evolution, evolution->before);
-    set_interrupt(evolution, (CpsiInterrupt){.asked = interrupt->asked, .user = interrupt->user});
-    if (stage)
+/* No line may leave a grid: what is below it there is not known. */
+static CpsStatus check_cover(CpsEvolution *evolution, CpsError *err) {
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        const CpsiObstacle *on = &evolution->obstacle[k];
+        for (int i = 0; i < evolution->line_count && on->ground; i++) {
+            const CpsiLine *line = &evolution->line[i];
+            for (int j = 0; j < line->n; j++) {
+                const Vec3 x = vec3_at(line->position, j);
+                if (cpsi_obstacle_covers(on, x, CPS_TOUCH * line->length)) continue;
+                evolution->ended = true;
+                return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                 "line '%s': node %d at (%.9g, %.9g) m has left the grid of ground "
+                                 "'%s': take a larger grid, or say that it extends",
+                                 line->name, j, x.x + evolution->origin[0],
+                                 x.y + evolution->origin[1], evolution->given_obstacle[k].name);
+            }
+        }
+    }
+    return CPS_OK;
+}
+
+/* Plan a step of a stage, of the move where `is_move`; of no stage the break that is due, or where
+ * lines are placed by statics. */
+static void plan_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, bool is_move,
+                      const CpsBreak *parts) {
+    if (parts->is_break)
+        cpsi_stage_plan_break(evolution, parts);
+    else if (stage)
         cpsi_stage_plan(evolution, stage, is_move ? 0 : evolution->part);
     else
         cpsi_stage_plan_statics(evolution);
@@ -170,6 +207,16 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
         evolution->part = 0;
         evolution->current++;
     }
+}
+
+/* Take a step (plan_step). */
+static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, bool is_move,
+                           const CpsBreak *parts, CpsError *err) {
+    const double begin = seconds();
+    const CpsiInterrupt *interrupt = &evolution->workspace[0].interrupt;
+    if (interrupt->asked || is_move) cpsi_evolution_keep(evolution, evolution->before);
+    set_interrupt(evolution, (CpsiInterrupt){.asked = interrupt->asked, .user = interrupt->user});
+    plan_step(evolution, stage, is_move, parts);
     cpsi_balance_step(evolution, step_line);
     evolution->is_kept = is_move;
     if (was_interrupted(evolution)) {
@@ -177,17 +224,24 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
         return cpsi_fail(err, CPS_ERR_INTERRUPTED,
                          "the load step was interrupted, and is not taken");
     }
-    report_sweep(evolution, stage == NULL);
-    if (is_move)
+    report_sweep(evolution, stage == NULL && !parts->is_break);
+    const CpsStatus covered = check_cover(evolution, err);
+    if (covered != CPS_OK) return covered;
+    if (parts->is_break)
+        evolution->break_count++;
+    else if (is_move)
         evolution->move_count++;
     else
         evolution->done++;
+    evolution->parted = *parts;
     evolution->report = (CpsStepReport){.name = evolution->step_name,
-                                        .step_count = evolution->done + evolution->move_count,
+                                        .step_count = evolution->done + evolution->move_count +
+                                                      evolution->break_count,
+                                        .outcome = evolution->lone,
                                         .certificate.has_tension_bound = true};
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);
-    add_friction_of_points(&evolution->report, &evolution->points);
+    add_friction_of_points(&evolution->report, evolution);
     for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i]);
     evolution->ended = !is_move && cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;
@@ -200,8 +254,9 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "no load step remains: ask cps_evolution_remaining_count first");
     if (cpsi_move_failed(evolution)) return_to_kept(evolution);
-    if (evolution->has_static && evolution->done == 0)
-        return take_step(evolution, NULL, false, err);
+    const CpsBreak due = cpsi_break_due(evolution), none = {0};
+    if (due.is_break || (evolution->has_static && evolution->done == 0))
+        return take_step(evolution, NULL, false, &due, err);
     const CpsiEvolutionStage *stage = &evolution->stage[evolution->current];
     if (evolution->part == 0) {
         char what[96];
@@ -210,7 +265,7 @@ CpsStatus cps_evolution_step(CpsEvolution *evolution, CpsError *err) {
             cpsi_stage_check_paths(evolution, stage, evolution->move_count > 0, what, err);
         if (status) return cpsi_fail_inside(err, status, "history[%d]", evolution->current + 1);
     }
-    return take_step(evolution, stage, false, err);
+    return take_step(evolution, stage, false, &none, err);
 }
 
 /* Whether a move may be taken now, and memory for the state before it. */
@@ -226,6 +281,13 @@ static CpsStatus prepare_move(CpsEvolution *evolution, CpsError *err) {
                          "stage '%.64s' of the history is under way: take its other %d steps first",
                          evolution->stage[evolution->current].name,
                          evolution->stage[evolution->current].steps - evolution->part);
+    const CpsBreak due = cpsi_break_due(evolution);
+    if (due.is_break)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "line '%.64s' carries %g N, above its break_at of %g N: it parts in the "
+                         "next step, which cps_evolution_step takes; take that first, or the last "
+                         "move back",
+                         evolution->line[due.line].name, due.tension, due.break_at);
     if (!evolution->before) evolution->before = malloc(cps_evolution_state_size(evolution));
     return evolution->before
                ? CPS_OK
@@ -258,7 +320,8 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
     cpsi_stage_fill(&evolution->live, move, evolution->origin);
     evolution->live.name = move->name ? move->name : "move";
     status = cpsi_stage_check_paths(evolution, &evolution->live, true, what, err);
-    return status == CPS_OK ? take_step(evolution, &evolution->live, true, err) : status;
+    const CpsBreak none = {0};
+    return status == CPS_OK ? take_step(evolution, &evolution->live, true, &none, err) : status;
 }
 
 CpsStatus cps_evolution_take_back(CpsEvolution *evolution, CpsError *err) {

@@ -9,6 +9,7 @@
 #include "capstan/evolve.h"
 #include "evolve/balance.h"
 #include "evolve/checkpoint.h"
+#include "evolve/failure.h"
 #include "evolve/friction_zone.h"
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
@@ -37,7 +38,8 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
 static bool scene_has_element_contacts(const CpsScene *scene) {
     bool round = false;
     for (int k = 0; k < scene->obstacle_count; k++)
-        round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
+        round = round || scene->obstacle[k].kind == CPS_OBSTACLE_CYLINDER ||
+                scene->obstacle[k].kind == CPS_OBSTACLE_SPHERE;
     return (round || scene->obstacle_count > 2) &&
            scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
 }
@@ -77,6 +79,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     CPSI_PLACE(arena, evolution->shift, scene->obstacle_count + 1);
     CPSI_PLACE(arena, evolution->move, scene->line_count);
     CPSI_PLACE(arena, evolution->from, 2 * scene->line_count);
+    CPSI_PLACE(arena, evolution->release, 2 * scene->line_count);
     layout_given(evolution, arena, scene, real);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
                               .contacts = scene->obstacle_count > 1 ? 2 : 1,
@@ -97,6 +100,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->has_zones = scene->line[i].zone_count > 0;
         line->has_sections = cpsi_has_sections(&scene->line[i]);
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
+        line->has_break_at = cpsi_has_break_at(&scene->line[i]);
         line->compliance = line->spring_compliance = cpsi_mean_compliance(&scene->line[i]);
         line->spring_count = cpsi_spring_count(&scene->line[i]);
         cpsi_line_layout(line, arena);
@@ -184,7 +188,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
             def->element_length ? def->element_length[e] : def->length / def->element_count;
     cpsi_line_set_arc_length(line);
     fill_friction_factor(line, def);
-    if (line->has_sections || line->has_breaking_load || line->spring_count > 0)
+    if (line->has_sections || line->has_breaking_load || line->has_break_at ||
+        line->spring_count > 0)
         cpsi_sections_fill(line, def);
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++)
@@ -210,8 +215,10 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
                                            .friction_policy = scene->friction_policy,
                                            .contact_policy = scene->contact_policy};
     evolution->obstacle_count = scene->obstacle_count;
-    for (int k = 0; k < scene->obstacle_count; k++)
+    for (int k = 0; k < scene->obstacle_count; k++) {
         evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
+        (void)cps_ground_retain(evolution->obstacle[k].ground);
+    }
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {
@@ -266,10 +273,7 @@ static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, con
     cpsi_bodies_fill(&evolution->bodies, scene, local);
     for (int i = 0; i < scene->body_count; i++)
         evolution->given_body[i] = evolution->bodies.body[i].given;
-    for (int i = 0; i < evolution->line_count; i++)
-        for (int end = 0; end < 2; end++)
-            evolution->line[i].is_at_point[end] =
-                evolution->points.tie[2 * i + end] != CPSI_NO_POINT;
+    cpsi_follow_releases(evolution);
     bool isotropic = true;
     for (int k = 0; k < evolution->obstacle_count; k++)
         isotropic = isotropic && cpsi_obstacle_is_isotropic(&evolution->obstacle[k]);
@@ -357,6 +361,8 @@ void cps_evolution_destroy(CpsEvolution *evolution) {
         cpsi_friction_sets_free(&evolution->workspace[i].friction_sets);
     free(evolution->before);
     cpsi_balance_free(evolution->points.balance);
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        cps_ground_release((CpsGround *)evolution->obstacle[k].ground);
     CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
     cpsi_arena_free(&arena);
 }

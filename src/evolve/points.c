@@ -271,6 +271,7 @@ void cpsi_points_layout(CpsiPoints *points, CpsiArena *arena, const CpsScene *sc
     CPSI_PLACE(arena, points->point, scene->point_count);
     CPSI_PLACE(arena, points->given, scene->point_count);
     CPSI_PLACE(arena, points->tie, 2 * (size_t)scene->line_count);
+    CPSI_PLACE(arena, points->tie_given, 2 * (size_t)scene->line_count);
     CPSI_PLACE(arena, points->group, scene->point_count);
 }
 
@@ -289,7 +290,8 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
     points->surface = local->has_water_surface ? local->water_surface : 0;
     for (int i = 0; i < scene->line_count; i++)
         for (int end = 0; end < 2; end++)
-            points->tie[2 * i + end] = cpsi_point_of(&scene->line[i], end);
+            points->tie[2 * i + end] = points->tie_given[2 * i + end] =
+                cpsi_point_of(&scene->line[i], end);
     for (int i = 0; i < 2 * scene->line_count; i++)
         if (points->tie[i] != CPSI_NO_POINT) {
             double *longest = &points->point[points->tie[i]].length;

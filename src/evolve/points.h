@@ -35,7 +35,8 @@ typedef struct CpsiPoints {
     int count;
     CpsiPoint *point;     /* (count) */
     CpsPoint *given;      /* (count) names and kinds, against which stages are checked */
-    int *tie;             /* (lines, 2) the point of an end, or CPSI_NO_POINT */
+    int *tie;             /* (lines, 2) the point of an end now, or CPSI_NO_POINT */
+    int *tie_given;       /* ... and in the scene */
     int *group;           /* (count) first point of a free one's group, else CPSI_NO_POINT */
     CpsiBalance *balance; /* NULL: no point is ever free */
     bool has_surface;

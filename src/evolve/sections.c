@@ -44,6 +44,12 @@ bool cpsi_has_breaking_load(const CpsLine *def) {
     return found;
 }
 
+bool cpsi_has_break_at(const CpsLine *def) {
+    bool found = def->section_count == 0 && def->has_break_at;
+    for (int k = 0; k < def->section_count; k++) found = found || def->section[k].has_break_at;
+    return found;
+}
+
 static double compliance_of(double stiffness) { return isinf(stiffness) ? 0 : 1 / stiffness; }
 
 double cpsi_mean_compliance(const CpsLine *def) {
@@ -142,6 +148,11 @@ static CpsStatus check_section(const CpsLine *def, int k, CpsError *err) {
                  section->breaking_load);
         return fail(err, "sections", k, def, found);
     }
+    if (section->has_break_at && !cpsi_is_positive(section->break_at)) {
+        snprintf(found, sizeof found, "has break_at %g N, expected a positive number",
+                 section->break_at);
+        return fail(err, "sections", k, def, found);
+    }
     if (isfinite(stiffness_of(def, k)) != cpsi_is_elastic(def))
         return fail(err, "sections", k, def,
                     "is inextensible or elastic, those before it are not: give all sections a "
@@ -216,6 +227,10 @@ CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsErro
                  def->breaking_load);
         return fail(err, "breaking_load", -1, def, found);
     }
+    if (def->section_count == 0 && def->has_break_at && !cpsi_is_positive(def->break_at)) {
+        snprintf(found, sizeof found, "is %g N, expected a positive finite number", def->break_at);
+        return fail(err, "break_at", -1, def, found);
+    }
     status = check_sections(def, err);
     if (status == CPS_OK) status = check_point_weights(def, err);
     if (status != CPS_OK) return status;
@@ -232,16 +247,18 @@ CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsErro
 
 /* What a section has, or a line of one make. */
 typedef struct Make {
-    double weight, compliance, breaking_load;
+    double weight, compliance, breaking_load, break_at;
 } Make;
 
 static Make make_of(const CpsLine *def, int section) {
     if (def->section_count == 0)
         return (Make){def->weight, compliance_of(stiffness_of(def, 0)),
-                      def->has_breaking_load ? def->breaking_load : INFINITY};
+                      def->has_breaking_load ? def->breaking_load : INFINITY,
+                      def->has_break_at ? def->break_at : INFINITY};
     const CpsSection *of = &def->section[section];
     return (Make){of->weight, compliance_of(stiffness_of(def, section)),
-                  of->has_breaking_load ? of->breaking_load : INFINITY};
+                  of->has_breaking_load ? of->breaking_load : INFINITY,
+                  of->has_break_at ? of->break_at : INFINITY};
 }
 
 /* Where sections end along a line: the section of the elements asked for, from A to B. */
@@ -296,6 +313,7 @@ static void fill_elements(CpsiLine *line, const CpsLine *def, double weight) {
             line->spring_at[e + 1] = springs;
         }
         if (line->has_breaking_load) line->breaking_load[e] = make.breaking_load;
+        if (line->has_break_at) line->break_at[e] = make.break_at;
         if (!line->has_sections) continue;
         line->weight_factor[e] = weight > 0 ? make.weight / weight : 1;
         line->compliance_factor[e] =

@@ -17,6 +17,7 @@ bool cpsi_is_elastic(const CpsLine *def);
 
 /* Has it, or a section of it, a breaking load? */
 bool cpsi_has_breaking_load(const CpsLine *def);
+bool cpsi_has_break_at(const CpsLine *def);
 
 /* The number of springs beside the stiffness of its elements (base/element_law.h), by tables. */
 int cpsi_spring_count(const CpsLine *def);

@@ -58,7 +58,7 @@ CpsStatus cpsi_stage_shifts_check(const CpsScene *scene, const CpsStage *stage, 
                              what, i + 1, shift->obstacle, scene->obstacle_count);
         const CpsObstacle *obstacle = &scene->obstacle[shift->obstacle];
         char place[80];
-        snprintf(place, sizeof place, "%s.move", obstacle->name);
+        snprintf(place, sizeof place, "%s.obstacle", obstacle->name);
         if (!obstacle->moves)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                                 "%s: obstacle '%s' is shifted, but stays in its place: say that it "

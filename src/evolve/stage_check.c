@@ -23,6 +23,18 @@ static const double MAX_TURN = 2e4 * CPSI_PI, DEGREES = 180 / CPSI_PI;
 
 CpsStage cps_stage_default(void) { return (CpsStage){.cookie = STAGE_COOKIE, .step_count = 1}; }
 
+/* Does a stage of the scene before this one let the end go? */
+static bool was_released(const CpsScene *scene, const CpsStage *stage, const CpsChange *change) {
+    for (int k = 0; k < scene->stage_count && &scene->stage[k] != stage; k++)
+        for (int i = 0; i < scene->stage[k].change_count; i++) {
+            const CpsChange *earlier = &scene->stage[k].change[i];
+            if (earlier->to.kind == CPS_END_KIND_RELEASED && earlier->line == change->line &&
+                earlier->end == change->end)
+                return true;
+        }
+    return false;
+}
+
 static CpsStatus check_change(const CpsScene *scene, const CpsStage *stage, int index,
                               const char *what, CpsError *err) {
     const CpsChange *change = &stage->change[index];
@@ -43,10 +55,12 @@ static CpsStatus check_change(const CpsScene *scene, const CpsStage *stage, int 
                                 line->name, letter);
     }
     const double *v = change->to.value;
-    if (cpsi_point_of(line, change->end) != CPSI_NO_POINT)
+    if (change->to.kind == CPS_END_KIND_RELEASED) return CPS_OK;
+    if (cpsi_point_of(line, change->end) != CPSI_NO_POINT && !was_released(scene, stage, change))
         return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                            "%s: %s.%s is at a point: change the point instead", what, line->name,
-                            letter);
+                            "%s: %s.%s is at a point: change the point instead, or release it "
+                            "before",
+                            what, line->name, letter);
     if (change->to.kind != CPS_END_KIND_HELD && change->to.kind != CPS_END_KIND_FREE)
         return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT, "%s: %s.%s has the unknown kind %d", what,
                             line->name, letter, (int)change->to.kind);
@@ -78,10 +92,17 @@ static CpsStatus check_turns(const CpsScene *scene, const CpsStage *stage, const
         const CpsObstacle *obstacle = &scene->obstacle[turn->obstacle];
         char place[80];
         snprintf(place, sizeof place, "%s.turn", obstacle->name);
-        if (obstacle->kind == CPS_OBSTACLE_PLANE)
+        if (obstacle->kind != CPS_OBSTACLE_CYLINDER && obstacle->kind != CPS_OBSTACLE_SPHERE)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                                "%s: obstacle '%s' is a plane: only a cylinder or a sphere turns",
-                                what, obstacle->name);
+                                "%s: obstacle '%s' is a %s: only a cylinder or a sphere turns "
+                                "about its own axis%s",
+                                what, obstacle->name,
+                                obstacle->kind == CPS_OBSTACLE_PLANE    ? "plane"
+                                : obstacle->kind == CPS_OBSTACLE_GROUND ? "ground"
+                                                                        : "surface",
+                                obstacle->kind == CPS_OBSTACLE_PLANE
+                                    ? "; an entry NAME.obstacle turns it about any"
+                                    : "");
         if (!cpsi_is_usable(turn->angle))
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                                 "%s: obstacle '%s' turns by %g, expected a finite angle", what,

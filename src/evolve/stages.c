@@ -5,8 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "evolve/failure.h"
 #include "evolve/grasps.h"
 #include "evolve/path_check.h"
+#include "evolve/ranges.h"
 #include "evolve/shifts.h"
 #include "evolve/water.h"
 
@@ -62,7 +64,7 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
 }
 
 /* The initial value of a change of an end: its position if it is to be held, its force if it is to
- * be released. */
+ * be released over the stage. */
 static CpsEnd end_now(const CpsiLine *line, int end, CpsEndKind kind) {
     CpsEnd now = {.kind = kind};
     if (kind == line->end[end].kind) return line->end[end];
@@ -96,7 +98,9 @@ CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolut
         CpsChange change = stage->change[i];
         const CpsiLine *line = &evolution->line[change.line];
         const bool grabbed = line->end[change.end].kind == CPS_END_KIND_FREE;
-        if (change.to.kind != CPS_END_KIND_HELD || !(grabbed || all)) continue;
+        if (change.to.kind != CPS_END_KIND_HELD || !(grabbed || all) ||
+            cpsi_change_is_lost(evolution, stage, &change))
+            continue;
         CpsEnd from = end_now(line, change.end, CPS_END_KIND_HELD);
         for (int a = 0; a < 3; a++) {
             from.value[a] += evolution->origin[a];
@@ -127,6 +131,13 @@ CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolut
 static void value_at(const double from[3], const double to[3], int part, int steps, double at[3]) {
     const double share = (double)part / steps;
     for (int a = 0; a < 3; a++) at[a] = part < steps ? from[a] + share * (to[a] - from[a]) : to[a];
+}
+
+/* Let an end go at once, without a force. */
+static void release(CpsEvolution *evolution, int line, int end, CpsRelease by) {
+    CpsiMove *move = &evolution->move[line];
+    cpsi_release_end(evolution, line, end, by);
+    move->from[end] = move->to[end] = (CpsEnd){.kind = CPS_END_KIND_FREE};
 }
 
 /* An end of a line at `part` of a stage. */
@@ -250,9 +261,17 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
     plan_weights(evolution, stage, part);
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++)
-            evolution->move[i].from[end] = evolution->move[i].to[end] = evolution->line[i].end[end];
+            evolution->move[i].from[end] = evolution->move[i].to[end] =
+                cpsi_end_now(evolution, i, end);
     for (int k = 0; k < stage->change_count; k++) {
         const CpsChange *change = &stage->change[k];
+        if (cpsi_change_is_lost(evolution, stage, change)) continue;
+        if (change->to.kind == CPS_END_KIND_RELEASED) {
+            if (part == 0) release(evolution, change->line, change->end, CPS_RELEASE_BY_STAGE);
+            continue;
+        }
+        CpsRelease *release_of = &evolution->release[2 * change->line + change->end];
+        if (part == 0 && *release_of != CPS_RELEASE_NONE) *release_of = CPS_RELEASE_TAKEN;
         if (part == 0)
             evolution->from[2 * change->line + change->end] =
                 end_now(&evolution->line[change->line], change->end, change->to.kind);
@@ -274,16 +293,31 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
                  stage->steps);
 }
 
-void cpsi_stage_plan_statics(CpsEvolution *evolution) {
-    snprintf(evolution->step_name, CPSI_STEP_NAME, "static");
+/* Nothing changes. */
+static void plan_rest(CpsEvolution *evolution) {
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int i = 0; i < evolution->line_count; i++) {
         const CpsiLine *line = &evolution->line[i];
         CpsiMove *move = &evolution->move[i];
-        for (int end = 0; end < 2; end++) move->from[end] = move->to[end] = line->end[end];
-        move->grasp_count = 0;
+        for (int end = 0; end < 2; end++)
+            move->from[end] = move->to[end] = cpsi_end_now(evolution, i, end);
+        move->grasp_count = line->grasp_count;
+        for (int k = 0; k < line->grasp_count; k++)
+            move->grasp_from[k] = move->grasp_to[k] = line->grasp[k].imposed;
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
     }
     plan_shifts(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);
     plan_points(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);
+}
+
+void cpsi_stage_plan_statics(CpsEvolution *evolution) {
+    snprintf(evolution->step_name, CPSI_STEP_NAME, "static");
+    plan_rest(evolution);
+}
+
+void cpsi_stage_plan_break(CpsEvolution *evolution, const CpsBreak *parts) {
+    snprintf(evolution->step_name, CPSI_STEP_NAME, "%.64s.%s parts",
+             evolution->line[parts->line].name, cpsi_end_letter(parts->end));
+    plan_rest(evolution);
+    release(evolution, parts->line, parts->end, CPS_RELEASE_BY_BREAK);
 }

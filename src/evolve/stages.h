@@ -37,4 +37,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
 /* The same of the step that places lines by statics: nothing changes. */
 void cpsi_stage_plan_statics(CpsEvolution *evolution);
 
+/* The same of a break: an end is let go, and nothing else changes. */
+void cpsi_stage_plan_break(CpsEvolution *evolution, const CpsBreak *parts);
+
 #endif

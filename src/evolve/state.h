@@ -4,7 +4,7 @@
 #define CAPSTAN_SRC_EVOLVE_STATE_H
 
 #include "base/workers.h"
-#include "capstan/evolve.h"
+#include "capstan/failure.h"
 #include "evolve/bodies.h"
 #include "evolve/points.h"
 #include "evolve/workspace.h"
@@ -57,7 +57,11 @@ struct CpsEvolution {
     CpsObstacle *given_obstacle; /* (obstacle_count) without their sets of friction forces */
     CpsBody *given_body;         /* (bodies) */
     CpsLine *given_line;         /* (line_count) names and lengths only */
-    CpsEnd *from; /* (line_count, 2) where an end was when the stage that changes it began */
+    CpsEnd *from;        /* (line_count, 2) where an end was when the stage that changes it began */
+    CpsRelease *release; /* (line_count, 2) of the ends (failure.h) */
+    CpsBreak parted;     /* the break that the last step was */
+    int break_count;     /* breaks taken */
+    CpsOutcome lone;     /* of the points and bodies in the step at which no line ends any more */
     double gravity[3], gravity_from[3]; /* [m/s2] now, and when the stage under way began */
     double gravity_given[3];            /* [m/s2] that of the scene */
     bool has_static;                    /* the first step places lines by statics */

@@ -61,12 +61,22 @@ static bool is_place_in_history(const CpsEvolution *evolution) {
 static bool is_step_report(const CpsEvolution *evolution) {
     const CpsStepReport *report = &evolution->report;
     return evolution->move_count >= 0 && evolution->move_count <= INT_MAX - evolution->done &&
-           report->step_count == evolution->done + evolution->move_count &&
+           evolution->break_count >= 0 &&
+           evolution->break_count <= INT_MAX - evolution->done - evolution->move_count &&
+           report->step_count == evolution->done + evolution->move_count + evolution->break_count &&
            is_outcome(report->outcome) &&
            within(report->places, CPS_PLACES_UNIQUE, CPS_PLACES_ANY) &&
            report->iteration_count >= 0 && report->substep_count >= 0 && report->warm_count >= 0 &&
            report->jump_count >= 0 &&
            memchr(evolution->step_name, '\0', sizeof evolution->step_name);
+}
+
+/* The ends that were let go, and the break that the step was. */
+static bool are_releases(const CpsEvolution *evolution) {
+    const CpsBreak *parted = &evolution->parted;
+    for (int i = 0; i < 2 * evolution->line_count; i++)
+        if (!within(evolution->release[i], CPS_RELEASE_NONE, CPS_RELEASE_TAKEN)) return false;
+    return within(parted->line, 0, evolution->line_count - 1) && within(parted->end, 0, 1);
 }
 
 static bool is_obstacle(bool given, int index, int obstacles) {
@@ -181,6 +191,7 @@ const char *cpsi_state_fault(const CpsEvolution *evolution) {
     if (!is_place_in_history(evolution))
         return "it stands at a step that the history does not have";
     if (!is_step_report(evolution)) return "its report is none of a step";
+    if (!are_releases(evolution)) return "an end is let go that there is not, or in no way";
     for (int i = 0; i < 2 * evolution->line_count; i++)
         if (!is_end(&evolution->from[i])) return "an end comes from nowhere";
     for (int k = 0; k < evolution->obstacle_count; k++)

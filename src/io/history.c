@@ -3,6 +3,7 @@
 #include "io/history.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/math.h"
 
@@ -11,9 +12,15 @@ enum {
     EVEN_SELECTION = 12
 };
 
+/* A step that is not taken yet is none. */
+static bool is_break(const CpsResults *results, int step) {
+    return step < results->row_count && results->row[step].parted.is_break;
+}
+
 bool cpsi_results_pictured(const CpsResults *results, int step) {
     const int steps = results->planned_steps;
-    if (steps <= SHORT_HISTORY || step == 0 || step == steps - 1) return true;
+    if (steps <= SHORT_HISTORY || step == 0 || step == steps - 1 || is_break(results, step))
+        return true;
     if (results->stage_count < 4 || results->stage_count > SHORT_HISTORY)
         return step % ((steps + EVEN_SELECTION - 1) / EVEN_SELECTION) == 0;
     for (int i = 0; i < results->stage_count; ++i)
@@ -21,21 +28,60 @@ bool cpsi_results_pictured(const CpsResults *results, int step) {
     return false;
 }
 
-double cpsi_results_turn(const CpsResults *results, int step, int obstacle) {
-    for (int i = 0; i < results->stage_count; ++i)
-        if (step >= results->stage[i].first && step <= results->stage[i].last)
-            return results->stage[i].turn[obstacle];
-    return 0;
+bool cpsi_lets_go(const CpsScene *scene) {
+    bool found = false;
+    for (int i = 0; i < scene->line_count; ++i) {
+        const CpsLine *line = &scene->line[i];
+        found = found || (line->section_count == 0 && line->has_break_at);
+        for (int k = 0; k < line->section_count; ++k)
+            found = found || line->section[k].has_break_at;
+    }
+    for (int s = 0; s < scene->stage_count; ++s)
+        for (int k = 0; k < scene->stage[s].change_count; ++k)
+            found = found || scene->stage[s].change[k].to.kind == CPS_END_KIND_RELEASED;
+    return found;
+}
+
+int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end) {
+    const bool is_there = row->line[line].failure.release[end] == CPS_RELEASE_NONE;
+    return is_there ? results->line_point[line][end] : CPSI_AT_NO_POINT;
+}
+
+CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obstacle) {
+    CpsObstacle now = results->obstacle[obstacle];
+    if (step < 0 || !now.moves) return now;
+    const CpsiObstacleRow *place = &results->row[step].place[obstacle];
+    const bool plane = now.kind == CPS_OBSTACLE_PLANE;
+    memcpy(now.point, place->point, sizeof now.point);
+    memcpy(plane ? now.normal : now.axis, place->axis, sizeof now.axis);
+    return now;
 }
 
 double cpsi_results_turned(const CpsResults *results, int step, int obstacle) {
-    double sum = 0;
-    for (int i = 0; i < results->stage_count && results->stage[i].first <= step; ++i) {
-        const CpsiStage *stage = &results->stage[i];
-        sum +=
-            ((step < stage->last ? step : stage->last) - stage->first + 1) * stage->turn[obstacle];
+    return step < 0 ? 0 : results->row[step].place[obstacle].turned;
+}
+
+bool cpsi_results_turns(const CpsResults *results, int step, int obstacle) {
+    return results->row[step].place[obstacle].turn != 0;
+}
+
+bool cpsi_results_moves(const CpsResults *results, int step, int obstacle) {
+    return results->row[step].place[obstacle].moved;
+}
+
+void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution,
+                        CpsiObstacleRow *out) {
+    for (int k = 0; k < results->obstacle_count; ++k) {
+        const CpsObstacleReport report = cps_evolution_obstacle_report(evolution, k);
+        out[k] = (CpsiObstacleRow){.turn = report.turned, .turned = report.turned};
+        memcpy(out[k].axis, report.axis, sizeof report.axis);
+        for (int a = 0; a < 3; ++a) {
+            out[k].point[a] = report.point[a] - results->origin[a];
+            out[k].moved = out[k].moved || report.by[a] != 0 || report.turn[a] != 0;
+        }
+        if (results->row_count > 0)
+            out[k].turned += results->row[results->row_count - 1].place[k].turned;
     }
-    return sum;
 }
 
 const char *cpsi_point_state(CpsPointState state) {

@@ -10,6 +10,7 @@
 #include <locale.h>
 #include <stdbool.h>
 
+#include "capstan/failure.h"
 #include "capstan/results.h"
 #include "io/base/directory/write_directory.h"
 
@@ -17,8 +18,9 @@ typedef struct CpsiNetcdf CpsiNetcdf;
 
 typedef struct CpsiLineRow {
     CpsLineReport report;
-    bool held[2];         /* whether the position of this end, or of its point, was imposed */
-    double open_reaction; /* [N] largest reaction on a node without contact */
+    bool held[2];           /* whether the position of this end, or of its point, was imposed */
+    CpsLineFailure failure; /* without its array */
+    double open_reaction;   /* [N] largest reaction on a node without contact */
 } CpsiLineRow;
 
 typedef struct CpsiBodyRow {
@@ -28,13 +30,22 @@ typedef struct CpsiBodyRow {
     CpsBodyStiffness stiffness[2]; /* by kind; where that was asked for */
 } CpsiBodyRow;
 
+/* An obstacle after a step. */
+typedef struct CpsiObstacleRow {
+    double point[3], axis[3]; /* [m] relative to the origin of the views; [-] normal or axis */
+    double turn, turned;      /* [rad] about its own axis in the step, and since the start */
+    bool moved;               /* in the step */
+} CpsiObstacleRow;
+
 typedef struct CpsiRow {
     CpsStepReport report; /* its name is `name` */
     char *name;
+    CpsBreak parted;
     double open_reaction; /* [N] largest over the lines */
     CpsiLineRow *line;
     CpsPointReport *point;           /* (points) NULL without points */
     CpsiBodyRow *body;               /* (bodies) NULL without bodies */
+    CpsiObstacleRow *place;          /* (obstacles) NULL without obstacles */
     CpsStiffness (*stiffness)[2][2]; /* (lines) of ends A and B, by kind; NULL: not asked for */
 } CpsiRow;
 
@@ -63,7 +74,7 @@ typedef struct CpsiSnapshot {
 typedef struct CpsiStage {
     char *name;
     int first, last;
-    double *turn; /* (obstacle_count) [rad] turn of each in one load step */
+    bool moves; /* an obstacle turns or moves in it */
 } CpsiStage;
 
 struct CpsResults {
@@ -94,7 +105,8 @@ struct CpsResults {
     CpsBody *body; /* (body_count) */
     int stage_count;
     CpsiStage *stage;
-    int planned_steps;
+    int planned_steps;  /* with the breaks so far */
+    bool lets_go;       /* cpsi_lets_go */
     bool begins_static; /* the first step places lines by statics */
 
     int row_count, row_capacity;
@@ -104,12 +116,26 @@ struct CpsResults {
 };
 
 /* Whether this step has its own plan view and elevation. All steps of a short history have; of a
- * long one the ends of its stages, or an even selection, and always the first and the last step. */
+ * long one the ends of its stages, or an even selection, and always the first and the last step,
+ * and those in which a line parts. */
 bool cpsi_results_pictured(const CpsResults *results, int step);
 
-/* [rad] Turn of an obstacle in one step; and since the start, at the end of that step. */
-double cpsi_results_turn(const CpsResults *results, int step, int obstacle);
+/* Whether ends of the scene's lines may be let go: its history does, or lines may part. Only then
+ * do results say which ends were. */
+bool cpsi_lets_go(const CpsScene *scene);
+/* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
+int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
+
+/* An obstacle as it is after a step; of step -1 at the start. */
+CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obstacle);
+/* [rad] Its turn about its own axis since the start, after a step. */
 double cpsi_results_turned(const CpsResults *results, int step, int obstacle);
+/* Whether it turns about its own axis in a step, or otherwise moves in it. */
+bool cpsi_results_turns(const CpsResults *results, int step, int obstacle);
+bool cpsi_results_moves(const CpsResults *results, int step, int obstacle);
+/* The places of all after the last step of the evolution, which follows the last row. */
+void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution,
+                        CpsiObstacleRow *out);
 
 /* The point in words: held, free, stick, slip, on_body; and how large a force nothing balances
  * there [N]. */

@@ -9,12 +9,14 @@
 #include "bodies.h"
 #include "caught.h"
 #include "ends.h"
+#include "failure.h"
 #include "grasps.h"
 #include "groups.h"
 #include "long_element.h"
 #include "measure.h"
 #include "motion.h"
 #include "passing.h"
+#include "places.h"
 #include "points.h"
 #include "ranges.h"
 #include "reach.h"
@@ -138,6 +140,8 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
                    entry[LEDGER_IMBALANCE],
            sizes = r->dissipated;
     for (int k = 0; k < LEDGER_ENTRIES; k++) sizes += fabs(entry[k]);
+    // entries are sums over the parts, which may cancel but for rounding
+    if (r->substeps > 1) sizes += m->largest_force * m->length;
     at_most(findings, "ledger: ends + obstacles - all else",
             fabs(entry[LEDGER_ENDS] + entry[LEDGER_OBSTACLES] - spent),
             COPY_TOLERANCE * sizes + NOTHING);
@@ -145,7 +149,8 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
     check_unaccounted(findings, r, m);
     same(findings, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
     same(findings, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
-    same(findings, "ledger_obstacles", entry[LEDGER_OBSTACLES], m->carried + ends_carried, floor);
+    same(findings, "ledger_obstacles", entry[LEDGER_OBSTACLES],
+         m->carried + m->pushed + ends_carried, floor);
 }
 
 /* Forces, tensions and friction of the half elements at the ends; the sums of their dissipation and
@@ -467,10 +472,12 @@ static void check_bend(Findings *findings, const Record *r, const Measures *m) {
     same(findings, "turn at bend_at", r->bend_turn, bend->there, BEND_TOLERANCE);
 }
 
-static void check_record(const Source *source, const Record *r, const char *line, size_t step,
-                         FILE *log, CheckerReport *report) {
+/* `before` is the step before it, or NULL. */
+static void check_record(const Source *source, const Record *r, const Record *before,
+                         const char *line, size_t step, FILE *log, CheckerReport *report) {
     Findings findings = {log, line, step, 0};
     Measures m = measure_where(source, r, step);
+    if (source->moves && !m.missing) m.pushed = (double)places_work(source, r, before);
     const char *wrong;
     bool laid;
     report->records++;
@@ -615,6 +622,22 @@ static void check_element_bound(const Record *r, const Record *before, size_t c,
              w, i, before->mu[c], R);
 }
 
+/* Rounding of the coefficient at node j on ground whose friction varies: that of its coordinates,
+ * a few times, over the spacing of the points between which it changes. */
+static double ground_noise(const Source *source, const Record *r, size_t j, size_t k) {
+    const Surface *on = k < source->surfaces ? &source->surface[k] : NULL;
+    if (!on || !on->ground || !on->ground->factor) return 0;
+    double reach = 0;
+    for (int a = 0; a < 3; a++)
+        reach = fmax(reach, fabs(r->position[j][a]) + fabs((double)on->point[a]));
+    const Ground *g = on->ground;
+    for (size_t i = 0; i < g->columns; i++) reach = fmax(reach, fabs(g->x[i]));
+    for (size_t i = 0; i < g->rows; i++) reach = fmax(reach, fabs(g->y[i]));
+    const double zone = r->factor ? r->factor[j] : 1;
+    return zone * (double)surface_friction(on) * 8 * 0x1p-53 *
+           (ground_range_of_factors(g) * reach / (double)ground_spacing(g) + 2);
+}
+
 /* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step
  * before (frozen friction) or of the step itself (consistent friction), which is `before`. Frozen
  * friction takes nodes that carry less than 1e-3 of the largest load or reaction, or 1e-7 of the
@@ -657,6 +680,7 @@ static void check_bounds(const Source *source, const Record *r, const Record *be
         // one product and its rounding, and that of a mean over zones; a coefficient above 1 goes
         // with both
         double noise = r->factor_noise ? r->factor_noise[j] * R * fmax(1, r->mu[c]) : 0;
+        if (r->obstacle[c] >= 0) noise += ground_noise(source, r, j, (size_t)r->obstacle[c]) * R;
         if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared)) {
             find(findings, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g",
                  w, j, r->mu[c], R);
@@ -672,7 +696,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
     for (size_t step = 0; step < source->steps && !bad; step++) {
         bad = record_read(source, line, step, &record, log);
         if (bad) break;
-        check_record(source, &record, line, step, log, report);
+        check_record(source, &record, step > 0 ? &previous : NULL, line, step, log, report);
         Findings findings = {log, line, step, 0};
         if (step > 0 && record.substeps == 1 &&
             memcmp(record.reference, previous.position, record.nodes * sizeof(Vector)) != 0)
@@ -716,6 +740,12 @@ static void find_at_body(void *user, const char *name, size_t step, const char *
     if (findings->log) fprintf(findings->log, "step %zu body %s: %s\n", step, name, sentence);
 }
 
+static void find_at_line(void *user, const char *name, size_t step, const char *sentence) {
+    const PointFindings *findings = user;
+    findings->report->refuted++;
+    if (findings->log) fprintf(findings->log, "step %zu line %s: %s\n", step, name, sentence);
+}
+
 int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     CheckerReport unused, *report = worst ? worst : &unused;
     *report = (CheckerReport){0};
@@ -728,6 +758,7 @@ int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     PointFindings findings = {log, report};
     if (!bad) bad = points_check(&source, is_certified, find_at_point, &findings, log);
     if (!bad) bad = bodies_check(&source, is_certified, find_at_body, &findings, log);
+    if (!bad) bad = failures_check(&source, find_at_line, &findings, log);
     source_close(&source);
     if (bad) report->refuted++;
     if (bad) return 2;

@@ -15,6 +15,8 @@
 
 #include <math.h>
 
+#include "failure.h"
+
 typedef Real Triple[3];
 
 /* An end lies on an obstacle when it is as near as this per length; within a factor of two nobody
@@ -47,6 +49,9 @@ static Real share(const Record *r, size_t j) {
 static void set_friction(const Source *source, const Record *r, size_t j, size_t next, size_t k,
                          const Real *n, Real reaction, const Real *slip, Real *out) {
     Real length = 0;
+    Triple here;
+    widen(r->position[j], here);
+    const Real end_factor = surface_factor(&source->surface[k], here);
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
     for (size_t c = next; c < r->contacts * r->nodes; c += r->nodes) {
         if ((size_t)r->obstacle[c] != k || !(r->friction_bound[c] > 0)) continue;
@@ -59,8 +64,8 @@ static void set_friction(const Source *source, const Record *r, size_t j, size_t
         if (!source->consistent) surface_normal(&source->surface[k], reference, from);
         turn_with(from, n, out);
         const Real per_length = share(r, j) / share(r, next) * zone / other;
-        const Real of_bound =
-            zone * surface_friction(&source->surface[k]) * reaction / r->friction_bound[c];
+        const Real of_bound = zone * surface_friction(&source->surface[k]) * end_factor * reaction /
+                              r->friction_bound[c];
         const bool pushes = dot(out, slip) > 0 && size(slip) > TOUCH * length;
         for (int i = 0; i < 3; i++) out[i] *= pushes ? 0 : fminl(per_length, of_bound);
         return;
@@ -82,9 +87,9 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
     widen(r->position[j], x);
     widen(r->reference[j], reference);
     surface_normal(surface, x, n);
-    surface_carry(surface, reference, (Real)r->share * r->turn[k], carried);
+    surface_carry(surface, reference, r->share, r->turn[k], carried);
     surface_slip(surface, carried, x, slip);
-    surface_slip(surface, reference, x, own);
+    surface_own(surface, x, reference, r->share, own);
     end.reaction = fmaxl(0, dot(n, end.force));
     const bool neighbour_held = (next == 0 && r->end_kind[0] == END_HELD) ||
                                 (next == r->elements && r->end_kind[1] == END_HELD);
@@ -92,7 +97,8 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
         set_friction(source, r, j, next, k, n, end.reaction, slip, end.friction);
     for (int i = 0; i < 3; i++) end.force[i] -= end.reaction * n[i] + end.friction[i];
     end.slid = -dot(end.friction, slip);
-    end.carried = r->turn[k] != 0 ? dot(end.friction, own) - dot(end.friction, slip) : 0;
+    const bool moves = r->turn[k] != 0 || surface_moves(surface);
+    end.carried = moves ? dot(end.friction, own) - dot(end.friction, slip) : 0;
     return end;
 }
 
@@ -141,7 +147,9 @@ Real ends_work(const Record *r, const Record *before) {
             const Real after = (Real)r->end_force[e][i] + r->end_friction_force[e][i],
                        stored = r->end_friction_force[e][i];
             const Real first =
-                (Real)before->end_force[e][i] + (free ? 0 : before->end_friction_force[e][i]);
+                is_let_go(r, before, e)
+                    ? 0
+                    : (Real)before->end_force[e][i] + (free ? 0 : before->end_friction_force[e][i]);
             work += ((first + after) / 2 - stored) * ((Real)r->position[j][i] - r->reference[j][i]);
         }
     }

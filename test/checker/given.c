@@ -13,6 +13,7 @@
 
 #include "anchors.h"
 #include "compare.h"
+#include "failure.h"
 #include "given_bodies.h"
 #include "grasps.h"
 #include "record.h"
@@ -37,9 +38,27 @@ static void compare_sets(Compare *compare, const CpsObstacle *o, const Surface *
     }
 }
 
+static void compare_ground(Compare *compare, const CpsObstacle *o, const Ground *ground) {
+    const CpsGroundGrid grid = cps_ground_grid(o->ground);
+    if (ground->columns != (size_t)grid.x_count || ground->rows != (size_t)grid.y_count ||
+        ground->extends != grid.extends || !ground->factor != !grid.friction_factor) {
+        find(compare, "grid of %s: another than that of the scene", o->name);
+        return;
+    }
+    const size_t points = ground->columns * ground->rows;
+    same(compare, "grid, x", o->name, ground->x, grid.x, ground->columns, COPIED);
+    same(compare, "grid, y", o->name, ground->y, grid.y, ground->rows, COPIED);
+    same(compare, "grid, z", o->name, ground->z, grid.z, points, COPIED);
+    if (ground->factor)
+        same(compare, "grid, factor of friction", o->name, ground->factor, grid.friction_factor,
+             points, COPIED);
+}
+
 static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s) {
-    const bool plane = o->kind == CPS_OBSTACLE_PLANE;
-    const double *given = plane ? o->normal : o->axis, length = size(given);
+    static const double UP[3] = {0, 0, 1};
+    const bool plane = o->kind == CPS_OBSTACLE_PLANE,
+               round = o->kind == CPS_OBSTACLE_CYLINDER || o->kind == CPS_OBSTACLE_SPHERE;
+    const double *given = plane ? o->normal : round ? o->axis : UP, length = size(given);
     double axis[3], point[3], there[3], grain[3], unit[3];
     for (int k = 0; k < 3; k++) {
         there[k] = o->point[k] - compare->source.origin[k];
@@ -51,7 +70,8 @@ static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surfa
     same_number(compare, "kind", o->name, s->kind, o->kind);
     same(compare, "point", o->name, point, there, 3, COPIED);
     same(compare, "axis", o->name, axis, unit, 3, COMPUTED);
-    same_number(compare, "radius", o->name, (double)s->radius, plane ? 0 : o->radius);
+    same_number(compare, "radius", o->name, (double)s->radius, round ? o->radius : 0);
+    if (o->kind == CPS_OBSTACLE_GROUND && s->ground) compare_ground(compare, o, s->ground);
     if ((s->set != NULL) != (o->friction_set != NULL))
         find(compare, "friction set of %s: one of the two has none", o->name);
     if (s->set && o->friction_set) compare_sets(compare, o, s);
@@ -83,9 +103,10 @@ static void compare_run(Compare *compare) {
 
 /* ---- steps ---- */
 
-/* The stage and its part that a step is; false: the statics of lines laid, or a scene without
- * stages. */
+/* The stage and its part that a step is, a break those of the step before it; false: the statics of
+ * lines laid, or a scene without stages. */
 static bool stage_of(const Compare *compare, size_t step, int *stage, int *part) {
+    for (size_t i = step + 1; i-- > 0;) step -= is_break(&compare->source, i);
     if (compare->source.has_static && step-- == 0) return false;
     for (*stage = 0; *stage < compare->scene->stage_count; ++*stage) {
         const size_t steps = (size_t)compare->scene->stage[*stage].step_count;
@@ -96,21 +117,30 @@ static bool stage_of(const Compare *compare, size_t step, int *stage, int *part)
     return false;
 }
 
+/* How many steps the scene has, with the breaks of the file. */
 static size_t planned(const Compare *compare) {
-    size_t steps = 0;
+    size_t steps = 0, breaks = 0;
     bool first = false;
     for (int i = 0; i < compare->scene->stage_count; i++)
         steps += (size_t)compare->scene->stage[i].step_count;
     for (int i = 0; i < compare->scene->line_count; i++)
         first = first || compare->scene->line[i].start.kind == CPS_START_STATIC;
-    return steps + first > 0 ? steps + first : 1;
+    for (size_t i = 0; i < compare->source.steps; i++) breaks += is_break(&compare->source, i);
+    return (steps + first > 0 ? steps + first : 1) + breaks;
 }
 
 /* An end of a line as the scene has it. */
 typedef struct Imposed {
     CpsEnd from, now;
     double noise; /* COPIED, or COMPUTED where it starts from the end of an arc, a sum of angles */
+    int release;  /* whether it was let go (failure.h) */
 } Imposed;
+
+/* An end that is let go is free without a force. */
+static void let_go(Imposed *end, int release) {
+    end->now = (CpsEnd){.kind = CPS_END_KIND_FREE};
+    end->release = release;
+}
 
 /* What is imposed, places about the origin of the file; NaN stays NaN. */
 static CpsEnd about(const Source *source, CpsEnd end) {
@@ -171,8 +201,13 @@ static void impose(const Source *source, Imposed *end, const CpsStage *stage, in
                    int e, const Record *before, const double start[3]) {
     for (int i = 0; i < stage->change_count; i++) {
         const CpsChange *change = &stage->change[i];
-        if (change->line != line || change->end != e) continue;
+        if (change->line != line || change->end != e || end->release == RELEASE_BREAK) continue;
+        if (change->to.kind == CPS_END_KIND_RELEASED) {
+            let_go(end, RELEASE_STAGE);
+            continue;
+        }
         if (part == 1) end->from = end->now;
+        if (part == 1 && end->release != RELEASE_NONE) end->release = RELEASE_TAKEN;
         const double *place = before ? before->position[e ? before->elements : 0] : start;
         if (part == 1 && before) end->noise = COPIED;
         if (part == 1 && change->to.kind != end->now.kind)
@@ -231,7 +266,7 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
     double g[3], was[3];
     const bool staged = stage_of(compare, step, &stage, &part);
     gravity_at(compare, staged, stage, part, g);
-    gravity_at(compare, staged, stage, part - 1, was);
+    gravity_at(compare, staged, stage, is_break(&compare->source, step) ? part : part - 1, was);
     if ((r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE ||
          r->outcome == OUTCOME_SLIDES) &&
         memcmp(g, was, sizeof g) != 0)
@@ -323,7 +358,7 @@ static void compare_turns(Compare *compare, size_t step, const Record *r) {
     const bool staged = stage_of(compare, step, &stage, &part);
     for (int k = 0; k < compare->scene->obstacle_count; k++) {
         double angle = 0;
-        if (staged)
+        if (staged && !is_break(&compare->source, step))
             for (int i = 0; i < compare->scene->stage[stage].turn_count; i++) {
                 const CpsTurn *turn = &compare->scene->stage[stage].turn[i];
                 if (turn->obstacle == k)
@@ -335,13 +370,47 @@ static void compare_turns(Compare *compare, size_t step, const Record *r) {
     }
 }
 
-/* Whether the end is at a point, the same as in the scene: then nothing is imposed on it here. */
-static bool is_at_point(Compare *compare, const CpsLine *line, int e, const Record *r) {
+/* The shift of obstacle k in a step: the scene's, in equal parts. */
+static void compare_shifts(Compare *compare, size_t step) {
+    int stage = 0, part = 0;
+    const bool staged = stage_of(compare, step, &stage, &part);
+    for (int k = 0; k < compare->scene->obstacle_count; k++) {
+        const Surface *s = &compare->source.surface[k];
+        const CpsStage *at =
+            staged && !is_break(&compare->source, step) ? &compare->scene->stage[stage] : NULL;
+        double given[9] = {0}, size = 0;
+        for (int i = 0; at && i < at->shift_count; i++) {
+            const CpsShift *shift = &at->shift[i];
+            if (shift->obstacle != k) continue;
+            for (int a = 0; a < 3; a++) {
+                given[a] = shift->by[a] / at->step_count;
+                given[3 + a] = shift->turn[a] / at->step_count;
+                given[6 + a] = shift->about[a] + (part - 1) * given[a] - compare->source.origin[a];
+            }
+            const double *turn = shift->turn;
+            if (turn[0] == 0 && turn[1] == 0 && turn[2] == 0)
+                for (int a = 0; a < 3; a++) given[6 + a] = 0;
+        }
+        for (int a = 0; a < 9; a++) size = fmax(size, fabs(given[a]));
+        for (int a = 0; a < 9; a++) {
+            const double found = (double)(a < 3   ? s->by[a]
+                                          : a < 6 ? s->spin[a - 3]
+                                                  : s->about[a - 6]);
+            if (!(fabs(found - given[a]) <= COMPUTED * size))
+                find(compare, "shift of obstacle %s, step %zu, is %.17g, in the scene %.17g",
+                     compare->scene->obstacle[k].name, step, found, given[a]);
+        }
+    }
+}
+
+/* Whether the end begins at a point, the same as in the scene: while it is there nothing is imposed
+ * on it here. */
+static bool begins_at_point(Compare *compare, const CpsLine *line, int e, const Record *r) {
     const bool is_at = line->end[e].kind == CPS_END_KIND_POINT;
     const int point = is_at ? line->end_point[e] : -1;
-    if (r->end_point[e] != point)
+    if (r->given_point[e] != point)
         find(compare, "end_point of %s, end %c, is %d, in the scene %d", line->name, e ? 'B' : 'A',
-             r->end_point[e], point);
+             r->given_point[e], point);
     return is_at;
 }
 
@@ -451,7 +520,7 @@ static void compare_points_at(Compare *compare, size_t step, ImposedPoint *impos
     const bool staged = stage_of(compare, step, &stage, &part);
     gravity_at(compare, staged, stage, part, g);
     const CpsStage *at = staged ? &compare->scene->stage[stage] : NULL;
-    const int changes = staged ? at->point_change_count : 0;
+    const int changes = staged && !is_break(&compare->source, step) ? at->point_change_count : 0;
     for (int i = 0; i < changes; i++) {
         const CpsPointChange *change = &at->point_change[i];
         impose_on_point(compare, &imposed[change->point], change, part, at->step_count,
@@ -540,7 +609,8 @@ static GivenStep step_of(const void *user, size_t step) {
     GivenStep given = {0};
     const bool staged = stage_of(compare, step, &stage, &part);
     gravity_at(compare, staged, stage, part, given.gravity);
-    given.stage = staged ? &compare->scene->stage[stage] : NULL;
+    const bool stays = is_break(&compare->source, step);
+    given.stage = staged && !stays ? &compare->scene->stage[stage] : NULL;
     given.part = part;
     return given;
 }
@@ -581,7 +651,7 @@ static void compare_grasps(Compare *compare, const CpsLine *line, int index, siz
                ended = r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE ||
                        r->outcome == OUTCOME_SLIDES;
     const CpsStage *at = &compare->scene->stage[stage];
-    const int changes = staged ? at->grasp_change_count : 0;
+    const int changes = staged && !is_break(&compare->source, step) ? at->grasp_change_count : 0;
     size_t named = 0, kept = 0;
     if (ended) return;
     for (int i = 0; i < changes; i++) {
@@ -626,6 +696,20 @@ static void compare_grasps(Compare *compare, const CpsLine *line, int index, siz
              line->name, step, named + kept);
 }
 
+/* The end in a break. */
+static void part_end(const Source *source, size_t step, int line, int e, Imposed *end) {
+    if ((int)source->break_line[step] == line && (int)source->break_end[step] == e)
+        let_go(end, RELEASE_BREAK);
+}
+
+/* A line that is above its break_at after the last step of the scene would have parted. */
+static void compare_end_of_run(Compare *compare, const CpsLine *line, const Record *last) {
+    const double share = failure_is_loaded(last) ? failure_share(last) : 0;
+    if (compare->source.steps == planned(compare) && last->outcome <= OUTCOME_TAUT &&
+        share > 1 + 1e-9)
+        find(compare, "%s is at %.9g of its break_at in the last step", line->name, share);
+}
+
 static int compare_steps(Compare *compare, int index) {
     const CpsLine *line = &compare->scene->line[index];
     Record now = {0}, before = {0};
@@ -638,27 +722,35 @@ static int compare_steps(Compare *compare, int index) {
         int stage, part;
         if (!bad)
             for (int e = 0; e < 2; e++) {
-                if (is_at_point(compare, line, e, &now)) continue;
-                if (step == 0) {
+                const bool at_point = begins_at_point(compare, line, e, &now);
+                if (step == 0 && !at_point) {
                     end[e].now = first_end(&compare->source, line, e, &now);
                     end[e].noise = line->start.kind == CPS_START_ARC ? COMPUTED : COPIED;
                 }
                 const CpsEnd was = end[e].now;
                 double start[3];
                 start_place(&compare->source, line, e, &now, start);
-                if (stage_of(compare, step, &stage, &part))
+                if (is_break(&compare->source, step))
+                    part_end(&compare->source, step, index, e, &end[e]);
+                else if (stage_of(compare, step, &stage, &part))
                     impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e,
                            step > 0 ? &before : NULL, start);
+                if (now.release[e] != end[e].release)
+                    find(compare, "end_release of %s, end %c, step %zu", line->name, e ? 'B' : 'A',
+                         step);
+                if (at_point && end[e].release == RELEASE_NONE) continue;
                 compare_end(compare, line, e, &end[e], &was, step, &now);
             }
         if (!bad && step == 0) compare_nodes(compare, line, &now);
         if (!bad) compare_grasps(compare, line, index, step, step > 0 ? &before : NULL, &now);
         if (!bad) compare_loads(compare, line, step, &now);
         if (!bad && index == 0) compare_turns(compare, step, &now);
+        if (!bad && index == 0) compare_shifts(compare, step);
         const Record swap = before;
         before = now;
         now = swap;
     }
+    if (!bad && compare->findings == 0) compare_end_of_run(compare, line, &before);
     record_destroy(&now);
     record_destroy(&before);
     return bad;

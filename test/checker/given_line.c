@@ -156,6 +156,26 @@ static void compare_breaking_load(Compare *compare, const CpsLine *line, const R
     }
 }
 
+static void compare_break_at(Compare *compare, const CpsLine *line, const Record *r) {
+    double arc = 0;
+    bool any = line->section_count == 0 && line->has_break_at;
+    for (int k = 0; k < line->section_count; k++) any = any || line->section[k].has_break_at;
+    if (any != (r->break_at != NULL)) {
+        find(compare, "break_at of %s", line->name);
+        return;
+    }
+    if (!any) return;
+    for (size_t i = 0; i < r->elements; i++) {
+        const CpsSection *section = section_at(line, arc + r->element_length[i] / 2);
+        const bool has = section ? section->has_break_at : line->has_break_at;
+        const double load = section ? section->break_at : line->break_at;
+        arc += r->element_length[i];
+        if (r->break_at[i] == (has ? load : INFINITY)) continue;
+        find(compare, "break_at of %s: %.17g in element %zu", line->name, r->break_at[i], i);
+        return;
+    }
+}
+
 void compare_line(Compare *compare, const CpsLine *line, const Record *r) {
     if (r->elements != (size_t)line->element_count) {
         find(compare, "%zu elements of %s, in the scene %d", r->elements, line->name,
@@ -173,6 +193,7 @@ void compare_line(Compare *compare, const CpsLine *line, const Record *r) {
     compare_sections(compare, line, r);
     compare_tables(compare, line, r);
     compare_breaking_load(compare, line, r);
+    compare_break_at(compare, line, r);
     /* what zones do is in the mean factors, which the reader has made of those in the file */
     double at = 0;
     for (size_t j = 0; j < r->nodes; j++) {

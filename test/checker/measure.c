@@ -275,9 +275,10 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     subtract(r->position[j], r->reference[j], u);
     surface_normal(seat.surface, place, seat.normal);
     surface_normal(seat.surface, where->frozen ? reference : place, seat.plane);
-    const Real turn = (Real)r->share * r->turn[seat.surface - where->source->surface];
-    surface_carry(seat.surface, reference, turn, carried);
-    if (turn != 0) surface_slip(seat.surface, reference, x, seat.own);
+    const Real turn = (Real)r->turn[seat.surface - where->source->surface];
+    const bool moves = turn != 0 || surface_moves(seat.surface);
+    surface_carry(seat.surface, reference, r->share, turn, carried);
+    if (moves) surface_own(seat.surface, x, reference, r->share, seat.own);
     if (where->reached && !where->frozen) {
         /* half round no way is shorter than all others; where no friction acts none is asked for */
         const bool half = surface_angle(seat.surface, carried, x) > 2 * QUARTER - HALF_ROUND;
@@ -289,11 +290,18 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     }
     seat.gap = where->reached ? surface_distance(seat.surface, x) - dot(seat.normal, u)
                               : fmaxl(0, surface_distance(seat.surface, reference));
-    if (turn == 0)
+    if (!moves)
         for (int k = 0; k < 3; k++) seat.own[k] = seat.slip[k];
     subtract(nodes[j < r->elements ? j + 1 : j], nodes[j > 0 ? j - 1 : j], along);
     seat.has_axes = surface_axes(seat.surface, seat.plane, along, seat.axes);
     return seat;
+}
+
+/* By how much more than places normals are off by rounding: on ground slopes may change within a
+ * cell. */
+static Real turning(const Where *where, const Surface *on) {
+    if (!on || on->kind == SURFACE_PLANE) return 0;
+    return where->reach / (on->ground ? ground_spacing(on->ground) : on->radius);
 }
 
 /* normal, slip and gap on file against those recomputed, and depth below whatever obstacle */
@@ -304,19 +312,22 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     widen(r->slip[c], slip);
     widen(r->position[j], x);
     r->mu[c] = seat->surface
-                   ? (r->factor ? r->factor[j] : 1) * (double)surface_friction(seat->surface)
+                   ? (r->factor ? r->factor[j] : 1) * (double)surface_friction(seat->surface) *
+                         (double)surface_factor(seat->surface, x)
                    : 0;
     for (int k = 0; k < 3; k++) {
         n[k] -= seat->normal[k];
         slip[k] -= seat->slip[k];
     }
-    bool round = seat->surface && seat->surface->kind != SURFACE_PLANE;
-    raise_to(&m->normal_error, size(n) / (1 + (round ? where->reach / seat->surface->radius : 0)));
+    bool round = seat->surface && surface_is_round(seat->surface);
+    raise_to(&m->normal_error, size(n) / (1 + turning(where, seat->surface)));
     raise_to(&m->slip_error, size(slip));
     if (c == j)
         for (size_t k = 0; k < where->source->surfaces; k++) {
             Real depth = -surface_distance(&where->source->surface[k], x);
             raise_to(&m->depth, depth);
+            if (surface_ends(&where->source->surface[k], x, PLACE_MARGIN * where->reach))
+                m->misplaced++;
             if (!held(r, j)) raise_to(&m->sunk, depth);
         }
     if (held(r, j) || !seat->surface) return;
@@ -324,7 +335,9 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     widen(r->reference[j], from);
     // frozen friction acts on what has left the surface as well, in the plane of the reference
     const bool acts = r->friction_bound[c] > 0 && !(where->frozen && r->reaction[c] == 0);
-    if (acts) raise_to(&m->gone_quarters, surface_angle(seat->surface, from, x) / QUARTER);
+    Triple shifted;
+    surface_shift(seat->surface, from, r->share, shifted);
+    if (acts) raise_to(&m->gone_quarters, surface_angle(seat->surface, shifted, x) / QUARTER);
     if (r->contacts > 1 && !in_place(where, r, j, c, margin)) m->misplaced++;
     // a second obstacle that is round is looked for up to half its radius away
     Triple place, reference;
@@ -443,11 +456,11 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
                          const Real *x, const Real *reference, Real depth) {
     Seat seat = {.surface = on};
     Triple carried, u, along;
-    const Real turn = (Real)r->share * r->turn[on - where->source->surface];
+    const Real turn = (Real)r->turn[on - where->source->surface];
     for (int k = 0; k < 3; k++) u[k] = x[k] - reference[k];
     surface_normal(on, x, seat.normal);
     measure_element_plane(r, on, i, where->frozen, t, x, seat.plane, along);
-    surface_carry(on, reference, turn, carried);
+    surface_carry(on, reference, r->share, turn, carried);
     // the point goes round at its own depth: what friction works on is shorter than the path of its
     // foot
     Surface within = *on;
@@ -458,8 +471,8 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
         const Real rise = dot(seat.slip, seat.plane);
         for (int k = 0; k < 3; k++) seat.slip[k] -= rise * seat.plane[k];
     }
-    surface_slip(&within, reference, x, seat.own);
-    if (turn == 0)
+    surface_own(&within, x, reference, r->share, seat.own);
+    if (turn == 0 && !surface_moves(on))
         for (int k = 0; k < 3; k++) seat.own[k] = seat.slip[k];
     seat.gap = surface_distance(on, x) + depth - dot(seat.normal, u);
     seat.has_axes = surface_axes(on, seat.plane, along, seat.axes);
@@ -512,8 +525,10 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     }
     raise_to(&m->normal_error, size(n) / (1 + (third ? 0 : where->reach / on->radius)));
     raise_to(&m->slip_error, size(slip));
+    Triple shifted;
+    surface_shift(on, reference, r->share, shifted);
     if (r->friction_bound[c] > 0 && !left)
-        raise_to(&m->gone_quarters, surface_angle(on, reference, x) / QUARTER);
+        raise_to(&m->gone_quarters, surface_angle(on, shifted, x) / QUARTER);
     if (isfinite(r->gap[c])) raise_to(&m->gap_error, fabsl(gap - seat.gap));
     // what it does
     widen(r->normal[c], n);
@@ -715,7 +730,9 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     for (size_t i = 0; i < r->elements; i++) measure_segment(r, i, &m, &s);
     for (size_t j = 0; j < r->nodes; j++) measure_node(&where, r, j, &m, &s);
     for (size_t k = 0; k < source->surfaces; k++)
-        raise_to(&m.quarters, fabsl(r->share * (Real)r->turn[k]) / QUARTER);
+        raise_to(&m.quarters, (Real)r->share *
+                                  (fabsl((Real)r->turn[k]) + size(source->surface[k].spin)) /
+                                  QUARTER);
     for (size_t i = 0; i < r->elements; i++) measure_element_contact(&where, r, i, &m, &s);
     measure_proof(source, r, &m);
     measure_pierced(source, r, &m);

@@ -4,7 +4,9 @@
  * anything is allocated. */
 #include "record.h"
 #include "elongation.h"
+#include "failure.h"
 #include "grasps.h"
+#include "places.h"
 
 #include <math.h>
 #include <netcdf.h>
@@ -218,7 +220,8 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
     if (bad) return -1;
     Real length = hypotl(hypotl(axis[0], axis[1]), axis[2]);
     if (!(kind >= 0 && kind < SURFACE_KINDS) || !(shape == 0 || shape == 1 || shape == 2) ||
-        !(mu[0] >= 0 && mu[1] >= 0) || !(length > 0) || (kind > SURFACE_PLANE && !(radius > 0)))
+        !(mu[0] >= 0 && mu[1] >= 0) || !(length > 0) ||
+        ((kind == SURFACE_CYLINDER || kind == SURFACE_SPHERE) && !(radius > 0)))
         return complain(log, "senseless obstacle in", "obstacle_kind and the like", 0);
     *out = (Surface){.kind = (int)kind, .box = shape == 1, .radius = radius, .mu = {mu[0], mu[1]}};
     for (int i = 0; i < 3; i++) {
@@ -227,6 +230,7 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
         out->grain[i] = grain[i];
     }
     out->grained = grain[0] != 0 || grain[1] != 0 || grain[2] != 0;
+    if (kind == SURFACE_GROUND && !(out->ground = ground_read(source->nc, k, log))) return -1;
     return shape == 2 ? read_set(source, k, &out->set, log) : 0;
 }
 
@@ -307,9 +311,10 @@ int source_open(const char *path, Source *source, FILE *log) {
     source->consistent = attribute_is(source, "friction_policy", "consistent");
     source->touching_only = attribute_is(source, "contact_policy", "reference");
     source->has_static = first_step_is_static(source);
-    if (read_surfaces(source, log)) return -1;
+    if (read_surfaces(source, log) || places_open(source, log)) return -1;
 
     if (read_names(source, "lines", &source->line_name, &source->lines, log)) return -1;
+    if (failures_open(source, log)) return -1;
     return read_points(source, log);
 }
 
@@ -319,10 +324,15 @@ void source_close(Source *source) {
     free(source->point_name);
     free(source->point_weight);
     free(source->point_kind);
+    failures_close(source);
     free(source->line_name);
     if (source->surface)
-        for (size_t k = 0; k < source->surfaces; k++) conic_free(source->surface[k].set);
+        for (size_t k = 0; k < source->surfaces; k++) {
+            conic_free(source->surface[k].set);
+            ground_free(source->surface[k].ground);
+        }
     free(source->surface);
+    places_close(source);
     if (source->line_name || source->nc >= 0) nc_close(source->nc);
     *source = (Source){.nc = -1};
 }
@@ -496,7 +506,7 @@ static int read_end_points(const Source *source, const char *line, Record *recor
     for (int e = 0; e < 2; e++) {
         if (!(point[e] >= -1 && point[e] < (double)source->points))
             return complain(log, "unknown point at an end of line", line, 0);
-        record->end_point[e] = (int)point[e];
+        record->end_point[e] = record->given_point[e] = (int)point[e];
     }
     return 0;
 }
@@ -531,6 +541,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (elongation_read(source, line, record, log)) return -1;
     if (read_breaking_load(source, line, record, log)) return -1;
     if (read_end_points(source, line, record, log)) return -1;
+    if (failure_create(source, line, record, log)) return -1;
     return read_zones(source, line, record, log);
 }
 
@@ -545,6 +556,7 @@ void record_destroy(Record *record) {
     free(record->element_compliance);
     free(record->weight_length);
     free(record->breaking_load);
+    free(record->break_at);
     elongation_free(record);
     free(record->gap);
     free(record->friction_bound);
@@ -670,9 +682,8 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
                      record->share_of};
     int bad = 0;
     for (size_t k = 0; k < source->surfaces; k++)
-        record->has_elements |=
-            (source->surface[k].kind != SURFACE_PLANE || source->surfaces > 2) &&
-            !source->touching_only;
+        record->has_elements |= (surface_is_round(&source->surface[k]) || source->surfaces > 2) &&
+                                !source->touching_only;
     if (record->has_elements)
         for (size_t k = 0; k < 8; k++)
             bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);
@@ -726,6 +737,7 @@ static int read_weight_before(const Source *source, const char *line, size_t ste
 
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
     size_t n = record->nodes, elements = record->elements;
+    if (places_at(source, step, log)) return -1;
     int bad = read_step(source, line, "reference", step, n, 3, record->reference[0], log);
     bad |= read_step(source, line, "position", step, n, 3, record->position[0], log);
     bad |= read_step(source, line, "load", step, n, 3, record->load[0], log);
@@ -742,6 +754,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= read_proof_obstacle(source, line, "proof_plane", step, &record->proof_plane, log);
     bad |= read_weight_before(source, line, step, record, log);
     bad |= grasps_read(source, line, step, record, log);
+    bad |= failure_read(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }
 

@@ -98,7 +98,10 @@ typedef struct Record {
      * abscissas may leave of it in 64 bits; NULL without friction zones: 1 */
     double *factor, *factor_noise;
     double *tension;
-    int end_point[2]; /* at which the ends are; -1: at none */
+    int end_point[2];   /* at which the ends are in the step; -1: at none */
+    int given_point[2]; /* ... and where the run begins */
+    int release[2];     /* whether the ends were let go (failure.h) */
+    double *break_at;   /* (elements) [N] infinite: none; NULL: the line has none */
     int end_kind[2], outcome, iterations;
     int substeps; /* that the step was taken in; the arrays are those of the last one, */
     double share; /* which is so much of the step */
@@ -128,6 +131,8 @@ typedef struct Source {
     int nc;
     size_t steps, lines;
     char **line_name;
+    /* (steps) the line that parts, its end, and its tension before; NULL: none may */
+    double *break_line, *break_end, *break_tension;
     double tolerance, gravity[3];
     double origin[3];   /* [m] from which the places of the file are measured, in the scene's
                            coordinates; 0 0 0 unless it says so */
@@ -137,7 +142,9 @@ typedef struct Source {
     bool follows; /* normals are those of where the nodes end up: not one plane with one coefficient
                    */
     size_t surfaces;
-    Surface *surface;
+    Surface *surface; /* where they are after the step read last, if they move */
+    bool moves;
+    struct Places *places; /* places.h */
     size_t points;
     char **point_name;
     double *point_weight; /* (points) [N] under the gravity of the scene */

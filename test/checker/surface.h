@@ -7,19 +7,29 @@
 #include <stdbool.h>
 
 #include "conic.h"
+#include "ground.h"
 
 /* flag values of the file */
-enum { SURFACE_PLANE, SURFACE_CYLINDER, SURFACE_SPHERE, SURFACE_KINDS };
+enum { SURFACE_PLANE, SURFACE_CYLINDER, SURFACE_SPHERE, SURFACE_GROUND, SURFACE_KINDS };
 
 typedef struct Surface {
     int kind;
     bool box, grained;
     Real point[3], axis[3], radius; /* axis of length 1 */
     Real mu[2], grain[3];           /* along the line or the grain, and across */
-    Conic *set; /* forces per unit normal force in place of the coefficients, or NULL */
+    /* shift of the last step: it turned by the vector `spin` about a point, which went by `by` */
+    Real by[3], spin[3], about[3];
+    Ground *ground; /* of ground, else NULL */
+    Conic *set;     /* forces per unit normal force in place of the coefficients, or NULL */
 } Surface;
 
-/* [m] above the surface, negative below it. */
+/* Is it a cylinder or a ball? */
+bool surface_is_round(const Surface *surface);
+/* By which its friction is multiplied at x. */
+Real surface_factor(const Surface *surface, const Real *x);
+/* Does what is known of it end before x, but for `rounding`? */
+bool surface_ends(const Surface *surface, const Real *x, Real rounding);
+/* [m] above the surface, negative below it; of ground to first order. */
 Real surface_distance(const Surface *surface, const Real *x);
 /* How deep an element of natural length l may lie in a round obstacle: its chord cuts in,
  * min(l^2/(4 R), R/4). */
@@ -33,10 +43,20 @@ Real surface_facing(const Surface *surface, const Real *a, const Real *b);
 Real surface_pierced(const Surface *surface, const Real *a, const Real *b, Real l);
 /* Unit normal at the foot of x. */
 void surface_normal(const Surface *surface, const Real *x, Real *n);
-/* x carried along by a turn of the surface. */
-void surface_carry(const Surface *surface, const Real *x, Real angle, Real *out);
+/* Is it shifted in the step? */
+bool surface_moves(const Surface *surface);
+/* v turned by the angle |spin| about `spin`. */
+void surface_spin(const Real *v, const Real *spin, Real *out);
+/* x carried along by the last part, a share, of the shift, and back. */
+void surface_shift(const Surface *surface, const Real *x, Real share, Real *out);
+void surface_unshift(const Surface *surface, const Real *x, Real share, Real *out);
+/* x carried along by that, and by a share of a turn about the surface's own axis. */
+void surface_carry(const Surface *surface, const Real *x, Real share, Real turn, Real *out);
+/* The path of the surface under x, where a node has come to from `reference`, plus its slip. */
+void surface_own(const Surface *surface, const Real *x, const Real *reference, Real share,
+                 Real *out);
 /* The shorter geodesic between the feet of two points, as the tangent vector of its length with
- * which it arrives. */
+ * which it arrives; on ground an arc between them that turns by the angle between the normals. */
 void surface_slip(const Surface *surface, const Real *from, const Real *to, Real *out);
 /* [rad] Between the normals of a round surface at two points, 0 to pi. 0 of a plane. */
 Real surface_angle(const Surface *surface, const Real *a, const Real *b);

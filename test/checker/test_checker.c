@@ -177,7 +177,8 @@ static const Tamper DRUM_TAMPER[] = {
     {"wound_reference", 8, -1.75, "quarters of a turn that a node with friction went"},
     {"obstacle_kind", 0, 2, "normal against the obstacle's"},
     {"obstacle_kind", 0, 0, "normal against the obstacle's"},
-    {"obstacle_kind", 0, 3, "senseless obstacle"},
+    {"obstacle_kind", 0, 3, "no whole grid of obstacle"},
+    {"obstacle_kind", 0, 4, "senseless obstacle"},
     {"obstacle_point", 0, 0.6, "normal against the obstacle's"},
     {"obstacle_axis", 0, 0.1, "normal against the obstacle's"},
     {"obstacle_radius", 0, 1.001, "depth below an obstacle"},
@@ -494,7 +495,7 @@ static void slips_are_geodesics(void **state) {
     surface_slip(&bed, east, higher, slip);
     CHECK_VECTOR(((double[]){(double)slip[0], (double)slip[1], (double)slip[2]}),
                  ((double[]){-2, 2.5, 0}), 1e-15);
-    surface_carry(&pipe, east, pi / 2, carried);
+    surface_carry(&pipe, east, 1, pi / 2, carried);
     CHECK_VECTOR(((double[]){(double)carried[0], (double)carried[1], (double)carried[2]}),
                  ((double[]){1, 2, 0}), 1e-15);
     CHECK_NEAR((double)surface_distance(&pipe, higher), 0.5, 1e-15);

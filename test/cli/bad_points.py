@@ -84,6 +84,14 @@ CHANGES = [
     ("an end at a point misspelt", RISER, "ends: {A: {pont: knot}, B: {point: buoy}}", "17:16: 'A': unknown key 'pont'; did you mean 'point'?"),
     ("a start away from its point", "stiffness: 1e6\n    start: static", "stiffness: 1e6\n    start: {straight: {from: [0, 0, 0], to: [8, 0, 0]}}", "17:12: line 'riser': ends: end A is held at (10, 0, 0) m, but the start puts it at (0, 0, 0) m"),
     ("points without points", GOOD[GOOD.index("points:"):], GOOD[GOOD.index("lines:"):GOOD.index("history:")], "4:85: 'point': found 'anchor', but the scene has no 'points': give it there, held or free"),
+    # ends that are let go
+    ("an end at a point that moves", PULL, "  - {name: pull, leg.B: {position: [1, 0, 0]}}\n", "20:18: 'leg.B': this end is at the point 'knot', expected a change of the point: write 'knot.point', or release the end in an entry before"),
+    ("released and moved in one entry", PULL, "  - {name: pull, leg.B: {release: true, position: [1, 0, 0]}}\n", "20:18: 'leg.B': too much given, expected exactly one of 'position', 'move', 'force', 'release'"),
+    ("a move of what was let go", PULL, "  - {leg.B: {release: true}}\n  - {leg.B: {move: [1, 0, 0]}}\n", "21:14: 'leg.B': found a move, but the end's position before it is not known"),
+    ("not released", PULL, "  - {name: pull, leg.B: {release: false}}\n", "20:18: 'leg.B': found false, expected true; leave the key out to leave the end as it is"),
+    ("released in words", PULL, "  - {name: pull, leg.B: {release: now}}\n", "20:26: 'release': found 'now', expected true or false"),
+    ("a point that is released", PULL, "  - {name: pull, knot.point: {release: true}}\n", "20:31: 'knot.point': unknown key 'release'"),
+    ("the other end, which is still there", PULL, "  - {leg.B: {release: true}}\n  - {leg.A: {force: [1, 0, 0]}}\n", "21:6: 'leg.A': this end is at the point 'anchor'"),
     # water
     ("a surface without water", "capstan: 1\n", "capstan: 1\nwater_surface: 3\n", "2:1: 'water_surface': it goes with 'water_density', which is not given"),
     ("a surface in words", "capstan: 1\n", "capstan: 1\nwater_density: 1e3\nwater_surface: high\n", "3:1: 'water_surface': found 'high', expected a number in m"),

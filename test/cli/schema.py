@@ -21,7 +21,7 @@ import bad_laws  # noqa: E402
 
 # definitions that scenes share with laws
 OF_SETS = {"set", "contact"}
-EXAMPLES = ["barge.yaml", "bridle.yaml", "buoy.yaml", "catenary-moored-buoy.yaml", "chain-wire-chain.yaml", "taut-leg.yaml", "souza-de-cursi-1990.yaml", "souza-de-cursi-1990-half-circle.yaml",
+EXAMPLES = ["barge.yaml", "moved-bollard.yaml", "bridle.yaml", "buoy.yaml", "catenary-moored-buoy.yaml", "chain-wire-chain.yaml", "taut-leg.yaml", "parting-lines.yaml", "souza-de-cursi-1990.yaml", "souza-de-cursi-1990-half-circle.yaml",
             "souza-de-cursi-1990-circle.yaml", "oc3-hywind.yaml", "oc3-hywind-line.yaml", "grooved-slope.yaml", "rough-end.yaml"]
 
 
@@ -56,7 +56,7 @@ def check_definitions(schema, documentation):
             assert re.search(f"`[^`]*\\b{key}\\b[^`]*`", documentation), f"docs/formats.md does not mention `{key}` of {name}"
         for pattern, row in mapping.get("patternProperties", {}).items():
             form = re.search(r"\((\w+)", pattern)
-            example = {"A": "cable.B", "turn": "drum.turn", "point": "knot.point", "body": "spar.body", "node": "cable.node"}[form[1]] if form else "cable"
+            example = {"A": "cable.B", "turn": "drum.turn", "point": "knot.point", "body": "spar.body", "node": "cable.node", "obstacle": "post.obstacle"}[form[1]] if form else "cable"
             assert re.match(pattern, example) and not re.match(pattern, "9"), (name, pattern)
     return mappings
 

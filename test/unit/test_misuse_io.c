@@ -23,6 +23,11 @@ static void scenes(void **state) {
                                                 .max_steps = -1};
     REFUSED(cps_scene_read(NULL, NULL, &file, &err));
     REFUSED(cps_scene_read("", NULL, NULL, &err));
+    REFUSED(cps_scene_read_text(NULL, "", NULL, &file, &err));
+    REFUSED(cps_scene_read_text("", NULL, NULL, &file, &err));
+    REFUSED(cps_scene_read_text("", "", NULL, NULL, &err));
+    GIVES(cps_scene_read_text("", "a text", NULL, &file, &err) == CPS_ERR_INPUT && file == NULL &&
+          strcmp(err.file, "a text") == 0);
     GIVES(cps_scene_read("/nowhere/at/all.yaml", &none, &file, &err) != CPS_OK && file == NULL &&
           err.message[0]);
     GIVES(cps_scene_read(THIS_FILE, &none, &file, &err) != CPS_OK && file == NULL &&
@@ -240,6 +245,9 @@ static void laws(void **state) {
     assert_non_null(out);
     REFUSED(cps_law_read(NULL, NULL, &file, &err));
     REFUSED(cps_law_read("", NULL, NULL, &err));
+    REFUSED(cps_law_read_text(NULL, "", NULL, &file, &err));
+    REFUSED(cps_law_read_text("", NULL, NULL, &file, &err));
+    REFUSED(cps_law_read_text("", "", NULL, NULL, &err));
     RUNS(cps_law_file_destroy(NULL));
     GIVES(strcmp(cps_law_file_title(NULL), "") == 0 && cps_law_file_space(NULL) == 0 &&
           cps_law_file_set(NULL) == NULL);
@@ -289,6 +297,9 @@ static void drives(void **state) {
     assert_non_null(out);
     REFUSED(cps_drive_read(NULL, NULL, &file, &err));
     REFUSED(cps_drive_read("", NULL, NULL, &err));
+    REFUSED(cps_drive_read_text(NULL, "", NULL, &file, &err));
+    REFUSED(cps_drive_read_text("", NULL, NULL, &file, &err));
+    REFUSED(cps_drive_read_text("", "", NULL, NULL, &err));
     RUNS(cps_drive_file_destroy(NULL));
     REFUSED(cps_drive_write_schema(NULL, &err));
     RUNS(cps_drive_walk(2, 2, NULL, 2, walked));

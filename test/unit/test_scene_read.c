@@ -19,7 +19,7 @@
 #define STRAIGHT "    start: {straight: {from: [0, 0, 0], to: [10, 0, 0]}}\n"
 #define ENDS     "    ends: {A: held, B: free}\n"
 
-/* read a text as a scene file */
+/* Read a text as a scene file, and once more as a text: both say the same. */
 static CpsStatus read_text(const char *text, const CpsReadLimits *limits, CpsSceneFile **file,
                            CpsError *err) {
     char path[] = "scene_read_test_XXXXXX";
@@ -29,6 +29,20 @@ static CpsStatus read_text(const char *text, const CpsReadLimits *limits, CpsSce
     close(fd);
     const CpsStatus status = cps_scene_read(path, limits, file, err);
     unlink(path);
+    if (!file) return status;
+    CpsSceneFile *again = NULL;
+    CpsError said;
+    assert_int_equal(cps_scene_read_text(text, path, limits, &again, &said), status);
+    if (status == CPS_OK) {
+        assert_int_equal(cps_scene_file_scene(again)->line_count,
+                         cps_scene_file_scene(*file)->line_count);
+    } else if (err) {
+        assert_string_equal(said.file, err->file);
+        assert_string_equal(said.message, err->message);
+        assert_int_equal(said.line, err->line);
+        assert_int_equal(said.column, err->column);
+    }
+    cps_scene_file_destroy(again);
     return status;
 }
 

@@ -123,6 +123,7 @@ static void the_state_is_that_of_a_warm_step(void **state) {
 static const char *const REASON[] = {
     "it stands at a step that the history does not have",
     "its report is none of a step",
+    "an end is let go that there is not, or in no way",
     "an end comes from nowhere",
     "an obstacle is at no place",
     "its gravity is not finite",

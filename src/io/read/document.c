@@ -28,24 +28,28 @@ static CpsStatus parse(CpsiDocument *d, CpsiFileKind kind) {
     static const char *const WHAT[] = {
         [CPSI_FILE_SCENE] = "scene", [CPSI_FILE_LAW] = "law", [CPSI_FILE_DRIVE] = "driven system"};
     char *bytes = NULL;
-    size_t size = 0;
+    size_t size = d->text ? strlen(d->text) : 0;
     CpsiYaml *root = NULL;
-    CpsStatus status =
-        cpsi_read_file(d->path, d->name, d->limits->max_bytes, &bytes, &size, d->err);
-    if (status == CPS_OK && size == 0 && strcmp(d->path, "-") == 0)
+    CpsStatus status = CPS_OK;
+    if (!d->text)
+        status = cpsi_read_file(d->path, d->name, d->limits->max_bytes, &bytes, &size, d->err);
+    else if (size > d->limits->max_bytes)
+        status = cpsi_fail_at(d->err, CPS_ERR_LIMIT, d->name, 0, 0,
+                              "is larger than %zu bytes, the limit", d->limits->max_bytes);
+    if (status == CPS_OK && size == 0 && !d->text && strcmp(d->path, "-") == 0)
         status = cpsi_fail(d->err, CPS_ERR_INPUT,
                            "standard input is empty or closed: a %s begins with 'capstan: 1'",
                            WHAT[kind]);
     if (status == CPS_OK)
-        status = cpsi_yaml_parse(d->name, WHAT[kind], bytes, size, d->limits->max_depth, d->pool,
-                                 &root, d->err);
+        status = cpsi_yaml_parse(d->name, WHAT[kind], d->text ? d->text : bytes, size,
+                                 d->limits->max_depth, d->pool, &root, d->err);
     free(bytes);
     d->root = root;
     return status ? status : cpsi_file_expect(d->name, root, kind, d->err);
 }
 
-CpsStatus cpsi_document_read(const char *path, const CpsReadLimits *limits, CpsiFileKind kind,
-                             CpsiPool *pool,
+CpsStatus cpsi_document_read(const char *path, const char *text, const CpsReadLimits *limits,
+                             CpsiFileKind kind, CpsiPool *pool,
                              CpsStatus (*build)(const CpsiDocument *document, void *out), void *out,
                              CpsError *err) {
     const CpsReadLimits defaults = cps_read_limits_default();
@@ -60,7 +64,8 @@ CpsStatus cpsi_document_read(const char *path, const CpsReadLimits *limits, Cpsi
     CpsiNumbers numbers;
     if (!cpsi_numbers_begin(&numbers)) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     CpsiDocument document = {.path = path,
-                             .name = strcmp(path, "-") == 0 ? "standard input" : path,
+                             .name = !text && strcmp(path, "-") == 0 ? "standard input" : path,
+                             .text = text,
                              .limits = limits,
                              .pool = pool,
                              .err = err};

@@ -10,6 +10,7 @@
 /* A file that is being read. */
 typedef struct CpsiDocument {
     const char *path, *name; /* name: the name in messages */
+    const char *text;        /* the contents; NULL: to be read from `path` */
     const CpsReadLimits *limits;
     const CpsiYaml *root;
     CpsiPool *pool; /* memory of the tree and of everything read from it */
@@ -19,13 +20,15 @@ typedef struct CpsiDocument {
 /* Read the file at `path`, check its kind, and let `build` make `out` from it, all in a locale with
  * a decimal point.
  *
+ *   text    what the file is taken to contain, with a zero byte at its end; then `path` is its name
+ *           in messages, and that beside which other files lie. NULL: the file is read
  *   limits  NULL: the default ones
  *   pool    memory of the tree; the caller frees it, also on failure
  *
  * Returns the status of build, or CPS_ERR_ARGUMENT, CPS_ERR_INPUT, CPS_ERR_IO, CPS_ERR_LIMIT or
  * CPS_ERR_MEMORY. */
-CpsStatus cpsi_document_read(const char *path, const CpsReadLimits *limits, CpsiFileKind kind,
-                             CpsiPool *pool,
+CpsStatus cpsi_document_read(const char *path, const char *text, const CpsReadLimits *limits,
+                             CpsiFileKind kind, CpsiPool *pool,
                              CpsStatus (*build)(const CpsiDocument *document, void *out), void *out,
                              CpsError *err);
 

@@ -40,11 +40,10 @@ bool cpsi_results_replaces(const char *name);
  * interrupted run, or with `force` remove it. */
 CpsStatus cpsi_journal_check(const char *directory, bool other, bool force, CpsError *err);
 
-/* netcdf_run.c: result.nc. `turn` is (obstacles) [rad], their turns in the step. */
+/* netcdf_run.c: result.nc. */
 CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvolution *evolution,
                            const CpsResultsOptions *options, CpsiNetcdf **out, CpsError *err);
-CpsStatus cpsi_netcdf_append(CpsiNetcdf *netcdf, const CpsEvolution *evolution, const double *turn,
-                             CpsError *err);
+CpsStatus cpsi_netcdf_append(CpsiNetcdf *netcdf, const CpsEvolution *evolution, CpsError *err);
 /* Close and free; accepts NULL. Reports a failure of any earlier write. */
 CpsStatus cpsi_netcdf_close(CpsiNetcdf *netcdf, CpsError *err);
 
@@ -54,11 +53,12 @@ CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err);
 /* paraview_points.c: the points and bodies after the last step, if there are any. */
 CpsStatus cpsi_paraview_points(CpsResults *results, CpsError *err);
 /* paraview_obstacles.c: the surfaces of the obstacles, if there are any: obstacles.vtp, and one
- * more file for each step in which an obstacle turns. */
+ * more file for each step in which an obstacle turns or moves. */
 CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err);
-/* Whether an obstacle turns in the step; and the name of the file of that step, or of the start
+/* Whether an obstacle turns or moves in the step; and the name of the file of that step, or of the
+ * start
  * (-1). */
-bool cpsi_paraview_obstacles_turn(const CpsResults *results, int step);
+bool cpsi_paraview_obstacles_move(const CpsResults *results, int step);
 void cpsi_paraview_obstacles_name(int step, char name[32]);
 
 #endif

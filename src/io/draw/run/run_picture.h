@@ -24,9 +24,13 @@ typedef struct CpsiView {
 CpsiView cpsi_view_plan(const CpsResults *results);
 CpsiView cpsi_view_elevation(const CpsResults *results);
 
-/* The obstacles, under everything else, turned as after a step, or for all steps (-1). */
+/* The obstacles, under everything else, as after a step, or for all steps (-1). */
 void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
                             int step, FILE *out);
+
+/* Ground: from above its contours, else its section with the paper. */
+void cpsi_picture_ground(const CpsObstacle *ground, const CpsiView *view, const CpsiFrame *frame,
+                         FILE *out);
 
 /* Whether the silhouette is a circle: that of a ball, or of a cylinder seen from its end. */
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);

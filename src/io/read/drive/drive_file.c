@@ -53,19 +53,32 @@ static CpsStatus build(const CpsiDocument *d, void *out) {
     return status ? status : build_kind(&b, &values, out);
 }
 
-CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDriveFile **out,
-                         CpsError *err) {
-    if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
+/* from the file at `path`, or from `text` */
+static CpsStatus read_drive(const char *path, const char *text, const CpsReadLimits *limits,
+                            CpsDriveFile **out, CpsError *err) {
     *out = NULL;
     CpsError unused;
     if (!err) err = &unused;
     Keep *keep = calloc(1, sizeof *keep);
     if (!keep) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
-    const CpsStatus status =
-        cpsi_document_read(path, limits, CPSI_FILE_DRIVE, &keep->pool, build, &keep->file, err);
+    const CpsStatus status = cpsi_document_read(path, text, limits, CPSI_FILE_DRIVE, &keep->pool,
+                                                build, &keep->file, err);
     if (status == CPS_OK)
         *out = &keep->file;
     else
         cps_drive_file_destroy(&keep->file);
     return status;
+}
+
+CpsStatus cps_drive_read(const char *path, const CpsReadLimits *limits, CpsDriveFile **out,
+                         CpsError *err) {
+    if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
+    return read_drive(path, NULL, limits, out, err);
+}
+
+CpsStatus cps_drive_read_text(const char *text, const char *name, const CpsReadLimits *limits,
+                              CpsDriveFile **out, CpsError *err) {
+    if (!text || !name || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "text, name or out is NULL");
+    return read_drive(name, text, limits, out, err);
 }

@@ -84,19 +84,32 @@ static CpsStatus build(const CpsiDocument *d, void *out) {
     return status;
 }
 
-CpsStatus cps_law_read(const char *path, const CpsReadLimits *limits, CpsLawFile **out,
-                       CpsError *err) {
-    if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
+/* from the file at `path`, or from `text` */
+static CpsStatus read_law(const char *path, const char *text, const CpsReadLimits *limits,
+                          CpsLawFile **out, CpsError *err) {
     *out = NULL;
     CpsiPool tree = {0};
     CpsLawFile *file = calloc(1, sizeof *file);
     if (!file) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     const CpsStatus status =
-        cpsi_document_read(path, limits, CPSI_FILE_LAW, &tree, build, file, err);
+        cpsi_document_read(path, text, limits, CPSI_FILE_LAW, &tree, build, file, err);
     cpsi_pool_free(&tree);
     if (status == CPS_OK)
         *out = file;
     else
         cps_law_file_destroy(file);
     return status;
+}
+
+CpsStatus cps_law_read(const char *path, const CpsReadLimits *limits, CpsLawFile **out,
+                       CpsError *err) {
+    if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
+    return read_law(path, NULL, limits, out, err);
+}
+
+CpsStatus cps_law_read_text(const char *text, const char *name, const CpsReadLimits *limits,
+                            CpsLawFile **out, CpsError *err) {
+    if (!text || !name || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "text, name or out is NULL");
+    return read_law(name, text, limits, out, err);
 }

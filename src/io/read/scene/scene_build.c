@@ -12,6 +12,7 @@
 #include "base/math.h"
 #include "capstan/pretension.h"
 #include "io/base/file/read_file.h"
+#include "io/read/ground/ground_build.h"
 #include "io/read/law/set_build.h"
 #include "io/read/scene/node_file.h"
 #include "io/read/scene/section_build.h"
@@ -26,10 +27,12 @@ typedef struct Build {
     const CpsiDocument *d;
     CpsiPool *pool; /* memory of the scene */
     CpsScene *scene;
+    CpsObstacle *obstacle;
     CpsLine *line;
     CpsiSetBuild set; /* of friction sets */
     double elements;  /* number of elements of the lines so far */
     CpsiMaterials materials;
+    bool (*released)[2]; /* (lines) ends that the history has let go so far */
     /* (lines) [m] position at which each end is held after the preceding entry; NaN: not held, or
      * not known */
     double (*held)[2][3];
@@ -333,6 +336,8 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
     if (!line->name) return cpsi_document_no_memory(b->d);
     line->has_breaking_load = !isnan(values->breaking_load);
     if (line->has_breaking_load) line->breaking_load = values->breaking_load;
+    line->has_break_at = !isnan(values->break_at);
+    if (line->has_break_at) line->break_at = values->break_at;
     CpsStatus status = cpsi_line_weight_build(&b->materials, values, line);
     if (status == CPS_OK)
         status = cpsi_stiffness_build(&b->materials, &values->table, &line->stiffness_row_count,
@@ -357,7 +362,9 @@ static CpsStatus build_lines(Build *b, const CpsiList *lines) {
     const CpsiLineValues *values = lines->item;
     b->line = CPSI_POOL_TAKE(b->pool, lines->count, CpsLine);
     b->held = CPSI_POOL_TAKE(b->pool, lines->count, double[2][3]);
-    if (!b->line || !b->held) return cpsi_document_no_memory(b->d);
+    b->released = CPSI_POOL_TAKE(b->pool, lines->count, bool[2]);
+    if (!b->line || !b->held || !b->released) return cpsi_document_no_memory(b->d);
+    for (int i = 0; i < lines->count; i++) b->released[i][0] = b->released[i][1] = false;
     b->scene->line = b->line;
     b->scene->line_count = lines->count;
     CpsStatus status = CPS_OK;
@@ -375,8 +382,10 @@ static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsO
     if (!obstacle->has_friction_lateral) obstacle->friction_lateral = 0;
     obstacle->name = copy_text(b, values->node->key);
     if (!obstacle->name) return cpsi_document_no_memory(b->d);
-    const CpsStatus status = values->set ? cpsi_build_set(&b->set, values->set, &set) : CPS_OK;
+    CpsStatus status = values->set ? cpsi_build_set(&b->set, values->set, &set) : CPS_OK;
     obstacle->friction_set = set;
+    if (status == CPS_OK && obstacle->kind == CPS_OBSTACLE_GROUND)
+        status = cpsi_ground_build(b->d, values, (CpsGround **)&obstacle->ground);
     return status;
 }
 
@@ -385,7 +394,7 @@ static CpsStatus build_obstacles(Build *b, const CpsiList *obstacles) {
     if (obstacles->count == 0) return CPS_OK;
     CpsObstacle *obstacle = CPSI_POOL_TAKE(b->pool, obstacles->count, CpsObstacle);
     if (!obstacle) return cpsi_document_no_memory(b->d);
-    b->scene->obstacle = obstacle;
+    b->scene->obstacle = b->obstacle = obstacle;
     b->scene->obstacle_count = obstacles->count;
     CpsStatus status = CPS_OK;
     for (int i = 0; i < obstacles->count && status == CPS_OK; i++)
@@ -433,20 +442,36 @@ static int find_owner_point(const Build *b, const char *key) {
     return i;
 }
 
+/* An end that is let go; it is at no point from then on. */
+static CpsStatus build_release(const Build *b, const CpsiChangeValues *values, CpsChange *change) {
+    if (!values->yes)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': found false, expected true; leave the key out to leave "
+                                  "the end as it is",
+                                  values->node->key);
+    *change = (CpsChange){.line = change->line,
+                          .end = change->end,
+                          .to = {.kind = CPS_END_KIND_RELEASED}};
+    b->held[change->line][change->end][0] = NAN;
+    b->released[change->line][change->end] = true;
+    return CPS_OK;
+}
+
 static CpsStatus build_change(const Build *b, const CpsiChangeValues *values, CpsChange *change) {
     const char *key = values->node->key;
-    change->line = find_line(b, key);
+    *change = (CpsChange){.line = find_line(b, key)};
     change->end = key[strlen(key) - 1] == 'A' ? CPS_END_A : CPS_END_B;
+    if (values->kind == CPSI_CHANGE_RELEASE) return build_release(b, values, change);
     change->to.kind = values->kind == CPSI_CHANGE_FORCE ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
     const CpsLine *line = &b->line[change->line];
-    const char *point = line->end[change->end].kind == CPS_END_KIND_POINT
-                            ? b->scene->point[line->end_point[change->end]].name
-                            : NULL;
+    const bool at_point = line->end[change->end].kind == CPS_END_KIND_POINT &&
+                          !b->released[change->line][change->end];
+    const char *point = at_point ? b->scene->point[line->end_point[change->end]].name : NULL;
     double *held = b->held[change->line][change->end];
     if (point)
         return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
                                   "'%s': this end is at the point '%s', expected a change of the "
-                                  "point: write '%s.point'",
+                                  "point: write '%s.point', or release the end in an entry before",
                                   key, point, point);
     if (values->kind == CPSI_CHANGE_MOVE && isnan(held[0]))
         return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
@@ -573,6 +598,47 @@ static CpsStatus build_grasps(const Build *b, const CpsiList *grasps, CpsStage *
     return status;
 }
 
+static CpsStatus build_shift(const Build *b, const CpsiShiftValues *values, CpsShift *shift) {
+    const double *axis = values->axis, size = hypot(hypot(axis[0], axis[1]), axis[2]),
+                 angle = isnan(values->turn) ? 0 : values->turn * CPSI_DEGREE;
+    if (!cpsi_yaml_child(values->node, "move") && isnan(values->turn))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': nothing given, expected 'move', or 'turn' with its 'axis'",
+                                  values->node->key);
+    if (!isnan(values->turn) && !(size > 0))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "axis"),
+                                  "'axis': found a vector of no length, expected a direction");
+    shift->obstacle = find_obstacle(b, values->node->key);
+    for (int i = 0; i < 3; i++) {
+        shift->by[i] = values->move[i];
+        shift->turn[i] = angle != 0 ? angle * (axis[i] / size) : 0;
+        shift->about[i] = values->about[i];
+    }
+    return CPS_OK;
+}
+
+static CpsStatus build_shifts(const Build *b, const CpsiList *shifts, CpsStage *stage) {
+    const CpsiShiftValues *from = shifts->item;
+    CpsShift *shift = CPSI_POOL_TAKE(b->pool, shifts->count, CpsShift);
+    if (!shift) return cpsi_document_no_memory(b->d);
+    stage->shift = shift;
+    stage->shift_count = shifts->count;
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < shifts->count && status == CPS_OK; k++)
+        status = build_shift(b, &from[k], &shift[k]);
+    return status;
+}
+
+/* Say which obstacles the history moves. */
+static void find_moving(const Build *b, const CpsiList *history) {
+    const CpsiStageValues *values = history->item;
+    for (int i = 0; i < history->count; i++) {
+        const CpsiShiftValues *shift = values[i].shifts.item;
+        for (int k = 0; k < values[i].shifts.count; k++)
+            b->obstacle[find_obstacle(b, shift[k].node->key)].moves = true;
+    }
+}
+
 static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int index,
                              CpsStage *stage) {
     const CpsiNumberItem *turns = values->turns.item;
@@ -590,13 +656,15 @@ static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int 
     for (int k = 0; k < stage->turn_count; k++)
         turn[k] = (CpsTurn){.obstacle = find_obstacle(b, turns[k].node->key),
                             .angle = turns[k].number * CPSI_DEGREE};
-    const CpsStatus status = build_changes(b, values, stage);
+    CpsStatus status = build_changes(b, values, stage);
+    if (status == CPS_OK) status = build_shifts(b, &values->shifts, stage);
     return status == CPS_OK ? build_grasps(b, &values->grasps, stage) : status;
 }
 
 static CpsStatus build_history(const Build *b, const CpsiList *history) {
     const CpsiStageValues *values = history->item;
     if (history->count == 0) return CPS_OK;
+    find_moving(b, history);
     CpsStage *stage = CPSI_POOL_TAKE(b->pool, history->count, CpsStage);
     if (!stage) return cpsi_document_no_memory(b->d);
     b->scene->stage = stage;

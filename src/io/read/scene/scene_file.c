@@ -12,15 +12,17 @@
 
 struct CpsSceneFile {
     CpsScene scene;
-    /* memory of everything that the scene refers to, except the friction sets, which are
+    /* memory of everything that the scene refers to, except friction sets and ground, which are
      * retained */
     CpsiPool pool;
 };
 
 void cps_scene_file_destroy(CpsSceneFile *file) {
     if (!file) return;
-    for (int k = 0; k < file->scene.obstacle_count; k++)
+    for (int k = 0; k < file->scene.obstacle_count; k++) {
         cps_set_release((CpsSet *)file->scene.obstacle[k].friction_set);
+        cps_ground_release((CpsGround *)file->scene.obstacle[k].ground);
+    }
     cpsi_pool_free(&file->pool);
     free(file);
 }
@@ -51,19 +53,32 @@ static CpsStatus build(const CpsiDocument *d, void *out) {
     return check(d, &file->scene);
 }
 
-CpsStatus cps_scene_read(const char *path, const CpsReadLimits *limits, CpsSceneFile **out,
-                         CpsError *err) {
-    if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
+/* from the file at `path`, or from `text` */
+static CpsStatus read_scene(const char *path, const char *text, const CpsReadLimits *limits,
+                            CpsSceneFile **out, CpsError *err) {
     *out = NULL;
     CpsiPool tree = {0};
     CpsSceneFile *file = calloc(1, sizeof *file);
     if (!file) return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory");
     const CpsStatus status =
-        cpsi_document_read(path, limits, CPSI_FILE_SCENE, &tree, build, file, err);
+        cpsi_document_read(path, text, limits, CPSI_FILE_SCENE, &tree, build, file, err);
     cpsi_pool_free(&tree);
     if (status == CPS_OK)
         *out = file;
     else
         cps_scene_file_destroy(file);
     return status;
+}
+
+CpsStatus cps_scene_read(const char *path, const CpsReadLimits *limits, CpsSceneFile **out,
+                         CpsError *err) {
+    if (!path || !out) return cpsi_fail(err, CPS_ERR_ARGUMENT, "path or out is NULL");
+    return read_scene(path, NULL, limits, out, err);
+}
+
+CpsStatus cps_scene_read_text(const char *text, const char *name, const CpsReadLimits *limits,
+                              CpsSceneFile **out, CpsError *err) {
+    if (!text || !name || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "text, name or out is NULL");
+    return read_scene(name, text, limits, out, err);
 }

@@ -148,8 +148,10 @@ static CpsStatus build_section(const CpsiMaterials *m, const CpsiSectionValues *
                             .length = values->length,
                             .weight = (*type)->weight,
                             .stiffness = (*type)->stiffness,
-                            .has_breaking_load = !isnan((*type)->breaking_load)};
+                            .has_breaking_load = !isnan((*type)->breaking_load),
+                            .has_break_at = !isnan((*type)->break_at)};
     if (section->has_breaking_load) section->breaking_load = (*type)->breaking_load;
+    if (section->has_break_at) section->break_at = (*type)->break_at;
     if (!section->type) return cpsi_document_no_memory(m->d);
     const CpsStatus status = cpsi_stiffness_build(m, &(*type)->table, &section->stiffness_row_count,
                                                   &section->stiffness_row);

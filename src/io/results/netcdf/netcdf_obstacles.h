@@ -4,19 +4,32 @@
 #ifndef CAPSTAN_SRC_IO_RESULTS_NETCDF_NETCDF_OBSTACLES_H
 #define CAPSTAN_SRC_IO_RESULTS_NETCDF_NETCDF_OBSTACLES_H
 
-#include "capstan/evolve.h"
+#include "capstan/failure.h"
 #include "capstan/set.h"
 #include "io/results/netcdf/netcdf_file.h"
 
-enum { CPSI_OBSTACLE_FIELDS = 8, CPSI_SET_FIELDS = 5 };
+enum {
+    CPSI_OBSTACLE_FIELDS = 8,
+    CPSI_OBSTACLE_MOVES = 5,
+    CPSI_SET_FIELDS = 5,
+    CPSI_GROUND_FIELDS = 4
+};
+
+/* Variables of the ground of one obstacle; negative: there is none. */
+typedef struct CpsiNetcdfGround {
+    int field[CPSI_GROUND_FIELDS];
+} CpsiNetcdfGround;
 
 typedef struct CpsiNetcdfObstacles {
     int count;
+    bool moves;                    /* one of them does; else the next ones are unused */
+    int move[CPSI_OBSTACLE_MOVES]; /* of each step */
     int dimension, turn, field[CPSI_OBSTACLE_FIELDS]; /* unused without obstacles */
     int set_field[CPSI_SET_FIELDS];                   /* unused without sets, */
     size_t set_rows, set_unknowns;                    /* where these are 0 */
     /* (count) while the file begins; zeroed where an obstacle has none */
     CpsSetConic *set;
+    CpsiNetcdfGround *ground; /* (count) likewise */
 } CpsiNetcdfObstacles;
 
 /* Define the variables; `step` and `xyz` are dimensions. */
@@ -25,7 +38,11 @@ void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *out
 /* Write everything that does not change, relative to the origin of the lines' coordinates. */
 void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
                                  const CpsScene *scene, const double origin[3]);
-/* Free the conic forms of the sets. */
+/* Write how they moved in the last step, as step number `step`, and where they are. */
+void cpsi_netcdf_append_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
+                                  size_t step, const CpsEvolution *evolution,
+                                  const double origin[3]);
+/* Free the conic forms of the sets, and what is kept of ground. */
 void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
 
 enum { CPSI_POINT_VECTORS = 9, CPSI_POINT_NUMBERS = 7, CPSI_POINT_INTS = 5 };
@@ -63,6 +80,30 @@ void cpsi_netcdf_write_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodi
                               const CpsScene *scene, const double origin[3]);
 void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies, size_t step,
                                const CpsEvolution *evolution, const double origin[3]);
+/* Ends that are let go and lines that part. */
+typedef struct CpsiNetcdfBreaks {
+    bool is_there; /* cpsi_lets_go */
+    int line, end, tension;
+} CpsiNetcdfBreaks;
+typedef struct CpsiNetcdfFailure {
+    int release, break_at; /* break_at: unused where no element has one */
+} CpsiNetcdfFailure;
+
+/* Define the variables of the run, and of line number i; none in a scene that lets nothing go. */
+void cpsi_netcdf_define_breaks(CpsiNetcdfFile *file, CpsiNetcdfBreaks *ids, const CpsScene *scene,
+                               int step);
+void cpsi_netcdf_define_failure(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *breaks,
+                                CpsiNetcdfFailure *ids, const CpsEvolution *evolution, int i,
+                                const int dimension[3]); /* of steps, ends, and elements */
+/* Write what does not change, and what the last step has found. */
+void cpsi_netcdf_write_failure(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *breaks,
+                               const CpsiNetcdfFailure *ids, const CpsEvolution *evolution, int i);
+void cpsi_netcdf_append_breaks(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *ids, size_t step,
+                               const CpsEvolution *evolution);
+void cpsi_netcdf_append_failure(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *breaks,
+                                const CpsiNetcdfFailure *ids, size_t step,
+                                const CpsEvolution *evolution, int i);
+
 /* Nodes of a line between its ends that are held or pulled. */
 typedef struct CpsiNetcdfGrasps {
     bool is_there; /* the history grasps nodes of the line */

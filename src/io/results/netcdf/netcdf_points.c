@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "io/base/text/columns.h"
+#include "io/history.h"
 #include "io/results/netcdf/netcdf_obstacles.h"
 
 enum { XYZ = 3 };
@@ -423,4 +424,63 @@ void cpsi_netcdf_append_grasps(CpsiNetcdfFile *file, const CpsiNetcdfGrasps *ids
     cpsi_netcdf_doubles(file, ids->held_position, start, count, held[0]);
     cpsi_netcdf_doubles(file, ids->applied_force, start, count, applied[0]);
     cpsi_netcdf_doubles(file, ids->force, start, count, force[0]);
+}
+
+/* ---- failure ---- */
+
+void cpsi_netcdf_define_breaks(CpsiNetcdfFile *file, CpsiNetcdfBreaks *ids, const CpsScene *scene,
+                               int step) {
+    ids->is_there = cpsi_lets_go(scene);
+    if (!ids->is_there) return;
+    ids->line = cpsi_netcdf_variable(file, "", "break_line", NC_INT, 1, &step,
+                                     "line that parts in the step, -1: none", "1");
+    ids->end = cpsi_netcdf_variable(file, "", "break_end", NC_INT, 1, &step,
+                                    "end at which it does, 0: A, 1: B, -1: no line parts", "1");
+    ids->tension = cpsi_netcdf_variable(file, "", "break_tension", NC_DOUBLE, 1, &step,
+                                        "tension at which it does", "N");
+    cpsi_netcdf_may_miss(file, ids->tension);
+}
+
+void cpsi_netcdf_define_failure(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *breaks,
+                                CpsiNetcdfFailure *ids, const CpsEvolution *evolution, int i,
+                                const int dimension[3]) {
+    if (!breaks->is_there) return;
+    const char *name = cps_evolution_line_view(evolution, i).name;
+    ids->release = cpsi_netcdf_variable(file, name, "end_release", NC_BYTE, 2, dimension,
+                                        "whether the end was let go, also from its point", "1");
+    cpsi_netcdf_flags(file, ids->release, NC_BYTE, 4, NULL, "none released parted taken");
+    if (cps_evolution_line_failure(evolution, i).has_break_at)
+        ids->break_at = cpsi_netcdf_variable(file, name, "break_at", NC_DOUBLE, 1, &dimension[2],
+                                             "tension above which the element parts, infinite: "
+                                             "it does not",
+                                             "N");
+}
+
+void cpsi_netcdf_write_failure(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *breaks,
+                               const CpsiNetcdfFailure *ids, const CpsEvolution *evolution, int i) {
+    const CpsLineFailure failure = cps_evolution_line_failure(evolution, i);
+    const size_t first = 0, elements = (size_t)cps_evolution_line_view(evolution, i).element_count;
+    if (breaks->is_there && failure.has_break_at)
+        cpsi_netcdf_doubles(file, ids->break_at, &first, &elements, failure.break_at);
+}
+
+void cpsi_netcdf_append_breaks(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *ids, size_t step,
+                               const CpsEvolution *evolution) {
+    const CpsBreak parted = cps_evolution_break(evolution);
+    const size_t one = 1;
+    const double tension = parted.is_break ? parted.tension : NAN;
+    if (!ids->is_there) return;
+    cpsi_netcdf_int(file, ids->line, &step, parted.is_break ? parted.line : -1);
+    cpsi_netcdf_int(file, ids->end, &step, parted.is_break ? parted.end : -1);
+    cpsi_netcdf_doubles(file, ids->tension, &step, &one, &tension);
+}
+
+void cpsi_netcdf_append_failure(CpsiNetcdfFile *file, const CpsiNetcdfBreaks *breaks,
+                                const CpsiNetcdfFailure *ids, size_t step,
+                                const CpsEvolution *evolution, int i) {
+    const CpsLineFailure failure = cps_evolution_line_failure(evolution, i);
+    const size_t start[] = {step, 0}, count[] = {1, 2};
+    const unsigned char release[] = {(unsigned char)failure.release[0],
+                                     (unsigned char)failure.release[1]};
+    if (breaks->is_there) cpsi_netcdf_bytes(file, ids->release, start, count, release);
 }

@@ -84,8 +84,7 @@ static const Number NUMBER[] = {
     {"ledger_elastic", "growth of the energy of elongation", "J", REPORT(ledger.elastic)},
     {"ledger_gravity", "growth of the weight's potential", "J", REPORT(ledger.gravity)},
     {"ledger_ends", "work of the forces at the ends", "J", REPORT(ledger.ends)},
-    {"ledger_obstacles", "work of the friction of obstacles that turn", "J",
-     REPORT(ledger.obstacles)},
+    {"ledger_obstacles", "work of obstacles that turn or move", "J", REPORT(ledger.obstacles)},
     {"ledger_imbalance", "what the ledger does not close by", "J", REPORT(ledger.imbalance)},
     {"unaccounted",
      "of that, more than 5 % of the energies of substeps that could not be halved any more", "J",
@@ -141,6 +140,7 @@ typedef struct LineIds {
     int breaking_load;                                   /* the same */
     int end_point;                                       /* unused without points */
     CpsiNetcdfGrasps grasps;
+    CpsiNetcdfFailure failure;
 } LineIds;
 
 struct CpsiNetcdf {
@@ -154,6 +154,7 @@ struct CpsiNetcdf {
     CpsiNetcdfObstacles obstacles;
     CpsiNetcdfPoints points;
     CpsiNetcdfBodies bodies;
+    CpsiNetcdfBreaks breaks;
     int line_count;
     LineIds *line;
 };
@@ -226,6 +227,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     cpsi_netcdf_define_obstacles(&nc->file, &nc->obstacles, scene, nc->step, nc->xyz);
     cpsi_netcdf_define_points(&nc->file, &nc->points, scene, nc->step, nc->xyz);
     cpsi_netcdf_define_bodies(&nc->file, &nc->bodies, &nc->points, scene, nc->step, nc->xyz);
+    cpsi_netcdf_define_breaks(&nc->file, &nc->breaks, scene, nc->step);
 }
 
 /* "LINE_NAME" of a node's first contact, "LINE_NAME_second" of its second. */
@@ -558,6 +560,8 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         define_zones(nc, &nc->line[i], &scene->line[i]);
         define_end_points(nc, &nc->line[i], &scene->line[i]);
         cpsi_netcdf_define_grasps(&nc->file, &nc->line[i].grasps, scene, i, nc->step, nc->xyz);
+        cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
+                                   (const int[]){nc->step, nc->end, nc->line[i].element});
     }
     if (nc->file.status == NC_NOERR)
         cpsi_netcdf_keep(&nc->file, nc->file.library.enddef(nc->file.id));
@@ -570,6 +574,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         write_zones(nc, &nc->line[i], &scene->line[i]);
         write_end_points(nc, &nc->line[i], &scene->line[i]);
         write_sections(nc, &nc->line[i], &view);
+        cpsi_netcdf_write_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i);
         if (nc->file.status == NC_NOERR)
             cpsi_netcdf_keep(&nc->file,
                              nc->file.library.put_var_double(nc->file.id, nc->line[i].compliance,
@@ -641,8 +646,7 @@ CpsStatus cpsi_netcdf_open(const char *path, const CpsScene *scene, const CpsEvo
     return status;
 }
 
-CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, const double *turn,
-                             CpsError *err) {
+CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsError *err) {
     const CpsStepReport report = cps_evolution_report(evolution);
     const size_t start[] = {nc->steps, 0}, count[] = {1, NAME_LENGTH};
     char name[NAME_LENGTH] = {0};
@@ -654,16 +658,17 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, cons
                                                                count, name));
     cpsi_netcdf_int(&nc->file, nc->outcome, start, (int)report.outcome);
     cpsi_netcdf_doubles(&nc->file, nc->wall, start, ONE, &report.wall);
-    const size_t turns[] = {1, (size_t)nc->obstacles.count};
-    if (nc->obstacles.count > 0)
-        cpsi_netcdf_doubles(&nc->file, nc->obstacles.turn, start, turns, turn);
     const CpsLineView first = cps_evolution_line_view(evolution, 0);
+    cpsi_netcdf_append_obstacles(&nc->file, &nc->obstacles, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_points(&nc->file, &nc->points, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_bodies(&nc->file, &nc->bodies, nc->steps, evolution, first.origin);
+    cpsi_netcdf_append_breaks(&nc->file, &nc->breaks, nc->steps, evolution);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         write_line(nc, &nc->line[i], &view, &line);
+        cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,
+                                   evolution, i);
     }
     if (nc->file.status == NC_NOERR && nc->sync)
         cpsi_netcdf_keep(&nc->file, nc->file.library.sync(nc->file.id));

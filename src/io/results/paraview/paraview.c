@@ -22,22 +22,25 @@ typedef enum Block {
     BLOCK_FRICTION_STATE,
     BLOCK_DISPLACEMENT,
     BLOCK_LINE_ID,
+    BLOCK_RELEASE, /* where ends may be let go */
     BLOCKS
 } Block;
 
 typedef struct Blocks {
-    int lines;
+    int lines, blocks;
     uint64_t points;
     uint64_t bytes[BLOCKS];
     uint64_t offset[BLOCKS]; /* of the block's size, from the start of the appended data */
 } Blocks;
 
 /* The sizes fit 64 bits: a node takes more bytes in the evolution than in the file. */
-static void measure(const CpsEvolution *evolution, Blocks *out) {
-    static const uint64_t PER_POINT[BLOCKS] = {24, 8, 0, 8, 24, 1, 24, 0},
-                          PER_LINE[BLOCKS] = {[BLOCK_OFFSETS] = 8, [BLOCK_LINE_ID] = 4};
+static void measure(const CpsEvolution *evolution, bool lets_go, Blocks *out) {
+    static const uint64_t PER_POINT[BLOCKS] = {24, 8, 0, 8, 24, 1, 24, 0, 0},
+                          PER_LINE[BLOCKS] = {
+                              [BLOCK_OFFSETS] = 8, [BLOCK_LINE_ID] = 4, [BLOCK_RELEASE] = 2};
     memset(out, 0, sizeof *out);
     out->lines = cps_evolution_line_count(evolution);
+    out->blocks = lets_go ? BLOCKS : BLOCK_RELEASE;
     for (int i = 0; i < out->lines; ++i)
         out->points += (uint64_t)cps_evolution_line_view(evolution, i).element_count + 1;
     uint64_t end = 0;
@@ -80,6 +83,7 @@ static void write_header(FILE *out, const Blocks *layout) {
     write_array(out, layout, BLOCK_DISPLACEMENT, "Float64", "displacement_m", 3);
     fputs("      </PointData>\n      <CellData Scalars=\"line_id\">\n", out);
     write_array(out, layout, BLOCK_LINE_ID, "Int32", "line_id", 1);
+    if (layout->blocks == BLOCKS) write_array(out, layout, BLOCK_RELEASE, "UInt8", "release", 2);
     fputs("      </CellData>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_",
           out);
 }
@@ -140,6 +144,10 @@ static void write_block(FILE *out, const CpsEvolution *evolution, const Blocks *
             for (int j = 0; j <= view.element_count; ++j) fputc(cpsi_node_state(&view, j), out);
             break;
         case BLOCK_LINE_ID: fwrite(&i, sizeof i, 1, out); break;
+        case BLOCK_RELEASE:
+            for (int end = 0; end < 2; ++end)
+                fputc((int)cps_evolution_line_failure(evolution, i).release[end], out);
+            break;
         default:
             for (int j = 0; j <= view.element_count; ++j) write_node(out, &view, block, j);
         }
@@ -149,14 +157,14 @@ static void write_block(FILE *out, const CpsEvolution *evolution, const Blocks *
 
 CpsStatus cpsi_paraview_step(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
     Blocks layout;
-    measure(evolution, &layout);
+    measure(evolution, results->lets_go, &layout);
     char name[64];
     FILE *out = NULL;
     snprintf(name, sizeof name, "step-%05d.vtp", results->row_count - 1);
     const CpsStatus status = cpsi_directory_create(results->directory, name, &out, err);
     if (status) return status;
     write_header(out, &layout);
-    for (int b = 0; b < BLOCKS; ++b) write_block(out, evolution, &layout, (Block)b);
+    for (int b = 0; b < layout.blocks; ++b) write_block(out, evolution, &layout, (Block)b);
     fputs("\n  </AppendedData>\n</VTKFile>\n", out);
     return cpsi_directory_close_file(results->directory, out, err);
 }
@@ -171,7 +179,7 @@ CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err) {
     char surfaces[32];
     cpsi_paraview_obstacles_name(-1, surfaces);
     for (int i = 0; i < results->row_count; ++i) {
-        if (cpsi_paraview_obstacles_turn(results, i)) cpsi_paraview_obstacles_name(i, surfaces);
+        if (cpsi_paraview_obstacles_move(results, i)) cpsi_paraview_obstacles_name(i, surfaces);
         fprintf(out, "    <DataSet timestep=\"%d\" part=\"0\" file=\"step-%05d.vtp\" name=\"", i,
                 i);
         cpsi_write_xml(out, results->row[i].name);

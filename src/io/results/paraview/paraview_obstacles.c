@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The obstacles as quadrilaterals for ParaView, in text: obstacles.vtp, and step-N-obstacles.vtp
- * for each step in which an obstacle turns. Balls are complete; planes and cylinders, which have no
- * ends, extend a little farther than the lines. Cells carry the number of their sector of the
- * obstacle, which makes a turn visible. */
+ * for each step in which an obstacle turns or moves. Balls are complete; planes and cylinders,
+ * which have no ends, extend a little farther than the lines. Cells carry the number of their
+ * sector of the obstacle, which makes a turn visible. Ground has the points of its grid, of a large
+ * one every second, third, ..; surfaces given as functions have no quadrilaterals. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,6 +14,7 @@
 
 enum { AROUND = 96, ALONG = 48 }; /* quadrilaterals round a circle, and from pole to pole */
 enum { SECTORS = 8 };
+enum { MOST_CELLS = 400 }; /* of ground, along either axis */
 
 /* Extent beyond that of the lines, relative to it. */
 static const double MARGIN = 0.15;
@@ -25,7 +27,8 @@ typedef struct Patch {
         axis[3]; /* the third is the plane's normal or the axis of rotation of a cylinder or ball */
     double reach[2]
                 [2]; /* plane: along the first two axes; cylinder: along the third, in reach[0] */
-    double turned;   /* [rad] about the third axis, which is right-handed with the others */
+    CpsGroundGrid grid; /* of ground */
+    double turned;      /* [rad] about the third axis, which is right-handed with the others */
 } Patch;
 
 static Vec3 unit(Vec3 a) { return vec3_scale(1 / vec3_norm(a), a); }
@@ -50,10 +53,36 @@ static void reach_along(const CpsResults *results, Vec3 centre, Vec3 direction, 
     range[1] += MARGIN * extent;
 }
 
-static Patch patch_of(const CpsResults *results, const CpsObstacle *obstacle) {
+static int cells_of(int points) {
+    const int stride = (points - 2) / MOST_CELLS + 1;
+    return (points - 2) / stride + 1;
+}
+
+/* Point i of an axis of ground that is written, the last one at the edge. */
+static int index_of(int points, int i) {
+    const int stride = (points - 2) / MOST_CELLS + 1;
+    return i * stride < points - 1 ? i * stride : points - 1;
+}
+
+static Patch patch_of_ground(const CpsObstacle *obstacle) {
+    Patch patch = {.obstacle = obstacle, .centre = vec3_load(obstacle->point)};
+    if (obstacle->kind != CPS_OBSTACLE_GROUND) return patch;
+    patch.grid = cps_ground_grid(obstacle->ground);
+    patch.rows = cells_of(patch.grid.y_count);
+    patch.columns = cells_of(patch.grid.x_count);
+    return patch;
+}
+
+/* after a step; before the first one, step is -1 */
+static Patch patch_of(const CpsResults *results, int step, int k) {
+    const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
+    if (obstacle->kind == CPS_OBSTACLE_GROUND || obstacle->kind == CPS_OBSTACLE_SURFACE)
+        return patch_of_ground(&results->obstacle[k]);
     const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE,
                ball = obstacle->kind == CPS_OBSTACLE_SPHERE;
-    Patch patch = {.obstacle = obstacle, .rows = ball ? ALONG : 1, .columns = plane ? 1 : AROUND};
+    Patch patch = {.obstacle = &results->obstacle[k],
+                   .rows = ball ? ALONG : 1,
+                   .columns = plane ? 1 : AROUND};
     const Vec3 axis = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));
     const Vec3 seed = fabs(axis.x) <= 0.75 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     patch.centre = vec3_load(obstacle->point);
@@ -65,7 +94,18 @@ static Patch patch_of(const CpsResults *results, const CpsObstacle *obstacle) {
     return patch;
 }
 
+static Vec3 point_of_ground(const Patch *patch, int row, int column) {
+    const CpsGroundGrid *grid = &patch->grid;
+    if (patch->rows == 0) return patch->centre;
+    const int j = index_of(grid->y_count, row), i = index_of(grid->x_count, column);
+    return vec3_add(patch->centre, vec3(grid->x[i], grid->y[j],
+                                        grid->z[(size_t)j * (size_t)grid->x_count + (size_t)i]));
+}
+
 static Vec3 point_of(const Patch *patch, int row, int column) {
+    if (patch->obstacle->kind == CPS_OBSTACLE_GROUND ||
+        patch->obstacle->kind == CPS_OBSTACLE_SURFACE)
+        return point_of_ground(patch, row, column);
     const double r = patch->obstacle->radius, angle = patch->turned + 2 * CPSI_PI * column / AROUND,
                  polar = CPSI_PI * row / ALONG;
     double x[3];
@@ -156,11 +196,12 @@ void cpsi_paraview_obstacles_name(int step, char name[32]) {
         snprintf(name, 32, "step-%05d-obstacles.vtp", step);
 }
 
-bool cpsi_paraview_obstacles_turn(const CpsResults *results, int step) {
-    bool turn = false;
+bool cpsi_paraview_obstacles_move(const CpsResults *results, int step) {
+    bool moves = false;
     for (int k = 0; k < results->obstacle_count; ++k)
-        turn = turn || cpsi_results_turn(results, step, k) != 0;
-    return turn;
+        moves =
+            moves || cpsi_results_turns(results, step, k) || cpsi_results_moves(results, step, k);
+    return moves;
 }
 
 /* after a step; before the first one, step is -1 */
@@ -170,8 +211,10 @@ static CpsStatus write_file(CpsResults *results, int step, Patch *patch, CpsErro
     cpsi_paraview_obstacles_name(step, name);
     const CpsStatus status = cpsi_directory_create(results->directory, name, &out, err);
     if (status) return status;
-    for (int k = 0; k < results->obstacle_count; ++k)
+    for (int k = 0; k < results->obstacle_count; ++k) {
+        if (step < 0 || results->obstacle[k].moves) patch[k] = patch_of(results, step, k);
         patch[k].turned = cpsi_results_turned(results, step, k);
+    }
     write_obstacles(results->obstacle_count, patch, out);
     return cpsi_directory_close_file(results->directory, out, err);
 }
@@ -180,11 +223,9 @@ CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err) {
     if (results->obstacle_count == 0 || results->snapshot_count == 0) return CPS_OK;
     Patch *patch = calloc((size_t)results->obstacle_count, sizeof *patch);
     if (!patch) return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for the surfaces of obstacles");
-    for (int k = 0; k < results->obstacle_count; ++k)
-        patch[k] = patch_of(results, &results->obstacle[k]);
     CpsStatus status = write_file(results, -1, patch, err);
     for (int step = 0; step < results->row_count && !status; ++step)
-        if (cpsi_paraview_obstacles_turn(results, step))
+        if (cpsi_paraview_obstacles_move(results, step))
             status = write_file(results, step, patch, err);
     free(patch);
     return status;

@@ -66,6 +66,12 @@ static const CpsiColumn LINE_COLUMN[] = {
     {"sweep", "m", LINE(sweep)},
 };
 
+/* Where ends may be let go. */
+static const CpsiColumn FAILURE_COLUMN[] = {
+    {"break_share", "1", CPSI_MEMBER_IF(CpsLineFailure, has_break_at, share)},
+    {"break_share_at", "m", CPSI_MEMBER_IF(CpsLineFailure, has_break_at, arc_length)},
+};
+
 #define BODY(member) CPSI_MEMBER(CpsiBodyRow, member)
 
 static const CpsiColumn BODY_COLUMN[] = {
@@ -82,20 +88,38 @@ static const CpsiColumn BODY_COLUMN[] = {
 enum {
     STEP_COLUMNS = sizeof STEP_COLUMN / sizeof STEP_COLUMN[0],
     LINE_COLUMNS = sizeof LINE_COLUMN / sizeof LINE_COLUMN[0],
+    FAILURE_COLUMNS = sizeof FAILURE_COLUMN / sizeof FAILURE_COLUMN[0],
     BODY_COLUMNS = sizeof BODY_COLUMN / sizeof BODY_COLUMN[0]
 };
+
+/* What the failure of a line has beside numbers: which ends were let go. */
+static void write_failure_heads(FILE *out, const char *line) {
+    cpsi_csv_names(out, FAILURE_COLUMN, FAILURE_COLUMNS, line);
+    fprintf(out, ",%s.A.release,%s.B.release", line, line);
+}
+
+static void write_failure(FILE *out, const CpsLineFailure *failure) {
+    cpsi_csv_values(out, FAILURE_COLUMN, FAILURE_COLUMNS, failure);
+    for (int end = 0; end < 2; ++end) fprintf(out, ",%s", cps_release_name(failure->release[end]));
+}
 
 static void write_heads(FILE *out, const CpsResults *results) {
     fputs("step,name,outcome,iterations,substeps,jumps,places_not_unique", out);
     cpsi_csv_names(out, STEP_COLUMN, STEP_COLUMNS, NULL);
     for (int l = 0; l < cpsi_listed_lines(results); ++l)
         cpsi_csv_names(out, LINE_COLUMN, LINE_COLUMNS, results->line_name[l]);
+    for (int l = 0; l < cpsi_listed_lines(results) && results->lets_go; ++l)
+        write_failure_heads(out, results->line_name[l]);
     for (int i = 0; i < results->body_count; ++i)
         cpsi_csv_names(out, BODY_COLUMN, BODY_COLUMNS, results->body[i].name);
     fputs("\n1,,,1,1,1,1", out);
     cpsi_csv_units(out, STEP_COLUMN, STEP_COLUMNS);
     for (int l = 0; l < cpsi_listed_lines(results); ++l)
         cpsi_csv_units(out, LINE_COLUMN, LINE_COLUMNS);
+    for (int l = 0; l < cpsi_listed_lines(results) && results->lets_go; ++l) {
+        cpsi_csv_units(out, FAILURE_COLUMN, FAILURE_COLUMNS);
+        fputs(",,", out);
+    }
     for (int i = 0; i < results->body_count; ++i) cpsi_csv_units(out, BODY_COLUMN, BODY_COLUMNS);
     fputs("\n", out);
 }
@@ -112,6 +136,8 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
         cpsi_csv_values(out, STEP_COLUMN, STEP_COLUMNS, &row->report);
         for (int l = 0; l < cpsi_listed_lines(results); ++l)
             cpsi_csv_values(out, LINE_COLUMN, LINE_COLUMNS, &row->line[l].report);
+        for (int l = 0; l < cpsi_listed_lines(results) && results->lets_go; ++l)
+            write_failure(out, &row->line[l].failure);
         for (int i = 0; i < results->body_count; ++i)
             cpsi_csv_values(out, BODY_COLUMN, BODY_COLUMNS, &row->body[i]);
         fputs("\n", out);

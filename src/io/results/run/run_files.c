@@ -32,11 +32,13 @@ static bool copy_stages(CpsResults *results, const CpsScene *scene) {
         stage->first = (int)first;
         first += scene->stage[i].step_count;
         stage->last = (int)first - 1;
-        stage->turn = calloc((size_t)scene->obstacle_count + 1, sizeof *stage->turn);
-        if (!stage->name || !stage->turn) return false;
+        if (!stage->name) return false;
         for (int k = 0; k < scene->stage[i].turn_count; ++k)
-            stage->turn[scene->stage[i].turn[k].obstacle] =
-                scene->stage[i].turn[k].angle / scene->stage[i].step_count;
+            stage->moves = stage->moves || scene->stage[i].turn[k].angle != 0;
+        for (int k = 0; k < scene->stage[i].shift_count; ++k)
+            for (int a = 0; a < 3; ++a)
+                stage->moves = stage->moves || scene->stage[i].shift[k].by[a] != 0 ||
+                               scene->stage[i].shift[k].turn[a] != 0;
     }
     return true;
 }
@@ -49,6 +51,9 @@ static bool copy_obstacles(CpsResults *results, const CpsScene *scene) {
         results->obstacle[k] = scene->obstacle[k];
         results->obstacle[k].name = copy_text(scene->obstacle[k].name);
         results->obstacle[k].friction_set = NULL;
+        results->obstacle[k].ground = NULL;
+        if (scene->obstacle[k].kind == CPS_OBSTACLE_GROUND)
+            results->obstacle[k].ground = cps_ground_retain(scene->obstacle[k].ground);
         results->obstacle_count = k + 1;
         if (!results->obstacle[k].name) return false;
         for (int a = 0; a < 3; ++a) results->obstacle[k].point[a] -= results->origin[a];
@@ -89,6 +94,7 @@ static int point_of(const CpsLine *line, int end) {
 
 static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvolution *evolution) {
     results->planned_steps = cps_evolution_step_count(evolution);
+    results->lets_go = cpsi_lets_go(scene);
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
     results->has_water_surface = scene->has_water_surface;
@@ -170,12 +176,6 @@ CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
                          "directory, scene and evolution are all needed to open results");
     CpsStatus status = cps_results_check_options(options, err);
     if (status) return status;
-    for (int k = 0; k < scene->obstacle_count; ++k)
-        if (scene->obstacle[k].moves)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "obstacle '%s' may move: result files hold obstacles that stay",
-                             scene->obstacle[k].name);
-
     CpsResults *results = calloc(1, sizeof *results);
     if (!results) return fail_memory(err);
     results->paraview = !options->no_paraview;
@@ -217,6 +217,7 @@ static void free_row(CpsiRow *row) {
     free(row->line);
     free(row->point);
     free(row->body);
+    free(row->place);
     free(row->stiffness);
 }
 
@@ -232,7 +233,7 @@ static void find_stiffness(const CpsEvolution *evolution, int i, CpsStiffness fo
  * body with that. */
 static bool is_held(const CpsResults *results, const CpsiRow *row, const CpsLineView *view, int l,
                     int e) {
-    const int point = results->line_point[l][e];
+    const int point = cpsi_results_point_of(results, row, l, e);
     if (point == CPSI_AT_NO_POINT) return view->end[e].kind == CPS_END_KIND_HELD;
     if (row->point[point].state != CPS_POINT_STATE_ON_BODY)
         return row->point[point].state == CPS_POINT_STATE_HELD;
@@ -244,7 +245,22 @@ static bool reserve_points(const CpsResults *results, CpsiRow *row) {
     if (results->point_count > 0)
         row->point = calloc((size_t)results->point_count, sizeof *row->point);
     if (results->body_count > 0) row->body = calloc((size_t)results->body_count, sizeof *row->body);
-    return (row->point || results->point_count == 0) && (row->body || results->body_count == 0);
+    if (results->obstacle_count > 0)
+        row->place = calloc((size_t)results->obstacle_count, sizeof *row->place);
+    return (row->point || results->point_count == 0) && (row->body || results->body_count == 0) &&
+           (row->place || results->obstacle_count == 0);
+}
+
+/* The last row is a break, of which the stages know nothing: it belongs to the one under way, or to
+ * the one that has just ended, and those to come begin later. */
+static void insert_break(CpsResults *results) {
+    const int row = results->row_count - 1;
+    results->planned_steps++;
+    for (int i = 0; i < results->stage_count; ++i) {
+        CpsiStage *stage = &results->stage[i];
+        if (stage->first >= row) stage->first++;
+        if (stage->last >= row - 1) stage->last++;
+    }
 }
 
 static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
@@ -255,7 +271,8 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         results->row = grown;
         results->row_capacity = (int)capacity;
     }
-    CpsiRow row = {.report = cps_evolution_report(evolution)};
+    CpsiRow row = {.report = cps_evolution_report(evolution),
+                   .parted = cps_evolution_break(evolution)};
     row.name = copy_text(row.report.name);
     row.report.name = row.name;
     row.line = calloc((size_t)results->line_count, sizeof *row.line);
@@ -270,28 +287,27 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         row.point[i] = cps_evolution_point_report(evolution, i);
     for (int i = 0; i < results->body_count; ++i)
         cpsi_body_row(evolution, i, results->stiffness, &row.body[i]);
+    cpsi_obstacle_rows(results, evolution, row.place);
     for (int i = 0; i < results->line_count; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         CpsiLineRow *line = &row.line[i];
         line->report = cps_evolution_line_report(evolution, i);
+        line->failure = cps_evolution_line_failure(evolution, i);
+        line->failure.break_at = NULL;
         line->open_reaction = open_reaction(&view);
         for (int e = 0; e < 2; ++e) line->held[e] = is_held(results, &row, &view, i, e);
         if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
         if (row.stiffness) find_stiffness(evolution, i, row.stiffness[i]);
     }
     results->row[results->row_count++] = row;
+    if (row.parted.is_break) insert_break(results);
     return true;
 }
 
 static CpsStatus append(CpsResults *results, const CpsEvolution *evolution, CpsError *err) {
     if (!append_row(results, evolution) || !cpsi_snapshot_append(results, evolution))
         return fail_memory(err);
-    double *turn = calloc((size_t)results->obstacle_count + 1, sizeof *turn);
-    if (!turn) return fail_memory(err);
-    for (int k = 0; k < results->obstacle_count; ++k)
-        turn[k] = cpsi_results_turn(results, results->row_count - 1, k);
-    const CpsStatus status = cpsi_netcdf_append(results->netcdf, evolution, turn, err);
-    free(turn);
+    const CpsStatus status = cpsi_netcdf_append(results->netcdf, evolution, err);
     if (status || !results->paraview) return status;
     const CpsStatus written = cpsi_paraview_step(results, evolution, err);
     return written ? written : cpsi_paraview_points(results, err);
@@ -308,6 +324,15 @@ static bool has_these_lines(const CpsResults *results, const CpsEvolution *evolu
     return true;
 }
 
+static bool has_let_go(const CpsEvolution *evolution) {
+    for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
+        const CpsLineFailure failure = cps_evolution_line_failure(evolution, i);
+        for (int end = 0; end < 2; ++end)
+            if (failure.release[end] != CPS_RELEASE_NONE) return true;
+    }
+    return false;
+}
+
 static CpsStatus refuse_failed(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_ARGUMENT,
                      "these results have failed or are finished; destroy them and open new ones");
@@ -322,6 +347,10 @@ CpsStatus cps_results_append(CpsResults *results, const CpsEvolution *evolution,
             err, CPS_ERR_ARGUMENT,
             "the evolution has other lines, points or bodies than the one that these results were "
             "opened for");
+    if (!results->lets_go && has_let_go(evolution))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "an end of a line was let go, but these results were opened for a scene "
+                         "in which none can be: give a line a break_at, however large");
     const CpsStepReport report = cps_evolution_report(evolution);
     if (report.step_count != results->row_count + 1)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -408,12 +437,12 @@ void cps_results_destroy(CpsResults *results) {
     cpsi_directory_destroy(results->directory);
     for (int i = 0; i < results->row_count; ++i) free_row(&results->row[i]);
     for (int i = 0; i < results->snapshot_count; ++i) cpsi_snapshot_free(&results->snapshot[i]);
-    for (int i = 0; i < results->stage_count; ++i) {
-        free(results->stage[i].name);
-        free(results->stage[i].turn);
-    }
+    for (int i = 0; i < results->stage_count; ++i) free(results->stage[i].name);
     for (int i = 0; i < results->line_count; ++i) free(results->line_name[i]);
-    for (int i = 0; i < results->obstacle_count; ++i) free((char *)results->obstacle[i].name);
+    for (int i = 0; i < results->obstacle_count; ++i) {
+        free((char *)results->obstacle[i].name);
+        cps_ground_release((CpsGround *)results->obstacle[i].ground);
+    }
     for (int i = 0; i < results->point_count; ++i) free((char *)results->point[i].name);
     for (int i = 0; i < results->body_count; ++i) free((char *)results->body[i].name);
     free(results->row);

@@ -29,19 +29,31 @@ static bool is_plain(CpsResultsKind kind, const char *name) {
     return false;
 }
 
+/* Is an obstacle to turn or move in this step of the history? */
+static bool is_to_move(const CpsResults *results, int step) {
+    for (int i = 0; i < results->stage_count; ++i)
+        if (step >= results->stage[i].first && step <= results->stage[i].last)
+            return results->stage[i].moves;
+    return false;
+}
+
 /* A name of step-00000.vtp and its like, which begins with the number. */
 static bool writes_of_step(const CpsResults *results, const char *name) {
     char own[64];
     const unsigned long step = strtoul(name + sizeof "step-" - 1, NULL, 10);
-    if (step >= (unsigned long)results->planned_steps) return false;
+    /* breaks, one for each end of a line at most, shift the steps that follow */
+    const bool shifts = results->lets_go;
+    const unsigned long breaks = shifts ? 2ul * (unsigned long)results->line_count : 0;
+    if (step >= (unsigned long)results->planned_steps + breaks) return false;
     snprintf(own, sizeof own, "step-%05lu.vtp", step);
     if (strcmp(name, own) == 0) return results->paraview;
     snprintf(own, sizeof own, "step-%05lu-points.vtp", step);
     if (strcmp(name, own) == 0) return results->paraview && results->point_count > 0;
     cpsi_paraview_obstacles_name((int)step, own);
     if (strcmp(name, own) == 0)
-        return results->paraview && cpsi_paraview_obstacles_turn(results, (int)step);
-    if (!cpsi_results_pictured(results, (int)step)) return false;
+        return results->paraview && results->obstacle_count > 0 &&
+               (shifts || is_to_move(results, (int)step));
+    if (!shifts && !cpsi_results_pictured(results, (int)step)) return false;
     snprintf(own, sizeof own, "step-%05lu-plan.svg", step);
     if (strcmp(name, own) == 0) return true;
     snprintf(own, sizeof own, "step-%05lu-elevation.svg", step);

@@ -96,8 +96,30 @@ static void write_bend(FILE *out, const CpsBend *bend) {
     write_number(out, "element_m", bend->element, "},\n");
 }
 
-static void write_line(FILE *out, const char *name, const CpsLineReport *report,
+/* which ends of a line were let go, and how near it is to parting */
+static void write_failure(FILE *out, const CpsLineFailure *failure) {
+    fprintf(out, "          \"release\": {\"A\": \"%s\", \"B\": \"%s\"},\n",
+            cps_release_name(failure->release[0]), cps_release_name(failure->release[1]));
+    if (!failure->has_break_at) return;
+    fputs("          ", out);
+    write_number(out, "break_share", failure->share, ", ");
+    write_number(out, "break_share_at_m", failure->arc_length, ",\n");
+}
+
+/* the break that a step is */
+static void write_break(FILE *out, const CpsResults *results, const CpsBreak *parted) {
+    if (!parted->is_break) return;
+    fputs("      \"break\": {", out);
+    write_string(out, "line", results->line_name[parted->line], ", ");
+    write_string(out, "end", parted->end == CPS_END_A ? "A" : "B", ", ");
+    write_number(out, "tension_N", parted->tension, ", ");
+    write_number(out, "break_at_N", parted->break_at, ", ");
+    write_number(out, "at_m", parted->arc_length, "},\n");
+}
+
+static void write_line(FILE *out, const char *name, const CpsiLineRow *row, bool lets_go,
                        const char *after) {
+    const CpsLineReport *report = &row->report;
     fputs("        ", out);
     write_key(out, name);
     fputs("{\n          ", out);
@@ -116,6 +138,7 @@ static void write_line(FILE *out, const char *name, const CpsLineReport *report,
         write_number(out, "utilisation", report->utilisation, ", ");
         write_number(out, "utilisation_at_m", report->utilisation_arc_length, ",\n");
     }
+    if (lets_go) write_failure(out, &row->failure);
     write_proof(out, report);
     write_bend(out, &report->bend);
     write_end(out, CPS_END_A, report, ",\n");
@@ -247,11 +270,12 @@ static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row)
     write_string(out, "name", row->name, ", ");
     write_string(out, "outcome", cps_outcome_name(row->report.outcome), ", ");
     fprintf(out, "\"iterations\": %d,\n", row->report.iteration_count);
+    write_break(out, results, &row->parted);
     write_certificate(out, results, row);
     write_ledger(out, &row->report);
     write_number(out, "wall_s", row->report.wall, ",\n      \"lines\": {\n");
     for (int i = 0; i < cpsi_listed_lines(results); ++i)
-        write_line(out, results->line_name[i], &row->line[i].report,
+        write_line(out, results->line_name[i], &row->line[i], results->lets_go,
                    i + 1 < results->line_count ? ",\n" : "\n");
     fputs("      }", out);
     write_points(out, results, row);

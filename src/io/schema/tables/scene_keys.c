@@ -36,6 +36,26 @@ static const CpsiKey SPHERE_KEYS[] = {
 };
 static const CpsiMapping SPHERE = {"sphere", KEYS(SPHERE_KEYS)};
 
+static const CpsiKey GROUND_KEYS[] = {
+    {"file", REQUIRED, TEXT(Obstacle, grid, 255), ANY,
+     .help = "a grid of heights, beside this file"},
+    {"form", REQUIRED, WORD(Obstacle, form), .words = "esri xyz netcdf moordyn_c moordyn_f",
+     .help = "form of the file: ESRI ASCII grid; rows x y z of all points of a grid; classic "
+             "netCDF; or a bathymetry file of MoorDyn in C or in Fortran"},
+    {"variable", OPTIONAL, TEXT(Obstacle, variable, 64), ANY, .fallback = "\"z\"",
+     .help = "of a netCDF file: its variable of heights over y and x"},
+    {"depths", OPTIONAL, FLAG(Obstacle, are_depths), .fallback = "false",
+     .help = "the file has depths, downwards, in place of heights; those of moordyn_f always are"},
+    {"point", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
+     .fallback = "[0, 0, 0]", .help = "where the origin of the file's coordinates is in the scene"},
+    {"extend", OPTIONAL, FLAG(Obstacle, extends), .fallback = "false",
+     .help = "beyond its edges it goes on with their slopes; else lines that leave it are refused"},
+    {"friction_factor", OPTIONAL, TEXT(Obstacle, factors, 255), ANY,
+     .help = "a second file of the same form and points: factors of the friction, bilinear between "
+             "the points"},
+};
+static const CpsiMapping GROUND = {"ground", KEYS(GROUND_KEYS)};
+
 static const CpsiKey FRICTION_KEYS[] = {
     {"axial", ONE_OF, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .help = "coefficient along the line, or along the grain"},
@@ -59,6 +79,8 @@ static const CpsiKey OBSTACLE_KEYS[] = {
     {"cylinder", ONE_OF, AROUND, .inside = &CYLINDER,
      .help = "a solid cylinder without ends (bollard, pipe, drum); lines stay outside"},
     {"sphere", ONE_OF, AROUND, .inside = &SPHERE, .help = "a solid ball; lines stay outside"},
+    {"ground", ONE_OF, AROUND, .inside = &GROUND,
+     .help = "a smooth surface through the points of a grid; lines stay above it"},
     {"friction", OPTIONAL, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .other = &(const CpsiKey){.type = CPSI_MAPPING, .inside = &FRICTION}, .fallback = "0",
      .help = "Coulomb friction coefficient; or one along the line or the grain and another "
@@ -69,6 +91,7 @@ static void begin_obstacle(void *values) {
     CpsObstacle *obstacle = &((CpsiObstacleValues *)values)->obstacle;
     *obstacle = cps_obstacle_default();
     obstacle->friction_lateral = NAN; /* not given */
+    ((CpsiObstacleValues *)values)->variable = "z";
 }
 
 static const CpsiMapping OBSTACLE = {"obstacle", KEYS(OBSTACLE_KEYS), INTO(Obstacle),
@@ -321,13 +344,15 @@ static const CpsiKey TYPE_KEYS[] = {
      .help = "axial stiffness EA; .inf for an inextensible type; or a table of strain and tension"},
     {"breaking_load", OPTIONAL, NUMBER(Type, breaking_load), POSITIVE, .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over it"},
+    {"break_at", OPTIONAL, NUMBER(Type, break_at), POSITIVE, .unit = "N",
+     .help = "tension above which a line of it parts: it is let go at the nearest end"},
     {"friction", OPTIONAL, NUMBER(Type, friction), NOT_NEGATIVE, .fallback = "1",
      .help = "factor of the friction of whatever it touches"},
 };
 
 static void begin_type(void *values) {
     CpsiTypeValues *type = values;
-    type->mass = type->breaking_load = NAN;
+    type->mass = type->breaking_load = type->break_at = NAN;
     type->friction = 1;
 }
 
@@ -378,6 +403,8 @@ static const CpsiKey LINE_KEYS[] = {
      .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over "
              "it"},
+    {"break_at", OPTIONAL, NUMBER(Line, break_at), POSITIVE, .unless = "sections", .unit = "N",
+     .help = "tension above which it parts: it is let go at the nearest end"},
     {"point_weights", OPTIONAL, LIST(Line, point_weights, 0), .inside = &POINT_WEIGHT,
      .fallback = "[]", .help = "clumps and buoys between the ends, in order from A to B"},
     {"friction_zones", OPTIONAL, LIST(Line, zones, 0), .inside = &ZONE, .fallback = "[]",
@@ -396,7 +423,7 @@ static const CpsiKey LINE_KEYS[] = {
 static void begin_line(void *values) {
     CpsiLineValues *line = values;
     line->line = cps_line_default();
-    line->mass = line->count = line->breaking_load = line->element_length = NAN;
+    line->mass = line->count = line->breaking_load = line->break_at = line->element_length = NAN;
 }
 
 static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};
@@ -430,6 +457,8 @@ static const CpsiKey CHANGE_KEYS[] = {
      .help = "move the end by this much from where the entry before has put it"},
     {"force", ONE_OF, POINT(Change, value, 3), ANY, .unit = "N",
      .help = "pull with this force; a held end is let go, from the force it carries"},
+    {"release", ONE_OF, FLAG(Change, yes),
+     .help = "true: let the end go at once, without force, also from its point"},
 };
 static const CpsiMapping CHANGE = {"change", KEYS(CHANGE_KEYS), INTO(Change), WHICH(Change, kind)};
 
@@ -477,6 +506,28 @@ static const CpsiKey GRASP_KEYS[] = {
 };
 static const CpsiMapping GRASP = {"grasp", KEYS(GRASP_KEYS), INTO(Grasp), WHICH(Grasp, kind)};
 
+static const CpsiKey SHIFT_KEYS[] = {
+    {"move", OPTIONAL, POINT(Shift, move, 3), ANY, .unit = "m", .fallback = "[0, 0, 0]",
+     .help = "move the obstacle by this much in this entry; what sticks to it moves with it"},
+    {"turn", OPTIONAL, NUMBER(Shift, turn), ANY, .unit = "degrees", .with = "axis",
+     .help = "turn it by so much, by the right-hand rule about the axis given"},
+    {"axis", OPTIONAL, POINT(Shift, axis, 3), ANY, .with = "turn",
+     .help = "direction of the axis that it turns about, of any length but zero"},
+    {"about", OPTIONAL, POINT(Shift, about, 3), ANY, .unit = "m", .with = "turn",
+     .fallback = "[0, 0, 0]",
+     .help = "a point of that axis as the entry begins; a move takes it along"},
+};
+
+static void begin_shift(void *values) { ((CpsiShiftValues *)values)->turn = NAN; }
+
+static const CpsiMapping SHIFT = {
+    "change",
+    KEYS(SHIFT_KEYS),
+    INTO(Shift),
+    .definition = "obstacle_change",
+    .begin = begin_shift,
+    .also = "\"anyOf\": [{\"required\": [\"move\"]}, {\"required\": [\"turn\"]}]"};
+
 static const CpsiKey STAGE_KEYS[] = {
     {"name", OPTIONAL, TEXT(Stage, stage.name, 0),
      .help = "name of the entry in the results; by default its number"},
@@ -504,6 +555,9 @@ static const CpsiKey STAGE_KEYS[] = {
     {"BODY.body", OPTIONAL, OWNED(Stage, body_changes), .owner = "bodies", .after = "body",
      .inside = &BODY_CHANGE,
      .help = "what happens to a body, as in spar.body; all others stay as they are"},
+    {"OBSTACLE.obstacle", OPTIONAL, OWNED(Stage, shifts), .owner = "obstacles", .after = "obstacle",
+     .inside = &SHIFT,
+     .help = "how an obstacle moves, as in bollard.obstacle; all others stay where they are"},
 };
 
 static void begin_stage(void *values) {
@@ -552,8 +606,8 @@ static const CpsiKey SCENE_KEYS[] = {
     {"solver", OPTIONAL, AROUND, .inside = &SOLVER, .fallback = "{}",
      .help = "how steps are solved"},
     {"history", OPTIONAL, LIST(Scene, history, 0), .inside = &STAGE, .fallback = "[]",
-     .help = "what happens to the lines' ends, to points, to bodies and to obstacles that turn, in "
-             "turn"},
+     .help = "what happens to the lines' ends, to points, to bodies and to obstacles that turn or "
+             "move, in turn"},
 };
 
 static void begin_scene(void *values) {

@@ -24,6 +24,11 @@ typedef struct CpsiObstacleValues {
     const CpsiYaml *node; /* the key is the name */
     CpsObstacle obstacle;
     const CpsiYaml *set; /* set of friction forces */
+    /* of ground: files beside the scene, their form in the order of CpsiGridForm, and the name of a
+     * netCDF file's variable */
+    const char *grid, *factors, *variable;
+    int form;
+    bool are_depths, extends;
 } CpsiObstacleValues;
 
 /* A point at which lines end. */
@@ -80,6 +85,7 @@ typedef struct CpsiTypeValues {
     double mass, diameter, weight, stiffness, friction;
     CpsiStiffnessValues table; /* in place of `stiffness` */
     double breaking_load;      /* NaN: not given */
+    double break_at;           /* NaN: not given */
 } CpsiTypeValues;
 
 /* Elements that become shorter towards an end, or towards both. */
@@ -143,6 +149,7 @@ typedef struct CpsiLineValues {
     CpsLine line;
     double mass, count, diameter; /* count: number of elements; NaN: not given */
     double breaking_load;         /* NaN: not given */
+    double break_at;              /* NaN: not given */
     CpsiStiffnessValues table;    /* in place of line.stiffness */
     CpsiPretensionValues pretension;
     CpsiList sections;        /* CpsiSectionValues */
@@ -159,13 +166,15 @@ typedef struct CpsiLineValues {
 typedef enum CpsiChangeKind {
     CPSI_CHANGE_POSITION,
     CPSI_CHANGE_MOVE,
-    CPSI_CHANGE_FORCE
+    CPSI_CHANGE_FORCE,
+    CPSI_CHANGE_RELEASE /* of an end only */
 } CpsiChangeKind;
 
 typedef struct CpsiChangeValues {
     const CpsiYaml *node; /* the key is LINE.END or POINT.point */
     int kind;             /* CpsiChangeKind */
     double value[3];
+    bool yes; /* of `release` */
 } CpsiChangeValues;
 
 /* A change of a body: its pose, or the load on it. A key is given where the mapping has it. */
@@ -175,6 +184,15 @@ typedef struct CpsiBodyChangeValues {
     CpsiRotationValues rotation;
     double force[3], moment[3], arm[3];
 } CpsiBodyChangeValues;
+
+/* A shift of an obstacle. */
+typedef struct CpsiShiftValues {
+    const CpsiYaml *node; /* the key is OBSTACLE.obstacle */
+    double move[3];
+    double turn; /* [degrees] NaN: not given */
+    double axis[3], about[3];
+} CpsiShiftValues;
+
 /* Which of its keys a grasp of a node has. */
 typedef enum CpsiGraspKind {
     CPSI_GRASP_POSITION,
@@ -199,6 +217,7 @@ typedef struct CpsiStageValues {
     CpsiList body_changes;  /* CpsiBodyChangeValues */
     CpsiList grasps;        /* CpsiGraspValues, with the key LINE.node */
     CpsiList turns;         /* CpsiNumberItem, with the key OBSTACLE.turn */
+    CpsiList shifts;        /* CpsiShiftValues */
 } CpsiStageValues;
 
 extern const CpsiMapping cpsi_scene_file;

@@ -162,6 +162,16 @@ static void draw_net(const Pen *pen, const CpsResults *results, const CpsiSnapsh
     }
 }
 
+/* A red cross: the line has parted here. */
+#define CROSS "M-5 -5L5 5M-5 5L5 -5\" stroke=\"#d22\" stroke-width=\"2.2\" fill=\"none\"/>"
+
+static void draw_parted(const Pen *pen, const double position[3]) {
+    const Vec3 place = vec3_load(position);
+    fprintf(pen->out, "<path transform=\"translate(%.1f %.1f)\" d=\"" CROSS,
+            cpsi_frame_x(pen->frame, vec3_dot(pen->view->right, place)),
+            cpsi_frame_y(pen->frame, vec3_dot(pen->view->up, place)));
+}
+
 static void draw_end(const Pen *pen, const double position[3], bool held, const char *name) {
     const Vec3 place = vec3_load(position);
     const double x = cpsi_frame_x(pen->frame, vec3_dot(pen->view->right, place));
@@ -238,21 +248,30 @@ static void draw_ends(const Pen *pen, const CpsResults *results, const CpsiSnaps
         const bool named = results->line_count > 1 && results->line_count <= NAMED_LINES;
         for (int e = 0; e < 2; ++e) {
             char name[64] = "";
-            if (results->line_point[l][e] != CPSI_AT_NO_POINT) continue; /* drawn once, with all */
+            if (cpsi_results_point_of(results, row, l, e) != CPSI_AT_NO_POINT)
+                continue; /* drawn once, with all */
             if (results->line_count <= NAMED_LINES)
                 snprintf(name, sizeof name, "%.40s%s%s", named ? results->line_name[l] : "",
                          named ? "." : "", e ? "B" : "A");
-            draw_end(pen, shape->position + (e ? 3 * (size_t)(shape->points - 1) : 0),
-                     row->line[l].held[e], name);
+            const double *place = shape->position + (e ? 3 * (size_t)(shape->points - 1) : 0);
+            draw_end(pen, place, row->line[l].held[e], name);
+            if (row->line[l].failure.release[e] == CPS_RELEASE_BY_BREAK) draw_parted(pen, place);
         }
     }
 }
 
-static bool all_ends_at_points(const CpsResults *results) {
+static bool all_ends_at_points(const CpsResults *results, const CpsiRow *row) {
     for (int l = 0; l < results->line_count; ++l)
         for (int e = 0; e < 2; ++e)
-            if (results->line_point[l][e] == CPSI_AT_NO_POINT) return false;
+            if (cpsi_results_point_of(results, row, l, e) == CPSI_AT_NO_POINT) return false;
     return true;
+}
+
+static bool has_parted(const CpsResults *results, const CpsiRow *row) {
+    for (int l = 0; l < results->line_count; ++l)
+        for (int e = 0; e < 2; ++e)
+            if (row->line[l].failure.release[e] == CPS_RELEASE_BY_BREAK) return true;
+    return false;
 }
 
 static bool has_points_of(const CpsResults *results, CpsPointKind kind) {
@@ -265,7 +284,8 @@ static bool has_points_of(const CpsResults *results, CpsPointKind kind) {
     "<rect x=\"-4.5\" y=\"-4.5\" width=\"9\" height=\"9\" fill=\"" fill "\" " \
     "stroke=\"#222\" stroke-width=\"1.4\"/>"
 
-static void draw_step_legend(const CpsResults *results, bool air, double y, FILE *out) {
+static void draw_step_legend(const CpsResults *results, const CpsiRow *row, bool air, double y,
+                             FILE *out) {
     char mark[160];
     double x = CPSI_FRAME_LEFT;
     snprintf(mark, sizeof mark, "<line x1=\"-11\" x2=\"11\" stroke=\"%s\" stroke-width=\"2\"/>",
@@ -288,7 +308,8 @@ static void draw_step_legend(const CpsResults *results, bool air, double y, FILE
                  cpsi_colour(CPSI_SCALE_TENSION, 0.5).hex);
         cpsi_legend(out, &x, y, mark, "off the obstacle");
     }
-    if (!all_ends_at_points(results)) {
+    if (has_parted(results, row)) cpsi_legend(out, &x, y, "<path d=\"" CROSS, "parted");
+    if (!all_ends_at_points(results, row)) {
         cpsi_legend(out, &x, y, "<circle r=\"4.5\" fill=\"#222\" stroke=\"#222\"/>", "held end");
         cpsi_legend(out, &x, y,
                     "<circle r=\"4.5\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"1.4\"/>",
@@ -371,8 +392,8 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
     cpsi_frame_bar(out, &frame, CPSI_SCALE_TENSION, range[0] * unit.factor, range[1] * unit.factor,
                    label);
     if (results->line_count <= FEW_LINES)
-        draw_step_legend(results, friction_in_air(results, snapshot), frame.top + frame.height + 68,
-                         out);
+        draw_step_legend(results, &results->row[snapshot->step], friction_in_air(results, snapshot),
+                         frame.top + frame.height + 68, out);
     cpsi_svg_finish(out);
 }
 

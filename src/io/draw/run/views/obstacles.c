@@ -3,8 +3,10 @@
  *
  * A plane seen from above fills the frame and shows its slope; otherwise its intersection with the
  * paper is shown. Cylinders and balls are shown by their silhouettes: a circle, or the band of a
- * cylinder seen from its side, which has no ends. An obstacle that turns and is seen along its axis
- * has a spoke that turns with it. The water is what is below its surface, in elevations. */
+ * cylinder seen from its side, which has no ends. Ground has a picture of its own (ground.c);
+ * surfaces given as functions are not shown. An obstacle that turns and is seen along its axis
+ * has a spoke that turns with it. One that moves is shown where it is after the step, and lightly
+ * where it was before. The water is what is below its surface, in elevations. */
 #include <math.h>
 #include <string.h>
 
@@ -150,8 +152,8 @@ bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view) 
 }
 
 static bool ever_turns(const CpsResults *results, int k) {
-    for (int i = 0; i < results->stage_count; ++i)
-        if (results->stage[i].turn[k] != 0) return true;
+    for (int i = 0; i < results->row_count; ++i)
+        if (cpsi_results_turns(results, i, k)) return true;
     return false;
 }
 
@@ -163,23 +165,51 @@ static void draw_water(const CpsResults *results, const CpsiView *view, const Cp
     draw_polygon(frame, &below, WATER, SURFACE, out);
 }
 
+static void draw_round(const CpsObstacle *obstacle, const CpsiView *view, const CpsiFrame *frame,
+                       FILE *out) {
+    const Vec3 axis = unit(obstacle->axis);
+    if (cpsi_obstacle_is_circle(obstacle, view))
+        draw_circle(obstacle, view, frame, out);
+    else
+        draw_band(obstacle, vec3_dot(axis, view->right), vec3_dot(axis, view->up), view, frame,
+                  out);
+}
+
+/* Where what moves was before it came to its place after a step. */
+static void draw_former(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
+                        int step, bool planes, FILE *out) {
+    for (int k = 0; k < results->obstacle_count; ++k) {
+        const CpsObstacle was = cpsi_results_obstacle(results, step, k);
+        if (!was.moves || (was.kind == CPS_OBSTACLE_PLANE) != planes) continue;
+        fputs("<g opacity=\"0.4\">", out);
+        if (planes)
+            draw_plane(&was, view, frame, out);
+        else
+            draw_round(&was, view, frame, out);
+        fputs("</g>\n", out);
+    }
+}
+
 void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
                             int step, FILE *out) {
+    /* of all steps: where they end, and lightly where they began */
+    const int now = step >= 0 ? step : results->row_count - 1, former = step >= 0 ? step - 1 : -1;
     draw_water(results, view, frame, out);
-    for (int k = 0; k < results->obstacle_count; ++k)
-        if (results->obstacle[k].kind == CPS_OBSTACLE_PLANE)
-            draw_plane(&results->obstacle[k], view, frame, out);
+    draw_former(results, view, frame, former, true, out);
     for (int k = 0; k < results->obstacle_count; ++k) {
-        const CpsObstacle *obstacle = &results->obstacle[k];
-        if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
-        const Vec3 axis = unit(obstacle->axis);
-        if (cpsi_obstacle_is_circle(obstacle, view))
-            draw_circle(obstacle, view, frame, out);
-        else
-            draw_band(obstacle, vec3_dot(axis, view->right), vec3_dot(axis, view->up), view, frame,
-                      out);
+        const CpsObstacle obstacle = cpsi_results_obstacle(results, now, k);
+        if (obstacle.kind == CPS_OBSTACLE_PLANE) draw_plane(&obstacle, view, frame, out);
+        if (obstacle.kind == CPS_OBSTACLE_GROUND) cpsi_picture_ground(&obstacle, view, frame, out);
+    }
+    draw_former(results, view, frame, former, false, out);
+    for (int k = 0; k < results->obstacle_count; ++k) {
+        const CpsObstacle obstacle = cpsi_results_obstacle(results, now, k);
+        if (obstacle.kind != CPS_OBSTACLE_CYLINDER && obstacle.kind != CPS_OBSTACLE_SPHERE)
+            continue;
+        const Vec3 axis = unit(obstacle.axis);
+        draw_round(&obstacle, view, frame, out);
         const bool end_on = hypot(vec3_dot(axis, view->right), vec3_dot(axis, view->up)) < END_ON;
         if (step >= 0 && end_on && ever_turns(results, k))
-            draw_spoke(obstacle, cpsi_results_turned(results, step, k), view, frame, out);
+            draw_spoke(&obstacle, cpsi_results_turned(results, step, k), view, frame, out);
     }
 }

@@ -57,12 +57,16 @@ static double apart(const double range[2], double c, double r) {
     return fmax(0, fmax(range[0] - (c + r), (c - r) - range[1]));
 }
 
-/* include round silhouettes, unless the lines would be too small beside them */
-static void include_round(const CpsResults *results, CpsiView *view) {
-    const double spread = hypot(view->x[1] - view->x[0], view->y[1] - view->y[0]);
+static bool is_round(const CpsObstacle *obstacle) {
+    return obstacle->kind == CPS_OBSTACLE_CYLINDER || obstacle->kind == CPS_OBSTACLE_SPHERE;
+}
+
+/* include round silhouettes where they are after a step, unless the lines would be too small beside
+ * them */
+static void include_round_at(const CpsResults *results, int step, double spread, CpsiView *view) {
     for (int k = 0; k < results->obstacle_count; ++k) {
-        const CpsObstacle *obstacle = &results->obstacle[k];
-        if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
+        const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
+        if (!is_round(obstacle)) continue;
         view->true_scale = true;
         const Vec3 centre = vec3_load(obstacle->point);
         const double x = vec3_dot(view->right, centre), y = vec3_dot(view->up, centre),
@@ -76,6 +80,14 @@ static void include_round(const CpsResults *results, CpsiView *view) {
         cpsi_range_include(view->y, y - r);
         cpsi_range_include(view->y, y + r);
     }
+}
+
+/* ... at the start, and where lines are drawn */
+static void include_round(const CpsResults *results, CpsiView *view) {
+    const double spread = hypot(view->x[1] - view->x[0], view->y[1] - view->y[0]);
+    include_round_at(results, -1, spread, view);
+    for (int s = 0; s < results->snapshot_count; ++s)
+        include_round_at(results, results->snapshot[s].step, spread, view);
 }
 
 static void include_bodies(const CpsResults *results, const CpsiRow *row, CpsiView *view) {
@@ -175,9 +187,13 @@ static double longest_chord(const CpsResults *results) {
 /* the direction of a slope, across a horizontal cylinder, of the bodies' way, or of the widest
  * spread, as an angle from east */
 static double elevation_angle(const CpsResults *results, Vec3 east, Vec3 north) {
-    for (int k = 0; k < results->obstacle_count; ++k) {
-        const CpsObstacle *obstacle = &results->obstacle[k];
-        if (obstacle->kind == CPS_OBSTACLE_SPHERE) continue;
+    /* at the start, and then where what moves ends */
+    for (int i = 0; i < 2 * results->obstacle_count; ++i) {
+        const int k = i % results->obstacle_count,
+                  step = i < results->obstacle_count ? -1 : results->row_count - 1;
+        const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
+        if (obstacle->kind != CPS_OBSTACLE_PLANE && obstacle->kind != CPS_OBSTACLE_CYLINDER)
+            continue;
         const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE;
         const Vec3 d = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));
         const double e = vec3_dot(d, east), n = vec3_dot(d, north), x = plane ? e : n,

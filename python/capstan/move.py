@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Targets of moves: what changes in a step that is decided on the way (CpsStage of scene.h)."""
+from __future__ import annotations
+
+import math
+import weakref
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Tuple
+
+import numpy as np
+
+from . import _numbers
+from ._errors import ArgumentError
+from ._native import ffi, lib
+
+if TYPE_CHECKING:
+    from .evolution import Evolution
+
+_HELD, _FREE = "position", "force"
+
+
+class Move:
+    """A target of moves, made by `Evolution.target` of a dictionary with the keys of an entry of a scene's history:
+
+        "LINE.A", "LINE.B"   {"position": [x, y, z]}, {"move": [x, y, z]} from where it is, or {"force": [x, y, z]}
+        "LINE.node"          with "at", the natural length from end A: {"position": ..}, {"hold": True}, {"force": ..} or
+                             {"release": True}; further nodes as "LINE.node2" to "LINE.node4"
+        "POINT.point"        as an end
+        "BODY.body"          {"position": .., "rotation": {"quaternion": [w, x, y, z]}} or {"force": .., "moment": ..}
+        "OBSTACLE.turn"      degrees
+        "OBSTACLE.shift"     [x, y, z], of one that moves; or {"by": .., "turn": .., "about": ..} as in CpsShift of shift.h,
+                             with the turn in radians
+        "gravity"            [x, y, z]
+        "name"               name of the step
+
+    The values of vectors can be changed between moves, without a new target:
+
+        target = evolution.target({"rope.B": {"position": [1, 0, 0]}})
+        target["rope.B"][:] = 1.1, 0, 0.2
+        evolution.move(target)
+
+    `move` is resolved when the target is made. Write to a target between moves, not while another thread takes one.
+    """
+
+    def __init__(self, evolution: "Evolution", changes: Mapping[str, Any]) -> None:
+        if not isinstance(changes, Mapping):
+            raise ArgumentError(f"target: found {type(changes).__name__}, expected a dictionary")
+        self._owner = weakref.ref(evolution)
+        self._evolution_names = evolution._names
+        self._keep: List[Any] = []
+        self._values: Dict[str, np.ndarray] = {}
+        self._stage = ffi.new("CpsStage *", lib.cps_stage_default())
+        self._rows: Dict[str, List[Tuple[str, Any]]] = {}
+        for key, value in changes.items():
+            self._sort(evolution, key, value)
+        for rows, kind, fill in ((("change"), "CpsChange", self._end), (("turn"), "CpsTurn", self._turn),
+                                 (("shift"), "CpsShift", self._shift), (("point_change"), "CpsPointChange", self._point),
+                                 (("body_change"), "CpsBodyChange", self._body),
+                                 (("grasp_change"), "CpsGraspChange", self._grasp)):
+            self._fill(evolution, rows, kind, fill)
+
+    def __getitem__(self, key: str) -> np.ndarray:
+        """The vector of a change, to which values can be written: position or force; of a body, both its vectors."""
+        return self._values[key]
+
+    def __repr__(self) -> str:
+        return f"<Move of {', '.join(self._values) or 'nothing'}>"
+
+    # ---- which change belongs to what ----
+
+    def _sort(self, evolution: "Evolution", key: Any, value: Any) -> None:
+        if key == "name":
+            if not isinstance(value, str) or "\0" in value:
+                raise ArgumentError(f"name: found {value!r}, expected a text")
+            self._stage.name = self._held(ffi.new("char[]", value.encode()))
+            return
+        if key == "gravity":
+            self._stage.gravity_changes = True
+            self._vector(key, self._stage.gravity, value)
+            return
+        name, dot, what = str(key).rpartition(".")
+        kinds = {"A": "change", "B": "change", "point": "point_change", "body": "body_change", "turn": "turn",
+                 "shift": "shift", "node": "grasp_change", "node2": "grasp_change", "node3": "grasp_change",
+                 "node4": "grasp_change"}
+        if not isinstance(key, str) or not dot or what not in kinds:
+            raise ArgumentError(f"target: found the key {key!r}, expected 'gravity', 'name', or a name with "
+                                ".A, .B, .node, .point, .body, .turn or .shift")
+        self._rows.setdefault(kinds[what], []).append((key, value))
+
+    def _fill(self, evolution: "Evolution", rows: str, kind: str, fill: Any) -> None:
+        wanted = self._rows.get(rows, [])
+        if not wanted:
+            return
+        array = self._held(ffi.new(f"{kind}[]", len(wanted)))
+        for row, (key, value) in zip(array, wanted):
+            fill(evolution, key, value, row)
+        setattr(self._stage, rows, array)
+        setattr(self._stage, rows + "_count", len(wanted))
+
+    # ---- values ----
+
+    def _held(self, made: Any) -> Any:
+        self._keep.append(made)
+        return made
+
+    def _vector(self, key: str, field: Any, value: Any) -> None:
+        """Write a vector to a field of the stage, and remember the field as an array."""
+        view = np.frombuffer(ffi.buffer(field), np.float64)
+        view[:] = _numbers.array(value, (len(view),), f"'{key}'")
+        self._values[key] = view
+
+    @staticmethod
+    def _only(key: str, value: Any, allowed: Tuple[str, ...], beside: Tuple[str, ...] = ()) -> str:
+        """The one word among those allowed that a change has."""
+        if not isinstance(value, Mapping):
+            raise ArgumentError(f"'{key}': found {value!r:.60}, expected a dictionary with {', '.join(allowed)}")
+        bad = [word for word in value if word not in allowed + beside]
+        found = [word for word in value if word in allowed]
+        if bad or len(found) != 1:
+            raise ArgumentError(f"'{key}': found {', '.join(map(str, value)) or 'nothing'}, "
+                                f"expected exactly one of {', '.join(allowed)}")
+        return found[0]
+
+    def _place(self, key: str, word: str, value: Any, now: Any) -> Any:
+        """A vector, after `move` has been resolved from where the thing is now."""
+        vector = _numbers.array(value, (3,), f"'{key}'")
+        return vector + now if word == "move" else vector
+
+    def _end(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
+        name, _, end = key.rpartition(".")
+        word = self._only(key, value, ("position", "move", "force"))
+        row.line, row.end = evolution._index("lines", name), "AB".index(end)
+        row.to.kind = lib.CPS_END_KIND_FREE if word == "force" else lib.CPS_END_KIND_HELD
+        now = evolution[name].report.end[row.end].position if word == "move" else None
+        self._vector(key, row.to.value, self._place(key, word, value[word], now))
+
+    def _point(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
+        name = key.rpartition(".")[0]
+        word = self._only(key, value, ("position", "move", "force"))
+        row.point = evolution._index("points", name)
+        row.kind = lib.CPS_POINT_KIND_FREE if word == "force" else lib.CPS_POINT_KIND_HELD
+        now = evolution.points[name].position if word == "move" else None
+        self._vector(key, row.value, self._place(key, word, value[word], now))
+
+    def _grasp(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
+        name = key.rpartition(".")[0]
+        word = self._only(key, value, ("position", "hold", "force", "release"), ("at",))
+        row.line = evolution._index("lines", name)
+        if "at" not in value:
+            raise ArgumentError(f"'{key}': 'at' is missing, the natural length from end A to the node")
+        at, places = _numbers.number(value["at"], f"'{key}' at"), evolution[name].arc_length
+        if not 0 <= at <= places[-1]:
+            raise ArgumentError(f"'{key}': found at {at}, expected 0 to {places[-1]}")
+        row.node = int(np.argmin(np.abs(places - at)))
+        row.kind = lib.CPS_END_KIND_FREE if word in ("force", "release") else lib.CPS_END_KIND_HELD
+        row.stays, row.at_once = word == "hold", word == "release"
+        if word in ("hold", "release"):
+            if value[word] is not True:
+                raise ArgumentError(f"'{key}': found {word} {value[word]!r}, expected True")
+        else:
+            self._vector(key, row.value, value[word])
+
+    def _body(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
+        name = key.rpartition(".")[0]
+        pose, load = ("position", "rotation"), ("force", "moment")
+        known = isinstance(value, Mapping) and value and (set(value) <= set(pose) or set(value) <= set(load))
+        if not known:
+            raise ArgumentError(f"'{key}': expected a dictionary with position and rotation, or with force and moment")
+        row.body = evolution._index("bodies", name)
+        if set(value) <= set(load):
+            row.kind = lib.CPS_BODY_KIND_FREE
+            self._vector(key + ".moment", row.moment, value.get("moment", [0, 0, 0]))
+            self._vector(key, row.force, value.get("force", [0, 0, 0]))
+            return
+        row.kind, now = lib.CPS_BODY_KIND_HELD, evolution.bodies[name]
+        rotation = value.get("rotation", {"quaternion": now.rotation})
+        if not isinstance(rotation, Mapping) or set(rotation) != {"quaternion"}:
+            raise ArgumentError(f"'{key}': expected rotation as a dictionary with 'quaternion'")
+        self._vector(key + ".rotation", row.rotation, rotation["quaternion"])
+        self._vector(key, row.position, value.get("position", now.position))
+
+    def _turn(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
+        row.obstacle = evolution._index("obstacles", key.rpartition(".")[0])
+        row.angle = math.radians(_numbers.number(value, f"'{key}'"))
+
+    def _shift(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
+        row.obstacle = evolution._index("obstacles", key.rpartition(".")[0])
+        if not isinstance(value, Mapping):
+            value = {"by": value}
+        bad = set(value) - {"by", "turn", "about"}
+        if bad or not value:
+            raise ArgumentError(f"'{key}': found {', '.join(map(str, value)) or 'nothing'}, expected by, turn and about")
+        for word in ("by", "turn", "about"):
+            if word in value:
+                self._vector(key if word == "by" else f"{key}.{word}", getattr(row, word), value[word])
