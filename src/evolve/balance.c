@@ -34,11 +34,13 @@
 static const double TARGET = 1e-11;
 /* The search ends after so many iterations or trials, or so many without halving what is left: a
  * body that swings on stiff lines goes down a curved valley, in which its forces do not fall before
- * the end. Trials in which a line finds no answer take the most time by far: they are fewer. */
+ * the end, and so does a group that nothing holds as it turns with its loads. Trials in which a
+ * line finds no answer take the most time by far: they are fewer. */
 enum {
     ITERATIONS = 100,
     PATIENCE = 6,
     PATIENCE_WITH_BODIES = 20,
+    PATIENCE_UNHELD = 60,
     MOST_TRIALS = 200,
     FEW_TRIALS = 8,
     OPEN_TRIALS = 12
@@ -208,6 +210,7 @@ static bool search(CpsiBalance *balance, int trials) {
     const size_t bytes = (size_t)balance->count * sizeof *balance->at,
                  rigid = (size_t)balance->body_count * sizeof *balance->rigid;
     double best = INFINITY, halved = INFINITY, longer = 1;
+    const bool held = cpsi_group_is_held(balance);
     int waited = 0;
     balance->open_trials = 0;
     cpsi_try_places(balance);
@@ -226,7 +229,9 @@ static bool search(CpsiBalance *balance, int trials) {
             halved = left;
         }
         const bool good = cpsi_is_balanced(balance, best);
-        const int patience = balance->body_count > 0 ? PATIENCE_WITH_BODIES : PATIENCE;
+        const int patience = !held                     ? PATIENCE_UNHELD
+                             : balance->body_count > 0 ? PATIENCE_WITH_BODIES
+                                                       : PATIENCE;
         if (waited > (good ? 1 : patience) || balance->trials > most) break;
         if (!cpsi_find_step(balance)) cpsi_follow_forces(balance);
         for (int k = 0; k < balance->unknowns; k++) balance->step[k] *= longer;

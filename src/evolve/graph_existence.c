@@ -38,9 +38,7 @@ static void report_proof(CpsiBalance *balance, CpsOutcome outcome) {
 
 /* unbounded ------------------------------------------------------------------------------------ */
 
-/* Does anything hold a line of the group: an end, a grasp, or a point or body that does not move?
- */
-static bool is_held(const CpsiBalance *balance) {
+bool cpsi_group_is_held(const CpsiBalance *balance) {
     const CpsEvolution *evolution = balance->evolution;
     for (int item = 0; item < balance->line_count; item++)
         if (evolution->line[balance->line[item]].grasp_count > 0) return true;
@@ -160,7 +158,7 @@ static bool falls_freely(const CpsiBalance *balance, CpsiFall *fall) {
 }
 
 bool cpsi_group_falls(CpsiBalance *balance) {
-    if (is_held(balance) || !cpsi_is_without_bounds(balance)) return false;
+    if (cpsi_group_is_held(balance) || !cpsi_is_without_bounds(balance)) return false;
     (void)cpsi_place_joints(balance, true);
     const Loads loads = loads_of(balance);
     CpsiFall fall = {.sum = loads.sum};

@@ -15,4 +15,8 @@ bool cpsi_group_falls(CpsiBalance *balance);
  * likewise, as infeasible. */
 bool cpsi_group_is_too_short(CpsiBalance *balance);
 
+/* Does anything hold a line of the group: an end, a grasp, or a point or body that does not move?
+ */
+bool cpsi_group_is_held(const CpsiBalance *balance);
+
 #endif

@@ -424,8 +424,54 @@ static void what_is_refused(void **unused) {
     expect_refused(&s.scene, "history[1].left.point", "1 m below obstacle 'bed'");
 }
 
+/* A line between two free points that nothing holds, pulled apart by F, turns with its loads in one
+ * step: it is as long as F makes it, along them, and no farther away than its length. */
+static void an_unheld_line_turns(void **unused) {
+    (void)unused;
+    static const double LONG = 6, PULL = 5, STIFF = 1e4;
+    for (int k = 0; k < 9; k++) {
+        const double angle = 0.35 * (k + 1), scale = pow(10, k % 3 - 1);
+        Strings s;
+        two_strings(&s);
+        s.scene.line_count = 1;
+        s.scene.point_count = 2;
+        s.line[0].length = LONG * scale;
+        s.line[0].element_count = 1 + k % 3;
+        s.line[0].stiffness = STIFF;
+        s.line[0].end_point[CPS_END_B] = 1;
+        CpsPointChange change[2];
+        for (int i = 0; i < 2; i++) {
+            const double sign = i == 0 ? -1 : 1;
+            s.point[i].kind = CPS_POINT_KIND_FREE;
+            s.point[i].position[0] = i * LONG * scale;
+            s.point[i].force[0] = sign * PULL;
+            change[i] =
+                (CpsPointChange){.point = i,
+                                 .kind = CPS_POINT_KIND_FREE,
+                                 .value = {sign * PULL * cos(angle), sign * PULL * sin(angle), 0}};
+        }
+        CpsStage stage = cps_stage_default();
+        stage.name = "turn";
+        stage.point_change = change;
+        stage.point_change_count = 2;
+        s.scene.stage = &stage;
+        s.scene.stage_count = 1;
+        CpsEvolution *evolution = evolve(&s.scene);
+        step_to(evolution, 0);
+        const CpsPointReport a = step_to(evolution, 0),
+                             b = cps_evolution_point_report(evolution, 1);
+        const double length = LONG * scale * (1 + PULL / STIFF);
+        CHECK_NEAR(b.position[0] - a.position[0], length * cos(angle), 1e-6 * length);
+        CHECK_NEAR(b.position[1] - a.position[1], length * sin(angle), 1e-6 * length);
+        CHECK_NEAR(b.position[2] - a.position[2], 0, 1e-6 * length);
+        assert_true(hypot(a.position[0], a.position[1]) < 2 * length);
+        cps_evolution_destroy(evolution);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_unheld_line_turns),
         cmocka_unit_test(a_weight_between_two_strings),
         cmocka_unit_test(a_buoy),
         cmocka_unit_test(a_clump_on_a_rough_bed),
