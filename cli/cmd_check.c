@@ -37,6 +37,22 @@ static void print_friction(const CpsObstacle *o) {
            o->friction_shape == CPS_FRICTION_SHAPE_BOX ? "box" : "ellipse");
 }
 
+static void print_ground(const CpsObstacle *o) {
+    const CpsGroundGrid grid = cps_ground_grid(o->ground);
+    const double *p = o->point, *x = grid.x, *y = grid.y;
+    const size_t points = (size_t)grid.x_count * (size_t)grid.y_count;
+    double low = grid.z[0], high = grid.z[0];
+    for (size_t i = 0; i < points; i++) {
+        low = fmin(low, grid.z[i]);
+        high = fmax(high, grid.z[i]);
+    }
+    printf("ground of %d x %d points, x %g to %g m, y %g to %g m, z %g to %g m%s%s", grid.x_count,
+           grid.y_count, x[0] + p[0], x[grid.x_count - 1] + p[0], y[0] + p[1],
+           y[grid.y_count - 1] + p[1], low + p[2], high + p[2],
+           grid.extends ? ", extended beyond its edges" : "",
+           grid.friction_factor ? ", with factors of friction" : "");
+}
+
 static void print_obstacle(const CpsObstacle *o) {
     const double *p = o->point, *d = o->kind == CPS_OBSTACLE_PLANE ? o->normal : o->axis;
     printf("obstacle %s: ", o->name);
@@ -46,8 +62,10 @@ static void print_obstacle(const CpsObstacle *o) {
     else if (o->kind == CPS_OBSTACLE_CYLINDER)
         printf("cylinder of radius %g m through (%g, %g, %g) m, axis (%g, %g, %g)", o->radius, p[0],
                p[1], p[2], d[0], d[1], d[2]);
-    else
+    else if (o->kind == CPS_OBSTACLE_SPHERE)
         printf("ball of radius %g m around (%g, %g, %g) m", o->radius, p[0], p[1], p[2]);
+    else
+        print_ground(o);
     print_friction(o);
 }
 

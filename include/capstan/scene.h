@@ -11,6 +11,7 @@
 
 #include "capstan/body.h"
 #include "capstan/grasp.h"
+#include "capstan/ground.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
 #include "capstan/shift.h"
@@ -22,7 +23,9 @@ extern "C" {
 typedef enum CpsObstacleKind {
     CPS_OBSTACLE_PLANE,    /* a half-space; `normal` points to its free side */
     CPS_OBSTACLE_CYLINDER, /* a solid cylinder of infinite length: a bollard, a pipe, a drum */
-    CPS_OBSTACLE_SPHERE    /* a solid ball */
+    CPS_OBSTACLE_SPHERE,   /* a solid ball */
+    CPS_OBSTACLE_GROUND,   /* what lies below the points of a grid */
+    CPS_OBSTACLE_SURFACE   /* where a function is negative */
 } CpsObstacleKind;
 
 /* The set of friction forces F that two coefficients describe, at the reaction R. By M77 section 4
@@ -38,14 +41,17 @@ typedef struct CpsObstacle {
     uint32_t cookie;
     const char *name;
     CpsObstacleKind kind; /* default plane */
-    /* [m] a point of the plane or of the cylinder's axis, or the centre of the sphere; default
-     * 0 0 0 */
+    /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, or the origin
+     * of a ground or surface; default 0 0 0 */
     double point[3];
     double normal[3]; /* [-] of a plane, of any length but 0; default 0 0 1 */
     /* [-] of a cylinder, and axis of rotation of cylinder and sphere; of any length but 0; default
      * 0 1 0 */
     double axis[3];
     double radius; /* [m] of cylinder and sphere, > 0 */
+    /* ground and surface stay in their place. What an evolution needs of a ground it retains. */
+    const CpsGround *ground; /* of a ground */
+    CpsSurface surface;      /* of a surface */
     /* [-] coefficient mu >= 0, default 0; where two directions differ, along the first one */
     double friction;
     bool has_friction_lateral; /* default false: the coefficient is the same in all directions */

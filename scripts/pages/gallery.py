@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a bollard that is moved, of an anchor line, of a net, of a buoy, of a spar and a barge on lines, and of driven systems."""
+"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a bollard that is moved, of a cable on ground, of an anchor line, of a net, of a buoy, of a spar and a barge on lines, and of driven systems."""
 import os
 import re
 import subprocess
@@ -32,6 +32,18 @@ def bridle(program):
 def moved_bollard(program):
     """The plan of all steps of examples/moved-bollard.yaml."""
     _, place = program.run("run", "examples/moved-bollard.yaml")
+    return os.path.join(place, "plan.svg")
+
+
+def ridge(program):
+    """The elevation of all steps of examples/ridge.yaml."""
+    _, place = program.run("run", "examples/ridge.yaml")
+    return os.path.join(place, "elevation.svg")
+
+
+def ridge_plan(program):
+    """Its plan."""
+    _, place = program.run("run", "examples/ridge.yaml")
     return os.path.join(place, "plan.svg")
 
 
@@ -81,7 +93,7 @@ def anchor_line(program):
 
 PICTURES = {
     "run-offset": offset, "run-anchor-line": anchor_line,
-    "run-rope": first_scene, "run-bridle": bridle, "run-moved-bollard": moved_bollard, "run-oc3-hywind": spar, "run-barge": barge,
+    "run-rope": first_scene, "run-bridle": bridle, "run-moved-bollard": moved_bollard, "run-ridge": ridge, "run-ridge-plan": ridge_plan, "run-oc3-hywind": spar, "run-barge": barge,
     "run-parting-lines": parting_lines, "run-net": net, "run-moored-buoy": moored_buoy,
     "drive-wheel-maps": driven("braked-wheel"),
     "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),

@@ -22,8 +22,7 @@
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
 
-/* Largest displacement of a node in one round, per distance from the axis or centre of a round
- * obstacle: the range of its tangent plane. */
+/* Largest displacement of a node in one round, per range of its tangent plane. */
 static const double MAX_MOVE = 0.5;
 /* [rad] Rounding of the angle of a node that is carried along by exactly a quarter of a turn. */
 static const double QUARTER_ROUNDING = 1e-6;
@@ -295,7 +294,7 @@ double cpsi_contact_shorten(CpsiLine *line, bool sides) {
         const int j = cpsi_line_node(line, c);
         const Vec3 from = vec3_at(line->base, j), to = vec3_at(line->position, j);
         const double distance = vec3_norm(vec3_sub(to, from)),
-                     within = obstacle->radius + fmax(0, cpsi_obstacle_gap(obstacle, from));
+                     within = cpsi_obstacle_range(obstacle, from);
         if (distance * share > MAX_MOVE * within) share = MAX_MOVE * within / distance;
     }
     if (sides) share = cpsi_obstacle_side_share(line, line->base, line->position, share);

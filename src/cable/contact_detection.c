@@ -71,8 +71,7 @@ bool cpsi_contact_is_watched(const CpsiLine *line, int c, double gap) {
     if (!obstacle || cpsi_line_is_contact_held(line, c)) return false;
     if (cpsi_line_element(line, c) >= 0) return line->contact_everywhere;
     if (!line->contact_everywhere) return isfinite(line->gap[c]);
-    if (c < line->n || obstacle->kind == CPS_OBSTACLE_PLANE ||
-        gap <= SECOND_RANGE * obstacle->radius)
+    if (c < line->n || !cpsi_obstacle_is_round(obstacle) || gap <= SECOND_RANGE * obstacle->radius)
         return true;
     return line->has_local_axes && is_kept(line, c);
 }

@@ -105,6 +105,7 @@ static bool moves_off(const CpsiObstacle *obstacle, Vec3 x, Vec3 v, double touch
  * v? The distance of an element from a convex obstacle is a convex function of the displacement
  * along v: if it does not decrease at first, it never does. */
 static bool moves_away(const CpsiLine *line, const CpsiObstacle *obstacle, Vec3 v) {
+    if (!cpsi_obstacle_is_convex(obstacle)) return false;
     const double touch = CPSI_TOUCH * line->length;
     for (int j = 0; j < line->n; j++)
         if (!moves_off(obstacle, vec3_load(&line->position[3 * j]), v, touch)) return false;

@@ -187,7 +187,9 @@ CpsiFrictionLaw cpsi_line_friction_law(const CpsiLine *line, int c) {
     const CpsiFrictionSet *given =
         obstacle && obstacle->has_set ? line->friction_set[obstacle - line->obstacle] : NULL;
     if (!obstacle || (obstacle->has_set && !given)) return (CpsiFrictionLaw){.ratio = {1, 1}};
-    const double factor = zone_factor(line, c);
+    double factor = zone_factor(line, c);
+    if (obstacle->ground)
+        factor *= cpsi_obstacle_friction_factor(obstacle, cpsi_line_place(line, line->base, c));
     if (obstacle->has_set)
         return (CpsiFrictionLaw){.friction = factor, .ratio = {1, 1}, .given = given};
     const double *mu = obstacle->friction, friction = fmax(mu[0], mu[1]),

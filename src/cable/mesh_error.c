@@ -79,7 +79,7 @@ static void add_support(const CpsiLine *line, int j, int e, int inward, Span *sp
     const Vec3 flat = vec3_reject(p, n);
     const double tight = vec3_norm(flat);
     if (!(tight > 0)) return;
-    if (cpsi_line_obstacle(line, c)->kind == CPS_OBSTACLE_PLANE && normal_load > 0) {
+    if (!cpsi_obstacle_is_round(cpsi_line_obstacle(line, c)) && normal_load > 0) {
         const double off = 0.5 * l - fabs(vec3_dot(p, n)) / normal_load;
         span->defect = vec3_axpy(inward * normal_load / (2 * tight) * off * off, n, span->defect);
     }

@@ -62,7 +62,7 @@ double cpsi_obstacle_side_share(const CpsiLine *line, const double *from, const 
     double share = most;
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *obstacle = &line->obstacle[k];
-        if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
+        if (!cpsi_obstacle_is_round(obstacle)) continue;
         Vec3 a = cpsi_obstacle_spoke(obstacle, vec3_load(from)),
              u = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_load(to)), a);
         for (int j = 1; j < line->n; j++) {
@@ -81,7 +81,7 @@ int cpsi_obstacle_passed(const CpsiLine *line, const double *from, const double 
     if (!(share < 1)) return CPS_NO_OBSTACLE;
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *obstacle = &line->obstacle[k];
-        if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
+        if (!cpsi_obstacle_is_round(obstacle)) continue;
         for (int j = 1; j < line->n; j++) {
             const Vec3 a = cpsi_obstacle_spoke(obstacle, vec3_at(from, j - 1)),
                        b = cpsi_obstacle_spoke(obstacle, vec3_at(from, j));

@@ -81,7 +81,7 @@ static void find_long_element(const CpsiLine *line, Vec3 a, Vec3 b, CpsiShortfal
     const double slack = line->length - vec3_norm(vec3_sub(b, a));
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *o = &line->obstacle[k];
-        if (o->kind == CPS_OBSTACLE_PLANE) continue;
+        if (!cpsi_obstacle_is_round(o)) continue;
         const double rounding = ROUNDING * (vec3_norm(vec3_sub(a, o->frame.point)) +
                                             vec3_norm(vec3_sub(b, o->frame.point)) + o->radius);
         for (int e = 0; e + 1 < line->n; e++) {
@@ -114,7 +114,7 @@ bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
                                             : 0};
         CpsiShortestPath path;
         double turn;
-        if (o->kind == CPS_OBSTACLE_PLANE || !turn_about(line, o, options->frictionless, &turn))
+        if (!cpsi_obstacle_is_round(o) || !turn_about(line, o, options->frictionless, &turn))
             continue;
         if (!cpsi_shortest_path(o, a, b, turn, polygon, &path)) continue;
         const double missing = path.length - line->length;

@@ -16,7 +16,7 @@ static CpsStatus check_limit(const CpsPoint *point, bool has, double value, cons
                      value);
 }
 
-/* An anchor drags in a plane: it does not begin on something round. */
+/* An anchor drags in a plane: it does not begin on anything else. */
 static CpsStatus check_ground(const CpsScene *scene, const CpsPoint *point, double length,
                               CpsError *err) {
     for (int k = 0; k < scene->obstacle_count; k++) {
@@ -24,11 +24,11 @@ static CpsStatus check_ground(const CpsScene *scene, const CpsPoint *point, doub
         if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
         const CpsiObstacle on = cpsi_obstacle(obstacle);
         if (cpsi_obstacle_gap(&on, vec3_load(point->position)) > CPS_TOUCH * length) continue;
-        return cpsi_fail(
-            err, CPS_ERR_ARGUMENT,
-            "point '%s': it drags, but lies on obstacle '%s', which is round: expected "
-            "a plane, or a place off all obstacles",
-            point->name, obstacle->name);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "point '%s': it drags, but lies on obstacle '%s', which is %s: expected "
+                         "a plane, or a place off all obstacles",
+                         point->name, obstacle->name,
+                         cpsi_obstacle_is_round(&on) ? "round" : "not a plane");
     }
     return CPS_OK;
 }

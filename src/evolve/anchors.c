@@ -11,8 +11,7 @@ Vec3 cpsi_anchor_normal(const CpsEvolution *evolution, int point) {
     const double touch = CPS_TOUCH * at->length;
     for (int k = 0; k < evolution->obstacle_count; k++) {
         const CpsiObstacle *on = &evolution->obstacle[k];
-        if (on->kind == CPS_OBSTACLE_PLANE &&
-            cpsi_obstacle_gap(on, vec3_load(at->position)) <= touch)
+        if (!cpsi_obstacle_is_round(on) && cpsi_obstacle_gap(on, vec3_load(at->position)) <= touch)
             return cpsi_obstacle_normal(on, vec3_load(at->position));
     }
     const Vec3 down = vec3_load(evolution->gravity_given);

@@ -394,6 +394,20 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     }
 }
 
+/* Of a surface the size alone: what its function gives is not known. */
+static void hash_ground(uint64_t *hash, const CpsiObstacle *obstacle) {
+    if (obstacle->kind == CPS_OBSTACLE_SURFACE) hash_numbers(hash, 1, &obstacle->surface.size);
+    if (!obstacle->ground) return;
+    const CpsGroundGrid grid = cps_ground_grid(obstacle->ground);
+    const size_t columns = (size_t)grid.x_count, rows = (size_t)grid.y_count;
+    const int what[3] = {grid.x_count, grid.y_count, grid.extends};
+    hash_bytes(hash, what, sizeof what);
+    hash_numbers(hash, columns, grid.x);
+    hash_numbers(hash, rows, grid.y);
+    hash_numbers(hash, columns * rows, grid.z);
+    if (grid.friction_factor) hash_numbers(hash, columns * rows, grid.friction_factor);
+}
+
 static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
                           const CpsiFrictionSet *set) {
     const int what[5] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain,
@@ -406,6 +420,7 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     hash_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
     hash_numbers(hash, 3,
                  (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
+    hash_ground(hash, obstacle);
     if (!set) return;
     const CpsiConicSet *form = cpsi_friction_set_conic(set);
     hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);

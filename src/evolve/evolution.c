@@ -172,6 +172,27 @@ static void report_sweep(CpsEvolution *evolution, bool is_start) {
     }
 }
 
+/* No line may leave a grid: what is below it there is not known. */
+static CpsStatus check_cover(CpsEvolution *evolution, CpsError *err) {
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        const CpsiObstacle *on = &evolution->obstacle[k];
+        for (int i = 0; i < evolution->line_count && on->ground; i++) {
+            const CpsiLine *line = &evolution->line[i];
+            for (int j = 0; j < line->n; j++) {
+                const Vec3 x = vec3_at(line->position, j);
+                if (cpsi_obstacle_covers(on, x, CPS_TOUCH * line->length)) continue;
+                evolution->ended = true;
+                return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                                 "line '%s': node %d at (%.9g, %.9g) m has left the grid of ground "
+                                 "'%s': take a larger grid, or say that it extends",
+                                 line->name, j, x.x + evolution->origin[0],
+                                 x.y + evolution->origin[1], evolution->given_obstacle[k].name);
+            }
+        }
+    }
+    return CPS_OK;
+}
+
 /* Plan a step of a stage, of the move where `is_move`; of no stage the break that is due, or where
  * lines are placed by statics. */
 static void plan_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, bool is_move,
@@ -204,6 +225,8 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
                          "the load step was interrupted, and is not taken");
     }
     report_sweep(evolution, stage == NULL && !parts->is_break);
+    const CpsStatus covered = check_cover(evolution, err);
+    if (covered != CPS_OK) return covered;
     if (parts->is_break)
         evolution->break_count++;
     else if (is_move)

@@ -38,7 +38,8 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
 static bool scene_has_element_contacts(const CpsScene *scene) {
     bool round = false;
     for (int k = 0; k < scene->obstacle_count; k++)
-        round = round || scene->obstacle[k].kind != CPS_OBSTACLE_PLANE;
+        round = round || scene->obstacle[k].kind == CPS_OBSTACLE_CYLINDER ||
+                scene->obstacle[k].kind == CPS_OBSTACLE_SPHERE;
     return (round || scene->obstacle_count > 2) &&
            scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
 }
@@ -214,8 +215,10 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
                                            .friction_policy = scene->friction_policy,
                                            .contact_policy = scene->contact_policy};
     evolution->obstacle_count = scene->obstacle_count;
-    for (int k = 0; k < scene->obstacle_count; k++)
+    for (int k = 0; k < scene->obstacle_count; k++) {
         evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
+        (void)cps_ground_retain(evolution->obstacle[k].ground);
+    }
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {
@@ -358,6 +361,8 @@ void cps_evolution_destroy(CpsEvolution *evolution) {
         cpsi_friction_sets_free(&evolution->workspace[i].friction_sets);
     free(evolution->before);
     cpsi_balance_free(evolution->points.balance);
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        cps_ground_release((CpsGround *)evolution->obstacle[k].ground);
     CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
     cpsi_arena_free(&arena);
 }

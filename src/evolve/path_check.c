@@ -38,6 +38,12 @@ static CpsStatus check_path(const CpsScene *scene, const char *name, double leng
         if (scene->obstacle[k].moves) continue; /* shifts.h */
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
         const double touch = PATH_TOUCH * length + cpsi_place_rounding(length, vec3_load(to));
+        if (!cpsi_obstacle_covers(&obstacle, vec3_load(to), CPS_TOUCH * length))
+            return cpsi_fail(
+                err, CPS_ERR_ARGUMENT,
+                "%s: %s goes to (%g, %g, %g) m, beyond the grid of ground '%s': take a "
+                "larger grid, or say that it extends",
+                what, name, to[0], to[1], to[2], scene->obstacle[k].name);
         const double depth = path_depth(&obstacle, vec3_load(from), vec3_load(to), touch);
         if (!(depth > 0)) continue;
         cpsi_fail(err, CPS_ERR_ARGUMENT,

@@ -75,10 +75,35 @@ CpsObstacle cps_obstacle_default(void) {
  * A message begins with the object and its key. The error also contains the path of the key as
  * data: a check names the key, and its caller the enclosing object: "length" in "lines.cable". */
 
+/* Ground, or a surface given as a function: both stay in their place. */
+static CpsStatus check_smooth(const CpsObstacle *o, CpsError *err) {
+    const bool ground = o->kind == CPS_OBSTACLE_GROUND;
+    const char *what = ground ? "ground" : "surface";
+    if (!cpsi_are_usable(o->point))
+        return CPSI_FAIL_AT(ground ? "ground.point" : "point", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': %s point is (%g, %g, %g) m, expected finite numbers",
+                            o->name, what, o->point[0], o->point[1], o->point[2]);
+    if (ground && !o->ground)
+        return CPSI_FAIL_AT("ground", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': its ground is NULL: make one with cps_ground_create",
+                            o->name);
+    if (!ground && (!o->surface.function || !cpsi_is_positive(o->surface.size)))
+        return CPSI_FAIL_AT("surface", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': a surface needs a function and a positive size, found "
+                            "%s and %g m",
+                            o->name, o->surface.function ? "one" : "none", o->surface.size);
+    if (o->moves)
+        return CPSI_FAIL_AT("moves", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': it moves, but a %s stays in its place", o->name, what);
+    return CPS_OK;
+}
+
 static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
-    if (o->kind < CPS_OBSTACLE_PLANE || o->kind > CPS_OBSTACLE_SPHERE)
+    if (o->kind < CPS_OBSTACLE_PLANE || o->kind > CPS_OBSTACLE_SURFACE)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': unknown kind %d", o->name,
                          (int)o->kind);
+    if (o->kind == CPS_OBSTACLE_GROUND || o->kind == CPS_OBSTACLE_SURFACE)
+        return check_smooth(o, err);
     const bool plane = o->kind == CPS_OBSTACLE_PLANE, ball = o->kind == CPS_OBSTACLE_SPHERE;
     const char *what = plane ? "plane point" : ball ? "sphere centre" : "cylinder point";
     if (!cpsi_are_usable(o->point))
@@ -318,6 +343,19 @@ static int first_below(const CpsScene *scene, const CpsLine *line, int count, co
     return first;
 }
 
+/* The first of some nodes that lies beyond a grid, and whose; `count`: none. */
+static int first_beyond(const CpsScene *scene, const CpsLine *line, int count, const Vec3 *x,
+                        const char **name) {
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        if (!scene->obstacle[k].ground) continue;
+        const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
+        *name = scene->obstacle[k].name;
+        for (int i = 0; i < count; i++)
+            if (!cpsi_obstacle_covers(&obstacle, x[i], CPS_TOUCH * line->length)) return i;
+    }
+    return count;
+}
+
 /* No node of the initial shape may lie below the obstacle; statics places a line above it by
  * itself. With contact of the reference given nodes may lie below it. */
 static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, CpsError *err) {
@@ -331,9 +369,15 @@ static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, 
         const int left = line->element_count + 1 - first;
         const int count = left < NODES_AT_ONCE ? left : NODES_AT_ONCE;
         for (int i = 0; i < count; i++) x[i] = cpsi_start_next(&walk);
+        const char *name = "";
+        const int off = first_beyond(scene, line, count, x, &name);
+        if (off < count)
+            return CPSI_FAIL_AT("start", err, CPS_ERR_ARGUMENT,
+                                "line '%s': start: node %d at (%g, %g) m lies beyond the grid of "
+                                "ground '%s': take a larger grid, or say that it extends",
+                                line->name, first + off, x[off].x, x[off].y, name);
         const int low = first_below(scene, line, count, x);
         if (low == count) continue;
-        const char *name = "";
         const double above = cpsi_scene_height(scene, x[low], true, &name);
         return CPSI_FAIL_AT(
             "start", err, CPS_ERR_ARGUMENT,

@@ -153,7 +153,9 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     at->obstacle = cpsi_trial_nearest(evolution, at->place, &at->gap, &at->normal);
     if (at->obstacle == CPS_NO_OBSTACLE) return;
     const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
-    at->friction = evolution->has_static && evolution->done == 0 ? 0 : on->friction[0];
+    at->friction = evolution->has_static && evolution->done == 0
+                       ? 0
+                       : on->friction[0] * cpsi_obstacle_friction_factor(on, at->place);
     const Vec3 before =
         cpsi_obstacle_carry(on, vec3_load(point->before), &evolution->shift[at->obstacle],
                             evolution->angle[at->obstacle]);

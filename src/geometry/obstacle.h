@@ -2,28 +2,14 @@
 /* Obstacles: distance, axes of contact, and motion along the surface.
  *
  * The normal n(x) of a surface at a point x is the normal at the foot of x, the nearest point of
- * the surface. On the surfaces here (plane, cylinder, sphere) this map and the geodesics have
- * closed forms. */
+ * the surface. On plane, cylinder and sphere this map and the geodesics have closed forms. On
+ * ground and surfaces given as functions all of this holds to first order in the height above the
+ * surface, and ways to second order in their length (shape_smooth.c). */
 #ifndef CAPSTAN_SRC_GEOMETRY_OBSTACLE_H
 #define CAPSTAN_SRC_GEOMETRY_OBSTACLE_H
 
-#include "capstan/scene.h"
-#include "geometry/plane.h"
+#include "geometry/shape.h"
 #include "geometry/shift.h"
-
-typedef struct CpsiObstacle {
-    CpsObstacleKind kind;
-    CpsiPlane frame;    /* plane: the surface. Cylinder: axis[2] is its axis. Sphere: axis[2] is its
-                           axis of rotation */
-    double radius;      /* [m] cylinder, sphere */
-    double friction[2]; /* [-] along the first tangent of the contact and across it */
-    CpsFrictionShape shape;
-    bool has_set;   /* the friction forces are those of a set instead, which the line holds
-                       (cable/line.h) */
-    bool has_grain; /* the first tangent is that of `grain`, not of the line */
-    Vec3 grain;
-    bool moves; /* it may be shifted */
-} CpsiObstacle;
 
 CpsiObstacle cpsi_obstacle(const CpsObstacle *def);
 
@@ -31,9 +17,16 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def);
  * friction depend on the line's direction? */
 bool cpsi_obstacle_needs_local_axes(const CpsiObstacle *obstacle);
 
-/* From the plane's point, the cylinder's axis or the sphere's centre to x, on a cylinder across the
- * axis. */
-Vec3 cpsi_obstacle_spoke(const CpsiObstacle *obstacle, Vec3 x);
+/* Is it a cylinder or a sphere, with an axis or a centre that lines may pass? */
+bool cpsi_obstacle_is_round(const CpsiObstacle *obstacle);
+/* Is what lies inside it convex? */
+bool cpsi_obstacle_is_convex(const CpsiObstacle *obstacle);
+/* Is there an obstacle below or above x? Not beyond the edge of a grid that is not extended, but
+ * for `rounding` [m]. */
+bool cpsi_obstacle_covers(const CpsiObstacle *obstacle, Vec3 x, double rounding);
+/* [-] By which friction at x is multiplied. */
+double cpsi_obstacle_friction_factor(const CpsiObstacle *obstacle, Vec3 x);
+
 /* [m] Signed distance of x, positive on the free side. */
 double cpsi_obstacle_gap(const CpsiObstacle *obstacle, Vec3 x);
 /* [m] Greatest depth of the straight path between two points below the surface; negative: its
@@ -62,8 +55,12 @@ Vec3 cpsi_obstacle_slip(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
  * plane. */
 double cpsi_obstacle_angle(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 
+/* [m] The range of the tangent plane at x: the radius of curvature of the surface through it. */
+double cpsi_obstacle_range(const CpsiObstacle *obstacle, Vec3 x);
+
 /* The point (1 - share) a + share b of the straight element from a to b that is nearest to the axis
- * of a cylinder or the centre of a sphere. False where that is one of its ends, and for a plane. */
+ * of a cylinder or the centre of a sphere. False where that is one of its ends, and of
+ * what is not round. */
 bool cpsi_obstacle_faces(const CpsiObstacle *obstacle, Vec3 a, Vec3 b, double *share);
 
 /* Is friction on the obstacle a disc, the same in all directions? */

@@ -53,7 +53,7 @@ static Vec3 forward_tangent(const CpsiObstacle *o, Vec3 e, Vec3 b, double turn) 
 
 bool cpsi_shortest_path(const CpsiObstacle *o, Vec3 a, Vec3 b, double turn, CpsiPolygon polygon,
                         CpsiShortestPath *out) {
-    if (o->kind == CPS_OBSTACLE_PLANE) return false;
+    if (!cpsi_obstacle_is_round(o)) return false;
     const bool ball = o->kind == CPS_OBSTACLE_SPHERE;
     const Vec3 from = cpsi_obstacle_spoke(o, a), to = cpsi_obstacle_spoke(o, b);
     const double ra = vec3_norm(from), rb = vec3_norm(to), R = fmin(o->radius, fmin(ra, rb));

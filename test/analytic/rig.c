@@ -111,6 +111,20 @@ void rig_turn(Rig *rig, int obstacle, double angle) {
 static double distance(const CpsObstacle *o, const double *x, double *normal) {
     double from[3], axis[3];
     add(from, x, -1, o->point);
+    if (o->kind == CPS_OBSTACLE_SURFACE || o->kind == CPS_OBSTACLE_GROUND) {
+        double level, slope[2];
+        if (o->kind == CPS_OBSTACLE_SURFACE) {
+            level = o->surface.function(o->surface.user, from, normal);
+        } else {
+            level = from[2] - cps_ground_height(o->ground, from[0], from[1], slope);
+            normal[0] = -slope[0];
+            normal[1] = -slope[1];
+            normal[2] = 1;
+        }
+        level /= norm(normal);
+        unit(normal);
+        return level;
+    }
     if (o->kind == CPS_OBSTACLE_PLANE) {
         memcpy(normal, o->normal, 3 * sizeof *normal);
         unit(normal);
@@ -146,6 +160,19 @@ static void path_between(const CpsObstacle *o, const double *from, const double 
     add(step, to, -1, from);
     if (o->kind == CPS_OBSTACLE_PLANE) {
         add(out, step, -dot(step, n), n);
+        return;
+    }
+    if (o->kind == CPS_OBSTACLE_SURFACE || o->kind == CPS_OBSTACLE_GROUND) {
+        /* the arc that turns by the angle between the normals, from foot to foot */
+        double apart[3];
+        add(step, step, -distance(o, to, apart), n);
+        add(step, step, distance(o, from, other), other);
+        add(apart, n, -1, other);
+        const double half = asin(fmin(1, norm(apart) / 2));
+        add(out, step, -dot(step, n), n);
+        const double flat = norm(out), by = half > 1e-6 ? half / sin(half) : 1;
+        if (flat > 0)
+            for (int k = 0; k < 3; k++) out[k] *= by * norm(step) / flat;
         return;
     }
     memcpy(axis, o->axis, sizeof axis);

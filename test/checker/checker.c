@@ -622,6 +622,22 @@ static void check_element_bound(const Record *r, const Record *before, size_t c,
              w, i, before->mu[c], R);
 }
 
+/* Rounding of the coefficient at node j on ground whose friction varies: that of its coordinates,
+ * a few times, over the spacing of the points between which it changes. */
+static double ground_noise(const Source *source, const Record *r, size_t j, size_t k) {
+    const Surface *on = k < source->surfaces ? &source->surface[k] : NULL;
+    if (!on || !on->ground || !on->ground->factor) return 0;
+    double reach = 0;
+    for (int a = 0; a < 3; a++)
+        reach = fmax(reach, fabs(r->position[j][a]) + fabs((double)on->point[a]));
+    const Ground *g = on->ground;
+    for (size_t i = 0; i < g->columns; i++) reach = fmax(reach, fabs(g->x[i]));
+    for (size_t i = 0; i < g->rows; i++) reach = fmax(reach, fabs(g->y[i]));
+    const double zone = r->factor ? r->factor[j] : 1;
+    return zone * (double)surface_friction(on) * 8 * 0x1p-53 *
+           (ground_range_of_factors(g) * reach / (double)ground_spacing(g) + 2);
+}
+
 /* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step
  * before (frozen friction) or of the step itself (consistent friction), which is `before`. Frozen
  * friction takes nodes that carry less than 1e-3 of the largest load or reaction, or 1e-7 of the
@@ -664,6 +680,7 @@ static void check_bounds(const Source *source, const Record *r, const Record *be
         // one product and its rounding, and that of a mean over zones; a coefficient above 1 goes
         // with both
         double noise = r->factor_noise ? r->factor_noise[j] * R * fmax(1, r->mu[c]) : 0;
+        if (r->obstacle[c] >= 0) noise += ground_noise(source, r, j, (size_t)r->obstacle[c]) * R;
         if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared)) {
             find(findings, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g",
                  w, j, r->mu[c], R);

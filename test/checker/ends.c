@@ -49,6 +49,9 @@ static Real share(const Record *r, size_t j) {
 static void set_friction(const Source *source, const Record *r, size_t j, size_t next, size_t k,
                          const Real *n, Real reaction, const Real *slip, Real *out) {
     Real length = 0;
+    Triple here;
+    widen(r->position[j], here);
+    const Real end_factor = surface_factor(&source->surface[k], here);
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
     for (size_t c = next; c < r->contacts * r->nodes; c += r->nodes) {
         if ((size_t)r->obstacle[c] != k || !(r->friction_bound[c] > 0)) continue;
@@ -61,8 +64,8 @@ static void set_friction(const Source *source, const Record *r, size_t j, size_t
         if (!source->consistent) surface_normal(&source->surface[k], reference, from);
         turn_with(from, n, out);
         const Real per_length = share(r, j) / share(r, next) * zone / other;
-        const Real of_bound =
-            zone * surface_friction(&source->surface[k]) * reaction / r->friction_bound[c];
+        const Real of_bound = zone * surface_friction(&source->surface[k]) * end_factor * reaction /
+                              r->friction_bound[c];
         const bool pushes = dot(out, slip) > 0 && size(slip) > TOUCH * length;
         for (int i = 0; i < 3; i++) out[i] *= pushes ? 0 : fminl(per_length, of_bound);
         return;

@@ -38,9 +38,27 @@ static void compare_sets(Compare *compare, const CpsObstacle *o, const Surface *
     }
 }
 
+static void compare_ground(Compare *compare, const CpsObstacle *o, const Ground *ground) {
+    const CpsGroundGrid grid = cps_ground_grid(o->ground);
+    if (ground->columns != (size_t)grid.x_count || ground->rows != (size_t)grid.y_count ||
+        ground->extends != grid.extends || !ground->factor != !grid.friction_factor) {
+        find(compare, "grid of %s: another than that of the scene", o->name);
+        return;
+    }
+    const size_t points = ground->columns * ground->rows;
+    same(compare, "grid, x", o->name, ground->x, grid.x, ground->columns, COPIED);
+    same(compare, "grid, y", o->name, ground->y, grid.y, ground->rows, COPIED);
+    same(compare, "grid, z", o->name, ground->z, grid.z, points, COPIED);
+    if (ground->factor)
+        same(compare, "grid, factor of friction", o->name, ground->factor, grid.friction_factor,
+             points, COPIED);
+}
+
 static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s) {
-    const bool plane = o->kind == CPS_OBSTACLE_PLANE;
-    const double *given = plane ? o->normal : o->axis, length = size(given);
+    static const double UP[3] = {0, 0, 1};
+    const bool plane = o->kind == CPS_OBSTACLE_PLANE,
+               round = o->kind == CPS_OBSTACLE_CYLINDER || o->kind == CPS_OBSTACLE_SPHERE;
+    const double *given = plane ? o->normal : round ? o->axis : UP, length = size(given);
     double axis[3], point[3], there[3], grain[3], unit[3];
     for (int k = 0; k < 3; k++) {
         there[k] = o->point[k] - compare->source.origin[k];
@@ -52,7 +70,8 @@ static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surfa
     same_number(compare, "kind", o->name, s->kind, o->kind);
     same(compare, "point", o->name, point, there, 3, COPIED);
     same(compare, "axis", o->name, axis, unit, 3, COMPUTED);
-    same_number(compare, "radius", o->name, (double)s->radius, plane ? 0 : o->radius);
+    same_number(compare, "radius", o->name, (double)s->radius, round ? o->radius : 0);
+    if (o->kind == CPS_OBSTACLE_GROUND && s->ground) compare_ground(compare, o, s->ground);
     if ((s->set != NULL) != (o->friction_set != NULL))
         find(compare, "friction set of %s: one of the two has none", o->name);
     if (s->set && o->friction_set) compare_sets(compare, o, s);

@@ -297,6 +297,13 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     return seat;
 }
 
+/* By how much more than places normals are off by rounding: on ground slopes may change within a
+ * cell. */
+static Real turning(const Where *where, const Surface *on) {
+    if (!on || on->kind == SURFACE_PLANE) return 0;
+    return where->reach / (on->ground ? ground_spacing(on->ground) : on->radius);
+}
+
 /* normal, slip and gap on file against those recomputed, and depth below whatever obstacle */
 static void measure_seat(const Where *where, const Record *r, size_t j, size_t c, const Seat *seat,
                          Real margin, Measures *m) {
@@ -305,19 +312,22 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     widen(r->slip[c], slip);
     widen(r->position[j], x);
     r->mu[c] = seat->surface
-                   ? (r->factor ? r->factor[j] : 1) * (double)surface_friction(seat->surface)
+                   ? (r->factor ? r->factor[j] : 1) * (double)surface_friction(seat->surface) *
+                         (double)surface_factor(seat->surface, x)
                    : 0;
     for (int k = 0; k < 3; k++) {
         n[k] -= seat->normal[k];
         slip[k] -= seat->slip[k];
     }
-    bool round = seat->surface && seat->surface->kind != SURFACE_PLANE;
-    raise_to(&m->normal_error, size(n) / (1 + (round ? where->reach / seat->surface->radius : 0)));
+    bool round = seat->surface && surface_is_round(seat->surface);
+    raise_to(&m->normal_error, size(n) / (1 + turning(where, seat->surface)));
     raise_to(&m->slip_error, size(slip));
     if (c == j)
         for (size_t k = 0; k < where->source->surfaces; k++) {
             Real depth = -surface_distance(&where->source->surface[k], x);
             raise_to(&m->depth, depth);
+            if (surface_ends(&where->source->surface[k], x, PLACE_MARGIN * where->reach))
+                m->misplaced++;
             if (!held(r, j)) raise_to(&m->sunk, depth);
         }
     if (held(r, j) || !seat->surface) return;

@@ -61,7 +61,7 @@ static bool comes_near(const Surface *s, const Record *r, size_t i, Real part) {
 }
 
 static bool passes(const Surface *s, const Record *r, Real part) {
-    if (s->kind == SURFACE_PLANE) return false;
+    if (!surface_is_round(s)) return false;
     for (size_t i = 0; i < r->elements; i++)
         if (comes_near(s, r, i, part)) return true;
     return false;

@@ -130,7 +130,7 @@ static void ground_of(const Points *p, const Junction *at, double normal[3]) {
     widen(at->position, x);
     for (int a = 0; a < 3; a++) normal[a] = down > 0 ? -source->gravity[a] / down : a == 2 ? 1 : 0;
     for (size_t k = 0; k < source->surfaces; k++) {
-        if (source->surface[k].kind != SURFACE_PLANE ||
+        if (surface_is_round(&source->surface[k]) ||
             (double)surface_distance(&source->surface[k], x) > place)
             continue;
         surface_normal(&source->surface[k], x, n);
@@ -217,7 +217,8 @@ static void check_contact(const Points *p, const Junction *at) {
         /* frozen friction acts off the obstacle as well */
         double mu = 0;
         for (size_t k = 0; k < source->surfaces && !source->consistent; k++)
-            mu = fmax(mu, (double)surface_friction(&source->surface[k]));
+            mu = fmax(mu, (double)(surface_friction(&source->surface[k]) *
+                                   surface_factor(&source->surface[k], x)));
         const double frozen = p->step > 0 ? mu * p->before[p->point].reaction : INFINITY;
         at_most(p, "force of an obstacle that it does not touch",
                 fabs(at->reaction) + size(at->normal) + size(at->slip), 0);
@@ -238,7 +239,10 @@ static void check_contact(const Points *p, const Junction *at) {
 
 /* The bound of friction: with the reaction of the step itself, or of the one before. */
 static double bound_of(const Points *p, const Junction *at) {
-    const double mu = (double)surface_friction(&p->source->surface[at->obstacle]);
+    const Surface *on = &p->source->surface[at->obstacle];
+    Real x[3];
+    widen(at->position, x);
+    const double mu = (double)(surface_friction(on) * surface_factor(on, x));
     if (!p->has_friction) return 0;
     return mu * (p->source->consistent ? at->reaction : p->before[p->point].reaction);
 }

@@ -22,13 +22,47 @@ static void arm(const Surface *s, const Real *x, Real *out) {
     for (int k = 0; k < 3; k++) out[k] -= along * s->axis[k];
 }
 
+bool surface_is_round(const Surface *s) {
+    return s->kind == SURFACE_CYLINDER || s->kind == SURFACE_SPHERE;
+}
+
+Real surface_factor(const Surface *s, const Real *x) {
+    return s->ground ? ground_factor(s->ground, x[0] - s->point[0], x[1] - s->point[1]) : 1;
+}
+
+bool surface_ends(const Surface *s, const Real *x, Real rounding) {
+    const Ground *g = s->ground;
+    if (!g || g->extends) return false;
+    const Real a = x[0] - s->point[0], b = x[1] - s->point[1];
+    return !(a >= g->x[0] - rounding && a <= g->x[g->columns - 1] + rounding &&
+             b >= g->y[0] - rounding && b <= g->y[g->rows - 1] + rounding);
+}
+
+/* The normal of ground above or below which x is, and the distance to first order: the height times
+ * the cosine of the slope. */
+static Real above_ground(const Surface *s, const Real *x, Real *n) {
+    Real slope[2];
+    const Real height = x[2] - s->point[2] -
+                        ground_height(s->ground, x[0] - s->point[0], x[1] - s->point[1], slope),
+               cosine = 1 / sqrtl(1 + slope[0] * slope[0] + slope[1] * slope[1]);
+    n[0] = -cosine * slope[0];
+    n[1] = -cosine * slope[1];
+    n[2] = cosine;
+    return height * cosine;
+}
+
 Real surface_distance(const Surface *s, const Real *x) {
     Real from[3];
+    if (s->ground) return above_ground(s, x, from);
     arm(s, x, from);
     return s->kind == SURFACE_PLANE ? dot(from, s->axis) : size(from) - s->radius;
 }
 
 void surface_normal(const Surface *s, const Real *x, Real *n) {
+    if (s->ground) {
+        above_ground(s, x, n);
+        return;
+    }
     arm(s, x, n);
     Real length = size(n);
     for (int k = 0; k < 3; k++) n[k] = s->kind == SURFACE_PLANE ? s->axis[k] : n[k] / length;
@@ -36,7 +70,7 @@ void surface_normal(const Surface *s, const Real *x, Real *n) {
 
 Real surface_pierced(const Surface *s, const Real *a, const Real *b, Real l) {
     Real from[3], to[3], chord[3], moment[3];
-    if (s->kind == SURFACE_PLANE) return -INFINITY;
+    if (!surface_is_round(s)) return -INFINITY;
     arm(s, a, from);
     arm(s, b, to);
     for (int k = 0; k < 3; k++) chord[k] = to[k] - from[k];
@@ -110,7 +144,28 @@ void surface_own(const Surface *s, const Real *x, const Real *reference, Real sh
     for (int k = 0; k < 3; k++) out[k] += x[k] - was[k];
 }
 
+/* From foot to foot in the plane that the chord and the normal at its end span: an arc whose ends
+ * differ in direction by the angle between the normals is longer than its chord by half of that
+ * angle over the sine of the half. */
+static void slip_on_ground(const Surface *s, const Real *from, const Real *to, Real *out) {
+    Real n0[3], n1[3], chord[3], less[3], sum[3];
+    const Real g0 = above_ground(s, from, n0), g1 = above_ground(s, to, n1);
+    for (int k = 0; k < 3; k++) {
+        chord[k] = (to[k] - g1 * n1[k]) - (from[k] - g0 * n0[k]);
+        less[k] = n1[k] - n0[k];
+        sum[k] = n1[k] + n0[k];
+    }
+    const Real half = atan2l(size(less), size(sum)), rise = dot(chord, n1);
+    for (int k = 0; k < 3; k++) out[k] = chord[k] - rise * n1[k];
+    const Real flat = size(out), longer = half > 0 ? half / sinl(half) : 1;
+    for (int k = 0; k < 3; k++) out[k] = flat > 0 ? out[k] * (longer * size(chord) / flat) : 0;
+}
+
 void surface_slip(const Surface *s, const Real *from, const Real *to, Real *out) {
+    if (s->ground) {
+        slip_on_ground(s, from, to, out);
+        return;
+    }
     Real n0[3], n1[3], shift[3];
     surface_normal(s, from, n0);
     surface_normal(s, to, n1);

@@ -7,9 +7,10 @@
 #include <stdbool.h>
 
 #include "conic.h"
+#include "ground.h"
 
 /* flag values of the file */
-enum { SURFACE_PLANE, SURFACE_CYLINDER, SURFACE_SPHERE, SURFACE_KINDS };
+enum { SURFACE_PLANE, SURFACE_CYLINDER, SURFACE_SPHERE, SURFACE_GROUND, SURFACE_KINDS };
 
 typedef struct Surface {
     int kind;
@@ -18,10 +19,17 @@ typedef struct Surface {
     Real mu[2], grain[3];           /* along the line or the grain, and across */
     /* shift of the last step: it turned by the vector `spin` about a point, which went by `by` */
     Real by[3], spin[3], about[3];
-    Conic *set; /* forces per unit normal force in place of the coefficients, or NULL */
+    Ground *ground; /* of ground, else NULL */
+    Conic *set;     /* forces per unit normal force in place of the coefficients, or NULL */
 } Surface;
 
-/* [m] above the surface, negative below it. */
+/* Is it a cylinder or a ball? */
+bool surface_is_round(const Surface *surface);
+/* By which its friction is multiplied at x. */
+Real surface_factor(const Surface *surface, const Real *x);
+/* Does what is known of it end before x, but for `rounding`? */
+bool surface_ends(const Surface *surface, const Real *x, Real rounding);
+/* [m] above the surface, negative below it; of ground to first order. */
 Real surface_distance(const Surface *surface, const Real *x);
 /* How deep an element of natural length l may lie in a round obstacle: its chord cuts in,
  * min(l^2/(4 R), R/4). */
@@ -48,7 +56,7 @@ void surface_carry(const Surface *surface, const Real *x, Real share, Real turn,
 void surface_own(const Surface *surface, const Real *x, const Real *reference, Real share,
                  Real *out);
 /* The shorter geodesic between the feet of two points, as the tangent vector of its length with
- * which it arrives. */
+ * which it arrives; on ground an arc between them that turns by the angle between the normals. */
 void surface_slip(const Surface *surface, const Real *from, const Real *to, Real *out);
 /* [rad] Between the normals of a round surface at two points, 0 to pi. 0 of a plane. */
 Real surface_angle(const Surface *surface, const Real *a, const Real *b);

@@ -115,6 +115,25 @@ static const char BODIES_SCENE[] =
     " barge.body: {move: [0.1, 0, 0]}}\n"
     "  - {barge.body: {position: [8, 5, 0], rotation: {quaternion: [1, 0, 0, 1]}}}\n";
 
+/* Ground, of files that are written beside the scene. */
+static const char GROUND_SCENE[] =
+    "capstan: 1\n"
+    "obstacles: {bed: {ground: {file: other_scene_a.asc, form: esri, depths: false,"
+    " point: [0, 0, -3], extend: true, friction_factor: other_scene_b.asc}, friction: 0.3}}\n"
+    "lines:\n"
+    "  one: {length: 3, elements: 4, mass: 2, stiffness: 1000,"
+    " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held}}\n"
+    "history:\n"
+    "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
+
+static const struct GroundFile {
+    const char *name, *text;
+} GROUND_FILE[] = {
+    {"other_scene_a.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n0 0\n0 1\n"},
+    {"other_scene_b.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n1 1\n1 2\n"},
+    {"other_scene_c.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n1 1\n1 3\n"},
+};
+
 /* The key, what is written of it, and what else could be. */
 static const struct Change {
     const char *key, *from, *to;
@@ -280,13 +299,28 @@ static const struct Change BODY_CHANGE[] = {
     {"rotation", "rotation: {quaternion: [1, 0, 0, 1]}", "rotation: {quaternion: [1, 0, 0, 2]}"},
 };
 
-/* Keys that change no answer, and a file of places, which is a start as good as any. */
-static const char *const LEFT_OUT[] = {"capstan", "title", "nodes"};
+static const struct Change GROUND_CHANGE[] = {
+    {"ground",
+     "ground: {file: other_scene_a.asc, form: esri, depths: false, point: [0, 0, -3],"
+     " extend: true, friction_factor: other_scene_b.asc}",
+     "plane: {point: [0, 0, -3]}"},
+    {"file", "file: other_scene_a.asc", "file: other_scene_b.asc"},
+    {"depths", "depths: false", "depths: true"},
+    {"point", "point: [0, 0, -3]", "point: [0, 0, -4]"},
+    {"extend", "extend: true", "extend: false"},
+    {"friction_factor", "friction_factor: other_scene_b.asc", "friction_factor: other_scene_c.asc"},
+    {"friction_factor", ", friction_factor: other_scene_b.asc", ""},
+};
+
+/* Keys that change no answer, and how the file of a ground is to be read; and a file of places,
+ * which is a start as good as any. */
+static const char *const LEFT_OUT[] = {"capstan", "title", "nodes", "form", "variable"};
 
 enum {
     CHANGES = sizeof CHANGE / sizeof *CHANGE,
     POINT_CHANGES = sizeof POINT_CHANGE / sizeof *POINT_CHANGE,
     BODY_CHANGES = sizeof BODY_CHANGE / sizeof *BODY_CHANGE,
+    GROUND_CHANGES = sizeof GROUND_CHANGE / sizeof *GROUND_CHANGE,
     LEFT = sizeof LEFT_OUT / sizeof *LEFT_OUT
 };
 
@@ -299,7 +333,8 @@ typedef struct Suite {
 
 static const Suite ALL = {SCENE, CHANGE, CHANGES},
                    POINTS = {POINTS_SCENE, POINT_CHANGE, POINT_CHANGES},
-                   BODIES = {BODIES_SCENE, BODY_CHANGE, BODY_CHANGES};
+                   BODIES = {BODIES_SCENE, BODY_CHANGE, BODY_CHANGES},
+                   GROUND = {GROUND_SCENE, GROUND_CHANGE, GROUND_CHANGES};
 
 static CpsEvolution *evolution_of(const char *text) {
     char path[] = "other_scene_test_XXXXXX";
@@ -391,6 +426,20 @@ static void every_change_of_bodies_makes_another_scene(void **state) {
     expect_refused(&BODIES, 4, sizeof BODIES_SCENE);
 }
 
+static void every_change_of_ground_makes_another_scene(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof GROUND_FILE / sizeof *GROUND_FILE; i++) {
+        FILE *out = fopen(GROUND_FILE[i].name, "w");
+        assert_non_null(out);
+        fputs(GROUND_FILE[i].text, out);
+        assert_int_equal(fclose(out), 0);
+    }
+    expect_refused(&GROUND, 0, place_of(GROUND_SCENE, "{name: pull"));
+    expect_refused(&GROUND, 1, sizeof GROUND_SCENE);
+    for (size_t i = 0; i < sizeof GROUND_FILE / sizeof *GROUND_FILE; i++)
+        unlink(GROUND_FILE[i].name);
+}
+
 /* Whether a key is changed above or left out; found: the changes of keys that there are. */
 static bool is_tried(const char *key, bool found[CHANGES]) {
     bool tried = false;
@@ -398,6 +447,8 @@ static bool is_tried(const char *key, bool found[CHANGES]) {
         if (strcmp(CHANGE[i].key, key) == 0) tried = found[i] = true;
     for (int i = 0; i < POINT_CHANGES; i++) tried = tried || strcmp(POINT_CHANGE[i].key, key) == 0;
     for (int i = 0; i < BODY_CHANGES; i++) tried = tried || strcmp(BODY_CHANGE[i].key, key) == 0;
+    for (int i = 0; i < GROUND_CHANGES; i++)
+        tried = tried || strcmp(GROUND_CHANGE[i].key, key) == 0;
     for (int i = 0; i < LEFT; i++) tried = tried || strcmp(LEFT_OUT[i], key) == 0;
     return tried;
 }
@@ -464,6 +515,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_change_makes_another_scene),
                                        cmocka_unit_test(every_change_of_points_makes_another_scene),
                                        cmocka_unit_test(every_change_of_bodies_makes_another_scene),
+                                       cmocka_unit_test(every_change_of_ground_makes_another_scene),
                                        cmocka_unit_test(flags_of_a_changed_state_are_flags),
                                        cmocka_unit_test(every_key_is_changed)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -28,6 +28,10 @@ CpsiView cpsi_view_elevation(const CpsResults *results);
 void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
                             int step, FILE *out);
 
+/* Ground: from above its contours, else its section with the paper. */
+void cpsi_picture_ground(const CpsObstacle *ground, const CpsiView *view, const CpsiFrame *frame,
+                         FILE *out);
+
 /* Whether the silhouette is a circle: that of a ball, or of a cylinder seen from its end. */
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);
 

@@ -12,6 +12,7 @@
 #include "base/math.h"
 #include "capstan/pretension.h"
 #include "io/base/file/read_file.h"
+#include "io/read/ground/ground_build.h"
 #include "io/read/law/set_build.h"
 #include "io/read/scene/node_file.h"
 #include "io/read/scene/section_build.h"
@@ -381,8 +382,10 @@ static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsO
     if (!obstacle->has_friction_lateral) obstacle->friction_lateral = 0;
     obstacle->name = copy_text(b, values->node->key);
     if (!obstacle->name) return cpsi_document_no_memory(b->d);
-    const CpsStatus status = values->set ? cpsi_build_set(&b->set, values->set, &set) : CPS_OK;
+    CpsStatus status = values->set ? cpsi_build_set(&b->set, values->set, &set) : CPS_OK;
     obstacle->friction_set = set;
+    if (status == CPS_OK && obstacle->kind == CPS_OBSTACLE_GROUND)
+        status = cpsi_ground_build(b->d, values, (CpsGround **)&obstacle->ground);
     return status;
 }
 

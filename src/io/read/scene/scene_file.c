@@ -12,15 +12,17 @@
 
 struct CpsSceneFile {
     CpsScene scene;
-    /* memory of everything that the scene refers to, except the friction sets, which are
+    /* memory of everything that the scene refers to, except friction sets and ground, which are
      * retained */
     CpsiPool pool;
 };
 
 void cps_scene_file_destroy(CpsSceneFile *file) {
     if (!file) return;
-    for (int k = 0; k < file->scene.obstacle_count; k++)
+    for (int k = 0; k < file->scene.obstacle_count; k++) {
         cps_set_release((CpsSet *)file->scene.obstacle[k].friction_set);
+        cps_ground_release((CpsGround *)file->scene.obstacle[k].ground);
+    }
     cpsi_pool_free(&file->pool);
     free(file);
 }

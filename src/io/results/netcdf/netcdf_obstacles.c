@@ -26,10 +26,12 @@ static const struct {
     bool vector;
 } OBSTACLE[CPSI_OBSTACLE_FIELDS] = {
     {"obstacle_kind", "kind of surface", "1", false},
-    {"obstacle_point", "point of the plane or of the cylinder's axis, centre of the sphere", "m",
+    {"obstacle_point",
+     "point of the plane or of the cylinder's axis, centre of the sphere, origin of ground", "m",
      true},
-    {"obstacle_axis", "normal of the plane, axis of cylinder and sphere, of any length", "1", true},
-    {"obstacle_radius", "radius, 0 for a plane", "m", false},
+    {"obstacle_axis",
+     "normal of the plane, axis of cylinder and sphere, of any length; z of the others", "1", true},
+    {"obstacle_radius", "radius, 0 of what is not round", "m", false},
     {"obstacle_friction_axial", "friction coefficient along the line or the grain", "1", false},
     {"obstacle_friction_lateral", "friction coefficient across it", "1", false},
     {"obstacle_friction_shape", "how the two make a set of forces, or that a set is given instead",
@@ -106,6 +108,66 @@ static void define_sets(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o, const CpsS
                                                SET[f].long_name, "1");
 }
 
+/* ---- ground: obstacle_NAME_grid_x, _y, _z, and the factor of friction where there is one ---- */
+
+typedef enum GroundField { GRID_X, GRID_Y, GRID_Z, GRID_FACTOR } GroundField;
+
+static const struct {
+    const char *name, *long_name, *units;
+    bool flat; /* over y and x */
+} GRID[CPSI_GROUND_FIELDS] = {
+    {"grid_x", "x of the points of the ground, relative to obstacle_point", "m", false},
+    {"grid_y", "y of the points of the ground, relative to obstacle_point", "m", false},
+    {"grid_z", "height of the points of the ground, relative to obstacle_point", "m", true},
+    {"grid_friction_factor", "by which friction is multiplied, bilinear between the points", "1",
+     true},
+};
+
+static void define_one(CpsiNetcdfFile *file, CpsiNetcdfGround *ground, const char *name,
+                       const CpsGroundGrid *grid) {
+    char prefix[128], label[160];
+    int shape[2];
+    snprintf(prefix, sizeof prefix, "obstacle_%.100s", name);
+    snprintf(label, sizeof label, "%s_grid_y", prefix);
+    shape[0] = cpsi_netcdf_dimension(file, label, (size_t)grid->y_count);
+    snprintf(label, sizeof label, "%s_grid_x", prefix);
+    shape[1] = cpsi_netcdf_dimension(file, label, (size_t)grid->x_count);
+    for (int f = 0; f < CPSI_GROUND_FIELDS; ++f) {
+        if (f == GRID_FACTOR && !grid->friction_factor) continue;
+        const int *on = f == GRID_X ? &shape[1] : shape;
+        ground->field[f] =
+            cpsi_netcdf_variable(file, prefix, GRID[f].name, NC_DOUBLE, GRID[f].flat ? 2 : 1, on,
+                                 GRID[f].long_name, GRID[f].units);
+    }
+    cpsi_netcdf_text(file, ground->field[GRID_Z], "beyond_its_edges",
+                     grid->extends ? "goes on with the slope of the edge" : "unknown");
+}
+
+static void define_ground(CpsiNetcdfFile *file, CpsiNetcdfGround *ground, const CpsScene *scene) {
+    for (int k = 0; k < scene->obstacle_count; ++k) {
+        for (int f = 0; f < CPSI_GROUND_FIELDS; ++f) ground[k].field[f] = -1;
+        if (scene->obstacle[k].kind != CPS_OBSTACLE_GROUND) continue;
+        const CpsGroundGrid grid = cps_ground_grid(scene->obstacle[k].ground);
+        define_one(file, &ground[k], scene->obstacle[k].name, &grid);
+    }
+}
+
+static void write_ground(CpsiNetcdfFile *file, const CpsiNetcdfGround *ground,
+                         const CpsScene *scene) {
+    for (int k = 0; k < scene->obstacle_count; ++k) {
+        if (scene->obstacle[k].kind != CPS_OBSTACLE_GROUND) continue;
+        const CpsGroundGrid grid = cps_ground_grid(scene->obstacle[k].ground);
+        const double *value[] = {grid.x, grid.y, grid.z, grid.friction_factor};
+        const size_t start[] = {0, 0}, columns = (size_t)grid.x_count, rows = (size_t)grid.y_count;
+        for (int f = 0; f < CPSI_GROUND_FIELDS; ++f) {
+            const size_t count[] = {f == GRID_X ? columns : rows, columns};
+            if (value[f]) cpsi_netcdf_doubles(file, ground[k].field[f], start, count, value[f]);
+        }
+    }
+}
+
+/* ---- all ---- */
+
 /* Obstacles: their names as an attribute like those of the lines, their numbers as variables. */
 void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o,
                                   const CpsScene *scene, int step, int xyz) {
@@ -127,7 +189,8 @@ void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o,
         o->field[f] =
             cpsi_netcdf_variable(file, "", OBSTACLE[f].name, NC_DOUBLE, 1 + OBSTACLE[f].vector,
                                  shape, OBSTACLE[f].long_name, OBSTACLE[f].units);
-    cpsi_netcdf_flags(file, o->field[OBSTACLE_KIND], NC_DOUBLE, 3, NULL, "plane cylinder sphere");
+    cpsi_netcdf_flags(file, o->field[OBSTACLE_KIND], NC_DOUBLE, 5, (const int[]){0, 1, 2, 3, 4},
+                      "plane cylinder sphere ground surface");
     cpsi_netcdf_flags(file, o->field[OBSTACLE_SHAPE], NC_DOUBLE, 3, NULL, "ellipse box set");
     o->turn = cpsi_netcdf_variable(file, "", "obstacle_turn", NC_DOUBLE, 2, turned,
                                    "angle turned about its axis in the step", "rad");
@@ -138,27 +201,35 @@ void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o,
             o->move[f] = cpsi_netcdf_variable(file, "", MOVE[f].name, NC_DOUBLE, 3, moved,
                                               MOVE[f].long_name, MOVE[f].units);
     define_sets(file, o, scene);
+    o->ground = calloc((size_t)scene->obstacle_count, sizeof *o->ground);
+    if (!o->ground) cpsi_netcdf_keep(file, NC_ENOMEM);
+    if (o->ground) define_ground(file, o->ground, scene);
 }
 
 void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *o) {
     for (int k = 0; o->set && k < o->count; ++k) cps_set_conic_clear(&o->set[k]);
     free(o->set);
     o->set = NULL;
+    free(o->ground);
+    o->ground = NULL;
 }
 
 static void write_fields(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
                          const CpsScene *scene, const double origin[XYZ]) {
     for (size_t k = 0; k < (size_t)scene->obstacle_count; ++k) {
         const CpsObstacle *o = &scene->obstacle[k];
-        const bool plane = o->kind == CPS_OBSTACLE_PLANE;
-        const double kind = o->kind, radius = plane ? 0 : o->radius,
+        static const double UP[XYZ] = {0, 0, 1};
+        const bool plane = o->kind == CPS_OBSTACLE_PLANE,
+                   round = o->kind == CPS_OBSTACLE_CYLINDER || o->kind == CPS_OBSTACLE_SPHERE;
+        const double kind = o->kind, radius = round ? o->radius : 0,
                      shape = o->friction_set ? 2 : o->friction_shape;
         const double lateral = o->has_friction_lateral ? o->friction_lateral : o->friction;
         const double point[XYZ] = {o->point[0] - origin[0], o->point[1] - origin[1],
                                    o->point[2] - origin[2]};
         const double *value[CPSI_OBSTACLE_FIELDS] = {
-            &kind,  point,   plane ? o->normal : o->axis, &radius, &o->friction, &lateral,
-            &shape, o->grain};
+            &kind,   point,        plane ? o->normal : round ? o->axis : UP,
+            &radius, &o->friction, &lateral,
+            &shape,  o->grain};
         const size_t start[] = {k, 0}, count[] = {1, XYZ};
         for (int f = 0; f < CPSI_OBSTACLE_FIELDS; ++f)
             cpsi_netcdf_doubles(file, obstacles->field[f], start, count, value[f]);
@@ -230,4 +301,5 @@ void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles
                                  const CpsScene *scene, const double origin[XYZ]) {
     write_fields(file, obstacles, scene, origin);
     write_sets(file, obstacles);
+    if (obstacles->ground) write_ground(file, obstacles->ground, scene);
 }

@@ -8,7 +8,17 @@
 #include "capstan/set.h"
 #include "io/results/netcdf/netcdf_file.h"
 
-enum { CPSI_OBSTACLE_FIELDS = 8, CPSI_OBSTACLE_MOVES = 5, CPSI_SET_FIELDS = 5 };
+enum {
+    CPSI_OBSTACLE_FIELDS = 8,
+    CPSI_OBSTACLE_MOVES = 5,
+    CPSI_SET_FIELDS = 5,
+    CPSI_GROUND_FIELDS = 4
+};
+
+/* Variables of the ground of one obstacle; negative: there is none. */
+typedef struct CpsiNetcdfGround {
+    int field[CPSI_GROUND_FIELDS];
+} CpsiNetcdfGround;
 
 typedef struct CpsiNetcdfObstacles {
     int count;
@@ -19,6 +29,7 @@ typedef struct CpsiNetcdfObstacles {
     size_t set_rows, set_unknowns;                    /* where these are 0 */
     /* (count) while the file begins; zeroed where an obstacle has none */
     CpsSetConic *set;
+    CpsiNetcdfGround *ground; /* (count) likewise */
 } CpsiNetcdfObstacles;
 
 /* Define the variables; `step` and `xyz` are dimensions. */
@@ -31,7 +42,7 @@ void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles
 void cpsi_netcdf_append_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
                                   size_t step, const CpsEvolution *evolution,
                                   const double origin[3]);
-/* Free the conic forms of the sets. */
+/* Free the conic forms of the sets, and what is kept of ground. */
 void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
 
 enum { CPSI_POINT_VECTORS = 9, CPSI_POINT_NUMBERS = 7, CPSI_POINT_INTS = 5 };

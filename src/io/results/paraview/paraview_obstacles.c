@@ -2,7 +2,8 @@
 /* The obstacles as quadrilaterals for ParaView, in text: obstacles.vtp, and step-N-obstacles.vtp
  * for each step in which an obstacle turns or moves. Balls are complete; planes and cylinders,
  * which have no ends, extend a little farther than the lines. Cells carry the number of their
- * sector of the obstacle, which makes a turn visible. */
+ * sector of the obstacle, which makes a turn visible. Ground has the points of its grid, of a large
+ * one every second, third, ..; surfaces given as functions have no quadrilaterals. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,6 +14,7 @@
 
 enum { AROUND = 96, ALONG = 48 }; /* quadrilaterals round a circle, and from pole to pole */
 enum { SECTORS = 8 };
+enum { MOST_CELLS = 400 }; /* of ground, along either axis */
 
 /* Extent beyond that of the lines, relative to it. */
 static const double MARGIN = 0.15;
@@ -25,7 +27,8 @@ typedef struct Patch {
         axis[3]; /* the third is the plane's normal or the axis of rotation of a cylinder or ball */
     double reach[2]
                 [2]; /* plane: along the first two axes; cylinder: along the third, in reach[0] */
-    double turned;   /* [rad] about the third axis, which is right-handed with the others */
+    CpsGroundGrid grid; /* of ground */
+    double turned;      /* [rad] about the third axis, which is right-handed with the others */
 } Patch;
 
 static Vec3 unit(Vec3 a) { return vec3_scale(1 / vec3_norm(a), a); }
@@ -50,9 +53,31 @@ static void reach_along(const CpsResults *results, Vec3 centre, Vec3 direction, 
     range[1] += MARGIN * extent;
 }
 
+static int cells_of(int points) {
+    const int stride = (points - 2) / MOST_CELLS + 1;
+    return (points - 2) / stride + 1;
+}
+
+/* Point i of an axis of ground that is written, the last one at the edge. */
+static int index_of(int points, int i) {
+    const int stride = (points - 2) / MOST_CELLS + 1;
+    return i * stride < points - 1 ? i * stride : points - 1;
+}
+
+static Patch patch_of_ground(const CpsObstacle *obstacle) {
+    Patch patch = {.obstacle = obstacle, .centre = vec3_load(obstacle->point)};
+    if (obstacle->kind != CPS_OBSTACLE_GROUND) return patch;
+    patch.grid = cps_ground_grid(obstacle->ground);
+    patch.rows = cells_of(patch.grid.y_count);
+    patch.columns = cells_of(patch.grid.x_count);
+    return patch;
+}
+
 /* after a step; before the first one, step is -1 */
 static Patch patch_of(const CpsResults *results, int step, int k) {
     const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
+    if (obstacle->kind == CPS_OBSTACLE_GROUND || obstacle->kind == CPS_OBSTACLE_SURFACE)
+        return patch_of_ground(&results->obstacle[k]);
     const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE,
                ball = obstacle->kind == CPS_OBSTACLE_SPHERE;
     Patch patch = {.obstacle = &results->obstacle[k],
@@ -69,7 +94,18 @@ static Patch patch_of(const CpsResults *results, int step, int k) {
     return patch;
 }
 
+static Vec3 point_of_ground(const Patch *patch, int row, int column) {
+    const CpsGroundGrid *grid = &patch->grid;
+    if (patch->rows == 0) return patch->centre;
+    const int j = index_of(grid->y_count, row), i = index_of(grid->x_count, column);
+    return vec3_add(patch->centre, vec3(grid->x[i], grid->y[j],
+                                        grid->z[(size_t)j * (size_t)grid->x_count + (size_t)i]));
+}
+
 static Vec3 point_of(const Patch *patch, int row, int column) {
+    if (patch->obstacle->kind == CPS_OBSTACLE_GROUND ||
+        patch->obstacle->kind == CPS_OBSTACLE_SURFACE)
+        return point_of_ground(patch, row, column);
     const double r = patch->obstacle->radius, angle = patch->turned + 2 * CPSI_PI * column / AROUND,
                  polar = CPSI_PI * row / ALONG;
     double x[3];

@@ -51,6 +51,9 @@ static bool copy_obstacles(CpsResults *results, const CpsScene *scene) {
         results->obstacle[k] = scene->obstacle[k];
         results->obstacle[k].name = copy_text(scene->obstacle[k].name);
         results->obstacle[k].friction_set = NULL;
+        results->obstacle[k].ground = NULL;
+        if (scene->obstacle[k].kind == CPS_OBSTACLE_GROUND)
+            results->obstacle[k].ground = cps_ground_retain(scene->obstacle[k].ground);
         results->obstacle_count = k + 1;
         if (!results->obstacle[k].name) return false;
         for (int a = 0; a < 3; ++a) results->obstacle[k].point[a] -= results->origin[a];
@@ -436,7 +439,10 @@ void cps_results_destroy(CpsResults *results) {
     for (int i = 0; i < results->snapshot_count; ++i) cpsi_snapshot_free(&results->snapshot[i]);
     for (int i = 0; i < results->stage_count; ++i) free(results->stage[i].name);
     for (int i = 0; i < results->line_count; ++i) free(results->line_name[i]);
-    for (int i = 0; i < results->obstacle_count; ++i) free((char *)results->obstacle[i].name);
+    for (int i = 0; i < results->obstacle_count; ++i) {
+        free((char *)results->obstacle[i].name);
+        cps_ground_release((CpsGround *)results->obstacle[i].ground);
+    }
     for (int i = 0; i < results->point_count; ++i) free((char *)results->point[i].name);
     for (int i = 0; i < results->body_count; ++i) free((char *)results->body[i].name);
     free(results->row);

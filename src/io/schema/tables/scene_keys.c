@@ -36,6 +36,26 @@ static const CpsiKey SPHERE_KEYS[] = {
 };
 static const CpsiMapping SPHERE = {"sphere", KEYS(SPHERE_KEYS)};
 
+static const CpsiKey GROUND_KEYS[] = {
+    {"file", REQUIRED, TEXT(Obstacle, grid, 255), ANY,
+     .help = "a grid of heights, beside this file"},
+    {"form", REQUIRED, WORD(Obstacle, form), .words = "esri xyz netcdf moordyn_c moordyn_f",
+     .help = "form of the file: ESRI ASCII grid; rows x y z of all points of a grid; classic "
+             "netCDF; or a bathymetry file of MoorDyn in C or in Fortran"},
+    {"variable", OPTIONAL, TEXT(Obstacle, variable, 64), ANY, .fallback = "\"z\"",
+     .help = "of a netCDF file: its variable of heights over y and x"},
+    {"depths", OPTIONAL, FLAG(Obstacle, are_depths), .fallback = "false",
+     .help = "the file has depths, downwards, in place of heights; those of moordyn_f always are"},
+    {"point", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
+     .fallback = "[0, 0, 0]", .help = "where the origin of the file's coordinates is in the scene"},
+    {"extend", OPTIONAL, FLAG(Obstacle, extends), .fallback = "false",
+     .help = "beyond its edges it goes on with their slopes; else lines that leave it are refused"},
+    {"friction_factor", OPTIONAL, TEXT(Obstacle, factors, 255), ANY,
+     .help = "a second file of the same form and points: factors of the friction, bilinear between "
+             "the points"},
+};
+static const CpsiMapping GROUND = {"ground", KEYS(GROUND_KEYS)};
+
 static const CpsiKey FRICTION_KEYS[] = {
     {"axial", ONE_OF, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .help = "coefficient along the line, or along the grain"},
@@ -59,6 +79,8 @@ static const CpsiKey OBSTACLE_KEYS[] = {
     {"cylinder", ONE_OF, AROUND, .inside = &CYLINDER,
      .help = "a solid cylinder without ends (bollard, pipe, drum); lines stay outside"},
     {"sphere", ONE_OF, AROUND, .inside = &SPHERE, .help = "a solid ball; lines stay outside"},
+    {"ground", ONE_OF, AROUND, .inside = &GROUND,
+     .help = "a smooth surface through the points of a grid; lines stay above it"},
     {"friction", OPTIONAL, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .other = &(const CpsiKey){.type = CPSI_MAPPING, .inside = &FRICTION}, .fallback = "0",
      .help = "Coulomb friction coefficient; or one along the line or the grain and another "
@@ -69,6 +91,7 @@ static void begin_obstacle(void *values) {
     CpsObstacle *obstacle = &((CpsiObstacleValues *)values)->obstacle;
     *obstacle = cps_obstacle_default();
     obstacle->friction_lateral = NAN; /* not given */
+    ((CpsiObstacleValues *)values)->variable = "z";
 }
 
 static const CpsiMapping OBSTACLE = {"obstacle", KEYS(OBSTACLE_KEYS), INTO(Obstacle),

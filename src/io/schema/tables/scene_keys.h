@@ -24,6 +24,11 @@ typedef struct CpsiObstacleValues {
     const CpsiYaml *node; /* the key is the name */
     CpsObstacle obstacle;
     const CpsiYaml *set; /* set of friction forces */
+    /* of ground: files beside the scene, their form in the order of CpsiGridForm, and the name of a
+     * netCDF file's variable */
+    const char *grid, *factors, *variable;
+    int form;
+    bool are_depths, extends;
 } CpsiObstacleValues;
 
 /* A point at which lines end. */

@@ -3,7 +3,8 @@
  *
  * A plane seen from above fills the frame and shows its slope; otherwise its intersection with the
  * paper is shown. Cylinders and balls are shown by their silhouettes: a circle, or the band of a
- * cylinder seen from its side, which has no ends. An obstacle that turns and is seen along its axis
+ * cylinder seen from its side, which has no ends. Ground has a picture of its own (ground.c);
+ * surfaces given as functions are not shown. An obstacle that turns and is seen along its axis
  * has a spoke that turns with it. One that moves is shown where it is after the step, and lightly
  * where it was before. The water is what is below its surface, in elevations. */
 #include <math.h>
@@ -198,11 +199,13 @@ void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, con
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle obstacle = cpsi_results_obstacle(results, now, k);
         if (obstacle.kind == CPS_OBSTACLE_PLANE) draw_plane(&obstacle, view, frame, out);
+        if (obstacle.kind == CPS_OBSTACLE_GROUND) cpsi_picture_ground(&obstacle, view, frame, out);
     }
     draw_former(results, view, frame, former, false, out);
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle obstacle = cpsi_results_obstacle(results, now, k);
-        if (obstacle.kind == CPS_OBSTACLE_PLANE) continue;
+        if (obstacle.kind != CPS_OBSTACLE_CYLINDER && obstacle.kind != CPS_OBSTACLE_SPHERE)
+            continue;
         const Vec3 axis = unit(obstacle.axis);
         draw_round(&obstacle, view, frame, out);
         const bool end_on = hypot(vec3_dot(axis, view->right), vec3_dot(axis, view->up)) < END_ON;

@@ -57,12 +57,16 @@ static double apart(const double range[2], double c, double r) {
     return fmax(0, fmax(range[0] - (c + r), (c - r) - range[1]));
 }
 
+static bool is_round(const CpsObstacle *obstacle) {
+    return obstacle->kind == CPS_OBSTACLE_CYLINDER || obstacle->kind == CPS_OBSTACLE_SPHERE;
+}
+
 /* include round silhouettes where they are after a step, unless the lines would be too small beside
  * them */
 static void include_round_at(const CpsResults *results, int step, double spread, CpsiView *view) {
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
-        if (obstacle->kind == CPS_OBSTACLE_PLANE) continue;
+        if (!is_round(obstacle)) continue;
         view->true_scale = true;
         const Vec3 centre = vec3_load(obstacle->point);
         const double x = vec3_dot(view->right, centre), y = vec3_dot(view->up, centre),
@@ -188,7 +192,8 @@ static double elevation_angle(const CpsResults *results, Vec3 east, Vec3 north) 
         const int k = i % results->obstacle_count,
                   step = i < results->obstacle_count ? -1 : results->row_count - 1;
         const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
-        if (obstacle->kind == CPS_OBSTACLE_SPHERE) continue;
+        if (obstacle->kind != CPS_OBSTACLE_PLANE && obstacle->kind != CPS_OBSTACLE_CYLINDER)
+            continue;
         const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE;
         const Vec3 d = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));
         const double e = vec3_dot(d, east), n = vec3_dot(d, north), x = plane ? e : n,

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* An obstacle, and what the kinds of obstacles do differently: the functions of obstacle.h that
+ * each shape has of its own. All of them see the obstacle where it is now; a shape with a place of
+ * its own subtracts frame.point first. */
+#ifndef CAPSTAN_SRC_GEOMETRY_SHAPE_H
+#define CAPSTAN_SRC_GEOMETRY_SHAPE_H
+
+#include "capstan/scene.h"
+#include "geometry/plane.h"
+
+typedef struct CpsiObstacle {
+    CpsObstacleKind kind;
+    CpsiPlane frame; /* plane: the surface. Cylinder: axis[2] is its axis. Sphere: axis[2] is its
+                        axis of rotation */
+    double radius; /* [m] cylinder, sphere; ground, surface: the step in which paths are examined */
+    const CpsGround *ground; /* of a ground, else NULL */
+    CpsSurface surface;      /* of a surface given as a function */
+    double friction[2];      /* [-] along the first tangent of the contact and across it */
+    CpsFrictionShape shape;
+    bool has_set;   /* the friction forces are those of a set instead, which the line holds
+                       (cable/line.h) */
+    bool has_grain; /* the first tangent is that of `grain`, not of the line */
+    Vec3 grain;
+    bool moves; /* it may be shifted */
+} CpsiObstacle;
+
+typedef struct CpsiShapeTable {
+    double (*gap)(const CpsiObstacle *o, Vec3 x);
+    double (*depth)(const CpsiObstacle *o, Vec3 from, Vec3 to);
+    Vec3 (*normal)(const CpsiObstacle *o, Vec3 x);
+    /* [1/m] xx, xy, yy of the surface through x along the tangents t and b */
+    void (*curvature)(const CpsiObstacle *o, Vec3 x, Vec3 t, Vec3 b, double out[3]);
+    Vec3 (*move)(const CpsiObstacle *o, Vec3 x, Vec3 u);
+    Vec3 (*slip)(const CpsiObstacle *o, Vec3 from, Vec3 to);
+    double (*angle)(const CpsiObstacle *o, Vec3 from, Vec3 to);
+    double (*range)(const CpsiObstacle *o, Vec3 x);
+} CpsiShapeTable;
+
+extern const CpsiShapeTable cpsi_shape_plane, cpsi_shape_cylinder, cpsi_shape_sphere,
+    cpsi_shape_smooth;
+
+/* From the plane's point, the cylinder's axis or the sphere's centre to x, on a cylinder across the
+ * axis. */
+Vec3 cpsi_obstacle_spoke(const CpsiObstacle *obstacle, Vec3 x);
+
+#endif
