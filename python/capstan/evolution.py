@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 import weakref
-from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -123,6 +123,11 @@ class LineState:
         return self._evolution._ask(
             lambda handle: np.array(list(lib.cps_evolution_line_view(handle, self._index).origin)))
 
+    @property
+    def failure(self) -> Record:
+        """Whether the line has parted, or an end was let go (CpsLineFailure of failure.h)."""
+        return self._evolution._ask(lambda handle: Record(lib.cps_evolution_line_failure(handle, self._index)))
+
     def stiffness(self, end: str = "B", kind: str = "step", smooth: bool = False) -> np.ndarray:
         """[N/m] (3, 3) the derivative of the force at an end by the place of that end (stiffness.h).
 
@@ -162,13 +167,15 @@ class Evolution:
     scene:          whatever `Scene.of` takes
     threads:        threads that share the lines of a step (with several lines); None: as the scene says
     path_tolerance: as the key of the scene; None: as the scene says
+    moving:         names of obstacles that moves will shift, beside those that the history moves
     """
 
-    def __init__(self, scene: SceneLike, *, threads: Optional[int] = None, path_tolerance: Optional[float] = None) -> None:
+    def __init__(self, scene: SceneLike, *, threads: Optional[int] = None, path_tolerance: Optional[float] = None,
+                 moving: Sequence[str] = ()) -> None:
         self._lock = threading.Lock()
         self._handle: Any = None
         self.scene = Scene.of(scene).copy()
-        self._settings: Dict[str, Any] = {"threads": threads, "path_tolerance": path_tolerance}
+        self._settings: Dict[str, Any] = {"threads": threads, "path_tolerance": path_tolerance, "moving": tuple(moving)}
         self._file = self.scene._file()
         self._c_scene = ffi.new("CpsScene *", lib.cps_scene_file_scene(self._file)[0])
         if threads is not None:
@@ -176,6 +183,12 @@ class Evolution:
         if path_tolerance is not None:
             self._c_scene.solver.path_tolerance = _numbers.number(path_tolerance, "path_tolerance")
         self._names = names_of(self._c_scene)
+        if moving:
+            c = self._c_scene
+            self._obstacles = ffi.new("CpsObstacle[]", [c.obstacle[i] for i in range(c.obstacle_count)])
+            for name in moving:
+                self._obstacles[self._index("obstacles", name)].moves = True
+            c.obstacle = self._obstacles
         self._err = ffi.new("CpsError *")
         self._watch = ffi.new("CapstanWatch *")
         out = ffi.new("CpsEvolution **")

@@ -21,14 +21,15 @@ _HELD, _FREE = "position", "force"
 class Move:
     """A target of moves, made by `Evolution.target` of a dictionary with the keys of an entry of a scene's history:
 
-        "LINE.A", "LINE.B"   {"position": [x, y, z]}, {"move": [x, y, z]} from where it is, or {"force": [x, y, z]}
+        "LINE.A", "LINE.B"   {"position": [x, y, z]}, {"move": [x, y, z]} from where it is, {"force": [x, y, z]}, or
+                             {"release": True}
         "LINE.node"          with "at", the natural length from end A: {"position": ..}, {"hold": True}, {"force": ..} or
                              {"release": True}; further nodes as "LINE.node2" to "LINE.node4"
         "POINT.point"        as an end
         "BODY.body"          {"position": .., "rotation": {"quaternion": [w, x, y, z]}} or {"force": .., "moment": ..}
         "OBSTACLE.turn"      degrees
-        "OBSTACLE.shift"     [x, y, z], of one that moves; or {"by": .., "turn": .., "about": ..} as in CpsShift of shift.h,
-                             with the turn in radians
+        "OBSTACLE.obstacle"  {"move": [x, y, z]}, {"turn": degrees, "axis": .., "about": ..} or both, of one that the history
+                             moves or that is named in `moving` of the evolution
         "gravity"            [x, y, z]
         "name"               name of the step
 
@@ -79,11 +80,11 @@ class Move:
             return
         name, dot, what = str(key).rpartition(".")
         kinds = {"A": "change", "B": "change", "point": "point_change", "body": "body_change", "turn": "turn",
-                 "shift": "shift", "node": "grasp_change", "node2": "grasp_change", "node3": "grasp_change",
+                 "obstacle": "shift", "node": "grasp_change", "node2": "grasp_change", "node3": "grasp_change",
                  "node4": "grasp_change"}
         if not isinstance(key, str) or not dot or what not in kinds:
             raise ArgumentError(f"target: found the key {key!r}, expected 'gravity', 'name', or a name with "
-                                ".A, .B, .node, .point, .body, .turn or .shift")
+                                ".A, .B, .node, .point, .body, .turn or .obstacle")
         self._rows.setdefault(kinds[what], []).append((key, value))
 
     def _fill(self, evolution: "Evolution", rows: str, kind: str, fill: Any) -> None:
@@ -120,6 +121,11 @@ class Move:
                                 f"expected exactly one of {', '.join(allowed)}")
         return found[0]
 
+    @staticmethod
+    def _true(key: str, word: str, value: Any) -> None:
+        if value is not True:
+            raise ArgumentError(f"'{key}': found {word} {value!r}, expected True")
+
     def _place(self, key: str, word: str, value: Any, now: Any) -> Any:
         """A vector, after `move` has been resolved from where the thing is now."""
         vector = _numbers.array(value, (3,), f"'{key}'")
@@ -127,8 +133,12 @@ class Move:
 
     def _end(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         name, _, end = key.rpartition(".")
-        word = self._only(key, value, ("position", "move", "force"))
+        word = self._only(key, value, ("position", "move", "force", "release"))
         row.line, row.end = evolution._index("lines", name), "AB".index(end)
+        if word == "release":
+            self._true(key, word, value[word])
+            row.to.kind = lib.CPS_END_KIND_RELEASED
+            return
         row.to.kind = lib.CPS_END_KIND_FREE if word == "force" else lib.CPS_END_KIND_HELD
         now = evolution[name].report.end[row.end].position if word == "move" else None
         self._vector(key, row.to.value, self._place(key, word, value[word], now))
@@ -154,8 +164,7 @@ class Move:
         row.kind = lib.CPS_END_KIND_FREE if word in ("force", "release") else lib.CPS_END_KIND_HELD
         row.stays, row.at_once = word == "hold", word == "release"
         if word in ("hold", "release"):
-            if value[word] is not True:
-                raise ArgumentError(f"'{key}': found {word} {value[word]!r}, expected True")
+            self._true(key, word, value[word])
         else:
             self._vector(key, row.value, value[word])
 
@@ -184,11 +193,16 @@ class Move:
 
     def _shift(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         row.obstacle = evolution._index("obstacles", key.rpartition(".")[0])
-        if not isinstance(value, Mapping):
-            value = {"by": value}
-        bad = set(value) - {"by", "turn", "about"}
-        if bad or not value:
-            raise ArgumentError(f"'{key}': found {', '.join(map(str, value)) or 'nothing'}, expected by, turn and about")
-        for word in ("by", "turn", "about"):
-            if word in value:
-                self._vector(key if word == "by" else f"{key}.{word}", getattr(row, word), value[word])
+        known = isinstance(value, Mapping) and ("move" in value or "turn" in value) and set(value) <= {"move", "turn", "axis", "about"}
+        if not known or ("turn" in value) != ("axis" in value) or ("about" in value and "turn" not in value):
+            raise ArgumentError(f"'{key}': expected a dictionary with move, or with turn, axis and about, or both")
+        if "move" in value:
+            self._vector(key, row.by, value["move"])
+        if "turn" in value:
+            axis = _numbers.array(value["axis"], (3,), f"'{key}' axis")
+            size = float(np.linalg.norm(axis))
+            if not 0 < size < math.inf:
+                raise ArgumentError(f"'{key}': the axis has no direction")
+            angle = math.radians(_numbers.number(value["turn"], f"'{key}' turn"))
+            self._vector(key + ".turn", row.turn, angle / size * axis)
+            self._vector(key + ".about", row.about, value.get("about", [0, 0, 0]))

@@ -180,9 +180,30 @@ def test_points_bodies_and_obstacles():
     assert np.allclose(np.abs(evolution.bodies["float"].rotation), [half, 0, 0, half])
     assert np.array_equal(evolution.obstacles["bed"].point, [0, 0, -50])
     assert evolution.obstacles["drum"].turned == pytest.approx(math.pi / 2)
-    # nothing in the scene says that the bed may move
+    # nothing says that the bed may move
     with pytest.raises(capstan.ArgumentError, match="moves"):
-        evolution.move({"bed.shift": {"by": [0, 0, 1], "turn": [0, 0.1, 0], "about": [0, 0, -50]}})
+        evolution.move({"bed.obstacle": {"move": [0, 0, 1]}})
+
+
+def test_obstacles_move_and_ends_are_let_go(rope):
+    evolution = capstan.Evolution(rope, moving=["floor"])
+    for _ in evolution:
+        pass
+    place, friction = evolution["rope"].position.copy(), 0.5 * 9.81 * 2
+    evolution.move({"rope.B": {"release": True}})
+    assert evolution["rope"].failure.release == ("none", "by_stage") and not evolution["rope"].B.force.any()
+    place = evolution["rope"].position.copy()
+    # what rests on a floor goes up with it; and along with it, as far as friction holds what nothing pulls
+    evolution.move({"floor.obstacle": {"move": [0.25, 0, 0.5]}})
+    assert np.allclose(evolution["rope"].position, place + [0.25, 0, 0.5], atol=1e-7)
+    evolution.move({"floor.obstacle": {"turn": 180, "axis": [0, 0, 2], "about": [0.25, 0, 0.5]}})
+    assert evolution.obstacles["floor"].turn[2] == pytest.approx(math.pi)
+    assert np.allclose(evolution["rope"].position, np.array([0.25, 0, 0.5]) + [-1, -1, 1] * place, atol=1e-6)
+    for wrong in ({"turn": 3}, {"axis": [0, 0, 1]}, {"turn": 3, "axis": [0, 0, 0]}, {"move": [0, 0, 1], "about": [0, 0, 0]}, {}, [0, 0, 1]):
+        with pytest.raises(capstan.ArgumentError):
+            evolution.move({"floor.obstacle": wrong})
+    with pytest.raises(capstan.ArgumentError, match="no obstacle"):
+        capstan.Evolution(rope, moving=["ceiling"])
 
 
 def test_nodes_are_grasped(rope):

@@ -36,7 +36,7 @@ def cases():
         yield "end force", lambda e, v=value: e.move({"rope.A": {"force": v}})
         yield "node position", lambda e, v=value: e.move({"rope.node": {"at": 1, "position": v}})
         yield "gravity", lambda e, v=value: e.move({"gravity": v})
-        yield "shift", lambda e, v=value: e.move({"floor.shift": v})
+        yield "shift", lambda e, v=value: e.move({"floor.obstacle": {"move": v}})
     for value in NUMBERS:
         yield "place of a node", lambda e, v=value: e.move({"rope.node": {"at": v, "hold": True}})
         yield "turn", lambda e, v=value: e.move({"floor.turn": v})
