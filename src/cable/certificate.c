@@ -46,13 +46,13 @@ Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum) {
 }
 
 /* The sum of the forces on node j except those of the segments. */
-static Vec3 node_force(const CpsiLine *line, int j) {
+static inline Vec3 node_force(const CpsiLine *line, int j) {
     Vec3 sum = vec3_load(&line->load[3 * j]);
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
         sum = vec3_add(sum, vec3_load(&line->friction_force[3 * c]));
         sum = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3 * c]), sum);
     }
-    return cpsi_add_element_contacts(line, j, sum);
+    return line->element_contacts > 0 ? cpsi_add_element_contacts(line, j, sum) : sum;
 }
 
 static Vec3 segment_force(const CpsiLine *line, int e) {

@@ -58,9 +58,8 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     if (line->has_local_axes) CPSI_PLACE(arena, line->obstacle_index_before, contacts);
 }
 
-CpsiElementLaw cpsi_line_law(const CpsiLine *line, int e) {
+CpsiElementLaw cpsi_line_spring_law(const CpsiLine *line, int e) {
     CpsiElementLaw law = {.compliance = cpsi_line_compliance(line, e)};
-    if (line->spring_count == 0) return law;
     const int first = line->spring_at[e];
     law.count = line->spring_at[e + 1] - first;
     law.start = &line->spring_start[first];

@@ -172,8 +172,12 @@ static inline double cpsi_line_compliance(const CpsiLine *line, int e) {
     return line->compliance_factor ? line->compliance * line->compliance_factor[e]
                                    : line->compliance;
 }
-/* The law of element e of an elastic line. */
-CpsiElementLaw cpsi_line_law(const CpsiLine *line, int e);
+/* The law of element e of an elastic line; with springs it is not in line. */
+CpsiElementLaw cpsi_line_spring_law(const CpsiLine *line, int e);
+static inline CpsiElementLaw cpsi_line_law(const CpsiLine *line, int e) {
+    if (line->spring_count > 0) return cpsi_line_spring_law(line, e);
+    return (CpsiElementLaw){.compliance = cpsi_line_compliance(line, e)};
+}
 /* [1/N] of the stiffest element at any tension. */
 double cpsi_line_least_compliance(const CpsiLine *line);
 

@@ -44,6 +44,7 @@ static void keep_best(CpsiHomogeneous *program, CpsiConicOutcome outcome, double
     memcpy(program->best, program->base.u, n * sizeof *program->best);
     memcpy(program->best + n, program->cones.s, m * sizeof *program->best);
     memcpy(program->best + n + m, program->cones.z, m * sizeof *program->best);
+    program->best_kappa = program->kappa;
 }
 
 /* Measure how near the iterate is to each of the three outcomes. The measure of the nearest one
@@ -191,6 +192,14 @@ void cpsi_homogeneous_layout(CpsiHomogeneous *program, CpsiArena *arena,
 void cpsi_homogeneous_begin(CpsiHomogeneous *program) {
     program->found =
         (CpsiConicResult){.outcome = CPSI_CONIC_FAILED, .gap = INFINITY, .residual = INFINITY};
+}
+
+void cpsi_homogeneous_return(CpsiHomogeneous *program) {
+    const size_t n = (size_t)cpsi_homogeneous_tau(program) + 1, m = (size_t)program->cones.rows;
+    memcpy(program->base.u, program->best, n * sizeof *program->best);
+    memcpy(program->cones.s, program->best + n, m * sizeof *program->best);
+    memcpy(program->cones.z, program->best + n + m, m * sizeof *program->best);
+    program->kappa = program->best_kappa;
 }
 
 CpsiConicResult cpsi_homogeneous_result(CpsiHomogeneous *program) {

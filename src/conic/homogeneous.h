@@ -71,6 +71,7 @@ struct CpsiHomogeneous {
     double kappa, d_tau, d_kappa, q_tau;
     /* (size of u + 2 rows) u, s, z of the best iterate, since late steps may only add rounding */
     double *best;
+    double best_kappa;     /* and its kappa */
     CpsiConicResult found; /* outcome and residuals of the best iterate */
 };
 
@@ -85,6 +86,9 @@ void cpsi_homogeneous_begin(CpsiHomogeneous *program);
 /* To be called after the loop: the best iterate, divided by what normalises its outcome, in base.u
  * and cones. */
 CpsiConicResult cpsi_homogeneous_result(CpsiHomogeneous *program);
+
+/* To be called before the loop goes on: the best iterate itself becomes the present one. */
+void cpsi_homogeneous_return(CpsiHomogeneous *program);
 
 static inline int cpsi_homogeneous_tau(const CpsiHomogeneous *program) {
     return program->unknowns + program->equations;

@@ -33,10 +33,11 @@ static const double EASE[] = {1e-10, 3e-8};
  * constraints Newton's next steps remove what refinement has left. */
 static const double ROUGH = 1;
 enum { STEPS = 4, ROUNDS = 6 };
-/* Number of times the assumed activity of cones may be corrected. */
-enum { TRIALS = 4 };
 /* Residuals of this many roundings of the largest unknown are as good as any. */
 static const double ROUNDING = 1e-15;
+/* Steps that stay inside their cones and come to this many of them have converged: rounding of the
+ * products keeps the residual above the limit before on large programs. */
+static const double CONVERGED = 1e-14;
 /* Limit for the entries of the factor, as for the program itself. */
 static const size_t MOST_ENTRIES = (size_t)500 << 20;
 
@@ -46,6 +47,7 @@ typedef struct Polish {
     /* (cones) activity according to the side on which the steps have left the cone */
     CpsiActive *other;
     bool left_some;        /* whether the steps have left a cone */
+    bool hasty;            /* then there are no more of them */
     double enough, best;   /* the residual that is good enough, and the smallest accepted so far */
     int multipliers, size; /* number of multipliers m; number of all unknowns (x, -y, -m) */
     size_t *start;         /* pattern of the matrix */
@@ -325,6 +327,7 @@ static bool polish_steps(Polish *p) {
             memcpy(program->core.cones.z, p->z, (size_t)program->core.cones.rows * sizeof *p->z);
         }
         if (in && now <= p->enough) so_far = fmin(so_far, now);
+        if (p->hasty && !in) break;
         if (k == STEPS || !isfinite(now) || (k > 1 && now > so_far) || !solve(p)) break;
         for (int i = 0; i < p->size; i++) p->at[i] += i < d->unknowns ? p->step[i] : -p->step[i];
     }
@@ -348,9 +351,9 @@ static void doubt(Polish *p) {
     p->left_some = true;
 }
 
-double cpsi_sparse_polish(CpsiSparseProgram *program, double residual) {
+double cpsi_sparse_polish(CpsiSparseProgram *program, double residual, int trials) {
     const CpsiCones *cones = &program->core.cones;
-    Polish p = {.program = program, .best = INFINITY};
+    Polish p = {.program = program, .hasty = trials == 1, .best = INFINITY};
     double largest = 0;
     for (int j = 0; j < program->data.unknowns; j++)
         largest = fmax(largest, fabs(program->core.base.u[j]));
@@ -360,9 +363,9 @@ double cpsi_sparse_polish(CpsiSparseProgram *program, double residual) {
     p.other = p.active + cones->count;
     CPSI_FOR_CONES(k, i, cones->count, cones->dim)
         p.active[k] = cpsi_active(&cones->s[i], &cones->z[i], cones->dim[k]);
-    for (int trial = 0; trial < TRIALS; trial++) {
+    for (int trial = 0; trial < trials; trial++) {
         const bool done = polish_steps(&p), converged = p.best <= ROUNDING * (1 + largest);
-        if (done && !converged && !p.left_some) doubt(&p);
+        if (done && !p.left_some && !(p.best <= CONVERGED * (1 + largest))) doubt(&p);
         release(&p);
         if (!done || converged || !p.left_some) break;
         memcpy(p.active, p.other, (size_t)cones->count * sizeof *p.active);

@@ -86,8 +86,10 @@ extern const CpsiConicOperator cpsi_sparse_operator;
 
 /* Improve a solution in base.u and cones of the core (sparse_polish.c). It is replaced where
  * Newton's method on the active constraints ends with residuals no worse than `residual` or
- * rounding; otherwise, and when memory does not suffice, it remains unchanged. Returns the residual
- * of what replaces it, infinity where nothing does. */
-double cpsi_sparse_polish(CpsiSparseProgram *program, double residual);
+ * rounding; otherwise, and when memory does not suffice, it remains unchanged. `trials`: how
+ * often the active constraints may be chosen; 1: as the iterate shows them, and a step that
+ * contradicts that is the last. Returns the residual of what replaces it, infinity where nothing
+ * does. */
+double cpsi_sparse_polish(CpsiSparseProgram *program, double residual, int trials);
 
 #endif

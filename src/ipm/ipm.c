@@ -138,7 +138,7 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
     double best = INFINITY, alpha = 0;
     int waited = 0;
     const int patience = options->patience > 0 ? options->patience : PATIENCE;
-    start(program);
+    if (!options->goes_on) start(program);
     for (;; report.iterations++) {
         /* move and measure the iterate, and stop where it is good enough */
         const CpsiSums sums = measure(program, alpha);

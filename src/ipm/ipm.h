@@ -3,6 +3,8 @@
 #ifndef CAPSTAN_SRC_IPM_IPM_H
 #define CAPSTAN_SRC_IPM_IPM_H
 
+#include <stdbool.h>
+
 #include "ipm/program.h"
 
 typedef enum CpsiIpmOutcome {
@@ -27,6 +29,7 @@ typedef struct CpsiIpmOptions {
     /* Number of further steps where forces are bounded by friction, each towards a smaller product
      * s.z: they separate nodes that stick from nodes that slip. */
     int sharpenings;
+    bool goes_on; /* from the iterate that stands, instead of a start of its own */
 } CpsiIpmOptions;
 
 typedef struct CpsiIpmReport {
