@@ -106,6 +106,7 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
     const double ratio = ratio_of(line, &now);
     const bool settled = line->last_change.known;
     line->newton.tried = line->newton.solved = line->newton.failed = 0;
+    line->newton.guessed = line->newton.began = false;
     line->last_change = now;
     if (options->frictionless) line->last_change.known = false;
     if (options->frictionless || options->solver.cold || !treats_contacts(line))
@@ -256,7 +257,7 @@ CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
 
 void cpsi_warm_step_note(CpsiLine *line, bool certified) {
     CpsiNewtonRecord *record = &line->newton;
-    if (certified && 2 * record->solved >= record->tried) {
+    if (certified && record->began) {
         record->useful = true;
         record->failures = 0;
     } else if (record->failures < (record->useful ? USEFUL_PATIENCE : CPSI_NEWTON_PATIENCE)) {
