@@ -72,8 +72,7 @@ typedef struct CpsExtreme {
     int least_step, greatest_step;
 } CpsExtreme;
 
-/* What a designer reads of one line, in the units of CpsLineReport and CpsEndReport. A struct of
- * zeros is one to which no step has been added. */
+/* What a designer reads of one line, in the units of the reports. Of zeros: no step was added. */
 typedef struct CpsExtremes {
     CpsExtreme tension[2], uplift[2], angle[2], suspended[2]; /* of ends A and B */
     CpsExtreme touchdown[2][3]; /* x, y and z of the steps in which the line touches */
@@ -81,8 +80,7 @@ typedef struct CpsExtremes {
     CpsExtreme utilisation; /* of the steps in which the line has one */
 } CpsExtremes;
 
-/* Add a step of the caller's number to the extremes of a line; one that is not certified is left
- * out. Nothing happens where an argument is NULL. */
+/* Add a step of the caller's number, if it is certified. Does nothing where an argument is NULL. */
 CPS_API void cps_extremes_add(CpsExtremes *extremes, const CpsLineReport *report, int step);
 
 /* ---- moves that are decided as one goes ----
@@ -138,8 +136,6 @@ CPS_API CpsStepReport cps_evolution_report(const CpsEvolution *evolution);
 CPS_API int cps_evolution_line_count(const CpsEvolution *evolution);
 CPS_API CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line);
 CPS_API CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line);
-/* [m] The point of an obstacle (scene.h), where it is now. False: there is no such obstacle. */
-CPS_API bool cps_evolution_obstacle(const CpsEvolution *evolution, int obstacle, double point[3]);
 
 /* The points of the scene (point.h): how many there are, and the report on one after the last step,
  * of what is no point one of zeros. */
@@ -149,6 +145,11 @@ CPS_API CpsPointReport cps_evolution_point_report(const CpsEvolution *evolution,
 /* The same of the bodies (body.h). */
 CPS_API int cps_evolution_body_count(const CpsEvolution *evolution);
 CPS_API CpsBodyReport cps_evolution_body_report(const CpsEvolution *evolution, int body);
+
+/* The same of the obstacles (shift.h). */
+CPS_API int cps_evolution_obstacle_count(const CpsEvolution *evolution);
+CPS_API CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution,
+                                                        int obstacle);
 
 /* The stiffness of an end of a line after the last step, all else as in that step: the other end
  * stays, or keeps its force. An end with a given force is taken as one that is held where the step

@@ -13,6 +13,7 @@
 #include "capstan/grasp.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
+#include "capstan/shift.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -55,11 +56,11 @@ typedef struct CpsObstacle {
      * second one is normal x first. It need not be symmetric (a ratchet). The evolution keeps what
      * it needs of it. Default NULL. */
     const CpsSet *friction_set;
-    /* [-] the first direction is its part in the tangent plane, fixed in space; default 0 0 0: the
-     * direction of the line, with which it turns */
+    /* [-] the first direction is its part in the tangent plane, fixed in space but for shifts,
+     * which turn it; default 0 0 0: the direction of the line, with which it turns */
     double grain[3];
-    /* it may be shifted, by stages and moves: needs Coulomb's law and contact that is reached.
-     * Default false */
+    /* it may be shifted, by stages and moves (CpsShift): needs Coulomb's law and contact that is
+     * reached. A turn about its own axis needs no flag. Default false */
     bool moves;
 } CpsObstacle;
 
@@ -176,13 +177,6 @@ typedef struct CpsTurn {
     int obstacle; /* index in the scene */
     double angle; /* [rad] of the rotation in this stage, by the right-hand rule */
 } CpsTurn;
-
-/* A translation of an obstacle that `moves`; what sticks to it moves with it, and what it meets is
- * pushed. Held ends and nodes must not be in its way. */
-typedef struct CpsShift {
-    int obstacle; /* index in the scene */
-    double by[3]; /* [m] in this stage */
-} CpsShift;
 
 /* An entry of the history: changes that take place in `step_count` equal load steps. */
 typedef struct CpsStage {

@@ -217,8 +217,8 @@ typedef struct CpsStepReport {
     /* energies, gap, scale, friction_residual and residuals in joules are sums over the lines, all
      * else is the largest of them; has_tension_bound where all lines have one */
     CpsCertificate certificate;
-    double dissipated;             /* [J] sum of the lines */
-    CpsLedger ledger;              /* sum of the lines */
+    double dissipated;             /* [J] sum of the lines and points */
+    CpsLedger ledger;              /* sum of the lines; `ends` and `dissipated` with the points */
     int substep_count, warm_count; /* largest of the lines */
     int jump_count;                /* sum of the lines */
     CpsPlaces places;              /* the least determined of the lines */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Threads that share independent items of work (workers.h).
  *
- * One lock guards everything. Items are as large as a load step of a line, so taking each of them
- * under the lock costs nothing beside them. */
+ * One lock guards everything. Items are as large as a load step of a line, or a pass over hundreds
+ * of nodes, so taking each of them under the lock costs nothing beside them. */
 #include "base/workers.h"
 
 #include <pthread.h>

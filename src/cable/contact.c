@@ -86,7 +86,7 @@ static void set_reference_axes(CpsiLine *line, int c) {
 static Vec3 carried_along(const CpsiLine *line, int c) {
     const Vec3 x = cpsi_line_place(line, line->reference, c);
     const int k = line->obstacle_index[c];
-    return k < 0 ? x : cpsi_obstacle_carry(&line->obstacle[k], x, line->shift[k], line->turn[k]);
+    return k < 0 ? x : cpsi_obstacle_carry(&line->obstacle[k], x, &line->shift[k], line->turn[k]);
 }
 
 /* The displacement to x from the carried-along reference of contact c, projected onto the plane of

@@ -116,7 +116,7 @@ Vec3 cpsi_contact_reference_normal(const CpsiLine *line, int k, int c) {
                : cpsi_obstacle_normal(&line->obstacle[k],
                                       cpsi_obstacle_carry(&line->obstacle[k],
                                                           cpsi_line_place(line, line->reference, c),
-                                                          line->shift[k], 0));
+                                                          &line->shift[k], 0));
 }
 
 /* The contact with obstacle k as it was among the `count` contacts `before`, or a new one, at

@@ -9,6 +9,8 @@
 /* |distance - L| <= CPSI_TAUT L: an inextensible line is pulled straight, and its tension has no
  * upper bound. */
 #define CPSI_TAUT 1e-12
+/* The forces of such a line are computed for a line longer by this share. */
+#define CPSI_TAUT_SLACK 1e-9
 
 /* Is no node of the line held? */
 bool cpsi_line_is_loose(const CpsiLine *line);

@@ -34,7 +34,7 @@ typedef struct CpsiLine {
         *friction_set;  /* (obstacle_count) general friction sets; an entry NULL: a set that is {0},
                            or none; NULL: no obstacle has one */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
-    Vec3 *shift;        /* (obstacle_count) [m] by which each has been shifted in it */
+    CpsiShift *shift;   /* (obstacle_count) how each has been shifted in it */
     bool has_zones;     /* friction differs along the line */
     bool has_sections;  /* weight and compliance may, and there may be point masses */
     bool has_breaking_load; /* an element has one */
@@ -262,7 +262,7 @@ static inline Vec3 cpsi_line_slip(const CpsiLine *line, int c) {
 
 /* Is obstacle k shifted in this substep? */
 static inline bool cpsi_line_is_shifted(const CpsiLine *line, int k) {
-    return line->shift[k].x != 0 || line->shift[k].y != 0 || line->shift[k].z != 0;
+    return !cpsi_shift_is_none(&line->shift[k]);
 }
 
 /* [m] ... and in the axes of the contact. */

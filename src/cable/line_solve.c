@@ -20,8 +20,6 @@ static const double PRESTRESS_FACTOR = 100;
 /* ... if, where there are no other forces, their strain is above this: a smaller one is the
  * rounding error of |x'| <= 1. */
 static const double LEAST_STRAIN = 1e-12;
-/* The forces of a taut line are computed for a line longer by this share. */
-static const double TAUT_SLACK = 1e-9;
 /* Accuracy of positions relative to the length, and largest elongation of an inextensible
  * element. */
 static const double POSITION_TOL = CPSI_TOUCH;
@@ -96,16 +94,15 @@ static double force_scale(const CpsiLine *line, double longer) {
     return high < 1e300 ? high : scale;
 }
 
-/* Place the nodes of taut spans on the straight lines between their ends. */
-static void straighten(CpsiLine *line) {
+void cpsi_line_straighten(CpsiLine *line, double share) {
     CpsiSpan span = {.to = 0};
     while (cpsi_line_next_span(line, span.to, &span)) {
-        if (!cpsi_line_is_span_taut(line, &span)) continue;
+        if (line->compliance > 0 || span.distance < span.length * (1 - share)) continue;
         const Vec3 a = cpsi_line_held_place(line, span.from),
                    b = cpsi_line_held_place(line, span.to);
         for (int j = span.from + 1; j < span.to; j++) {
-            const double share = (line->arc_length[j] - line->arc_length[span.from]) / span.length;
-            vec3_store(&line->position[3 * j], vec3_axpy(share, vec3_sub(b, a), a));
+            const double along = (line->arc_length[j] - line->arc_length[span.from]) / span.length;
+            vec3_store(&line->position[3 * j], vec3_axpy(along, vec3_sub(b, a), a));
         }
     }
 }
@@ -212,7 +209,7 @@ static double reference_tension(const CpsiLine *line) {
 }
 
 double cpsi_line_unit_force(const CpsiLine *line, CpsiBounds bounds) {
-    double force = force_scale(line, cpsi_line_is_taut(line) ? 1 + TAUT_SLACK : 1), all = 0;
+    double force = force_scale(line, cpsi_line_is_taut(line) ? 1 + CPSI_TAUT_SLACK : 1), all = 0;
     const double before = line->obstacle_count > 0 ? reference_tension(line) : 0;
     if (before > PRESTRESS_FACTOR * force &&
         (force > 0 || before * line->compliance > LEAST_STRAIN))
@@ -309,7 +306,7 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
     CpsiStepScale scale = {.length = line->length,
                            .force = force > 0 ? force : 1,
-                           .longer = taut ? 1 + TAUT_SLACK : 1,
+                           .longer = taut ? 1 + CPSI_TAUT_SLACK : 1,
                            .bounds = round->bounds,
                            .reaction_stiffness = round->reaction_stiffness,
                            .drag = round->drag};
@@ -340,7 +337,7 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
         rests_unloaded(line, program, options, round))
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
     if (taut)
-        straighten(line);
+        cpsi_line_straighten(line, CPSI_TAUT);
     else if (round->least && !round->reaction_stiffness && !(round->drag > 0) &&
              (line->is_rough || cpsi_line_is_clean(&ipm)))
         line->report.iteration_count +=

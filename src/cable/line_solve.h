@@ -67,6 +67,9 @@ typedef struct CpsiRound {
  * configuration that is compatible with its forces. */
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                               const CpsiStepOptions *options, const CpsiRound *round);
+/* Place the nodes of inextensible spans on the straight lines between their ends, where these are
+ * as far apart as the span is long, but for this share. */
+void cpsi_line_straighten(CpsiLine *line, double share);
 bool cpsi_line_is_clean(const CpsiIpmReport *ipm);
 
 /* Set reactions of open contacts, which are rounding, to zero, and their friction too, unless

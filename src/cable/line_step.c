@@ -266,6 +266,7 @@ static void take_joined(CpsiLine *line, const CpsiStepOptions *options) {
     const CpsiJoined *joined = line->joined;
     const CpsiChainProgram *program = joined->program;
     cpsi_step_program_unpack(line, program, &joined->scale);
+    if (joined->scale.longer > 1) cpsi_line_straighten(line, joined->scale.longer - 1);
     for (int e = 0; e + 1 < line->n; e++)
         for (int a = 0; a < 3; a++) line->segment_force[3 * e + a] += joined->shift[a];
     line->report.iteration_count = joined->ipm.iterations;

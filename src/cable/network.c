@@ -9,6 +9,7 @@
 #include "cable/contact.h"
 #include "cable/contact_detection.h"
 #include "cable/line_solve.h"
+#include "cable/rounds.h"
 #include "chain/frame.h"
 
 enum { ITERATIONS = 100 };
@@ -21,12 +22,13 @@ enum { PATIENT = 40 };
 static const double ACROSS = 1e3;
 
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
-                        int joints, int bodies, const CpsiLinsysOps *ops, CpsiGraphMatrix *matrix) {
+                        int joints, int bodies, const CpsiLinsysOps *ops,
+                        const CpsiNetworkTools *tools) {
     const bool own_axes = count > 0 && line[0].has_local_axes;
     int most = 1;
     for (int k = 0; k < count; k++) most = line[k].n > most ? line[k].n : most;
     *network = (CpsiNetwork){.lines = count, .joints = joints};
-    cpsi_network_layout(&network->program, arena, count + joints, 2 * most, joints, bodies, matrix);
+    cpsi_network_layout(&network->program, arena, count + joints, 2 * most, joints, bodies, tools);
     CPSI_PLACE(arena, network->chain, count + joints);
     CPSI_PLACE(arena, network->joined, count);
     for (int k = 0; k < count + joints; k++) {
@@ -128,7 +130,7 @@ static void add_bounded_forces(const CpsiJoint *joint, int k, const double axes[
 /* The units of all lines. */
 static CpsiStepScale scale_of(const CpsiLine *line, const CpsiNetworkPart *part,
                               CpsiBounds bounds) {
-    CpsiStepScale scale = {.longer = 1, .bounds = bounds};
+    CpsiStepScale scale = {.longer = part->longer, .bounds = bounds};
     for (int k = 0; k < part->lines; k++) {
         const CpsiLine *one = &line[part->number[k]];
         scale.length = fmax(scale.length, one->length);
@@ -146,6 +148,12 @@ static CpsiStepScale scale_of(const CpsiLine *line, const CpsiNetworkPart *part,
 static void set_reference(CpsiLine *line, const CpsiStepOptions *options) {
     cpsi_line_set_reference(line, options);
     if (!line->has_local_axes) return;
+    cpsi_contact_detect(line, false);
+    cpsi_contact_update_geometry(line);
+}
+
+/* Contacts where the last guess left the line. */
+static void update_base(CpsiLine *line) {
     cpsi_contact_detect(line, false);
     cpsi_contact_update_geometry(line);
 }
@@ -259,8 +267,10 @@ static bool solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *p
                          !options->frictionless && line->obstacle_count > 0;
     const double *axes = line[part->number[0]].common_axes, *u = network->program.base.u;
     for (int k = 0; k < part->lines; k++) {
-        set_reference(&line[part->number[k]], options);
-        move_ends(&line[part->number[k]], part, k);
+        CpsiLine *one = &line[part->number[k]];
+        if (!part->continues) set_reference(one, options);
+        move_ends(one, part, k);
+        if (part->continues && one->has_local_axes) update_base(one);
     }
     const CpsiStepScale scale =
         scale_of(line, part, coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED);
@@ -295,13 +305,28 @@ static bool solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *p
            (part->is_refined && report.gap + fmax(report.imbalance, report.residual) <= ENOUGH);
 }
 
+/* Move the tangent planes of a line to where its part of the solution leads. */
+static void follow(CpsiLine *line, const CpsiJoined *joined, const CpsiStepOptions *options,
+                   double *turned) {
+    double own;
+    if (!line->has_local_axes) return;
+    cpsi_step_program_unpack(line, joined->program, &joined->scale);
+    (void)cpsi_rounds_refresh_axes(line, !options->frictionless, &own);
+    *turned = fmax(*turned, own);
+}
+
 bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
                         const CpsiStepOptions *options, const CpsiNetworkMove *out) {
     const CpsiIpmOptions ipm = {.target = part->target,
                                 .max_iterations = ITERATIONS,
                                 .centering_steps = part->is_refined ? CPSI_CENTERING_STEPS : 0,
                                 .sharpenings = part->is_refined ? CPSI_REFINEMENT_STEPS : 0};
-    return solve(network, line, part, options, ipm, out);
+    const bool solved = solve(network, line, part, options, ipm, out);
+    network->turned = 0;
+    if (!solved) return false;
+    for (int k = 0; k < part->lines; k++)
+        follow(&line[part->number[k]], &network->joined[k], options, &network->turned);
+    return true;
 }
 
 bool cpsi_network_solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,

@@ -41,20 +41,23 @@ typedef struct CpsiNetwork {
     int lines, joints;       /* that it was laid out for */
     CpsiChainProgram *chain; /* (lines + joints) a program for each, of which some take part */
     CpsiIpmOutcome found;    /* how the last program ended */
+    double turned;           /* [rad] by how much a guess has turned the axes of the lines' nodes */
     CpsiJoined *joined;      /* (lines) each line's part of the solution */
 } CpsiNetwork;
 
-/* Place the arrays for the lines (count) and so many joints and bodies, whose matrix belongs to the
- * caller. */
+/* Place the arrays for the lines (count) and so many joints and bodies. */
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
-                        int joints, int bodies, const CpsiLinsysOps *ops, CpsiGraphMatrix *matrix);
+                        int joints, int bodies, const CpsiLinsysOps *ops,
+                        const CpsiNetworkTools *tools);
 
 /* The part of it that a step moves. */
 typedef struct CpsiNetworkPart {
     int lines, joints, bodies;
     int own;                     /* the first joints are on no body */
+    double longer;               /* factor of the elements' lengths */
     double target;               /* relative gap of the solution */
     bool is_refined;             /* by steps in which what sticks moves ever less */
+    bool continues;              /* on the tangent planes to which the last guess has led */
     const int *number;           /* (lines) of those that the network was laid out for */
     const int (*at)[2];          /* (lines, 2) the joint of each end, or CPSI_NO_JOINT */
     const CpsiJoint *joint;      /* (joints) */
@@ -74,7 +77,8 @@ typedef struct CpsiNetworkMove {
 
 /* Find where the joints and bodies go. `line` are all lines; the ends at joints are held where the
  * joints are, and what else the step imposes is set. False where the program has no solution. The
- * lines' steps are overwritten. */
+ * lines' steps are overwritten: on curved obstacles their tangent planes move to where the nodes
+ * go, and a guess that continues begins there. */
 bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
                         const CpsiStepOptions *options, const CpsiNetworkMove *out);
 

@@ -70,7 +70,7 @@ Vec3 cpsi_line_end_slip(const CpsiLine *line, int end, int k) {
     const CpsiObstacle *obstacle = &line->obstacle[k];
     const Vec3 from = vec3_at(line->reference, j), to = vec3_at(line->position, j);
     return cpsi_obstacle_slip(obstacle,
-                              cpsi_obstacle_carry(obstacle, from, line->shift[k], line->turn[k]),
+                              cpsi_obstacle_carry(obstacle, from, &line->shift[k], line->turn[k]),
                               to);
 }
 

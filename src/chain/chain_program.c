@@ -8,6 +8,7 @@
 
 #include "base/larger.h"
 #include "chain/frame.h"
+#include "ipm/lanes.h"
 
 static void layout_segment(CpsiSegment *st, CpsiArena *arena, int n) {
     CPSI_PLACE(arena, st->length, n);
@@ -119,9 +120,22 @@ static void node_residual(const CpsiChainProgram *chain, int j, double out[3]) {
     }
 }
 
+/* Without points: the largest residual in each run of nodes that are not held. */
+static double plain_imbalance(const CpsiChainProgram *chain) {
+    double largest = 0;
+    for (int first = 0, j = 0; j <= chain->n; j++) {
+        if (j < chain->n && !chain->held[j]) continue;
+        const double *residual = &chain->base.residual[3 * first];
+        largest = cpsi_max_nan(largest, cpsi_lanes_size(3 * (size_t)(j - first), residual));
+        first = j + 1;
+    }
+    return largest;
+}
+
 static double imbalance(const CpsiProgram *program) {
     const CpsiChainProgram *chain = (const CpsiChainProgram *)program;
     double largest = 0;
+    if (!chain->matrix.share) return plain_imbalance(chain);
     for (int j = 0; j < chain->n; j++) {
         double residual[3];
         if (chain->held[j]) continue;
@@ -156,6 +170,7 @@ void cpsi_chain_program_use_points(CpsiChainProgram *program) {
 bool cpsi_chain_program_couple_bounds(CpsiChainProgram *program) {
     CpsiProgram *base = &program->base;
     CpsiFrictionDisc *disc = &program->disc;
+    const CpsiIpmAim given = {CPSI_IPM_AIM_GIVEN, 0, 0};
     CpsiSums unused = {0};
     program->bounds_coupled = true;
     clear(base);
@@ -166,18 +181,17 @@ bool cpsi_chain_program_couple_bounds(CpsiChainProgram *program) {
     memset(program->unilateral.q, 0,
            (size_t)program->unilateral.count * sizeof *program->unilateral.q);
     for (int k = 0; k < program->segment.springs.count; k++) program->segment.springs.q[k] = 0;
-    for (int k = 0; k < disc->count; k++) {
-        disc->q[k][0] =
+    memset(disc->q, 0, (size_t)disc->count * sizeof *disc->q);
+    for (int k = 0; k < disc->count; k++)
+        *cpsi_lanes_kept(3, disc->q[0], disc->count, k, 0) =
             disc->z[k][0] - disc->friction[k] * program->unilateral.z[disc->unilateral[k]];
-        disc->q[k][1] = disc->q[k][2] = 0;
-    }
     cpsi_friction_conic_predict_bounds(&program->conic, &program->unilateral);
     memset(base->du, 0, (size_t)base->size * sizeof *base->du);
     for (int k = 0; k < base->kind_count; k++)
-        if (base->kind[k]->load) base->kind[k]->load(base, 0);
+        if (base->kind[k]->load) base->kind[k]->load(base, &given);
     solve(base);
     for (int k = 0; k < base->kind_count; k++)
-        if (base->kind[k]->direct) base->kind[k]->direct(base, 0, false, &unused);
+        if (base->kind[k]->direct) base->kind[k]->direct(base, &given, &unused);
     return true;
 }
 

@@ -9,8 +9,9 @@ static double weight(const CpsiChainProgram *program, int j) {
     return 0.5 * program->drag * (before + after);
 }
 
-static void measure(CpsiProgram *base, CpsiSums *sums) {
+static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     const CpsiChainProgram *program = cpsi_chain(base);
+    (void)alpha;
     (void)sums;
     if (program->drag > 0)
         for (int j = 0; j < program->n; j++)

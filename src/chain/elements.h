@@ -35,10 +35,10 @@ typedef struct CpsiSegment {
     CpsiSprings springs;             /* of elements whose stiffness grows with their strain */
     double (*s)[4];                  /* (n) (1 + d, e) */
     double (*z)[4];                  /* (n) (T, -p) */
-    double (*w)[4];                  /* (n) Nesterov-Todd scaling */
+    double (*w)[4];                  /* (n) Nesterov-Todd scaling, kept as lanes (lanes.h) */
     double *g;                       /* (n) and its factor */
     double *inverse_w;               /* (n) 1/|w1| */
-    double (*q)[4];                  /* (n) right-hand side of the complementarity equation */
+    double (*q)[4];                  /* (n) right-hand side of the complementarity, so kept */
     double (*ds)[4];                 /* (n) direction */
     double (*dz)[4];                 /* (n) */
 } CpsiSegment;
@@ -77,7 +77,7 @@ typedef struct CpsiFrictionDisc {
     /* (count) forces lie in A times this set, NULL: the unit disc; only in programs for Newton's
      * method. The array is NULL where no obstacle has a general set */
     const CpsiFrictionShape **shape;
-    double (*w)[3];
+    double (*w)[3]; /* (count) scaling and right-hand sides, kept as lanes (lanes.h) */
     double *g;
     double (*q)[3], (*ds)[3], (*dz)[3];
 } CpsiFrictionDisc;
@@ -178,13 +178,6 @@ static inline double cpsi_unilateral_rise(const CpsiUnilateral *unilateral, int 
     return n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
 }
 
-/* rho = gap + n.u - s of unilateral contact k. */
-static inline double cpsi_unilateral_residual(const CpsiChainProgram *program, int k) {
-    const CpsiUnilateral *unilateral = &program->unilateral;
-    return unilateral->gap[k] + cpsi_unilateral_rise(unilateral, k, program->base.u) -
-           unilateral->s[k];
-}
-
 /* Add by x B^T M B to D; B (2, 3), M as xx, xy, yy, D as xx, xy, yy, xz, yz, zz. */
 static inline void cpsi_add_mapped(double *d, double by, const double b[6], const double m[3]) {
     static const int ROW[6] = {0, 0, 1, 0, 1, 2}, COLUMN[6] = {0, 1, 1, 2, 2, 2};
@@ -218,13 +211,10 @@ static inline void cpsi_unilateral_couple_bound(CpsiChainProgram *program, int k
 void cpsi_springs_layout(CpsiSprings *springs, CpsiArena *arena, int n, int count);
 /* The passes, each called by that of the segments: `direct` at its end, the others before. */
 void cpsi_springs_start(CpsiSegment *segment, int n, double mu, double margin);
-void cpsi_springs_measure(CpsiSegment *segment, int n, CpsiSums *sums);
+void cpsi_springs_measure(CpsiSegment *segment, int n, double alpha, CpsiSums *sums);
 void cpsi_springs_scale(CpsiSegment *segment, int n);
-void cpsi_springs_predict(CpsiSegment *segment);
-void cpsi_springs_load(CpsiSegment *segment, int n, double keep);
-void cpsi_springs_direct(CpsiSegment *segment, int n, double keep, bool predictor, CpsiSums *sums);
-void cpsi_springs_aim(CpsiSegment *segment, double target, bool second_order);
-void cpsi_springs_advance(CpsiSegment *segment, double alpha);
+void cpsi_springs_load(CpsiSegment *segment, int n, const CpsiIpmAim *aim);
+void cpsi_springs_direct(CpsiSegment *segment, int n, const CpsiIpmAim *aim, CpsiSums *sums);
 
 /* ---- friction conics (friction_conic.c) ---- */
 

@@ -191,12 +191,27 @@ static void start(CpsiProgram *base, double mu, double margin) {
     }
 }
 
-static void measure(CpsiProgram *base, CpsiSums *sums) {
+/* x += alpha dx */
+CPSI_LANES_FUNCTION void add_scaled(int n, double alpha, CpsiLane *restrict dx,
+                                    CpsiLane *restrict x) {
+    for (int i = 0; i < n; i++) CPSI_FOR_LANES(l) x[i][l] += alpha * dx[i][l];
+}
+
+static void advance(CpsiFrictionConic *conic, const CpsiConicBlock *e, double alpha) {
+    add_scaled(e->form->unknowns, alpha, e->dv, e->v);
+    add_scaled(e->form->rows, alpha, e->ds, e->s);
+    add_scaled(e->form->rows, alpha, e->dz, e->z);
+    for (int k = e->first + e->from; k < e->first + e->to; k++)
+        conic->bound[k] += alpha * conic->d_bound[k];
+}
+
+static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     CpsiFrictionConic *conic = &cpsi_chain(base)->conic;
     for (int k = 0; k < conic->count;) {
         const CpsiConicBlock e = cpsi_conic_open(conic, k);
         const CpsiConicSet *form = e.form;
         CpsiLane u[2], force[2], bound, sz;
+        if (alpha != 0) advance(conic, &e, alpha);
         CPSI_FOR_LANES(l) {
             const int at = element_at(&e, l);
             double x[2];
@@ -474,14 +489,25 @@ static void bound_directions(const CpsiChainProgram *program, const CpsiConicBlo
     }
 }
 
-static void load(CpsiProgram *base, double keep) {
+/* q of the aim; `scale` has computed that of the predictor. */
+static void aim_block(const CpsiConicBlock *e, const CpsiIpmAim *aim, double *scratch) {
+    const CpsiConicSet *form = e->form;
+    if (aim->kind == CPSI_IPM_AIM_PREDICT || aim->kind == CPSI_IPM_AIM_GIVEN) return;
+    if (aim->kind == CPSI_IPM_AIM_CENTRE)
+        for (int i = 0; i < form->rows; i++) CPSI_FOR_LANES(l) e->ds[i][l] = e->dz[i][l] = 0;
+    CPSI_FOR_CONES(c, i, form->cones, form->dim)
+        correct_cone(e, cone_of(e, c, i), form->dim[c], aim->target, scratch);
+}
+
+static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
     CpsiChainProgram *program = cpsi_chain(base);
     const CpsiFrictionConic *conic = &program->conic;
     for (int k = 0; k < conic->count;) {
         const CpsiConicBlock e = cpsi_conic_open(conic, k);
         CpsiLane da, none[2] = {{0}}, force[2], *image = scratch_of(conic);
+        aim_block(&e, aim, conic->scratch);
         bound_directions(program, &e, da);
-        direction(&e, da, keep, none, image, image + e.form->spread);
+        direction(&e, da, aim->keep, none, image, image + e.form->spread);
         force_of(e.form, da, e.dv, force);
         for (; k < e.first + e.to; k++)
             add_to_node(conic, k, force[0][k - e.first], force[1][k - e.first], base->du);
@@ -489,8 +515,7 @@ static void load(CpsiProgram *base, double keep) {
     }
 }
 
-static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
-    (void)predictor; /* the corrector forms the second-order term itself */
+static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiFrictionConic *conic = &program->conic;
     for (int k = 0; k < conic->count;) {
@@ -501,7 +526,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         bound_directions(program, &e, da);
         CPSI_FOR_LANES(l)
         for (int a = 0; a < 2; a++) du[a][l] = conic->du[element_at(&e, l)][a];
-        direction(&e, da, keep, du, image, y);
+        direction(&e, da, aim->keep, du, image, y);
         cpsi_lanes_qr_from(&qr, image);
         cpsi_lanes_permute_back(&qr, form->spread, qr.row, image, y);
         spread_transposed(&e, y, e.ds);
@@ -516,37 +541,4 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     }
 }
 
-static void aim(CpsiProgram *base, double target, bool second_order) {
-    CpsiFrictionConic *conic = &cpsi_chain(base)->conic;
-    for (int k = 0; k < conic->count;) {
-        const CpsiConicBlock e = cpsi_conic_open(conic, k);
-        const CpsiConicSet *form = e.form;
-        if (!second_order)
-            for (int i = 0; i < form->rows; i++) CPSI_FOR_LANES(l) e.ds[i][l] = e.dz[i][l] = 0;
-        CPSI_FOR_CONES(c, i, form->cones, form->dim)
-            correct_cone(&e, cone_of(&e, c, i), form->dim[c], target, conic->scratch);
-        cpsi_conic_close(conic, &e);
-        k = e.first + e.to;
-    }
-}
-
-/* x += alpha dx */
-CPSI_LANES_FUNCTION void add_scaled(int n, double alpha, CpsiLane *restrict dx,
-                                    CpsiLane *restrict x) {
-    for (int i = 0; i < n; i++) CPSI_FOR_LANES(l) x[i][l] += alpha * dx[i][l];
-}
-
-static void advance(CpsiProgram *base, double alpha) {
-    CpsiFrictionConic *conic = &cpsi_chain(base)->conic;
-    for (int k = 0; k < conic->count;) {
-        const CpsiConicBlock e = cpsi_conic_open(conic, k);
-        add_scaled(e.form->unknowns, alpha, e.dv, e.v);
-        add_scaled(e.form->rows, alpha, e.ds, e.s);
-        add_scaled(e.form->rows, alpha, e.dz, e.z);
-        cpsi_conic_close(conic, &e);
-        for (; k < e.first + e.to; k++) conic->bound[k] += alpha * conic->d_bound[k];
-    }
-}
-
-const CpsiKind CPSI_WIDE(cpsi_friction_conic) = {start, measure, scale, NULL,
-                                                 load,  direct,  aim,   advance};
+const CpsiKind CPSI_WIDE(cpsi_friction_conic) = {start, measure, scale, load, direct};

@@ -29,13 +29,6 @@
 #include "ipm/lane_sums.h"
 #include "ipm/width.h"
 
-/* The direction of the bound f R of disc k: before the solution, without the part that is linear
- * in n.du, and after it all of it. */
-static inline double bound_direction(const CpsiChainProgram *program, int k) {
-    const int i = program->disc.unilateral[k];
-    return !program->bounds_coupled ? 0 : program->disc.friction[k] * program->unilateral.dz[i];
-}
-
 /* B where map is NULL. */
 static const double PLAIN[6] = {1, 0, 0, 0, 1, 0};
 
@@ -94,7 +87,7 @@ static void start(CpsiProgram *base, double mu, double margin) {
 /* What the passes read and write of eight discs. */
 typedef struct DiscLanes {
     CpsiLane s[3], z[3], weight, w[3], g, q[3], ds[3], dz[3];
-    CpsiLane du[2], bound; /* B du; the direction of the bound */
+    CpsiLane du[2], bound; /* B du; the direction of the bound, 0 where bounds are fixed */
     CpsiLane stiffness, block[3],
         across; /* M = stiffness x block (xx, xy, yy); c w1 = -across w1 */
     CpsiLane force[2];
@@ -105,11 +98,16 @@ static inline void load_pairs(const CpsiFrictionDisc *disc, int k, int count, Di
     cpsi_lanes_load(3, x->z, disc->z[k], count);
 }
 
-static inline void load_scaled(const CpsiChainProgram *program, int k, int count, DiscLanes *x) {
+/* The direction of the bound f R of `count` discs from `first` on: before the solution, without the
+ * part that is linear in n.du, and after it all of it. */
+static inline void gather_bounds(const CpsiChainProgram *program, int first, int count,
+                                 double *bound) {
     const CpsiFrictionDisc *disc = &program->disc;
-    cpsi_lanes_load(3, x->w, disc->w[k], count);
-    cpsi_lanes_load(3, x->q, disc->q[k], count);
-    CPSI_FOR_LANES(l) x->bound[l] = bound_direction(program, k + (l < count ? l : count - 1));
+    for (int k = 0; k < count; k++)
+        bound[k] =
+            !program->bounds_coupled
+                ? 0
+                : disc->friction[first + k] * program->unilateral.dz[disc->unilateral[first + k]];
 }
 
 /* The three numbers of lane l. */
@@ -126,12 +124,15 @@ CPSI_LANES_FUNCTION void measure_lanes(const DiscLanes *restrict x, CpsiLaneSums
     }
 }
 
-static void measure(CpsiProgram *base, CpsiSums *sums) {
+static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     const CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
     CpsiLaneSums lane_sums = {.weight = {0}};
     DiscLanes x;
     for (int k = 0; k < disc->count; k += CPSI_LANES) {
         const int count = cpsi_lanes_count(disc->count - k);
+        if (alpha != 0)
+            cpsi_cone_advance(3 * (size_t)count, alpha, disc->s[k], disc->ds[k], disc->z[k],
+                              disc->dz[k]);
         load_pairs(disc, k, count, &x);
         cpsi_lanes_load_weights(x.weight, &disc->weight[k], count);
         measure_lanes(&x, &lane_sums);
@@ -141,7 +142,7 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     cpsi_lane_sums_add(sums, &lane_sums);
 }
 
-CPSI_LANES_FUNCTION void scale_lanes(DiscLanes *restrict x) {
+CPSI_LANES_FUNCTION void scale_lanes(DiscLanes *restrict x, CpsiLane *restrict by) {
     CPSI_FOR_LANES(l) {
         const double s[3] = THREE(x->s, l), z[3] = THREE(x->z, l);
         const CpsiSocScaling scaling = cpsi_soc_scaling(s, z, 3);
@@ -152,13 +153,14 @@ CPSI_LANES_FUNCTION void scale_lanes(DiscLanes *restrict x) {
         x->block[1][l] = -2 * w[1] * w[2];
         x->block[2][l] = 1 + 2 * w[1] * w[1];
         x->across[l] = -2 * share * w[0];
-        for (int a = 0; a < 3; a++) x->w[a][l] = w[a];
+        for (int a = 0; a < 3; a++) by[a][l] = w[a];
         x->g[l] = scaling.g;
     }
 }
 
 /* Add disc k, in lane l, to the matrix. */
-static inline void add_to_matrix(CpsiChainProgram *program, int k, const DiscLanes *x, int l) {
+static inline void add_to_matrix(CpsiChainProgram *program, int k, const DiscLanes *x, CpsiLane *w,
+                                 int l) {
     const CpsiFrictionDisc *disc = &program->disc;
     double *diagonal = &program->matrix.diagonal[6 * disc->node[k]];
     const double m[3] = THREE(x->block, l);
@@ -169,8 +171,7 @@ static inline void add_to_matrix(CpsiChainProgram *program, int k, const DiscLan
     if (!program->bounds_coupled) return;
     const double *b = disc->map ? disc->map[k] : PLAIN;
     double across[3];
-    for (int a = 0; a < 3; a++)
-        across[a] = x->across[l] * (b[a] * x->w[1][l] + b[3 + a] * x->w[2][l]);
+    for (int a = 0; a < 3; a++) across[a] = x->across[l] * (b[a] * w[1][l] + b[3 + a] * w[2][l]);
     cpsi_unilateral_couple_bound(program, disc->unilateral[k], x->weight[l], disc->friction[k],
                                  across);
 }
@@ -183,52 +184,93 @@ static void scale(CpsiProgram *base) {
         const int count = cpsi_lanes_count(disc->count - k);
         load_pairs(disc, k, count, &x);
         cpsi_lanes_load(1, &x.weight, &disc->weight[k], count);
-        scale_lanes(&x);
-        cpsi_lanes_store(3, disc->w[k], x.w, count);
+        CpsiLane *w = cpsi_lanes_of(3, disc->w[k], x.w, count);
+        scale_lanes(&x, w);
+        cpsi_lanes_keep(3, disc->w[k], x.w, count);
         cpsi_lanes_store(1, &disc->g[k], &x.g, count);
-        for (int l = 0; l < count; l++) add_to_matrix(program, k + l, &x, l);
+        for (int l = 0; l < count; l++) add_to_matrix(program, k + l, &x, w, l);
     }
 }
 
-static void predict(CpsiProgram *base) {
-    CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
-    for (int k = 0; k < disc->count; k++)
-        for (int a = 0; a < 3; a++) disc->q[k][a] = -disc->z[k][a];
-}
-
-/* Q, the force of the right-hand side. */
-CPSI_LANES_FUNCTION void load_lanes(DiscLanes *restrict x) {
+/* q of the aim, of a corrector with the second-order term that stands in q; and Q, the force of the
+ * right-hand side. */
+CPSI_LANES_PART void load_lanes(DiscLanes *restrict x, CpsiLane *restrict by, CpsiLane *restrict q,
+                                const CpsiIpmAimKind kind, double target) {
     CPSI_FOR_LANES(l) {
-        const double w[3] = THREE(x->w, l), q[3] = THREE(x->q, l);
-        const double pull = 2 * w[0] * (q[0] - x->bound[l]) / (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
-        for (int a = 0; a < 2; a++) x->force[a][l] = q[1 + a] + pull * w[1 + a];
+        const double w[3] = THREE(by, l), s[3] = THREE(x->s, l), z[3] = THREE(x->z, l);
+        double aim[3] = {-z[0], -z[1], -z[2]};
+        if (kind == CPSI_IPM_AIM_CENTRE) memset(aim, 0, sizeof aim);
+        if (kind == CPSI_IPM_AIM_CORRECT || kind == CPSI_IPM_AIM_GIVEN)
+            for (int a = 0; a < 3; a++) aim[a] = q[a][l];
+        if (kind == CPSI_IPM_AIM_CORRECT || kind == CPSI_IPM_AIM_CENTRE) {
+            cpsi_soc_correct(aim, s, z, target, 3);
+            for (int a = 0; a < 3; a++) q[a][l] = aim[a];
+        }
+        const double pull =
+            2 * w[0] * (aim[0] - x->bound[l]) / (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
+        for (int a = 0; a < 2; a++) x->force[a][l] = aim[1 + a] + pull * w[1 + a];
     }
 }
 
-static void load(CpsiProgram *base, double keep) {
+CPSI_LANES_FUNCTION void predict_lanes(DiscLanes *restrict x, CpsiLane *restrict w,
+                                       CpsiLane *restrict q) {
+    load_lanes(x, w, q, CPSI_IPM_AIM_PREDICT, 0);
+}
+CPSI_LANES_FUNCTION void correct_lanes(DiscLanes *restrict x, CpsiLane *restrict w,
+                                       CpsiLane *restrict q, double target) {
+    load_lanes(x, w, q, CPSI_IPM_AIM_CORRECT, target);
+}
+CPSI_LANES_FUNCTION void centre_lanes(DiscLanes *restrict x, CpsiLane *restrict w,
+                                      CpsiLane *restrict q, double target) {
+    load_lanes(x, w, q, CPSI_IPM_AIM_CENTRE, target);
+}
+CPSI_LANES_FUNCTION void given_lanes(DiscLanes *restrict x, CpsiLane *restrict w,
+                                     CpsiLane *restrict q) {
+    load_lanes(x, w, q, CPSI_IPM_AIM_GIVEN, 0);
+}
+
+static inline void aim_lanes(DiscLanes *x, CpsiLane *w, CpsiLane *q, const CpsiIpmAim *aim) {
+    switch (aim->kind) {
+    case CPSI_IPM_AIM_PREDICT: predict_lanes(x, w, q); break;
+    case CPSI_IPM_AIM_CORRECT: correct_lanes(x, w, q, aim->target); break;
+    case CPSI_IPM_AIM_CENTRE: centre_lanes(x, w, q, aim->target); break;
+    case CPSI_IPM_AIM_GIVEN: given_lanes(x, w, q); break;
+    }
+}
+
+/* The direction of the unilateral element, computed before, contains what is kept of residuals. */
+static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
     const CpsiChainProgram *program = cpsi_chain(base);
     const CpsiFrictionDisc *disc = &program->disc;
-    (void)keep; /* the direction of the unilateral element, computed before, contains it */
     DiscLanes x;
-    for (int k = 0; k < disc->count; k += CPSI_LANES) {
-        const int count = cpsi_lanes_count(disc->count - k);
-        load_scaled(program, k, count, &x);
-        load_lanes(&x);
-        for (int l = 0; l < count; l++) {
-            const double force[2] = {x.force[0][l], x.force[1][l]};
-            add_to_node(disc, k + l, force, &base->du[3 * disc->node[k + l]]);
+    CPSI_FOR_STRIPS(first, strip, 0, disc->count) {
+        double bound[CPSI_STRIP], force[2 * CPSI_STRIP];
+        gather_bounds(program, first, strip, bound);
+        for (int k = 0; k < strip; k += CPSI_LANES) {
+            const int count = cpsi_lanes_count(strip - k), at = first + k;
+            load_pairs(disc, at, count, &x);
+            cpsi_lanes_load(1, &x.bound, &bound[k], count);
+            CpsiLane *w = cpsi_lanes_of(3, disc->w[at], x.w, count),
+                     *q = cpsi_lanes_of(3, disc->q[at], x.q, count);
+            aim_lanes(&x, w, q, aim);
+            cpsi_lanes_keep(3, disc->q[at], x.q, count);
+            cpsi_lanes_store(2, &force[2 * k], x.force, count);
         }
+        for (int k = 0; k < strip; k++)
+            add_to_node(disc, first + k, &force[2 * k], &base->du[3 * disc->node[first + k]]);
     }
 }
 
 /* The directions ds, dz or, of a predictor, its second-order term in q; `inverse` becomes the
  * largest 1/alpha. */
-CPSI_LANES_PART void direct_lanes(DiscLanes *restrict x, const bool predictor,
+CPSI_LANES_PART void direct_lanes(DiscLanes *restrict x, CpsiLane *restrict by,
+                                  CpsiLane *restrict aim, const bool predictor,
                                   double *restrict inverse) {
     CPSI_FOR_LANES(l) {
-        const double w[3] = THREE(x->w, l), z[3] = THREE(x->z, l), g = x->g[l];
+        const double w[3] = THREE(by, l), z[3] = THREE(x->z, l), g = x->g[l];
         const double du[2] = {x->du[0][l], x->du[1][l]}, bound = x->bound[l];
-        double q[3] = THREE(x->q, l), ds[3], dz[3];
+        double q[3], ds[3], dz[3];
+        for (int a = 0; a < 3; a++) q[a] = predictor ? -z[a] : aim[a][l];
         const double share = 1 / (1 + 2 * (w[1] * w[1] + w[2] * w[2]));
         const double wu = w[1] * du[0] + w[2] * du[1],
                      pull = 2 * share * (w[0] * (q[0] - bound) + g * wu);
@@ -241,79 +283,58 @@ CPSI_LANES_PART void direct_lanes(DiscLanes *restrict x, const bool predictor,
         const double step = cpsi_soc_step(q, predictor, w, g, z, ds, dz, 3);
         inverse[l] = cpsi_max_nan(inverse[l], step);
         for (int a = 0; a < 3; a++) {
-            if (predictor) x->q[a][l] = q[a];
+            if (predictor) aim[a][l] = q[a];
             if (!predictor) x->ds[a][l] = ds[a];
             if (!predictor) x->dz[a][l] = dz[a];
         }
     }
 }
 
-CPSI_LANES_FUNCTION void predictor_lanes(DiscLanes *restrict x, double *restrict inverse) {
-    direct_lanes(x, true, inverse);
+CPSI_LANES_FUNCTION void predictor_lanes(DiscLanes *restrict x, CpsiLane *restrict w,
+                                         CpsiLane *restrict q, double *restrict inverse) {
+    direct_lanes(x, w, q, true, inverse);
 }
 
-CPSI_LANES_FUNCTION void direction_lanes(DiscLanes *restrict x, double *restrict inverse) {
-    direct_lanes(x, false, inverse);
+CPSI_LANES_FUNCTION void direction_lanes(DiscLanes *restrict x, CpsiLane *restrict w,
+                                         CpsiLane *restrict q, double *restrict inverse) {
+    direct_lanes(x, w, q, false, inverse);
 }
 
-static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
+/* B du of `count` discs from `first` on. */
+static inline void gather_directions(const CpsiFrictionDisc *disc, int first, int count,
+                                     const double *du, double *out) {
+    for (int k = 0; k < count; k++)
+        displacement_of(disc, first + k, &du[3 * disc->node[first + k]], false, &out[2 * k]);
+}
+
+static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
-    (void)keep; /* as in load */
     CpsiFrictionDisc *disc = &program->disc;
     CpsiLane inverse = {0};
     DiscLanes x;
-    for (int k = 0; k < disc->count; k += CPSI_LANES) {
-        const int count = cpsi_lanes_count(disc->count - k);
-        load_scaled(program, k, count, &x);
-        cpsi_lanes_load(3, x.z, disc->z[k], count);
-        cpsi_lanes_load(1, &x.g, &disc->g[k], count);
-        CPSI_FOR_LANES(l) {
-            const int at = k + (l < count ? l : count - 1);
-            double du[2];
-            displacement_of(disc, at, &base->du[3 * disc->node[at]], false, du);
-            for (int a = 0; a < 2; a++) x.du[a][l] = du[a];
-        }
-        if (predictor) {
-            predictor_lanes(&x, inverse);
-            cpsi_lanes_store(3, disc->q[k], x.q, count);
-        } else {
-            direction_lanes(&x, inverse);
-            cpsi_lanes_store(3, disc->ds[k], x.ds, count);
-            cpsi_lanes_store(3, disc->dz[k], x.dz, count);
+    CPSI_FOR_STRIPS(first, strip, 0, disc->count) {
+        double bound[CPSI_STRIP], du[2 * CPSI_STRIP];
+        gather_bounds(program, first, strip, bound);
+        gather_directions(disc, first, strip, base->du, du);
+        for (int k = 0; k < strip; k += CPSI_LANES) {
+            const int count = cpsi_lanes_count(strip - k), at = first + k;
+            cpsi_lanes_load(3, x.z, disc->z[at], count);
+            cpsi_lanes_load(1, &x.g, &disc->g[at], count);
+            cpsi_lanes_load(1, &x.bound, &bound[k], count);
+            cpsi_lanes_load(2, x.du, &du[2 * k], count);
+            CpsiLane *w = cpsi_lanes_of(3, disc->w[at], x.w, count),
+                     *q = cpsi_lanes_of(3, disc->q[at], x.q, count);
+            if (aim->kind == CPSI_IPM_AIM_PREDICT) {
+                predictor_lanes(&x, w, q, inverse);
+                cpsi_lanes_keep(3, disc->q[at], x.q, count);
+            } else {
+                direction_lanes(&x, w, q, inverse);
+                cpsi_lanes_store(3, disc->ds[at], x.ds, count);
+                cpsi_lanes_store(3, disc->dz[at], x.dz, count);
+            }
         }
     }
     sums->inverse_step = cpsi_lanes_largest(sums->inverse_step, inverse);
 }
 
-CPSI_LANES_FUNCTION void aim_lanes(DiscLanes *restrict x, double target) {
-    CPSI_FOR_LANES(l) {
-        const double s[3] = THREE(x->s, l), z[3] = THREE(x->z, l);
-        double q[3] = THREE(x->q, l);
-        cpsi_soc_correct(q, s, z, target, 3);
-        for (int a = 0; a < 3; a++) x->q[a][l] = q[a];
-    }
-}
-
-static void aim(CpsiProgram *base, double target, bool second_order) {
-    CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
-    DiscLanes x;
-    for (int k = 0; k < disc->count; k += CPSI_LANES) {
-        const int count = cpsi_lanes_count(disc->count - k);
-        load_pairs(disc, k, count, &x);
-        if (second_order)
-            cpsi_lanes_load(3, x.q, disc->q[k], count);
-        else
-            memset(x.q, 0, sizeof x.q);
-        aim_lanes(&x, target);
-        cpsi_lanes_store(3, disc->q[k], x.q, count);
-    }
-}
-
-static void advance(CpsiProgram *base, double alpha) {
-    CpsiFrictionDisc *disc = &cpsi_chain(base)->disc;
-    cpsi_cone_advance(3 * (size_t)disc->count, alpha, disc->s[0], disc->ds[0], disc->z[0],
-                      disc->dz[0]);
-}
-
-const CpsiKind CPSI_WIDE(cpsi_friction_disc) = {start, measure, scale, predict,
-                                                load,  direct,  aim,   advance};
+const CpsiKind CPSI_WIDE(cpsi_friction_disc) = {start, measure, scale, load, direct};

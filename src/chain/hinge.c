@@ -13,6 +13,7 @@
 
 #include "base/larger.h"
 #include "chain/network_program.h"
+#include "ipm/cone.h"
 
 static CpsiHinges *hinges_of(CpsiProgram *program) {
     return &((CpsiNetworkProgram *)program)->hinges;
@@ -58,8 +59,14 @@ static void start(CpsiProgram *program, double mu, double margin) {
     }
 }
 
-static void measure(CpsiProgram *program, CpsiSums *sums) {
+static void advance(const CpsiHinges *hinges, double alpha) {
+    for (int k = 0; k < hinges->count; k++)
+        cpsi_cone_advance(2, alpha, hinges->s[k], hinges->ds[k], hinges->z[k], hinges->dz[k]);
+}
+
+static void measure(CpsiProgram *program, double alpha, CpsiSums *sums) {
     const CpsiHinges *hinges = hinges_of(program);
+    if (alpha != 0) advance(hinges, alpha);
     for (int k = 0; k < hinges->count; k++) {
         const double *s = hinges->s[k], *z = hinges->z[k], w = hinges->weight[k];
         add(hinges, k, -w * z[1], program->residual);
@@ -74,55 +81,36 @@ static void measure(CpsiProgram *program, CpsiSums *sums) {
 
 static void scale(CpsiProgram *program) { (void)program; /* cpsi_hinges_factor does */ }
 
-static void predict(CpsiProgram *program) {
-    CpsiHinges *hinges = hinges_of(program);
-    for (int k = 0; k < hinges->count; k++)
-        for (int i = 0; i < 2; i++) hinges->q[k][i] = -hinges->z[k][i];
-}
-
-static void load(CpsiProgram *program, double keep) {
+static void load(CpsiProgram *program, const CpsiIpmAim *aim) {
     const CpsiHinges *hinges = hinges_of(program);
-    for (int k = 0; k < hinges->count; k++)
+    for (int k = 0; k < hinges->count; k++) {
+        for (int i = 0; i < 2; i++)
+            hinges->q[k][i] =
+                cpsi_cone_aim_half_line(aim, hinges->s[k][i], hinges->z[k][i], hinges->q[k][i]);
         add(hinges, k,
-            -hinges->weight[k] * stiffness(hinges, k) * other(hinges, k, program->u, keep),
+            -hinges->weight[k] * stiffness(hinges, k) * other(hinges, k, program->u, aim->keep),
             program->du);
+    }
 }
 
-static void direct(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums) {
+static void direct(CpsiProgram *program, const CpsiIpmAim *aim, CpsiSums *sums) {
     CpsiHinges *hinges = hinges_of(program);
     for (int k = 0; k < hinges->count; k++) {
         double *s = hinges->s[k], *z = hinges->z[k], *q = hinges->q[k], *ds = hinges->ds[k],
                *dz = hinges->dz[k];
         dz[1] = stiffness(hinges, k) *
-                (along(hinges, k, program->du) + other(hinges, k, program->u, keep));
+                (along(hinges, k, program->du) + other(hinges, k, program->u, aim->keep));
         dz[0] = -dz[1];
         for (int i = 0; i < 2; i++) {
             ds[i] = s[i] / z[i] * (q[i] - dz[i]);
             sums->inverse_step =
                 cpsi_max_nan(sums->inverse_step, cpsi_max_nan(-ds[i] / s[i], -dz[i] / z[i]));
-            if (predictor) q[i] = ds[i] * dz[i] / s[i];
+            if (aim->kind == CPSI_IPM_AIM_PREDICT) q[i] = ds[i] * dz[i] / s[i];
         }
     }
 }
 
-static void aim(CpsiProgram *program, double target, bool second_order) {
-    CpsiHinges *hinges = hinges_of(program);
-    for (int k = 0; k < hinges->count; k++)
-        for (int i = 0; i < 2; i++)
-            hinges->q[k][i] =
-                target / hinges->s[k][i] - hinges->z[k][i] - (second_order ? hinges->q[k][i] : 0);
-}
-
-static void advance(CpsiProgram *program, double alpha) {
-    CpsiHinges *hinges = hinges_of(program);
-    for (int k = 0; k < hinges->count; k++)
-        for (int i = 0; i < 2; i++) {
-            hinges->s[k][i] += alpha * hinges->ds[k][i];
-            hinges->z[k][i] += alpha * hinges->dz[k][i];
-        }
-}
-
-const CpsiKind cpsi_hinge = {start, measure, scale, predict, load, direct, aim, advance};
+const CpsiKind cpsi_hinge = {start, measure, scale, load, direct};
 
 void cpsi_hinges_add(const CpsiHinges *hinges, CpsiGraphMatrix *matrix) {
     for (int k = 0; k < hinges->count; k++) {

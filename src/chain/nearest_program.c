@@ -15,8 +15,9 @@ static const double BLOCKED = 1e40;
 
 static inline CpsiNearestProgram *nearest(CpsiProgram *base) { return (CpsiNearestProgram *)base; }
 
-static void measure(CpsiProgram *base, CpsiSums *sums) {
+static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     const CpsiNearestProgram *program = nearest(base);
+    (void)alpha;
     for (int j = 0; j < program->chain.n; j++)
         for (int a = 0; a < 3; a++) {
             double *residual = &base->residual[3 * j + a];

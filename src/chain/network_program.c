@@ -96,12 +96,14 @@ static void start(CpsiProgram *program, double mu, double margin) {
     }
 }
 
-static void measure(CpsiProgram *program, CpsiSums *sums) {
+static void measure(CpsiProgram *program, double alpha, CpsiSums *sums) {
     CpsiNetworkProgram *network = network_of(program);
     for (int k = 0; k < network->count; k++) {
         CpsiProgram *chain = &network->chain[k].base;
         memcpy(chain->residual, chain->load, numbers(&network->chain[k]) * sizeof(double));
-        for (int i = 0; i < chain->kind_count; i++) chain->kind[i]->measure(chain, sums);
+        if (alpha != 0)
+            for (int i = 0; i < chain->size; i++) chain->u[i] += alpha * chain->du[i];
+        for (int i = 0; i < chain->kind_count; i++) chain->kind[i]->measure(chain, alpha, sums);
         gather(network, k, chain->residual, program->residual);
     }
     for (int k = 0; k < network->bodies; k++) {
@@ -122,55 +124,27 @@ static void scale(CpsiProgram *program) {
     }
 }
 
-static void predict(CpsiProgram *program) {
+static void load(CpsiProgram *program, const CpsiIpmAim *aim) {
     CpsiNetworkProgram *network = network_of(program);
     for (int k = 0; k < network->count; k++) {
         CpsiProgram *chain = &network->chain[k].base;
+        for (int i = 0; i < chain->size; i++) chain->du[i] = aim->keep * chain->residual[i];
         for (int i = 0; i < chain->kind_count; i++)
-            if (chain->kind[i]->predict) chain->kind[i]->predict(chain);
-    }
-}
-
-static void load(CpsiProgram *program, double keep) {
-    CpsiNetworkProgram *network = network_of(program);
-    for (int k = 0; k < network->count; k++) {
-        CpsiProgram *chain = &network->chain[k].base;
-        for (int i = 0; i < chain->size; i++) chain->du[i] = keep * chain->residual[i];
-        for (int i = 0; i < chain->kind_count; i++)
-            if (chain->kind[i]->load) chain->kind[i]->load(chain, keep);
+            if (chain->kind[i]->load) chain->kind[i]->load(chain, aim);
         gather(network, k, chain->du, program->du);
     }
 }
 
-static void direct(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums) {
+static void direct(CpsiProgram *program, const CpsiIpmAim *aim, CpsiSums *sums) {
     CpsiNetworkProgram *network = network_of(program);
     for (int k = 0; k < network->count; k++) {
         CpsiProgram *chain = &network->chain[k].base;
         for (int i = 0; i < chain->kind_count; i++)
-            if (chain->kind[i]->direct) chain->kind[i]->direct(chain, keep, predictor, sums);
+            if (chain->kind[i]->direct) chain->kind[i]->direct(chain, aim, sums);
     }
 }
 
-static void aim(CpsiProgram *program, double target, bool second_order) {
-    CpsiNetworkProgram *network = network_of(program);
-    for (int k = 0; k < network->count; k++) {
-        CpsiProgram *chain = &network->chain[k].base;
-        for (int i = 0; i < chain->kind_count; i++)
-            if (chain->kind[i]->aim) chain->kind[i]->aim(chain, target, second_order);
-    }
-}
-
-static void advance(CpsiProgram *program, double alpha) {
-    CpsiNetworkProgram *network = network_of(program);
-    for (int k = 0; k < network->count; k++) {
-        CpsiProgram *chain = &network->chain[k].base;
-        for (int i = 0; i < chain->size; i++) chain->u[i] += alpha * chain->du[i];
-        for (int i = 0; i < chain->kind_count; i++)
-            if (chain->kind[i]->advance) chain->kind[i]->advance(chain, alpha);
-    }
-}
-
-static const CpsiKind NETWORK = {start, measure, scale, predict, load, direct, aim, advance};
+static const CpsiKind NETWORK = {start, measure, scale, load, direct};
 static const CpsiKind *const KINDS[] = {&NETWORK, &cpsi_hinge};
 
 /* the linear system ---------------------------------------------------------------------------- */
@@ -238,13 +212,13 @@ static void add_node(CpsiNetworkProgram *network, const CpsiChainProgram *chain,
     add_block(network, joint, joint, block);
 }
 
-/* Add the columns of chain k: the forces on its ties by a unit displacement of each. */
-static void add_chain(CpsiNetworkProgram *network, CpsiChainProgram *chain, int k) {
+/* The forces on the ties of chain k by a unit displacement of each. */
+static void find_blocks(CpsiNetworkProgram *network, int k) {
     static const double zero[3] = {0, 0, 0};
+    CpsiChainProgram *chain = &network->chain[k];
     Tie from, to;
     for (int end = 0; end < CPSI_END_NODES; end++) {
         if (!tie_of(network, k, end, &from)) continue;
-        double block[CPSI_END_NODES][9] = {{0}};
         for (int a = 0; a < 3; a++) {
             const double unit[3] = {a == 0, a == 1, a == 2};
             memset(chain->base.du, 0, numbers(chain) * sizeof(double));
@@ -256,69 +230,122 @@ static void add_chain(CpsiNetworkProgram *network, CpsiChainProgram *chain, int 
                 double force[3];
                 force_on_tie(chain, &to, other == end ? unit : zero, other == end ? zero : unit,
                              force);
-                for (int b = 0; b < 3; b++) block[other][3 * b + a] = force[b];
+                for (int b = 0; b < 3; b++) network->block[k][end][other][3 * b + a] = force[b];
             }
         }
+    }
+}
+
+/* Add them to the matrix of the joints. */
+static void add_chain(CpsiNetworkProgram *network, int k) {
+    Tie from, to;
+    for (int end = 0; end < CPSI_END_NODES; end++) {
+        if (!tie_of(network, k, end, &from)) continue;
         for (int other = 0; other < CPSI_END_NODES; other++)
             if (tie_of(network, k, other, &to))
-                add_block(network, to.joint, from.joint, block[other]);
+                add_block(network, to.joint, from.joint, network->block[k][end][other]);
     }
 }
 
 static void clear(CpsiProgram *program) { (void)program; /* `scale` clears the chains */ }
 
+/* Chains are handed to threads so many at a time that these have at least GRAIN nodes. */
+enum { GRAIN = 256 };
+static int chains_of_item(const CpsiNetworkProgram *network) {
+    long nodes = 0;
+    for (int k = 0; k < network->count; k++) nodes += network->chain[k].n;
+    return 1 + (int)(GRAIN * (long)network->count / (nodes + 1));
+}
+
+/* What a thread does of a pass over the chains: those of one item. */
+typedef struct Pass {
+    CpsiNetworkProgram *network;
+    int chains; /* of an item */
+    void (*of_chain)(CpsiNetworkProgram *network, double *kept, int k);
+} Pass;
+
+static void pass_over_item(void *data, int worker, int item) {
+    const Pass *pass = data;
+    CpsiNetworkProgram *network = pass->network;
+    const int first = item * pass->chains, past = first + pass->chains;
+    double *kept = &network->kept[(size_t)worker * (size_t)network->longest];
+    for (int k = first; k < past && k < network->count; k++) pass->of_chain(network, kept, k);
+}
+
+static void for_each_chain(CpsiNetworkProgram *network,
+                           void (*of_chain)(CpsiNetworkProgram *, double *, int)) {
+    Pass pass = {network, chains_of_item(network), of_chain};
+    const int items = (network->count + pass.chains - 1) / pass.chains;
+    cpsi_workers_run(items > 1 ? network->workers : NULL, pass_over_item, &pass, items);
+}
+
+static void factor_chain(CpsiNetworkProgram *network, double *kept, int k) {
+    CpsiChainProgram *chain = &network->chain[k];
+    (void)kept;
+    network->factored[k] = chain->n == 1 || chain->base.factor(&chain->base);
+    if (chain->n > 1 && network->factored[k]) find_blocks(network, k);
+}
+
 static bool factor(CpsiProgram *program) {
     CpsiNetworkProgram *network = network_of(program);
+    for_each_chain(network, factor_chain);
     cpsi_graph_matrix_clear(network->matrix);
     for (int k = 0; k < network->bodies; k++)
         cpsi_graph_matrix_add_body(network->matrix, network->body_first[k], network->stiffness[k]);
     for (int k = 0; k < network->count; k++) {
-        CpsiChainProgram *chain = &network->chain[k];
-        if (chain->n == 1) {
-            add_node(network, chain, network->joint[k][CPSI_FIRST_NODE]);
-            continue;
-        }
-        if (!chain->base.factor(&chain->base)) return false;
-        add_chain(network, chain, k);
+        if (!network->factored[k]) return false;
+        if (network->chain[k].n == 1)
+            add_node(network, &network->chain[k], network->joint[k][CPSI_FIRST_NODE]);
+        else
+            add_chain(network, k);
     }
     cpsi_hinges_add(&network->hinges, network->matrix);
     return cpsi_graph_matrix_factor(network->matrix);
 }
 
+/* The forces of chain k on its ties, which are held. */
+static void solve_held(CpsiNetworkProgram *network, double *kept, int k) {
+    static const double zero[3] = {0, 0, 0};
+    CpsiChainProgram *chain = &network->chain[k];
+    Tie tie;
+    if (chain->n == 1) return;
+    memset(chain->dt, 0, (size_t)chain->n * sizeof(double));
+    memcpy(kept, chain->base.du, numbers(chain) * sizeof(double));
+    solve_chain(chain);
+    for (int end = 0; end < CPSI_END_NODES; end++)
+        if (tie_of(network, k, end, &tie))
+            force_on_tie(chain, &tie, zero, zero, network->force[k][end]);
+    memcpy(chain->base.du, kept, numbers(chain) * sizeof(double));
+}
+
+/* Chain k with its ties displaced as the joints are. */
+static void solve_displaced(CpsiNetworkProgram *network, double *kept, int k) {
+    CpsiChainProgram *chain = &network->chain[k];
+    Tie tie;
+    (void)kept;
+    memset(chain->dt, 0, (size_t)chain->n * sizeof(double));
+    for (int end = 0; end < CPSI_END_NODES; end++)
+        if (tie_of(network, k, end, &tie)) {
+            double move[3];
+            at_joint(network, tie.joint, network->base.du, move);
+            move_tie(chain, &tie, move);
+        }
+    solve_chain(chain);
+    scatter(network, k, network->base.du, chain->base.du);
+}
+
 /* Each chain with its ties held gives the forces on the joints; these give the displacements of the
  * joints; with them each chain is solved again. */
 static void solve(CpsiProgram *program) {
-    static const double zero[3] = {0, 0, 0};
     CpsiNetworkProgram *network = network_of(program);
     Tie tie;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int k = 0; k < network->count; k++) {
-            CpsiChainProgram *chain = &network->chain[k];
-            const size_t bytes = numbers(chain) * sizeof(double);
-            memset(chain->dt, 0, (size_t)chain->n * sizeof(double));
-            if (pass == 0) memcpy(network->kept, chain->base.du, bytes);
-            if (pass == 1)
-                for (int end = 0; end < CPSI_END_NODES; end++)
-                    if (tie_of(network, k, end, &tie)) {
-                        double move[3];
-                        at_joint(network, tie.joint, program->du, move);
-                        move_tie(chain, &tie, move);
-                    }
-            solve_chain(chain);
-            if (pass == 1) {
-                scatter(network, k, program->du, chain->base.du);
-                continue;
-            }
-            for (int end = 0; end < CPSI_END_NODES && chain->n > 1; end++) {
-                double force[3];
-                if (!tie_of(network, k, end, &tie)) continue;
-                force_on_tie(chain, &tie, zero, zero, force);
-                add_to_joint(network, tie.joint, -1, force, program->du);
-            }
-            memcpy(chain->base.du, network->kept, bytes);
-        }
-        if (pass == 0) cpsi_graph_matrix_solve(network->matrix, program->du);
-    }
+    for_each_chain(network, solve_held);
+    for (int k = 0; k < network->count; k++)
+        for (int end = 0; end < CPSI_END_NODES && network->chain[k].n > 1; end++)
+            if (tie_of(network, k, end, &tie))
+                add_to_joint(network, tie.joint, -1, network->force[k][end], program->du);
+    cpsi_graph_matrix_solve(network->matrix, program->du);
+    for_each_chain(network, solve_displaced);
 }
 
 static double imbalance(const CpsiProgram *program) {
@@ -332,7 +359,7 @@ static double imbalance(const CpsiProgram *program) {
 }
 
 void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chains, int n,
-                         int joints, int bodies, CpsiGraphMatrix *matrix) {
+                         int joints, int bodies, const CpsiNetworkTools *tools) {
     const size_t unknowns = 3 * (size_t)joints + 6 * (size_t)bodies;
     *network = (CpsiNetworkProgram){.base = {.size = (int)unknowns,
                                              .kind = KINDS,
@@ -343,7 +370,9 @@ void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chai
                                              .imbalance = imbalance},
                                     .count = chains,
                                     .joints = joints,
-                                    .matrix = matrix,
+                                    .matrix = tools->matrix,
+                                    .workers = tools->workers,
+                                    .longest = 3 * n,
                                     .bodies = bodies};
     CPSI_PLACE(arena, network->base.load, unknowns);
     CPSI_PLACE(arena, network->base.u, unknowns);
@@ -355,5 +384,8 @@ void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chai
     CPSI_PLACE(arena, network->body_first, bodies);
     CPSI_PLACE(arena, network->stiffness, bodies);
     cpsi_hinges_layout(&network->hinges, arena, 3 * joints);
-    CPSI_PLACE(arena, network->kept, 3 * (size_t)n);
+    CPSI_PLACE(arena, network->kept, (size_t)tools->count * 3 * (size_t)n);
+    CPSI_PLACE(arena, network->factored, chains);
+    CPSI_PLACE(arena, network->block, chains);
+    CPSI_PLACE(arena, network->force, chains);
 }

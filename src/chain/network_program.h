@@ -9,10 +9,12 @@
  * forces. What else acts on a joint, contact and friction, is a chain of one node.
  *
  * The linear system of each chain is eliminated towards its joints, by three solutions for each of
- * its ends there; the joints are left with a matrix of their own (linalg/graph_matrix.h). */
+ * its ends there; the joints are left with a matrix of their own (linalg/graph_matrix.h). Chains
+ * are factorised and solved by several threads, with the same bits whatever their number. */
 #ifndef CAPSTAN_SRC_CHAIN_NETWORK_PROGRAM_H
 #define CAPSTAN_SRC_CHAIN_NETWORK_PROGRAM_H
 
+#include "base/workers.h"
 #include "chain/chain_program.h"
 #include "linalg/graph_matrix.h"
 
@@ -43,7 +45,14 @@ typedef struct CpsiNetworkProgram {
     double (*stiffness)[36]; /* (bodies) of the quadratic energy u' K u/2, K symmetric and >= 0 */
     CpsiHinges hinges;
     CpsiGraphMatrix *matrix; /* of the joints and bodies, whose blocks in use are its unknowns */
-    double *kept;            /* right-hand side of the chain that is being solved */
+    CpsiWorkers *workers;    /* NULL: the thread that calls does everything */
+    double *kept;            /* (workers, longest) right-hand side of the chain that each solves */
+    int longest;
+    /* of each chain, with its ties held: is it factorised, (from, to, 3, 3) the forces on its ties
+     * by their displacements, (tie, 3) those by its right-hand side */
+    bool *factored;
+    double (*block)[CPSI_END_NODES][CPSI_END_NODES][9];
+    double (*force)[CPSI_END_NODES][3];
 } CpsiNetworkProgram;
 
 extern const CpsiKind cpsi_hinge;
@@ -51,9 +60,16 @@ void cpsi_hinges_layout(CpsiHinges *hinges, CpsiArena *arena, int count);
 /* Add the hinges' stiffness to the matrix of the joints. */
 void cpsi_hinges_add(const CpsiHinges *hinges, CpsiGraphMatrix *matrix);
 
+/* What belongs to the caller: the matrix, and `count` >= 1 threads. */
+typedef struct CpsiNetworkTools {
+    CpsiGraphMatrix *matrix;
+    CpsiWorkers *workers;
+    int count;
+} CpsiNetworkTools;
+
 /* Place the arrays for so many chains of at most n nodes, points included, joints, and bodies; the
- * chains' own arrays are placed by the caller, to whom the matrix belongs. */
+ * chains' own arrays are placed by the caller. */
 void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chains, int n,
-                         int joints, int bodies, CpsiGraphMatrix *matrix);
+                         int joints, int bodies, const CpsiNetworkTools *tools);
 
 #endif

@@ -40,9 +40,10 @@ static void start(CpsiProgram *base, double mu, double margin) {
     cpsi_cones_start(&scalar(base)->cones, mu);
 }
 
-static void measure(CpsiProgram *base, CpsiSums *sums) {
+static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     CpsiScalarProgram *program = scalar(base);
     CpsiCones *cones = &program->cones;
+    if (alpha != 0) cpsi_cones_advance(cones, alpha);
     for (int g = 0; g < program->scalars; g++) base->residual[g] -= program->weight[g] * base->u[g];
     for (int k = 0; k < program->sites; k++) {
         const CpsiSite *site = &program->site[k];
@@ -120,13 +121,15 @@ static void scale(CpsiProgram *base) {
     for (int k = 0; k < program->sites; k++) condense(program, &program->site[k]);
 }
 
-static void load(CpsiProgram *base, double keep) {
+/* `scale` has computed q of the predictor, and there are no centring steps. */
+static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
     CpsiScalarProgram *program = scalar(base);
-    const CpsiCones *cones = &program->cones;
+    CpsiCones *cones = &program->cones;
+    if (aim->kind == CPSI_IPM_AIM_CORRECT) cpsi_cones_correct(cones, aim->target);
     for (int k = 0; k < program->sites; k++) {
         const CpsiSite *site = &program->site[k];
         double rho[MOST_ROWS], h[MOST_ROWS], force[CPSI_SITE_SEEN] = {0};
-        for (int i = 0; i < site->rows; i++) rho[i] = keep * cones->rho[site->row + i];
+        for (int i = 0; i < site->rows; i++) rho[i] = aim->keep * cones->rho[site->row + i];
         apply_hessian(program, site, rho, h);
         for (int i = 0; i < site->rows; i++)
             for (int a = 0; a < CPSI_SITE_SEEN; a++)
@@ -135,8 +138,7 @@ static void load(CpsiProgram *base, double keep) {
     }
 }
 
-static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
-    (void)predictor;
+static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
     CpsiScalarProgram *program = scalar(base);
     CpsiCones *cones = &program->cones;
     for (int k = 0; k < program->sites; k++) {
@@ -144,7 +146,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
         double seen[CPSI_SITE_SEEN], h[MOST_ROWS];
         read_unknowns(site, base->du, seen);
         for (int i = site->row; i < site->row + site->rows; i++)
-            cones->ds[i] = row_of(program->g[i], seen) + keep * cones->rho[i];
+            cones->ds[i] = row_of(program->g[i], seen) + aim->keep * cones->rho[i];
         apply_hessian(program, site, &cones->ds[site->row], h);
         for (int i = 0; i < site->rows; i++)
             cones->dz[site->row + i] = cones->q[site->row + i] - h[i];
@@ -152,16 +154,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
     sums->inverse_step = cpsi_max_nan(sums->inverse_step, cpsi_cones_step(cones));
 }
 
-static void aim(CpsiProgram *base, double target, bool second_order) {
-    (void)second_order; /* there are no centring steps */
-    cpsi_cones_correct(&scalar(base)->cones, target);
-}
-
-static void advance(CpsiProgram *base, double alpha) {
-    cpsi_cones_advance(&scalar(base)->cones, alpha);
-}
-
-static const CpsiKind cones_kind = {start, measure, scale, NULL, load, direct, aim, advance};
+static const CpsiKind cones_kind = {start, measure, scale, load, direct};
 static const CpsiKind *const KINDS[] = {&cones_kind};
 
 /* the linear system ---------------------------------------------------------------------------- */

@@ -58,12 +58,8 @@ static inline Segment segment(const double w[4], double g, double c, double l) {
 static inline void add_force(const CpsiChainProgram *program, double *f, int node, double sign,
                              const double force[3]) {
     double own[3];
-    const double *here = force;
-    if (program->frame) {
-        cpsi_frame_to(own, &program->frame[9 * node], force);
-        here = own;
-    }
-    for (int a = 0; a < 3; a++) f[3 * node + a] += sign * here[a];
+    cpsi_frame_to(own, &program->frame[9 * node], force);
+    for (int a = 0; a < 3; a++) f[3 * node + a] += sign * own[a];
 }
 
 /* A node's vector in the common axes. */
@@ -104,22 +100,45 @@ static inline void load_pairs(const CpsiSegment *st, int i, int count, Lanes *x)
     cpsi_lanes_load(4, x->z, st->z[i], count);
 }
 
+/* What elements that are all alike have in their lanes, before a pass. */
+static inline void begin(const CpsiSegment *st, Lanes *x) {
+    CPSI_FOR_LANES(l) {
+        x->c[l] = st->compliance;
+        x->rest[l] = 0;
+    }
+}
+
 static inline void load_elements(const CpsiSegment *st, int i, int count, Lanes *x) {
     cpsi_lanes_load(1, &x->length, &st->length[i], count);
-    CPSI_FOR_LANES(l) x->c[l] = cpsi_segment_compliance(st, i + (l < count ? l : count - 1));
-    memset(x->rest, 0, sizeof x->rest);
-    if (st->springs.count == 0) return;
-    cpsi_lanes_load(1, &x->c, &st->springs.compliance[i], count);
-    cpsi_lanes_load(1, &x->rest, &st->springs.rest[i], count);
+    if (st->springs.count > 0) {
+        cpsi_lanes_load(1, &x->c, &st->springs.compliance[i], count);
+        cpsi_lanes_load(1, &x->rest, &st->springs.rest[i], count);
+    } else if (st->compliance_factor) {
+        CPSI_FOR_LANES(l) x->c[l] = cpsi_segment_compliance(st, i + (l < count ? l : count - 1));
+    }
 }
 
 static inline void load_scaled(const CpsiSegment *st, int i, int count, Lanes *x) {
     load_pairs(st, i, count, x);
     load_elements(st, i, count, x);
-    cpsi_lanes_load(4, x->w, st->w[i], count);
     cpsi_lanes_load(1, &x->g, &st->g[i], count);
-    cpsi_lanes_load(1, &x->inverse_w, &st->inverse_w[i], count);
-    cpsi_lanes_load(4, x->q, st->q[i], count);
+}
+
+/* Add the forces of `count` segments from i on, one after the other: each to the node behind the
+ * segment, and less to the node before it. */
+static void add_forces(const CpsiChainProgram *program, double *f, int i, int count,
+                       const double *force) {
+    if (program->frame) {
+        for (int k = 0; k < count; k++) {
+            add_force(program, f, i + k - 1, -1, &force[3 * k]);
+            add_force(program, f, i + k, 1, &force[3 * k]);
+        }
+        return;
+    }
+    double *before = &f[3 * (i - 1)], *at = &f[3 * i];
+    for (int a = 0; a < 3; a++) before[a] -= force[a];
+    for (int k = 0; k < 3 * (count - 1); k++) at[k] = at[k] + force[k] - force[3 + k];
+    for (int k = 3 * (count - 1); k < 3 * count; k++) at[k] += force[k];
 }
 
 /* The four numbers of lane l. */
@@ -141,35 +160,46 @@ CPSI_LANES_FUNCTION void measure_lanes(const Lanes *restrict x, CpsiLaneSums *re
     }
 }
 
-static void measure(CpsiProgram *base, CpsiSums *sums) {
+/* Move `count` segments from i on. */
+static inline void advance(const CpsiSegment *st, int i, int count, double alpha) {
+    cpsi_cone_advance(4 * (size_t)count, alpha, st->s[i], st->ds[i], st->z[i], st->dz[i]);
+}
+
+static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiSegment *st = &program->segment;
     CpsiLaneSums lane_sums = {.weight = {0}};
     Lanes x;
-    if (st->springs.count > 0) cpsi_springs_measure(st, program->n, sums);
-    for (int i = 1; i < program->n; i += CPSI_LANES) {
-        const int count = cpsi_lanes_count(program->n - i);
-        load_pairs(st, i, count, &x);
-        load_elements(st, i, count, &x);
-        cpsi_lanes_load_weights(x.length, &st->length[i], count);
-        measure_lanes(&x, &lane_sums);
-        /* the force p = -z1 pulls node j-1 towards j and node j back */
-        for (int j = i; j < i + count; j++) {
-            add_force(program, base->residual, j - 1, -1, &st->z[j][1]);
-            add_force(program, base->residual, j, 1, &st->z[j][1]);
+    if (st->springs.count > 0) { /* which read the segments moved */
+        if (alpha != 0) advance(st, 1, program->n - 1, alpha);
+        cpsi_springs_measure(st, program->n, alpha, sums);
+        alpha = 0;
+    }
+    begin(st, &x);
+    CPSI_FOR_STRIPS(first, strip, 1, program->n) {
+        double force[3 * CPSI_STRIP]; /* p = -z1 pulls node i-1 towards i and node i back */
+        if (alpha != 0) advance(st, first, strip, alpha);
+        for (int k = 0; k < strip; k += CPSI_LANES) {
+            const int count = cpsi_lanes_count(strip - k), i = first + k;
+            load_pairs(st, i, count, &x);
+            load_elements(st, i, count, &x);
+            cpsi_lanes_load_weights(x.length, &st->length[i], count);
+            measure_lanes(&x, &lane_sums);
+            cpsi_lanes_store(3, &force[3 * k], &x.z[1], count);
         }
+        add_forces(program, base->residual, first, strip, force);
     }
     cpsi_lane_sums_add(sums, &lane_sums);
 }
 
-CPSI_LANES_FUNCTION void scale_lanes(Lanes *restrict x) {
+CPSI_LANES_FUNCTION void scale_lanes(Lanes *restrict x, CpsiLane *restrict w) {
     CPSI_FOR_LANES(l) {
         const double s[4] = FOUR(x->s, l), z[4] = FOUR(x->z, l), length = x->length[l], c = x->c[l];
         const CpsiSocScaling scaling = cpsi_soc_scaling(s, z, 4);
         const double g = scaling.g;
         const Segment seg = segment(scaling.w, g, c, length);
         const double in = 1 / sqrt(seg.omega);
-        for (int a = 0; a < 4; a++) x->w[a][l] = scaling.w[a];
+        for (int a = 0; a < 4; a++) w[a][l] = scaling.w[a];
         x->g[l] = g;
         x->inverse_w[l] = in;
         x->stiffness[l] = g * seg.inverse_length;
@@ -184,12 +214,14 @@ static void scale(CpsiProgram *base) {
     CpsiMatrix *matrix = &program->matrix;
     Lanes x;
     if (st->springs.count > 0) cpsi_springs_scale(st, program->n);
+    begin(st, &x);
     for (int i = 1; i < program->n; i += CPSI_LANES) {
         const int count = cpsi_lanes_count(program->n - i);
         load_pairs(st, i, count, &x);
         load_elements(st, i, count, &x);
-        scale_lanes(&x);
-        cpsi_lanes_store(4, st->w[i], x.w, count);
+        CpsiLane *w = cpsi_lanes_of(4, st->w[i], x.w, count);
+        scale_lanes(&x, w);
+        cpsi_lanes_keep(4, st->w[i], x.w, count);
         cpsi_lanes_store(1, &st->g[i], &x.g, count);
         cpsi_lanes_store(1, &st->inverse_w[i], &x.inverse_w, count);
         cpsi_lanes_store(1, &matrix->stiffness[i], &x.stiffness, count);
@@ -198,70 +230,105 @@ static void scale(CpsiProgram *base) {
     }
 }
 
-static void predict(CpsiProgram *base) {
-    CpsiChainProgram *program = cpsi_chain(base);
-    CpsiSegment *st = &program->segment;
-    for (int i = 1; i < program->n; i++)
-        for (int a = 0; a < 4; a++) st->q[i][a] = -st->z[i][a];
-    if (st->springs.count > 0) cpsi_springs_predict(st);
-}
-
-/* Q, the force of the right-hand side. */
-CPSI_LANES_FUNCTION void load_lanes(Lanes *restrict x, double keep) {
+/* q of the aim, of a corrector with the second-order term that stands in q; and Q, the force of the
+ * right-hand side. */
+CPSI_LANES_PART void load_lanes(Lanes *restrict x, CpsiLane *restrict w, CpsiLane *restrict q,
+                                const CpsiIpmAimKind kind, double target, double keep) {
     CPSI_FOR_LANES(l) {
-        const double w[4] = FOUR(x->w, l), g = x->g[l], c = x->c[l];
-        const Segment seg = segment(w, g, c, x->length[l]);
-        const double rho = keep * (1 + c * x->z[0][l] - x->s[0][l]) + x->rest[l];
-        const double k = 2 * g * w[0] * (rho + c * x->q[0][l]) * seg.inverse_d;
-        for (int a = 0; a < 3; a++) x->force[a][l] = x->q[1 + a][l] + k * w[1 + a];
+        const double by[4] = FOUR(w, l), s[4] = FOUR(x->s, l), z[4] = FOUR(x->z, l);
+        const double g = x->g[l], c = x->c[l];
+        double aim[4] = {-z[0], -z[1], -z[2], -z[3]};
+        if (kind == CPSI_IPM_AIM_CENTRE) memset(aim, 0, sizeof aim);
+        if (kind == CPSI_IPM_AIM_CORRECT || kind == CPSI_IPM_AIM_GIVEN)
+            for (int a = 0; a < 4; a++) aim[a] = q[a][l];
+        if (kind == CPSI_IPM_AIM_CORRECT || kind == CPSI_IPM_AIM_CENTRE) {
+            cpsi_soc_correct(aim, s, z, target, 4);
+            for (int a = 0; a < 4; a++) q[a][l] = aim[a];
+        }
+        const Segment seg = segment(by, g, c, x->length[l]);
+        const double rho = keep * (1 + c * z[0] - s[0]) + x->rest[l];
+        const double k = 2 * g * by[0] * (rho + c * aim[0]) * seg.inverse_d;
+        for (int a = 0; a < 3; a++) x->force[a][l] = aim[1 + a] + k * by[1 + a];
     }
 }
 
-static void load(CpsiProgram *base, double keep) {
+CPSI_LANES_FUNCTION void predict_lanes(Lanes *restrict x, CpsiLane *restrict w,
+                                       CpsiLane *restrict q, double keep) {
+    load_lanes(x, w, q, CPSI_IPM_AIM_PREDICT, 0, keep);
+}
+CPSI_LANES_FUNCTION void correct_lanes(Lanes *restrict x, CpsiLane *restrict w,
+                                       CpsiLane *restrict q, double target, double keep) {
+    load_lanes(x, w, q, CPSI_IPM_AIM_CORRECT, target, keep);
+}
+CPSI_LANES_FUNCTION void centre_lanes(Lanes *restrict x, CpsiLane *restrict w, CpsiLane *restrict q,
+                                      double target, double keep) {
+    load_lanes(x, w, q, CPSI_IPM_AIM_CENTRE, target, keep);
+}
+CPSI_LANES_FUNCTION void given_lanes(Lanes *restrict x, CpsiLane *restrict w, CpsiLane *restrict q,
+                                     double keep) {
+    load_lanes(x, w, q, CPSI_IPM_AIM_GIVEN, 0, keep);
+}
+
+static inline void aim_lanes(Lanes *x, CpsiLane *w, CpsiLane *q, const CpsiIpmAim *aim) {
+    switch (aim->kind) {
+    case CPSI_IPM_AIM_PREDICT: predict_lanes(x, w, q, aim->keep); break;
+    case CPSI_IPM_AIM_CORRECT: correct_lanes(x, w, q, aim->target, aim->keep); break;
+    case CPSI_IPM_AIM_CENTRE: centre_lanes(x, w, q, aim->target, aim->keep); break;
+    case CPSI_IPM_AIM_GIVEN: given_lanes(x, w, q, aim->keep); break;
+    }
+}
+
+static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiSegment *st = &program->segment;
     Lanes x;
-    if (st->springs.count > 0) cpsi_springs_load(st, program->n, keep);
-    for (int i = 1; i < program->n; i += CPSI_LANES) {
-        const int count = cpsi_lanes_count(program->n - i);
-        load_scaled(st, i, count, &x);
-        load_lanes(&x, keep);
-        for (int l = 0; l < count; l++) {
-            const double force[3] = {x.force[0][l], x.force[1][l], x.force[2][l]};
-            add_force(program, base->du, i + l - 1, -1, force);
-            add_force(program, base->du, i + l, 1, force);
+    if (st->springs.count > 0) cpsi_springs_load(st, program->n, aim);
+    begin(st, &x);
+    CPSI_FOR_STRIPS(first, strip, 1, program->n) {
+        double force[3 * CPSI_STRIP];
+        for (int k = 0; k < strip; k += CPSI_LANES) {
+            const int count = cpsi_lanes_count(strip - k), i = first + k;
+            load_scaled(st, i, count, &x);
+            CpsiLane *w = cpsi_lanes_of(4, st->w[i], x.w, count),
+                     *q = cpsi_lanes_of(4, st->q[i], x.q, count);
+            aim_lanes(&x, w, q, aim);
+            cpsi_lanes_keep(4, st->q[i], x.q, count);
+            cpsi_lanes_store(3, &force[3 * k], x.force, count);
         }
+        add_forces(program, base->du, first, strip, force);
     }
+}
+
+/* du_i - du_i-1 of eight segments, from du of the node before. */
+CPSI_LANES_FUNCTION void differences(const double *restrict du, CpsiLane *restrict out) {
+    double difference[3 * CPSI_LANES];
+    for (int k = 0; k < 3 * CPSI_LANES; k++) difference[k] = du[3 + k] - du[k];
+    cpsi_lanes_load(3, out, difference, CPSI_LANES);
 }
 
 /* du_i - du_i-1 of `count` segments from i on. */
 static inline void load_difference(const CpsiChainProgram *program, int i, int count, Lanes *x) {
     const double *du = program->base.du;
-    CpsiLane far[3], near[3];
-    if (!program->frame) {
-        cpsi_lanes_load(3, far, &du[3 * i], count);
-        cpsi_lanes_load(3, near, &du[3 * (i - 1)], count);
-    } else {
-        CPSI_FOR_LANES(l) {
-            const int j = i + (l < count ? l : count - 1);
-            double one[3], two[3];
-            const double *to = common(program, du, j, one), *from = common(program, du, j - 1, two);
-            for (int a = 0; a < 3; a++) {
-                far[a][l] = to[a];
-                near[a][l] = from[a];
-            }
-        }
+    if (!program->frame && count == CPSI_LANES) {
+        differences(&du[3 * (i - 1)], x->difference);
+        return;
     }
-    for (int a = 0; a < 3; a++) CPSI_FOR_LANES(l) x->difference[a][l] = far[a][l] - near[a][l];
+    CPSI_FOR_LANES(l) {
+        const int j = i + (l < count ? l : count - 1);
+        double one[3], two[3];
+        const double *far = common(program, du, j, one), *near = common(program, du, j - 1, two);
+        for (int a = 0; a < 3; a++) x->difference[a][l] = far[a] - near[a];
+    }
 }
 
 /* The directions ds, dz or, of a predictor, its second-order term in q; `inverse` becomes the
  * largest 1/alpha. */
-CPSI_LANES_PART void direct_lanes(Lanes *restrict x, double keep, const bool predictor,
-                                  double *restrict inverse) {
+CPSI_LANES_PART void direct_lanes(Lanes *restrict x, CpsiLane *restrict by, CpsiLane *restrict aim,
+                                  double keep, const bool predictor, double *restrict inverse) {
     CPSI_FOR_LANES(l) {
-        const double w[4] = FOUR(x->w, l), z[4] = FOUR(x->z, l), g = x->g[l], in = x->inverse_w[l];
-        double q[4] = FOUR(x->q, l), ds[4], dz[4];
+        const double w[4] = FOUR(by, l), z[4] = FOUR(x->z, l), g = x->g[l], in = x->inverse_w[l];
+        double q[4], ds[4], dz[4];
+        for (int a = 0; a < 4; a++) q[a] = predictor ? -z[a] : aim[a][l];
         const double c = x->c[l];
         const Segment seg = segment(w, g, c, x->length[l]);
         const double rho = keep * (1 + c * z[0] - x->s[0][l]) + x->rest[l], t = x->t[l];
@@ -280,78 +347,51 @@ CPSI_LANES_PART void direct_lanes(Lanes *restrict x, double keep, const bool pre
         const double step = cpsi_soc_step(q, predictor, w, g, z, ds, dz, 4);
         inverse[l] = cpsi_max_nan(inverse[l], step);
         for (int a = 0; a < 4; a++) {
-            if (predictor) x->q[a][l] = q[a];
+            if (predictor) aim[a][l] = q[a];
             if (!predictor) x->ds[a][l] = ds[a];
             if (!predictor) x->dz[a][l] = dz[a];
         }
     }
 }
 
-CPSI_LANES_FUNCTION void predictor_lanes(Lanes *restrict x, double keep, double *restrict inverse) {
-    direct_lanes(x, keep, true, inverse);
+CPSI_LANES_FUNCTION void predictor_lanes(Lanes *restrict x, CpsiLane *restrict w,
+                                         CpsiLane *restrict q, double keep,
+                                         double *restrict inverse) {
+    direct_lanes(x, w, q, keep, true, inverse);
 }
 
-CPSI_LANES_FUNCTION void direction_lanes(Lanes *restrict x, double keep, double *restrict inverse) {
-    direct_lanes(x, keep, false, inverse);
+CPSI_LANES_FUNCTION void direction_lanes(Lanes *restrict x, CpsiLane *restrict w,
+                                         CpsiLane *restrict q, double keep,
+                                         double *restrict inverse) {
+    direct_lanes(x, w, q, keep, false, inverse);
 }
 
-static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
+static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiSegment *st = &program->segment;
     CpsiLane inverse = {0};
     Lanes x;
+    begin(st, &x);
     for (int i = 1; i < program->n; i += CPSI_LANES) {
         const int count = cpsi_lanes_count(program->n - i);
         load_scaled(st, i, count, &x);
+        cpsi_lanes_load(1, &x.inverse_w, &st->inverse_w[i], count);
         cpsi_lanes_load(1, &x.t, &program->dt[i], count);
         load_difference(program, i, count, &x);
-        if (predictor) {
-            predictor_lanes(&x, keep, inverse);
-            cpsi_lanes_store(4, st->q[i], x.q, count);
+        CpsiLane *w = cpsi_lanes_of(4, st->w[i], x.w, count),
+                 *q = cpsi_lanes_of(4, st->q[i], x.q, count);
+        if (aim->kind == CPSI_IPM_AIM_PREDICT) {
+            predictor_lanes(&x, w, q, aim->keep, inverse);
+            cpsi_lanes_keep(4, st->q[i], x.q, count);
         } else {
-            direction_lanes(&x, keep, inverse);
+            direction_lanes(&x, w, q, aim->keep, inverse);
             cpsi_lanes_store(4, st->ds[i], x.ds, count);
             cpsi_lanes_store(4, st->dz[i], x.dz, count);
         }
         if (st->springs.count > 0) cpsi_lanes_store(1, &st->springs.stretch[i], &x.stretch, count);
     }
     sums->inverse_step = cpsi_lanes_largest(sums->inverse_step, inverse);
-    if (st->springs.count > 0) cpsi_springs_direct(st, program->n, keep, predictor, sums);
+    if (st->springs.count > 0) cpsi_springs_direct(st, program->n, aim, sums);
 }
 
-CPSI_LANES_FUNCTION void aim_lanes(Lanes *restrict x, double target) {
-    CPSI_FOR_LANES(l) {
-        const double s[4] = FOUR(x->s, l), z[4] = FOUR(x->z, l);
-        double q[4] = FOUR(x->q, l);
-        cpsi_soc_correct(q, s, z, target, 4);
-        for (int a = 0; a < 4; a++) x->q[a][l] = q[a];
-    }
-}
-
-static void aim(CpsiProgram *base, double target, bool second_order) {
-    CpsiChainProgram *program = cpsi_chain(base);
-    CpsiSegment *st = &program->segment;
-    Lanes x;
-    for (int i = 1; i < program->n; i += CPSI_LANES) {
-        const int count = cpsi_lanes_count(program->n - i);
-        load_pairs(st, i, count, &x);
-        if (second_order)
-            cpsi_lanes_load(4, x.q, st->q[i], count);
-        else
-            memset(x.q, 0, sizeof x.q);
-        aim_lanes(&x, target);
-        cpsi_lanes_store(4, st->q[i], x.q, count);
-    }
-    if (st->springs.count > 0) cpsi_springs_aim(st, target, second_order);
-}
-
-static void advance(CpsiProgram *base, double alpha) {
-    CpsiChainProgram *program = cpsi_chain(base);
-    CpsiSegment *st = &program->segment;
-    cpsi_cone_advance(4 * ((size_t)program->n - 1), alpha, st->s[1], st->ds[1], st->z[1],
-                      st->dz[1]);
-    if (st->springs.count > 0) cpsi_springs_advance(st, alpha);
-}
-
-const CpsiKind CPSI_WIDE(cpsi_segment) = {start, measure, scale, predict,
-                                          load,  direct,  aim,   advance};
+const CpsiKind CPSI_WIDE(cpsi_segment) = {start, measure, scale, load, direct};

@@ -57,8 +57,11 @@ void cpsi_springs_start(CpsiSegment *segment, int n, double mu, double margin) {
         }
 }
 
-void cpsi_springs_measure(CpsiSegment *segment, int n, CpsiSums *sums) {
+void cpsi_springs_measure(CpsiSegment *segment, int n, double alpha, CpsiSums *sums) {
     CpsiSprings *springs = &segment->springs;
+    if (alpha != 0)
+        cpsi_cone_advance((size_t)springs->count, alpha, springs->s, springs->ds, springs->z,
+                          springs->dz);
     for (int i = 1; i < n; i++) {
         double carried = 0;
         for (int k = springs->at[i - 1]; k < springs->at[i]; k++) {
@@ -86,11 +89,6 @@ void cpsi_springs_scale(CpsiSegment *segment, int n) {
     }
 }
 
-void cpsi_springs_predict(CpsiSegment *segment) {
-    CpsiSprings *springs = &segment->springs;
-    for (int k = 0; k < springs->count; k++) springs->q[k] = -springs->z[k];
-}
-
 /* dtau_k where dd = 0. */
 static double fixed_part(const CpsiSegment *segment, int i, int k, double keep) {
     const CpsiSprings *springs = &segment->springs;
@@ -100,8 +98,11 @@ static double fixed_part(const CpsiSegment *segment, int i, int k, double keep) 
 }
 
 /* rho' beside keep (1 + c' T - s0), which the segments add. */
-void cpsi_springs_load(CpsiSegment *segment, int n, double keep) {
+void cpsi_springs_load(CpsiSegment *segment, int n, const CpsiIpmAim *aim) {
     CpsiSprings *springs = &segment->springs;
+    const double keep = aim->keep;
+    for (int k = 0; k < springs->count; k++)
+        springs->q[k] = cpsi_cone_aim_half_line(aim, springs->s[k], springs->z[k], springs->q[k]);
     for (int i = 1; i < n; i++) {
         const double c = cpsi_segment_compliance(segment, i), now = springs->compliance[i],
                      tension = segment->z[i][0], s = segment->s[i][0];
@@ -115,8 +116,9 @@ void cpsi_springs_load(CpsiSegment *segment, int n, double keep) {
     }
 }
 
-void cpsi_springs_direct(CpsiSegment *segment, int n, double keep, bool predictor, CpsiSums *sums) {
+void cpsi_springs_direct(CpsiSegment *segment, int n, const CpsiIpmAim *aim, CpsiSums *sums) {
     CpsiSprings *springs = &segment->springs;
+    const double keep = aim->keep;
     double inverse = sums->inverse_step;
     for (int i = 1; i < n; i++)
         for (int k = springs->at[i - 1]; k < springs->at[i]; k++) {
@@ -126,21 +128,8 @@ void cpsi_springs_direct(CpsiSegment *segment, int n, double keep, bool predicto
             const double ds = c * dz - springs->stretch[i] + keep * residual_of(segment, i, k);
             springs->ds[k] = ds;
             springs->dz[k] = dz;
-            if (predictor) springs->q[k] = ds * dz / springs->s[k];
+            if (aim->kind == CPSI_IPM_AIM_PREDICT) springs->q[k] = ds * dz / springs->s[k];
             inverse = cpsi_max_nan(inverse, cpsi_max_nan(-ds / springs->s[k], -dz / springs->z[k]));
         }
     sums->inverse_step = inverse;
-}
-
-void cpsi_springs_aim(CpsiSegment *segment, double target, bool second_order) {
-    CpsiSprings *springs = &segment->springs;
-    for (int k = 0; k < springs->count; k++)
-        springs->q[k] =
-            -springs->z[k] + target / springs->s[k] - (second_order ? springs->q[k] : 0);
-}
-
-void cpsi_springs_advance(CpsiSegment *segment, double alpha) {
-    CpsiSprings *springs = &segment->springs;
-    cpsi_cone_advance((size_t)springs->count, alpha, springs->s, springs->ds, springs->z,
-                      springs->dz);
 }

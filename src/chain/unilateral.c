@@ -63,37 +63,37 @@ static void scale(CpsiProgram *base) {
     }
 }
 
-static void predict(CpsiProgram *base) {
-    CpsiUnilateral *unilateral = &cpsi_chain(base)->unilateral;
-    for (int k = 0; k < unilateral->count; k++) unilateral->q[k] = -unilateral->z[k];
-}
-
 /* What the passes read and write of eight contacts. */
 typedef struct UnilateralLanes {
     CpsiLane s, z, q, ds, dz, weight;
-    CpsiLane rho, rise;      /* the share of the residual that is to be removed; n.du */
-    CpsiLane second, change; /* 1 for a second contact, else 0; w (z/s) n.du */
+    CpsiLane gap, rise, d_rise; /* g; n.u; n.du */
+    CpsiLane second, change;    /* 1 for a second contact, else 0; w (z/s) n.du */
 } UnilateralLanes;
 
-static inline void load_residuals(const CpsiChainProgram *program, int k, int count, double keep,
-                                  UnilateralLanes *x) {
-    CPSI_FOR_LANES(l)
-    x->rho[l] = keep * cpsi_unilateral_residual(program, k + (l < count ? l : count - 1));
+/* n.u of `count` contacts from `first` on. */
+static inline void gather_rises(const CpsiUnilateral *unilateral, int first, int count,
+                                const double *u, double *rise) {
+    const int *node = &unilateral->node[first];
+    if (unilateral->normal)
+        for (int k = 0; k < count; k++) rise[k] = cpsi_unilateral_rise(unilateral, first + k, u);
+    else
+        for (int k = 0; k < count; k++) rise[k] = u[3 * node[k] + 2];
 }
 
-static inline void load_pairs(const CpsiChainProgram *program, int k, int count, double keep,
-                              UnilateralLanes *x) {
-    const CpsiUnilateral *unilateral = &program->unilateral;
+/* `count` contacts from k on, whose n.u has been gathered. */
+static inline void load_contacts(const CpsiUnilateral *unilateral, int k, int count,
+                                 const double *rise, UnilateralLanes *x) {
     cpsi_lanes_load(1, &x->s, &unilateral->s[k], count);
     cpsi_lanes_load(1, &x->z, &unilateral->z[k], count);
-    cpsi_lanes_load(1, &x->q, &unilateral->q[k], count);
-    load_residuals(program, k, count, keep, x);
+    cpsi_lanes_load(1, &x->gap, &unilateral->gap[k], count);
+    cpsi_lanes_load(1, &x->rise, rise, count);
 }
 
 CPSI_LANES_FUNCTION void measure_lanes(const UnilateralLanes *restrict x,
                                        CpsiLaneSums *restrict sums) {
     CPSI_FOR_LANES(l) {
-        const double s = x->s[l], z = x->z[l], weight = x->weight[l], rho = x->rho[l];
+        const double s = x->s[l], z = x->z[l], weight = x->weight[l],
+                     rho = x->gap[l] + x->rise[l] - s;
         sums->weight[l] += weight;
         sums->sz[l] += weight * s * z;
         sums->ray[l] -= weight * z * (s + rho);
@@ -111,19 +111,24 @@ static inline void add_curvature(const CpsiUnilateral *unilateral, int k, const 
     force[2] += weight * (b[3] * u[0] + b[4] * u[1] + b[5] * u[2]);
 }
 
-static void measure(CpsiProgram *base, CpsiSums *sums) {
+static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     const CpsiUnilateral *unilateral = &program->unilateral;
     CpsiLaneSums lane_sums = {.weight = {0}};
     UnilateralLanes x;
-    for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
-        const int count = cpsi_lanes_count(unilateral->count - k);
-        cpsi_lanes_load(1, &x.s, &unilateral->s[k], count);
-        cpsi_lanes_load(1, &x.z, &unilateral->z[k], count);
-        load_residuals(program, k, count, 1, &x);
-        cpsi_lanes_load_weights(x.weight, &unilateral->weight[k], count);
-        measure_lanes(&x, &lane_sums);
-        for (int i = k; i < k + count; i++) {
+    double rise[CPSI_STRIP];
+    if (alpha != 0)
+        cpsi_cone_advance((size_t)unilateral->count, alpha, unilateral->s, unilateral->ds,
+                          unilateral->z, unilateral->dz);
+    CPSI_FOR_STRIPS(first, strip, 0, unilateral->count) {
+        gather_rises(unilateral, first, strip, base->u, rise);
+        for (int k = 0; k < strip; k += CPSI_LANES) {
+            const int count = cpsi_lanes_count(strip - k);
+            load_contacts(unilateral, first + k, count, &rise[k], &x);
+            cpsi_lanes_load_weights(x.weight, &unilateral->weight[first + k], count);
+            measure_lanes(&x, &lane_sums);
+        }
+        for (int i = first; i < first + strip; i++) {
             const int node = unilateral->node[i];
             add_to_node(unilateral, i, unilateral->weight[i] * unilateral->z[i], base->residual);
             if (unilateral->curvature)
@@ -133,36 +138,74 @@ static void measure(CpsiProgram *base, CpsiSums *sums) {
     cpsi_lane_sums_add(sums, &lane_sums);
 }
 
-CPSI_LANES_FUNCTION void load_lanes(UnilateralLanes *restrict x, double keep) {
-    CPSI_FOR_LANES(l) x->dz[l] = x->q[l] - x->z[l] / x->s[l] * keep * x->rho[l];
+/* q of the aim, of a corrector with the second-order term that stands in q; and dz, the direction
+ * without the part that is linear in n.du. */
+CPSI_LANES_PART void load_lanes(UnilateralLanes *restrict x, const CpsiIpmAimKind kind,
+                                double target, double keep) {
+    CPSI_FOR_LANES(l) {
+        const double s = x->s[l], z = x->z[l], rho = x->gap[l] + x->rise[l] - s;
+        if (kind == CPSI_IPM_AIM_PREDICT) x->q[l] = -z;
+        if (kind == CPSI_IPM_AIM_CORRECT) x->q[l] = -z + target / s - x->q[l];
+        if (kind == CPSI_IPM_AIM_CENTRE) x->q[l] = -z + target / s;
+        x->dz[l] = x->q[l] - z / s * keep * rho;
+    }
+}
+
+CPSI_LANES_FUNCTION void predict_lanes(UnilateralLanes *restrict x, double keep) {
+    load_lanes(x, CPSI_IPM_AIM_PREDICT, 0, keep);
+}
+CPSI_LANES_FUNCTION void correct_lanes(UnilateralLanes *restrict x, double target, double keep) {
+    load_lanes(x, CPSI_IPM_AIM_CORRECT, target, keep);
+}
+CPSI_LANES_FUNCTION void centre_lanes(UnilateralLanes *restrict x, double target, double keep) {
+    load_lanes(x, CPSI_IPM_AIM_CENTRE, target, keep);
+}
+CPSI_LANES_FUNCTION void given_lanes(UnilateralLanes *restrict x, double keep) {
+    load_lanes(x, CPSI_IPM_AIM_GIVEN, 0, keep);
+}
+
+static inline void aim_lanes(UnilateralLanes *x, const CpsiIpmAim *aim) {
+    switch (aim->kind) {
+    case CPSI_IPM_AIM_PREDICT: predict_lanes(x, aim->keep); break;
+    case CPSI_IPM_AIM_CORRECT: correct_lanes(x, aim->target, aim->keep); break;
+    case CPSI_IPM_AIM_CENTRE: centre_lanes(x, aim->target, aim->keep); break;
+    case CPSI_IPM_AIM_GIVEN: given_lanes(x, aim->keep); break;
+    }
 }
 
 /* dz becomes the direction without the part that is linear in n.du, which friction needs as
  * well. */
-static void load(CpsiProgram *base, double keep) {
+static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
     CpsiChainProgram *program = cpsi_chain(base);
     const CpsiUnilateral *unilateral = &program->unilateral;
     UnilateralLanes x;
-    for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
-        const int count = cpsi_lanes_count(unilateral->count - k);
-        load_pairs(program, k, count, 1, &x);
-        load_lanes(&x, keep);
-        cpsi_lanes_store(1, &unilateral->dz[k], &x.dz, count);
-        for (int l = 0; l < count; l++)
-            add_to_node(unilateral, k + l, unilateral->weight[k + l] * x.dz[l], base->du);
+    double rise[CPSI_STRIP];
+    CPSI_FOR_STRIPS(first, strip, 0, unilateral->count) {
+        gather_rises(unilateral, first, strip, base->u, rise);
+        for (int k = 0; k < strip; k += CPSI_LANES) {
+            const int count = cpsi_lanes_count(strip - k);
+            load_contacts(unilateral, first + k, count, &rise[k], &x);
+            cpsi_lanes_load(1, &x.q, &unilateral->q[first + k], count);
+            aim_lanes(&x, aim);
+            cpsi_lanes_store(1, &unilateral->q[first + k], &x.q, count);
+            cpsi_lanes_store(1, &unilateral->dz[first + k], &x.dz, count);
+        }
+        for (int k = first; k < first + strip; k++)
+            add_to_node(unilateral, k, unilateral->weight[k] * unilateral->dz[k], base->du);
     }
 }
 
 /* The direction of R, and of s, where the linear system gives n.du; and, if there may be second
  * contacts, where it gives w (z/s) n.du, as n is oblique to the axes of du and n.du has too few
  * digits. */
-CPSI_LANES_PART void direct_lanes(UnilateralLanes *restrict x, const bool seconds,
+CPSI_LANES_PART void direct_lanes(UnilateralLanes *restrict x, const bool seconds, double keep,
                                   double *restrict inverse) {
     CPSI_FOR_LANES(l) {
-        const double s = x->s[l], z = x->z[l], q = x->q[l], stiffness = z / s;
-        double ds = x->rise[l] + x->rho[l], dz = q - stiffness * ds;
+        const double s = x->s[l], z = x->z[l], q = x->q[l], stiffness = z / s,
+                     rho = keep * (x->gap[l] + x->rise[l] - s);
+        double ds = x->d_rise[l] + rho, dz = q - stiffness * ds;
         if (seconds) {
-            const double other_dz = q - x->change[l] / x->weight[l] - stiffness * x->rho[l],
+            const double other_dz = q - x->change[l] / x->weight[l] - stiffness * rho,
                          other_ds = (q - other_dz) * (s / z);
             const double other = z > s ? x->second[l] : 0;
             ds = other > 0 ? other_ds : ds;
@@ -176,68 +219,55 @@ CPSI_LANES_PART void direct_lanes(UnilateralLanes *restrict x, const bool second
     }
 }
 
-CPSI_LANES_FUNCTION void first_lanes(UnilateralLanes *restrict x, double *restrict inverse) {
-    direct_lanes(x, false, inverse);
+CPSI_LANES_FUNCTION void first_lanes(UnilateralLanes *restrict x, double keep,
+                                     double *restrict inverse) {
+    direct_lanes(x, false, keep, inverse);
 }
 
-CPSI_LANES_FUNCTION void second_lanes(UnilateralLanes *restrict x, double *restrict inverse) {
-    direct_lanes(x, true, inverse);
+CPSI_LANES_FUNCTION void second_lanes(UnilateralLanes *restrict x, double keep,
+                                      double *restrict inverse) {
+    direct_lanes(x, true, keep, inverse);
 }
 
-static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
+/* Which of the contacts are second ones, and what the linear system says of them. */
+static inline void load_seconds(const CpsiChainProgram *program, int k, int count,
+                                UnilateralLanes *x) {
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    cpsi_lanes_load(1, &x->weight, &unilateral->weight[k], count);
+    CPSI_FOR_LANES(l) {
+        const int at = k + (l < count ? l : count - 1);
+        x->second[l] = unilateral->second[at];
+        x->change[l] = program->node_frames.second_reaction_change[unilateral->node[at]];
+    }
+}
+
+static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
     CpsiChainProgram *program = cpsi_chain(base);
     CpsiUnilateral *unilateral = &program->unilateral;
     CpsiLane inverse = {0};
     UnilateralLanes x;
-    for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
-        const int count = cpsi_lanes_count(unilateral->count - k);
-        load_pairs(program, k, count, keep, &x);
-        cpsi_lanes_load(1, &x.weight, &unilateral->weight[k], count);
-        CPSI_FOR_LANES(l) {
-            const int at = k + (l < count ? l : count - 1);
-            x.rise[l] = cpsi_unilateral_rise(unilateral, at, base->du);
-            if (!program->matrix.second) continue;
-            x.second[l] = unilateral->second[at];
-            x.change[l] = program->node_frames.second_reaction_change[unilateral->node[at]];
+    double rise[CPSI_STRIP], d_rise[CPSI_STRIP];
+    CPSI_FOR_STRIPS(first, strip, 0, unilateral->count) {
+        gather_rises(unilateral, first, strip, base->u, rise);
+        gather_rises(unilateral, first, strip, base->du, d_rise);
+        for (int k = 0; k < strip; k += CPSI_LANES) {
+            const int count = cpsi_lanes_count(strip - k), at = first + k;
+            load_contacts(unilateral, at, count, &rise[k], &x);
+            cpsi_lanes_load(1, &x.d_rise, &d_rise[k], count);
+            cpsi_lanes_load(1, &x.q, &unilateral->q[at], count);
+            if (program->matrix.second) {
+                load_seconds(program, at, count, &x);
+                second_lanes(&x, aim->keep, inverse);
+            } else {
+                first_lanes(&x, aim->keep, inverse);
+            }
+            cpsi_lanes_store(1, &unilateral->ds[at], &x.ds, count);
+            cpsi_lanes_store(1, &unilateral->dz[at], &x.dz, count);
+            if (aim->kind == CPSI_IPM_AIM_PREDICT)
+                cpsi_lanes_store(1, &unilateral->q[at], &x.q, count);
         }
-        if (program->matrix.second)
-            second_lanes(&x, inverse);
-        else
-            first_lanes(&x, inverse);
-        cpsi_lanes_store(1, &unilateral->ds[k], &x.ds, count);
-        cpsi_lanes_store(1, &unilateral->dz[k], &x.dz, count);
-        if (predictor) cpsi_lanes_store(1, &unilateral->q[k], &x.q, count);
     }
     sums->inverse_step = cpsi_lanes_largest(sums->inverse_step, inverse);
 }
 
-CPSI_LANES_FUNCTION void aim_lanes(UnilateralLanes *restrict x, double target) {
-    CPSI_FOR_LANES(l) x->q[l] = -x->z[l] + target / x->s[l] - x->q[l];
-}
-
-/* q with s o z -> target e, less the second-order term that stands in q, or without it. */
-static void aim(CpsiProgram *base, double target, bool second_order) {
-    CpsiUnilateral *unilateral = &cpsi_chain(base)->unilateral;
-    UnilateralLanes x;
-    for (int k = 0; k < unilateral->count; k += CPSI_LANES) {
-        const int count = cpsi_lanes_count(unilateral->count - k);
-        cpsi_lanes_load(1, &x.s, &unilateral->s[k], count);
-        cpsi_lanes_load(1, &x.z, &unilateral->z[k], count);
-        if (second_order)
-            cpsi_lanes_load(1, &x.q, &unilateral->q[k], count);
-        else
-            memset(x.q, 0, sizeof x.q);
-        aim_lanes(&x, target);
-        cpsi_lanes_store(1, &unilateral->q[k], &x.q, count);
-    }
-}
-
-static void advance(CpsiProgram *base, double alpha) {
-    CpsiChainProgram *program = cpsi_chain(base);
-    CpsiUnilateral *unilateral = &program->unilateral;
-    cpsi_cone_advance((size_t)unilateral->count, alpha, unilateral->s, unilateral->ds,
-                      unilateral->z, unilateral->dz);
-}
-
-const CpsiKind CPSI_WIDE(cpsi_unilateral) = {start, measure, scale, predict,
-                                             load,  direct,  aim,   advance};
+const CpsiKind CPSI_WIDE(cpsi_unilateral) = {start, measure, scale, load, direct};

@@ -83,9 +83,15 @@ static void measure_outcomes(CpsiHomogeneous *program, double gain, double pull,
     keep_best(program, outcome, sz / scale, residual);
 }
 
-static void measure(CpsiProgram *base, CpsiSums *sums) {
+static void advance(CpsiHomogeneous *program, double alpha) {
+    cpsi_cones_advance(&program->cones, alpha);
+    program->kappa += alpha * program->d_kappa;
+}
+
+static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     CpsiHomogeneous *program = homogeneous(base);
     CpsiCones *cones = &program->cones;
+    if (alpha != 0) advance(program, alpha);
     const int n = program->unknowns;
     const double tau = base->u[cpsi_homogeneous_tau(program)];
     program->operator->multiply(program, base->u, -1, cones->s, cones->rho);
@@ -111,27 +117,35 @@ static void scale(CpsiProgram *base) {
     program->q_tau = -program->kappa;
 }
 
-static void load(CpsiProgram *base, double keep) {
+/* The right-hand sides of the corrector; `scale` has computed those of the predictor, and there are
+ * no centring steps. */
+static void correct(CpsiHomogeneous *program, double target) {
+    const double tau = program->base.u[cpsi_homogeneous_tau(program)];
+    cpsi_cones_correct(&program->cones, target);
+    program->q_tau = -program->kappa + (target - program->d_tau * program->d_kappa) / tau;
+}
+
+static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
     CpsiHomogeneous *program = homogeneous(base);
     CpsiCones *cones = &program->cones;
+    if (aim->kind == CPSI_IPM_AIM_CORRECT) correct(program, aim->target);
     const int tau = cpsi_homogeneous_tau(program);
     double *w = &base->du[tau + 1];
     CPSI_FOR_CONES(k, i, cones->count, cones->dim) {
         const double root = sqrt(cones->g[k]);
         cpsi_cones_apply(cones, k, i, 1, 1 / root, &cones->q[i], &w[i]);
-        cpsi_cones_apply(cones, k, i, -1, keep * root, &cones->rho[i], cones->scratch);
+        cpsi_cones_apply(cones, k, i, -1, aim->keep * root, &cones->rho[i], cones->scratch);
         for (int r = 0; r < cones->dim[k]; r++) w[i + r] -= cones->scratch[r];
     }
     base->du[tau] += program->q_tau;
 }
 
-static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sums) {
-    (void)predictor; /* the corrector computes the second-order term itself */
+static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
     CpsiHomogeneous *program = homogeneous(base);
     CpsiCones *cones = &program->cones;
     const int at = cpsi_homogeneous_tau(program);
-    const double tau = base->u[at], d_tau = base->du[at];
-    program->operator->multiply(program, base->du, keep, cones->rho, cones->ds);
+    const double tau = base->u[at], d_tau = program->d_tau = base->du[at];
+    program->operator->multiply(program, base->du, aim->keep, cones->rho, cones->ds);
     CPSI_FOR_CONES(k, i, cones->count, cones->dim)
         cpsi_cones_apply(cones, k, i, -1, sqrt(cones->g[k]), &base->du[at + 1 + i], &cones->dz[i]);
     sums->inverse_step = cpsi_max_nan(sums->inverse_step, cpsi_cones_step(cones));
@@ -141,21 +155,7 @@ static void direct(CpsiProgram *base, double keep, bool predictor, CpsiSums *sum
                      cpsi_max_nan(-d_tau / tau, -program->d_kappa / program->kappa));
 }
 
-static void aim(CpsiProgram *base, double target, bool second_order) {
-    (void)second_order; /* there are no centring steps */
-    CpsiHomogeneous *program = homogeneous(base);
-    const int at = cpsi_homogeneous_tau(program);
-    cpsi_cones_correct(&program->cones, target);
-    program->q_tau = -program->kappa + (target - base->du[at] * program->d_kappa) / base->u[at];
-}
-
-static void advance(CpsiProgram *base, double alpha) {
-    CpsiHomogeneous *program = homogeneous(base);
-    cpsi_cones_advance(&program->cones, alpha);
-    program->kappa += alpha * program->d_kappa;
-}
-
-static const CpsiKind HOMOGENEOUS = {start, measure, scale, NULL, load, direct, aim, advance};
+static const CpsiKind HOMOGENEOUS = {start, measure, scale, load, direct};
 static const CpsiKind *const KINDS[] = {&HOMOGENEOUS};
 
 static void clear(CpsiProgram *base) { (void)base; /* `scale` and `factor` write every entry */ }

@@ -68,7 +68,7 @@ struct CpsiHomogeneous {
     const double *c, *h; /* (unknowns), (equations) belong to the program */
     const double *b;     /* (rows) belongs to the program */
     CpsiCones cones;
-    double kappa, d_kappa, q_tau;
+    double kappa, d_tau, d_kappa, q_tau;
     /* (size of u + 2 rows) u, s, z of the best iterate, since late steps may only add rounding */
     double *best;
     CpsiConicResult found; /* outcome and residuals of the best iterate */

@@ -303,6 +303,21 @@ static bool search_again(CpsiBalance *balance) {
     return false;
 }
 
+/* Is where the step began an answer? Otherwise things stay as they are. */
+static bool stays(CpsiBalance *balance) {
+    const size_t bytes = (size_t)balance->count * sizeof *balance->at,
+                 rigid = (size_t)balance->body_count * sizeof *balance->rigid;
+    memcpy(balance->best, balance->at, bytes);
+    memcpy(balance->rigid_best, balance->rigid, rigid);
+    cpsi_begin_again(balance);
+    cpsi_try_places(balance);
+    if (cpsi_is_answer(balance)) return true;
+    memcpy(balance->at, balance->best, bytes);
+    memcpy(balance->rigid, balance->rigid_best, rigid);
+    cpsi_try_places(balance);
+    return false;
+}
+
 /* Find the places of a group. In a history a body hardly moves in a step, and a few trials from
  * where it is take less time than the rounds of a first guess. */
 static void find_places(CpsiBalance *balance, int group) {
@@ -337,6 +352,7 @@ static void find_places(CpsiBalance *balance, int group) {
         found = cpsi_is_answer(balance);
     }
     if (!found && !cpsi_has_inextensible(balance)) found = cpsi_take_joint_answer(balance);
+    if (!found && !is_interrupted(evolution)) found = stays(balance);
     if (!found && (cpsi_group_is_too_short(balance) || (frozen && cpsi_group_falls(balance))))
         return;
     cpsi_report_found(balance);

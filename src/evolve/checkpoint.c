@@ -24,7 +24,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '4'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '5'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -263,6 +263,14 @@ void cpsi_line_keep(const CpsiLine *line, void *state) {
 
 void cpsi_line_restore(CpsiLine *line, const void *state) { pass_line(&(Tape){.in = state}, line); }
 
+static void pass_obstacle(Tape *tape, CpsEvolution *evolution, int k) {
+    CpsiObstacle *obstacle = &evolution->obstacle[k];
+    PASS(tape, obstacle->frame);
+    PASS(tape, obstacle->grain);
+    PASS(tape, evolution->shift[k]);
+    PASS(tape, evolution->angle[k]);
+}
+
 static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     tape->at = sizeof(Head);
     pass_step_report(tape, &evolution->report);
@@ -280,8 +288,7 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
              3 * (size_t)(evolution->line[i].n - 1) * sizeof(float));
         PASS(tape, evolution->line[i].start_end);
     }
-    for (int k = 0; k < evolution->obstacle_count; k++)
-        PASS(tape, evolution->obstacle[k].frame.point);
+    for (int k = 0; k < evolution->obstacle_count; k++) pass_obstacle(tape, evolution, k);
     for (int i = 0; i < evolution->points.count; i++) pass_point(tape, &evolution->points.point[i]);
     for (int i = 0; i < evolution->bodies.count; i++) pass_body(tape, &evolution->bodies.body[i]);
     return tape->at;
@@ -363,6 +370,8 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     for (int i = 0; i < stage->shift_count; i++) {
         hash_bytes(hash, &stage->shift[i].obstacle, sizeof stage->shift[i].obstacle);
         hash_numbers(hash, 3, stage->shift[i].by);
+        hash_numbers(hash, 3, stage->shift[i].turn);
+        hash_numbers(hash, 3, stage->shift[i].about);
     }
     for (int i = 0; i < stage->turn_count; i++) {
         hash_bytes(hash, &stage->turn[i].obstacle, sizeof stage->turn[i].obstacle);

@@ -100,6 +100,17 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->element_penetration = cpsi_max_nan(to->element_penetration, from->element_penetration);
 }
 
+/* Add the friction of the points, and the work that the forces at them do for it beside that which
+ * the lines get. */
+static void add_friction_of_points(CpsStepReport *step, const CpsiPoints *points) {
+    for (int i = 0; i < points->count; i++) {
+        const double dissipated = points->point[i].report.dissipated;
+        step->dissipated += dissipated;
+        step->ledger.dissipated += dissipated;
+        step->ledger.ends += dissipated;
+    }
+}
+
 static double seconds(void) {
     struct timespec now = {0}; /* no time passes where there is no such clock */
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -176,6 +187,7 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
                                         .certificate.has_tension_bound = true};
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);
+    add_friction_of_points(&evolution->report, &evolution->points);
     for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i]);
     evolution->ended = !is_move && cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;
@@ -285,11 +297,24 @@ CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line)
     return report;
 }
 
-bool cps_evolution_obstacle(const CpsEvolution *evolution, int obstacle, double point[3]) {
-    if (!evolution || !point || obstacle < 0 || obstacle >= evolution->obstacle_count) return false;
-    vec3_store(point,
-               vec3_add(evolution->obstacle[obstacle].frame.point, vec3_load(evolution->origin)));
-    return true;
+int cps_evolution_obstacle_count(const CpsEvolution *evolution) {
+    return evolution ? evolution->obstacle_count : 0;
+}
+
+CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution, int obstacle) {
+    CpsObstacleReport report = {.turned = 0};
+    if (obstacle < 0 || obstacle >= cps_evolution_obstacle_count(evolution)) return report;
+    const CpsiObstacle *now = &evolution->obstacle[obstacle];
+    const CpsiShift *shift = &evolution->shift[obstacle];
+    vec3_store(report.point, vec3_add(now->frame.point, vec3_load(evolution->origin)));
+    vec3_store(report.axis, now->frame.axis[2]);
+    vec3_store(report.grain, now->grain);
+    vec3_store(report.by, shift->by);
+    vec3_store(report.turn, shift->turn);
+    if (!cpsi_vec3_is_zero(shift->turn))
+        vec3_store(report.about, vec3_add(shift->about, vec3_load(evolution->origin)));
+    report.turned = evolution->angle[obstacle];
+    return report;
 }
 
 int cps_evolution_point_count(const CpsEvolution *evolution) {

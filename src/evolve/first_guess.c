@@ -12,7 +12,7 @@
 
 /* The guess takes so many rounds, until no body turns by more than SETTLED [rad] in one, and no
  * normal of a point by more than ON_ITS_PLANE; no body turns farther than FARTHEST_TURN in one. */
-enum { ROUNDS = 12, POINT_ROUNDS = 40 };
+enum { ROUNDS = 12, POINT_ROUNDS = 200 };
 /* A stiffness is made positive definite by no more than this share of the forces. */
 static const double MOST_HELD = 1e9;
 /* What a guess moves by no more than this, per length, is at rest. */
@@ -180,7 +180,7 @@ static double move_point(CpsiBalance *balance, int k) {
                 touches ? vec3_norm(vec3_sub(cpsi_obstacle_normal(on, at->place), at->normal)) : 0);
 }
 
-/* How far a round has turned bodies and the normals of points [rad]. */
+/* How far a round has turned bodies and the normals of points and of the lines' nodes [rad]. */
 typedef struct Turned {
     double bodies, points;
 } Turned;
@@ -196,6 +196,7 @@ CpsiNetworkPart cpsi_network_part(CpsiBalance *balance, bool first) {
                                   .joints = cpsi_place_joints(balance, first),
                                   .bodies = balance->body_count,
                                   .own = balance->count,
+                                  .longer = 1,
                                   .number = balance->line,
                                   .at = (const int(*)[2])balance->ends,
                                   .joint = balance->joint,
@@ -210,32 +211,47 @@ CpsiNetworkPart cpsi_network_part(CpsiBalance *balance, bool first) {
     return part;
 }
 
-void cpsi_solve_places(CpsiBalance *balance) {
-    CpsEvolution *evolution = balance->evolution;
-    const CpsiStepOptions options = cpsi_trial_options(evolution);
-    for (int item = 0; item < balance->line_count; item++)
-        cpsi_trial_restore_line(balance, balance->line[item]);
-    const CpsiNetworkPart part = cpsi_network_part(balance, true);
-    (void)cpsi_network_solve(&balance->network, evolution->line, &part, &options, &balance->guess);
+static void restore_lines(CpsiBalance *balance) {
     for (int item = 0; item < balance->line_count; item++)
         cpsi_trial_restore_line(balance, balance->line[item]);
 }
 
+void cpsi_solve_places(CpsiBalance *balance, double longer) {
+    CpsEvolution *evolution = balance->evolution;
+    const CpsiStepOptions options = cpsi_trial_options(evolution);
+    restore_lines(balance);
+    CpsiNetworkPart part = cpsi_network_part(balance, true);
+    part.longer = longer;
+    (void)cpsi_network_solve(&balance->network, evolution->line, &part, &options, &balance->guess);
+    restore_lines(balance);
+}
+
 /* One program on the tangent planes of the last round, or where there is one plane of the
- * reference, from the poses of the trial; false where it has no solution. */
+ * reference, from the poses of the trial; false where no solution is found. */
+static bool solve_round(CpsiBalance *balance, const CpsiStepOptions *options, bool first,
+                        double target, bool refined) {
+    CpsEvolution *evolution = balance->evolution;
+    if (first) restore_lines(balance);
+    CpsiNetworkPart part = cpsi_network_part(balance, first);
+    part.target = target;
+    part.is_refined = refined;
+    part.continues = !first;
+    return cpsi_network_guess(&balance->network, evolution->line, &part, options, &balance->guess);
+}
+
+/* A round, after which points and bodies are where it leads. */
 static bool guess_round(CpsiBalance *balance, const CpsiStepOptions *options, int round,
                         const Guess *guess, Turned *turned) {
     CpsEvolution *evolution = balance->evolution;
-    CpsiNetworkPart part = cpsi_network_part(balance, round == 0 || !guess->several);
-    part.target = turned->points > NEAR ? ROUGH : guess->refined ? REFINED : FINE;
-    part.is_refined = guess->refined && turned->points <= NEAR;
+    const bool first = round == 0 || !guess->several, rough = turned->points > NEAR;
     hold_bodies(balance, round > 0);
-    const bool found =
-        cpsi_network_guess(&balance->network, evolution->line, &part, options, &balance->guess);
-    for (int item = 0; item < balance->line_count; item++)
-        cpsi_trial_restore_line(balance, balance->line[item]);
-    if (!found) return false;
-    *turned = (Turned){0, 0};
+    if (rough || !guess->refined) {
+        if (!solve_round(balance, options, first, rough ? ROUGH : FINE, false)) return false;
+    } else if (!solve_round(balance, options, first, REFINED, true) &&
+               !solve_round(balance, options, first, FINE, true)) {
+        return false; /* large nets, whose gap comes no nearer than FINE, are tried twice */
+    }
+    *turned = (Turned){.points = guess->several ? balance->network.turned : 0};
     for (int k = 0; k < balance->count; k++)
         turned->points = fmax(turned->points, move_point(balance, k));
     for (int k = 0; k < balance->body_count; k++) {
@@ -275,14 +291,17 @@ bool cpsi_guess_places(CpsiBalance *balance, bool refined) {
     const CpsiStepOptions options = cpsi_trial_options(evolution);
     const Guess guess = {has_several_planes(evolution), refined};
     Turned turned = {0, guess.several ? INFINITY : 0};
-    for (int round = 0; round < POINT_ROUNDS; round++) {
+    int rounds = 0;
+    while (rounds < POINT_ROUNDS) {
         const bool fine = turned.points <= NEAR;
-        if (!guess_round(balance, &options, round, &guess, &turned)) return round > 0;
-        const bool settled = turned.bodies <= SETTLED || round + 1 >= ROUNDS;
+        if (!guess_round(balance, &options, rounds, &guess, &turned)) break;
+        rounds++;
+        const bool settled = turned.bodies <= SETTLED || rounds >= ROUNDS;
         if (settled && fine && turned.points <= ON_ITS_PLANE) break;
     }
-    if (refined) settle_points(balance);
-    return true;
+    restore_lines(balance);
+    if (rounds > 0) settle_points(balance);
+    return rounds > 0;
 }
 
 /* Begin where the last step of the same stage leads. */

@@ -6,12 +6,12 @@
 #include "evolve/trial.h"
 
 /* Where the points and bodies go on the tangent planes of the reference, the bodies in rounds about
- * the poses of the round before; false where that has no solution. `refined`: to the last digits,
- * and what sticks stays where it is. */
+ * the poses of the round before; false where that has no solution. What is to touch is on the
+ * surface, and what is to stick where it was. `refined`: to the last digits. */
 bool cpsi_guess_places(CpsiBalance *balance, bool refined);
-/* The same program solved to the limit of the arithmetic: balance->guess and
- * balance->network.joined have the solution, as far as it was found. */
-void cpsi_solve_places(CpsiBalance *balance);
+/* The same program, for lines longer by a factor, solved to the limit of the arithmetic:
+ * balance->guess and balance->network.joined have the solution, as far as it was found. */
+void cpsi_solve_places(CpsiBalance *balance, double longer);
 /* Where the last step of the same stage leads. */
 void cpsi_extrapolate_places(CpsiBalance *balance);
 

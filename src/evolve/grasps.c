@@ -54,7 +54,7 @@ static CpsStatus check_change(const CpsScene *scene, const CpsStage *stage, int 
                             "%s: node %d of line '%s' gets (%g, %g, %g), expected finite numbers",
                             what, change->node, line->name, v[0], v[1], v[2]);
     const char *name = "";
-    const double above = held ? cpsi_scene_height(scene, vec3_load(v), &name) : INFINITY;
+    const double above = held ? cpsi_scene_height(scene, vec3_load(v), false, &name) : INFINITY;
     if (!(above >= -cpsi_place_tolerance(line, vec3_load(v))))
         return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                             "%s: node %d of line '%s' is moved to %g m below obstacle '%s'", what,

@@ -9,7 +9,13 @@
  * itself. Each line takes its part of the solution as the answer to its own program, and is
  * certified as ever; a line that is not, because its forces are far below the largest ones, is
  * solved alone between the places found. What is left at the points then, by rounding in a matrix
- * that holds the stiffness of inextensible lines, goes along lines to what is held. */
+ * that holds the stiffness of inextensible lines, goes along lines to what is held.
+ *
+ * Where inextensible lines are pulled exactly straight, as a row of them between points that are as
+ * far apart as the lines are long, a load across them has no finite tension to balance it, and the
+ * program ends with tensions that mean nothing. As for a single line that is pulled straight the
+ * forces then are those of lines longer by CPSI_TAUT_SLACK, at the places of the lines as they are.
+ */
 #include "evolve/joint_answer.h"
 
 #include <math.h>
@@ -21,6 +27,9 @@
 
 /* A point whose friction is below its bound by this share rests. */
 static const double CLEARLY = 1e-6;
+/* Lines that are pulled straight by loads of which their tension is more than this multiple get the
+ * tension of slightly longer ones. */
+static const double STRAINED = 1e5;
 
 static bool is_for_it(const CpsiBalance *balance) {
     if (balance->body_count > 0 || !cpsi_is_without_bounds(balance)) return false;
@@ -48,6 +57,48 @@ static Vec3 place_of(const CpsiBalance *balance, int k) {
         vec3_norm(at.slip) <= cpsi_trial_touch(balance, &at))
         return at.start;
     return vec3_axpy(-at.gap, at.normal, at.place);
+}
+
+/* Is line `item` inextensible and pulled straight between the places of the trial, to the share by
+ * which it may be made longer? */
+static bool is_straight(const CpsiBalance *balance, int item) {
+    const CpsEvolution *evolution = balance->evolution;
+    const int i = balance->line[item];
+    Vec3 end[2];
+    for (int side = 0; side < 2; side++) {
+        const int point = evolution->points.tie[2 * i + side];
+        if (!cpsi_trial_place(balance, point, &end[side]))
+            end[side] = vec3_load(evolution->move[i].to[side].value);
+        if (point == CPSI_NO_POINT && evolution->move[i].to[side].kind != CPS_END_KIND_HELD)
+            return false;
+    }
+    const CpsiLine *line = &evolution->line[i];
+    return line->compliance == 0 &&
+           vec3_norm(vec3_sub(end[1], end[0])) >= line->length / (1 + CPSI_TAUT_SLACK);
+}
+
+static bool has_straight(const CpsiBalance *balance) {
+    for (int item = 0; item < balance->line_count; item++)
+        if (is_straight(balance, item)) return true;
+    return false;
+}
+
+/* The places with which the solution for longer lines is tried: those of the solution for the lines
+ * as they are, of which what lies sideways of a row that is pulled straight is not known to the
+ * root of a length. A point that is as near to where it was has not moved: from there it does not
+ * slide, in whatever direction. */
+static void keep_still(CpsiBalance *balance) {
+    const CpsEvolution *evolution = balance->evolution;
+    for (int k = 0; k < balance->count; k++) {
+        const CpsiPoint *point = &evolution->points.point[balance->at[k].point];
+        CpsiFree at = {.point = balance->at[k].point, .place = balance->from[k].place};
+        cpsi_trial_find_obstacle(evolution, &at);
+        const bool touches =
+            at.obstacle != CPS_NO_OBSTACLE && at.gap <= cpsi_trial_touch(balance, &at);
+        const Vec3 still = touches ? at.start : vec3_load(point->before);
+        if (vec3_norm(vec3_sub(at.place, still)) <= sqrt(CPSI_TAUT_SLACK) * point->length)
+            balance->from[k].place = still;
+    }
 }
 
 /* Try the places, the lines that are `joined` with their parts of the solution. */
@@ -116,18 +167,30 @@ static void balance_along_forest(CpsiBalance *balance) {
     }
 }
 
-bool cpsi_take_joint_answer(CpsiBalance *balance) {
+/* Which lines take their part of the solution: all; or, of the solution for longer lines, those
+ * that are straight between the places. */
+static void join(CpsiBalance *balance, double longer) {
     CpsEvolution *evolution = balance->evolution;
-    if (!is_for_it(balance)) return false;
-    cpsi_solve_places(balance);
+    for (int item = 0; item < balance->line_count; item++) {
+        const int i = balance->line[item];
+        evolution->line[i].joined =
+            longer > 1 && !is_straight(balance, item) ? NULL : &balance->network.joined[item];
+    }
+}
+
+/* Try the places of the solution, in which lines are longer by a factor; `longer` > 1: with the
+ * places of balance->from. */
+static bool try_solution(CpsiBalance *balance, double longer) {
+    CpsEvolution *evolution = balance->evolution;
+    cpsi_solve_places(balance, longer);
     const CpsiIpmOutcome outcome = balance->network.found;
     if (outcome == CPSI_IPM_INFEASIBLE || outcome == CPSI_IPM_UNBOUNDED) return false;
-    const size_t bytes = (size_t)balance->count * sizeof *balance->at;
-    memcpy(balance->best, balance->at, bytes);
-    for (int k = 0; k < balance->count; k++) balance->from[k].place = place_of(balance, k);
+    if (longer > 1)
+        keep_still(balance);
+    else
+        for (int k = 0; k < balance->count; k++) balance->from[k].place = place_of(balance, k);
     for (int k = 0; k < balance->count; k++) balance->at[k].place = balance->from[k].place;
-    for (int item = 0; item < balance->line_count; item++)
-        evolution->line[balance->line[item]].joined = &balance->network.joined[item];
+    join(balance, longer);
     try_joined(balance);
     bool found = cpsi_is_answer(balance);
     if (!found && !balance->certified) {
@@ -145,6 +208,21 @@ bool cpsi_take_joint_answer(CpsiBalance *balance) {
     }
     for (int item = 0; item < balance->line_count; item++)
         evolution->line[balance->line[item]].joined = NULL;
+    return found;
+}
+
+bool cpsi_take_joint_answer(CpsiBalance *balance) {
+    if (!is_for_it(balance)) return false;
+    const size_t bytes = (size_t)balance->count * sizeof *balance->at;
+    memcpy(balance->best, balance->at, bytes);
+    bool found = try_solution(balance, 1);
+    const CpsiIpmOutcome outcome = balance->network.found;
+    if (outcome == CPSI_IPM_INFEASIBLE || outcome == CPSI_IPM_UNBOUNDED) return false;
+    if ((!found || balance->force > STRAINED * balance->acting) && has_straight(balance)) {
+        const bool exact = found;
+        found = try_solution(balance, 1 + CPSI_TAUT_SLACK);
+        if (!found && exact) found = try_solution(balance, 1);
+    }
     if (found) return true;
     memcpy(balance->at, balance->best, bytes);
     cpsi_try_places(balance);

@@ -43,14 +43,17 @@ static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
     *gravity -= (line->weight_length ? carried : line->length) * vec3_dot(weight, origin);
 }
 
-/* The work of the reactions as obstacles are shifted. */
-static double push_work(const CpsiLine *line) {
+/* The work of the reactions as obstacles are shifted, from where the line is or to there. */
+static double push_work(const CpsiLine *line, bool from_here) {
     double work = 0;
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
             const int k = line->obstacle_index[c];
             if (k < 0 || !cpsi_line_is_shifted(line, k)) continue;
-            work += line->reaction[c] * vec3_dot(vec3_at(line->normal, c), line->shift[k]);
+            const Vec3 x = cpsi_line_place(line, line->position, c),
+                       by = from_here ? cpsi_shift_from(&line->shift[k], x)
+                                      : cpsi_shift_to(&line->shift[k], x);
+            work += line->reaction[c] * vec3_dot(vec3_at(line->normal, c), by);
         }
     return work;
 }
@@ -69,7 +72,7 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
         }
     }
     start.all_known = known;
-    start.pushed = push_work(line);
+    start.pushed = push_work(line, true);
     for (int k = 0; k < line->grasp_count; k++) {
         const CpsGrasp *grasp = &line->grasp[k];
         const bool is_free = line->grasp_before[k].kind == CPS_END_KIND_FREE;
@@ -93,7 +96,17 @@ static double end_work(const CpsEndReport *before, const CpsEndReport *after, bo
     return work;
 }
 
-/* The work of turning obstacles on the half elements at held ends. */
+/* The work of friction on what obstacle k does: its shift moves what is at x now, and by its turn
+ * the slip from where the shift has taken the reference `from` is another, `slip`, than `own`. */
+static double friction_work(const CpsiLine *line, int k, Vec3 friction, Vec3 x, Vec3 own,
+                            Vec3 slip) {
+    double work = vec3_dot(friction, vec3_sub(own, slip));
+    if (cpsi_line_is_shifted(line, k))
+        work += vec3_dot(friction, cpsi_shift_to(&line->shift[k], x));
+    return work;
+}
+
+/* ... on the half elements at held ends. */
 static double end_obstacle_work(const CpsiLine *line) {
     double work = 0;
     if (line->has_local_axes)
@@ -102,16 +115,17 @@ static double end_obstacle_work(const CpsiLine *line) {
             if (!cpsi_line_is_held(line, j) || k < 0 ||
                 (line->turn[k] == 0 && !cpsi_line_is_shifted(line, k)))
                 continue;
-            const Vec3 own = cpsi_obstacle_slip(&line->obstacle[k], vec3_at(line->reference, j),
-                                                vec3_at(line->position, j));
-            work += vec3_dot(vec3_load(line->report.end[end].friction_force),
-                             vec3_sub(own, cpsi_line_end_slip(line, end, k)));
+            const Vec3 x = vec3_at(line->position, j),
+                       from = cpsi_shift_carry(&line->shift[k], vec3_at(line->reference, j));
+            work += friction_work(line, k, vec3_load(line->report.end[end].friction_force), x,
+                                  cpsi_obstacle_slip(&line->obstacle[k], from, x),
+                                  cpsi_line_end_slip(line, end, k));
         }
     return work;
 }
 
-/* The work of obstacles that turn: friction on the displacement of the surface under the node,
- * which is the node's own displacement along it less the slip. */
+/* The work of obstacles that turn or are shifted: friction on the displacement of the surface under
+ * the node. */
 static double obstacle_work(const CpsiLine *line) {
     double work = 0;
     if (line->has_local_axes)
@@ -119,10 +133,11 @@ static double obstacle_work(const CpsiLine *line) {
             const int k = line->obstacle_index[c];
             if (k < 0 || (line->turn[k] == 0 && !cpsi_line_is_shifted(line, k))) continue;
             const Vec3 x = cpsi_line_place(line, line->position, c),
-                       from = cpsi_line_place(line, line->reference, c);
-            const Vec3 own = cpsi_contact_slip_between(line, c, from, x);
+                       from = cpsi_shift_carry(&line->shift[k],
+                                               cpsi_line_place(line, line->reference, c));
             work +=
-                vec3_dot(vec3_at(line->friction_force, c), vec3_sub(own, cpsi_line_slip(line, c)));
+                friction_work(line, k, vec3_at(line->friction_force, c), x,
+                              cpsi_contact_slip_between(line, c, from, x), cpsi_line_slip(line, c));
         }
     return work + end_obstacle_work(line);
 }
@@ -130,7 +145,7 @@ static double obstacle_work(const CpsiLine *line) {
 CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
     CpsLedger ledger = {.dissipated = line->report.dissipated, .obstacles = obstacle_work(line)};
     double elastic, gravity;
-    const double pushed = push_work(line);
+    const double pushed = push_work(line, false);
     ledger.obstacles += start->all_known ? 0.5 * (start->pushed + pushed) : pushed;
     potentials(line, &elastic, &gravity);
     ledger.elastic = elastic - start->elastic;

@@ -83,7 +83,8 @@ static size_t size_of(const CpsScene *scene) {
         size += (size_t)scene->stage[i].change_count * sizeof(CpsChange) +
                 (size_t)scene->stage[i].point_change_count * sizeof(CpsPointChange) +
                 (size_t)scene->stage[i].body_change_count * sizeof(CpsBodyChange) +
-                (size_t)scene->stage[i].grasp_change_count * sizeof(CpsGraspChange);
+                (size_t)scene->stage[i].grasp_change_count * sizeof(CpsGraspChange) +
+                (size_t)scene->stage[i].shift_count * sizeof(CpsShift);
     return size;
 }
 
@@ -129,6 +130,10 @@ CpsStatus cpsi_local_scene(const CpsScene *scene, CpsiLocalScene *out, CpsError 
         for (int k = 0; k < grasps; k++)
             if (grasp[k].kind == CPS_END_KIND_HELD) shift(grasp[k].value, origin);
         stage[i].grasp_change = grasp;
+        const int shifts = stage[i].shift_count;
+        CpsShift *moved = copy(block, &used, scene->stage[i].shift, (size_t)shifts * sizeof *moved);
+        for (int k = 0; k < shifts; k++) shift(moved[k].about, origin);
+        stage[i].shift = moved;
     }
     CpsPoint *point = copy(block, &used, scene->point, (size_t)scene->point_count * sizeof *point);
     for (int i = 0; i < scene->point_count; i++)

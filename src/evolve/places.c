@@ -10,10 +10,10 @@
 /* Per length of the line. */
 static const double PLACE_TOLERANCE = 1e-9;
 
-double cpsi_scene_height(const CpsScene *scene, Vec3 x, const char **name) {
+double cpsi_scene_height(const CpsScene *scene, Vec3 x, bool at_start, const char **name) {
     double least = INFINITY;
     for (int k = 0; k < scene->obstacle_count; k++) {
-        if (scene->obstacle[k].moves) continue;
+        if (scene->obstacle[k].moves && !at_start) continue;
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
         const double gap = cpsi_obstacle_gap(&obstacle, x);
         if (gap < least) {

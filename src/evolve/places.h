@@ -6,9 +6,9 @@
 #include "base/vec3.h"
 #include "capstan/scene.h"
 
-/* [m] Distance of a point above the nearest obstacle that does not move, and its name; INFINITY
- * without one. */
-double cpsi_scene_height(const CpsScene *scene, Vec3 x, const char **name);
+/* [m] Distance of a point above the nearest obstacle, and its name; INFINITY without one. Those
+ * that move are where the scene says only at its start, and left out later. */
+double cpsi_scene_height(const CpsScene *scene, Vec3 x, bool at_start, const char **name);
 
 /* [m] Tolerance for a position of a line: of a held end to the end of the initial shape, and of any
  * point below an obstacle. */

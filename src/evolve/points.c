@@ -22,10 +22,10 @@ CpsPoint cps_point_default(void) { return (CpsPoint){.cookie = POINT_COOKIE}; }
 /* check ---------------------------------------------------------------------------------------- */
 
 /* [m] By how much x lies below an obstacle, beyond rounding, and its name; else 0. */
-static double depth_below(const CpsScene *scene, double length, const double x[3],
+static double depth_below(const CpsScene *scene, double length, const double x[3], bool at_start,
                           const char **name) {
     const CpsLine longest = {.length = length};
-    const double above = cpsi_scene_height(scene, vec3_load(x), name);
+    const double above = cpsi_scene_height(scene, vec3_load(x), at_start, name);
     return above >= -cpsi_place_tolerance(&longest, vec3_load(x)) ? 0 : -above;
 }
 
@@ -147,9 +147,9 @@ static CpsStatus check_point(const CpsScene *scene, const PointNames *names, int
                            "point '%s': no line ends there: let an end of a line be at it, or "
                            "leave it out",
                            point->name);
-    else if (depth_below(scene, length, at, &below) > 0)
+    else if (depth_below(scene, length, at, true, &below) > 0)
         status = cpsi_fail(err, CPS_ERR_ARGUMENT, "point '%s': it is %g m below obstacle '%s'",
-                           point->name, depth_below(scene, length, at, &below), below);
+                           point->name, depth_below(scene, length, at, true, &below), below);
     else if (point->kind == CPS_POINT_KIND_FREE || point->drags)
         status = cpsi_isotropy_check(scene, "point", point->name, err);
     if (status == CPS_OK) status = cpsi_anchor_check(scene, point, length, err);
@@ -220,10 +220,10 @@ static CpsStatus check_change(const CpsScene *scene, const CpsStage *stage, int 
                            point->name, v[0], v[1], v[2]);
     else if (change->kind == CPS_POINT_KIND_FREE)
         status = cpsi_isotropy_check(scene, "point", point->name, err);
-    else if (depth_below(scene, length, v, &below) > 0)
+    else if (depth_below(scene, length, v, false, &below) > 0)
         status =
             cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: point '%s' is moved to %g m below obstacle '%s'",
-                      what, point->name, depth_below(scene, length, v, &below), below);
+                      what, point->name, depth_below(scene, length, v, false, &below), below);
     return cpsi_fail_inside(err, status, "%s.point", point->name);
 }
 

@@ -56,7 +56,7 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         memcpy(line->weight_before, line->weight, sizeof line->weight);
         for (int i = 0; i < line->obstacle_count; i++) {
             turn[i] = 0;
-            line->shift[i] = vec3(0, 0, 0);
+            line->shift[i] = (CpsiShift){0};
         }
         known = true;
         double direction[3], load;

@@ -334,7 +334,7 @@ static CpsStatus check_start_height(const CpsScene *scene, const CpsLine *line, 
         const int low = first_below(scene, line, count, x);
         if (low == count) continue;
         const char *name = "";
-        const double above = cpsi_scene_height(scene, x[low], &name);
+        const double above = cpsi_scene_height(scene, x[low], true, &name);
         return CPSI_FAIL_AT(
             "start", err, CPS_ERR_ARGUMENT,
             "line '%s': start: node %d lies %g m below obstacle '%s': lift the shape, "
@@ -379,7 +379,7 @@ static CpsStatus check_end(const CpsScene *scene, const CpsLine *line, int end, 
                             "line '%s': ends: end %s is at (%g, %g, %g) m, expected finite numbers",
                             line->name, letter, v[0], v[1], v[2]);
     const char *name = "";
-    const double above = cpsi_scene_height(scene, vec3_load(v), &name);
+    const double above = cpsi_scene_height(scene, vec3_load(v), true, &name);
     if (!(above >= -cpsi_place_tolerance(line, vec3_load(v))))
         return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                             "line '%s': ends: end %s is %g m below obstacle '%s'", line->name,

@@ -5,15 +5,46 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/math.h"
 #include "base/status.h"
 #include "evolve/ranges.h"
 
 /* Limit of a shift in one stage, in radii of a round obstacle, which takes a substep for each
- * quarter of one. */
-static const double MOST_RADII = 1e4;
+ * quarter of one; and of its turn, which takes one for each quarter of a turn. */
+static const double MOST_RADII = 1e4, MOST_TURN = 2e4 * CPSI_PI, DEGREES = 180 / CPSI_PI;
+
+/* [rad] The path of what is held is checked at places so far apart as the obstacle turns. */
+static const double PATH_ANGLE = 0.005;
+enum { MOST_PLACES = 100000 };
 
 /* Depth below the surface that still counts as touching, per length of the line. */
 static const double PATH_TOUCH = 1e-9;
+
+/* What a shift asks of an obstacle that moves. */
+static CpsStatus check_shift(const CpsObstacle *obstacle, const CpsShift *shift, const char *place,
+                             const char *what, CpsError *err) {
+    const double *const of[] = {shift->by, shift->turn, shift->about};
+    static const char *const is[] = {"is shifted by", "is shifted with the turn",
+                                     "is shifted about"};
+    for (int i = 0; i < 3; i++)
+        if (!cpsi_are_usable(of[i]))
+            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                                "%s: obstacle '%s' %s (%g, %g, %g), expected finite numbers", what,
+                                obstacle->name, is[i], of[i][0], of[i][1], of[i][2]);
+    const double turn = vec3_norm(vec3_load(shift->turn));
+    if (turn > MOST_TURN)
+        return CPSI_FAIL_AT(place, err, CPS_ERR_LIMIT,
+                            "%s: obstacle '%s' is shifted with a turn of %g degrees, the limit is "
+                            "%g",
+                            what, obstacle->name, turn * DEGREES, MOST_TURN * DEGREES);
+    if (obstacle->kind == CPS_OBSTACLE_PLANE) return CPS_OK;
+    const double by = vec3_norm(vec3_load(shift->by));
+    if (by > MOST_RADII * obstacle->radius)
+        return CPSI_FAIL_AT(place, err, CPS_ERR_LIMIT,
+                            "%s: obstacle '%s' is shifted by %g m, the limit is %g radii", what,
+                            obstacle->name, by, MOST_RADII);
+    return CPS_OK;
+}
 
 CpsStatus cpsi_stage_shifts_check(const CpsScene *scene, const CpsStage *stage, const char *what,
                                   CpsError *err) {
@@ -33,16 +64,8 @@ CpsStatus cpsi_stage_shifts_check(const CpsScene *scene, const CpsStage *stage, 
                                 "%s: obstacle '%s' is shifted, but stays in its place: say that it "
                                 "moves",
                                 what, obstacle->name);
-        if (!cpsi_are_usable(shift->by))
-            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                                "%s: obstacle '%s' is shifted by (%g, %g, %g), expected finite "
-                                "numbers",
-                                what, obstacle->name, shift->by[0], shift->by[1], shift->by[2]);
-        if (obstacle->kind != CPS_OBSTACLE_PLANE &&
-            vec3_norm(vec3_load(shift->by)) > MOST_RADII * obstacle->radius)
-            return CPSI_FAIL_AT(place, err, CPS_ERR_LIMIT,
-                                "%s: obstacle '%s' is shifted by %g m, the limit is %g radii", what,
-                                obstacle->name, vec3_norm(vec3_load(shift->by)), MOST_RADII);
+        const CpsStatus status = check_shift(obstacle, shift, place, what, err);
+        if (status != CPS_OK) return status;
         for (int k = 0; k < i; k++)
             if (stage->shift[k].obstacle == shift->obstacle)
                 return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
@@ -51,58 +74,115 @@ CpsStatus cpsi_stage_shifts_check(const CpsScene *scene, const CpsStage *stage, 
     return CPS_OK;
 }
 
+/* [m] How deep what goes straight from one place to another gets below an obstacle that turns
+ * meanwhile, at places close to each other. */
+static double depth_on_the_way(const CpsiObstacle *obstacle, const CpsiShift *shift, Vec3 from,
+                               Vec3 to) {
+    const double angle = vec3_norm(shift->turn);
+    const int count = 1 + (int)fmin(MOST_PLACES, angle / PATH_ANGLE);
+    const double sine = sin(0.25 * angle / count), versine = 2 * sine * sine;
+    double depth = -INFINITY;
+    Vec3 last = from;
+    for (int i = 1; i <= count; i++) {
+        const double share = (double)i / count;
+        const CpsiShift back = cpsi_shift_part(shift, share, 0);
+        const Vec3 here = vec3_axpy(share, vec3_sub(to, from), from),
+                   seen = cpsi_shift_carry(&back, here);
+        /* between these places the way is an arc */
+        const double arc = versine * vec3_norm(vec3_sub(last, shift->about));
+        depth = fmax(depth, cpsi_obstacle_depth(obstacle, last, seen) - arc);
+        last = seen;
+    }
+    return depth;
+}
+
 /* What is held goes from one place to another, relative to the origin. */
+typedef struct Held {
+    const CpsiLine *line;
+    int node;
+    Vec3 from, to;
+} Held;
+
 static CpsStatus check_held(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
-                            const CpsiLine *line, int node, Vec3 from, Vec3 to, const char *what,
-                            CpsError *err) {
+                            const Held *held, const char *what, CpsError *err) {
+    const Vec3 from = held->from, to = held->to;
     for (int k = 0; k < evolution->obstacle_count; k++) {
         const CpsiObstacle *obstacle = &evolution->obstacle[k];
         if (!obstacle->moves) continue;
-        Vec3 by = vec3(0, 0, 0);
+        CpsiShift shift = {.by = vec3(0, 0, 0)};
         for (int i = 0; i < stage->shift_count; i++)
-            if (stage->shift[i].obstacle == k) by = vec3_load(stage->shift[i].by);
+            if (stage->shift[i].obstacle == k)
+                shift = (CpsiShift){vec3_load(stage->shift[i].by), vec3_load(stage->shift[i].turn),
+                                    vec3_load(stage->shift[i].about)};
         /* as seen from the obstacle */
-        const double depth = cpsi_obstacle_depth(obstacle, from, vec3_sub(to, by)),
+        const double depth = cpsi_vec3_is_zero(shift.turn)
+                                 ? cpsi_obstacle_depth(obstacle, from, vec3_sub(to, shift.by))
+                                 : depth_on_the_way(obstacle, &shift, from, to),
                      before = -cpsi_obstacle_gap(obstacle, from);
-        if (!(depth > fmax(PATH_TOUCH * line->length, before))) continue;
+        if (!(depth > fmax(PATH_TOUCH * held->line->length, before))) continue;
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "%s: node %d of line '%s' is held in the way of obstacle '%s', up to %g m "
                          "deep: move one of them round the other",
-                         what, node, line->name, evolution->given_obstacle[k].name, depth);
+                         what, held->node, held->line->name, evolution->given_obstacle[k].name,
+                         depth);
     }
     return CPS_OK;
 }
 
+/* Is an end held, and where to? What is on a body or at a free point goes where the step finds it.
+ */
+static bool end_is_held(const CpsEvolution *evolution, const CpsiEvolutionStage *stage, int i,
+                        int end, Held *held) {
+    const CpsiPoints *points = &evolution->points;
+    const int at = points->tie[2 * i + end];
+    bool is_held = held->line->end[end].kind == CPS_END_KIND_HELD;
+    for (int k = 0; k < stage->change_count; k++) {
+        const CpsChange *change = &stage->change[k];
+        if (change->line != i || change->end != end) continue;
+        is_held = change->to.kind == CPS_END_KIND_HELD;
+        if (is_held) held->to = vec3_load(change->to.value);
+    }
+    if (at == CPSI_NO_POINT) return is_held;
+    is_held = points->point[at].kind == CPS_POINT_KIND_HELD;
+    for (int k = 0; k < stage->point_change_count; k++) {
+        const CpsPointChange *change = &stage->point_change[k];
+        if (change->point != at) continue;
+        is_held = change->kind == CPS_POINT_KIND_HELD;
+        if (is_held) held->to = vec3_load(change->value);
+    }
+    return is_held;
+}
+
+/* The same of node j between the ends. */
+static bool node_is_held(const CpsiEvolutionStage *stage, int i, int j, Held *held) {
+    bool is_held = held->line->grasp_count > 0 && cpsi_line_grasp_holds(held->line, j);
+    for (int k = 0; k < stage->grasp_change_count; k++) {
+        const CpsGraspChange *change = &stage->grasp_change[k];
+        if (change->line != i || change->node != j) continue;
+        is_held = change->kind == CPS_END_KIND_HELD;
+        if (is_held && !change->stays) held->to = vec3_load(change->value);
+    }
+    return is_held;
+}
+
 CpsStatus cpsi_shifts_check(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
                             const char *what, CpsError *err) {
-    CpsStatus status = CPS_OK;
-    for (int i = 0; i < evolution->line_count && status == CPS_OK; i++) {
+    bool any = false;
+    for (int k = 0; k < evolution->obstacle_count; k++) any = any || evolution->obstacle[k].moves;
+    if (!any) return CPS_OK;
+    for (int i = 0; i < evolution->line_count; i++) {
         const CpsiLine *line = &evolution->line[i];
-        for (int end = 0; end < 2 && status == CPS_OK; end++) {
-            const int node = end == CPS_END_A ? 0 : line->n - 1;
-            const Vec3 from = vec3_at(line->position, node);
-            bool held = line->end[end].kind == CPS_END_KIND_HELD;
-            Vec3 to = from;
-            for (int k = 0; k < stage->change_count; k++) {
-                const CpsChange *change = &stage->change[k];
-                if (change->line != i || change->end != end) continue;
-                held = change->to.kind == CPS_END_KIND_HELD;
-                if (held) to = vec3_load(change->to.value);
-            }
-            if (held) status = check_held(evolution, stage, line, node, from, to, what, err);
-        }
-        for (int j = 1; j + 1 < line->n && status == CPS_OK; j++) {
+        for (int j = 0; j < line->n; j++) {
             const Vec3 from = vec3_at(line->position, j);
-            bool held = line->grasp_count > 0 && cpsi_line_grasp_holds(line, j);
-            Vec3 to = from;
-            for (int k = 0; k < stage->grasp_change_count; k++) {
-                const CpsGraspChange *change = &stage->grasp_change[k];
-                if (change->line != i || change->node != j) continue;
-                held = change->kind == CPS_END_KIND_HELD;
-                if (held && !change->stays) to = vec3_load(change->value);
-            }
-            if (held) status = check_held(evolution, stage, line, j, from, to, what, err);
+            Held held = {line, j, from, from};
+            const bool is_end = j == 0 || j == line->n - 1,
+                       is_held = is_end ? end_is_held(evolution, stage, i,
+                                                      j == 0 ? CPS_END_A : CPS_END_B, &held)
+                                        : node_is_held(stage, i, j, &held);
+            const CpsStatus status =
+                is_held ? check_held(evolution, stage, &held, what, err) : CPS_OK;
+            if (status != CPS_OK) return status;
         }
     }
-    return status;
+    return CPS_OK;
 }

@@ -56,7 +56,7 @@ static CpsStatus check_change(const CpsScene *scene, const CpsStage *stage, int 
                             line->name, letter, v[0], v[1], v[2]);
     const char *name = "";
     const double above = change->to.kind == CPS_END_KIND_HELD
-                             ? cpsi_scene_height(scene, vec3_load(v), &name)
+                             ? cpsi_scene_height(scene, vec3_load(v), false, &name)
                              : INFINITY;
     if (!(above >= -cpsi_place_tolerance(line, vec3_load(v))))
         return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,

@@ -51,7 +51,10 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
             for (int a = 0; a < 3; a++) change->value[a] -= origin[a];
     }
     stage->shift_count = from->shift_count;
-    for (int k = 0; k < from->shift_count; k++) stage->shift[k] = from->shift[k];
+    for (int k = 0; k < from->shift_count; k++) {
+        stage->shift[k] = from->shift[k];
+        for (int a = 0; a < 3; a++) stage->shift[k].about[a] -= origin[a];
+    }
     stage->turn_count = from->turn_count;
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
     stage->gravity_changes = from->gravity_changes;
@@ -224,14 +227,17 @@ static void plan_weights(CpsEvolution *evolution, const CpsiEvolutionStage *stag
 }
 
 /* Shift the obstacles to where they are at the end of the step. */
-static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage) {
-    for (int k = 0; k < evolution->obstacle_count; k++) evolution->shift[k] = vec3(0, 0, 0);
+static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+    for (int k = 0; k < evolution->obstacle_count; k++) evolution->shift[k] = (CpsiShift){0};
     for (int k = 0; k < stage->shift_count; k++) {
         const CpsShift *given = &stage->shift[k];
-        CpsiObstacle *obstacle = &evolution->obstacle[given->obstacle];
-        const Vec3 by = vec3_scale(1.0 / stage->steps, vec3_load(given->by));
-        evolution->shift[given->obstacle] = by;
-        obstacle->frame.point = vec3_add(obstacle->frame.point, by);
+        const CpsiShift whole = {vec3_load(given->by), vec3_load(given->turn),
+                                 vec3_load(given->about)};
+        CpsiShift *now = &evolution->shift[given->obstacle];
+        const double share = 1.0 / stage->steps;
+        *now = (CpsiShift){vec3_scale(share, whole.by), vec3_scale(share, whole.turn),
+                           vec3_axpy(part * share, whole.by, whole.about)};
+        cpsi_obstacle_shift(&evolution->obstacle[given->obstacle], now);
     }
     for (int i = 0; i < evolution->line_count; i++) {
         evolution->move[i].shift = stage->shift_count > 0 ? evolution->shift : NULL;
@@ -260,7 +266,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int k = 0; k < stage->turn_count; k++)
         evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
-    plan_shifts(evolution, stage);
+    plan_shifts(evolution, stage, part);
     if (stage->steps == 1)
         snprintf(evolution->step_name, CPSI_STEP_NAME, "%s", stage->name);
     else
@@ -278,6 +284,6 @@ void cpsi_stage_plan_statics(CpsEvolution *evolution) {
         move->grasp_count = 0;
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
     }
-    plan_shifts(evolution, &(CpsiEvolutionStage){.steps = 1});
+    plan_shifts(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);
     plan_points(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);
 }

@@ -45,7 +45,7 @@ struct CpsEvolution {
     int line_count, stage_count, step_count;
     int obstacle_count;
     CpsiObstacle *obstacle; /* (obstacle_count) */
-    Vec3 *shift;            /* (obstacle_count) [m] by which each is shifted in the step */
+    CpsiShift *shift;       /* (obstacle_count) how each is shifted in the step */
     double *angle;          /* (obstacle_count) [rad] by which each turns in the step */
     CpsiMove *move;         /* (line_count) the change of each line in the step */
     CpsiLine *line;         /* (line_count) */

@@ -12,6 +12,9 @@
 
 #include "evolve/grasps.h"
 
+/* Rounding of the axes of an obstacle. */
+static const double ORTHONORMAL = 1e-9;
+
 static bool all_finite(const double *x, size_t count) {
     if (x)
         for (size_t i = 0; i < count; i++)
@@ -158,17 +161,30 @@ static bool is_body(const CpsiBody *body) {
     return sound;
 }
 
+/* An obstacle at a place, its axes orthonormal but for rounding. */
+static bool is_placed(const CpsEvolution *evolution, int k) {
+    const CpsiObstacle *obstacle = &evolution->obstacle[k];
+    const CpsiShift *shift = &evolution->shift[k];
+    const Vec3 *axis = obstacle->frame.axis;
+    const Vec3 all[] = {obstacle->frame.point, obstacle->grain, shift->by,
+                        shift->turn,           shift->about,    vec3(evolution->angle[k], 0, 0)};
+    bool sound = true;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        sound = sound && isfinite(all[i].x) && isfinite(all[i].y) && isfinite(all[i].z);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            sound = sound && fabs(vec3_dot(axis[i], axis[j]) - (i == j)) <= ORTHONORMAL;
+    return sound;
+}
+
 const char *cpsi_state_fault(const CpsEvolution *evolution) {
     if (!is_place_in_history(evolution))
         return "it stands at a step that the history does not have";
     if (!is_step_report(evolution)) return "its report is none of a step";
     for (int i = 0; i < 2 * evolution->line_count; i++)
         if (!is_end(&evolution->from[i])) return "an end comes from nowhere";
-    for (int k = 0; k < evolution->obstacle_count; k++) {
-        double point[3];
-        vec3_store(point, evolution->obstacle[k].frame.point);
-        if (!all_finite(point, 3)) return "an obstacle is at no place";
-    }
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        if (!is_placed(evolution, k)) return "an obstacle is at no place";
     if (!all_finite(evolution->gravity, 3) || !all_finite(evolution->gravity_from, 3))
         return "its gravity is not finite";
     for (int i = 0; i < evolution->line_count; i++) {

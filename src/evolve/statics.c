@@ -86,7 +86,7 @@ void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
     cpsi_substeps_save(line, scratch);
     for (int k = 0; k < line->obstacle_count; k++) {
         scratch->turn[k] = 0;
-        scratch->shift[k] = vec3(0, 0, 0);
+        scratch->shift[k] = (CpsiShift){0};
     }
     const bool short_of = cpsi_line_step_falls_short(line, options);
     if (!short_of) cpsi_line_step(line, program, options);

@@ -79,6 +79,9 @@ static const double MAX_WASTED_WORK = 2e6, NODES_BESIDE = 30, SET_COST = 30;
  * centre stays on its side of what it pushes. */
 static const double MOST_SHIFT = 0.25;
 
+/* More portions than the limits of turns and shifts ask for. */
+static const double MOST_PORTIONS = 1e6;
+
 /* Rounding of an angle that is a whole number of quarter turns. */
 static const double ROUNDING = 1e-9;
 
@@ -172,14 +175,14 @@ static void weight_at(const CpsiMove *move, double share, double weight[3]) {
 static void shift_obstacles(const Advance *substeps, double from, double to) {
     const CpsiMove *move = substeps->move;
     for (int k = 0; k < substeps->line->obstacle_count; k++) {
-        Vec3 *shift = &substeps->scratch->shift[k];
-        *shift = vec3(0, 0, 0);
+        CpsiShift *shift = &substeps->scratch->shift[k];
+        *shift = (CpsiShift){0};
         if (!move->shift) continue;
         CpsiObstacle *obstacle = &substeps->scratch->obstacle[k];
         *obstacle = move->obstacle[k];
-        *shift = vec3_scale(to - from, move->shift[k]);
-        if (to < 1)
-            obstacle->frame.point = vec3_axpy(to - 1, move->shift[k], obstacle->frame.point);
+        *shift = cpsi_shift_part(&move->shift[k], from, to);
+        const CpsiShift back = cpsi_shift_part(&move->shift[k], 1, to);
+        if (to < 1) cpsi_obstacle_shift(obstacle, &back);
     }
 }
 
@@ -663,19 +666,44 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
     }
 }
 
+/* [m] How far a round obstacle is shifted where the line may meet it. An obstacle that turns about
+ * a point moves differently everywhere. */
+static double shift_size(const CpsiLine *line, const CpsiMove *move, int k) {
+    const CpsiShift *shift = &move->shift[k], back = cpsi_shift_part(shift, 1, 0);
+    const double by = vec3_norm(shift->by);
+    if (cpsi_vec3_is_zero(shift->turn)) return by;
+    CpsiObstacle start = move->obstacle[k];
+    cpsi_obstacle_shift(&start, &back);
+    double most = 0, drawn = 0;
+    for (int end = 0; end < 2; end++)
+        if (move->to[end].kind == CPS_END_KIND_HELD)
+            drawn = fmax(drawn, vec3_norm(vec3_sub(vec3_load(move->to[end].value),
+                                                   vec3_load(move->from[end].value))));
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 x = vec3_at(line->position, j), spoke = cpsi_obstacle_spoke(&start, x),
+                   foot = vec3_sub(x, spoke);
+        const double size = by + vec3_norm(vec3_cross(shift->turn, vec3_sub(foot, shift->about))),
+                     element = line->element_length[j < line->n - 1 ? j : j - 1];
+        if (vec3_norm(spoke) - start.radius <= size + drawn + element) most = fmax(most, size);
+    }
+    return most;
+}
+
 /* Number of equal portions of a step in each of which no obstacle turns by more than a quarter
  * turn, nor is shifted too far. */
 static int portion_count(const CpsiLine *line, const CpsiMove *move) {
     double most = 0;
-    for (int k = 0; k < line->obstacle_count; k++) most = cpsi_max_nan(most, fabs(move->angle[k]));
+    for (int k = 0; k < line->obstacle_count; k++)
+        most = cpsi_max_nan(most, fabs(move->angle[k]) +
+                                      (move->shift ? vec3_norm(move->shift[k].turn) : 0));
     const double quarters = ceil(most / CPSI_QUARTER - ROUNDING);
     double count = quarters > 1 ? quarters : 1;
     if (move->shift)
         for (int k = 0; k < line->obstacle_count; k++)
             if (line->obstacle[k].kind != CPS_OBSTACLE_PLANE)
-                count = fmax(count, ceil(vec3_norm(move->shift[k]) /
+                count = fmax(count, ceil(shift_size(line, move, k) /
                                          (MOST_SHIFT * line->obstacle[k].radius)));
-    return (int)count;
+    return (int)fmin(count, MOST_PORTIONS);
 }
 
 void cpsi_line_substeps(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,

@@ -12,9 +12,8 @@ typedef struct CpsiMove {
     int grasp_count;
     CpsEnd grasp_from[CPS_MAX_GRASPS], grasp_to[CPS_MAX_GRASPS];
     const double *angle; /* (obstacles) [rad] */
-    /* where some are shifted: by how much [m], (obstacles), and where all are in the end; else
-     * NULL */
-    const Vec3 *shift;
+    /* where some are shifted: how, (obstacles), and where all are in the end; else NULL */
+    const CpsiShift *shift;
     const CpsiObstacle *obstacle;
     double weight_from[3], weight_to[3]; /* [N/m] per natural length */
 } CpsiMove;
@@ -30,7 +29,7 @@ typedef struct CpsiSubsteps {
     double *position;       /* (n, 3) */
     double *trial;          /* (n, 4), NULL without a path tolerance */
     double *turn;           /* (obstacles) what line->turn points to */
-    Vec3 *shift;            /* (obstacles) likewise */
+    CpsiShift *shift;       /* (obstacles) likewise */
     CpsiObstacle *obstacle; /* (obstacles) where they are at the end of a part */
 } CpsiSubsteps;
 

@@ -23,6 +23,7 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
     CpsiGraphMatrix *matrix =
         cpsi_joint_system(&evolution->points, &evolution->bodies, evolution->line_count);
     if (!matrix) return NULL;
+    const CpsiNetworkTools tools = {matrix, evolution->workers, evolution->workspace_count};
     CpsiBalance *balance = NULL, measured = {0};
     CpsiArena arena = {0};
     for (int pass = 0; pass < 2; pass++) {
@@ -53,7 +54,7 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->guess.body, 6 * bodies);
         CPSI_PLACE(&arena, to->guess.pull, 6 * lines);
         cpsi_network_place(&to->network, &arena, evolution->line, (int)lines, (int)points,
-                           (int)bodies, evolution->workspace[0].program.ops, matrix);
+                           (int)bodies, evolution->workspace[0].program.ops, &tools);
         size_t all = 0;
         for (size_t i = 0; i < lines; i++) {
             if (placed) to->offset[i] = all;
@@ -149,7 +150,7 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
     at->friction = evolution->has_static && evolution->done == 0 ? 0 : on->friction[0];
     const Vec3 before =
-        cpsi_obstacle_carry(on, vec3_load(point->before), evolution->shift[at->obstacle],
+        cpsi_obstacle_carry(on, vec3_load(point->before), &evolution->shift[at->obstacle],
                             evolution->angle[at->obstacle]);
     at->slip = cpsi_obstacle_slip(on, before, at->place);
     at->start = vec3_axpy(-cpsi_obstacle_gap(on, before), cpsi_obstacle_normal(on, before), before);
@@ -243,6 +244,28 @@ static void add_pull(const CpsiBalance *balance, CpsiRigid *rigid, int point, Ve
     rigid->lines.moment = vec3_add(rigid->lines.moment, vec3_cross(arm, pull));
 }
 
+/* Count a force that is given, or that is stored in something elastic. */
+static void count_force(CpsiBalance *balance, double force) {
+    balance->force = cpsi_max_nan(balance->force, force);
+    balance->acting = cpsi_max_nan(balance->acting, force);
+}
+
+/* [N] What acts on a line: its weight, and what pulls at free ends and grasped nodes. */
+static double acting_on(const CpsiLine *line) {
+    double sum = 0;
+    for (int j = 0; j < line->n; j++) sum += vec3_norm(vec3_at(line->load, j));
+    return sum;
+}
+
+/* Count the forces of a line. An inextensible line takes any tension, and pulled straight by a load
+ * across it one that no load is near to; what it brings to the balance are the loads on it. */
+static void count_line(CpsiBalance *balance, const CpsiLine *line) {
+    balance->force = cpsi_max_nan(balance->force, line->report.certificate.largest_force);
+    balance->acting =
+        cpsi_max_nan(balance->acting, line->compliance > 0 ? line->report.certificate.largest_force
+                                                           : acting_on(line));
+}
+
 /* What nothing balances on a free body: nothing in its fixed directions. */
 static void find_rest(CpsiBalance *balance, CpsiRigid *rigid) {
     const CpsiBody *body = &balance->evolution->bodies.body[rigid->body];
@@ -255,8 +278,10 @@ static void find_rest(CpsiBalance *balance, CpsiRigid *rigid) {
     for (int i = 0; i < 6; i++)
         if (body->given.fixed[i]) left[i] = 0;
     rigid->left = (CpsiWrench){vec3_load(left), vec3_load(&left[3])};
-    balance->force = cpsi_max_nan(balance->force, vec3_norm(body->load.force));
-    balance->force = cpsi_max_nan(balance->force, vec3_norm(body->load.moment) / body->arm);
+    count_force(balance, vec3_norm(body->load.force));
+    count_force(balance, vec3_norm(body->load.moment) / body->arm);
+    balance->acting = cpsi_max_nan(balance->acting, vec3_norm(load.force));
+    balance->acting = cpsi_max_nan(balance->acting, vec3_norm(load.moment) / body->arm);
 }
 
 CpsiStepOptions cpsi_trial_options(const CpsEvolution *evolution) {
@@ -314,17 +339,22 @@ void cpsi_try_places(CpsiBalance *balance) {
     impose(balance);
     cpsi_step_lines(balance);
     balance->trials++;
-    balance->force = 0;
+    balance->force = balance->acting = 0;
     balance->certified = true;
     for (int k = 0; k < balance->count; k++) {
         CpsiFree *at = &balance->at[k];
         double load[3];
         at->rest = vec3(0, 0, 0);
-        if (cpsi_point_drags(&evolution->points, at->point)) continue;
+        if (cpsi_point_drags(&evolution->points, at->point)) {
+            balance->acting =
+                fmax(balance->acting, evolution->points.given[at->point].holding_capacity);
+            continue;
+        }
         cpsi_point_load(&evolution->points.point[at->point], evolution->gravity, load);
         at->rest = vec3_load(load);
         at->water = cpsi_water_at(&evolution->points, at->point, evolution->gravity, at->place.z);
-        balance->force = fmax(balance->force, vec3_norm(at->rest));
+        count_force(balance, vec3_norm(at->rest));
+        balance->acting = fmax(balance->acting, at->water.displaced);
     }
     for (int k = 0; k < balance->body_count; k++)
         balance->rigid[k].lines = (CpsiWrench){vec3(0, 0, 0), vec3(0, 0, 0)};
@@ -332,7 +362,7 @@ void cpsi_try_places(CpsiBalance *balance) {
         const int i = balance->line[item];
         const CpsLineReport *report = &evolution->line[i].report;
         balance->certified = balance->certified && cps_outcome_is_certified(report->outcome);
-        balance->force = cpsi_max_nan(balance->force, report->certificate.largest_force);
+        count_line(balance, &evolution->line[i]);
         for (int end = 0; end < 2; end++) {
             const int point = evolution->points.tie[2 * i + end];
             const Vec3 pull = vec3_scale(-1, vec3_load(report->end[end].force));
@@ -369,11 +399,12 @@ double cpsi_left_now(const CpsiBalance *balance) {
     return cpsi_largest_left(balance, balance->at, balance->rigid);
 }
 
-/* Is what is left within the tolerance? A force that is left changes the tensions of the lines by
- * no more than itself, which is far below the bound of their error that certificates at this
- * tolerance give: these are of second order. */
+/* Is what is left within the tolerance of what acts? A force that is left changes the tensions of
+ * the lines by no more than itself, which is far below the bound of their error that certificates
+ * at this tolerance give: these are of second order. */
 bool cpsi_is_balanced(const CpsiBalance *balance, double left) {
-    return left <= BALANCED * balance->evolution->options.solver.tolerance * balance->force;
+    return left <= BALANCED * balance->evolution->options.solver.tolerance *
+                       fmin(balance->force, balance->acting);
 }
 
 bool cpsi_obeys_friction(const CpsiBalance *balance, const CpsiFree *at) {

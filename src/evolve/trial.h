@@ -66,6 +66,7 @@ struct CpsiBalance {
     CpsiNetworkMove guess;
     CpsiNetwork network;
     double force;   /* [N] the largest of the trial */
+    double acting;  /* [N] ... without the tensions of inextensible lines, which follow from it */
     bool certified; /* are all lines, in this trial? */
     bool follows;   /* friction bounds follow the reactions */
     int trials;

@@ -154,7 +154,18 @@ Vec3 cpsi_obstacle_turn(const CpsiObstacle *o, Vec3 x, double angle) {
     return vec3_add(o->frame.point, turned(vec3_sub(x, o->frame.point), o->frame.axis[2], angle));
 }
 
-Vec3 cpsi_obstacle_carry(const CpsiObstacle *o, Vec3 x, Vec3 shift, double angle) {
-    const bool stays = shift.x == 0 && shift.y == 0 && shift.z == 0;
-    return cpsi_obstacle_turn(o, stays ? x : vec3_add(x, shift), angle);
+Vec3 cpsi_obstacle_carry(const CpsiObstacle *o, Vec3 x, const CpsiShift *shift, double angle) {
+    return cpsi_obstacle_turn(o, cpsi_shift_carry(shift, x), angle);
+}
+
+void cpsi_obstacle_shift(CpsiObstacle *o, const CpsiShift *shift) {
+    o->frame.point = cpsi_shift_carry(shift, o->frame.point);
+    if (cpsi_vec3_is_zero(shift->turn)) return;
+    const Rotation turn = rotation_of(shift->turn);
+    o->grain = rotation_apply(turn, o->grain);
+    /* orthonormal again, so that no rounding adds up over many steps */
+    Vec3 *axis = o->frame.axis;
+    axis[2] = unit(rotation_apply(turn, axis[2]), axis[2]);
+    axis[0] = unit(vec3_reject(rotation_apply(turn, axis[0]), axis[2]), axis[0]);
+    axis[1] = vec3_cross(axis[2], axis[0]);
 }

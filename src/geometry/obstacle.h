@@ -9,6 +9,7 @@
 
 #include "capstan/scene.h"
 #include "geometry/plane.h"
+#include "geometry/shift.h"
 
 typedef struct CpsiObstacle {
     CpsObstacleKind kind;
@@ -73,8 +74,12 @@ bool cpsi_obstacle_is_isotropic(const CpsiObstacle *obstacle);
  * by less than delta up to l = 1.3 R. */
 double cpsi_obstacle_allowance(const CpsiObstacle *obstacle, double l);
 
-/* x carried along as the obstacle is shifted [m] to where it is now, and turns. */
-Vec3 cpsi_obstacle_carry(const CpsiObstacle *obstacle, Vec3 x, Vec3 shift, double angle);
+/* x carried along as the obstacle is shifted to where it is now, and turns about its own axis. */
+Vec3 cpsi_obstacle_carry(const CpsiObstacle *obstacle, Vec3 x, const CpsiShift *shift,
+                         double angle);
+
+/* Shift the obstacle; its grain goes with it. */
+void cpsi_obstacle_shift(CpsiObstacle *obstacle, const CpsiShift *shift);
 
 /* x carried along as the obstacle turns about its axis by `angle` [rad], right-hand rule. */
 Vec3 cpsi_obstacle_turn(const CpsiObstacle *obstacle, Vec3 x, double angle);

@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "base/larger.h"
+#include "ipm/program.h"
 #include "ipm/soc.h"
 
 /* The scaling: writes w (d), returns g. */
@@ -60,6 +61,13 @@ static inline void cpsi_cone_correct(double *q, int d, const double *w, double g
     const double inverse = target / cpsi_soc_det(s, d);
     q[0] = -z[0] + inverse * s[0] - g * two[0];
     for (int r = 1; r < d; r++) q[r] = -z[r] - inverse * s[r] - g * two[r];
+}
+
+/* q of a half-line for an aim, where q holds the second-order term of a predictor. */
+static inline double cpsi_cone_aim_half_line(const CpsiIpmAim *aim, double s, double z, double q) {
+    if (aim->kind == CPSI_IPM_AIM_GIVEN) return q;
+    if (aim->kind == CPSI_IPM_AIM_PREDICT) return -z;
+    return -z + aim->target / s - (aim->kind == CPSI_IPM_AIM_CORRECT ? q : 0);
 }
 
 /* s += alpha ds, z += alpha dz, of cones of `count` rows in all. */

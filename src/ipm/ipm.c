@@ -42,11 +42,14 @@ static void start(CpsiProgram *program) {
         if (program->kind[k]->start) program->kind[k]->start(program, START_MU, START_MARGIN);
 }
 
-/* Residuals and complementarity of the iterate. */
-static CpsiSums measure(CpsiProgram *program) {
+/* Move the iterate by alpha along the direction, where alpha is not 0, and measure its residuals
+ * and its complementarity. */
+static CpsiSums measure(CpsiProgram *program, double alpha) {
     CpsiSums sums = {0};
     memcpy(program->residual, program->load, (size_t)program->size * sizeof *program->residual);
-    for (int k = 0; k < program->kind_count; k++) program->kind[k]->measure(program, &sums);
+    if (alpha != 0)
+        for (int i = 0; i < program->size; i++) program->u[i] += alpha * program->du[i];
+    for (int k = 0; k < program->kind_count; k++) program->kind[k]->measure(program, alpha, &sums);
     return sums;
 }
 
@@ -57,33 +60,16 @@ static bool scale_and_factor(CpsiProgram *program) {
     return program->factor(program);
 }
 
-/* Solve for the direction with the elements' q as right-hand side, removing the share `keep` of the
- * residuals. */
-static CpsiSums direction(CpsiProgram *program, double keep, bool predictor) {
+/* Solve for the direction with this aim. */
+static CpsiSums direction(CpsiProgram *program, const CpsiIpmAim *aim) {
     CpsiSums sums = {0};
-    for (int i = 0; i < program->size; i++) program->du[i] = keep * program->residual[i];
+    for (int i = 0; i < program->size; i++) program->du[i] = aim->keep * program->residual[i];
     for (int k = 0; k < program->kind_count; k++)
-        if (program->kind[k]->load) program->kind[k]->load(program, keep);
+        if (program->kind[k]->load) program->kind[k]->load(program, aim);
     program->solve(program);
     for (int k = 0; k < program->kind_count; k++)
-        if (program->kind[k]->direct) program->kind[k]->direct(program, keep, predictor, &sums);
+        if (program->kind[k]->direct) program->kind[k]->direct(program, aim, &sums);
     return sums;
-}
-
-static void predict(CpsiProgram *program) {
-    for (int k = 0; k < program->kind_count; k++)
-        if (program->kind[k]->predict) program->kind[k]->predict(program);
-}
-
-static void aim(CpsiProgram *program, double target, bool second_order) {
-    for (int k = 0; k < program->kind_count; k++)
-        if (program->kind[k]->aim) program->kind[k]->aim(program, target, second_order);
-}
-
-static void advance(CpsiProgram *program, double alpha) {
-    for (int i = 0; i < program->size; i++) program->u[i] += alpha * program->du[i];
-    for (int k = 0; k < program->kind_count; k++)
-        if (program->kind[k]->advance) program->kind[k]->advance(program, alpha);
 }
 
 static double step_length(const CpsiSums *sums, double fraction) {
@@ -112,15 +98,14 @@ static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const Cp
     for (int k = 0; k < options->centering_steps + sharpenings; k++) {
         if (k >= options->centering_steps) mu *= SHARPER;
         if (!scale_and_factor(program)) return;
-        aim(program, mu, false);
-        const CpsiSums step = direction(program, 1, false);
+        const CpsiIpmAim centre = {CPSI_IPM_AIM_CENTRE, mu, 1};
+        const CpsiSums step = direction(program, &centre);
         const double alpha = step_length(&step, CLOSE);
         if (!(alpha >= LEAST_STEP)) return;
-        advance(program, alpha);
         const CpsiIpmReport before = *report;
-        const CpsiSums now = measure(program);
+        const CpsiSums now = measure(program, alpha);
         if (!(measure_merit(program, &now, options, report) <= 2 * options->target) || now.sz < 0) {
-            advance(program, -alpha);
+            measure(program, -alpha);
             *report = before;
             return;
         }
@@ -150,13 +135,13 @@ static bool dual_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
 
 CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options) {
     CpsiIpmReport report = {.outcome = CPSI_IPM_ITERATION_LIMIT};
-    double best = INFINITY;
+    double best = INFINITY, alpha = 0;
     int waited = 0;
     const int patience = options->patience > 0 ? options->patience : PATIENCE;
     start(program);
     for (;; report.iterations++) {
-        /* measure the iterate, and stop where it is good enough */
-        const CpsiSums sums = measure(program);
+        /* move and measure the iterate, and stop where it is good enough */
+        const CpsiSums sums = measure(program, alpha);
         const double merit = measure_merit(program, &sums, options, &report),
                      mu = sums.sz / sums.weight;
         if (!isfinite(merit) || cpsi_interrupt_look(program->interrupt)) {
@@ -189,22 +174,21 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
             report.outcome = CPSI_IPM_STALLED;
             break;
         }
-        predict(program);
-        const CpsiSums predictor = direction(program, 1, true);
+        const CpsiIpmAim ahead = {CPSI_IPM_AIM_PREDICT, 0, 1};
+        const CpsiSums predictor = direction(program, &ahead);
         const double reach = step_length(&predictor, 1);
         const double sigma = (1 - reach) * (1 - reach);
 
         /* Corrector: aims at s o z = sigma mu e, but never below what the target requires, since
          * the residuals may still need distance from the boundary. */
         const double least = 0.1 * options->target * (options->scale + sums.scale) / sums.weight;
-        aim(program, fmax(sigma * mu, least), true);
-        const CpsiSums corrector = direction(program, 1 - sigma, false);
-        const double alpha = step_length(&corrector, FRACTION);
+        const CpsiIpmAim aim = {CPSI_IPM_AIM_CORRECT, fmax(sigma * mu, least), 1 - sigma};
+        const CpsiSums corrector = direction(program, &aim);
+        alpha = step_length(&corrector, FRACTION);
         if (!(alpha >= LEAST_STEP)) {
             report.outcome = CPSI_IPM_STALLED;
             break;
         }
-        advance(program, alpha);
     }
     return report;
 }

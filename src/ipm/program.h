@@ -36,28 +36,37 @@ typedef struct CpsiSums {
         ray_cost; /* sum of w c z0^2: > 0 where an element's quadratic energy grows with the ray */
 } CpsiSums;
 
-/* One kind of element. A pass in which a kind has nothing to do is NULL. `keep` is the share of the
- * residuals that a direction is to remove. */
+/* What a direction aims at: q, the right-hand side of the linearised complementarity. */
+typedef enum CpsiIpmAimKind {
+    CPSI_IPM_AIM_PREDICT, /* s o z -> 0 */
+    CPSI_IPM_AIM_CORRECT, /* s o z -> target e, less the second-order term of the predictor before
+                           */
+    CPSI_IPM_AIM_CENTRE,  /* s o z -> target e, without one */
+    CPSI_IPM_AIM_GIVEN    /* q as it stands */
+} CpsiIpmAimKind;
+
+typedef struct CpsiIpmAim {
+    CpsiIpmAimKind kind;
+    double target; /* of CPSI_IPM_AIM_CORRECT and CPSI_IPM_AIM_CENTRE */
+    double keep;   /* the share of the residuals that the direction is to remove */
+} CpsiIpmAim;
+
+/* One kind of element. A pass in which a kind has nothing to do is NULL. */
 typedef struct CpsiKind {
     /* a centred pair (s, z) near the iterate u, with s o z = mu e and s at a distance of about
      * `margin` from the boundary */
     void (*start)(CpsiProgram *program, double mu, double margin);
-    /* add the elements' forces to program->residual; add up s.z and residuals */
-    void (*measure)(CpsiProgram *program, CpsiSums *sums);
+    /* s += alpha ds, z += alpha dz, unless alpha is 0, when there may be no direction; then add the
+     * elements' forces to program->residual, and add up s.z and residuals */
+    void (*measure)(CpsiProgram *program, double alpha, CpsiSums *sums);
     /* the scaling; adds the condensed stiffness to the matrix */
     void (*scale)(CpsiProgram *program);
-    /* right-hand side q of the predictor, s o z -> 0, unless `scale` has computed it */
-    void (*predict)(CpsiProgram *program);
-    /* add to du, the right-hand side, the forces of q and of the residuals on the unknowns */
-    void (*load)(CpsiProgram *program, double keep);
-    /* direction (ds, dz) from du; step to the boundary; a predictor may store its second-order term
-     * in q */
-    void (*direct)(CpsiProgram *program, double keep, bool predictor, CpsiSums *sums);
-    /* q of s o z -> target e: of a corrector less the second-order term of the preceding predictor,
-     * of a centring step without one */
-    void (*aim)(CpsiProgram *program, double target, bool second_order);
-    /* s += alpha ds, z += alpha dz */
-    void (*advance)(CpsiProgram *program, double alpha);
+    /* q of the aim; add to du, the right-hand side, the forces of q and of the residuals on the
+     * unknowns */
+    void (*load)(CpsiProgram *program, const CpsiIpmAim *aim);
+    /* direction (ds, dz) of this aim from du; step to the boundary; a predictor may store its
+     * second-order term in q */
+    void (*direct)(CpsiProgram *program, const CpsiIpmAim *aim, CpsiSums *sums);
 } CpsiKind;
 
 struct CpsiProgram {

@@ -150,6 +150,14 @@ static void a_clump_on_a_rough_bed(void **unused) {
         CHECK_NEAR(clump.friction[0], tension[k] - pull[k], 1e-5);
         CHECK_NEAR(clump.slip[0], clump.position[0] - before, 1e-12);
         CHECK_NEAR(clump.dissipated, hold * fabs(clump.slip[0]), 1e-6);
+        /* the line has no friction of its own: the step's is the clump's, and the ledger has it */
+        const CpsStepReport report = cps_evolution_report(evolution);
+        CHECK_NEAR(report.dissipated, clump.dissipated, 1e-9);
+        CHECK_NEAR(report.ledger.dissipated, clump.dissipated, 1e-9);
+        CHECK_NEAR(report.ledger.ends,
+                   report.ledger.elastic + report.ledger.gravity + clump.dissipated +
+                       report.ledger.imbalance,
+                   1e-9);
         assert_int_equal(clump.state,
                          k == 0 || k == 2 ? CPS_POINT_STATE_STICK : CPS_POINT_STATE_SLIP);
         before = clump.position[0];

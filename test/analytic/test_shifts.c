@@ -63,7 +63,7 @@ static CpsEvolution *rope(double weight, double stiffness, double stretch, bool 
 
 static CpsStatus shift(CpsEvolution *evolution, int obstacle, double x, double y, double z,
                        CpsError *err) {
-    const CpsShift by = {obstacle, {x, y, z}};
+    const CpsShift by = {.obstacle = obstacle, .by = {x, y, z}};
     CpsStage move = cps_stage_default();
     move.shift_count = 1;
     move.shift = &by;
@@ -86,9 +86,10 @@ static void a_belt_pulls_with_mu_times_the_weight(void **state) {
         CpsLineView view = cps_evolution_line_view(evolution, 0);
         /* all but the half element at the held end, which is the support's and the belt's */
         CHECK_RELATIVE(view.tension[0], mu * weight * LENGTH * (1 - 0.5 / N), 1e-7);
-        double point[3];
-        assert_true(cps_evolution_obstacle(evolution, 0, point));
-        CHECK_VECTOR(point, ((double[]){0.5, 0, 0}), 0);
+        const CpsObstacleReport place = cps_evolution_obstacle_report(evolution, 0);
+        CHECK_VECTOR(place.point, ((double[]){0.5, 0, 0}), 0);
+        CHECK_VECTOR(place.by, ((double[]){0.5, 0, 0}), 0);
+        CHECK_VECTOR(place.axis, ((double[]){0, 0, 1}), 0);
         CpsLedger ledger = cps_evolution_report(evolution).ledger;
         CHECK_NEAR(ledger.ends, 0, 1e-12);
         /* the belt slips below nearly all of it by nearly half a metre */
@@ -203,7 +204,8 @@ static CpsOutcome go(CpsEvolution *evolution, const double a[3], const double b[
                      const double by[3]) {
     const CpsChange end[2] = {{0, CPS_END_A, {CPS_END_KIND_HELD, {a[0], a[1], a[2]}}},
                               {0, CPS_END_B, {CPS_END_KIND_HELD, {b[0], b[1], b[2]}}}};
-    const CpsShift shifts[2] = {{0, {by[0], by[1], by[2]}}, {1, {by[0], by[1], by[2]}}};
+    const CpsShift shifts[2] = {{.obstacle = 0, .by = {by[0], by[1], by[2]}},
+                                {.obstacle = 1, .by = {by[0], by[1], by[2]}}};
     CpsStage move = cps_stage_default();
     CpsError err;
     move.change_count = move.shift_count = 2;
@@ -305,10 +307,12 @@ static void shifts_are_taken_back_and_saved(void **state) {
         assert_memory_equal(x.position, y.position, 3 * (N + 1) * sizeof(double));
         assert_memory_equal(x.tension, y.tension, N * sizeof(double));
     }
-    double a[3], b[3];
-    assert_true(cps_evolution_obstacle(one, 0, a) && cps_evolution_obstacle(other, 0, b));
-    CHECK_VECTOR(a, b, 0);
-    assert_false(cps_evolution_obstacle(one, 1, a));
+    const CpsObstacleReport a = cps_evolution_obstacle_report(one, 0),
+                            b = cps_evolution_obstacle_report(other, 0),
+                            none = cps_evolution_obstacle_report(one, 1);
+    assert_memory_equal(&a, &b, sizeof a);
+    CHECK_INT(cps_evolution_obstacle_count(one), 1);
+    CHECK_VECTOR(none.axis, ((double[]){0, 0, 0}), 0);
     CpsError err;
     CHECK_INT((int)shift(one, 1, 0, 0, 0, &err), (int)CPS_ERR_ARGUMENT);
     CHECK_INT((int)shift(one, 0, NAN, 0, 0, &err), (int)CPS_ERR_ARGUMENT);

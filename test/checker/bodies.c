@@ -13,6 +13,7 @@
 #include "bodies.h"
 
 #include "groups.h"
+#include "points.h"
 
 #include <math.h>
 #include <netcdf.h>
@@ -509,11 +510,11 @@ static bool is_claimed(const Check *c, bool (*certified)(int outcome)) {
     return false;
 }
 
-/* [N] The largest force in lines and of loads. */
+/* [N] The largest force in elastic lines and of loads. */
 static void find_largest(Check *c) {
     c->largest = 0;
     for (size_t i = 0; i < c->source->lines; i++)
-        c->largest = fmax(c->largest, c->line[i].claim[CLAIM_LARGEST_FORCE]);
+        c->largest = fmax(c->largest, acts_in_line(&c->line[i]));
     for (size_t k = 0; k < c->source->points; k++)
         c->largest = fmax(c->largest, size(c->point[k].load));
     for (size_t k = 0; k < c->bodies->count; k++)

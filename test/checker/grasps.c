@@ -106,7 +106,7 @@ static void force_before(const Record *before, size_t j, bool held, Real *force)
             force[a] += (Real)before->reaction[c] * before->normal[c][a] + before->friction[c][a];
 }
 
-Real grasps_work(const Record *r, const Record *before, bool at_once) {
+Real grasps_work(const Record *r, const Record *before, unsigned at_once) {
     Real work = 0;
     for (size_t k = 0; k < r->grasps; k++) {
         const size_t j = r->grasp_node[k];
@@ -114,7 +114,7 @@ Real grasps_work(const Record *r, const Record *before, bool at_once) {
         Real first[3];
         force_before(before, j, held, first);
         for (int a = 0; a < 3; a++) {
-            if (!held && at_once) first[a] = r->grasp_load[k][a];
+            if (!held && (at_once >> k & 1)) first[a] = r->grasp_load[k][a];
             work += (first[a] + r->grasp_force[k][a]) / 2 *
                     ((Real)r->position[j][a] - r->reference[j][a]);
         }

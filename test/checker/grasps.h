@@ -22,9 +22,9 @@ void node_load(const Record *record, size_t j, Real *load);
 /* [N] The largest difference of a force in the file from what balances its node. */
 double grasps_force_error(const Record *record);
 
-/* [J] The work of the grasps in a step, the mean of the force before and after times the way; where
- * `at_once`, nodes that are let go are without what held them from the beginning. */
-Real grasps_work(const Record *record, const Record *before, bool at_once);
+/* [J] The work of the grasps in a step, the mean of the force before and after times the way. The
+ * nodes of the bits of `at_once` that are let go are without what held them from the beginning. */
+Real grasps_work(const Record *record, const Record *before, unsigned at_once);
 
 /* The span between two held nodes, next to each other, whose ends are farthest apart beyond its
  * length. False: there is none. */

@@ -39,6 +39,7 @@ typedef struct Points {
     bool has_surface;
     double *length; /* (points) [m] of the longest line that ends there */
     double largest; /* [N] of the step */
+    double acting;  /* [N] of it what no tension without a bound may have made */
     bool certified, has_friction;
     size_t step, point;
     PointFinding *find;
@@ -113,9 +114,9 @@ static void check_balance(const Points *p, const Junction *at) {
     if ((at->state == POINT_ON_BODY) != (kind == POINT_KIND_ON_BODY))
         find(p, "its state and its kind differ in whether it is on a body");
     const double left = size(at->residual);
-    const bool is_balanced = left <= BALANCED * p->source->tolerance * p->largest;
+    const bool is_balanced = left <= BALANCED * p->source->tolerance * p->acting;
     if (at->has_place && !is_balanced)
-        find(p, "it is said to have a place, but %.6g N are left, of %.6g N", left, p->largest);
+        find(p, "it is said to have a place, but %.6g N are left, of %.6g N", left, p->acting);
     if (!at->has_place && p->certified)
         find(p, "it has no place, but lines that end there are certified");
 }
@@ -271,14 +272,36 @@ static void check_friction(const Points *p, const Junction *at) {
     at_most(p, "error of the slip", apart(at->slip, slip), 2 * way);
 }
 
+double acts_in_line(const Record *line) {
+    if (line->compliance > 0) return line->claim[CLAIM_LARGEST_FORCE];
+    double sum = 0;
+    for (size_t j = 0; j < line->nodes; j++) sum += size(line->load[j]);
+    return sum;
+}
+
+/* What is left is compared with loads, and with tensions that strains have: an inextensible line
+ * that is pulled straight may claim any. */
+static void find_acting(Points *p) {
+    for (size_t i = 0; i < p->source->points; i++) {
+        const Anchor *anchor = &p->anchor[i];
+        p->acting = fmax(p->acting, fmax(size(p->now[i].load), p->water[i].displaced));
+        if (anchor->drags) p->acting = fmax(p->acting, anchor->capacity);
+    }
+    for (size_t i = 0; i < p->source->lines; i++)
+        p->acting = fmax(p->acting, acts_in_line(&p->line[i]));
+    /* beside bodies, whose loads bodies.c counts, inextensible lines are never pulled straight */
+    p->acting = p->bodies.count > 0 ? p->largest : fmin(p->acting, p->largest);
+}
+
 static void check_step(Points *p) {
     const Source *source = p->source;
-    p->largest = 0;
+    p->largest = p->acting = 0;
     p->certified = false;
     for (size_t i = 0; i < source->points; i++)
         p->largest = fmax(p->largest, fmax(size(p->now[i].load), p->water[i].buoyancy));
     for (size_t i = 0; i < source->lines; i++)
         p->largest = fmax(p->largest, p->line[i].claim[CLAIM_LARGEST_FORCE]);
+    find_acting(p);
     for (p->point = 0; p->point < source->points; p->point++) {
         const Junction *at = &p->now[p->point];
         check_lines(p, at);

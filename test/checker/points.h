@@ -14,4 +14,8 @@ typedef void PointFinding(void *user, const char *name, size_t step, const char 
 int points_check(const Source *source, bool (*certified)(int outcome), PointFinding *find,
                  void *user, FILE *log);
 
+/* [N] With what a balance at the ends of a line may be compared: the largest force in an elastic
+ * line, the loads of an inextensible one, whose tension may have no bound. */
+double acts_in_line(const Record *line);
+
 #endif

@@ -1,16 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rigid bodies, from a scene to the checker: the file is sound and the scene's, and copies with a
  * number changed are refused, by themselves or beside their scene. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "capstan/io.h"
 #include "check.h"
-#include "checker.h"
-#include "given.h"
-#include "run_scene.h"
-#include "sample.h"
+#include "falsified.h"
 
 /* A float that heels, with water whose stiffness is coupled, on two legs; and a barge beside it
  * that is moved and turned, let go, and held again, under a gravity that changes. */
@@ -49,38 +41,11 @@ static const char SCENE[] =
     " 0.1]}}}\n";
 enum { STEPS = 9, LINES = 4, BODIES = 2, POINTS = 5, SPAR = 0, BARGE = 1, LEFT = 1 };
 
-static char copy[80];
-static CpsSceneFile *scene;
-
-static int solve(void **state) {
-    CpsError err;
-    if (make_scene_directory(state) != 0) return -1;
-    FILE *out = fopen(scene_path, "w");
-    if (!out || fputs(SCENE, out) < 0 || fclose(out) != 0) return -1;
-    run_scene();
-    snprintf(copy, sizeof copy, "%s-copy", scene_result);
-    return cps_scene_read(scene_path, NULL, &scene, &err) != CPS_OK;
-}
-
-static int clean(void **state) {
-    cps_scene_file_destroy(scene);
-    return remove_scene_directory(state);
-}
-
-static void copy_result(void) {
-    FILE *from = fopen(scene_result, "rb"), *to = fopen(copy, "wb");
-    assert_true(from && to);
-    for (int c; (c = getc(from)) != EOF;) putc(c, to);
-    fclose(from);
-    assert_int_equal(fclose(to), 0);
-}
+static int begin(void **state) { return falsified_begin(SCENE, state); }
 
 static void sound_file_is_the_scenes(void **state) {
     (void)state;
-    CheckerReport report;
-    CHECK_INT(checker_file(scene_result, &report, stdout), 0);
-    CHECK_INT(report.certified, LINES * STEPS);
-    CHECK_INT(given_file(scene_result, cps_scene_file_scene(scene), stdout), 0);
+    falsified_check_sound(LINES * STEPS);
 }
 
 /* A number of a step and a body, or component i of so many. */
@@ -90,12 +55,7 @@ static void sound_file_is_the_scenes(void **state) {
 
 /* Step 1 pushes, 3 turns the barge, 5 has let it go, 7 holds it again. A finding NULL: only beside
  * the scene. */
-static const struct {
-    const char *variable;
-    size_t index;
-    double value;
-    const char *finding;
-} FALSE[] = {
+static const FalseNumber FALSE[] = {
     {"position_of_body", OF(1, SPAR, 3, 0), 0.5, "body spar: distance of a point from its place"},
     {"position_of_body", OF(3, BARGE, 3, 2), 0.1, "body barge: distance of a point"},
     {"position_of_body", OF(1, SPAR, 3, 1), 0.1, "body spar: displacement in a fixed direction"},
@@ -147,76 +107,42 @@ static const struct {
 
 static void falsified_copies_are_refused(void **state) {
     (void)state;
-    for (size_t i = 0; i < sizeof FALSE / sizeof *FALSE; i++) {
-        copy_result();
-        CHECK_INT(sample_poke(copy, FALSE[i].variable, FALSE[i].index, FALSE[i].value), 0);
-        char *text = NULL;
-        size_t size = 0;
-        FILE *log = open_memstream(&text, &size);
-        const int found = checker_file(copy, NULL, log),
-                  given = given_file(copy, cps_scene_file_scene(scene), NULL);
-        fclose(log);
-        const bool is_refused =
-            FALSE[i].finding ? found != 0 && strstr(text, FALSE[i].finding) : given >= 1;
-        if (!is_refused)
-            fail_msg("%s[%zu] = %g: expected \"%s\", got %d and %d:\n%s", FALSE[i].variable,
-                     FALSE[i].index, FALSE[i].value,
-                     FALSE[i].finding ? FALSE[i].finding : "not the scene's", found, given, text);
-        free(text);
-    }
-    remove(copy);
+    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
 }
 
 /* Scenes in which something else is imposed on the bodies. */
+static const OtherScene OTHER[] = {
+    {"free: [0, 0, 0]", "free: [0, 0, 1e-6]"},
+    {"[0, 0, 20]", "[0, 0, 20.0001]"},
+    {"fixed: [rz, y]", "fixed: [rz]"},
+    {"weight: 500", "weight: 500.0001"},
+    {"[0.1, 0, -2]", "[0.1, 0, -2.0001]"},
+    {"buoyancy: 1500", "buoyancy: 1500.0001"},
+    {"[0, 0, 0.5]", "[0, 0, 0.50001]"},
+    {"[0, 12, 0, 0, 0, 0]", "[0, 12.0001, 0, 0, 0, 0]"},
+    {"force: [10, 0, 0], arm: [0, 0, 2]", "force: [10, 0, 0], arm: [0, 0, 2.0001]"},
+    {"force: [10, 0, 0]", "force: [10, 1e-5, 0]"},
+    {"force: [90, 0, 0]", "force: [90, 0, 1e-5]"},
+    {"held: [30, 0, 0]", "held: [30, 0, 1e-6]"},
+    {"at: [-1, 0.2, -3]", "at: [-1, 0.2, -3.000001]"},
+    {"move: [0.5, 0.2, 0]", "move: [0.5, 0.200001, 0]"},
+    {"[5, 10, 30]", "[5, 10, 30.0001]"},
+    {"force: [5, 0, 0]", "force: [5, 0, 1e-6]"},
+    {"position: [30, 1, 0]", "position: [30, 1, 1e-6]"},
+    {"[1, 0, 0, 0.1]", "[1, 0, 0, 0.10001]"},
+    {"gravity: [0, 0, -9]", "gravity: [0, 0, -9.0001]"},
+    {"{body: spar, at: [1, 0, -3]}", "{body: barge, at: [1, 0, -3]}"},
+    {"left", "port"},
+};
+
 static void other_scenes_are_refused(void **state) {
     (void)state;
-    static const struct {
-        const char *from, *to;
-    } CHANGE[] = {
-        {"free: [0, 0, 0]", "free: [0, 0, 1e-6]"},
-        {"[0, 0, 20]", "[0, 0, 20.0001]"},
-        {"fixed: [rz, y]", "fixed: [rz]"},
-        {"weight: 500", "weight: 500.0001"},
-        {"[0.1, 0, -2]", "[0.1, 0, -2.0001]"},
-        {"buoyancy: 1500", "buoyancy: 1500.0001"},
-        {"[0, 0, 0.5]", "[0, 0, 0.50001]"},
-        {"[0, 12, 0, 0, 0, 0]", "[0, 12.0001, 0, 0, 0, 0]"},
-        {"force: [10, 0, 0], arm: [0, 0, 2]", "force: [10, 0, 0], arm: [0, 0, 2.0001]"},
-        {"force: [10, 0, 0]", "force: [10, 1e-5, 0]"},
-        {"force: [90, 0, 0]", "force: [90, 0, 1e-5]"},
-        {"held: [30, 0, 0]", "held: [30, 0, 1e-6]"},
-        {"at: [-1, 0.2, -3]", "at: [-1, 0.2, -3.000001]"},
-        {"move: [0.5, 0.2, 0]", "move: [0.5, 0.200001, 0]"},
-        {"[5, 10, 30]", "[5, 10, 30.0001]"},
-        {"force: [5, 0, 0]", "force: [5, 0, 1e-6]"},
-        {"position: [30, 1, 0]", "position: [30, 1, 1e-6]"},
-        {"[1, 0, 0, 0.1]", "[1, 0, 0, 0.10001]"},
-        {"gravity: [0, 0, -9]", "gravity: [0, 0, -9.0001]"},
-        {"{body: spar, at: [1, 0, -3]}", "{body: barge, at: [1, 0, -3]}"},
-        {"  left:", "  port:"},
-    };
-    for (size_t i = 0; i < sizeof CHANGE / sizeof *CHANGE; i++) {
-        char text[sizeof SCENE + 200];
-        CpsSceneFile *other = NULL;
-        CpsError err = {0};
-        const char *at = strstr(SCENE, CHANGE[i].from);
-        if (!at) fail_msg("'%s' is not in the scene", CHANGE[i].from);
-        snprintf(text, sizeof text, "%.*s%s%s", (int)(at - SCENE), SCENE, CHANGE[i].to,
-                 at + strlen(CHANGE[i].from));
-        for (char *left; (left = strstr(text, "left")) && strcmp(CHANGE[i].to, "  port:") == 0;)
-            memcpy(left, "port", 4); /* where the point is named once more */
-        FILE *out = fopen(scene_path, "w");
-        assert_true(out && fputs(text, out) >= 0 && fclose(out) == 0);
-        if (cps_scene_read(scene_path, NULL, &other, &err) != CPS_OK) fail_msg("%s", err.message);
-        if (given_file(scene_result, cps_scene_file_scene(other), NULL) < 1)
-            fail_msg("%s is accepted in place of %s", CHANGE[i].to, CHANGE[i].from);
-        cps_scene_file_destroy(other);
-    }
+    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
                                        cmocka_unit_test(falsified_copies_are_refused),
                                        cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, solve, clean);
+    return cmocka_run_group_tests(tests, begin, falsified_end);
 }

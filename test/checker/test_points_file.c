@@ -1,16 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Points where lines meet, from a scene to the checker: the file is sound and the scene's, and
  * copies with a number changed are refused, by themselves or beside their scene. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "capstan/io.h"
 #include "check.h"
-#include "checker.h"
-#include "given.h"
-#include "run_scene.h"
-#include "sample.h"
+#include "falsified.h"
 
 /* A knot on a drum, which turns under it; it is pulled along the drum, held above it, and let go;
  * and a buoy that nothing touches. */
@@ -35,50 +27,18 @@ static const char SCENE[] =
     "  - {name: hold, knot.point: {position: [0.5, 0.3, 2.5]}, gravity: [0, 1, -9]}\n";
 enum { STEPS = 6, POINTS = 3, POST = 0, KNOT = 1, BUOY = 2 };
 
-static char copy[80];
-static CpsSceneFile *scene;
-
-static int solve(void **state) {
-    CpsError err;
-    if (make_scene_directory(state) != 0) return -1;
-    FILE *out = fopen(scene_path, "w");
-    if (!out || fputs(SCENE, out) < 0 || fclose(out) != 0) return -1;
-    run_scene();
-    snprintf(copy, sizeof copy, "%s-copy", scene_result);
-    return cps_scene_read(scene_path, NULL, &scene, &err) != CPS_OK;
-}
-
-static int clean(void **state) {
-    cps_scene_file_destroy(scene);
-    return remove_scene_directory(state);
-}
-
-static void copy_result(void) {
-    FILE *from = fopen(scene_result, "rb"), *to = fopen(copy, "wb");
-    assert_true(from && to);
-    for (int c; (c = getc(from)) != EOF;) putc(c, to);
-    fclose(from);
-    assert_int_equal(fclose(to), 0);
-}
+static int begin(void **state) { return falsified_begin(SCENE, state); }
 
 static void sound_file_is_the_scenes(void **state) {
     (void)state;
-    CheckerReport report;
-    CHECK_INT(checker_file(scene_result, &report, stdout), 0);
-    CHECK_INT(report.certified, 3 * STEPS);
-    CHECK_INT(given_file(scene_result, cps_scene_file_scene(scene), stdout), 0);
+    falsified_check_sound(3 * STEPS);
 }
 
 /* A number of a step and a point, or its component a. */
 #define NUMBER(step, point)    ((step)*POINTS + (point))
 #define VECTOR(step, point, a) (3 * NUMBER(step, point) + (a))
 
-static const struct {
-    const char *variable;
-    size_t index;
-    double value;
-    const char *finding; /* of the file by itself; NULL: it is sound, but not the scene's */
-} FALSE[] = {
+static const FalseNumber FALSE[] = {
     {"position_of_point", VECTOR(1, POST, 0), -4.1, "point post: distance of the end of a line"},
     {"position_of_point", VECTOR(2, KNOT, 2), 1, "point knot: depth below an obstacle"},
     {"position_of_point", VECTOR(2, KNOT, 1), 3, "point knot: error of the slip"},
@@ -120,67 +80,30 @@ static const struct {
 
 static void falsified_copies_are_refused(void **state) {
     (void)state;
-    for (size_t i = 0; i < sizeof FALSE / sizeof *FALSE; i++) {
-        copy_result();
-        CHECK_INT(sample_poke(copy, FALSE[i].variable, FALSE[i].index, FALSE[i].value), 0);
-        char *text = NULL;
-        size_t size = 0;
-        FILE *log = open_memstream(&text, &size);
-        const int found = checker_file(copy, NULL, log);
-        fclose(log);
-        const bool is_refused =
-            FALSE[i].finding ? found != 0 && strstr(text, FALSE[i].finding) : found == 0;
-        if (!is_refused)
-            fail_msg("%s[%zu] = %g: expected \"%s\", got %d:\n%s", FALSE[i].variable,
-                     FALSE[i].index, FALSE[i].value, FALSE[i].finding ? FALSE[i].finding : "sound",
-                     found, text);
-        free(text);
-        if (!FALSE[i].finding) CHECK_INT(given_file(copy, cps_scene_file_scene(scene), NULL), 1);
-    }
-    remove(copy);
+    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
 }
 
 /* Scenes in which something else is imposed on the points. */
+static const OtherScene OTHER[] = {
+    {"held: [-4, 1, -1]", "held: [-4, 1, -1.000001]"},
+    {"weight: 100", "weight: 100.0001"},
+    {"free: [4, 0, 9], weight: -30", "free: [4, 0, 9], force: [0, 1e-6, 0], weight: -30"},
+    {"force: [10, 0, 0]", "force: [10, 0, 1e-9]"},
+    {"move: [0.1, 0, 0]", "move: [0.1, 0, 1e-9]"},
+    {"position: [0.5, 0.3, 2.5]", "position: [0.5, 0.3, 2.500001]"},
+    {"{A: {point: post}, B: {point: knot}}", "{A: {point: knot}, B: {point: post}}"},
+    {"buoy", "float"},
+    {"gravity: [0, 1, -9]", "gravity: [0, 1, -8]"},
+};
+
 static void other_scenes_are_refused(void **state) {
     (void)state;
-    static const struct {
-        const char *from, *to;
-    } CHANGE[] = {
-        {"held: [-4, 1, -1]", "held: [-4, 1, -1.000001]"},
-        {"weight: 100", "weight: 100.0001"},
-        {"free: [4, 0, 9], weight: -30", "free: [4, 0, 9], force: [0, 1e-6, 0], weight: -30"},
-        {"force: [10, 0, 0]", "force: [10, 0, 1e-9]"},
-        {"move: [0.1, 0, 0]", "move: [0.1, 0, 1e-9]"},
-        {"position: [0.5, 0.3, 2.5]", "position: [0.5, 0.3, 2.500001]"},
-        {"{A: {point: post}, B: {point: knot}}", "{A: {point: knot}, B: {point: post}}"},
-        {"  buoy:", "  float:"},
-        {"gravity: [0, 1, -9]", "gravity: [0, 1, -8]"},
-    };
-    for (size_t i = 0; i < sizeof CHANGE / sizeof *CHANGE; i++) {
-        char text[sizeof SCENE + 200];
-        CpsSceneFile *other = NULL;
-        CpsError err = {0};
-        const char *at = strstr(SCENE, CHANGE[i].from);
-        assert_non_null(at);
-        snprintf(text, sizeof text, "%.*s%s%s", (int)(at - SCENE), SCENE, CHANGE[i].to,
-                 at + strlen(CHANGE[i].from));
-        if (strcmp(CHANGE[i].to, "  float:") == 0) /* its name occurs in two more places */
-            for (char *buoy; (buoy = strstr(text, "buoy")) != NULL;) {
-                memmove(buoy + 5, buoy + 4, strlen(buoy + 4) + 1);
-                memcpy(buoy, "float", 5);
-            }
-        FILE *out = fopen(scene_path, "w");
-        assert_true(out && fputs(text, out) >= 0 && fclose(out) == 0);
-        if (cps_scene_read(scene_path, NULL, &other, &err) != CPS_OK) fail_msg("%s", err.message);
-        if (given_file(scene_result, cps_scene_file_scene(other), NULL) < 1)
-            fail_msg("%s is accepted in place of %s", CHANGE[i].to, CHANGE[i].from);
-        cps_scene_file_destroy(other);
-    }
+    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
                                        cmocka_unit_test(falsified_copies_are_refused),
                                        cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, solve, clean);
+    return cmocka_run_group_tests(tests, begin, falsified_end);
 }

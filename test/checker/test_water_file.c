@@ -1,16 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Points at the surface of the water and anchors, from a scene to the checker: the file is sound
  * and the scene's, and copies with a number changed are refused. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "capstan/io.h"
 #include "check.h"
-#include "checker.h"
-#include "given.h"
-#include "run_scene.h"
-#include "sample.h"
+#include "falsified.h"
 
 /* A float that is pulled under, one that is lifted out of the water and drags its anchor, and a
  * knot without a volume; then gravity changes. */
@@ -38,50 +30,18 @@ static const char SCENE[] =
 enum { STEPS = 4, POINTS = 5, FOOT = 0, FLOAT = 1, CAN = 2, KNOT = 3, CLAW = 4 };
 enum { NONE = 0, SUBMERGED = 1, FLOATING = 2, ABOVE = 3 };
 
-static char copy[80];
-static CpsSceneFile *scene;
-
-static int solve(void **state) {
-    CpsError err;
-    if (make_scene_directory(state) != 0) return -1;
-    FILE *out = fopen(scene_path, "w");
-    if (!out || fputs(SCENE, out) < 0 || fclose(out) != 0) return -1;
-    run_scene();
-    snprintf(copy, sizeof copy, "%s-copy", scene_result);
-    return cps_scene_read(scene_path, NULL, &scene, &err) != CPS_OK;
-}
-
-static int clean(void **state) {
-    cps_scene_file_destroy(scene);
-    return remove_scene_directory(state);
-}
-
-static void copy_result(void) {
-    FILE *from = fopen(scene_result, "rb"), *to = fopen(copy, "wb");
-    assert_true(from && to);
-    for (int c; (c = getc(from)) != EOF;) putc(c, to);
-    fclose(from);
-    assert_int_equal(fclose(to), 0);
-}
+static int begin(void **state) { return falsified_begin(SCENE, state); }
 
 static void sound_file_is_the_scenes(void **state) {
     (void)state;
-    CheckerReport report;
-    CHECK_INT(checker_file(scene_result, &report, stdout), 0);
-    CHECK_INT(report.certified, 4 * STEPS);
-    CHECK_INT(given_file(scene_result, cps_scene_file_scene(scene), stdout), 0);
+    falsified_check_sound(4 * STEPS);
 }
 
 /* A number of a step and a point, or its component a. */
 #define NUMBER(step, point)    ((step)*POINTS + (point))
 #define VECTOR(step, point, a) (3 * NUMBER(step, point) + (a))
 
-static const struct {
-    const char *variable;
-    size_t index;
-    double value;
-    const char *finding;
-} FALSE[] = {
+static const FalseNumber FALSE[] = {
     {"water_of_point", NUMBER(0, FLOAT), NONE, "point float: where it is in the water is not said"},
     {"water_of_point", NUMBER(0, KNOT), FLOATING, "point knot: where it is in the water is not"},
     {"water_of_point", NUMBER(0, FOOT), SUBMERGED, "point foot: where it is in the water is not"},
@@ -115,58 +75,30 @@ static const struct {
 
 static void falsified_copies_are_refused(void **state) {
     (void)state;
-    for (size_t i = 0; i < sizeof FALSE / sizeof *FALSE; i++) {
-        copy_result();
-        CHECK_INT(sample_poke(copy, FALSE[i].variable, FALSE[i].index, FALSE[i].value), 0);
-        char *text = NULL;
-        size_t size = 0;
-        FILE *log = open_memstream(&text, &size);
-        const int found = checker_file(copy, NULL, log);
-        fclose(log);
-        if (found == 0 || !strstr(text, FALSE[i].finding))
-            fail_msg("%s[%zu] = %g: expected \"%s\", got %d:\n%s", FALSE[i].variable,
-                     FALSE[i].index, FALSE[i].value, FALSE[i].finding, found, text);
-        free(text);
-    }
-    remove(copy);
+    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
 }
 
 /* Scenes with other water. */
+static const OtherScene OTHER[] = {
+    {"water_surface: 3", "water_surface: 3.0000001"},
+    {"water_surface: 3\n", ""},
+    {"mass: 20, volume: 0.08", "mass: 20.00001, volume: 0.08"},
+    {"mass: 10, volume: 0.02", "mass: 10, volume: 0.0200001"},
+    {"gravity: [0, 0, -8]", "gravity: [0, 0, -8.00001]"},
+    {"holding_capacity: 60", "holding_capacity: 60.0001"},
+    {"uplift_limit: 50", "uplift_limit: 50.0001"},
+    {", drags: true", ""},
+    {"held: [10, 0, -5]", "held: [10.00001, 0, -5]"},
+};
+
 static void other_scenes_are_refused(void **state) {
     (void)state;
-    static const struct {
-        const char *from, *to;
-    } CHANGE[] = {
-        {"water_surface: 3", "water_surface: 3.0000001"},
-        {"water_surface: 3\n", ""},
-        {"mass: 20, volume: 0.08", "mass: 20.00001, volume: 0.08"},
-        {"mass: 10, volume: 0.02", "mass: 10, volume: 0.0200001"},
-        {"gravity: [0, 0, -8]", "gravity: [0, 0, -8.00001]"},
-        {"holding_capacity: 60", "holding_capacity: 60.0001"},
-        {"uplift_limit: 50", "uplift_limit: 50.0001"},
-        {", drags: true", ""},
-        {"held: [10, 0, -5]", "held: [10.00001, 0, -5]"},
-    };
-    for (size_t i = 0; i < sizeof CHANGE / sizeof *CHANGE; i++) {
-        char text[sizeof SCENE + 200];
-        CpsSceneFile *other = NULL;
-        CpsError err = {0};
-        const char *at = strstr(SCENE, CHANGE[i].from);
-        assert_non_null(at);
-        snprintf(text, sizeof text, "%.*s%s%s", (int)(at - SCENE), SCENE, CHANGE[i].to,
-                 at + strlen(CHANGE[i].from));
-        FILE *out = fopen(scene_path, "w");
-        assert_true(out && fputs(text, out) >= 0 && fclose(out) == 0);
-        if (cps_scene_read(scene_path, NULL, &other, &err) != CPS_OK) fail_msg("%s", err.message);
-        if (given_file(scene_result, cps_scene_file_scene(other), NULL) < 1)
-            fail_msg("'%s' is accepted in place of '%s'", CHANGE[i].to, CHANGE[i].from);
-        cps_scene_file_destroy(other);
-    }
+    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
                                        cmocka_unit_test(falsified_copies_are_refused),
                                        cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, solve, clean);
+    return cmocka_run_group_tests(tests, begin, falsified_end);
 }

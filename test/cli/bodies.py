@@ -17,6 +17,8 @@ import tempfile
 import time
 import xml.etree.ElementTree as tree
 
+from checks import expect, faults, read, write
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "property"))
 sys.dont_write_bytecode = True  # nothing is left in the source folder
 from result_file import Results  # noqa: E402
@@ -91,27 +93,10 @@ lines:
   stray: {length: 12, elements: 4, weight: 30, stiffness: 1e7, start: static, ends: {A: {held: [0, 0, 9]}, B: {held: [8, 0, 9]}}}
 """
 
-faults = []
-
-
-def check(name, holds, found=""):
-    if not holds:
-        faults.append(f"{name}: {found}")
-
-
-def write(path, text):
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-
-
-def read(path):
-    with open(path, "rb") as file:
-        return file.read()
-
 
 def run(*arguments, code=0):
     done = subprocess.run([CAPSTAN, "run", *arguments], capture_output=True, text=True, timeout=120, check=False)
-    check(f"run {arguments}", done.returncode == code, f"exit {done.returncode}: {done.stderr}")
+    expect(f"run {arguments}", done.returncode == code, f"exit {done.returncode}: {done.stderr}")
     return done
 
 
@@ -166,30 +151,30 @@ def csv_is_result(folder, results):
     """Every number of bodies.csv has the same bits in result.nc, and in history.csv where that has it."""
     units, rows = table(os.path.join(folder, "bodies.csv"))
     _, history = table(os.path.join(folder, "history.csv"))
-    check("units", [units[k] for k in ("x", "qw", "roll", "heel", "lines_x", "lines_mx", "trials")] == ["m", "1", "degree", "degree", "N", "N m", "1"], units)
-    check("rows", len(rows) == STEPS*len(BODIES) and results.steps == STEPS, len(rows))
-    check("names", results.attributes["bodies"] == " ".join(BODIES), results.attributes)
+    expect("units", [units[k] for k in ("x", "qw", "roll", "heel", "lines_x", "lines_mx", "trials")] == ["m", "1", "degree", "degree", "N", "N m", "1"], units)
+    expect("rows", len(rows) == STEPS*len(BODIES) and results.steps == STEPS, len(rows))
+    expect("names", results.attributes["bodies"] == " ".join(BODIES), results.attributes)
     for i, row in enumerate(rows):
         step, k = divmod(i, len(BODIES))
         what = f"step {step}, body {BODIES[k]}"
-        check(what, int(row["step"]) == step and row["body"] == BODIES[k] and row["kind"] == ("free", "held")[k], row)
-        check(f"{what}, position", [float(row[a]) for a in "xyz"] == of_body(results, "position", step, k, 3), row)
+        expect(what, int(row["step"]) == step and row["body"] == BODIES[k] and row["kind"] == ("free", "held")[k], row)
+        expect(f"{what}, position", [float(row[a]) for a in "xyz"] == of_body(results, "position", step, k, 3), row)
         q = [float(row[f"q{a}"]) for a in "wxyz"]
-        check(f"{what}, rotation", q == of_body(results, "rotation", step, k, 4), q)
+        expect(f"{what}, rotation", q == of_body(results, "rotation", step, k, 4), q)
         for name in ("lines", "load", "support", "residual"):
-            check(f"{what}, {name}", [float(row[f"{name}_{a}"]) for a in SIX] == of_body(results, name, step, k, 6), row)
+            expect(f"{what}, {name}", [float(row[f"{name}_{a}"]) for a in SIX] == of_body(results, name, step, k, 6), row)
         for name in ("trials", "has_place", "stable"):
-            check(f"{what}, {name}", int(row[name]) == results.get(f"{name}_of_body", step)[k], row)
+            expect(f"{what}, {name}", int(row[name]) == results.get(f"{name}_of_body", step)[k], row)
         angles = [float(row[a]) for a in ("roll", "pitch", "yaw")]
         matrix = by_angles(*angles)
         for axis in range(3):
             turned = turn(q, [float(axis == a) for a in range(3)])
-            check(f"{what}, angles", size([matrix[a][axis] - turned[a] for a in range(3)]) <= 1e-14, (angles, q))
+            expect(f"{what}, angles", size([matrix[a][axis] - turned[a] for a in range(3)]) <= 1e-14, (angles, q))
         heel = math.degrees(math.acos(min(1, turn(q, [0, 0, 1])[2])))
-        check(f"{what}, heel", abs(float(row["heel"]) - heel) <= 1e-6, (row["heel"], heel))
+        expect(f"{what}, heel", abs(float(row["heel"]) - heel) <= 1e-6, (row["heel"], heel))
         line = history[step]
         for name, column in [("x", "x"), ("roll", "roll"), ("pitch", "pitch"), ("yaw", "yaw"), ("heel", "heel"), ("fx", "lines_x"), ("mz", "lines_mz")]:
-            check(f"{what}, history", line[f"{BODIES[k]}.{name}"] == row[column], (name, line))
+            expect(f"{what}, history", line[f"{BODIES[k]}.{name}"] == row[column], (name, line))
     return rows
 
 
@@ -209,10 +194,10 @@ def forces_balance(results):
                     arm = turn(q, PLACES[tie][1])
                     nodes = results.get(f"{line}_position", step)
                     node = nodes[:3] if end == 0 else nodes[-3:]
-                    check(f"{what}, end of {line}", size([a - b - c for a, b, c in zip(node, place, arm)]) <= 1e-12*50, list(node))
+                    expect(f"{what}, end of {line}", size([a - b - c for a, b, c in zip(node, place, arm)]) <= 1e-12*50, list(node))
                     pull = [-x for x in results.get(f"{line}_end_force", step)[3*end:3*end + 3]]
                     lines = [a + b for a, b in zip(lines, pull + cross(arm, pull))]
-            check(f"{what}, lines", size([a - b for a, b in zip(lines, of_body(results, "lines", step, k, 6))]) <= 1e-10*largest, lines)
+            expect(f"{what}, lines", size([a - b for a, b in zip(lines, of_body(results, "lines", step, k, 6))]) <= 1e-10*largest, lines)
             if k == 0:
                 thrust = [part*x for x in THRUST]
                 for force, arm in [([0, 0, -WEIGHT], turn(q, CENTRE)), ([0, 0, BUOYANCY], turn(q, LIFT)), (thrust, ARM)]:
@@ -224,63 +209,63 @@ def forces_balance(results):
                 v = [x*angle/sine for x in q[1:]] if sine > 0 else [0, 0, 0]
                 water = [a - b for a, b in zip(of_body(results, "load", step, k, 6)[3:], load[3:])]
                 work = sum(a*b for a, b in zip(v, water)) + sum(c*x*x for c, x in zip(WATER[3:], v))
-                check(f"{what}, moment of the water", abs(work) <= 1e-10*(1 + largest), work)
-                check(f"{what}, load", size([a - b for a, b in zip(load[:3], of_body(results, "load", step, k, 6))]) <= 1e-10*largest, load)
+                expect(f"{what}, moment of the water", abs(work) <= 1e-10*(1 + largest), work)
+                expect(f"{what}, load", size([a - b for a, b in zip(load[:3], of_body(results, "load", step, k, 6))]) <= 1e-10*largest, load)
                 residual = [a + b for a, b in zip(lines, of_body(results, "load", step, k, 6))]
-                check(f"{what}, balance", size(residual[:3]) <= 100*TOLERANCE*largest and size(residual[3:5]) <= 100*TOLERANCE*largest*3.2, residual)
-                check(f"{what}, stable", results.get("stable_of_body", step)[k] == 1 and results.get("has_place_of_body", step)[k] == 1)
+                expect(f"{what}, balance", size(residual[:3]) <= 100*TOLERANCE*largest and size(residual[3:5]) <= 100*TOLERANCE*largest*3.2, residual)
+                expect(f"{what}, stable", results.get("stable_of_body", step)[k] == 1 and results.get("has_place_of_body", step)[k] == 1)
             else:
                 share = max(0, step - 12)/12
-                check(f"{what}, place", size([a - b for a, b in zip(place, [30 + 0.5*share, 0.2*share, 0])]) <= 1e-12*30, place)
+                expect(f"{what}, place", size([a - b for a, b in zip(place, [30 + 0.5*share, 0.2*share, 0])]) <= 1e-12*30, place)
                 support = of_body(results, "support", step, k, 6)
-                check(f"{what}, support", size([a + b for a, b in zip(support, lines)]) <= 1e-10*largest, support)
+                expect(f"{what}, support", size([a + b for a, b in zip(support, lines)]) <= 1e-10*largest, support)
     heels = [math.degrees(2*math.asin(size(of_body(results, "rotation", step, 0, 4)[1:]))) for step in range(STEPS)]
-    check("what the test has seen", max(heels) > 3, max(heels))
+    expect("what the test has seen", max(heels) > 3, max(heels))
 
 
 def stiffness_is_result(folder, results):
     """The stiffness of the step is that of the report, with its units; that of a small cycle is no less along x."""
     units, rows = table(os.path.join(folder, "body-stiffness.csv"))
-    check("units of stiffness", (units["x_x"], units["x_rx"], units["rx_x"], units["rz_rz"]) == ("N/m", "N", "N", "N m"), units)
-    check("rows of stiffness", len(rows) == 2*STEPS*len(BODIES), len(rows))
+    expect("units of stiffness", (units["x_x"], units["x_rx"], units["rx_x"], units["rz_rz"]) == ("N/m", "N", "N", "N m"), units)
+    expect("rows of stiffness", len(rows) == 2*STEPS*len(BODIES), len(rows))
     found = 0
     for i, row in enumerate(rows):
         step, k, kind = i//4, i//2 % 2, i % 2
-        check("row of stiffness", (row["step"], row["body"], row["kind"]) == (str(step), BODIES[k], ("step", "stick")[kind]), row)
+        expect("row of stiffness", (row["step"], row["body"], row["kind"]) == (str(step), BODIES[k], ("step", "stick")[kind]), row)
         if k == 1 or kind == 1 or row["outcome"] != "found":
             continue
         found += 1
         matrix = [float(row[f"{a}_{b}"]) for a in DIRECTIONS for b in DIRECTIONS]
         known = of_body(results, "stiffness", step, k, 36)
-        check(f"stiffness of step {step}", max(abs(a - b) for a, b in zip(matrix, known)) <= 1e-8*max(map(abs, known)), (matrix, known))
-    check("stiffness that is found", found >= STEPS//2, found)
+        expect(f"stiffness of step {step}", max(abs(a - b) for a, b in zip(matrix, known)) <= 1e-8*max(map(abs, known)), (matrix, known))
+    expect("stiffness that is found", found >= STEPS//2, found)
 
 
 def summary_is_result(folder, rows):
     summary = json.loads(read(os.path.join(folder, "summary.json")))
-    check("bodies of the summary", list(summary["bodies"]) == BODIES, summary["bodies"])
+    expect("bodies of the summary", list(summary["bodies"]) == BODIES, summary["bodies"])
     keys = {"x_m": "x", "y_m": "y", "z_m": "z", "roll_degrees": "roll", "pitch_degrees": "pitch", "yaw_degrees": "yaw", "heel_degrees": "heel",
             "lines_x_N": "lines_x", "lines_y_N": "lines_y", "lines_z_N": "lines_z"}
     for k, name in enumerate(BODIES):
         own, of = rows[k::len(BODIES)], summary["bodies"][name]
-        check(f"summary of {name}", of["kind"] == ("free", "held")[k] and of["weight_N"] == (WEIGHT, 0)[k] and of["buoyancy_N"] == (BUOYANCY, 0)[k]
+        expect(f"summary of {name}", of["kind"] == ("free", "held")[k] and of["weight_N"] == (WEIGHT, 0)[k] and of["buoyancy_N"] == (BUOYANCY, 0)[k]
               and of["steps_without_place"] == 0 and of["steps_not_stable"] == 0, of)
-        check(f"extremes of {name}", set(of["extremes"]) == set(keys), of["extremes"])
+        expect(f"extremes of {name}", set(of["extremes"]) == set(keys), of["extremes"])
         for key, column in keys.items():
             values = [float(row[column]) for row in own]
             extreme = of["extremes"][key]
-            check(f"{key} of {name}", (extreme["least"], extreme["greatest"]) == (min(values), max(values))
+            expect(f"{key} of {name}", (extreme["least"], extreme["greatest"]) == (min(values), max(values))
                   and extreme["least_step"] == values.index(min(values)) and extreme["greatest_step"] == values.index(max(values)), extreme)
         worst = max(size([float(row[f"residual_{a}"]) for a in "xyz"]) for row in own)
-        check(f"residual of {name}", abs(of["largest_residual_N"] - worst) <= 1e-14*worst, of)
+        expect(f"residual of {name}", abs(of["largest_residual_N"] - worst) <= 1e-14*worst, of)
         for step, row in enumerate(own):
             entry = summary["steps"][step]["bodies"][name]
-            check(f"summary, step {step}, {name}", entry["position_m"] == [float(row[a]) for a in "xyz"]
+            expect(f"summary, step {step}, {name}", entry["position_m"] == [float(row[a]) for a in "xyz"]
                   and entry["quaternion"] == [float(row[f"q{a}"]) for a in "wxyz"] and entry["heel_degrees"] == float(row["heel"])
                   and entry["lines_N"] + entry["lines_Nm"] == [float(row[f"lines_{a}"]) for a in SIX]
                   and entry["support_Nm"] == [float(row[f"support_{a}"]) for a in SIX[3:]]
                   and entry["has_place"] is True and entry["stable"] is True and entry["state"] == row["kind"], entry)
-        check("points of bodies", summary["points"]["bow"]["body"] == "barge" and summary["points"]["bow"]["kind"] == "on_body")
+        expect("points of bodies", summary["points"]["bow"]["body"] == "barge" and summary["points"]["bow"]["kind"] == "on_body")
 
 
 def paraview(folder, results):
@@ -289,45 +274,45 @@ def paraview(folder, results):
     piece = tree.fromstring(read(os.path.join(folder, f"step-{step:05d}-points.vtp"))).find("PolyData/Piece")
     arrays = {(part.tag, array.get("Name")): [float(x) for x in array.text.split()] for part in piece for array in part}
     places = arrays["Points", "Points"]
-    check("ParaView, points", places[:9] == list(results.get("position_of_point", step)), places)
+    expect("ParaView, points", places[:9] == list(results.get("position_of_point", step)), places)
     for k, name in enumerate(BODIES):
         at, q = of_body(results, "position", step, k, 3), of_body(results, "rotation", step, k, 4)
         length = 0.5*max(size(place) for body, place in PLACES.values() if body == k)
         first = 9 + 12*k
-        check(f"ParaView, {name}", places[first:first + 3] == at, places)
+        expect(f"ParaView, {name}", places[first:first + 3] == at, places)
         for axis in range(3):
             tip = [length*x for x in turn(q, [float(axis == a) for a in range(3)])]
             found = places[first + 3 + 3*axis:first + 6 + 3*axis]
-            check(f"ParaView, axis of {name}", size([a - b - c for a, b, c in zip(found, at, tip)]) <= 1e-13*50, found)
-    check("ParaView, cells", arrays["CellData", "part"] == [0, 0, 0, 1, 1, 2, 3, 4, 5, 5, 2, 3, 4, 5]
+            expect(f"ParaView, axis of {name}", size([a - b - c for a, b, c in zip(found, at, tip)]) <= 1e-13*50, found)
+    expect("ParaView, cells", arrays["CellData", "part"] == [0, 0, 0, 1, 1, 2, 3, 4, 5, 5, 2, 3, 4, 5]
           and arrays["CellData", "index"] == [0, 1, 2, 0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 1], arrays["CellData", "part"])
-    check("ParaView, lines", arrays["Lines", "connectivity"] == [3, 4, 3, 5, 3, 6, 3, 0, 3, 1, 7, 8, 7, 9, 7, 10, 7, 2]
+    expect("ParaView, lines", arrays["Lines", "connectivity"] == [3, 4, 3, 5, 3, 6, 3, 0, 3, 1, 7, 8, 7, 9, 7, 10, 7, 2]
           and arrays["Lines", "offsets"] == [2*i + 2 for i in range(9)], arrays["Lines", "connectivity"])
-    check("ParaView, forces", arrays["PointData", "lines_N"][:9] == list(results.get("lines_of_point", step)))
-    check("ParaView, list", f'part="2" file="step-{step:05d}-points.vtp"' in read(os.path.join(folder, "result.pvd")).decode())
+    expect("ParaView, forces", arrays["PointData", "lines_N"][:9] == list(results.get("lines_of_point", step)))
+    expect("ParaView, list", f'part="2" file="step-{step:05d}-points.vtp"' in read(os.path.join(folder, "result.pvd")).decode())
 
 
 def pictures(folder):
     for name in ("step-00012-plan.svg", "step-00012-elevation.svg", "plan.svg", "elevation.svg"):
         text = read(os.path.join(folder, name)).decode()
         tree.fromstring(text)
-        check(f"{name}, names", all(text.count(f">{point}</text>") == 1 for point in POINTS + BODIES), name)
+        expect(f"{name}, names", all(text.count(f">{point}</text>") == 1 for point in POINTS + BODIES), name)
         polygons = re.findall("<polygon[^>]*points=\"([^\"]*)\"", text)
-        check(f"{name}, bodies", len(polygons) >= len(BODIES) and all(4 > len(p.split()[0]) or "," in p for p in polygons), polygons)
+        expect(f"{name}, bodies", len(polygons) >= len(BODIES) and all(4 > len(p.split()[0]) or "," in p for p in polygons), polygons)
         names = [(float(x), float(y)) for x, y in re.findall(r'<text x="([\d.]+)" y="([\d.]+)"[^>]*paint-order', text)]
-        check(f"{name}, names apart", len(set(names)) == len(names), names)
+        expect(f"{name}, names apart", len(set(names)) == len(names), names)
 
 
 def killed_and_resumed(scene, whole):
     process = subprocess.Popen([CAPSTAN, "run", scene, "-q", "-o", "killed"], stderr=subprocess.DEVNULL)
     while process.poll() is None and not (os.path.exists("killed/.journal") and os.path.getsize("killed/.journal") > 100000):
         time.sleep(0.0005)
-    check("killed before its end", process.poll() is None)
+    expect("killed before its end", process.poll() is None)
     process.kill()
     process.wait()
     said = run(scene, "-q", "--resume", "-o", "killed").stderr
-    check("resumed", "steps were done before" in said and "capstan: 0 of" not in said, said)
-    check("bodies.csv of the resumed run", read("killed/bodies.csv") == whole)
+    expect("resumed", "steps were done before" in said and "capstan: 0 of" not in said, said)
+    expect("bodies.csv of the resumed run", read("killed/bodies.csv") == whole)
 
 
 def main():
@@ -337,8 +322,8 @@ def main():
         write("falling.yaml", FALLING)
         write("plain.yaml", PLAIN)
         said = run("scene.yaml", "--stiffness", "-o", "out").stdout
-        check("said", "bodies.csv" in said and "body-stiffness.csv" in said, said)
-        check("told in the table", len(re.findall(r"^ +body spar: at \([^)]*\) m, roll [-0-9.e]+, pitch [-0-9.e]+, yaw [-0-9.e]+ degrees$", said, re.M)) == STEPS, said)
+        expect("said", "bodies.csv" in said and "body-stiffness.csv" in said, said)
+        expect("told in the table", len(re.findall(r"^ +body spar: at \([^)]*\) m, roll [-0-9.e]+, pitch [-0-9.e]+, yaw [-0-9.e]+ degrees$", said, re.M)) == STEPS, said)
         results = Results("out/result.nc")
         rows = csv_is_result("out", results)
         forces_balance(results)
@@ -348,17 +333,17 @@ def main():
         pictures("out")
         whole = read("out/bodies.csv")
         for name in ("bodies.csv", "body-stiffness.csv", "step-00003-points.vtp"):
-            check("in the list of files", f'"name": "{name}"' in read("out/summary.json").decode(), name)
+            expect("in the list of files", f'"name": "{name}"' in read("out/summary.json").decode(), name)
         run("scene.yaml", "-q", "-o", "threads", "--threads=3")
-        check("the same bytes with three threads", read("threads/bodies.csv") == whole)
-        check("no stiffness where none is asked for", not os.path.exists("threads/body-stiffness.csv"))
+        expect("the same bytes with three threads", read("threads/bodies.csv") == whole)
+        expect("no stiffness where none is asked for", not os.path.exists("threads/body-stiffness.csv"))
         killed_and_resumed("scene.yaml", whole)
 
         # a run without bodies
         run("plain.yaml", "-q", "-o", "out")
         summary, results = json.loads(read("out/summary.json")), Results("out/result.nc")
-        check("removed", not [name for name in os.listdir("out") if "bod" in name or "points" in name], os.listdir("out"))
-        check("no bodies", "bodies" not in summary and "bodies" not in summary["steps"][0]
+        expect("removed", not [name for name in os.listdir("out") if "bod" in name or "points" in name], os.listdir("out"))
+        expect("no bodies", "bodies" not in summary and "bodies" not in summary["steps"][0]
               and not [name for name in results.variables if "body" in name], sorted(results.variables))
 
         # files of somebody else
@@ -367,38 +352,38 @@ def main():
             os.mkdir(folder)
             write(f"{folder}/{name}", "mine")
             run("scene.yaml", "-q", "--stiffness", "-o", folder, code=4)
-            check("a file of somebody else", read(f"{folder}/{name}") == b"mine")
+            expect("a file of somebody else", read(f"{folder}/{name}") == b"mine")
 
         # no pose
         write("twisted.yaml", TWISTED)
         done = run("twisted.yaml", "-o", "twisted", code=1)
         told = r"body stone: no pose found where the forces and moments on it balance \([0-9.e+-]+ N and [0-9.e+]+ N m are left after \d+ trials\)\n"
-        check("told in the table", re.search("^ +" + told, done.stdout, re.M), done.stdout)
-        check("told", re.search("^capstan: step twist, " + told, done.stderr, re.M), done.stderr)
-        check("what may help", "give that direction as 'fixed'\n" in done.stderr, done.stderr)
+        expect("told in the table", re.search("^ +" + told, done.stdout, re.M), done.stdout)
+        expect("told", re.search("^capstan: step twist, " + told, done.stderr, re.M), done.stderr)
+        expect("what may help", "give that direction as 'fixed'\n" in done.stderr, done.stderr)
         _, rows = table("twisted/bodies.csv")
-        check("without a place", rows[-1]["has_place"] == "0" and float(rows[-1]["residual_mz"]) > 2.9, rows[-1])
-        check("in the summary", json.loads(read("twisted/summary.json"))["bodies"]["stone"]["steps_without_place"] == 1)
+        expect("without a place", rows[-1]["has_place"] == "0" and float(rows[-1]["residual_mz"]) > 2.9, rows[-1])
+        expect("in the summary", json.loads(read("twisted/summary.json"))["bodies"]["stone"]["steps_without_place"] == 1)
 
         # nothing holds it: proved, with its weight and that of its line
         done = run("falling.yaml", "-o", "falling", code=5)
-        check("proved", "no equilibrium" in done.stderr and "no pose found" not in done.stdout + done.stderr, done.stderr)
+        expect("proved", "no equilibrium" in done.stderr and "no pose found" not in done.stdout + done.stderr, done.stderr)
         fall = json.loads(read("falling/summary.json"))["steps"][-1]["lines"]["tail"]["proof"]
         expected = math.hypot(15, 1)
-        check("by its power", abs(fall["fall_N"] - expected) < 1e-9, fall)
+        expect("by its power", abs(fall["fall_N"] - expected) < 1e-9, fall)
         checked = subprocess.run([sys.argv[2], "falling/result.nc", "falling.yaml"], capture_output=True, text=True, check=False)
-        check("the checker", checked.returncode == 0, checked.stdout)
+        expect("the checker", checked.returncode == 0, checked.stdout)
 
         # lines too short beside a group that has its places
         write("groups.yaml", TWO_GROUPS)
         run("groups.yaml", "-o", "groups", code=5)
         checked = subprocess.run([sys.argv[2], "groups/result.nc", "groups.yaml"], capture_output=True, text=True, check=False)
-        check("the checker, two groups", checked.returncode == 0, checked.stdout)
+        expect("the checker, two groups", checked.returncode == 0, checked.stdout)
 
         # the methods of 1990
         for arguments in (["run", "scene.yaml", "--method", "regularized"], ["study", "scene.yaml", "--history"]):
             done = subprocess.run([CAPSTAN, *arguments, "-o", "1990"], capture_output=True, text=True, check=False)
-            check(" ".join(arguments), done.returncode == 3 and "points where lines meet" in done.stderr and not os.path.exists("1990"), done.stderr)
+            expect(" ".join(arguments), done.returncode == 3 and "points where lines meet" in done.stderr and not os.path.exists("1990"), done.stderr)
         os.chdir("/")
     print("\n".join(faults[:20]) or "bodies: good")
     return len(faults) > 0

@@ -39,6 +39,9 @@ history:
   - {name: let go, rope.node: {at: 6, release: true}}
   - {name: too far, rope.node: {at: 2, position: [0, 0, FAR]}}
 """
+MIXED = SCENE[:SCENE.index("  - {name: second")] + """  - {name: both, rope.node: {at: 6, hold: true}}
+  - {name: let go, rope.node: {at: 6, release: true}, rope.node2: {at: 4, force: [0, 0, 0]}, steps: 2}
+"""
 NODES = {5: [60, 90], 9: [60, 90], 10: [60, 90], 12: [60, 90], 13: [90], 14: [30]}  # what is grasped after so many steps
 # (variable, step, index, change, words of the finding)
 FALSIFIED = (("rope_grasp_node", 8, 0, 1, ""), ("rope_grasp_kind", 8, 0, 1, "a value that cannot be"),
@@ -98,8 +101,24 @@ def try_line(stiffness, folder):
     return len(FALSIFIED)
 
 
+def try_mixed(folder):
+    """One node is let go at once and another from the force that held it, in one stage."""
+    scene, out = os.path.join(folder, "mixed.yaml"), os.path.join(folder, "mixed")
+    with open(scene, "w") as file:
+        file.write(MIXED.replace("STIFFNESS", "2000"))
+    run = subprocess.run([CAPSTAN, "run", scene, "-o", out], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    code, said = check(out, "result.nc", scene)
+    assert code == 0, said
+    steps = Results(os.path.join(out, "result.nc")).steps
+    falsify(Results(os.path.join(out, "result.nc")), out, "rope_ledger_ends", steps - 2, 0, 1e-3)
+    code, said = check(out, "copy.nc", scene)
+    assert code != 0 and "ledger_ends" in said, said
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
+        try_mixed(folder)
         count = sum(try_line(stiffness, folder) for stiffness in ("2000", ".inf"))
     print(f"{count} falsified copies refused")
     return 0

@@ -15,6 +15,8 @@ import sys
 import tempfile
 import time
 
+from checks import expect, faults, read, write
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "property"))
 sys.dont_write_bytecode = True  # nothing is left in the source folder
 from result_file import Results  # noqa: E402
@@ -85,27 +87,10 @@ lines:
   elastic: {length: 3, elements: 4, weight: 1, stiffness: 1e5, start: static, ends: {A: {held: [0, 0, 1]}, B: {point: knot}}}
 """
 
-faults = []
-
-
-def check(name, holds, found=""):
-    if not holds:
-        faults.append(f"{name}: {found}")
-
-
-def write(path, text):
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-
-
-def read(path):
-    with open(path, "rb") as file:
-        return file.read()
-
 
 def run(*arguments, code=0):
     done = subprocess.run([CAPSTAN, "run", *arguments], capture_output=True, text=True, timeout=120, check=False)
-    check(f"run {arguments}", done.returncode == code, f"exit {done.returncode}: {done.stderr}")
+    expect(f"run {arguments}", done.returncode == code, f"exit {done.returncode}: {done.stderr}")
     return done
 
 
@@ -126,28 +111,28 @@ def vector(row, name):
 def csv_is_result(folder, results):
     """Every number of points.csv has the same bits in result.nc."""
     units, rows = table(folder)
-    check("units", all(units[f"{name}_{a}"] == unit for name, unit in VECTORS.items() for a in "xyz"), units)
-    check("units", [units[k] for k in ("step", "name", "x", "reaction", "dissipated", "obstacle", "trials")] == ["1", "", "m", "N", "J", "", "1"], units)
-    check("rows", len(rows) == results.steps*len(POINTS) and results.steps == 25, f"{len(rows)} of {results.steps} steps")
-    check("names", results.attributes["points"] == " ".join(POINTS), results.attributes)
+    expect("units", all(units[f"{name}_{a}"] == unit for name, unit in VECTORS.items() for a in "xyz"), units)
+    expect("units", [units[k] for k in ("step", "name", "x", "reaction", "dissipated", "obstacle", "trials")] == ["1", "", "m", "N", "J", "", "1"], units)
+    expect("rows", len(rows) == results.steps*len(POINTS) and results.steps == 25, f"{len(rows)} of {results.steps} steps")
+    expect("names", results.attributes["points"] == " ".join(POINTS), results.attributes)
     for line, tie in TIES.items():
-        check("ties", list(results.get(f"{line}_end_point")) == tie, list(results.get(f"{line}_end_point")))
-    check("kinds", list(results.get("kind_of_point")) == [0, 1, 0, 1], results.get("kind_of_point"))
-    check("weights", list(results.get("weight_of_point")) == [WEIGHT.get(name, 0) for name in POINTS], results.get("weight_of_point"))
+        expect("ties", list(results.get(f"{line}_end_point")) == tie, list(results.get(f"{line}_end_point")))
+    expect("kinds", list(results.get("kind_of_point")) == [0, 1, 0, 1], results.get("kind_of_point"))
+    expect("weights", list(results.get("weight_of_point")) == [WEIGHT.get(name, 0) for name in POINTS], results.get("weight_of_point"))
     for i, row in enumerate(rows):
         step, k = divmod(i, len(POINTS))
         what = f"step {step}, point {POINTS[k]}"
-        check(what, int(row["step"]) == step and row["point"] == POINTS[k], row)
+        expect(what, int(row["step"]) == step and row["point"] == POINTS[k], row)
         position = results.get("position_of_point", step)[3*k:3*k + 3]
-        check(f"{what}, position", [float(row[a]) for a in "xyz"] == list(position), position)
+        expect(f"{what}, position", [float(row[a]) for a in "xyz"] == list(position), position)
         for name in VECTORS:
-            check(f"{what}, {name}", vector(row, name) == list(results.get(f"{name}_of_point", step)[3*k:3*k + 3]), row)
+            expect(f"{what}, {name}", vector(row, name) == list(results.get(f"{name}_of_point", step)[3*k:3*k + 3]), row)
         for name in ("reaction", "dissipated"):
-            check(f"{what}, {name}", float(row[name]) == results.get(f"{name}_of_point", step)[k], row)
-        check(f"{what}, state", STATES.index(row["state"]) == results.get("state_of_point", step)[k], row)
-        check(f"{what}, obstacle", (row["obstacle"] == "bed") == (results.get("obstacle_of_point", step)[k] == 0), row)
+            expect(f"{what}, {name}", float(row[name]) == results.get(f"{name}_of_point", step)[k], row)
+        expect(f"{what}, state", STATES.index(row["state"]) == results.get("state_of_point", step)[k], row)
+        expect(f"{what}, obstacle", (row["obstacle"] == "bed") == (results.get("obstacle_of_point", step)[k] == 0), row)
         for name in ("trials", "has_place"):
-            check(f"{what}, {name}", int(row[name]) == results.get(f"{name}_of_point", step)[k], row)
+            expect(f"{what}, {name}", int(row[name]) == results.get(f"{name}_of_point", step)[k], row)
 
 
 def forces_balance(results):
@@ -170,54 +155,54 @@ def forces_balance(results):
                     lines = [a - b for a, b in zip(lines, force)]
                     nodes = results.get(f"{line}_position", step)
                     node = nodes[:3] if end == 0 else nodes[-3:]
-                    check(f"{what}, end of {line}", size([a - b for a, b in zip(node, place)]) <= 1e-12*100, (list(node), place))
-            check(f"{what}, lines", size([a - b for a, b in zip(lines, of("lines"))]) <= 1e-12*largest, (lines, of("lines")))
+                    expect(f"{what}, end of {line}", size([a - b for a, b in zip(node, place)]) <= 1e-12*100, (list(node), place))
+            expect(f"{what}, lines", size([a - b for a, b in zip(lines, of("lines"))]) <= 1e-12*largest, (lines, of("lines")))
             start, to = ([8e3, 0, 1e3], PULL) if name == "float" else ([0]*3, [0]*3)
             load = [a + part*(b - a) for a, b in zip(start, to)]
             load[2] -= WEIGHT.get(name, 0)
             if name not in WEIGHT:
                 load = [0, 0, 0]
-            check(f"{what}, load", size([a - b for a, b in zip(load, of("load"))]) <= 1e-12*largest, (load, of("load")))
+            expect(f"{what}, load", size([a - b for a, b in zip(load, of("load"))]) <= 1e-12*largest, (load, of("load")))
             reaction = results.get("reaction_of_point", step)[k]
             left = [a + b + c + d + reaction*n for a, b, c, d, n in zip(lines, load, of("support"), friction, normal)]
-            check(f"{what}, residual", size([a - b for a, b in zip(left, of("residual"))]) <= 1e-12*largest, (left, of("residual")))
-            check(f"{what}, place", results.get("has_place_of_point", step)[k] == 1 and size(left) <= TOLERANCE*largest, size(left))
+            expect(f"{what}, residual", size([a - b for a, b in zip(left, of("residual"))]) <= 1e-12*largest, (left, of("residual")))
+            expect(f"{what}, place", results.get("has_place_of_point", step)[k] == 1 and size(left) <= TOLERANCE*largest, size(left))
             state = results.get("state_of_point", step)[k]
             if step > 0:
                 seen.add((name, STATES[state]))
             # the start is without friction
             mu = FRICTION if step > 0 else 0
-            check(f"{what}, friction", size(friction) <= mu*reaction*(1 + 1e-9) + 1e-9, (size(friction), reaction))
+            expect(f"{what}, friction", size(friction) <= mu*reaction*(1 + 1e-9) + 1e-9, (size(friction), reaction))
             touches = results.get("obstacle_of_point", step)[k] == 0
-            check(f"{what}, touches", touches == (state >= 2 or name in ("west", "south")), (touches, state))
+            expect(f"{what}, touches", touches == (state >= 2 or name in ("west", "south")), (touches, state))
             if touches:
-                check(f"{what}, on the bed", reaction > 0 and normal == [0, 0, 1] and abs(place[2]) <= 1e-7, (reaction, normal, place))
+                expect(f"{what}, on the bed", reaction > 0 and normal == [0, 0, 1] and abs(place[2]) <= 1e-7, (reaction, normal, place))
             else:
-                check(f"{what}, off the bed", reaction == 0 and size(friction) == 0 and normal == [0, 0, 0], (reaction, friction))
+                expect(f"{what}, off the bed", reaction == 0 and size(friction) == 0 and normal == [0, 0, 0], (reaction, friction))
             if state == 0:
-                check(f"{what}, held", size(friction) == 0, friction)
+                expect(f"{what}, held", size(friction) == 0, friction)
             if state == 3 and step > 0:
                 slip = of("slip")
                 dissipated = -sum(a*b for a, b in zip(friction, slip))
                 # friction is opposite to the slip and at its bound, to the share of the residual in it
-                check(f"{what}, sliding", dissipated >= (1 - 1e-4)*mu*reaction*size(slip), (friction, slip))
-                check(f"{what}, dissipated", abs(dissipated - results.get("dissipated_of_point", step)[k]) <= 1e-9*dissipated, dissipated)
-    check("what the test has seen", seen >= {("west", "held"), ("knot", "free"), ("knot", "stick"), ("knot", "slip"), ("float", "free")}, sorted(seen))
+                expect(f"{what}, sliding", dissipated >= (1 - 1e-4)*mu*reaction*size(slip), (friction, slip))
+                expect(f"{what}, dissipated", abs(dissipated - results.get("dissipated_of_point", step)[k]) <= 1e-9*dissipated, dissipated)
+    expect("what the test has seen", seen >= {("west", "held"), ("knot", "free"), ("knot", "stick"), ("knot", "slip"), ("float", "free")}, sorted(seen))
 
 
 def summary_is_result(folder, results):
     summary = json.loads(read(os.path.join(folder, "summary.json")))
-    check("points of the summary", list(summary["points"]) == POINTS, summary["points"])
+    expect("points of the summary", list(summary["points"]) == POINTS, summary["points"])
     for k, name in enumerate(POINTS):
         residuals = [size(results.get("residual_of_point", step)[3*k:3*k + 3]) for step in range(results.steps)]
         found = summary["points"][name]
-        check(f"largest residual of {name}", abs(found["largest_residual_N"] - max(residuals)) <= 1e-14*max(residuals), found)
-        check(f"step of it, {name}", abs(residuals[found["largest_residual_step"]] - max(residuals)) <= 1e-14*max(residuals), found)
-        check(f"{name}", found["steps_without_place"] == 0 and found["kind"] == ("free" if name in WEIGHT else "held")
+        expect(f"largest residual of {name}", abs(found["largest_residual_N"] - max(residuals)) <= 1e-14*max(residuals), found)
+        expect(f"step of it, {name}", abs(residuals[found["largest_residual_step"]] - max(residuals)) <= 1e-14*max(residuals), found)
+        expect(f"{name}", found["steps_without_place"] == 0 and found["kind"] == ("free" if name in WEIGHT else "held")
               and found["weight_N"] == WEIGHT.get(name, 0), found)
         for step, entry in enumerate(summary["steps"]):
             point = entry["points"][name]
-            check(f"summary, step {step}, {name}", point["position_m"] == list(results.get("position_of_point", step)[3*k:3*k + 3])
+            expect(f"summary, step {step}, {name}", point["position_m"] == list(results.get("position_of_point", step)[3*k:3*k + 3])
                   and point["lines_N"] == list(results.get("lines_of_point", step)[3*k:3*k + 3])
                   and point["state"] == STATES[results.get("state_of_point", step)[k]] and point["has_place"] is True
                   and ("reaction_N" in point) == (results.get("obstacle_of_point", step)[k] == 0), point)
@@ -226,22 +211,22 @@ def summary_is_result(folder, results):
 def pictures(folder):
     for name in ("step-00012-plan.svg", "step-00012-elevation.svg", "plan.svg", "elevation.svg"):
         text = read(os.path.join(folder, name)).decode()
-        check(f"{name}, names", all(re.search(f">{point}</text>", text) for point in POINTS), name)
+        expect(f"{name}, names", all(re.search(f">{point}</text>", text) for point in POINTS), name)
         # an end at a point is not marked once more
-        check(f"{name}, ends", ">stray.A<" in text or name in ("plan.svg", "elevation.svg"), name)
-        check(f"{name}, ends at points", ">left.A<" not in text, name)
+        expect(f"{name}, ends", ">stray.A<" in text or name in ("plan.svg", "elevation.svg"), name)
+        expect(f"{name}, ends at points", ">left.A<" not in text, name)
 
 
 def killed_and_resumed(scene, whole):
     process = subprocess.Popen([CAPSTAN, "run", scene, "-q", "-o", "killed"], stderr=subprocess.DEVNULL)
     while process.poll() is None and not (os.path.exists("killed/.journal") and os.path.getsize("killed/.journal") > 100000):
         time.sleep(0.0005)
-    check("killed before its end", process.poll() is None)
+    expect("killed before its end", process.poll() is None)
     process.kill()
     process.wait()
     said = run(scene, "-q", "--resume", "-o", "killed").stderr
-    check("resumed", "steps were done before" in said and "capstan: 0 of" not in said, said)
-    check("points.csv of the resumed run", read("killed/points.csv") == whole)
+    expect("resumed", "steps were done before" in said and "capstan: 0 of" not in said, said)
+    expect("points.csv of the resumed run", read("killed/points.csv") == whole)
 
 
 def main():
@@ -253,61 +238,61 @@ def main():
         write("groove.yaml", GROOVE)
         write("short.yaml", SHORT)
         said = run("scene.yaml", "-o", "out").stdout
-        check("said", "points.csv" in said, said)
+        expect("said", "points.csv" in said, said)
         results = Results("out/result.nc")
         csv_is_result("out", results)
         forces_balance(results)
         summary_is_result("out", results)
         pictures("out")
         whole = read("out/points.csv")
-        check("in the list of files", '"name": "points.csv"' in read("out/summary.json").decode())
+        expect("in the list of files", '"name": "points.csv"' in read("out/summary.json").decode())
         run("scene.yaml", "-q", "-o", "threads", "--threads=3")
-        check("the same bytes with three threads", read("threads/points.csv") == whole)
+        expect("the same bytes with three threads", read("threads/points.csv") == whole)
         killed_and_resumed("scene.yaml", whole)
 
         # a run without points
         said = run("plain.yaml", "-o", "out").stdout
         summary = json.loads(read("out/summary.json"))
         results = Results("out/result.nc")
-        check("not said", "points.csv" not in said, said)
-        check("removed", not os.path.exists("out/points.csv"))
-        check("no points", "points" not in summary and "points" not in summary["steps"][0] and "points" not in results.attributes
+        expect("not said", "points.csv" not in said, said)
+        expect("removed", not os.path.exists("out/points.csv"))
+        expect("no points", "points" not in summary and "points" not in summary["steps"][0] and "points" not in results.attributes
               and not [name for name in results.variables if "point" in name and not name.startswith("obstacle_")], sorted(results.variables))
 
         # a file of somebody else
         os.mkdir("mine")
         write("mine/points.csv", "mine")
         run("scene.yaml", "-q", "-o", "mine", code=4)
-        check("a file of somebody else", read("mine/points.csv") == b"mine")
+        expect("a file of somebody else", read("mine/points.csv") == b"mine")
 
         # no place
         done = run("groove.yaml", "-o", "groove", code=1)
         told = r"point knot: no place found where the forces on it balance \([0-9.e+]+ N are left after \d+ trials\)\n"
-        check("told in the table", re.search("^ +" + told, done.stdout, re.M), done.stdout)
-        check("told", re.search("^capstan: step static, " + told, done.stderr, re.M), done.stderr)
+        expect("told in the table", re.search("^ +" + told, done.stdout, re.M), done.stdout)
+        expect("told", re.search("^capstan: step static, " + told, done.stderr, re.M), done.stderr)
         _, rows = table("groove")
-        check("without a place", rows[-1]["has_place"] == "0" and float(rows[-1]["residual_z"]) != 0, rows[-1])
-        check("in the summary", json.loads(read("groove/summary.json"))["points"]["knot"]["steps_without_place"] == 1)
+        expect("without a place", rows[-1]["has_place"] == "0" and float(rows[-1]["residual_z"]) != 0, rows[-1])
+        expect("in the summary", json.loads(read("groove/summary.json"))["points"]["knot"]["steps_without_place"] == 1)
 
         # no equilibrium, with the proof of the group in each of its lines
         done = run("falling.yaml", "-o", "falling", code=5)
-        check("falls", "no place found" not in done.stdout + done.stderr and "(15.0333 N along (0.06652, 0, -0.9978))" in done.stderr, done.stderr)
+        expect("falls", "no place found" not in done.stdout + done.stderr and "(15.0333 N along (0.06652, 0, -0.9978))" in done.stderr, done.stderr)
         proof = json.loads(read("falling/summary.json"))["steps"][-1]["lines"]["tail"]["proof"]
         fall = (1 + 15*15)**0.5
-        check("fall", abs(proof["fall_N"] - fall) <= 1e-12*fall
+        expect("fall", abs(proof["fall_N"] - fall) <= 1e-12*fall
               and size([a - b/fall for a, b in zip(proof["direction"], (1, 0, -15))]) <= 1e-12, proof)
         done = run("short.yaml", "-o", "short", code=5)
-        check("short", "no place found" not in done.stdout + done.stderr and "too short (by 0.3 m for the self-stress that is " in done.stderr, done.stderr)
+        expect("short", "no place found" not in done.stdout + done.stderr and "too short (by 0.3 m for the self-stress that is " in done.stderr, done.stderr)
         lines = json.loads(read("short/summary.json"))["steps"][-1]["lines"]
         for name, pull in (("one", (-1, 0, 0)), ("two", (-0.5, 3**0.5/2, 0)), ("three", (0.5, 3**0.5/2, 0)), ("elastic", (0, 0, 0))):
             proof = lines[name]["proof"]
-            check(f"self-stress of {name}", lines[name]["outcome"] == "infeasible" and abs(proof["excess_m"] - 0.3) <= 1e-9
+            expect(f"self-stress of {name}", lines[name]["outcome"] == "infeasible" and abs(proof["excess_m"] - 0.3) <= 1e-9
                   and size([a - b for a, b in zip(proof["direction"], pull)]) <= 1e-9, proof)
 
         # the method of 1990
         for arguments in (["run", "scene.yaml", "--method", "regularized"], ["study", "scene.yaml", "--history"]):
             done = subprocess.run([CAPSTAN, *arguments, "-o", "1990"], capture_output=True, text=True, check=False)
-            check(" ".join(arguments), done.returncode == 3 and "points where lines meet" in done.stderr and not os.path.exists("1990"), done.stderr)
+            expect(" ".join(arguments), done.returncode == 3 and "points where lines meet" in done.stderr and not os.path.exists("1990"), done.stderr)
         os.chdir("/")
     print("\n".join(faults[:20]) or "points: good")
     return len(faults) > 0

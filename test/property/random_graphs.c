@@ -4,7 +4,7 @@
  *
  * Wide nets have up to N x N meshes (default 10), each side of them cut and stiff at random, many
  * slack; they hang from their corners or from more of their knots, over a bed, over a ball and
- * pegs, or over nothing. Their sides are one element.
+ * pegs, or over nothing. Their sides are one element, or in half of the nets up to three.
  *
  * The tension of an element follows from the distance of its nodes, T = EA (|x'| - 1)^+. With half
  * the weight of the end elements, what the points carry and what acts on them, the forces on every
@@ -36,11 +36,10 @@ static const char *const CLASS[CLASSES] = {"star", "tree",  "ring",         "net
 /* The share of steps of a class that are to have no equilibrium, so that proofs are tested. */
 static const double REFUSED[CLASSES] = {[LOOSE] = 0.1, [SHORT] = 0.05};
 
-/* What is left of the forces on a point, per largest force, the loads of all points included:
- * points balance to 1e-6. The tension of what rests slack on the bed is known to the strain RESTING
- * times EA, as random_joined finds it of single lines too, or to what the rms bound of the line's
- * certificate allows in one element; and any to what the certificate says of its strains and
- * tensions. All these are to be known to STRAIN and TENSION. */
+/* What is left of the forces on a point, per largest force: points balance to 1e-6. The
+ * tension of what rests slack on the bed is known to the strain RESTING times EA, as random_joined
+ * finds it of single lines too, and any to what the line's certificate says of its strains and
+ * tensions, which are to be known to STRAIN and TENSION. */
 static const double LEFT = 2e-6, RESTING = 3e-8, STRAIN = 1e-7, TENSION = 1e-4;
 /* Share of the steps of a class that may be open. */
 static const double OPEN_SHARE = 0.005;
@@ -201,6 +200,7 @@ static void make_wide(Graph *g) {
     const double mesh = g->size / fmax(a, b), height = 0.3 * g->size,
                  slack = chance(0.5) ? uniform(1, 1.15) : 1;
     const bool edges = chance(0.3);
+    const int pieces = chance(0.5) ? 1 : 3;
     for (int i = 0; i <= a; i++)
         for (int j = 0; j <= b; j++) {
             const bool side = i == 0 || i == a, end = j == 0 || j == b;
@@ -211,8 +211,8 @@ static void make_wide(Graph *g) {
     for (int i = 0; i <= a; i++)
         for (int j = 0; j <= b; j++) {
             const int at = first + i * (b + 1) + j;
-            if (i < a) add_line(g, at, at + b + 1, slack * uniform(0.98, 1.1), 1);
-            if (j < b) add_line(g, at, at + 1, slack * uniform(0.98, 1.1), 1);
+            if (i < a) add_line(g, at, at + b + 1, slack * uniform(0.98, 1.1), whole(1, pieces));
+            if (j < b) add_line(g, at, at + 1, slack * uniform(0.98, 1.1), whole(1, pieces));
         }
     if (g->scene.obstacle_count > 0 || chance(0.3)) return;
     const double apart = 0.3 * mesh * hypot(a, b);
@@ -335,7 +335,7 @@ typedef struct Pulls {
     double sum[3], largest, known; /* [N]; known: how well the forces follow from the places */
 } Pulls;
 
-/* The pulls on all points; returns the largest force in any line or on a point. */
+/* The pulls on all points; returns the largest force in any line. */
 static double add_pulls(const Graph *g, const CpsEvolution *evolution, Pulls *pulls) {
     double largest = 0;
     memset(pulls, 0, (size_t)g->scene.point_count * sizeof *pulls);
@@ -346,18 +346,13 @@ static double add_pulls(const Graph *g, const CpsEvolution *evolution, Pulls *pu
         largest = fmax(largest, line.largest_force);
         for (int end = 0; end < 2; end++) {
             Pulls *at = &pulls[g->line[k].end_point[end]];
-            const int e = end == CPS_END_A ? 0 : view.element_count - 1;
-            const double EA = g->line[k].stiffness,
-                         one = line.tension_bound *
-                               sqrt(g->line[k].length / view.element_length[e]) / EA;
+            const double EA = g->line[k].stiffness;
             add_pull(&view, EA, end, weight, at->sum, &at->largest);
-            at->known += (isfinite(EA) ? EA : 0) * (fmax(RESTING, fmin(one, STRAIN)) +
-                                                    fmin(line.elongation_residual, STRAIN)) +
-                         fmin(line.tension_estimate, TENSION * line.largest_force);
+            at->known +=
+                (isfinite(EA) ? EA : 0) * (RESTING + fmin(line.elongation_residual, STRAIN)) +
+                fmin(line.tension_estimate, TENSION * line.largest_force);
         }
     }
-    for (int k = 0; k < g->scene.point_count; k++)
-        largest = fmax(largest, norm(cps_evolution_point_report(evolution, k).load));
     return largest;
 }
 

@@ -23,7 +23,7 @@ typedef struct Fixture {
     CpsiChainProgram program;
     CpsiObstacle bed;
     double turn[1], start[6];
-    Vec3 shift[1];
+    CpsiShift shift[1];
 } Fixture;
 
 static void lay_out(Fixture *f) {
