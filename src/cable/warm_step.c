@@ -243,9 +243,10 @@ static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const C
         const int c = disc->contact[d];
         const double over = line->friction_bound[c] > 0 ? 1 / line->friction_bound[c] : 0;
         disc->s[d][0] = slipped(line, c, guess);
+        const bool shaped = disc->shape && disc->shape[d];
+        if (!shaped && line->contacts < 2) continue; /* it is in no corner */
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
-        const bool shaped = disc->shape && disc->shape[d];
         for (int a = 0; a < 2; a++)
             disc->z[d][1 + a] = shaped ? over * f[a] : f[a] / (scale->force * disc->weight[d]);
     }

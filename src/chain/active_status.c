@@ -283,15 +283,15 @@ static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction
     }
 }
 
-/* F.s/|F| of disc d, or n.s at an edge with normal n: what slips is pushed by its friction where
- * this is positive. A slip that is rounding, as that of a node just released, has no direction. */
+/* F.s of disc d, or n.s at an edge with normal n: what slips is pushed by its friction where this
+ * is positive. A slip that is rounding, as that of a node just released, has no direction: 0. */
 static double push(const CpsiNewton *newton, int d) {
     const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
     const CpsiShapePiece *piece = cpsi_newton_piece(newton, d);
     const double *along = piece && piece->is_edge ? piece->normal[0] : now.f,
-                 size = cpsi_newton_size(along),
-                 by = size > 0 ? cpsi_newton_dot(now.s, along) / size : 0;
-    return fabs(by) > DBL_EPSILON ? by : 0;
+                 by = cpsi_newton_dot(now.s, along),
+                 least = DBL_EPSILON * DBL_EPSILON * cpsi_newton_dot(along, along);
+    return by * by > least ? by : 0;
 }
 
 /* Does disc d slip, on a node beside that of disc e? */
