@@ -288,6 +288,7 @@ static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
     if (newton.outcome != CPSI_IPM_SOLVED) return newton;
     cpsi_step_program_unpack(line, program, scale);
     if (is_unique(line, program, round)) {
+        line->newton.began |= line->newton.tried == 1;
         line->newton.solved++;
         line->newton.failed = 0;
     } else {
@@ -313,7 +314,7 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
         !round->reaction_stiffness && force > 0 && !taut) {
         const CpsiIpmReport newton =
             solve_warm(line, program, &scale, round, most_iterations(line, options));
-        if (newton.outcome == CPSI_IPM_SOLVED) return newton;
+        if (newton.outcome == CPSI_IPM_SOLVED || round->is_late) return newton;
     }
     line->report.warm_count = 0; /* the step is not warm */
     line->is_rough = round->may_be_rough && options->solver.tolerance > CPSI_RESOLVING;

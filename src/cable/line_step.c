@@ -228,8 +228,10 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
     const size_t contacts = (size_t)cpsi_line_all_contacts(line);
     bool tried[STRATEGIES] = {false}, urged = false, again = false;
     int first = 0; /* after the last one of the others that was tried */
-    if (guess >= CPSI_GUESS_REFERENCE) {
+    line->newton.guessed = guess >= CPSI_GUESS_REFERENCE;
+    if (line->newton.guessed) {
         if (solve_warm(line, program, options, guess)) return;
+        line->newton.guessed = false;
         again = true;
         /* where Newton's method has solved no program, and moved no base, this was the first
          * strategy */

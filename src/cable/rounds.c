@@ -111,10 +111,22 @@ static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program,
 /* Need the round not be refined, the axes having turned by `turned` in the last one? Once in a
  * step: where Newton's method fails from its solution, the next one has to tell slip from rest. */
 static bool is_early(const CpsiLine *line, const CpsiRound *posed, bool is_last, double turned) {
-    for (int k = 0; k < line->obstacle_count; k++)
-        if (line->obstacle[k].has_set) return false; /* whose loop leaves too much undecided */
     return posed->guess != CPSI_GUESS_NONE && line->has_local_axes &&
            posed->bounds != CPSI_BOUNDS_TRIAL && !is_last && turned > AXES_NEAR;
+}
+
+/* Where nothing has turned in an early round, Newton's method only refines its solution. Where that
+ * fails, the loop begins again at the reference, as it would have without it. */
+static CpsiIpmReport solve_late_round(CpsiLine *line, CpsiChainProgram *program,
+                                      const CpsiStepOptions *options, CpsiRound *posed) {
+    CpsiRound late = *posed;
+    late.is_late = true;
+    const CpsiIpmReport newton = cpsi_line_solve(line, program, options, &late);
+    if (newton.outcome == CPSI_IPM_SOLVED) return newton;
+    cpsi_contact_reset(line);
+    cpsi_contact_update_geometry(line);
+    posed->guess = CPSI_GUESS_NONE;
+    return solve_round(line, program, options, posed);
 }
 
 /* A round as a strategy poses it. */
@@ -196,7 +208,9 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
         }
         posed.is_early = !was_early && is_early(line, &posed, round + 1 == most, turned);
         const int by_newton = line->newton.solved;
-        ipm = solve_round(line, program, options, &posed);
+        const bool is_late = was_early && turned == 0 && posed.guess == CPSI_GUESS_BASE;
+        ipm = is_late ? solve_late_round(line, program, options, &posed)
+                      : solve_round(line, program, options, &posed);
         const bool is_exact = !posed.is_early || line->newton.solved > by_newton;
         was_early |= !is_exact;
         posed.guess = next_guess(line, &posed, &ipm);

@@ -41,8 +41,9 @@ CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
                                    const CpsiStepScale *scale, CpsiGuess guess, int max_iterations);
 
 /* After a step that was solved from a guess: where Newton's method was of no use several times in a
- * row, the next 2, 6 or 14 steps are solved without it, or 2 and 6 where it has been of use in the
- * history. It was of use if the step is certified and half of its programs were solved so. */
+ * row, the next 2, 6 or 14 steps begin without it, or 2 and 6 where it has been of use in the
+ * history. It was of use if the step is certified and its first program was solved from the guess.
+ */
 void cpsi_warm_step_note(CpsiLine *line, bool certified);
 
 #endif

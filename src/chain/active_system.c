@@ -78,7 +78,8 @@ static Direction direction_of(const CpsiNewton *newton, int d, const CpsiNodeFri
         return out;
     }
     const bool is_first = last[0] == 0 && last[1] == 0;
-    if (is_first && slip < CPSI_LEAST_SLIP && size > 0)
+    const double turn = tau[0] * last[0] + tau[1] * last[1];
+    if (is_first ? slip < CPSI_LEAST_SLIP && size > 0 : slip < NO_SLIP && turn > 0 && !is_released)
         for (int a = 0; a < 2; a++) out.q[a] = tau[a] / size;
     else if (slip > 0 && now->s[0] * last[0] + now->s[1] * last[1] <= 0 && !is_released)
         for (int a = 0; a < 2; a++) out.q[a] = -now->s[a] / slip;
@@ -173,6 +174,7 @@ static void load_nodes(CpsiNewton *newton) {
         }
         if (status & CPSI_STICKS) diagonal[0] = diagonal[2] = status & CPSI_STOPS ? PULLING : RIGID;
         if (has_friction) f[0] = f[1] = 0;
+        if (status & CPSI_CORNER) continue;
         for (int a = 0; a < 3; a++) error = cpsi_max_nan(error, fabs(f[a]));
     }
     newton->force_error = error;
@@ -215,6 +217,7 @@ void cpsi_newton_assemble(CpsiNewton *newton) {
     load_elements(newton);
     load_nodes(newton);
     load_contacts(newton);
+    cpsi_corner_load(newton);
 }
 
 /* Turn the direction of a node that slips against an edge to its own axes. */
