@@ -57,18 +57,27 @@ void failures_close(const Source *source) {
     free(source->break_tension);
 }
 
-int failure_create(const Source *source, const char *line, Record *record, FILE *log) {
+/* A tension of each element, in `out`; NULL where the file has none. */
+static int read_tensions(const Source *source, const char *line, const char *what, size_t n,
+                         double **out, FILE *log) {
     char name[400];
     int variable;
-    const size_t start = 0, n = record->elements;
-    snprintf(name, sizeof name, "%s_break_at", line);
-    if (!source->break_line || !has(source, name, &variable)) return 0;
-    record->break_at = calloc(n, sizeof *record->break_at);
-    if (!record->break_at) return complain(log, "out of memory", name);
-    if (read(source, name, &start, &n, record->break_at, log)) return -1;
+    const size_t start = 0;
+    snprintf(name, sizeof name, "%s_%s", line, what);
+    if (!has(source, name, &variable)) return 0;
+    *out = calloc(n, sizeof **out);
+    if (!*out) return complain(log, "out of memory", name);
+    if (read(source, name, &start, &n, *out, log)) return -1;
     for (size_t i = 0; i < n; i++)
-        if (!(record->break_at[i] > 0)) return complain(log, "senseless tension", name);
+        if (!((*out)[i] > 0)) return complain(log, "senseless tension", name);
     return 0;
+}
+
+int failure_create(const Source *source, const char *line, Record *record, FILE *log) {
+    const size_t n = record->elements;
+    if (read_tensions(source, line, "breaking_load", n, &record->breaking_load, log)) return -1;
+    if (!source->break_line) return 0;
+    return read_tensions(source, line, "break_at", n, &record->break_at, log);
 }
 
 int failure_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {

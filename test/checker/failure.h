@@ -8,8 +8,9 @@
 /* What the variable LINE_end_release says of an end. */
 enum { RELEASE_NONE, RELEASE_STAGE, RELEASE_BREAK, RELEASE_TAKEN };
 
-/* Read which steps are breaks; where the elements of a line part; which ends were let go. A file
- * of a scene that lets nothing go does not say. All return 0, or -1 after one sentence on log. */
+/* Read which steps are breaks; where the elements of a line break and part; which ends were let go.
+ * A file of a scene that lets nothing go does not say. All return 0, or -1 after one sentence on
+ * log. */
 int failures_open(Source *source, FILE *log);
 void failures_close(const Source *source);
 int failure_create(const Source *source, const char *line, Record *record, FILE *log);

@@ -483,22 +483,6 @@ static int read_sections(const Source *source, const char *line, Record *record,
     return 0;
 }
 
-/* What elements break at; it may be infinite, and the variable absent. */
-static int read_breaking_load(const Source *source, const char *line, Record *record, FILE *log) {
-    char name[2 * MAX_NAME];
-    int id;
-    snprintf(name, sizeof name, "%s_breaking_load", line);
-    if (nc_inq_varid(source->nc, name, &id) != NC_NOERR) return 0;
-    record->breaking_load = calloc(record->elements, sizeof(double));
-    if (!record->breaking_load) return complain(log, "out of memory for line", line, 0);
-    if (read_static(source, line, "breaking_load", record->elements, record->breaking_load, log))
-        return -1;
-    for (size_t i = 0; i < record->elements; i++)
-        if (!(record->breaking_load[i] > 0))
-            return complain(log, "senseless breaking_load of", line, 0);
-    return 0;
-}
-
 /* The points at which the ends are; a file without points does not say. */
 static int read_end_points(const Source *source, const char *line, Record *record, FILE *log) {
     double point[2] = {-1, -1};
@@ -539,7 +523,6 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (read_static(source, line, "compliance", 0, &record->compliance, log)) return -1;
     if (read_sections(source, line, record, log)) return -1;
     if (elongation_read(source, line, record, log)) return -1;
-    if (read_breaking_load(source, line, record, log)) return -1;
     if (read_end_points(source, line, record, log)) return -1;
     if (failure_create(source, line, record, log)) return -1;
     return read_zones(source, line, record, log);
