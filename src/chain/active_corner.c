@@ -27,7 +27,7 @@ static const double RIGID = 1e30;
 /* A shorter slip has no direction. */
 static const double NO_SLIP = 1e-12;
 
-typedef struct Contact {
+typedef struct CornerContact {
     int unilateral, disc; /* -1: no friction */
     double normal[3];     /* n */
     double weight;        /* w */
@@ -38,21 +38,21 @@ typedef struct Contact {
     double q[2];          /* the direction of friction, in the tangents */
     double a[3];          /* n + mu q */
     double turns;         /* mu (1 - q_x^2)/|s|: what a move along x adds to the force, per R */
-} Contact;
+} CornerContact;
 
 typedef struct Corner {
     int node;
-    Contact contact[2];
+    CornerContact contact[2];
 } Corner;
 
-static Contact contact_of(const CpsiNewton *newton, const CpsiCorner *corner, int c) {
+static CornerContact contact_of(const CpsiNewton *newton, const CpsiCorner *corner, int c) {
     const int node = corner->node, unilateral = corner->unilateral[c], disc = corner->disc[c];
     const double way = corner->way;
     const CpsiChainProgram *program = newton->program;
-    Contact out = {.unilateral = unilateral,
-                   .disc = disc,
-                   .weight = program->unilateral.weight[unilateral],
-                   .normal = {0, 0, 1}};
+    CornerContact out = {.unilateral = unilateral,
+                         .disc = disc,
+                         .weight = program->unilateral.weight[unilateral],
+                         .normal = {0, 0, 1}};
     if (program->unilateral.second[unilateral])
         for (int a = 0; a < 3; a++) out.normal[a] = program->unilateral.normal[unilateral][a];
     for (int a = 0; a < 3; a++) out.a[a] = out.normal[a];
@@ -73,7 +73,8 @@ static Contact contact_of(const CpsiNewton *newton, const CpsiCorner *corner, in
     } else {
         const double x[2] = {way * out.tangent[0][0], way * out.tangent[1][0]},
                      size = cpsi_newton_size(x);
-        for (int i = 0; i < 2 && size > 0; i++) out.q[i] = x[i] / size;
+        if (size > 0)
+            for (int i = 0; i < 2; i++) out.q[i] = x[i] / size;
     }
     const double along = out.q[0] * out.tangent[0][0] + out.q[1] * out.tangent[1][0];
     for (int a = 0; a < 3; a++)
@@ -130,7 +131,7 @@ static bool find_discs(const CpsiNewton *newton, CpsiCorner *corner) {
 static int way_of(const CpsiNewton *newton, const CpsiCorner *corner) {
     double slip = 0, force = 0;
     for (int c = 0; c < 2; c++) {
-        const Contact contact = contact_of(newton, corner, c);
+        const CornerContact contact = contact_of(newton, corner, c);
         if (contact.disc < 0) continue;
         const double *z = newton->program->disc.z[contact.disc];
         slip += contact.along;
@@ -165,7 +166,7 @@ bool cpsi_corner_begin(CpsiNewton *newton, int first, int second) {
     const double *u = &program->base.u[3 * j];
     by[2] = -unilateral->gap[first] - u[2];
     by[1] = (-unilateral->gap[second] - n[0] * u[0] - n[2] * (u[2] + by[2])) / n[1] - u[1];
-    const Contact contact = contact_of(newton, corner, corner->disc[0] >= 0 ? 0 : 1);
+    const CornerContact contact = contact_of(newton, corner, corner->disc[0] >= 0 ? 0 : 1);
     if (!slips) by[0] = -contact.along;
     corner->way = way_of(newton, corner);
     cpsi_newton_move(newton, j, by[0], by[1], by[2]);
@@ -176,7 +177,7 @@ void cpsi_corner_decide(CpsiNewton *newton) {
     for (int i = 0; i < newton->corner_count; i++) {
         const CpsiCorner *corner = &newton->corner[i];
         if (newton->status[corner->node] & CPSI_STICKS) continue;
-        const Contact contact = contact_of(newton, corner, corner->disc[0] >= 0 ? 0 : 1);
+        const CornerContact contact = contact_of(newton, corner, corner->disc[0] >= 0 ? 0 : 1);
         if (!(contact.along * corner->way > DBL_EPSILON)) continue;
         newton->status[corner->node] |= CPSI_STICKS;
         cpsi_newton_move(newton, corner->node, -contact.along, 0, 0);
@@ -207,7 +208,7 @@ void cpsi_corner_load(CpsiNewton *newton) {
             memset(second->column, 0, 3 * n * sizeof *second->column);
             any = true;
         }
-        const Contact *one = &corner.contact[0], *two = &corner.contact[1];
+        const CornerContact *one = &corner.contact[0], *two = &corner.contact[1];
         slipping_reactions(newton, &corner, r);
         if (!(r[0] > 0) || !(r[1] > 0)) newton->lost = true;
         /* k of y and z */
@@ -235,7 +236,7 @@ void cpsi_corner_load(CpsiNewton *newton) {
 }
 
 /* The pair of a contact with reaction r and friction f, in its tangents. */
-static void write_pair(CpsiChainProgram *program, const Contact *contact, double r,
+static void write_pair(CpsiChainProgram *program, const CornerContact *contact, double r,
                        const double f[2], bool slips) {
     const int k = contact->unilateral, d = contact->disc;
     program->unilateral.s[k] = 0;
@@ -257,10 +258,11 @@ static bool rest(const CpsiNewton *newton, const Corner *corner) {
                  noise = newton->noise * newton->force;
     double left[3] = {-g[0], -g[1], -g[2]}, r[2], more[2], f[2][2] = {{0}}, bound[2];
     for (int c = 0; c < 2; c++) {
-        const Contact *contact = &corner->contact[c];
+        const CornerContact *contact = &corner->contact[c];
         r[c] = contact->weight * program->unilateral.z[contact->unilateral];
         for (int a = 0; a < 3; a++) left[a] -= r[c] * contact->normal[a];
-        for (int i = 0; i < 2 && contact->disc >= 0; i++) {
+        if (contact->disc < 0) continue;
+        for (int i = 0; i < 2; i++) {
             f[c][i] = contact->weight * program->disc.z[contact->disc][1 + i];
             for (int a = 0; a < 3; a++) left[a] -= f[c][i] * contact->tangent[i][a];
         }
@@ -274,13 +276,14 @@ static bool rest(const CpsiNewton *newton, const Corner *corner) {
     const double all = bound[0] + bound[1];
     if (!(fabs(left[0]) <= all + noise)) return false;
     for (int c = 0; c < 2; c++) {
-        const Contact *contact = &corner->contact[c];
+        const CornerContact *contact = &corner->contact[c];
         const double share = all > 0 ? bound[c] / all : 0;
         for (int i = 0; i < 2; i++) f[c][i] += share * left[0] * contact->tangent[i][0];
         const double size = cpsi_newton_size(f[c]);
         const double most = (1 - 4 * DBL_EPSILON) * bound[c];
         if (!(size <= bound[c] + noise)) return false;
-        for (int i = 0; i < 2 && size > most; i++) f[c][i] *= most / size;
+        if (size > most)
+            for (int i = 0; i < 2; i++) f[c][i] *= most / size;
         write_pair(program, contact, r[c], f[c], false);
     }
     return true;
@@ -296,7 +299,7 @@ bool cpsi_corner_finish(const CpsiNewton *newton) {
         double r[2];
         slipping_reactions(newton, &corner, r);
         for (int c = 0; c < 2; c++) {
-            const Contact *contact = &corner.contact[c];
+            const CornerContact *contact = &corner.contact[c];
             const double by = contact->friction * r[c],
                          f[2] = {by * contact->q[0], by * contact->q[1]};
             write_pair(newton->program, contact, r[c], f, true);

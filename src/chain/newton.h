@@ -160,6 +160,11 @@ static inline double cpsi_newton_gap(const CpsiChainProgram *program, int k) {
     return unilateral->gap[k] + cpsi_unilateral_rise(unilateral, k, program->base.u);
 }
 
+/* active_move.c */
+
+/* Move node j by (x, y, z) in its own axes. */
+void cpsi_newton_move(CpsiNewton *newton, int j, double x, double y, double z);
+
 /* active_corner.c */
 
 /* The node of unilateral contacts `first` (-1: it has none) and `second` is in a corner in the
@@ -176,9 +181,6 @@ void cpsi_corner_load(CpsiNewton *newton);
 bool cpsi_corner_finish(const CpsiNewton *newton);
 
 /* active_status.c */
-
-/* Move node j by (x, y, z) in its own axes. */
-void cpsi_newton_move(CpsiNewton *newton, int j, double x, double y, double z);
 
 /* The active set of the guess; nodes are moved to where it wants them. */
 void cpsi_newton_begin(CpsiNewton *newton);
