@@ -37,21 +37,19 @@ typedef struct CpsiLine {
     CpsiShift *shift;   /* (obstacle_count) how each has been shifted in it */
     bool has_zones;     /* friction differs along the line */
     bool has_sections;  /* weight and compliance may, and there may be point masses */
-    bool has_breaking_load; /* an element has one */
-    bool has_break_at;      /* likewise */
-    bool has_local_axes;    /* each contact has its own axes at its position: not on a single plane
-                               with isotropic friction */
-    int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
-    int element_contacts;   /* of an element: 1 where there is a round obstacle, or a third, else 0;
-                               the arrays (contacts, n) have as many more rows */
-    double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
-    CpsEnd end[2];          /* imposed now */
+    bool has_breaking_load, has_break_at; /* an element has one */
+    bool has_local_axes;   /* each contact has its own axes at its position: not on a single plane
+                              with isotropic friction */
+    int contacts;          /* of a node: 2 where there is more than one obstacle, else 1 */
+    int element_contacts;  /* of an element: 1 where there is a round obstacle, or a third, else 0;
+                              the arrays (contacts, n) have as many more rows */
+    double common_axes[9]; /* axes of the whole line: those of the one plane, or of the world */
+    CpsEnd end[2];         /* imposed now */
     /* the end is held at a point of the scene, which bears what obstacles do to its half element */
     bool is_at_point[2];
-    double *arc_length;     /* (n) [m] */
-    double *element_length; /* (n - 1) [m] element e joins nodes e and e + 1 */
-    double *breaking_load;  /* (n - 1) [N] INFINITY where there is none; NULL: none anywhere */
-    double *break_at;       /* likewise */
+    double *arc_length;               /* (n) [m] */
+    double *element_length;           /* (n - 1) [m] element e joins nodes e and e + 1 */
+    double *breaking_load, *break_at; /* (n - 1) [N] INFINITY: none; NULL: none anywhere */
     /* of a line of sections or with point masses, else NULL */
     double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
     double *compliance_factor; /* (n - 1) compliance of element e over `compliance`, at T = 0 */

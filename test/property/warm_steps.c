@@ -37,7 +37,7 @@ static const double PLACES = 1e-7;
  * by some 1e-11 of the length, which a stiff element of a hundredth of it turns into 1e-9 EA; after
  * a reversal on a general set, in the first half of step 9 of grooved-slope.yaml, by 9e-10, where
  * the warm answer moves it by 2e-14. */
-static const double FORCES = 3e-5;
+static const double FORCES = 2e-5;
 /* What the interior-point loop aims at (CPSI_TARGET). */
 static const double GAP = 1e-13;
 /* Rounding of what a node lacks of its bound: forces balance to some eps of the largest, which may
