@@ -209,15 +209,14 @@ static int read_set(const Source *source, size_t k, Conic **out, FILE *log) {
 
 static int read_surface(const Source *source, size_t k, Surface *out, FILE *log) {
     double kind, shape, radius, mu[2], point[3], axis[3], grain[3];
-    int bad = read_surface_numbers(source, "obstacle_kind", 1, k, &kind, log);
-    bad |= read_surface_numbers(source, "obstacle_point", 3, k, point, log);
+    int bad = read_surface_numbers(source, "obstacle_kind", 1, k, &kind, log) |
+              read_surface_numbers(source, "obstacle_point", 3, k, point, log);
     bad |= read_surface_numbers(source, "obstacle_axis", 3, k, axis, log);
     bad |= read_surface_numbers(source, "obstacle_radius", 1, k, &radius, log);
     bad |= read_surface_numbers(source, "obstacle_friction_axial", 1, k, &mu[0], log);
     bad |= read_surface_numbers(source, "obstacle_friction_lateral", 1, k, &mu[1], log);
     bad |= read_surface_numbers(source, "obstacle_friction_shape", 1, k, &shape, log);
-    bad |= read_surface_numbers(source, "obstacle_friction_grain", 3, k, grain, log);
-    if (bad) return -1;
+    if (bad | read_surface_numbers(source, "obstacle_friction_grain", 3, k, grain, log)) return -1;
     Real length = hypotl(hypotl(axis[0], axis[1]), axis[2]);
     if (!(kind >= 0 && kind < SURFACE_KINDS) || !(shape == 0 || shape == 1 || shape == 2) ||
         !(mu[0] >= 0 && mu[1] >= 0) || !(length > 0) ||
@@ -327,10 +326,7 @@ void source_close(Source *source) {
     failures_close(source);
     free(source->line_name);
     if (source->surface)
-        for (size_t k = 0; k < source->surfaces; k++) {
-            conic_free(source->surface[k].set);
-            ground_free(source->surface[k].ground);
-        }
+        for (size_t k = 0; k < source->surfaces; k++) surface_free(&source->surface[k]);
     free(source->surface);
     places_close(source);
     if (source->line_name || source->nc >= 0) nc_close(source->nc);
@@ -646,8 +642,7 @@ static int read_contact(const Source *source, const char *line, size_t step, boo
     return bad;
 }
 
-/* what belongs to the contacts of elements: where an obstacle is round, or there are three, and
- * contact is with every obstacle reached */
+/* contacts of elements: where an obstacle is round, or there are three, and all are reached */
 static int read_elements(const Source *source, const char *line, size_t step, Record *record,
                          FILE *log) {
     static const char *const NAME[8] = {"element_normal",         "element_friction_force",

@@ -22,6 +22,11 @@ static void arm(const Surface *s, const Real *x, Real *out) {
     for (int k = 0; k < 3; k++) out[k] -= along * s->axis[k];
 }
 
+void surface_free(Surface *s) {
+    conic_free(s->set);
+    ground_free(s->ground);
+}
+
 bool surface_is_round(const Surface *s) {
     return s->kind == SURFACE_CYLINDER || s->kind == SURFACE_SPHERE;
 }

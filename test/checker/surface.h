@@ -23,6 +23,8 @@ typedef struct Surface {
     Conic *set;     /* forces per unit normal force in place of the coefficients, or NULL */
 } Surface;
 
+/* Free its set and ground. */
+void surface_free(Surface *surface);
 /* Is it a cylinder or a ball? */
 bool surface_is_round(const Surface *surface);
 /* By which its friction is multiplied at x. */

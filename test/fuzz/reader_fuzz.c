@@ -4,6 +4,7 @@
  *
  *     scene law drive     a file of that kind
  *     curve               the file that a planimeter names
+ *     ground              a file of ground, read in each of its forms
  *     judge rows          a table to judge; rows that are asked of a law on standard input
  *     state journal       edits (place, 4 bytes) of a saved state and of a journal, whose checksums
  *                         are mended: what a checksum finds is no test; the states are those of
@@ -34,7 +35,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-typedef enum Reader { scene, law, drive, curve, judge, rows, state, journal } Reader;
+typedef enum Reader { scene, law, drive, curve, ground, judge, rows, state, journal } Reader;
 
 static void must(bool holds) {
     if (!holds) abort();
@@ -63,7 +64,10 @@ static const char *file_of(const uint8_t *data, size_t size) {
 static char own_folder[64];
 
 static void clear(void) {
-    static const char *const NAME[] = {"drive.yaml", "curve.csv", "law.yaml", ".journal"};
+    static const char *const NAME[] = {"drive.yaml",  "curve.csv",      "law.yaml",
+                                       ".journal",    "esri.yaml",      "xyz.yaml",
+                                       "netcdf.yaml", "moordyn_c.yaml", "moordyn_f.yaml",
+                                       "ground"};
     char path[128];
     for (size_t i = 0; i < sizeof NAME / sizeof *NAME; ++i) {
         snprintf(path, sizeof path, "%s/%s", own_folder, NAME[i]);
@@ -135,6 +139,42 @@ static void read_curve(const uint8_t *data, size_t size) {
     }
     put_file("curve.csv", data, size);
     read_drive(path);
+}
+
+/* A ground that is read has a height everywhere. */
+static void ask_ground(const CpsGround *of) {
+    const CpsGroundGrid grid = cps_ground_grid(of);
+    for (int k = 0; k < 4; ++k) {
+        double slope[2];
+        const double x = grid.x[0] + k * (grid.x[grid.x_count - 1] - grid.x[0]) / 2,
+                     y = grid.y[0] + k * (grid.y[grid.y_count - 1] - grid.y[0]) / 2;
+        (void)cps_ground_height(of, x, y, slope);
+    }
+}
+
+static void read_ground(const uint8_t *data, size_t size) {
+    static const char *const FORM[] = {"esri", "xyz", "netcdf", "moordyn_c", "moordyn_f"};
+    put_file("ground", data, size);
+    for (size_t i = 0; i < sizeof FORM / sizeof *FORM; ++i) {
+        char name[32], path[128], text[512];
+        CpsSceneFile *file = NULL;
+        snprintf(name, sizeof name, "%s.yaml", FORM[i]);
+        const int length = snprintf(
+            text, sizeof text,
+            "capstan: 1\nobstacles: {bed: {ground: {file: ground, form: %s, extend: "
+            "true}}}\nlines: "
+            "{a: {length: 1, elements: 1, mass: 1, stiffness: 1, start: {straight: {from: [0, 0, "
+            "1e99], to: [1, 0, 1e99]}}, ends: {A: held, B: held}}}\nhistory: []\n",
+            FORM[i]);
+        put_file(name, text, (size_t)length);
+        snprintf(path, sizeof path, "%s/%s", folder(), name);
+        CpsError err = {0};
+        if (cps_scene_read(path, NULL, &file, &err) == CPS_OK)
+            ask_ground(cps_scene_file_scene(file)->obstacle[0].ground);
+        else
+            must(file == NULL && err.message[0]);
+        cps_scene_file_destroy(file);
+    }
 }
 
 /* tables --------------------------------------------------------------------------------------- */
@@ -355,6 +395,7 @@ static void run_reader(Reader reader, const uint8_t *data, size_t size) {
     case law: read_law(data, size); break;
     case drive: read_drive(file_of(data, size)); break;
     case curve: read_curve(data, size); break;
+    case ground: read_ground(data, size); break;
     case judge: read_judge(data, size); break;
     case rows: read_rows(data, size); break;
     case state: read_state(data, size); break;
