@@ -86,7 +86,7 @@ SENTENCES = [
     ("or if it moved by less than {} L.", number("cable/force_set.c", "EXACT")),
     ("If the sum exceeds L (1 + {})", number("cable/held.h", "CPSI_TAUT")),
     ("exactly straight (within {} of its length)", number("cable/held.h", "CPSI_TAUT")),
-    ("a line longer by one part in {}:", lambda p: f"{1 / float(number('cable/line_solve.c', 'TAUT_SLACK')(p)):.0e}".replace("+0", "")),
+    ("a line longer by one part in {}:", lambda p: f"{1 / float(number('cable/held.h', 'CPSI_TAUT_SLACK')(p)):.0e}".replace("+0", "")),
     ("P_k must exceed {} of the sum", number("evolve/substeps.c", "SLIDES_LEAST")),
     ("farther than {} lengths from where the step began", number("cable/line_solve.c", "MAX_DISPLACEMENT")),
     ("The loop runs down to a relative gap of {},", number("cable/line_solve.h", "CPSI_TARGET")),

@@ -92,17 +92,16 @@ static CpsStatus check_turns(const CpsScene *scene, const CpsStage *stage, const
         const CpsObstacle *obstacle = &scene->obstacle[turn->obstacle];
         char place[80];
         snprintf(place, sizeof place, "%s.turn", obstacle->name);
-        if (obstacle->kind != CPS_OBSTACLE_CYLINDER && obstacle->kind != CPS_OBSTACLE_SPHERE)
+        if (obstacle->kind == CPS_OBSTACLE_PLANE)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                                "%s: obstacle '%s' is a %s: only a cylinder or a sphere turns "
-                                "about its own axis%s",
+                                "%s: obstacle '%s' is a plane: only a cylinder or a sphere turns "
+                                "about its own axis; %s.obstacle has turns about any",
+                                what, obstacle->name, obstacle->name);
+        if (obstacle->kind == CPS_OBSTACLE_GROUND || obstacle->kind == CPS_OBSTACLE_SURFACE)
+            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                                "%s: obstacle '%s' is a %s: only a cylinder or a sphere turns",
                                 what, obstacle->name,
-                                obstacle->kind == CPS_OBSTACLE_PLANE    ? "plane"
-                                : obstacle->kind == CPS_OBSTACLE_GROUND ? "ground"
-                                                                        : "surface",
-                                obstacle->kind == CPS_OBSTACLE_PLANE
-                                    ? "; an entry NAME.obstacle turns it about any"
-                                    : "");
+                                obstacle->kind == CPS_OBSTACLE_GROUND ? "ground" : "surface");
         if (!cpsi_is_usable(turn->angle))
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                                 "%s: obstacle '%s' turns by %g, expected a finite angle", what,
