@@ -288,7 +288,6 @@ static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
     if (newton.outcome != CPSI_IPM_SOLVED) return newton;
     cpsi_step_program_unpack(line, program, scale);
     if (is_unique(line, program, round)) {
-        line->newton.began |= line->newton.tried == 1;
         line->newton.solved++;
         line->newton.failed = 0;
     } else {
@@ -310,15 +309,15 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                            .bounds = round->bounds,
                            .reaction_stiffness = round->reaction_stiffness,
                            .drag = round->drag};
-    if (round->guess >= CPSI_GUESS_REFERENCE && round->bounds != CPSI_BOUNDS_TRIAL &&
+    if (round->guess != CPSI_GUESS_NONE && round->bounds != CPSI_BOUNDS_TRIAL &&
         !round->reaction_stiffness && force > 0 && !taut) {
         const CpsiIpmReport newton =
             solve_warm(line, program, &scale, round, most_iterations(line, options));
-        if (newton.outcome == CPSI_IPM_SOLVED || round->is_late) return newton;
+        if (newton.outcome == CPSI_IPM_SOLVED) return newton;
     }
     line->report.warm_count = 0; /* the step is not warm */
     line->is_rough = round->may_be_rough && options->solver.tolerance > CPSI_RESOLVING;
-    const bool refined = round->centering && !line->is_rough && !round->is_early;
+    const bool refined = round->centering && !line->is_rough;
     cpsi_step_program_fill(line, program, &scale);
     double loads = 0;
     for (int i = 0; i < 3 * line->n; i++) loads += fabs(program->base.load[i]);

@@ -55,8 +55,6 @@ typedef struct CpsiRound {
     CpsiBounds bounds;
     bool reaction_stiffness; /* reactions turn with their normals */
     bool centering;          /* the loop ends with steps to the centre */
-    bool is_early;           /* ... but not here: another round follows */
-    bool is_late;            /* the one before was early: Newton's method alone */
     double drag;             /* [-] (step_program.h) */
     bool may_be_rough;       /* the loop may stop at a hundredth of the tolerance */
     CpsiGuess guess;         /* from which Newton's method starts before the interior point */

@@ -23,9 +23,6 @@ static const double AXES_TOL = 1e-10;
 /* ... or, without having halved it, by no more than this: solutions of programs that differ by less
  * differ by what the loop leaves. */
 static const double AXES_ROUNDING = 2e-9;
-/* After a round in which they turned by more than this [rad] another one follows, so that its
- * solution need not be refined. */
-static const double AXES_NEAR = 1e-6;
 /* Below this angle [rad] the error after a round is linear in the error before it. */
 static const double AXES_LINEAR = 0.1;
 /* Rounds in which the axes turn by more than this [rad] find no direction for a line that nothing
@@ -108,27 +105,6 @@ static CpsiIpmReport solve_round(CpsiLine *line, CpsiChainProgram *program,
     return cpsi_line_solve(line, program, options, &without);
 }
 
-/* Need the round not be refined, the axes having turned by `turned` in the last one? Once in a
- * step: where Newton's method fails from its solution, the next one has to tell slip from rest. */
-static bool is_early(const CpsiLine *line, const CpsiRound *posed, bool is_last, double turned) {
-    return posed->guess != CPSI_GUESS_NONE && line->has_local_axes &&
-           posed->bounds != CPSI_BOUNDS_TRIAL && !is_last && turned > AXES_NEAR;
-}
-
-/* Where nothing has turned in an early round, Newton's method only refines its solution. Where that
- * fails, the loop begins again at the reference, as it would have without it. */
-static CpsiIpmReport solve_late_round(CpsiLine *line, CpsiChainProgram *program,
-                                      const CpsiStepOptions *options, CpsiRound *posed) {
-    CpsiRound late = *posed;
-    late.is_late = true;
-    const CpsiIpmReport newton = cpsi_line_solve(line, program, options, &late);
-    if (newton.outcome == CPSI_IPM_SOLVED) return newton;
-    cpsi_contact_reset(line);
-    cpsi_contact_update_geometry(line);
-    posed->guess = CPSI_GUESS_NONE;
-    return solve_round(line, program, options, posed);
-}
-
 /* A round as a strategy poses it. */
 static CpsiRound first_round(const CpsiStepOptions *options, const CpsiStrategy *strategy,
                              CpsiBounds bounds) {
@@ -194,7 +170,7 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
     double turned = line->has_local_axes ? INFINITY : 0, off = 0, best = INFINITY;
     /* a line placed by statics may pass obstacles */
     const bool sides = !options->frictionless && !strategy->across;
-    bool arrived = true, scattered = line->has_local_axes, was_early = false;
+    bool arrived = true, scattered = line->has_local_axes;
     int since = 0;
     if (posed.guess == CPSI_GUESS_EXTRAPOLATED && line->has_local_axes &&
         !line->keeps_reference_axes)
@@ -206,17 +182,10 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             cpsi_contact_detect(line, false);
             cpsi_contact_update_geometry(line);
         }
-        posed.is_early = !was_early && is_early(line, &posed, round + 1 == most, turned);
-        const int by_newton = line->newton.solved;
-        const bool is_late = was_early && turned == 0 && posed.guess == CPSI_GUESS_BASE;
-        ipm = is_late ? solve_late_round(line, program, options, &posed)
-                      : solve_round(line, program, options, &posed);
-        const bool is_exact = !posed.is_early || line->newton.solved > by_newton;
-        was_early |= !is_exact;
+        ipm = solve_round(line, program, options, &posed);
         posed.guess = next_guess(line, &posed, &ipm);
         if (posed.bounds == CPSI_BOUNDS_COUPLED && !cpsi_line_is_clean(&ipm)) {
             posed.bounds = CPSI_BOUNDS_TRIAL;
-            posed.is_early = false;
             for (int c = 0; c < cpsi_line_all_contacts(line); c++)
                 line->friction_bound[c] = line->reaction[c] = 0;
             ipm = solve_round(line, program, options, &posed);
@@ -230,13 +199,13 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
         if (line->has_local_axes) arrived = cpsi_rounds_refresh_axes(line, sides, &turned);
         scattered &= turned > AXES_SCATTERED && isfinite(turned);
         if (cpsi_interrupt_seen(program->base.interrupt)) break;
-        if (turned <= AXES_TOL && off <= BOUND_TOL && cpsi_line_is_clean(&ipm) && is_exact) break;
+        if (turned <= AXES_TOL && off <= BOUND_TOL && cpsi_line_is_clean(&ipm)) break;
         /* a guess that led nowhere: the step is taken again without it */
-        if (strategy->guess >= CPSI_GUESS_REFERENCE && line->newton.failed >= GIVEN_UP &&
+        if (strategy->guess != CPSI_GUESS_NONE && line->newton.failed >= GIVEN_UP &&
             turned > AXES_CONVERGING)
             break;
         if (turned <= AXES_CONVERGING && most < MAX_CONVERGING_ROUNDS &&
-            (strategy->guess < CPSI_GUESS_REFERENCE || line->newton.failed == 0))
+            (strategy->guess == CPSI_GUESS_NONE || line->newton.failed == 0))
             most = MAX_CONVERGING_ROUNDS;
         const bool is_halved = turned < 0.5 * best;
         if (is_halved) {
@@ -245,7 +214,7 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
         }
         /* what is left is rounding: ask for the certificate */
         if (!is_halved && turned <= AXES_ROUNDING && off <= BOUND_TOL && cpsi_line_is_clean(&ipm) &&
-            is_exact && arrived && certify_last_round(line, program, options, posed.bounds, &ipm))
+            arrived && certify_last_round(line, program, options, posed.bounds, &ipm))
             return false;
         if (!watched) continue;
         if (round >= since + strategy->patience) break;

@@ -20,9 +20,6 @@ static const double LEAST_TENSION = 0.5;
 enum { USEFUL_PATIENCE = 3 };
 /* A force is at its bound up to what a loop that stopped at the tolerance leaves. */
 static const double ROUGHLY = 1e-2;
-/* The compliance of an inextensible line, per length and force of the program, where slips are told
- * from forces below their bounds. */
-static const double LEAST_COMPLIANCE = 1e-9;
 
 /* The increments of the loads in the substep. */
 static CpsiLoadChange change_of(const CpsiLine *line) {
@@ -86,22 +83,18 @@ static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
     return aside <= SAME_WAY * SAME_WAY * size ? ratio : 0;
 }
 
-/* How far the method treats the contacts that the line has now: not those of elements, and those
- * with boxes and sets whose boundary is not known; second ones from the solution of a round on,
- * since a line may rest in a corner, or slide along it, under the same forces. */
-static CpsiGuess treated_contacts(const CpsiLine *line) {
-    CpsiGuess best = CPSI_GUESS_EXTRAPOLATED;
+/* Does the method treat all contacts that the line has now? Not those of elements, second ones, and
+ * those with boxes and sets whose boundary is not known. */
+static bool treats_contacts(const CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
         if (!obstacle || line->state[c] == CPS_NODE_STATE_FREE) continue;
-        if (c >= cpsi_line_contacts(line) ||
-            (!obstacle->has_set && obstacle->shape == CPS_FRICTION_SHAPE_BOX))
-            return CPSI_GUESS_NONE;
+        if (c >= line->n || (!obstacle->has_set && obstacle->shape == CPS_FRICTION_SHAPE_BOX))
+            return false;
         const CpsiFrictionSet *given = cpsi_line_friction_law(line, c).given;
-        if (given && !cpsi_friction_set_shape(given)) return CPSI_GUESS_NONE;
-        if (c >= line->n) best = CPSI_GUESS_LATER;
+        if (given && !cpsi_friction_set_shape(given)) return false;
     }
-    return best;
+    return true;
 }
 
 CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
@@ -110,16 +103,13 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
     const double ratio = ratio_of(line, &now);
     const bool settled = line->last_change.known;
     line->newton.tried = line->newton.solved = line->newton.failed = 0;
-    line->newton.guessed = line->newton.began = false;
     line->last_change = now;
     if (options->frictionless) line->last_change.known = false;
-    const CpsiGuess treated = treated_contacts(line);
-    if (options->frictionless || options->solver.cold || treated == CPSI_GUESS_NONE)
+    if (!settled || options->frictionless || options->solver.cold || !treats_contacts(line))
         return CPSI_GUESS_NONE;
-    if (!settled || treated == CPSI_GUESS_LATER) return CPSI_GUESS_LATER;
     if (line->newton.pause > 0) {
         line->newton.pause--;
-        return CPSI_GUESS_LATER;
+        return CPSI_GUESS_NONE;
     }
     if (!(ratio > 0)) return CPSI_GUESS_REFERENCE;
     double *shift = program->base.residual, *tension = program->dt;
@@ -188,35 +178,18 @@ static bool is_at_bound(const CpsiLine *line, int c, double share) {
     return inside[0] != f[0] || inside[1] != f[1];
 }
 
-/* The stiffness of the elements beside a node of the program, against its slip, or of the element
- * of a point, in units of the program. */
-static double stiffness_beside(const CpsiChainProgram *program, int node) {
-    const CpsiSegment *segment = &program->segment;
-    const int n = program->n, first = node < n ? node : node - n,
-              last = node < n ? node + 1 : node - n;
-    double most = 0;
-    for (int i = first; i <= last; i++)
-        if (i > 0 && i < n)
-            most = fmax(most, 1 / (fmax(cpsi_segment_compliance(segment, i), LEAST_COMPLIANCE) *
-                                   segment->length[i]));
-    return most;
-}
-
 void cpsi_warm_step_note_round(CpsiLine *line, const CpsiChainProgram *program) {
     const CpsiFrictionDisc *disc = &program->disc;
     const CpsiFrictionConic *conic = &program->conic;
     memset(line->at_bound, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->at_bound);
     for (int d = 0; d < disc->count; d++) {
         const double *s = disc->s[d], *z = disc->z[d];
-        const double stiffness = stiffness_beside(program, disc->node[d]) / disc->weight[d];
-        if (stiffness * hypot(s[1], s[2]) > z[0] - hypot(z[1], z[2]))
+        if (hypot(s[1], s[2]) * z[0] > z[0] - hypot(z[1], z[2]))
             line->at_bound[disc->contact[d]] = true;
     }
-    for (int k = 0; k < conic->count; k++) {
-        const double stiffness = stiffness_beside(program, conic->node[k]) / conic->weight[k];
-        line->at_bound[conic->contact[k]] = stiffness * cpsi_friction_conic_slip(program, k) >
-                                            conic->bound[k] * cpsi_friction_conic_margin(conic, k);
-    }
+    for (int k = 0; k < conic->count; k++)
+        line->at_bound[conic->contact[k]] =
+            cpsi_friction_conic_slip(program, k) > cpsi_friction_conic_margin(conic, k);
 }
 
 /* Did friction slip at contact c in the last step or round? */
@@ -243,12 +216,10 @@ static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const C
         const int c = disc->contact[d];
         const double over = line->friction_bound[c] > 0 ? 1 / line->friction_bound[c] : 0;
         disc->s[d][0] = slipped(line, c, guess);
-        const bool shaped = disc->shape && disc->shape[d];
-        if (!shaped && line->contacts < 2) continue; /* it is in no corner */
+        if (!disc->shape || !disc->shape[d]) continue;
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
-        for (int a = 0; a < 2; a++)
-            disc->z[d][1 + a] = shaped ? over * f[a] : f[a] / (scale->force * disc->weight[d]);
+        for (int a = 0; a < 2; a++) disc->z[d][1 + a] = over * f[a];
     }
 }
 
@@ -264,7 +235,7 @@ CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
 
 void cpsi_warm_step_note(CpsiLine *line, bool certified) {
     CpsiNewtonRecord *record = &line->newton;
-    if (certified && record->began) {
+    if (certified && 2 * record->solved >= record->tried) {
         record->useful = true;
         record->failures = 0;
     } else if (record->failures < (record->useful ? USEFUL_PATIENCE : CPSI_NEWTON_PATIENCE)) {

@@ -11,10 +11,9 @@
 #include "cable/step_program.h"
 #include "ipm/ipm.h"
 
-/* The guess from which a program is solved, from CPSI_GUESS_REFERENCE on by Newton's method. */
+/* The guess from which a program is solved. */
 typedef enum CpsiGuess {
     CPSI_GUESS_NONE,         /* the interior-point loop, from its own start */
-    CPSI_GUESS_LATER,        /* the same; later rounds start from where the last one ended */
     CPSI_GUESS_REFERENCE,    /* at rest at the reference */
     CPSI_GUESS_EXTRAPOLATED, /* the last move, from the reference */
     CPSI_GUESS_PREDICTED,    /* the same, where the base has been moved there */
@@ -41,9 +40,8 @@ CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
                                    const CpsiStepScale *scale, CpsiGuess guess, int max_iterations);
 
 /* After a step that was solved from a guess: where Newton's method was of no use several times in a
- * row, the next 2, 6 or 14 steps begin without it, or 2 and 6 where it has been of use in the
- * history. It was of use if the step is certified and its first program was solved from the guess.
- */
+ * row, the next 2, 6 or 14 steps are solved without it, or 2 and 6 where it has been of use in the
+ * history. It was of use if the step is certified and half of its programs were solved so. */
 void cpsi_warm_step_note(CpsiLine *line, bool certified);
 
 #endif

@@ -19,9 +19,6 @@ static const double PULLING = 1e12;
  * it decides by slips that are still far from the solution, below one the direction of a slip
  * follows forces that are. */
 static const double SLIP_STIFFNESS = 10;
-/* The direction of a slip is held no more stiffly than that of one of this length: what a stiffness
- * across it leaves of those along it is known to rounding only. */
-static const double NO_SLIP = 1e-12;
 
 static void load_elements(CpsiNewton *newton) {
     CpsiChainProgram *program = newton->program;
@@ -68,22 +65,15 @@ static Direction direction_of(const CpsiNewton *newton, int d, const CpsiNodeFri
     const double size = cpsi_newton_size(tau), slip = cpsi_newton_size(now->s),
                  beyond = size - now->bound;
     Direction out = {.q = {last[0], last[1]}, .by = 1};
-    /* a node just released goes where it was released to, though its force may be at the bound on
-     * the other side */
-    const bool is_released = (newton->status[j] & CPSI_RELEASED) && slip < CPSI_LEAST_SLIP;
-    if (beyond > rho * NO_SLIP && !is_released) {
+    if (beyond > now->bound * rho / RIGID) {
         for (int a = 0; a < 2; a++) out.q[a] = tau[a] / size;
         out.across = now->bound * rho / beyond;
         out.by = size / beyond;
         return out;
     }
-    const bool is_first = last[0] == 0 && last[1] == 0;
-    const double turn = tau[0] * last[0] + tau[1] * last[1];
-    if (is_first ? slip < CPSI_LEAST_SLIP && size > 0 : slip < NO_SLIP && turn > 0 && !is_released)
-        for (int a = 0; a < 2; a++) out.q[a] = tau[a] / size;
-    else if (slip > 0 && now->s[0] * last[0] + now->s[1] * last[1] <= 0 && !is_released)
+    if (slip > 0 && now->s[0] * last[0] + now->s[1] * last[1] <= 0)
         for (int a = 0; a < 2; a++) out.q[a] = -now->s[a] / slip;
-    out.across = now->bound / fmax(slip, NO_SLIP);
+    if (now->bound > 0) out.across = slip > now->bound / RIGID ? now->bound / slip : RIGID;
     return out;
 }
 
@@ -174,7 +164,6 @@ static void load_nodes(CpsiNewton *newton) {
         }
         if (status & CPSI_STICKS) diagonal[0] = diagonal[2] = status & CPSI_STOPS ? PULLING : RIGID;
         if (has_friction) f[0] = f[1] = 0;
-        if (status & CPSI_CORNER) continue;
         for (int a = 0; a < 3; a++) error = cpsi_max_nan(error, fabs(f[a]));
     }
     newton->force_error = error;
@@ -217,7 +206,6 @@ void cpsi_newton_assemble(CpsiNewton *newton) {
     load_elements(newton);
     load_nodes(newton);
     load_contacts(newton);
-    cpsi_corner_load(newton);
 }
 
 /* Turn the direction of a node that slips against an edge to its own axes. */
