@@ -87,6 +87,11 @@ SENTENCES = [
     ("If the sum exceeds L (1 + {})", number("cable/held.h", "CPSI_TAUT")),
     ("exactly straight (within {} of its length)", number("cable/held.h", "CPSI_TAUT")),
     ("a line longer by one part in {}:", lambda p: f"{1 / float(number('cable/held.h', 'CPSI_TAUT_SLACK')(p)):.0e}".replace("+0", "")),
+    ("Where the tensions found are more than {} times what acts on the group", number("evolve/joint_answer.c", "STRAINED")),
+    ("the forces are those of lines longer by one part in {}, as for a single line", lambda p: f"{1 / float(number('cable/held.h', 'CPSI_TAUT_SLACK')(p)):.0e}".replace("+0", "")),
+    ("a point that is as near as {} of its longest line", lambda p: f"{float(number('cable/held.h', 'CPSI_TAUT_SLACK')(p))**0.5:.0e}".replace("e-0", "e-")),
+    ("To this comes what {} roundings of coordinates", number("evolve/trial.c", "ROUNDINGS")),
+    ("at places at most {} rad apart where it turns", number("evolve/shifts.c", "PATH_ANGLE")),
     ("P_k must exceed {} of the sum", number("evolve/substeps.c", "SLIDES_LEAST")),
     ("farther than {} lengths from where the step began", number("cable/line_solve.c", "MAX_DISPLACEMENT")),
     ("The loop runs down to a relative gap of {},", number("cable/line_solve.h", "CPSI_TARGET")),
@@ -97,7 +102,7 @@ SENTENCES = [
     ("After {} linear systems, or {} without progress,", numbers(("chain/active_set.c", "MOST_STEPS"), ("chain/active_set.c", "PATIENCE"))),
     ("moreover its gap must be at most {} of its scale", number("cable/line_solve.h", "CPSI_TARGET")),
     ("A node slips where it has moved by more than {} L on", number(".h", "CPS_TOUCH")),
-    ("Points count as found up to {} of the largest force (at the default tolerance; {} times the tolerance)", balanced),
+    ("Points count as found up to {} (at the default tolerance; {} times the tolerance)", balanced),
     ("Up to {} points it is dense.", number("linalg/graph_matrix.c", "DENSE")),
     ("First rounds stop at a gap of {}, the others at {}, until no normal of a point that touches turns by more than {}.",
      numbers(*(("evolve/first_guess.c", n) for n in ("ROUGH", "FINE", "ON_ITS_PLANE")))),
@@ -107,6 +112,6 @@ SENTENCES = [
     ("and {} eps of all terms are added", number("drive/certificate.c", "ROUNDING")),
 ]
 # data of the papers, exponents of formulas, and what double precision is
-GIVEN = ["Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a path of 350 degrees is not taken for one of -10",
+GIVEN = ["The curvature of rounds (2.4)", "below (length/r)^2/18", "A value is a sum of 16 points", "is counted beside it (2.9)", "Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a path of 350 degrees is not taken for one of -10",
          "d^3/12 and more", "positions and reactions (1e-16)", "lie 1e-7 beside", "lemma 9.6 for 7.6", "\"A = 0.25 N\"",
          "slack on 0.6 of its length", "120 degrees apart, and three lines of 0.9 to one point", "and lack 0.3 m all the same"]

@@ -53,8 +53,8 @@ static const char SCENE[] =
     "    start: {straight: {from: [0, 15, 0], to: [4, 15, 0]}}\n"
     "    ends: {A: held, B: free}\n"
     "history:\n"
-    "  - {name: pull, steps: 2, rope.B: {force: [30, 0, 0]}, wire.B: {force: [30, 0, 0]}, made.B: "
-    "{force: [9, 0, 0]}, soft.B: {force: [30, 0, 0]}}\n"
+    "  - {name: pull, steps: 2, rope.B: {force: [30, 0, 0]}, wire.B: {force: [30, 0, 0]}, soft.B: "
+    "{force: [30, 0, 0]}}\n"
     "  - {name: turn, steps: 1, drum.turn: 0.5}\n"
     "  - {name: grab, steps: 2, rope.B: {position: [4, 1, 0.5]}}\n"
     "  - {name: slack, steps: 1, rope.B: {force: [0, 0, 0]}}\n";

@@ -16,7 +16,7 @@
     X(set_fill)              \
     X(def_dim)               \
     X(def_var)               \
-    X(enddef)                \
+    X(_enddef)               \
     X(sync)                  \
     X(close)                 \
     X(strerror)              \

@@ -543,6 +543,10 @@ static int create(CpsiNetcdf *nc, const char *path) {
     return status;
 }
 
+/* Records begin on a page of the library's memory that the header does not reach: what fills their
+ * byte variables up to a word, which nothing writes, is 0 there. */
+enum { ALIGN = 4, PAGE = 8192 };
+
 /* all definitions, then the fields that never change */
 static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
                   const CpsEvolution *evolution, const char *names) {
@@ -564,7 +568,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
     }
     if (nc->file.status == NC_NOERR)
-        cpsi_netcdf_keep(&nc->file, nc->file.library.enddef(nc->file.id));
+        cpsi_netcdf_keep(&nc->file, nc->file.library._enddef(nc->file.id, 0, ALIGN, 0, PAGE));
     cpsi_netcdf_write_obstacles(&nc->file, &nc->obstacles, scene, first.origin);
     cpsi_netcdf_write_points(&nc->file, &nc->points, scene);
     cpsi_netcdf_write_bodies(&nc->file, &nc->bodies, scene, first.origin);
