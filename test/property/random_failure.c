@@ -40,7 +40,7 @@ typedef struct Net {
     double knot[3], pull[3], size;
     CpsLine line[MOST];
     CpsPoint point[1 + MOST];
-    char name[1 + 2 * MOST][16];
+    char name[1 + 2 * MOST][24];
     CpsPointChange change;
     CpsStage stage;
     CpsScene scene;
