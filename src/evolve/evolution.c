@@ -173,7 +173,7 @@ static void report_sweep(CpsEvolution *evolution, bool is_start) {
 }
 
 /* No line may leave a grid: what is below it there is not known. */
-static CpsStatus check_cover(CpsEvolution *evolution, CpsError *err) {
+static CpsStatus check_cover(const CpsEvolution *evolution, CpsError *err) {
     for (int k = 0; k < evolution->obstacle_count; k++) {
         const CpsiObstacle *on = &evolution->obstacle[k];
         for (int i = 0; i < evolution->line_count && on->ground; i++) {
@@ -181,7 +181,6 @@ static CpsStatus check_cover(CpsEvolution *evolution, CpsError *err) {
             for (int j = 0; j < line->n; j++) {
                 const Vec3 x = vec3_at(line->position, j);
                 if (cpsi_obstacle_covers(on, x, CPS_TOUCH * line->length)) continue;
-                evolution->ended = true;
                 return cpsi_fail(err, CPS_ERR_ARGUMENT,
                                  "line '%s': node %d at (%.9g, %.9g) m has left the grid of ground "
                                  "'%s': take a larger grid, or say that it extends",
@@ -226,7 +225,14 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
     }
     report_sweep(evolution, stage == NULL && !parts->is_break);
     const CpsStatus covered = check_cover(evolution, err);
-    if (covered != CPS_OK) return covered;
+    if (covered != CPS_OK) {
+        /* a history ends there; a move is not taken, and another may be */
+        if (is_move)
+            return_to_kept(evolution);
+        else
+            evolution->ended = true;
+        return covered;
+    }
     if (parts->is_break)
         evolution->break_count++;
     else if (is_move)

@@ -457,12 +457,51 @@ static void leaves_the_grid(void **state) {
     cps_ground_release(ground);
 }
 
+/* A move that takes a line off the grid is refused: the state before it stands, and another move is
+ * taken from there. */
+static void another_move_is_taken(void **state) {
+    (void)state;
+    CpsGround *ground = sampled(41, 31, level);
+    CpsError err = {0};
+    CpsEvolution *evolution = NULL;
+    Rig rig;
+    rig_begin(&rig, 20, 7, 1e9);
+    CpsObstacle *o = rig_obstacle(&rig, CPS_OBSTACLE_GROUND, 0.3);
+    o->ground = ground;
+    rig_point(&rig, 9, 0, 0);
+    rig_point(&rig, 19, 0, 0);
+    rig_length(&rig, 10);
+    rig_end(&rig, CPS_END_A, CPS_END_KIND_AT_START, 0, 0, 0);
+    rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, 0);
+    if (cps_evolution_create(&rig.scene, &evolution, &err)) fail_msg("%s", err.message);
+    const CpsChange off[] = {{0, CPS_END_A, {CPS_END_KIND_HELD, {19.5, 0, 6}}},
+                             {0, CPS_END_B, {CPS_END_KIND_FREE, {900, 0, 0}}}},
+                    back = {0, CPS_END_A, {CPS_END_KIND_HELD, {8, 0, 0}}};
+    CpsStage move = cps_stage_default();
+    move.change_count = 2;
+    move.change = off;
+    CHECK_INT(cps_evolution_move(evolution, &move, &err), CPS_ERR_ARGUMENT);
+    assert_non_null(strstr(err.message, "has left the grid of ground 'first'"));
+    const CpsLineView stood = cps_evolution_line_view(evolution, 0);
+    for (int j = 0; j <= stood.element_count; j++)
+        CHECK_NEAR(stood.position[3 * j], 9 + 10.0 * j / stood.element_count, 1e-12);
+    move.change_count = 1;
+    move.change = &back;
+    if (cps_evolution_move(evolution, &move, &err)) fail_msg("%s", err.message);
+    const CpsStepReport report = cps_evolution_report(evolution);
+    CHECK_INT(report.outcome, CPS_OUTCOME_SOLVED);
+    CHECK_INT(report.step_count, 1);
+    cps_evolution_destroy(evolution);
+    cps_ground_release(ground);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_plane_in_three_forms), cmocka_unit_test(large_ball),
         cmocka_unit_test(waves_converge),           cmocka_unit_test(capstan_on_a_torus),
         cmocka_unit_test(capstan_on_a_cone),        cmocka_unit_test(forces_agree_across_edges),
         cmocka_unit_test(friction_by_zone),         cmocka_unit_test(leaves_the_grid),
+        cmocka_unit_test(another_move_is_taken),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
