@@ -23,46 +23,12 @@ def first_scene(program):
     return os.path.join(place, "step-00004-plan.svg")
 
 
-def bridle(program):
-    """The plan of all steps of examples/bridle.yaml."""
-    _, place = program.run("run", "examples/bridle.yaml")
-    return os.path.join(place, "plan.svg")
-
-
-def moved_bollard(program):
-    """The plan of all steps of examples/moved-bollard.yaml."""
-    _, place = program.run("run", "examples/moved-bollard.yaml")
-    return os.path.join(place, "plan.svg")
-
-
-def ridge(program):
-    """The elevation of all steps of examples/ridge.yaml."""
-    _, place = program.run("run", "examples/ridge.yaml")
-    return os.path.join(place, "elevation.svg")
-
-
-def ridge_plan(program):
-    """Its plan."""
-    _, place = program.run("run", "examples/ridge.yaml")
-    return os.path.join(place, "plan.svg")
-
-
-def spar(program):
-    """The elevation of examples/oc3-hywind.yaml under the first thrust."""
-    _, place = program.run("run", "examples/oc3-hywind.yaml")
-    return os.path.join(place, "step-00004-elevation.svg")
-
-
-def parting_lines(program):
-    """The plan of examples/parting-lines.yaml where its first line has parted."""
-    _, place = program.run("run", "examples/parting-lines.yaml")
-    return os.path.join(place, "step-00008-plan.svg")
-
-
-def barge(program):
-    """The plan of examples/barge.yaml in the full wind."""
-    _, place = program.run("run", "examples/barge.yaml")
-    return os.path.join(place, "step-00006-plan.svg")
+def of_example(name, picture):
+    """A picture of the run of an example."""
+    def make(program):
+        _, place = program.run("run", f"examples/{name}.yaml")
+        return os.path.join(place, picture)
+    return make
 
 
 def net(program):
@@ -73,28 +39,24 @@ def net(program):
     return os.path.join(place, "step-00004-plan.svg")
 
 
-def moored_buoy(program):
-    """The elevation of all steps of examples/catenary-moored-buoy.yaml."""
-    _, place = program.run("run", "examples/catenary-moored-buoy.yaml")
-    return os.path.join(place, "elevation.svg")
-
-
 def offset(program):
     """What the lines of examples/oc3-hywind.yaml oppose to its offset."""
     _, place = program.run("offset", "examples/oc3-hywind.yaml", "--headings", "0,30,60", "--to", "20", "--steps", "20")
     return os.path.join(place, "offset.svg")
 
 
-def anchor_line(program):
-    """The elevation of all steps of examples/chain-wire-chain.yaml."""
-    _, place = program.run("run", "examples/chain-wire-chain.yaml")
-    return os.path.join(place, "elevation.svg")
-
-
 PICTURES = {
-    "run-offset": offset, "run-anchor-line": anchor_line,
-    "run-rope": first_scene, "run-bridle": bridle, "run-moved-bollard": moved_bollard, "run-ridge": ridge, "run-ridge-plan": ridge_plan, "run-oc3-hywind": spar, "run-barge": barge,
-    "run-parting-lines": parting_lines, "run-net": net, "run-moored-buoy": moored_buoy,
+    "run-offset": offset, "run-anchor-line": of_example("chain-wire-chain", "elevation.svg"),
+    "run-rope": first_scene,
+    "run-bridle": of_example("bridle", "plan.svg"),
+    "run-moved-bollard": of_example("moved-bollard", "plan.svg"),
+    "run-ridge": of_example("ridge", "elevation.svg"),
+    "run-ridge-plan": of_example("ridge", "plan.svg"),
+    "run-oc3-hywind": of_example("oc3-hywind", "step-00004-elevation.svg"),
+    "run-barge": of_example("barge", "step-00006-plan.svg"),
+    "run-parting-lines": of_example("parting-lines", "step-00008-plan.svg"),
+    "run-net": net,
+    "run-moored-buoy": of_example("catenary-moored-buoy", "elevation.svg"),
     "drive-wheel-maps": driven("braked-wheel"),
     "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),
     "drive-disc": driven("disc"), "drive-plate": driven("plate"), "drive-car": driven("car"), "drive-planimeter": driven("planimeter"),
