@@ -3,12 +3,10 @@
  * cps_scene_default() and similar functions, with which reading begins. */
 #include "io/read/scene/scene_build.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/math.h"
 #include "io/base/file/read_file.h"
 #include "io/read/ground/ground_build.h"
 #include "io/read/law/set_build.h"
