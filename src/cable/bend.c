@@ -101,7 +101,7 @@ static bool forces_beside(const CpsiLine *line, int c, Vec3 *before, Vec3 *after
 static double arc_of(const CpsiLine *line, int c) {
     const int e = cpsi_line_element(line, c);
     return e < 0 ? line->arc_length[cpsi_line_node(line, c)]
-                 : line->arc_length[e] + line->beta[e] * line->element_length[e];
+                 : line->arc_length[e] + line->beta[e] * line->natural_length[e];
 }
 
 /* The bend at contact c; its turn is 0 where the reaction does not come from a turn of the line

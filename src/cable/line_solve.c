@@ -58,12 +58,20 @@ bool cpsi_line_is_taut(const CpsiLine *line) {
 
 /* The strain of the whole line at the tension T. */
 static double mean_strain(const CpsiLine *line, double tension) {
-    if (line->spring_count == 0) return line->compliance * tension;
+    if (line->spring_count == 0 && !line->two.exists) return line->compliance * tension;
     double sum = 0;
     for (int e = 0; e + 1 < line->n; e++) {
         const CpsiElementLaw law = cpsi_line_law(line, e);
         sum += line->element_length[e] * cpsi_law_strain(&law, tension);
     }
+    return sum / line->length;
+}
+
+/* The length at rest of the whole line over its natural length. */
+static double rest_stretch(const CpsiLine *line) {
+    if (!line->two.exists) return 1;
+    double sum = 0;
+    for (int e = 0; e + 1 < line->n; e++) sum += line->element_length[e];
     return sum / line->length;
 }
 
@@ -75,6 +83,7 @@ static double force_scale(const CpsiLine *line, double longer) {
     double weight = line->length * vec3_norm(vec3_load(line->weight)), scale = weight, strain = -1;
     CpsiSpan span = {.to = 0};
     bool spans = false;
+    longer *= rest_stretch(line);
     for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
     for (; cpsi_line_next_span(line, span.to, &span); spans = true)
         strain = fmax(strain, span.distance / longer / span.length - 1);

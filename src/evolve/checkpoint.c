@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "cable/two_stiffnesses.h"
 #include "evolve/failure.h"
 #include "evolve/state_check.h"
 
@@ -25,7 +26,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '6'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '7'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -205,6 +206,13 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     pass_line_report(tape, &line->report);
 }
 
+static void pass_two_stiffnesses(Tape *tape, CpsiLine *line) {
+    if (!line->two.exists) return;
+    pass_flag(tape, &line->two.is_dynamic);
+    pass(tape, line->two.rest_strain, ((size_t)line->n - 1) * sizeof *line->two.rest_strain);
+    if (tape->in) cpsi_line_set_stiffness(line);
+}
+
 static void pass_point(Tape *tape, CpsiPoint *point) {
     CpsPointReport *report = &point->report;
     PASS(tape, point->kind);
@@ -301,6 +309,7 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
         pass(tape, evolution->line[i].start_element,
              3 * (size_t)(evolution->line[i].n - 1) * sizeof(float));
         PASS(tape, evolution->line[i].start_end);
+        pass_two_stiffnesses(tape, &evolution->line[i]);
     }
     for (int k = 0; k < evolution->obstacle_count; k++) pass_obstacle(tape, evolution, k);
     for (int i = 0; i < evolution->points.count; i++) pass_point(tape, &evolution->points.point[i]);
@@ -318,6 +327,13 @@ static void hash_bytes(uint64_t *hash, const void *data, size_t size) {
 
 static void hash_numbers(uint64_t *hash, size_t count, const double *number) {
     hash_bytes(hash, number, count * sizeof *number);
+}
+
+static void hash_elasticity(uint64_t *hash, const CpsiLine *line, const CpsiElasticity *own) {
+    hash_numbers(hash, (size_t)line->n - 1, own->compliance_factor);
+    hash_bytes(hash, own->spring_at, (size_t)line->n * sizeof *own->spring_at);
+    hash_numbers(hash, (size_t)own->spring_count, own->spring_start);
+    hash_numbers(hash, (size_t)own->spring_count, own->spring_stiffness);
 }
 
 static void hash_line(uint64_t *hash, const CpsiLine *line) {
@@ -341,6 +357,7 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, (size_t)line->spring_count, line->spring_start);
         hash_numbers(hash, (size_t)line->spring_count, line->spring_stiffness);
     }
+    if (line->two.exists) hash_elasticity(hash, line, &line->two.elasticity[CPSI_DYNAMIC]);
     if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
     if (line->has_break_at) hash_numbers(hash, (size_t)line->n - 1, line->break_at);
     for (int end = 0; end < 2; end++) {
@@ -354,6 +371,7 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     hash_bytes(hash, &stage->steps, sizeof stage->steps);
     const int gravity_changes = stage->gravity_changes;
     hash_bytes(hash, &gravity_changes, sizeof gravity_changes);
+    if (stage->static_stiffness) hash_bytes(hash, "static", 6);
     hash_numbers(hash, 3, stage->gravity);
     for (int i = 0; i < stage->change_count; i++) {
         const CpsChange *change = &stage->change[i];
