@@ -15,6 +15,7 @@
 #include "capstan/ground.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
+#include "capstan/shape.h"
 #include "capstan/shift.h"
 
 #ifdef __cplusplus
@@ -26,7 +27,11 @@ typedef enum CpsObstacleKind {
     CPS_OBSTACLE_CYLINDER, /* a solid cylinder of infinite length: a bollard, a pipe, a drum */
     CPS_OBSTACLE_SPHERE,   /* a solid ball */
     CPS_OBSTACLE_GROUND,   /* what lies below the points of a grid */
-    CPS_OBSTACLE_SURFACE   /* where a function is negative */
+    CPS_OBSTACLE_SURFACE,  /* where a function is negative */
+    CPS_OBSTACLE_CAPSULE,  /* a cylinder with round ends: a bollard, a tank (shape.h) */
+    CPS_OBSTACLE_TORUS,    /* a ring: a shackle, a bent tube */
+    CPS_OBSTACLE_CONE,     /* a cone with a round tip, without end */
+    CPS_OBSTACLE_BOX       /* a box with round edges: a quay, a slab */
 } CpsObstacleKind;
 
 /* The set of friction forces F that two coefficients describe, at the reaction R. By M77 section 4
@@ -42,14 +47,16 @@ typedef struct CpsObstacle {
     uint32_t cookie;
     const char *name;
     CpsObstacleKind kind; /* default plane */
-    /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, or the origin
-     * of a ground or surface; default 0 0 0 */
+    /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, capsule, torus
+     * or box, the tip of the cone, or the origin of a ground or surface; default 0 0 0 */
     double point[3];
     double normal[3]; /* [-] of a plane, of any length but 0; default 0 0 1 */
-    /* [-] of a cylinder, and axis of rotation of cylinder and sphere; of any length but 0; default
-     * 0 1 0 */
+    /* [-] axis of rotation of cylinder, sphere, capsule, torus and cone, which leads from its tip
+     * into it; of any length but 0; default 0 1 0 */
     double axis[3];
-    double radius; /* [m] of cylinder and sphere, > 0 */
+    double radius;  /* [m] > 0 of cylinder, sphere and capsule, the tube of a torus, the tip of a
+                       cone, the edges of a box */
+    CpsShape shape; /* what else these have */
     /* ground and surface stay in their place. What an evolution needs of a ground it retains. */
     const CpsGround *ground; /* of a ground */
     CpsSurface surface;      /* of a surface */
@@ -179,7 +186,7 @@ typedef struct CpsChange {
     CpsEnd to;
 } CpsChange;
 
-/* A rotation of a cylinder or sphere about its axis; what sticks to it moves with it. */
+/* A rotation about the axis of a cylinder .. cone; what sticks to it moves with it. */
 typedef struct CpsTurn {
     int obstacle; /* index in the scene */
     double angle; /* [rad] of the rotation in this stage, by the right-hand rule */

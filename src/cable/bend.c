@@ -110,7 +110,7 @@ static CpsBend bend_of(const CpsiLine *line, int c) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     CpsBend bend = {0};
     Vec3 before, after;
-    if (!obstacle || !cpsi_obstacle_is_round(obstacle) ||
+    if (!obstacle || (!cpsi_obstacle_is_round(obstacle) && !cpsi_obstacle_is_rounded(obstacle)) ||
         !(line->reaction[c] > 0 && line->friction_bound[c] > 0) ||
         !forces_beside(line, c, &before, &after))
         return bend;

@@ -204,6 +204,14 @@ static void turn_curvature(double out[6], const double axes[9], const double cur
     cpsi_add_mapped(out, by, axes, curvature);
 }
 
+/* Does the wall round a line draw it back wherever it moves along it? Then its reaction is a
+ * stiffness that no round leaves out. */
+static bool draws_back(const CpsiLine *line, int c) {
+    const double *k = &line->curvature[3 * c];
+    return cpsi_line_obstacle(line, c)->form.inside && k[0] <= 0 && k[2] <= 0 &&
+           k[0] * k[2] >= k[1] * k[1];
+}
+
 static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int c,
                             const CpsiStepScale *scale) {
     CpsiUnilateral *unilateral = &program->unilateral;
@@ -218,10 +226,10 @@ static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int
     double axes[9];
     contact_axes(line, program, c, axes);
     memcpy(unilateral->normal[k], &axes[6], sizeof unilateral->normal[k]);
+    const bool turns = scale->reaction_stiffness || draws_back(line, c);
     turn_curvature(unilateral->curvature[k], axes, &line->curvature[3 * c],
-                   scale->reaction_stiffness && j < line->n
-                       ? line->reaction[c] * scale->length / (scale->force * share)
-                       : 0);
+                   turns && j < line->n ? line->reaction[c] * scale->length / (scale->force * share)
+                                        : 0);
 }
 
 static void fill_contact(const CpsiLine *line, CpsiChainProgram *program, int c,

@@ -438,6 +438,13 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     hash_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
     hash_numbers(hash, 3,
                  (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
+    const CpsShape *shape = &obstacle->form;
+    const Vec3 side = obstacle->frame.axis[0];
+    if (cpsi_obstacle_is_rounded(obstacle))
+        hash_numbers(hash, 10,
+                     (const double[10]){shape->inside, shape->length, shape->main_radius,
+                                        shape->angle, shape->size[0], shape->size[1],
+                                        shape->size[2], side.x, side.y, side.z});
     hash_ground(hash, obstacle);
     if (!set) return;
     const CpsiConicSet *form = cpsi_friction_set_conic(set);

@@ -33,13 +33,15 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
     return cpsi_obstacle_needs_local_axes(&only);
 }
 
-/* Do elements have contacts, beside the nodes? With round obstacles they do, and where a node may
- * need a third contact; contact of the reference is that of S90, where only nodes touch. */
+/* Do elements have contacts, beside the nodes? With what is convex somewhere they do, and where a
+ * node may need a third contact; contact of the reference is that of S90, where only nodes touch.
+ */
 static bool scene_has_element_contacts(const CpsScene *scene) {
     bool round = false;
-    for (int k = 0; k < scene->obstacle_count; k++)
-        round = round || scene->obstacle[k].kind == CPS_OBSTACLE_CYLINDER ||
-                scene->obstacle[k].kind == CPS_OBSTACLE_SPHERE;
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const CpsiObstacle o = cpsi_obstacle(&scene->obstacle[k]);
+        round = round || cpsi_obstacle_faces_lines(&o);
+    }
     return (round || scene->obstacle_count > 2) &&
            scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
 }

@@ -465,8 +465,7 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     surface_carry(on, reference, r->share, turn, carried);
     // the point goes round at its own depth: what friction works on is shorter than the path of its
     // foot
-    Surface within = *on;
-    within.radius -= depth;
+    const Surface within = surface_within(on, depth);
     surface_slip(&within, carried, x, seat.slip);
     if (where->frozen) { // straight, in the plane of the reference
         for (int k = 0; k < 3; k++) seat.slip[k] = x[k] - carried[k];

@@ -20,6 +20,16 @@ typedef struct CpsiSceneValues {
     CpsiList history;   /* CpsiStageValues */
 } CpsiSceneValues;
 
+/* A rotation, in one of two forms. */
+typedef enum CpsiRotationForm { CPSI_ROTATION_QUATERNION, CPSI_ROTATION_ANGLES } CpsiRotationForm;
+
+typedef struct CpsiRotationValues {
+    const CpsiYaml *node; /* NULL: not given */
+    int form;             /* CpsiRotationForm */
+    double quaternion[4];
+    double angle[3]; /* [degrees] roll, pitch, yaw */
+} CpsiRotationValues;
+
 typedef struct CpsiObstacleValues {
     const CpsiYaml *node; /* the key is the name */
     CpsObstacle obstacle;
@@ -29,6 +39,8 @@ typedef struct CpsiObstacleValues {
     const char *grid, *factors, *variable;
     int form;
     bool are_depths, extends;
+    double cone_angle;           /* [degrees] */
+    CpsiRotationValues rotation; /* of a box */
 } CpsiObstacleValues;
 
 /* A point at which lines end. */
@@ -39,16 +51,6 @@ typedef struct CpsiScenePointValues {
     const char *body;    /* name of the body that it is on */
     double at[3];        /* [m] in its axes */
 } CpsiScenePointValues;
-
-/* A rotation, in one of two forms. */
-typedef enum CpsiRotationForm { CPSI_ROTATION_QUATERNION, CPSI_ROTATION_ANGLES } CpsiRotationForm;
-
-typedef struct CpsiRotationValues {
-    const CpsiYaml *node; /* NULL: not given */
-    int form;             /* CpsiRotationForm */
-    double quaternion[4];
-    double angle[3]; /* [degrees] roll, pitch, yaw */
-} CpsiRotationValues;
 
 /* A hydrostatic stiffness without coupling. */
 typedef struct CpsiDiagonalValues {
