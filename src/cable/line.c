@@ -56,6 +56,8 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->tension, n);
     CPSI_PLACE(arena, line->motion, 3 * n);
     CPSI_PLACE(arena, line->state, contacts);
+    CPSI_PLACE(arena, line->active, contacts);
+    CPSI_PLACE(arena, line->at_bound, contacts);
     CPSI_PLACE(arena, line->slip, 3 * contacts);
     if (line->has_local_axes) {
         CPSI_PLACE(arena, line->winding, contacts);
@@ -64,8 +66,6 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->reference_axes, 9 * contacts);
         CPSI_PLACE(arena, line->curvature, 3 * contacts);
         CPSI_PLACE(arena, line->obstacle_index, contacts);
-        CPSI_PLACE(arena, line->active, contacts);
-        CPSI_PLACE(arena, line->at_bound, contacts);
         CPSI_PLACE(arena, line->node_reaction, n);
         CPSI_PLACE(arena, line->watched, 6 * n);
         cpsi_anderson_layout(&line->anderson, arena, line->n);

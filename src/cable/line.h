@@ -93,6 +93,9 @@ typedef struct CpsiLine {
     /* (contacts, n, 3) [m] slip of the node on the obstacle in this step, tangential; without
      * has_local_axes computed after the step, for views */
     double *slip;
+    bool *active;   /* (contacts, n) the constraint is active in the last solution: the reaction
+                       exceeds the distance, both in units of the program */
+    bool *at_bound; /* (contacts, n) friction is at its bound in it (warm_step.h) */
     /* with has_local_axes, else NULL: the geometry of the contacts at `base` */
     /* (contacts, n) [rad] angle by which the node has moved round the contact's obstacle in this
      * step: on a cylinder the sum over the rounds, which may exceed a turn; on a ball the angle of
@@ -107,11 +110,8 @@ typedef struct CpsiLine {
                             an element the one with which it is in contact; -1: none */
     double *beta; /* (n) share of element e, from node e to e + 1, at which it touches; NULL without
                      such contacts */
-    double *node_reaction; /* (n) [N] sum of the reactions on the node and on its elements */
-    bool *active;   /* (contacts, n) the constraint is active in the last solution: the reaction
-                       exceeds the distance, both in units of the program */
-    bool is_rough;  /* the program was solved to a hundredth of the tolerance only */
-    bool *at_bound; /* (contacts, n) friction is at its bound in the last round (warm_step.h) */
+    double *node_reaction;     /* (n) [N] sum of the reactions on the node and on its elements */
+    bool is_rough;             /* the program was solved to a hundredth of the tolerance only */
     bool contact_everywhere;   /* contacts are detected everywhere, not only where the reference
                                   touches */
     bool keeps_reference_axes; /* friction is frozen with its bounds and axes at the reference while

@@ -356,13 +356,11 @@ static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program,
 static void unpack_reactions(CpsiLine *line, const CpsiChainProgram *program,
                              const CpsiStepScale *scale) {
     memset(line->reaction, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->reaction);
-    if (line->has_local_axes)
-        memset(line->active, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->active);
+    memset(line->active, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->active);
     for (int k = 0; k < program->unilateral.count; k++) {
         const int c = program->unilateral.contact[k];
         line->reaction[c] = scale->force * program->unilateral.weight[k] * program->unilateral.z[k];
-        if (line->has_local_axes)
-            line->active[c] = program->unilateral.z[k] > program->unilateral.s[k];
+        line->active[c] = program->unilateral.z[k] > program->unilateral.s[k];
     }
 }
 
