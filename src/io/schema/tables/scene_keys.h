@@ -222,4 +222,9 @@ typedef struct CpsiStageValues {
 
 extern const CpsiMapping cpsi_scene_file;
 
+/* ---- history_keys.c ---- */
+
+extern const CpsiMapping cpsi_stage_keys;    /* an entry of the history */
+extern const CpsiMapping cpsi_rotation_keys; /* a rotation of a body, there and where it begins */
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sections and weights (section_build.h). */
-#include "io/read/scene/section_build.h"
+#include "io/read/scene/parts/section_build.h"
 
 #include <math.h>
 #include <stdlib.h>
