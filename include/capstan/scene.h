@@ -10,6 +10,7 @@
 #define CAPSTAN_SCENE_H
 
 #include "capstan/body.h"
+#include "capstan/elasticity.h"
 #include "capstan/grasp.h"
 #include "capstan/ground.h"
 #include "capstan/point.h"
@@ -116,15 +117,6 @@ typedef struct CpsFrictionZone {
     double factor;   /* [-] >= 0, multiplies the friction of every obstacle that it touches */
 } CpsFrictionZone;
 
-/* A row of a table of strain and tension; a table has 2 to CPS_MAX_STIFFNESS_ROWS of them. The
- * first is 0, 0; strains and tensions rise, with slopes that do not fall. Beyond the last row its
- * slope goes on. */
-enum { CPS_MAX_STIFFNESS_ROWS = 100 };
-typedef struct CpsStiffnessRow {
-    double strain;  /* [-] */
-    double tension; /* [N] */
-} CpsStiffnessRow;
-
 /* A stretch of a line of one make: chain, wire, fibre rope. */
 typedef struct CpsSection {
     const char *type; /* name of its make; may be NULL */
@@ -134,6 +126,8 @@ typedef struct CpsSection {
     /* (stiffness_row_count) in place of `stiffness`; default 0 and NULL */
     int stiffness_row_count;
     const CpsStiffnessRow *stiffness_row;
+    bool has_dynamic_stiffness; /* default false: `stiffness` is the only one */
+    CpsDynamicStiffness dynamic_stiffness;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
     bool has_break_at;      /* default false */
@@ -157,6 +151,8 @@ typedef struct CpsLine {
     double stiffness;        /* [N] EA > 0; INFINITY: inextensible */
     int stiffness_row_count; /* default 0; or of a table in place of `stiffness`, as of a section */
     const CpsStiffnessRow *stiffness_row;
+    bool has_dynamic_stiffness; /* default false; as of a section */
+    CpsDynamicStiffness dynamic_stiffness;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
     bool has_break_at;      /* default false */
@@ -201,6 +197,9 @@ typedef struct CpsStage {
     uint32_t cookie; /* of cps_stage_default(); a stage made otherwise is refused */
     const char *name;
     int step_count; /* >= 1 */
+    /* lines stretch by their static stiffness; default false: those that have a dynamic one by it,
+     * about what was reached before (elasticity.h) */
+    bool static_stiffness;
     int change_count;
     const CpsChange *change;
     int turn_count;

@@ -103,7 +103,7 @@ static double allowance(const CpsiLine *line, int c) {
     return e < 0 || cpsi_line_is_third(line, c)
                ? 0
                : cpsi_obstacle_allowance(&line->obstacle[line->obstacle_index[c]],
-                                         line->element_length[e]);
+                                         line->natural_length[e]);
 }
 
 Vec3 cpsi_contact_slip_between(const CpsiLine *line, int c, Vec3 from, Vec3 to) {

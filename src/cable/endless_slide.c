@@ -183,7 +183,7 @@ static bool has_resting_element(const CpsiLine *line) {
             const Vec3 from = vec3_at(line->reference, e), to = vec3_at(line->reference, e + 1);
             double share;
             if (!cpsi_obstacle_faces(o, from, to, &share)) continue;
-            const double allowance = cpsi_obstacle_allowance(o, line->element_length[e]);
+            const double allowance = cpsi_obstacle_allowance(o, line->natural_length[e]);
             if (cpsi_obstacle_gap(o, vec3_axpy(share, vec3_sub(to, from), from)) <
                 -NEARLY * allowance)
                 return true;

@@ -62,7 +62,8 @@ static void step_line(void *data, int workspace_index, int i) {
     } else {
         if (evolution->move[i].shift) line->obstacle = workspace->scratch.obstacle;
         cpsi_line_substeps(line, &workspace->program, &options, &evolution->move[i],
-                           &workspace->scratch, evolution->report.step_count > 0);
+                           &workspace->scratch,
+                           evolution->report.step_count > 0 && !line->two.has_jumped);
         line->obstacle = evolution->obstacle;
     }
     if (evolution->part == 0) find_range(line, &options);

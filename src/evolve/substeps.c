@@ -402,8 +402,8 @@ static Trial try_part(Advance *substeps, double from, double middle, double to, 
     trial.good = converged(&trial.first);
     if (!trial.good) return trial;
     trial.open = open_energy(substeps, &trial.first, NULL);
-    if (substeps->line->newton.solved > 0 && is_open(&trial.open)) {
-        /* restored, the line has no move to go on from: the part is taken cold */
+    if (substeps->line->newton.guessed && is_open(&trial.open)) {
+        /* restored, the line has no move to go on from: the part begins cold */
         cpsi_substeps_restore(substeps->line, substeps->scratch);
         trial.first = accept(substeps, from, to, substeps->known);
         trial.good = converged(&trial.first);

@@ -647,6 +647,14 @@ static void compare_end_of_run(Compare *compare, const CpsLine *line, const Reco
         find(compare, "%s is at %.9g of its break_at in the last step", line->name, share);
 }
 
+/* Which stiffness holds: the one of the stage, the static one without a stage. */
+static void compare_stiffness(Compare *compare, const CpsLine *line, size_t step, const Record *r) {
+    int stage, part;
+    const bool staged = stage_of(compare, step, &stage, &part),
+               is_dynamic = staged && !compare->scene->stage[stage].static_stiffness;
+    if (r->is_dynamic != is_dynamic) find(compare, "stiffness of %s in step %zu", line->name, step);
+}
+
 static int compare_steps(Compare *compare, int index) {
     const CpsLine *line = &compare->scene->line[index];
     Record now = {0}, before = {0};
@@ -681,6 +689,7 @@ static int compare_steps(Compare *compare, int index) {
         if (!bad && step == 0) compare_nodes(compare, line, &now);
         if (!bad) compare_grasps(compare, line, index, step, step > 0 ? &before : NULL, &now);
         if (!bad) compare_loads(compare, line, step, &now);
+        if (!bad && now.has_dynamic) compare_stiffness(compare, line, step, &now);
         if (!bad && index == 0) compare_turns(compare, step, &now);
         if (!bad && index == 0) compare_shifts(compare, step);
         const Record swap = before;

@@ -534,7 +534,6 @@ void record_destroy(Record *record) {
     free(record->friction);
     free(record->segment_force);
     free(record->element_length);
-    free(record->element_compliance);
     free(record->weight_length);
     free(record->breaking_load);
     free(record->break_at);
@@ -735,6 +734,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= read_weight_before(source, line, step, record, log);
     bad |= grasps_read(source, line, step, record, log);
     bad |= failure_read(source, line, step, record, log);
+    bad |= elongation_read_step(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }
 

@@ -45,6 +45,8 @@ static const char SCENE[] =
     "  fine: {length: 3, grade: {towards: B, ratio: 4}, element_length: 0.9, mass: 2, stiffness: "
     "2000,"
     " start: {straight: {from: [0, 500, 0], to: [3, 500, 0]}}, ends: {A: held, B: free}}\n"
+    "  poly: {length: 3, mass: 2, stiffness: 2000, dynamic_stiffness: 5000, elements: 3,"
+    " start: {straight: {from: [0, 600, 0], to: [3, 600, 0]}}, ends: {A: held, B: free}}\n"
     "types: {hawser: {mass: 7, diameter: 0.05, stiffness: 3000, breaking_load: 900}, wire: "
     "{weight: 4, stiffness: 3000,"
     " friction: 0.5}, rope: {weight: 2, stiffness: {strain: [0, 0.1, 0.2], tension: [0, 90, "
@@ -55,7 +57,8 @@ static const char SCENE[] =
     "solver: {tolerance: 1e-8, max_iterations: 60, path_tolerance: 0.1, halvings: 3,"
     " linear_system: chain}\n"
     "history:\n"
-    "  - {name: pull, steps: 2, gravity: [0, 0, -9], one.B: {force: [2, 0, 0]}, post.turn: 5}\n"
+    "  - {name: pull, steps: 2, stiffness: static, gravity: [0, 0, -9], one.B: {force: [2, 0, 0]}, "
+    "post.turn: 5}\n"
     "  - {one.A: {move: [1, 0, 0]}, two.A: {position: [0, 6, 0]}}\n"
     "  - {wet.node: {at: 1, hold: true}, one.node: {at: 5, force: [0, 1, 0]}}\n"
     "  - {wet.node: {at: 2, position: [2, 300, 2]}, one.node: {at: 5, release: true}}\n";
@@ -180,6 +183,12 @@ static const struct Change {
     {"mass", "mass: 2", "mass: 2.5"},
     {"weight", "weight: 3", "weight: 3.5"},
     {"stiffness", "mass: 1, stiffness: 1000", "mass: 1, stiffness: .inf"},
+    {"dynamic_stiffness", "dynamic_stiffness: 5000", "dynamic_stiffness: 5001"},
+    {"dynamic_stiffness", "dynamic_stiffness: 5000",
+     "dynamic_stiffness: {strain: [0, 0.1, 0.2], tension: [0, 500, 1100]}"},
+    {"dynamic_stiffness", "rope: {weight: 2, ",
+     "rope: {weight: 2, dynamic_stiffness: {strain: [0, 0.05], tension: [0, 300]}, "},
+    {"stiffness", "stiffness: static", "stiffness: dynamic"},
     {"breaking_load", "stiffness: 3000, breaking_load: 900}",
      "stiffness: 3000, breaking_load: 901}"},
     {"breaking_load", "stiffness: 2000, breaking_load: 80", "stiffness: 2000"},

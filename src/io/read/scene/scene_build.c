@@ -333,6 +333,10 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
     if (status == CPS_OK)
         status = cpsi_stiffness_build(&b->materials, &values->table, &line->stiffness_row_count,
                                       &line->stiffness_row);
+    if (status == CPS_OK)
+        status =
+            cpsi_dynamic_stiffness_build(&b->materials, &values->dynamic,
+                                         &line->has_dynamic_stiffness, &line->dynamic_stiffness);
     if (status == CPS_OK) status = build_elements(b, values, line);
     if (status == CPS_OK) status = build_zones(b, &values->zones, line);
     if (status == CPS_OK && values->sections.count > 0)

@@ -403,6 +403,11 @@ static const CpsiKey TYPE_KEYS[] = {
     {"stiffness", REQUIRED, NUMBER(Type, stiffness), 0, INFINITY, true, .unit = "N",
      .other = &(const CpsiKey){.type = MAPPING(Type, table), .inside = &STIFFNESS},
      .help = "axial stiffness EA; .inf for an inextensible type; or a table of strain and tension"},
+    {"dynamic_stiffness", OPTIONAL, NUMBER(Type, dynamic.stiffness), POSITIVE,
+     .other = &(const CpsiKey){.type = MAPPING(Type, dynamic.table), .inside = &STIFFNESS},
+     .unit = "N",
+     .help = "the axial stiffness, or its table, about the state that `stiffness` has reached; "
+             "nowhere softer than it"},
     {"breaking_load", OPTIONAL, NUMBER(Type, breaking_load), POSITIVE, .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over it"},
     {"break_at", OPTIONAL, NUMBER(Type, break_at), POSITIVE, .unit = "N",
@@ -413,7 +418,7 @@ static const CpsiKey TYPE_KEYS[] = {
 
 static void begin_type(void *values) {
     CpsiTypeValues *type = values;
-    type->mass = type->breaking_load = type->break_at = NAN;
+    type->mass = type->breaking_load = type->break_at = type->dynamic.stiffness = NAN;
     type->friction = 1;
 }
 
@@ -460,6 +465,11 @@ static const CpsiKey LINE_KEYS[] = {
     {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unless = "sections",
      .other = &(const CpsiKey){.type = MAPPING(Line, table), .inside = &STIFFNESS}, .unit = "N",
      .help = "axial stiffness EA; .inf for an inextensible line; or a table of strain and tension"},
+    {"dynamic_stiffness", OPTIONAL, NUMBER(Line, dynamic.stiffness), POSITIVE, .unless = "sections",
+     .other = &(const CpsiKey){.type = MAPPING(Line, dynamic.table), .inside = &STIFFNESS},
+     .unit = "N",
+     .help = "the axial stiffness, or its table, about the state that `stiffness` has reached; "
+             "nowhere softer than it"},
     {"breaking_load", OPTIONAL, NUMBER(Line, breaking_load), POSITIVE, .unless = "sections",
      .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over "
@@ -485,6 +495,7 @@ static void begin_line(void *values) {
     CpsiLineValues *line = values;
     line->line = cps_line_default();
     line->mass = line->count = line->breaking_load = line->break_at = line->element_length = NAN;
+    line->dynamic.stiffness = NAN;
 }
 
 static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};

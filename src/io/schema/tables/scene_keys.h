@@ -80,14 +80,21 @@ typedef struct CpsiStiffnessValues {
     CpsiNumberRows strain, tension;
 } CpsiStiffnessValues;
 
+/* A dynamic stiffness; NaN without a table: not given. */
+typedef struct CpsiDynamicValues {
+    double stiffness;
+    CpsiStiffnessValues table;
+} CpsiDynamicValues;
+
 /* What a metre of line weighs: `mass`, in water with its `diameter`, or `weight`; NaN: not given.
  */
 typedef struct CpsiTypeValues {
     const CpsiYaml *node; /* the key is the name */
     double mass, diameter, weight, stiffness, friction;
     CpsiStiffnessValues table; /* in place of `stiffness` */
-    double breaking_load;      /* NaN: not given */
-    double break_at;           /* NaN: not given */
+    CpsiDynamicValues dynamic;
+    double breaking_load; /* NaN: not given */
+    double break_at;      /* NaN: not given */
 } CpsiTypeValues;
 
 /* Elements that become shorter towards an end, or towards both. */
@@ -153,6 +160,7 @@ typedef struct CpsiLineValues {
     double breaking_load;         /* NaN: not given */
     double break_at;              /* NaN: not given */
     CpsiStiffnessValues table;    /* in place of line.stiffness */
+    CpsiDynamicValues dynamic;
     CpsiPretensionValues pretension;
     CpsiList sections;        /* CpsiSectionValues */
     CpsiList point_weights;   /* CpsiPointWeightValues */
@@ -214,6 +222,7 @@ typedef struct CpsiGraspValues {
 typedef struct CpsiStageValues {
     const CpsiYaml *node;
     CpsStage stage;         /* gravity is NaN where not given */
+    int stiffness;          /* in the order of its words */
     CpsiList changes;       /* CpsiChangeValues */
     CpsiList point_changes; /* CpsiChangeValues, with the key POINT.point */
     CpsiList body_changes;  /* CpsiBodyChangeValues */
