@@ -13,6 +13,13 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->start_element, 3 * (n - 1));
     CPSI_PLACE(arena, line->position, 3 * n);
     CPSI_PLACE(arena, line->load, 3 * n);
+    if (line->has_node_loads) CPSI_PLACE(arena, line->field.load, 3 * n);
+    if (line->has_field) {
+        CPSI_PLACE(arena, line->field.stiffness, 6 * n);
+        CPSI_PLACE(arena, line->field.place, 3 * n);
+        CPSI_PLACE(arena, line->field.beside, 3 * n);
+        CPSI_PLACE(arena, line->field.program, 6 * n);
+    }
     CPSI_PLACE(arena, line->normal, 3 * contacts);
     CPSI_PLACE(arena, line->gap, contacts);
     if (line->has_zones) CPSI_PLACE(arena, line->friction_factor, n);
@@ -155,6 +162,7 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         const int on = cpsi_line_nearest(line, x, &gap);
         if (!(gap <= touch)) continue;
         Vec3 sum = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
+        sum = vec3_add(sum, cpsi_node_field_at(&line->field, j, x));
         if (j > 0) sum = vec3_sub(sum, start_force(line, j - 1));
         if (j + 1 < line->n) sum = vec3_add(sum, start_force(line, j));
         const double reaction = -vec3_dot(sum, cpsi_obstacle_normal(&line->obstacle[on], x));
@@ -166,7 +174,9 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
 
 Vec3 cpsi_line_start_pull(const CpsiLine *line, int end) {
     const int j = end == CPS_END_A ? 0 : line->n - 1;
-    const Vec3 weight = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
+    const Vec3 own = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
+    const Vec3 weight =
+        vec3_add(own, cpsi_node_field_at(&line->field, j, vec3_at(line->position, j)));
     return end == CPS_END_A ? vec3_add(weight, start_force(line, 0))
                             : vec3_sub(weight, start_force(line, j - 1));
 }

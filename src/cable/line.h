@@ -18,6 +18,7 @@
 #include "cable/anderson.h"
 #include "cable/friction_law.h"
 #include "cable/load_change.h"
+#include "cable/node_field.h"
 #include "capstan/step.h"
 #include "geometry/obstacle.h"
 
@@ -36,7 +37,8 @@ typedef struct CpsiLine {
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
     CpsiShift *shift;   /* (obstacle_count) how each has been shifted in it */
     bool has_zones;     /* friction differs along the line */
-    bool has_sections;  /* weight and compliance may, and there may be point masses */
+    bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
+    bool has_sections;              /* weight and compliance may, and there may be point masses */
     bool has_breaking_load, has_break_at; /* an element has one */
     bool has_local_axes;   /* each contact has its own axes at its position: not on a single plane
                               with isotropic friction */
@@ -74,10 +76,10 @@ typedef struct CpsiLine {
     double *reference;    /* (n, 3) [m] */
     double *position;     /* (n, 3) [m] */
     double start_end[3];  /* [m] of end A at the start of the history */
-    float *start_element; /* (n - 1, 3) [m] the elements there, as vectors to the next node; in half
-                             the memory */
+    float *start_element; /* (n - 1, 3) [m] the elements there, as vectors to the next node */
     double *load;         /* (n, 3) [N] */
-    double *normal;       /* (contacts, n, 3) */
+    CpsiNodeField field;
+    double *normal; /* (contacts, n, 3) */
     double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: the contact does
                     not enter the program */
     double *friction_factor;       /* (n) of the obstacles' coefficients; NULL: 1 */
@@ -93,15 +95,14 @@ typedef struct CpsiLine {
      * has_local_axes computed after the step, for views */
     double *slip;
     /* with has_local_axes, else NULL: the geometry of the contacts at `base` */
-    /* (contacts, n) [rad] angle by which the node has moved round the contact's obstacle in this
-     * step: on a cylinder the sum over the rounds, which may exceed a turn; on a ball the angle of
-     * the great circle */
+    /* (contacts, n) [rad] angle by which the node has moved round the obstacle in this step: on a
+     * cylinder the sum over the rounds, perhaps beyond a turn; on a ball that of the great circle
+     */
     double *winding;
-    double *base; /* (n, 3) [m] */
-    double *axes; /* (contacts, n, 9) rows first tangent, second tangent, normal */
-    double
-        *reference_axes; /* (contacts, n, 9) the same at the reference: those of frozen friction */
-    double *curvature;   /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
+    double *base;           /* (n, 3) [m] */
+    double *axes;           /* (contacts, n, 9) rows first tangent, second tangent, normal */
+    double *reference_axes; /* (contacts, n, 9) at the reference: those of frozen friction */
+    double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *obstacle_index; /* (contacts, n) the obstacle of each contact: the nearest and the next; of
                             an element the one with which it is in contact; -1: none */
     double *beta; /* (n) share of element e, from node e to e + 1, at which it touches; NULL without
@@ -119,8 +120,7 @@ typedef struct CpsiLine {
     bool keeps_tangents;       /* axes of isotropic friction, in which any tangents are as good, do
                                   not follow the line: their first tangent is along the line at the
                                   reference */
-    double *watched;       /* (2 n, 3) [m] positions from which the progress of rounds with drag is
-                              measured */
+    double *watched; /* (2 n, 3) [m] from which the progress of rounds with drag is measured */
     CpsiAnderson anderson; /* of the rounds of a step */
     /* where the line is inextensible, else NULL: its tensions and reactions before the step, and
      * scratch memory for the choice among those after it */

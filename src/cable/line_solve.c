@@ -8,6 +8,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/field.h"
 #include "cable/held.h"
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
@@ -34,6 +35,8 @@ void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
     for (int j = 0; j < line->n; j++)
         for (int a = 0; a < 3; a++)
             line->load[3 * j + a] = cpsi_line_weight_length(line, j) * line->weight[a];
+    if (line->field.load)
+        for (int i = 0; i < 3 * line->n; i++) line->load[i] += line->field.load[i];
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_KIND_FREE)
             for (int a = 0; a < 3; a++)
@@ -67,6 +70,21 @@ static double mean_strain(const CpsiLine *line, double tension) {
     return sum / line->length;
 }
 
+/* The size of the forces of the field; where there are no others, and none at the reference, what
+ * it would oppose to the moves of the held nodes. */
+static double field_scale(const CpsiLine *line, double others) {
+    double size = cpsi_line_field_size(line), stiffness = 0, most = 0;
+    if (size > 0 || others > 0) return size;
+    for (int j = 0; j < line->n; j++) {
+        const double *k = &line->field.stiffness[6 * j];
+        stiffness = fmax(stiffness, k[0] + k[2] + k[5]);
+        if (cpsi_line_is_held(line, j))
+            most = fmax(most, vec3_norm(vec3_sub(cpsi_line_held_place(line, j),
+                                                 vec3_at(line->reference, j))));
+    }
+    return stiffness * most;
+}
+
 /* A force of the size of the tension to come: the largest of the weight, the forces applied, and
  * for a span between held nodes the T of a shallow line, phi(T) - (W/T)^2/24 = distance/L - 1, with
  * the largest strain of a span, its length being longer by a factor. 0 if there is no force at
@@ -76,6 +94,7 @@ static double force_scale(const CpsiLine *line, double longer) {
     CpsiSpan span = {.to = 0};
     bool spans = false;
     for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
+    if (cpsi_line_has_field(line)) scale = fmax(scale, field_scale(line, scale));
     for (; cpsi_line_next_span(line, span.to, &span); spans = true)
         strain = fmax(strain, span.distance / longer / span.length - 1);
     if (!spans || (scale == 0 && strain <= 0)) return scale;
@@ -259,6 +278,8 @@ static double largest_force(const CpsiLine *line) {
     for (int e = 0; e + 1 < line->n; e++)
         most = fmax(most, vec3_norm(vec3_load(&line->segment_force[3 * e])));
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) most = fmax(most, line->reaction[c]);
+    for (int j = 0; cpsi_line_has_field(line) && j < line->n; j++)
+        most = fmax(most, vec3_norm(cpsi_line_field_force(line, j, vec3_at(line->position, j))));
     return most;
 }
 
@@ -296,6 +317,15 @@ static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
     return newton;
 }
 
+/* The sum of the loads in the unit of force, which energies are compared with: without what a stiff
+ * field has at the reference, far above what it has at the solution, unless there is no other. */
+static double given_loads(const CpsiLine *line, double loads, double unit) {
+    double sum = 0;
+    if (!cpsi_line_has_field(line)) return loads;
+    for (int i = 0; i < 3 * line->n; i++) sum += fabs(line->load[i]);
+    return sum > 0 ? sum / unit : loads;
+}
+
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                               const CpsiStepOptions *options, const CpsiRound *round) {
     const bool taut = cpsi_line_is_taut(line);
@@ -321,9 +351,10 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
     cpsi_step_program_fill(line, program, &scale);
     double loads = 0;
     for (int i = 0; i < 3 * line->n; i++) loads += fabs(program->base.load[i]);
+    const double given = given_loads(line, loads, scale.force);
     const CpsiIpmOptions ipm_options = {.target = line->is_rough ? ROUGH * options->solver.tolerance
                                                                  : CPSI_TARGET,
-                                        .scale = loads > 0 ? loads : 1,
+                                        .scale = given > 0 ? given : 1,
                                         .max_iterations = most_iterations(line, options),
                                         .centering_steps = refined ? CPSI_CENTERING_STEPS : 0,
                                         .sharpenings = refined ? CPSI_REFINEMENT_STEPS : 0};

@@ -9,6 +9,7 @@
 
 #include <string.h>
 
+#include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
 #include "chain/frame.h"
@@ -269,6 +270,24 @@ static void fill_points(const CpsiLine *line, CpsiChainProgram *program,
     if (any) cpsi_chain_program_use_points(program);
 }
 
+/* The field: K in the axes of the nodes, and its force at the base. */
+static void fill_field(const CpsiLine *line, CpsiChainProgram *program,
+                       const CpsiStepScale *scale) {
+    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5}, FROM[6] = {0, 1, 4, 2, 5, 8};
+    const double *base = base_of(line), by = scale->length / scale->force;
+    for (int j = 0; j < line->n; j++) {
+        double given[9], own[9], force[3], load[3];
+        const double *axes = node_axes(line, program, j);
+        for (int i = 0; i < 9; i++) given[i] = by * line->field.stiffness[6 * j + AT[i]];
+        cpsi_frame_turn(own, axes, given);
+        for (int i = 0; i < 6; i++) line->field.program[6 * j + i] = own[FROM[i]];
+        vec3_store(force, cpsi_line_field_force(line, j, vec3_at(base, j)));
+        cpsi_frame_to(load, axes, force);
+        for (int a = 0; a < 3; a++) program->base.load[3 * j + a] += load[a] / scale->force;
+    }
+    program->field = line->field.program;
+}
+
 /* A node's displacement in the axes of the chain. */
 static void in_common_axes(const CpsiChainProgram *program, int j, double out[3]) {
     if (program->frame)
@@ -315,6 +334,7 @@ void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program,
         for (int j = 0; j < line->n; j++) fill_axes(line, program, j);
     initial_guess(line, program, scale);
     fill_nodes(line, program, scale);
+    if (cpsi_line_has_field(line)) fill_field(line, program, scale);
     if (line->element_contacts > 0) fill_points(line, program, scale);
     fill_elements(line, program, scale);
 }

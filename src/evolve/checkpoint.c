@@ -25,7 +25,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '6'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '7'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -51,7 +51,7 @@ static void pass_flag(Tape *tape, bool *flag) {
 
 /* A field that is added to one of these structs has to be added to its function below as well. */
 #if UINTPTR_MAX == 0xffffffffffffffff
-_Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 6 * 8 &&
+_Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 7 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
                "add the new field to pass_energies or pass_end_report, then its size here");
 _Static_assert(sizeof(CpsEndReport) == 17 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
@@ -184,6 +184,12 @@ static void pass_line(Tape *tape, CpsiLine *line) {
         pass(tape, scalars[i], contacts * sizeof(double));
     pass(tape, line->segment_force, 3 * (n - 1) * sizeof(double));
     pass(tape, line->tension, (n - 1) * sizeof(double));
+    if (line->has_node_loads) pass(tape, line->field.load, 3 * n * sizeof(double));
+    if (line->has_field) {
+        pass(tape, line->field.stiffness, 6 * n * sizeof(double));
+        pass(tape, line->field.place, 3 * n * sizeof(double));
+        pass(tape, line->field.beside, 3 * n * sizeof(double));
+    }
     pass(tape, line->state, contacts * sizeof *line->state);
     if (line->obstacle_index)
         pass(tape, line->obstacle_index, contacts * sizeof *line->obstacle_index);
