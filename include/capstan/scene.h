@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/scene.h: lines, obstacles and loads, and the history of their changes.
- *
- * These are plain structs that the caller fills and the library copies; the caller may free them,
- * and all that they point to, after the call. Begin each one as cps_scene_default(),
- * cps_line_default(), cps_obstacle_default() or cps_stage_default(): a struct without their cookie
- * is refused. Ranges are checked by cps_scene_check, whose message names the member. S90 is Souza
- * de Cursi (1990), M77 Moreau (1977). */
+/* capstan/scene.h: lines, obstacles and loads, and the history of their changes. These are plain
+ * structs that the caller fills and the library copies; the caller may free them after the call,
+ * and all that they point to. Begin each one as cps_scene_default(), cps_line_default(),
+ * cps_obstacle_default() or cps_stage_default(): others are refused. Ranges are checked by
+ * cps_scene_check, whose message names the member. S90 is Souza de Cursi (1990), M77 Moreau (1977).
+ */
 #ifndef CAPSTAN_SCENE_H
 #define CAPSTAN_SCENE_H
 
 #include "capstan/body.h"
 #include "capstan/grasp.h"
 #include "capstan/ground.h"
+#include "capstan/motion.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
 #include "capstan/shift.h"
@@ -123,6 +123,7 @@ typedef struct CpsSection {
     const char *type; /* name of its make; may be NULL */
     double length;    /* [m] natural length > 0 */
     double weight;    /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double inertia;   /* [kg/m] >= 0, default 0, as of a line */
     double stiffness; /* [N] EA > 0, INFINITY: inextensible; finite in all sections or in none */
     /* (stiffness_row_count) in place of `stiffness`; default 0 and NULL */
     int stiffness_row_count;
@@ -137,6 +138,7 @@ typedef struct CpsSection {
 typedef struct CpsPointWeight {
     double arc_length; /* [m] natural, of a node between the ends */
     double weight;     /* [N] along gravity (submerged weight); negative: a buoy lifts the line */
+    double inertia;    /* [kg] >= 0, default 0: mass that moves with the node (motion.h) */
 } CpsPointWeight;
 
 /* A line that carries tension only. Node 0 is end A, node `element_count` is end B. */
@@ -146,8 +148,10 @@ typedef struct CpsLine {
     double length;                /* [m] natural length > 0 */
     int element_count;            /* >= 1 */
     const double *element_length; /* (element_count) [m], their sum is `length`; NULL: all equal */
-    double weight;           /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
-    double stiffness;        /* [N] EA > 0; INFINITY: inextensible */
+    double weight;      /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double inertia;     /* [kg/m] >= 0, default 0: mass per natural length that moves (motion.h) */
+    double velocity[3]; /* [m/s] of the free nodes as the history begins; default 0 0 0 */
+    double stiffness;   /* [N] EA > 0; INFINITY: inextensible */
     int stiffness_row_count; /* default 0; or of a table in place of `stiffness`, as of a section */
     const CpsStiffnessRow *stiffness_row;
     bool has_breaking_load; /* default false */
@@ -155,8 +159,7 @@ typedef struct CpsLine {
     bool has_break_at;      /* default false */
     double break_at;        /* [N] > 0, with the flag: above this tension it parts (failure.h) */
     /* (section_count) from A to B, each ending at a node; their lengths make up `length`. NULL, the
-     * default: the line is of one make, with the weight, stiffness, breaking load and break_at
-     * above, which are not read otherwise. */
+     * default: the line is of one make, with what is above, which is not read otherwise. */
     int section_count;
     const CpsSection *section;
     int point_weight_count;             /* >= 0, default 0 */
@@ -167,8 +170,7 @@ typedef struct CpsLine {
      * a node is the mean over the length that it stands for. */
     const CpsFrictionZone *zone;
     CpsStart start;
-    /* Default: A is held where the start places it, B is free without a force. The position of a
-     * held end must be that of the start. */
+    /* default: A is held where the start places it, which a position has to be; B is free */
     CpsEnd end[2];
     int end_point[2]; /* of ends at points: the index in the scene; default 0 */
 } CpsLine;
@@ -193,13 +195,16 @@ typedef struct CpsTurn {
 typedef struct CpsStage {
     uint32_t cookie; /* of cps_stage_default(); a stage made otherwise is refused */
     const char *name;
-    int step_count; /* >= 1 */
+    int step_count;  /* >= 1 */
+    double duration; /* [s] >= 0, default 0: quasi-static; else in time (motion.h) */
     int change_count;
     const CpsChange *change;
     int turn_count;
     const CpsTurn *turn;
     int shift_count; /* default 0 */
     const CpsShift *shift;
+    int sway_count;         /* default 0 */
+    const CpsSway *sway;    /* oscillations of ends that change, with a duration */
     int point_change_count; /* default 0 */
     const CpsPointChange *point_change;
     int body_change_count; /* default 0 */
@@ -273,6 +278,8 @@ typedef struct CpsScene {
     const CpsStage *stage;
     CpsFrictionPolicy friction_policy;
     CpsContactPolicy contact_policy;
+    CpsTimeScheme time_scheme; /* of stages and moves with a duration (motion.h) */
+    bool in_time;              /* default false: moves have a duration only where a stage has one */
     CpsSolverOptions solver;
 } CpsScene;
 

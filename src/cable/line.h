@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One line and its last step: the data that a step reads and the fields that it leaves. World axes,
- * SI units.
+/* One line and its last step: what a step reads and the fields that it leaves. World axes, SI.
  *
  * A node touches up to `contacts` obstacles at once. The data of contacts are in arrays (contacts,
  * n): contact c < n is the first contact of node c, contact n <= c < 2 n is the second contact of
@@ -17,6 +16,7 @@
 #include "base/element_law.h"
 #include "cable/anderson.h"
 #include "cable/friction_law.h"
+#include "cable/inertia.h"
 #include "cable/load_change.h"
 #include "cable/node_field.h"
 #include "capstan/step.h"
@@ -36,7 +36,7 @@ typedef struct CpsiLine {
                            or none; NULL: no obstacle has one */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
     CpsiShift *shift;   /* (obstacle_count) how each has been shifted in it */
-    bool has_zones;     /* friction differs along the line */
+    bool has_zones, has_inertia;    /* friction differs along it; it may move in time */
     bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
     bool has_sections;              /* weight and compliance may, and there may be point masses */
     bool has_breaking_load, has_break_at; /* an element has one */
@@ -55,13 +55,12 @@ typedef struct CpsiLine {
     /* of a line of sections or with point masses, else NULL */
     double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
     double *compliance_factor; /* (n - 1) compliance of element e over `compliance`, at T = 0 */
-    /* springs beside the elements (base/element_law.h), spring_at[e]..spring_at[e + 1] - 1 of e */
+    /* springs beside element e (base/element_law.h): spring_at[e]..spring_at[e + 1] - 1 */
     int spring_count;                /* 0: none, and the arrays are NULL */
     double spring_compliance;        /* [1/N] `compliance` as given, not as statics use it */
     int *spring_at, *spring_element; /* (n), (spring_count) */
     double *spring_start, *spring_stiffness; /* (spring_count) [-], [N] */
-    double *weight_length; /* (n) [m] natural length of `weight` that the node carries, with that
-                              of its point masses; negative where a buoy lifts it */
+    double *weight_length; /* (n) [m] of `weight` that the node carries, with its point masses */
     /* (line_solve.h) its part of a solution that the step is to take; NULL: it is solved alone */
     const struct CpsiJoined *joined;
     CpsEnd end_before[2]; /* imposed at the beginning of the substep */
@@ -130,6 +129,7 @@ typedef struct CpsiLine {
     struct CpsiForceSet *forces;
     bool exact; /* segments are taut and contacts stick only where positions show it to rounding:
                    otherwise the chosen forces could not be certified */
+    CpsiInertia inertia; /* with has_inertia */
     CpsLineReport report;
 } CpsiLine;
 

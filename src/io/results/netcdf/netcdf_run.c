@@ -141,6 +141,7 @@ typedef struct LineIds {
     int end_point;                                       /* unused without points */
     CpsiNetcdfGrasps grasps;
     CpsiNetcdfFailure failure;
+    CpsiNetcdfMotion motion;
 } LineIds;
 
 struct CpsiNetcdf {
@@ -155,6 +156,7 @@ struct CpsiNetcdf {
     CpsiNetcdfPoints points;
     CpsiNetcdfBodies bodies;
     CpsiNetcdfBreaks breaks;
+    CpsiNetcdfTime time;
     int line_count;
     LineIds *line;
 };
@@ -228,6 +230,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     cpsi_netcdf_define_points(&nc->file, &nc->points, scene, nc->step, nc->xyz);
     cpsi_netcdf_define_bodies(&nc->file, &nc->bodies, &nc->points, scene, nc->step, nc->xyz);
     cpsi_netcdf_define_breaks(&nc->file, &nc->breaks, scene, nc->step);
+    cpsi_netcdf_define_time(&nc->file, &nc->time, scene, nc->step);
 }
 
 /* "LINE_NAME" of a node's first contact, "LINE_NAME_second" of its second. */
@@ -566,6 +569,8 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         cpsi_netcdf_define_grasps(&nc->file, &nc->line[i].grasps, scene, i, nc->step, nc->xyz);
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
+        cpsi_netcdf_define_motion(&nc->file, &nc->time, &nc->line[i].motion, view.name,
+                                  (const int[]){nc->step, nc->line[i].node, nc->xyz});
     }
     if (nc->file.status == NC_NOERR)
         cpsi_netcdf_keep(&nc->file, nc->file.library._enddef(nc->file.id, 0, ALIGN, 0, PAGE));
@@ -579,6 +584,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         write_end_points(nc, &nc->line[i], &scene->line[i]);
         write_sections(nc, &nc->line[i], &view);
         cpsi_netcdf_write_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i);
+        cpsi_netcdf_write_motion(&nc->file, &nc->time, &nc->line[i].motion, evolution, i);
         if (nc->file.status == NC_NOERR)
             cpsi_netcdf_keep(&nc->file,
                              nc->file.library.put_var_double(nc->file.id, nc->line[i].compliance,
@@ -667,12 +673,15 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
     cpsi_netcdf_append_points(&nc->file, &nc->points, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_bodies(&nc->file, &nc->bodies, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_breaks(&nc->file, &nc->breaks, nc->steps, evolution);
+    cpsi_netcdf_append_time(&nc->file, &nc->time, nc->steps, evolution);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         write_line(nc, &nc->line[i], &view, &line);
         cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,
                                    evolution, i);
+        cpsi_netcdf_append_motion(&nc->file, &nc->time, &nc->line[i].motion, nc->steps, evolution,
+                                  i);
     }
     if (nc->file.status == NC_NOERR && nc->sync)
         cpsi_netcdf_keep(&nc->file, nc->file.library.sync(nc->file.id));
