@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "cable/two_stiffnesses.h"
 #include "evolve/failure.h"
 #include "evolve/state_check.h"
 
@@ -230,6 +231,13 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     pass_line_report(tape, &line->report);
 }
 
+static void pass_two_stiffnesses(Tape *tape, CpsiLine *line) {
+    if (!line->two.exists) return;
+    pass_flag(tape, &line->two.is_dynamic);
+    pass(tape, line->two.rest_strain, ((size_t)line->n - 1) * sizeof *line->two.rest_strain);
+    if (tape->in) cpsi_line_set_stiffness(line);
+}
+
 static void pass_point(Tape *tape, CpsiPoint *point) {
     CpsPointReport *report = &point->report;
     PASS(tape, point->kind);
@@ -329,6 +337,7 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
         pass(tape, evolution->line[i].start_element,
              3 * (size_t)(evolution->line[i].n - 1) * sizeof(float));
         PASS(tape, evolution->line[i].start_end);
+        pass_two_stiffnesses(tape, &evolution->line[i]);
     }
     for (int k = 0; k < evolution->obstacle_count; k++) pass_obstacle(tape, evolution, k);
     for (int i = 0; i < evolution->points.count; i++) pass_point(tape, &evolution->points.point[i]);
@@ -346,6 +355,13 @@ static void hash_bytes(uint64_t *hash, const void *data, size_t size) {
 
 static void hash_numbers(uint64_t *hash, size_t count, const double *number) {
     hash_bytes(hash, number, count * sizeof *number);
+}
+
+static void hash_elasticity(uint64_t *hash, const CpsiLine *line, const CpsiElasticity *own) {
+    hash_numbers(hash, (size_t)line->n - 1, own->compliance_factor);
+    hash_bytes(hash, own->spring_at, (size_t)line->n * sizeof *own->spring_at);
+    hash_numbers(hash, (size_t)own->spring_count, own->spring_start);
+    hash_numbers(hash, (size_t)own->spring_count, own->spring_stiffness);
 }
 
 static void hash_line(uint64_t *hash, const CpsiLine *line) {
@@ -369,6 +385,7 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, (size_t)line->spring_count, line->spring_start);
         hash_numbers(hash, (size_t)line->spring_count, line->spring_stiffness);
     }
+    if (line->two.exists) hash_elasticity(hash, line, &line->two.elasticity[CPSI_DYNAMIC]);
     if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
     if (line->has_break_at) hash_numbers(hash, (size_t)line->n - 1, line->break_at);
     if (line->has_inertia) {
@@ -386,6 +403,7 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     hash_bytes(hash, &stage->steps, sizeof stage->steps);
     const int gravity_changes = stage->gravity_changes;
     hash_bytes(hash, &gravity_changes, sizeof gravity_changes);
+    if (stage->static_stiffness) hash_bytes(hash, "static", 6);
     hash_numbers(hash, 3, stage->gravity);
     hash_numbers(hash, 1, &stage->duration);
     for (int i = 0; i < stage->change_count; i++) {
@@ -461,6 +479,13 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     hash_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
     hash_numbers(hash, 3,
                  (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
+    const CpsShape *shape = &obstacle->form;
+    const Vec3 side = obstacle->frame.axis[0];
+    if (cpsi_obstacle_is_rounded(obstacle))
+        hash_numbers(hash, 10,
+                     (const double[10]){shape->inside, shape->length, shape->main_radius,
+                                        shape->angle, shape->size[0], shape->size[1],
+                                        shape->size[2], side.x, side.y, side.z});
     hash_ground(hash, obstacle);
     if (!set) return;
     const CpsiConicSet *form = cpsi_friction_set_conic(set);

@@ -24,6 +24,7 @@ typedef struct CpsiEvolutionStage {
     CpsTurn *turn;
     CpsShift *shift;
     CpsSway *sway;
+    bool static_stiffness;
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */
     double duration;   /* [s] 0: quasi-static */
