@@ -122,10 +122,10 @@ static bool fill_motion(const OrientedLine *a) {
 }
 
 /* Does the straight path of the leading end stay clear of obstacle o, for the length of the line?
- * The distance from what is convex is convex along it; of the rest nothing is known. */
+ * The distance from a plane, cylinder or ball is convex along it; of the rest nothing is said. */
 static bool is_clear(const CpsiObstacle *o, Vec3 x, Vec3 t, double reach) {
     double nearest = reach;
-    if (!cpsi_obstacle_is_convex(o)) return false;
+    if (o->kind != CPS_OBSTACLE_PLANE && !cpsi_obstacle_is_round(o)) return false;
     if (cpsi_obstacle_gap(o, x) <= TOUCHING * reach)
         return vec3_dot(cpsi_obstacle_normal(o, x), t) > TOUCHING;
     if (o->kind !=

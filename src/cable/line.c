@@ -5,6 +5,18 @@
 #include "base/larger.h"
 #include "chain/frame.h"
 
+static void layout_inertia(CpsiInertia *inertia, CpsiArena *arena, size_t n) {
+    CPSI_PLACE(arena, inertia->mass, n);
+    CPSI_PLACE(arena, inertia->span, n);
+    CPSI_PLACE(arena, inertia->rest_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->start, 3 * n);
+    CPSI_PLACE(arena, inertia->start_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->before, 3 * n);
+    CPSI_PLACE(arena, inertia->before_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->restarts, n);
+}
+
 /* The arrays of both stiffnesses of a line of n nodes; spring_count of both is set. */
 static void layout_two_stiffnesses(CpsiTwoStiffnesses *two, CpsiArena *arena, int n) {
     CPSI_PLACE(arena, two->rest_strain, n);
@@ -31,6 +43,13 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->start_element, 3 * (n - 1));
     CPSI_PLACE(arena, line->position, 3 * n);
     CPSI_PLACE(arena, line->load, 3 * n);
+    if (line->has_node_loads) CPSI_PLACE(arena, line->field.load, 3 * n);
+    if (line->has_field) {
+        CPSI_PLACE(arena, line->field.stiffness, 6 * n);
+        CPSI_PLACE(arena, line->field.place, 3 * n);
+        CPSI_PLACE(arena, line->field.beside, 3 * n);
+        CPSI_PLACE(arena, line->field.program, 6 * n);
+    }
     CPSI_PLACE(arena, line->normal, 3 * contacts);
     CPSI_PLACE(arena, line->gap, contacts);
     if (line->has_zones) CPSI_PLACE(arena, line->friction_factor, n);
@@ -48,6 +67,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     }
     if (line->has_breaking_load) CPSI_PLACE(arena, line->breaking_load, n);
     if (line->has_break_at) CPSI_PLACE(arena, line->break_at, n);
+    if (line->has_inertia) layout_inertia(&line->inertia, arena, n);
     CPSI_PLACE(arena, line->friction_law, contacts);
     CPSI_PLACE(arena, line->friction_bound, contacts);
     CPSI_PLACE(arena, line->friction_force, 3 * contacts);
@@ -56,6 +76,8 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->tension, n);
     CPSI_PLACE(arena, line->motion, 3 * n);
     CPSI_PLACE(arena, line->state, contacts);
+    CPSI_PLACE(arena, line->active, contacts);
+    CPSI_PLACE(arena, line->at_bound, contacts);
     CPSI_PLACE(arena, line->slip, 3 * contacts);
     if (line->has_local_axes) {
         CPSI_PLACE(arena, line->winding, contacts);
@@ -64,8 +86,6 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->reference_axes, 9 * contacts);
         CPSI_PLACE(arena, line->curvature, 3 * contacts);
         CPSI_PLACE(arena, line->obstacle_index, contacts);
-        CPSI_PLACE(arena, line->active, contacts);
-        CPSI_PLACE(arena, line->at_bound, contacts);
         CPSI_PLACE(arena, line->node_reaction, n);
         CPSI_PLACE(arena, line->watched, 6 * n);
         cpsi_anderson_layout(&line->anderson, arena, line->n);
@@ -181,6 +201,7 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         const int on = cpsi_line_nearest(line, x, &gap);
         if (!(gap <= touch)) continue;
         Vec3 sum = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
+        sum = vec3_add(sum, cpsi_node_field_at(&line->field, j, x));
         if (j > 0) sum = vec3_sub(sum, start_force(line, j - 1));
         if (j + 1 < line->n) sum = vec3_add(sum, start_force(line, j));
         const double reaction = -vec3_dot(sum, cpsi_obstacle_normal(&line->obstacle[on], x));
@@ -192,7 +213,9 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
 
 Vec3 cpsi_line_start_pull(const CpsiLine *line, int end) {
     const int j = end == CPS_END_A ? 0 : line->n - 1;
-    const Vec3 weight = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
+    const Vec3 own = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
+    const Vec3 weight =
+        vec3_add(own, cpsi_node_field_at(&line->field, j, vec3_at(line->position, j)));
     return end == CPS_END_A ? vec3_add(weight, start_force(line, 0))
                             : vec3_sub(weight, start_force(line, j - 1));
 }

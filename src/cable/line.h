@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One line and its last step: the data that a step reads and the fields that it leaves. World axes,
- * SI units.
+/* One line and its last step: what a step reads and the fields that it leaves. World axes, SI.
  *
  * A node touches up to `contacts` obstacles at once. The data of contacts are in arrays (contacts,
  * n): contact c < n is the first contact of node c, contact n <= c < 2 n is the second contact of
@@ -18,7 +17,9 @@
 #include "cable/anderson.h"
 #include "cable/elasticity.h"
 #include "cable/friction_law.h"
+#include "cable/inertia.h"
 #include "cable/load_change.h"
+#include "cable/node_field.h"
 #include "capstan/step.h"
 #include "geometry/obstacle.h"
 
@@ -36,8 +37,9 @@ typedef struct CpsiLine {
                            or none; NULL: no obstacle has one */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
     CpsiShift *shift;   /* (obstacle_count) how each has been shifted in it */
-    bool has_zones;     /* friction differs along the line */
-    bool has_sections;  /* weight and compliance may, and there may be point masses */
+    bool has_zones, has_inertia;    /* friction differs along it; it may move in time */
+    bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
+    bool has_sections;              /* weight and compliance may, and there may be point masses */
     bool has_breaking_load, has_break_at; /* an element has one */
     bool has_local_axes;   /* each contact has its own axes at its position: not on a single plane
                               with isotropic friction */
@@ -61,8 +63,7 @@ typedef struct CpsiLine {
     CpsiTwoStiffnesses two;
     int *spring_at, *spring_element;         /* (n), (spring_count) */
     double *spring_start, *spring_stiffness; /* (spring_count) [-], [N] */
-    double *weight_length; /* (n) [m] natural length of `weight` that the node carries, with that
-                              of its point masses; negative where a buoy lifts it */
+    double *weight_length; /* (n) [m] of `weight` that the node carries, with its point masses */
     const struct CpsiJoined
         *joined;          /* (line_solve.h) its part of a solution to be taken; or NULL */
     CpsEnd end_before[2]; /* imposed at the beginning of the substep */
@@ -78,9 +79,9 @@ typedef struct CpsiLine {
     double start_end[3];  /* [m] of end A at the start of the history */
     float *start_element; /* (n - 1, 3) [m] the elements there, as vectors to the next node */
     double *load;         /* (n, 3) [N] */
-    double *normal;       /* (contacts, n, 3) */
-    double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: the contact does
-                    not enter the program */
+    CpsiNodeField field;
+    double *normal; /* (contacts, n, 3) */
+    double *gap;    /* (contacts, n) [m] n.u >= -gap from the reference; INFINITY: not looked for */
     double *friction_factor;       /* (n) of the obstacles' coefficients; NULL: 1 */
     CpsiFrictionLaw *friction_law; /* (contacts, n) of the obstacle that each contact is with */
     double *friction_bound;        /* (contacts, n) [N] with the larger coefficient */
@@ -93,25 +94,23 @@ typedef struct CpsiLine {
     /* (contacts, n, 3) [m] slip of the node on the obstacle in this step, tangential; without
      * has_local_axes computed after the step, for views */
     double *slip;
+    bool *active;   /* (contacts, n) the last solution's reaction, without unit, exceeds its gap */
+    bool *at_bound; /* (contacts, n) friction is at its bound in it (warm_step.h) */
     /* with has_local_axes, else NULL: the geometry of the contacts at `base` */
-    /* (contacts, n) [rad] angle by which the node has moved round the contact's obstacle in this
-     * step: on a cylinder the sum over the rounds, which may exceed a turn; on a ball the angle of
-     * the great circle */
+    /* (contacts, n) [rad] angle by which the node has moved round the obstacle in this step: on a
+     * cylinder the sum over the rounds, perhaps beyond a turn; on a ball that of the great circle
+     */
     double *winding;
-    double *base; /* (n, 3) [m] */
-    double *axes; /* (contacts, n, 9) rows first tangent, second tangent, normal */
-    double
-        *reference_axes; /* (contacts, n, 9) the same at the reference: those of frozen friction */
-    double *curvature;   /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
+    double *base;           /* (n, 3) [m] */
+    double *axes;           /* (contacts, n, 9) rows first tangent, second tangent, normal */
+    double *reference_axes; /* (contacts, n, 9) at the reference: those of frozen friction */
+    double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *obstacle_index; /* (contacts, n) the obstacle of each contact: the nearest and the next; of
                             an element the one with which it is in contact; -1: none */
     double *beta; /* (n) share of element e, from node e to e + 1, at which it touches; NULL without
                      such contacts */
-    double *node_reaction; /* (n) [N] sum of the reactions on the node and on its elements */
-    bool *active;   /* (contacts, n) the constraint is active in the last solution: the reaction
-                       exceeds the distance, both in units of the program */
-    bool is_rough;  /* the program was solved to a hundredth of the tolerance only */
-    bool *at_bound; /* (contacts, n) friction is at its bound in the last round (warm_step.h) */
+    double *node_reaction;     /* (n) [N] sum of the reactions on the node and on its elements */
+    bool is_rough;             /* the program was solved to a hundredth of the tolerance only */
     bool contact_everywhere;   /* contacts are detected everywhere, not only where the reference
                                   touches */
     bool keeps_reference_axes; /* friction is frozen with its bounds and axes at the reference while
@@ -120,8 +119,7 @@ typedef struct CpsiLine {
     bool keeps_tangents;       /* axes of isotropic friction, in which any tangents are as good, do
                                   not follow the line: their first tangent is along the line at the
                                   reference */
-    double *watched;       /* (2 n, 3) [m] positions from which the progress of rounds with drag is
-                              measured */
+    double *watched; /* (2 n, 3) [m] from which the progress of rounds with drag is measured */
     CpsiAnderson anderson; /* of the rounds of a step */
     /* where the line is inextensible, else NULL: its tensions and reactions before the step, and
      * scratch memory for the choice among those after it */
@@ -130,6 +128,7 @@ typedef struct CpsiLine {
     int *obstacle_index_before; /* (contacts, n) with has_local_axes, as obstacle_index */
     struct CpsiForceSet *forces;
     bool exact; /* segments are taut and contacts stick only where positions show it to rounding */
+    CpsiInertia inertia; /* with has_inertia */
     CpsLineReport report;
 } CpsiLine;
 

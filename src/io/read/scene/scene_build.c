@@ -373,6 +373,7 @@ static CpsStatus build_lines(Build *b, const CpsiList *lines) {
 static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsObstacle *obstacle) {
     CpsSet *set = NULL;
     *obstacle = values->obstacle;
+    cpsi_shape_build(values, obstacle);
     obstacle->has_friction_lateral = !isnan(obstacle->friction_lateral);
     if (!obstacle->has_friction_lateral) obstacle->friction_lateral = 0;
     obstacle->name = copy_text(b, values->node->key);
