@@ -15,6 +15,7 @@
 #include "capstan/point.h"
 #include "capstan/set.h"
 #include "capstan/shift.h"
+#include "capstan/winch.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -170,7 +171,8 @@ typedef struct CpsLine {
     /* Default: A is held where the start places it, B is free without a force. The position of a
      * held end must be that of the start. */
     CpsEnd end[2];
-    int end_point[2]; /* of ends at points: the index in the scene; default 0 */
+    int end_point[2];  /* of ends at points: the index in the scene; default 0 */
+    CpsWinch winch[2]; /* at ends A and B; default none */
 } CpsLine;
 
 /* A new imposed position or force of one end of one line, reached in equal increments over the
@@ -206,6 +208,8 @@ typedef struct CpsStage {
     const CpsBodyChange *body_change;
     int grasp_change_count; /* default 0 */
     const CpsGraspChange *grasp_change;
+    int pay_out_count; /* default 0 */
+    const CpsPayOut *pay_out;
     bool gravity_changes; /* default false: gravity stays as it is; needs a scene with a gravity */
     /* [m/s2] with the flag: the gravity at the end of the stage. The weight of a line changes with
      * it, in proportion to the scene's. */

@@ -16,6 +16,7 @@
 #include "base/arena.h"
 #include "base/element_law.h"
 #include "cable/anderson.h"
+#include "cable/drums.h"
 #include "cable/friction_law.h"
 #include "cable/load_change.h"
 #include "capstan/step.h"
@@ -38,17 +39,17 @@ typedef struct CpsiLine {
     bool has_zones;     /* friction differs along the line */
     bool has_sections;  /* weight and compliance may, and there may be point masses */
     bool has_breaking_load, has_break_at; /* an element has one */
-    bool has_local_axes;   /* each contact has its own axes at its position: not on a single plane
-                              with isotropic friction */
-    int contacts;          /* of a node: 2 where there is more than one obstacle, else 1 */
-    int element_contacts;  /* of an element: 1 where there is a round obstacle, or a third, else 0;
-                              the arrays (contacts, n) have as many more rows */
-    double common_axes[9]; /* axes of the whole line: those of the one plane, or of the world */
-    CpsEnd end[2];         /* imposed now */
-    /* the end is held at a point of the scene, which bears what obstacles do to its half element */
-    bool is_at_point[2];
-    double *arc_length;               /* (n) [m] */
-    double *element_length;           /* (n - 1) [m] element e joins nodes e and e + 1 */
+    bool has_local_axes;    /* each contact has its own axes at its position: not on a single plane
+                               with isotropic friction */
+    int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
+    int element_contacts;   /* of an element: 1 where there is a round obstacle, or a third, else 0;
+                               the arrays (contacts, n) have as many more rows */
+    double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
+    CpsEnd end[2];          /* imposed now */
+    CpsiDrums drums;        /* what is on winches at the ends */
+    bool is_at_point[2];    /* held at a point, which bears what obstacles do to the half element */
+    double *arc_length;     /* (n) [m] */
+    double *element_length; /* (n - 1) [m] element e joins nodes e and e + 1 */
     double *breaking_load, *break_at; /* (n - 1) [N] INFINITY: none; NULL: none anywhere */
     /* of a line of sections or with point masses, else NULL */
     double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
@@ -67,15 +68,13 @@ typedef struct CpsiLine {
     CpsGrasp grasp[CPS_MAX_GRASPS]; /* nodes between the ends that are held or pulled, in order */
     CpsEnd grasp_before[CPS_MAX_GRASPS]; /* imposed on them at the beginning of the substep */
     CpsEnd grasp_from[CPS_MAX_GRASPS];   /* ... and of the stage */
-    /* in the last substep; known where position - reference is its move */
-    CpsiLoadChange last_change;
+    CpsiLoadChange last_change;          /* known where position - reference is its move */
     CpsiNewtonRecord newton;
     /* the step */
     double *reference;    /* (n, 3) [m] */
     double *position;     /* (n, 3) [m] */
     double start_end[3];  /* [m] of end A at the start of the history */
-    float *start_element; /* (n - 1, 3) [m] the elements there, as vectors to the next node; in half
-                             the memory */
+    float *start_element; /* (n - 1, 3) [m] the elements there, as vectors to the next node */
     double *load;         /* (n, 3) [N] */
     double *normal;       /* (contacts, n, 3) */
     double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: the contact does
@@ -104,20 +103,15 @@ typedef struct CpsiLine {
     double *curvature;   /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *obstacle_index; /* (contacts, n) the obstacle of each contact: the nearest and the next; of
                             an element the one with which it is in contact; -1: none */
-    double *beta; /* (n) share of element e, from node e to e + 1, at which it touches; NULL without
-                     such contacts */
+    double *beta; /* (n) share of element e at which it touches; NULL without such contacts */
     double *node_reaction; /* (n) [N] sum of the reactions on the node and on its elements */
-    bool *active;   /* (contacts, n) the constraint is active in the last solution: the reaction
-                       exceeds the distance, both in units of the program */
+    bool *active;   /* (contacts, n) in the last solution the reaction exceeds the distance */
     bool is_rough;  /* the program was solved to a hundredth of the tolerance only */
     bool *at_bound; /* (contacts, n) friction is at its bound in the last round (warm_step.h) */
-    bool contact_everywhere;   /* contacts are detected everywhere, not only where the reference
-                                  touches */
+    bool contact_everywhere;   /* contacts are not only detected where the reference touches */
     bool keeps_reference_axes; /* friction is frozen with its bounds and axes at the reference while
-                                  contacts are detected at the present positions; false on one plane
-                                  and where contact is that of the reference */
-    bool keeps_tangents;       /* axes of isotropic friction, in which any tangents are as good, do
-                                  not follow the line: their first tangent is along the line at the
+                                  contacts are detected where the line is; not on one plane */
+    bool keeps_tangents;       /* the first tangents of isotropic friction are along the line at the
                                   reference */
     double *watched;       /* (2 n, 3) [m] positions from which the progress of rounds with drag is
                               measured */
@@ -128,8 +122,7 @@ typedef struct CpsiLine {
     double *reaction_before;    /* (contacts, n) [N] */
     int *obstacle_index_before; /* (contacts, n) with has_local_axes, as obstacle_index */
     struct CpsiForceSet *forces;
-    bool exact; /* segments are taut and contacts stick only where positions show it to rounding:
-                   otherwise the chosen forces could not be certified */
+    bool exact; /* segments are taut and contacts stick only where positions show it to rounding */
     CpsLineReport report;
 } CpsiLine;
 
@@ -140,10 +133,15 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 /* Fill the arc length from element_length. */
 void cpsi_line_set_arc_length(CpsiLine *line);
 
+/* The node of an end: the last one on the drum of a winch, at which the line leaves it. */
+static inline int cpsi_line_end_node(const CpsiLine *line, int end) {
+    return end == CPS_END_A ? line->drums.nodes[0] : line->n - 1 - line->drums.nodes[1];
+}
+
 /* [m] Natural length that node j represents: half of its elements. */
 static inline double cpsi_line_share(const CpsiLine *line, int j) {
-    const double before = j > 0 ? line->element_length[j - 1] : 0;
-    const double after = j + 1 < line->n ? line->element_length[j] : 0;
+    const double before = j > line->drums.nodes[0] ? line->element_length[j - 1] : 0;
+    const double after = j < cpsi_line_end_node(line, 1) ? line->element_length[j] : 0;
     return 0.5 * (before + after);
 }
 
@@ -160,8 +158,10 @@ static inline Vec3 cpsi_line_weight(const CpsiLine *line, int e) {
 static inline Vec3 cpsi_line_weight_at(const CpsiLine *line, int j) {
     if (!line->weight_factor) return vec3_load(line->weight);
     double sum = 0;
-    if (j > 0) sum += 0.5 * line->element_length[j - 1] * line->weight_factor[j - 1];
-    if (j + 1 < line->n) sum += 0.5 * line->element_length[j] * line->weight_factor[j];
+    if (j > line->drums.nodes[0])
+        sum += 0.5 * line->element_length[j - 1] * line->weight_factor[j - 1];
+    if (j < cpsi_line_end_node(line, 1))
+        sum += 0.5 * line->element_length[j] * line->weight_factor[j];
     return vec3_scale(sum / cpsi_line_share(line, j), vec3_load(line->weight));
 }
 
@@ -225,8 +225,8 @@ bool cpsi_line_grasp_holds(const CpsiLine *line, int j);
 
 /* Is node j held, as an end or by a grasp? */
 static inline bool cpsi_line_is_held(const CpsiLine *line, int j) {
-    return (j == 0 && line->end[CPS_END_A].kind == CPS_END_KIND_HELD) ||
-           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_KIND_HELD) ||
+    return (j <= line->drums.nodes[0] && line->end[CPS_END_A].kind == CPS_END_KIND_HELD) ||
+           (j >= cpsi_line_end_node(line, 1) && line->end[CPS_END_B].kind == CPS_END_KIND_HELD) ||
            (line->grasp_count > 0 && cpsi_line_grasp_holds(line, j));
 }
 

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "cable/winch.h"
 #include "evolve/failure.h"
 #include "evolve/state_check.h"
 
@@ -25,7 +26,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '6'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '7'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -51,7 +52,7 @@ static void pass_flag(Tape *tape, bool *flag) {
 
 /* A field that is added to one of these structs has to be added to its function below as well. */
 #if UINTPTR_MAX == 0xffffffffffffffff
-_Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 6 * 8 &&
+_Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 7 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
                "add the new field to pass_energies or pass_end_report, then its size here");
 _Static_assert(sizeof(CpsEndReport) == 17 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
@@ -100,6 +101,7 @@ static void pass_load_change(Tape *tape, CpsiLoadChange *change) {
     PASS(tape, change->end);
     PASS(tape, change->weight);
     PASS(tape, change->turn);
+    pass_flag(tape, &change->winds);
 }
 
 static void pass_end_report(Tape *tape, CpsEndReport *end) {
@@ -202,6 +204,11 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     PASS(tape, line->newton.failures);
     PASS(tape, line->newton.pause);
     pass_flag(tape, &line->newton.useful);
+    if (cpsi_line_has_winch(line)) {
+        double stored[2] = {line->drums.stored[CPS_END_A], line->drums.stored[CPS_END_B]};
+        PASS(tape, stored);
+        if (tape->in) cpsi_winch_set(line, stored);
+    }
     pass_line_report(tape, &line->report);
 }
 
@@ -341,6 +348,12 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, (size_t)line->spring_count, line->spring_start);
         hash_numbers(hash, (size_t)line->spring_count, line->spring_stiffness);
     }
+    if (cpsi_line_has_winch(line)) {
+        const int on[2] = {line->drums.on[CPS_END_A], line->drums.on[CPS_END_B]};
+        hash_bytes(hash, on, sizeof on);
+        hash_numbers(hash, 2, line->drums.stored);
+        hash_numbers(hash, (size_t)line->n - 1, line->drums.length);
+    }
     if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
     if (line->has_break_at) hash_numbers(hash, (size_t)line->n - 1, line->break_at);
     for (int end = 0; end < 2; end++) {
@@ -387,6 +400,11 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
         hash_numbers(hash, 3, stage->shift[i].by);
         hash_numbers(hash, 3, stage->shift[i].turn);
         hash_numbers(hash, 3, stage->shift[i].about);
+    }
+    for (int i = 0; i < stage->pay_out_count; i++) {
+        const int what[2] = {stage->pay_out[i].line, stage->pay_out[i].end};
+        hash_bytes(hash, what, sizeof what);
+        hash_numbers(hash, 1, &stage->pay_out[i].length);
     }
     for (int i = 0; i < stage->turn_count; i++) {
         hash_bytes(hash, &stage->turn[i].obstacle, sizeof stage->turn[i].obstacle);

@@ -14,6 +14,7 @@
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
 #include "evolve/water.h"
+#include "evolve/winches.h"
 
 enum { STAGE_COOKIE = 0x57a9e004 };
 
@@ -145,5 +146,6 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
         status = check_change(scene, stage, i, what, err);
     if (status == CPS_OK) status = cpsi_point_changes_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_grasp_changes_check(scene, stage, what, err);
+    if (status == CPS_OK) status = cpsi_pay_outs_check(scene, stage, what, err);
     return status == CPS_OK ? cpsi_body_changes_check(scene, stage, what, err) : status;
 }

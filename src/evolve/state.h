@@ -16,13 +16,14 @@ enum { CPSI_STEP_NAME = 96, CPSI_GRASP_CHANGES = 2 * CPS_MAX_GRASPS };
 typedef struct CpsiEvolutionStage {
     const char *name;
     int steps, change_count, point_change_count, body_change_count, grasp_change_count, turn_count,
-        shift_count;
+        shift_count, pay_out_count;
     CpsChange *change;
     CpsGraspChange *grasp_change;
     CpsPointChange *point_change;
     CpsBodyChange *body_change;
     CpsTurn *turn;
     CpsShift *shift;
+    CpsPayOut *pay_out;
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */
     uint64_t hash;     /* of this stage and all before it */

@@ -20,7 +20,8 @@ typedef struct CpsiLineRow {
     CpsLineReport report;
     bool held[2];           /* whether the position of this end, or of its point, was imposed */
     CpsLineFailure failure; /* without its array */
-    double open_reaction;   /* [N] largest reaction on a node without contact */
+    CpsWinchReport winch[2];
+    double open_reaction; /* [N] largest reaction on a node without contact */
 } CpsiLineRow;
 
 typedef struct CpsiBodyRow {
@@ -107,6 +108,7 @@ struct CpsResults {
     CpsiStage *stage;
     int planned_steps;  /* with the breaks so far */
     bool lets_go;       /* cpsi_lets_go */
+    bool winds;         /* a line has a winch */
     bool begins_static; /* the first step places lines by statics */
 
     int row_count, row_capacity;
@@ -123,6 +125,8 @@ bool cpsi_results_pictured(const CpsResults *results, int step);
 /* Whether ends of the scene's lines may be let go: its history does, or lines may part. Only then
  * do results say which ends were. */
 bool cpsi_lets_go(const CpsScene *scene);
+/* Whether a line has a winch. Only then do results say what winches do. */
+bool cpsi_has_winch(const CpsLine *line);
 /* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
 int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
 

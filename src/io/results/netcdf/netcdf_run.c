@@ -140,6 +140,7 @@ typedef struct LineIds {
     int breaking_load;                                   /* the same */
     int end_point;                                       /* unused without points */
     CpsiNetcdfGrasps grasps;
+    CpsiNetcdfWinches winches;
     CpsiNetcdfFailure failure;
 } LineIds;
 
@@ -307,6 +308,7 @@ static void define_sections(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *vie
         cpsi_netcdf_variable(&nc->file, view->name, "compliance_factor", NC_DOUBLE, 1,
                              &ids->element,
                              "1/EA of the element over the compliance, which is the mean", "1");
+    if (ids->winches.is_there) return; /* it has one in every step */
     ids->weight_length = cpsi_netcdf_variable(
         &nc->file, view->name, "weight_length", NC_DOUBLE, 1, &ids->node,
         "natural length of mean weight that the node carries, negative: it is lifted", "m");
@@ -427,6 +429,8 @@ static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *
         const size_t along = (size_t)view->element_count + (field->place == CPSI_PLACE_NODE);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
         const double *array = in_view(view, field);
+        if (ids->winches.is_there && array == view->element_length)
+            array = ids->winches.whole_length;
         for (int c = 0; c < (field->contact ? ids->contacts : 1);
              ++c, array += along * (field->vector ? XYZ : 1))
             cpsi_netcdf_doubles(&nc->file, ids->field[f][c], start + fixed, count + fixed, array);
@@ -526,7 +530,8 @@ static void write_sections(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView
     if (view->uniform) return;
     cpsi_netcdf_doubles(&nc->file, ids->compliance_factor, &first, &elements,
                         view->compliance_factor);
-    cpsi_netcdf_doubles(&nc->file, ids->weight_length, &first, &nodes, view->weight_length);
+    if (!ids->winches.is_there)
+        cpsi_netcdf_doubles(&nc->file, ids->weight_length, &first, &nodes, view->weight_length);
 }
 
 /* Make the file. libnetcdf strips blanks at the beginning of a path and takes one with "://" for an
@@ -560,10 +565,14 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
     if (nc->open) define_run(nc, scene, first.origin, names);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
+        nc->line[i].winches.is_there = cpsi_has_winch(&scene->line[i]);
         define_line(nc, &nc->line[i], &view);
         define_zones(nc, &nc->line[i], &scene->line[i]);
         define_end_points(nc, &nc->line[i], &scene->line[i]);
         cpsi_netcdf_define_grasps(&nc->file, &nc->line[i].grasps, scene, i, nc->step, nc->xyz);
+        cpsi_netcdf_define_winches(&nc->file, &nc->line[i].winches, &scene->line[i],
+                                   (const int[]){nc->step, nc->end, nc->line[i].node,
+                                                 nc->line[i].element});
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
     }
@@ -574,6 +583,10 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
     cpsi_netcdf_write_bodies(&nc->file, &nc->bodies, scene, first.origin);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
+        for (int e = 0; e < ENDS; ++e) {
+            const double *whole = cps_evolution_winch_report(evolution, i, e).length;
+            if (whole) nc->line[i].winches.whole_length = whole;
+        }
         write_fields(nc, &nc->line[i], &view, true);
         write_zones(nc, &nc->line[i], &scene->line[i]);
         write_end_points(nc, &nc->line[i], &scene->line[i]);
@@ -671,6 +684,7 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         write_line(nc, &nc->line[i], &view, &line);
+        cpsi_netcdf_append_winches(&nc->file, &nc->line[i].winches, nc->steps, evolution, i);
         cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,
                                    evolution, i);
     }
