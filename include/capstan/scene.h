@@ -10,10 +10,12 @@
 #define CAPSTAN_SCENE_H
 
 #include "capstan/body.h"
+#include "capstan/elasticity.h"
 #include "capstan/grasp.h"
 #include "capstan/ground.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
+#include "capstan/shape.h"
 #include "capstan/shift.h"
 #include "capstan/winch.h"
 
@@ -26,7 +28,11 @@ typedef enum CpsObstacleKind {
     CPS_OBSTACLE_CYLINDER, /* a solid cylinder of infinite length: a bollard, a pipe, a drum */
     CPS_OBSTACLE_SPHERE,   /* a solid ball */
     CPS_OBSTACLE_GROUND,   /* what lies below the points of a grid */
-    CPS_OBSTACLE_SURFACE   /* where a function is negative */
+    CPS_OBSTACLE_SURFACE,  /* where a function is negative */
+    CPS_OBSTACLE_CAPSULE,  /* a cylinder with round ends: a bollard, a tank (shape.h) */
+    CPS_OBSTACLE_TORUS,    /* a ring: a shackle, a bent tube */
+    CPS_OBSTACLE_CONE,     /* a cone with a round tip, without end */
+    CPS_OBSTACLE_BOX       /* a box with round edges: a quay, a slab */
 } CpsObstacleKind;
 
 /* The set of friction forces F that two coefficients describe, at the reaction R. By M77 section 4
@@ -42,14 +48,16 @@ typedef struct CpsObstacle {
     uint32_t cookie;
     const char *name;
     CpsObstacleKind kind; /* default plane */
-    /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, or the origin
-     * of a ground or surface; default 0 0 0 */
+    /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, capsule, torus
+     * or box, the tip of the cone, or the origin of a ground or surface; default 0 0 0 */
     double point[3];
     double normal[3]; /* [-] of a plane, of any length but 0; default 0 0 1 */
-    /* [-] of a cylinder, and axis of rotation of cylinder and sphere; of any length but 0; default
-     * 0 1 0 */
+    /* [-] axis of rotation of cylinder, sphere, capsule, torus and cone, which leads from its tip
+     * into it; of any length but 0; default 0 1 0 */
     double axis[3];
-    double radius; /* [m] of cylinder and sphere, > 0 */
+    double radius;  /* [m] > 0 of cylinder, sphere and capsule, the tube of a torus, the tip of a
+                       cone, the edges of a box */
+    CpsShape shape; /* what else these have */
     /* ground and surface stay in their place. What an evolution needs of a ground it retains. */
     const CpsGround *ground; /* of a ground */
     CpsSurface surface;      /* of a surface */
@@ -70,7 +78,6 @@ typedef struct CpsObstacle {
      * reached. A turn about its own axis needs no flag. Default false */
     bool moves;
 } CpsObstacle;
-
 enum { CPS_END_A = 0, CPS_END_B = 1 };
 
 typedef enum CpsStartKind {
@@ -110,15 +117,6 @@ typedef struct CpsFrictionZone {
     double factor;   /* [-] >= 0, multiplies the friction of every obstacle that it touches */
 } CpsFrictionZone;
 
-/* A row of a table of strain and tension; a table has 2 to CPS_MAX_STIFFNESS_ROWS of them. The
- * first is 0, 0; strains and tensions rise, with slopes that do not fall. Beyond the last row its
- * slope goes on. */
-enum { CPS_MAX_STIFFNESS_ROWS = 100 };
-typedef struct CpsStiffnessRow {
-    double strain;  /* [-] */
-    double tension; /* [N] */
-} CpsStiffnessRow;
-
 /* A stretch of a line of one make: chain, wire, fibre rope. */
 typedef struct CpsSection {
     const char *type; /* name of its make; may be NULL */
@@ -128,6 +126,8 @@ typedef struct CpsSection {
     /* (stiffness_row_count) in place of `stiffness`; default 0 and NULL */
     int stiffness_row_count;
     const CpsStiffnessRow *stiffness_row;
+    bool has_dynamic_stiffness; /* default false: `stiffness` is the only one */
+    CpsDynamicStiffness dynamic_stiffness;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
     bool has_break_at;      /* default false */
@@ -151,6 +151,8 @@ typedef struct CpsLine {
     double stiffness;        /* [N] EA > 0; INFINITY: inextensible */
     int stiffness_row_count; /* default 0; or of a table in place of `stiffness`, as of a section */
     const CpsStiffnessRow *stiffness_row;
+    bool has_dynamic_stiffness; /* default false; as of a section */
+    CpsDynamicStiffness dynamic_stiffness;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
     bool has_break_at;      /* default false */
@@ -164,12 +166,10 @@ typedef struct CpsLine {
     const CpsPointWeight *point_weight; /* (point_weight_count) in order from A to B; several may be
                                            at one node */
     int zone_count;                     /* >= 0, default 0 */
-    /* (zone_count) in order from A to B, without overlap; elsewhere the factor is 1. The factor at
-     * a node is the mean over the length that it stands for. */
+    /* (zone_count) in order from A to B, without overlap; 1 elsewhere, at a node the mean */
     const CpsFrictionZone *zone;
     CpsStart start;
-    /* Default: A is held where the start places it, B is free without a force. The position of a
-     * held end must be that of the start. */
+    /* default: A is held where the start places it, as held ends must be, B free without force */
     CpsEnd end[2];
     int end_point[2];  /* of ends at points: the index in the scene; default 0 */
     CpsWinch winch[2]; /* at ends A and B; default none */
@@ -185,7 +185,7 @@ typedef struct CpsChange {
     CpsEnd to;
 } CpsChange;
 
-/* A rotation of a cylinder or sphere about its axis; what sticks to it moves with it. */
+/* A rotation about the axis of a cylinder .. cone; what sticks to it moves with it. */
 typedef struct CpsTurn {
     int obstacle; /* index in the scene */
     double angle; /* [rad] of the rotation in this stage, by the right-hand rule */
@@ -196,6 +196,9 @@ typedef struct CpsStage {
     uint32_t cookie; /* of cps_stage_default(); a stage made otherwise is refused */
     const char *name;
     int step_count; /* >= 1 */
+    /* lines stretch by their static stiffness; default false: those that have a dynamic one by it,
+     * about what was reached before (elasticity.h) */
+    bool static_stiffness;
     int change_count;
     const CpsChange *change;
     int turn_count;

@@ -149,13 +149,14 @@ typedef struct CpsBend {
     int obstacle;      /* index in the scene */
 } CpsBend;
 
-/* Energy of a step [J]: ends + obstacles + winches = elastic + gravity + dissipated + imbalance. */
+/* Energy [J]: ends + obstacles + winches + loads = elastic + gravity + dissipated + imbalance. */
 typedef struct CpsLedger {
     double elastic;    /* increase of the elastic energy */
     double gravity;    /* increase of the potential energy of the weight */
     double ends;       /* work of the end forces: mean of before and after, times displacement */
     double obstacles;  /* work of obstacles that turn or are shifted */
-    double winches;    /* work of winches (winch.h): pull times length hauled in */
+    double winches;    /* work of winches (winch.h) */
+    double loads;      /* work of what acts on the nodes beside their weight */
     double dissipated; /* by friction, >= 0 */
     double imbalance;  /* of first order in the load step; large and positive in a jump */
 } CpsLedger;
@@ -203,7 +204,7 @@ typedef struct CpsLineReport {
     double proof_force;
     bool has_proof_obstacle, has_proof_plane; /* infeasible: not reached round, or caught */
     int proof_obstacle, proof_plane;          /* between the two; passes: the one passed */
-    /* [N] unbounded with frozen friction: what Coulomb's law allows if that is enough, else 0 */
+    /* [N] unbounded with frozen friction: what Coulomb's law allows, if that is enough; else 0 */
     double coulomb;
 } CpsLineReport;
 
@@ -237,7 +238,7 @@ typedef struct CpsLineView {
     int contact_count;        /* of a node: 2 where the scene has more than one obstacle, else 1 */
     bool one_plane;           /* no node is grasped or on a drum; one isotropic plane or none */
     const double *arc_length; /* (n) [m] natural, of the nodes from end A, drums included */
-    const double *element_length; /* (element_count) [m] in this step; of one on a drum the whole */
+    const double *element_length; /* (element_count) [m]; on a drum the whole */
     double compliance; /* [1/N] 1/EA at T = 0, of sections the mean; 0 of an inextensible line */
     bool uniform;      /* without sections and point weights */
     const double *compliance_factor; /* (element_count) [-] of `compliance`; 1 where uniform */
@@ -293,7 +294,6 @@ typedef struct CpsLineView {
 
 /* A node no farther from an obstacle than this share of its line's length touches it. */
 #define CPS_TOUCH 1e-9
-
 #ifdef __cplusplus
 }
 #endif

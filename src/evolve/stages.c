@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cable/two_stiffnesses.h"
 #include "evolve/failure.h"
 #include "evolve/grasps.h"
 #include "evolve/path_check.h"
@@ -63,6 +64,7 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
     stage->pay_out_count = from->pay_out_count;
     for (int k = 0; k < from->pay_out_count; k++) stage->pay_out[k] = from->pay_out[k];
+    stage->static_stiffness = from->static_stiffness;
     stage->gravity_changes = from->gravity_changes;
     memcpy(stage->gravity, from->gravity, sizeof stage->gravity);
 }
@@ -263,6 +265,8 @@ static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage
 }
 
 void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+    for (int i = 0; i < evolution->line_count; i++)
+        cpsi_line_use_stiffness(&evolution->line[i], !stage->static_stiffness);
     if (part == 0) memcpy(evolution->gravity_from, evolution->gravity, sizeof evolution->gravity);
     plan_weights(evolution, stage, part);
     for (int i = 0; i < evolution->line_count; i++)

@@ -24,6 +24,7 @@ typedef struct CpsiEvolutionStage {
     CpsTurn *turn;
     CpsShift *shift;
     CpsPayOut *pay_out;
+    bool static_stiffness;
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */
     uint64_t hash;     /* of this stage and all before it */

@@ -54,6 +54,12 @@ static CpsStatus check_winch(const CpsLine *line, int end, CpsError *err) {
                             "line '%s': ends: a line with a winch has no break_at: give it a "
                             "breaking_load, which is only reported",
                             line->name);
+    if (cpsi_has_dynamic_stiffness(line))
+        return CPSI_FAIL_AT(
+            place, err, CPS_ERR_ARGUMENT,
+            "line '%s': ends: a line with a winch has no dynamic stiffness: give it "
+            "one stiffness",
+            line->name);
     return CPS_OK;
 }
 

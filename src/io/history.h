@@ -10,6 +10,7 @@
 #include <locale.h>
 #include <stdbool.h>
 
+#include "base/vec3.h"
 #include "capstan/failure.h"
 #include "capstan/results.h"
 #include "io/base/directory/write_directory.h"
@@ -34,6 +35,7 @@ typedef struct CpsiBodyRow {
 /* An obstacle after a step. */
 typedef struct CpsiObstacleRow {
     double point[3], axis[3]; /* [m] relative to the origin of the views; [-] normal or axis */
+    double rotation[4];       /* of a box, since the start */
     double turn, turned;      /* [rad] about its own axis in the step, and since the start */
     bool moved;               /* in the step */
 } CpsiObstacleRow;
@@ -140,6 +142,12 @@ bool cpsi_results_moves(const CpsResults *results, int step, int obstacle);
 /* The places of all after the last step of the evolution, which follows the last row. */
 void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution,
                         CpsiObstacleRow *out);
+
+/* The surface of a capsule, torus, cone or box as (rows + 1) x (columns + 1) points; 0 rows of
+ * other kinds. A cone ends at the distance `end` [m] from its tip. It has turned about its axis by
+ * `turned` [rad]. */
+void cpsi_shape_grid(const CpsObstacle *obstacle, int *rows, int *columns);
+Vec3 cpsi_shape_point(const CpsObstacle *obstacle, double end, double turned, int row, int column);
 
 /* The point in words: held, free, stick, slip, on_body; and how large a force nothing balances
  * there [N]. */

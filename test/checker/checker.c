@@ -8,6 +8,7 @@
 
 #include "bodies.h"
 #include "caught.h"
+#include "elongation.h"
 #include "ends.h"
 #include "failure.h"
 #include "grasps.h"
@@ -568,7 +569,14 @@ static void check_work(const Record *r, const Record *before, const Source *sour
     const Measures m = measure_where(source, r, step);
     if (m.missing) return;
     const double said = r->ledger[LEDGER_ENDS];
-    same(findings, "ledger_ends", said, nearest_work(r, before, said),
+    Record as_if = *before; /* forces that another stiffness has changed are those after it */
+    for (int e = 0; e < 2 && elongation_jumps(r, before); e++)
+        if (r->end_kind[e] == END_HELD)
+            for (int k = 0; k < 3; k++) {
+                as_if.end_force[e][k] = r->end_force[e][k];
+                as_if.end_friction_force[e][k] = r->end_friction_force[e][k];
+            }
+    same(findings, "ledger_ends", said, nearest_work(r, &as_if, said),
          ENERGY_FLOOR * m.scale + 1e-13 * m.largest_force * m.reach);
 }
 
@@ -619,8 +627,7 @@ static void check_element_bound(const Record *r, const Record *before, size_t c,
     double noise = r->factor_noise
                        ? fmax(r->factor_noise[i], r->factor_noise[i + 1]) * R * fmax(1, r->mu[c])
                        : 0;
-    // rounds leave the point where they found it to 1e-10 of the element, the factor changes along
-    // that
+    // rounds leave the point to 1e-10 of the element, along which the factor changes
     if (r != before && r->factor)
         noise += 1e-9 * fabs(r->factor[i + 1] - r->factor[i]) * R * fmax(1, r->mu[c]);
     if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared))
@@ -695,26 +702,19 @@ static void check_bounds(const Source *source, const Record *r, const Record *be
     }
 }
 
-/* The pulls on the drums; and of a step in one part in which winches wind, where the energy went,
- * which needs the mesh and the forces before. */
 static void check_winches(const Record *r, const Record *before, const Source *source, size_t step,
                           Findings *findings) {
-    if (!r->drums || r->outcome > OUTCOME_TAUT) return;
     const Measures m = measure_where(source, r, step);
-    if (m.missing) return;
+    if (r->outcome > OUTCOME_TAUT || m.missing) return;
     for (int e = 0; e < 2; e++)
         if (!isnan(r->stored[e]))
             same(findings, "winch_pull", r->winch_pull[e], (double)winches_pull(r, e),
                  FORCE_TOLERANCE * m.largest_force + NOTHING);
     if (!before || r->substeps > 1 || before->outcome > OUTCOME_TAUT) return;
-    if (!r->winds) {
-        at_most(findings, "ledger_winches of drums that rest", fabs(r->winch_work), 0);
-        return;
-    }
     const WinchLedger own = winches_ledger(r, before);
-    const double floor =
-        ENERGY_FLOOR * m.scale + 1e-13 * (m.largest_force * m.reach + (double)own.size);
-    same(findings, "ledger_winches", r->winch_work, (double)own.winches, floor);
+    double floor = ENERGY_FLOOR * m.scale + 1e-13 * (m.largest_force * m.reach + (double)own.size);
+    same(findings, "ledger_winches", r->winch_work, (double)own.winches, r->winds ? floor : 0);
+    if (!r->winds) return;
     same(findings, "ledger_elastic", r->ledger[LEDGER_ELASTIC], (double)own.elastic, floor);
     if (own.known)
         same(findings, "ledger_gravity", r->ledger[LEDGER_GRAVITY], (double)own.gravity, floor);
@@ -732,9 +732,11 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         Findings findings = {log, line, step, 0};
         if (step > 0 && record.substeps == 1 && !winches_continue(&record, &previous))
             find(&findings, "the reference is not the position of the step before");
+        const char *fault = elongation_rest_fault(&record, step > 0 ? &previous : NULL);
+        if (fault) find(&findings, "%s", fault);
         if (step > 0) check_work(&record, &previous, source, step, &findings);
         if (step > 0) check_weight(&record, &previous, &findings);
-        check_winches(&record, step > 0 ? &previous : NULL, source, step, &findings);
+        if (record.drums) check_winches(&record, step ? &previous : NULL, source, step, &findings);
         // with frozen friction the reactions before a first step, or before the last part of one,
         // are not known
         bool statics = step == 0 && source->has_static && without_friction(&record);

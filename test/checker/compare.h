@@ -38,6 +38,9 @@ bool stage_of(const Compare *compare, size_t step, int *stage, int *part);
 void winches_compare(Compare *compare, const CpsLine *line, int index, size_t step,
                      const Record *r);
 
+/* Kind, place, shape and friction of an obstacle. */
+void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s);
+
 /* What holds for a line in the whole run: its elements, their makes, its friction zones and what
  * its ends are at. */
 void compare_line(Compare *compare, const CpsLine *line, const Record *r);

@@ -263,6 +263,25 @@ static void find_moving(const CpsiHistoryBuild *b, const CpsiList *history) {
     }
 }
 
+/* Which stiffness a stage uses; that of a scene without dynamic ones is not chosen. */
+static CpsStatus build_stiffness(const CpsiHistoryBuild *b, const CpsiStageValues *values,
+                                 CpsStage *stage) {
+    const CpsiYaml *given = cpsi_yaml_child(values->node, "stiffness");
+    bool any = false;
+    for (int i = 0; i < b->scene->line_count; i++) {
+        const CpsLine *line = &b->scene->line[i];
+        any = any || (line->section_count == 0 && line->has_dynamic_stiffness);
+        for (int k = 0; k < line->section_count; k++)
+            any = any || line->section[k].has_dynamic_stiffness;
+    }
+    stage->static_stiffness = values->stiffness == 1;
+    if (!given || any) return CPS_OK;
+    return cpsi_document_fail(b->d, CPS_ERR_INPUT, given,
+                              "'stiffness': found %s, but no line has a 'dynamic_stiffness': leave "
+                              "the key out, or give one",
+                              values->stiffness == 1 ? "static" : "dynamic");
+}
+
 static CpsStatus build_stage(const CpsiHistoryBuild *b, const CpsiStageValues *values, int index,
                              CpsStage *stage) {
     const CpsiNumberItem *turns = values->turns.item;
@@ -281,7 +300,8 @@ static CpsStatus build_stage(const CpsiHistoryBuild *b, const CpsiStageValues *v
     for (int k = 0; k < stage->turn_count; k++)
         turn[k] = (CpsTurn){.obstacle = find_obstacle(b, turns[k].node->key),
                             .angle = turns[k].number * CPSI_DEGREE};
-    CpsStatus status = build_changes(b, values, stage);
+    CpsStatus status = build_stiffness(b, values, stage);
+    if (status == CPS_OK) status = build_changes(b, values, stage);
     if (status == CPS_OK) status = build_shifts(b, &values->shifts, stage);
     if (status == CPS_OK) status = build_pay_outs(b, &values->pay_outs, stage);
     return status == CPS_OK ? build_grasps(b, &values->grasps, stage) : status;

@@ -125,6 +125,10 @@ static const CpsiKey STAGE_KEYS[] = {
     {"OBSTACLE.obstacle", OPTIONAL, OWNED(Stage, shifts), .owner = "obstacles", .after = "obstacle",
      .inside = &SHIFT,
      .help = "how an obstacle moves, as in bollard.obstacle; all others stay where they are"},
+    {"stiffness", OPTIONAL, WORD(Stage, stiffness), .words = "dynamic static",
+     .fallback = "\"dynamic\"",
+     .help = "by which stiffness lines stretch that have a dynamic one: by it, about the state "
+             "reached before, or slowly, by the static one"},
 };
 
 static void begin_stage(void *values) {

@@ -15,6 +15,13 @@ static const CpsiKey PLANE_KEYS[] = {
 };
 static const CpsiMapping PLANE = {"plane", KEYS(PLANE_KEYS)};
 
+/* of what has a radius */
+#define INSIDE                                                                     \
+    {                                                                              \
+        "inside", OPTIONAL, FLAG(Obstacle, obstacle.shape.inside),                 \
+            .fallback = "false", .help = "lines are inside of it, and not outside" \
+    }
+
 static const CpsiKey CYLINDER_KEYS[] = {
     {"point", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
      .fallback = "[0, 0, 0]", .help = "a point of the axis"},
@@ -23,6 +30,7 @@ static const CpsiKey CYLINDER_KEYS[] = {
              "right-hand rule"},
     {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
      .help = "radius of the cylinder"},
+    INSIDE,
 };
 static const CpsiMapping CYLINDER = {"cylinder", KEYS(CYLINDER_KEYS)};
 
@@ -33,6 +41,7 @@ static const CpsiKey SPHERE_KEYS[] = {
      .help = "what the ball turns about, through its centre; of any length but zero"},
     {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
      .help = "radius of the ball"},
+    INSIDE,
 };
 static const CpsiMapping SPHERE = {"sphere", KEYS(SPHERE_KEYS)};
 
@@ -56,6 +65,63 @@ static const CpsiKey GROUND_KEYS[] = {
 };
 static const CpsiMapping GROUND = {"ground", KEYS(GROUND_KEYS)};
 
+#define CENTRE                                                                                     \
+    {                                                                                              \
+        "centre", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY,                               \
+            .unit = "m", .formerly = "center", .fallback = "[0, 0, 0]", .help = "the middle of it" \
+    }
+
+static const CpsiKey CAPSULE_KEYS[] = {
+    CENTRE,
+    {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
+     .help = "direction of the axis, of any length but zero; a turn follows it by the right-hand "
+             "rule"},
+    {"length", REQUIRED, NUMBER(Obstacle, obstacle.shape.length), NOT_NEGATIVE, .unit = "m",
+     .help = "between the centres of its round ends: of the cylinder alone"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of cylinder and ends"},
+    INSIDE,
+};
+static const CpsiMapping CAPSULE = {"capsule", KEYS(CAPSULE_KEYS)};
+
+static const CpsiKey TORUS_KEYS[] = {
+    CENTRE,
+    {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
+     .help = "direction of its axis of rotation, of any length but zero"},
+    {"main_radius", REQUIRED, NUMBER(Obstacle, obstacle.shape.main_radius), POSITIVE, .unit = "m",
+     .help = "of the circle that the middle of the tube follows, above radius"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of the tube"},
+    INSIDE,
+};
+static const CpsiMapping TORUS = {"torus", KEYS(TORUS_KEYS)};
+
+static const CpsiKey CONE_KEYS[] = {
+    {"tip", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m", .fallback = "[0, 0, 0]",
+     .help = "the outermost point of its round tip"},
+    {"axis", REQUIRED, POINT(Obstacle, obstacle.axis, 3), ANY,
+     .help = "direction from the tip into the cone, which has no end; of any length but zero"},
+    {"angle", REQUIRED, NUMBER(Obstacle, cone_angle), POSITIVE, .unit = "degrees",
+     .help = "between axis and side, below 90"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of the ball that rounds its tip"},
+    INSIDE,
+};
+static const CpsiMapping CONE = {"cone", KEYS(CONE_KEYS)};
+
+static const CpsiKey BOX_KEYS[] = {
+    CENTRE,
+    {"size", REQUIRED, POINT(Obstacle, obstacle.shape.size, 3), 0, CPSI_LARGEST, true, .unit = "m",
+     .help = "from face to face along its own axes, each above twice the radius"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of its edges and corners"},
+    {"rotation", OPTIONAL, MAPPING(Obstacle, rotation), .inside = &cpsi_rotation_keys,
+     .fallback = "{\"quaternion\": [1, 0, 0, 0]}",
+     .help = "turns its own axes, which begin as those of the scene"},
+    INSIDE,
+};
+static const CpsiMapping BOX = {"box", KEYS(BOX_KEYS)};
+
 static const CpsiKey FRICTION_KEYS[] = {
     {"axial", ONE_OF, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .help = "coefficient along the line, or along the grain"},
@@ -77,10 +143,15 @@ static const CpsiMapping FRICTION = {"friction", KEYS(FRICTION_KEYS)};
 static const CpsiKey OBSTACLE_KEYS[] = {
     {"plane", ONE_OF, AROUND, .inside = &PLANE, .help = "a plane; lines stay on one side of it"},
     {"cylinder", ONE_OF, AROUND, .inside = &CYLINDER,
-     .help = "a solid cylinder without ends (bollard, pipe, drum); lines stay outside"},
+     .help = "a cylinder without ends (bollard, pipe, drum); lines stay outside, or inside"},
     {"sphere", ONE_OF, AROUND, .inside = &SPHERE, .help = "a solid ball; lines stay outside"},
     {"ground", ONE_OF, AROUND, .inside = &GROUND,
      .help = "a smooth surface through the points of a grid; lines stay above it"},
+    {"capsule", ONE_OF, AROUND, .inside = &CAPSULE,
+     .help = "a cylinder with round ends (bollard, tank)"},
+    {"torus", ONE_OF, AROUND, .inside = &TORUS, .help = "a ring (shackle, bent tube)"},
+    {"cone", ONE_OF, AROUND, .inside = &CONE, .help = "a cone with a round tip (funnel)"},
+    {"box", ONE_OF, AROUND, .inside = &BOX, .help = "a box with round edges (quay, slab)"},
     {"friction", OPTIONAL, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .other = &(const CpsiKey){.type = CPSI_MAPPING, .inside = &FRICTION}, .fallback = "0",
      .help = "Coulomb friction coefficient; or one along the line or the grain and another "
@@ -338,6 +409,11 @@ static const CpsiKey TYPE_KEYS[] = {
     {"stiffness", REQUIRED, NUMBER(Type, stiffness), 0, INFINITY, true, .unit = "N",
      .other = &(const CpsiKey){.type = MAPPING(Type, table), .inside = &STIFFNESS},
      .help = "axial stiffness EA; .inf for an inextensible type; or a table of strain and tension"},
+    {"dynamic_stiffness", OPTIONAL, NUMBER(Type, dynamic.stiffness), POSITIVE,
+     .other = &(const CpsiKey){.type = MAPPING(Type, dynamic.table), .inside = &STIFFNESS},
+     .unit = "N",
+     .help = "the axial stiffness, or its table, about the state that `stiffness` has reached; "
+             "nowhere softer than it"},
     {"breaking_load", OPTIONAL, NUMBER(Type, breaking_load), POSITIVE, .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over it"},
     {"break_at", OPTIONAL, NUMBER(Type, break_at), POSITIVE, .unit = "N",
@@ -348,7 +424,7 @@ static const CpsiKey TYPE_KEYS[] = {
 
 static void begin_type(void *values) {
     CpsiTypeValues *type = values;
-    type->mass = type->breaking_load = type->break_at = NAN;
+    type->mass = type->breaking_load = type->break_at = type->dynamic.stiffness = NAN;
     type->friction = 1;
 }
 
@@ -395,6 +471,11 @@ static const CpsiKey LINE_KEYS[] = {
     {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unless = "sections",
      .other = &(const CpsiKey){.type = MAPPING(Line, table), .inside = &STIFFNESS}, .unit = "N",
      .help = "axial stiffness EA; .inf for an inextensible line; or a table of strain and tension"},
+    {"dynamic_stiffness", OPTIONAL, NUMBER(Line, dynamic.stiffness), POSITIVE, .unless = "sections",
+     .other = &(const CpsiKey){.type = MAPPING(Line, dynamic.table), .inside = &STIFFNESS},
+     .unit = "N",
+     .help = "the axial stiffness, or its table, about the state that `stiffness` has reached; "
+             "nowhere softer than it"},
     {"breaking_load", OPTIONAL, NUMBER(Line, breaking_load), POSITIVE, .unless = "sections",
      .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over "
@@ -420,6 +501,7 @@ static void begin_line(void *values) {
     CpsiLineValues *line = values;
     line->line = cps_line_default();
     line->mass = line->count = line->breaking_load = line->break_at = line->element_length = NAN;
+    line->dynamic.stiffness = NAN;
 }
 
 static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};
