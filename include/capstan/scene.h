@@ -16,6 +16,7 @@
 #include "capstan/set.h"
 #include "capstan/shape.h"
 #include "capstan/shift.h"
+#include "capstan/winch.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -76,7 +77,6 @@ typedef struct CpsObstacle {
      * reached. A turn about its own axis needs no flag. Default false */
     bool moves;
 } CpsObstacle;
-
 enum { CPS_END_A = 0, CPS_END_B = 1 };
 
 typedef enum CpsStartKind {
@@ -171,7 +171,8 @@ typedef struct CpsLine {
     CpsStart start;
     /* default: A is held where the start places it, which a position has to be; B is free */
     CpsEnd end[2];
-    int end_point[2]; /* of ends at points: the index in the scene; default 0 */
+    int end_point[2];  /* of ends at points: the index in the scene; default 0 */
+    CpsWinch winch[2]; /* at ends A and B; default none */
 } CpsLine;
 
 /* A new imposed position or force of an end of a line, reached in equal increments over the stage.
@@ -203,14 +204,13 @@ typedef struct CpsStage {
     const CpsChange *change;
     int turn_count;
     const CpsTurn *turn;
-    int shift_count, sway_count; /* default 0 */
+    int shift_count, sway_count, pay_out_count; /* default 0 */
     const CpsShift *shift;
-    const CpsSway *sway;    /* oscillations of ends that change, with a duration */
-    int point_change_count; /* default 0 */
+    const CpsSway *sway; /* oscillations of ends that change, with a duration */
+    const CpsPayOut *pay_out;
+    int point_change_count, body_change_count, grasp_change_count; /* default 0 */
     const CpsPointChange *point_change;
-    int body_change_count; /* default 0 */
     const CpsBodyChange *body_change;
-    int grasp_change_count; /* default 0 */
     const CpsGraspChange *grasp_change;
     bool gravity_changes; /* default false: gravity stays as it is; needs a scene with a gravity */
     /* [m/s2] with the flag: at the end of the stage. Weights change in proportion to the scene's */

@@ -149,12 +149,13 @@ typedef struct CpsBend {
     int obstacle;      /* index in the scene */
 } CpsBend;
 
-/* Energy of a step [J]: ends + obstacles = elastic + gravity + dissipated + imbalance. */
+/* Energy [J]: ends + obstacles + winches + loads = elastic + gravity + dissipated + imbalance. */
 typedef struct CpsLedger {
     double elastic;    /* increase of the elastic energy */
     double gravity;    /* increase of the potential energy of the weight */
     double ends;       /* work of the end forces: mean of before and after, times displacement */
     double obstacles;  /* work of obstacles that turn or are shifted */
+    double winches;    /* work of winches (winch.h) */
     double loads;      /* work of what acts on the nodes beside their weight */
     double dissipated; /* by friction, >= 0 */
     double imbalance;  /* of first order in the load step; large and positive in a jump */
@@ -235,9 +236,9 @@ typedef struct CpsLineView {
     const char *name;
     int element_count;
     int contact_count;        /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    bool one_plane;           /* nothing is grasped, contact is with one isotropic plane or none */
-    const double *arc_length; /* (n) [m] natural arc length of the nodes from end A */
-    const double *element_length; /* (element_count) [m] */
+    bool one_plane;           /* no node is grasped or on a drum; one isotropic plane or none */
+    const double *arc_length; /* (n) [m] natural, of the nodes from end A, drums included */
+    const double *element_length; /* (element_count) [m]; on a drum the whole */
     double compliance; /* [1/N] 1/EA at T = 0, of sections the mean; 0 of an inextensible line */
     bool uniform;      /* without sections and point weights */
     const double *compliance_factor; /* (element_count) [-] of `compliance`; 1 where uniform */
@@ -293,7 +294,6 @@ typedef struct CpsLineView {
 
 /* A node no farther from an obstacle than this share of its line's length touches it. */
 #define CPS_TOUCH 1e-9
-
 #ifdef __cplusplus
 }
 #endif

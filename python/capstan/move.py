@@ -27,6 +27,7 @@ class Move:
                              {"release": True}; further nodes as "LINE.node2" to "LINE.node4"
         "POINT.point"        as an end
         "BODY.body"          {"position": .., "rotation": {"quaternion": [w, x, y, z]}} or {"force": .., "moment": ..}
+        "LINE.pay_out_A", "LINE.pay_out_B"   length that the winch there pays out, negative: it hauls in
         "OBSTACLE.turn"      degrees
         "OBSTACLE.obstacle"  {"move": [x, y, z]}, {"turn": degrees, "axis": .., "about": ..} or both, of one that the history
                              moves or that is named in `moving` of the evolution
@@ -57,7 +58,8 @@ class Move:
         for rows, kind, fill in ((("change"), "CpsChange", self._end), (("turn"), "CpsTurn", self._turn),
                                  (("shift"), "CpsShift", self._shift), (("point_change"), "CpsPointChange", self._point),
                                  (("body_change"), "CpsBodyChange", self._body),
-                                 (("grasp_change"), "CpsGraspChange", self._grasp)):
+                                 (("grasp_change"), "CpsGraspChange", self._grasp),
+                                 (("pay_out"), "CpsPayOut", self._pay_out)):
             self._fill(evolution, rows, kind, fill)
 
     def __getitem__(self, key: str) -> np.ndarray:
@@ -87,10 +89,10 @@ class Move:
         name, dot, what = str(key).rpartition(".")
         kinds = {"A": "change", "B": "change", "point": "point_change", "body": "body_change", "turn": "turn",
                  "obstacle": "shift", "node": "grasp_change", "node2": "grasp_change", "node3": "grasp_change",
-                 "node4": "grasp_change"}
+                 "node4": "grasp_change", "pay_out_A": "pay_out", "pay_out_B": "pay_out"}
         if not isinstance(key, str) or not dot or what not in kinds:
             raise ArgumentError(f"target: found the key {key!r}, expected 'gravity', 'stiffness', 'name', or a name with "
-                                ".A, .B, .node, .point, .body, .turn or .obstacle")
+                                ".A, .B, .node, .pay_out_A, .pay_out_B, .point, .body, .turn or .obstacle")
         self._rows.setdefault(kinds[what], []).append((key, value))
 
     def _fill(self, evolution: "Evolution", rows: str, kind: str, fill: Any) -> None:
@@ -196,6 +198,11 @@ class Move:
     def _turn(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         row.obstacle = evolution._index("obstacles", key.rpartition(".")[0])
         row.angle = math.radians(_numbers.number(value, f"'{key}'"))
+
+    def _pay_out(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
+        name, _, what = key.rpartition(".")
+        row.line, row.end = evolution._index("lines", name), "AB".index(what[-1])
+        row.length = _numbers.number(value, f"'{key}'")
 
     def _shift(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         row.obstacle = evolution._index("obstacles", key.rpartition(".")[0])

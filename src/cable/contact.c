@@ -20,6 +20,7 @@
 
 #include "cable/contact_detection.h"
 #include "cable/obstacle_side.h"
+#include "cable/winch.h"
 #include "chain/frame.h"
 
 /* Largest displacement of a node in one round, per range of its tangent plane. */
@@ -180,8 +181,11 @@ void cpsi_contact_update_geometry(CpsiLine *line) {
 
 /* Contact c at the reference: its friction bound, and its gap if it enters the program. */
 static void set_reference(CpsiLine *line, int c, bool frictionless) {
-    if (c < cpsi_line_contacts(line) && cpsi_line_grasp_holds(line, cpsi_line_node(line, c))) {
-        /* what holds a node between the ends bears all that the obstacle did */
+    if (c < cpsi_line_contacts(line) &&
+        (cpsi_line_grasp_holds(line, cpsi_line_node(line, c)) ||
+         cpsi_line_is_node_on_drum(line, cpsi_line_node(line, c)))) {
+        /* what holds a node between the ends, or has it on a drum, bears all that the obstacle did
+         */
         cpsi_contact_clear(line, c);
         line->state[c] = CPS_NODE_STATE_FREE;
         line->gap[c] = INFINITY;

@@ -7,7 +7,7 @@
 bool cpsi_line_is_loose(const CpsiLine *line) { return cpsi_line_next_held(line, 0) == line->n; }
 
 static const double *place_of(const CpsiLine *line, int j) {
-    if (j == 0) return line->end[CPS_END_A].value;
+    if (j <= line->drums.nodes[CPS_END_A]) return line->end[CPS_END_A].value;
     for (int k = 0; k < line->grasp_count; k++)
         if (line->grasp[k].node == j) return line->grasp[k].imposed.value;
     return line->end[CPS_END_B].value;
@@ -21,19 +21,25 @@ void cpsi_line_put_held(const CpsiLine *line, double *x) {
 }
 
 int cpsi_line_next_held(const CpsiLine *line, int j) {
-    if (j <= 0 && cpsi_line_is_held(line, 0)) return 0;
+    const int last = cpsi_line_end_node(line, CPS_END_B);
+    if (j <= line->drums.nodes[CPS_END_A] && cpsi_line_is_held(line, 0)) return j > 0 ? j : 0;
     for (int k = 0; k < line->grasp_count; k++)
         if (line->grasp[k].node >= j && line->grasp[k].imposed.kind == CPS_END_KIND_HELD)
             return line->grasp[k].node;
-    return j < line->n && cpsi_line_is_held(line, line->n - 1) ? line->n - 1 : line->n;
+    if (j >= line->n || !cpsi_line_is_held(line, line->n - 1)) return line->n;
+    return j > last ? j : last;
 }
 
 double cpsi_line_length_between(const CpsiLine *line, int i, int j) {
-    return i == 0 && j == line->n - 1 ? line->length : line->arc_length[j] - line->arc_length[i];
+    const bool whole =
+        i == cpsi_line_end_node(line, CPS_END_A) && j == cpsi_line_end_node(line, CPS_END_B);
+    return whole ? line->length : line->arc_length[j] - line->arc_length[i];
 }
 
 bool cpsi_line_next_span(const CpsiLine *line, int j, CpsiSpan *span) {
-    span->from = cpsi_line_next_held(line, j);
+    const int first = line->drums.nodes[CPS_END_A];
+    span->from = cpsi_line_next_held(line, j < first ? first : j);
+    if (span->from >= cpsi_line_end_node(line, CPS_END_B)) return false;
     span->to = cpsi_line_next_held(line, span->from + 1);
     if (span->to >= line->n) return false;
     span->length = cpsi_line_length_between(line, span->from, span->to);

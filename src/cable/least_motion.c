@@ -26,6 +26,7 @@
 #include "base/larger.h"
 #include "cable/field.h"
 #include "cable/friction_law.h"
+#include "cable/winch.h"
 #include "ipm/ipm.h"
 
 /* A force below this, per unit of force, counts as zero; other configurations then increase the gap
@@ -409,14 +410,15 @@ static bool has_element_contacts(const CpsiLine *line, const CpsiChainProgram *p
     return false;
 }
 
-static bool is_slack_somewhere(const CpsiChainProgram *program) {
+static bool is_slack_somewhere(const CpsiLine *line, const CpsiChainProgram *program) {
     for (int i = 1; i < program->n; i++)
-        if (!(program->segment.z[i][0] > NO_FORCE)) return true;
+        if (!(program->segment.z[i][0] > NO_FORCE) && !cpsi_line_is_on_drum(line, i - 1))
+            return true;
     return false;
 }
 
 void cpsi_places_as_found(CpsiLine *line, const CpsiChainProgram *program) {
-    line->report.places = is_slack_somewhere(program) ? CPS_PLACES_ANY : CPS_PLACES_UNIQUE;
+    line->report.places = is_slack_somewhere(line, program) ? CPS_PLACES_ANY : CPS_PLACES_UNIQUE;
 }
 
 int cpsi_least_motion(CpsiLine *line, CpsiLeastMotion *least, const CpsiChainProgram *program,

@@ -52,6 +52,11 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     }
     CPSI_PLACE(arena, line->normal, 3 * contacts);
     CPSI_PLACE(arena, line->gap, contacts);
+    if (line->drums.on[CPS_END_A] || line->drums.on[CPS_END_B]) {
+        CPSI_PLACE(arena, line->drums.length, n);
+        CPSI_PLACE(arena, line->drums.place, n);
+        CPSI_PLACE(arena, line->drums.hung, n);
+    }
     if (line->has_zones) CPSI_PLACE(arena, line->friction_factor, n);
     if (line->has_sections) {
         CPSI_PLACE(arena, line->weight_factor, n);
@@ -212,11 +217,11 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
 }
 
 Vec3 cpsi_line_start_pull(const CpsiLine *line, int end) {
-    const int j = end == CPS_END_A ? 0 : line->n - 1;
+    const int j = cpsi_line_end_node(line, end);
     const Vec3 own = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
     const Vec3 weight =
         vec3_add(own, cpsi_node_field_at(&line->field, j, vec3_at(line->position, j)));
-    return end == CPS_END_A ? vec3_add(weight, start_force(line, 0))
+    return end == CPS_END_A ? vec3_add(weight, start_force(line, j))
                             : vec3_sub(weight, start_force(line, j - 1));
 }
 

@@ -15,6 +15,7 @@
 #include "base/arena.h"
 #include "base/element_law.h"
 #include "cable/anderson.h"
+#include "cable/drums.h"
 #include "cable/elasticity.h"
 #include "cable/friction_law.h"
 #include "cable/inertia.h"
@@ -41,18 +42,16 @@ typedef struct CpsiLine {
     bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
     bool has_sections;              /* weight and compliance may, and there may be point masses */
     bool has_breaking_load, has_break_at; /* an element has one */
-    bool has_local_axes;   /* each contact has its own axes at its position: not on a single plane
-                              with isotropic friction */
-    int contacts;          /* of a node: 2 where there is more than one obstacle, else 1 */
-    int element_contacts;  /* of an element: 1 where there is a round obstacle, or a third, else 0;
-                              the arrays (contacts, n) have as many more rows */
-    double common_axes[9]; /* axes of the whole line: those of the one plane, or of the world */
-    CpsEnd end[2];         /* imposed now */
-    /* the end is held at a point of the scene, which bears what obstacles do to its half element */
-    bool is_at_point[2];
-    double *arc_length;               /* (n) [m] */
-    double *element_length;           /* (n - 1) [m] at rest, element e joins nodes e and e + 1 */
-    double *natural_length;           /* (n - 1) the same, but for `two` */
+    bool has_local_axes;    /* each contact has its own axes: not on one plane with a disc */
+    int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
+    int element_contacts;   /* of an element, 0 or 1: so many more rows have arrays (contacts, n) */
+    double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
+    CpsEnd end[2];          /* imposed now */
+    CpsiDrums drums;        /* what is on winches at the ends */
+    bool is_at_point[2];    /* held at a point, which bears what obstacles do to the half element */
+    double *arc_length;     /* (n) [m] */
+    double *element_length; /* (n - 1) [m] at rest, element e joins nodes e and e + 1 */
+    double *natural_length; /* (n - 1) the same, but for `two` */
     double *breaking_load, *break_at; /* (n - 1) [N] INFINITY: none; NULL: none anywhere */
     /* of a line of sections or with point masses, else NULL */
     double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
@@ -107,18 +106,13 @@ typedef struct CpsiLine {
     double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *obstacle_index; /* (contacts, n) the obstacle of each contact: the nearest and the next; of
                             an element the one with which it is in contact; -1: none */
-    double *beta; /* (n) share of element e, from node e to e + 1, at which it touches; NULL without
-                     such contacts */
+    double *beta; /* (n) share of element e at which it touches; NULL without such contacts */
     double *node_reaction;     /* (n) [N] sum of the reactions on the node and on its elements */
     bool is_rough;             /* the program was solved to a hundredth of the tolerance only */
-    bool contact_everywhere;   /* contacts are detected everywhere, not only where the reference
-                                  touches */
+    bool contact_everywhere;   /* contacts are not only detected where the reference touches */
     bool keeps_reference_axes; /* friction is frozen with its bounds and axes at the reference while
-                                  contacts are detected at the present positions; false on one plane
-                                  and where contact is that of the reference */
-    bool keeps_tangents;       /* axes of isotropic friction, in which any tangents are as good, do
-                                  not follow the line: their first tangent is along the line at the
-                                  reference */
+                                  contacts are detected where the line is; not on one plane */
+    bool keeps_tangents;       /* the first ones of isotropic friction are those of the reference */
     double *watched; /* (2 n, 3) [m] from which the progress of rounds with drag is measured */
     CpsiAnderson anderson; /* of the rounds of a step */
     /* where the line is inextensible, else NULL: its tensions and reactions before the step, and
@@ -139,10 +133,15 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena);
 /* Fill the arc length from element_length. */
 void cpsi_line_set_arc_length(CpsiLine *line);
 
+/* The node of an end: the last one on the drum of a winch, at which the line leaves it. */
+static inline int cpsi_line_end_node(const CpsiLine *line, int end) {
+    return end == CPS_END_A ? line->drums.nodes[0] : line->n - 1 - line->drums.nodes[1];
+}
+
 /* [m] Natural length that node j represents: half of its elements. */
 static inline double cpsi_line_share(const CpsiLine *line, int j) {
-    const double before = j > 0 ? line->natural_length[j - 1] : 0;
-    const double after = j + 1 < line->n ? line->natural_length[j] : 0;
+    const double before = j > line->drums.nodes[0] ? line->natural_length[j - 1] : 0;
+    const double after = j < cpsi_line_end_node(line, 1) ? line->natural_length[j] : 0;
     return 0.5 * (before + after);
 }
 
@@ -159,8 +158,10 @@ static inline Vec3 cpsi_line_weight(const CpsiLine *line, int e) {
 static inline Vec3 cpsi_line_weight_at(const CpsiLine *line, int j) {
     if (!line->weight_factor) return vec3_load(line->weight);
     double sum = 0;
-    if (j > 0) sum += 0.5 * line->natural_length[j - 1] * line->weight_factor[j - 1];
-    if (j + 1 < line->n) sum += 0.5 * line->natural_length[j] * line->weight_factor[j];
+    if (j > line->drums.nodes[0])
+        sum += 0.5 * line->natural_length[j - 1] * line->weight_factor[j - 1];
+    if (j < cpsi_line_end_node(line, 1))
+        sum += 0.5 * line->natural_length[j] * line->weight_factor[j];
     return vec3_scale(sum / cpsi_line_share(line, j), vec3_load(line->weight));
 }
 
@@ -219,13 +220,11 @@ static inline double cpsi_line_contact_share(const CpsiLine *line, int c) {
     return e < 0 ? cpsi_line_share(line, cpsi_line_node(line, c)) : line->natural_length[e];
 }
 
-/* Is node j between the ends held by a grasp? */
+/* Is node j between the ends held by a grasp? Is it held, as an end, on a drum or by a grasp? */
 bool cpsi_line_grasp_holds(const CpsiLine *line, int j);
-
-/* Is node j held, as an end or by a grasp? */
 static inline bool cpsi_line_is_held(const CpsiLine *line, int j) {
-    return (j == 0 && line->end[CPS_END_A].kind == CPS_END_KIND_HELD) ||
-           (j == line->n - 1 && line->end[CPS_END_B].kind == CPS_END_KIND_HELD) ||
+    return (j <= line->drums.nodes[0] && line->end[CPS_END_A].kind == CPS_END_KIND_HELD) ||
+           (j >= cpsi_line_end_node(line, 1) && line->end[CPS_END_B].kind == CPS_END_KIND_HELD) ||
            (line->grasp_count > 0 && cpsi_line_grasp_holds(line, j));
 }
 

@@ -24,6 +24,7 @@ typedef struct CpsiLoadChange {
     double end[2][3]; /* [m] or [N] */
     double weight[3]; /* [N/m] */
     double turn;      /* [rad] the sum over the obstacles */
+    bool winds;       /* a winch pays out or hauls in */
 } CpsiLoadChange;
 
 /* How Newton's method has fared (warm_step.h). */

@@ -17,6 +17,7 @@
  * over curved obstacles add the difference between the friction of a polygonal line and exp(mu
  * turn). The force in a span with a free end is given. */
 #include "cable/mesh_error.h"
+#include "cable/winch.h"
 
 #include <math.h>
 
@@ -157,7 +158,8 @@ bool cpsi_mesh_error(const CpsiLine *line, double *error) {
         if (e + 2 < line->n && !is_support(line, e + 1)) continue;
         /* an element whose two nodes touch does not hang */
         const bool lies =
-            e == first && carrying_contact(line, e) >= 0 && carrying_contact(line, e + 1) >= 0;
+            cpsi_line_is_on_drum(line, e) ||
+            (e == first && carrying_contact(line, e) >= 0 && carrying_contact(line, e + 1) >= 0);
         const double of_span = lies ? 0 : span_error(line, first, e);
         if (isnan(of_span)) return false;
         worst = fmax(worst, of_span);

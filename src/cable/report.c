@@ -8,6 +8,7 @@
 #include "cable/contact.h"
 #include "cable/field.h"
 #include "cable/friction_law.h"
+#include "cable/winch.h"
 #include "chain/frame.h"
 
 /* [J] by friction in the step. */
@@ -59,15 +60,14 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     report->dissipated = dissipated(line);
     for (int i = 1; i < line->n; i++) {
         const double *s = program->segment.s[i], *z = program->segment.z[i];
-        if (z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]))
+        if (z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]) &&
+            !cpsi_line_is_on_drum(line, i - 1))
             report->slack += line->natural_length[i - 1];
     }
 }
 
-static int end_node(const CpsiLine *line, int end) { return end == CPS_END_A ? 0 : line->n - 1; }
-
 Vec3 cpsi_line_end_slip(const CpsiLine *line, int end, int k) {
-    const int j = end_node(line, end);
+    const int j = cpsi_line_end_node(line, end);
     const CpsiObstacle *obstacle = &line->obstacle[k];
     const Vec3 from = vec3_at(line->reference, j), to = vec3_at(line->position, j);
     return cpsi_obstacle_slip(obstacle,
@@ -89,7 +89,7 @@ static Vec3 rotate_with_normal(Vec3 v, Vec3 from, Vec3 to) {
  * drive a sliding end. */
 static Vec3 half_friction_force(const CpsiLine *line, int end, int k, Vec3 n, double reaction) {
     const Vec3 none = vec3(0, 0, 0);
-    const int j = end_node(line, end), next = end == CPS_END_A ? 1 : line->n - 2;
+    const int j = cpsi_line_end_node(line, end), next = end == CPS_END_A ? j + 1 : j - 1;
     for (int c = next; c < cpsi_line_contacts(line); c += line->n) {
         const double bound = line->friction_bound[c];
         if (cpsi_line_obstacle(line, c) != &line->obstacle[k] || !(bound > 0)) continue;
@@ -110,7 +110,7 @@ static Vec3 half_friction_force(const CpsiLine *line, int end, int k, Vec3 n, do
 /* A held end that lies on an obstacle has a reaction, and its half element has friction there:
  * returns the remainder of `force` for the support. */
 static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
-    const int j = end_node(line, end);
+    const int j = cpsi_line_end_node(line, end);
     const Vec3 x = vec3_at(line->position, j);
     double gap;
     const int on = cpsi_line_nearest(line, x, &gap);
@@ -138,7 +138,7 @@ static Vec3 load_of(const CpsiLine *line, int j) {
 
 void cpsi_line_report_ends(CpsiLine *line) {
     for (int end = 0; end < 2; end++) {
-        const int j = end_node(line, end), e = end == CPS_END_A ? 0 : line->n - 2;
+        const int j = cpsi_line_end_node(line, end), e = end == CPS_END_A ? j : j - 1;
         CpsEndReport *out = &line->report.end[end];
         memcpy(out->position, &line->position[3 * j], sizeof out->position);
         Vec3 force = vec3_load(line->end[end].value);
@@ -198,11 +198,12 @@ void cpsi_line_report_utilisation(CpsiLine *line) {
     report->has_utilisation = line->has_breaking_load;
     report->utilisation = report->utilisation_arc_length = 0;
     if (!line->has_breaking_load) return;
-    const int last = line->n - 2;
-    for (int e = 0; e <= last; e++)
+    const int first = cpsi_line_end_node(line, CPS_END_A),
+              last = cpsi_line_end_node(line, CPS_END_B) - 1;
+    for (int e = first; e <= last; e++)
         raise_utilisation(report, line->tension[e], line->breaking_load[e],
                           0.5 * (line->arc_length[e] + line->arc_length[e + 1]));
-    raise_utilisation(report, report->end[CPS_END_A].tension, line->breaking_load[0], 0);
+    raise_utilisation(report, report->end[CPS_END_A].tension, line->breaking_load[first], 0);
     raise_utilisation(report, report->end[CPS_END_B].tension, line->breaking_load[last],
                       line->length);
 }
@@ -239,7 +240,8 @@ static double grounded_part(const CpsiLine *line, int c) {
 
 /* Has the node of contact c slipped? The motion of a held end is imposed. */
 static bool has_slipped(const CpsiLine *line, int c) {
-    const int j = cpsi_line_node(line, c), end = j == 0 ? CPS_END_A : CPS_END_B;
+    const int j = cpsi_line_node(line, c),
+              end = j <= cpsi_line_end_node(line, CPS_END_A) ? CPS_END_A : CPS_END_B;
     if (!cpsi_line_is_held(line, j)) return line->state[c] == CPS_NODE_STATE_SLIP;
     const int k = line->has_local_axes ? line->obstacle_index[c] : 0;
     return vec3_norm(cpsi_line_end_slip(line, end, k)) > CPSI_TOUCH * line->length;
@@ -257,7 +259,7 @@ static double touching_part(const CpsiLine *line, int j) {
  * does; what a single node does not ground is off the obstacle on both sides. *node is the first
  * one that touches; -1: none does. */
 static double suspended(const CpsiLine *line, int end, int *node) {
-    const int first = end_node(line, end), towards = end == CPS_END_A ? 1 : -1;
+    const int first = cpsi_line_end_node(line, end), towards = end == CPS_END_A ? 1 : -1;
     double length = 0;
     for (int j = first; j >= 0 && j < line->n; j += towards) {
         const double part = touching_part(line, j), share = cpsi_line_share(line, j);
@@ -327,8 +329,10 @@ void cpsi_line_report_sweep(CpsiLine *line, const double gravity[3]) {
     double most = 0;
     for (int j = 0; j < line->n; j++) {
         const Vec3 before = element_at_start(line, j - 1), behind = element_at_start(line, j);
+        const bool was_on_drum =
+            cpsi_line_has_winch(line) && vec3_norm(before) == 0 && vec3_norm(behind) == 0;
         start = vec3_add(start, before);
-        if (touching_part(line, j) > 0)
+        if (touching_part(line, j) > 0 && !was_on_drum)
             most = fmax(most, across(vec3_sub(vec3_at(line->position, j), start),
                                      vec3_add(before, behind), up));
     }

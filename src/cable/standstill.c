@@ -15,8 +15,9 @@
  * without slip, and with forces balanced anew, the same forces add up to slightly more or less. */
 static const double GAP_GROWTH = 10;
 
-/* Are held nodes where they were, and do obstacles not turn? */
+/* Are held nodes where they were, and do obstacles and winches not turn? */
 static bool supports_rest(const CpsiLine *line) {
+    if (line->drums.moved) return false;
     for (int end = 0; end < 2; end++) {
         const double *at = &line->reference[end == CPS_END_A ? 0 : 3 * (line->n - 1)],
                      *to = line->end[end].value;

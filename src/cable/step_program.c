@@ -100,7 +100,8 @@ static void initial_guess(const CpsiLine *line, CpsiChainProgram *program,
         shift_of(line, scale, to, shift[1]);
         const double length = cpsi_line_length_between(line, from, to);
         for (int j = from; j <= to; j++) {
-            const double b = (line->arc_length[j] - line->arc_length[from]) / length;
+            const double b =
+                length > 0 ? (line->arc_length[j] - line->arc_length[from]) / length : 0;
             double move[3];
             for (int a = 0; a < 3; a++)
                 move[a] = j == from ? shift[0][a]

@@ -297,7 +297,8 @@ static bool is_loose(const Tangent *t) {
 
 /* The force on the line at its end, by a move of it in the direction `a` of the common axes. */
 static void solve(const Tangent *t, int end, int a, double force[3]) {
-    const int n = t->line->n, i = end == CPS_END_A ? 1 : n - 1, j = end == CPS_END_A ? 1 : n - 2;
+    const int n = t->line->n, at = cpsi_line_end_node(t->line, end),
+              i = end == CPS_END_A ? at + 1 : at, j = end == CPS_END_A ? at + 1 : at - 1;
     const CpsiMatrix *matrix = t->matrix;
     const double sign = end == CPS_END_A ? -1 : 1, *m = &matrix->direction[3 * i];
     double *x = t->program->base.du, *tension = t->program->dt, move[3] = {0}, to[3];
@@ -421,7 +422,7 @@ CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program
                  .consistent = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
                  .curved = options->contact_policy != CPS_CONTACT_POLICY_REFERENCE ||
                            options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
-                 .end_node = end == CPS_END_A ? 0 : line->n - 1,
+                 .end_node = cpsi_line_end_node(line, end),
                  .opened = -1,
                  .landed = -1,
                  .force = line->report.certificate.largest_force};
@@ -482,8 +483,8 @@ typedef struct EndPlace {
 } EndPlace;
 
 static EndPlace place_of(const CpsiLine *line, int end) {
-    const int n = line->n;
-    return end == CPS_END_A ? (EndPlace){0, 1, 1, -1} : (EndPlace){n - 1, n - 2, n - 1, 1};
+    const int j = cpsi_line_end_node(line, end);
+    return end == CPS_END_A ? (EndPlace){j, j + 1, j + 1, -1} : (EndPlace){j, j - 1, j, 1};
 }
 
 /* Column 3 end + a of the tangent, in the common axes and in units of the program. */
@@ -504,7 +505,8 @@ static void solve_ends(const Tangent *t, int end, int a, double column[6]) {
         double next[3] = {0};
         if (!t->program->held[at.next]) from_node(t, at.next, &x[3 * at.next], next);
         for (int b = 0; b < 3; b++) {
-            const double own = to == end && b == a, other = n == 2 && to != end && b == a;
+            const double own = to == end && b == a,
+                         other = at.element == from.element && to != end && b == a;
             column[3 * to + b] = matrix->stiffness[at.element] * (own - other - next[b]) +
                                  at.sign * m[b] * tension[at.element];
         }

@@ -87,7 +87,9 @@ void cpsi_line_tension_range(CpsiLine *line, CpsiForceSet *set, const CpsiStepOp
     const CpsiForceLaw law = cpsi_force_law(options, line->exact);
     for (int end = 0; end < 2; end++) {
         CpsTensionRange *range = &line->report.end[end].range;
-        *range = range_of(line, set, &law, end == CPS_END_A ? 0 : line->n - 2);
+        *range = range_of(line, set, &law,
+                          end == CPS_END_A ? cpsi_line_end_node(line, end)
+                                           : cpsi_line_end_node(line, end) - 1);
         /* without any force there is no scale for the bounds; report no range */
         if (range->kind == CPS_RANGE_BOUNDED && !(line->report.certificate.largest_force > 0))
             *range = (CpsTensionRange){.kind = CPS_RANGE_NONE};

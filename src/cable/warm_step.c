@@ -43,6 +43,7 @@ static CpsiLoadChange change_of(const CpsiLine *line) {
         for (int a = 0; a < 3; a++) out.grasp[k].by[a] = grasp->imposed.value[a] - before->value[a];
     }
     for (int a = 0; a < 3; a++) out.weight[a] = line->weight[a] - line->weight_before[a];
+    out.winds = line->drums.moved;
     for (int k = 0; k < line->obstacle_count; k++) {
         out.turn += line->turn[k];
         if (cpsi_line_is_shifted(line, k)) out.known = false;
@@ -72,7 +73,7 @@ static double product(const CpsiLine *line, const CpsiLoadChange *a, const CpsiL
 /* The factor by which the last move is extrapolated; 0 where the loads do not go on. */
 static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
     const CpsiLoadChange *last = &line->last_change;
-    if (!last->known || !now->known) return 0;
+    if (!last->known || !now->known || last->winds || now->winds) return 0;
     if (last->grasp_count != now->grasp_count) return 0;
     for (int end = 0; end < 2; end++)
         if (last->kind[end] != now->kind[end]) return 0;

@@ -13,6 +13,7 @@
 
 #include "base/status.h"
 #include "cable/two_stiffnesses.h"
+#include "cable/winch.h"
 #include "evolve/failure.h"
 #include "evolve/state_check.h"
 
@@ -52,7 +53,7 @@ static void pass_flag(Tape *tape, bool *flag) {
 
 /* A field that is added to one of these structs has to be added to its function below as well. */
 #if UINTPTR_MAX == 0xffffffffffffffff
-_Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 7 * 8 &&
+_Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 8 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
                "add the new field to pass_energies or pass_end_report, then its size here");
 _Static_assert(sizeof(CpsEndReport) == 17 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
@@ -101,6 +102,7 @@ static void pass_load_change(Tape *tape, CpsiLoadChange *change) {
     PASS(tape, change->end);
     PASS(tape, change->weight);
     PASS(tape, change->turn);
+    pass_flag(tape, &change->winds);
 }
 
 static void pass_end_report(Tape *tape, CpsEndReport *end) {
@@ -228,6 +230,11 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     PASS(tape, line->newton.pause);
     pass_flag(tape, &line->newton.useful);
     if (line->has_inertia) pass_inertia(tape, line);
+    if (cpsi_line_has_winch(line)) {
+        double stored[2] = {line->drums.stored[CPS_END_A], line->drums.stored[CPS_END_B]};
+        PASS(tape, stored);
+        if (tape->in) cpsi_winch_set(line, stored);
+    }
     pass_line_report(tape, &line->report);
 }
 
@@ -385,6 +392,12 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, (size_t)line->spring_count, line->spring_start);
         hash_numbers(hash, (size_t)line->spring_count, line->spring_stiffness);
     }
+    if (cpsi_line_has_winch(line)) {
+        const int on[2] = {line->drums.on[CPS_END_A], line->drums.on[CPS_END_B]};
+        hash_bytes(hash, on, sizeof on);
+        hash_numbers(hash, 2, line->drums.stored);
+        hash_numbers(hash, (size_t)line->n - 1, line->drums.length);
+    }
     if (line->two.exists) hash_elasticity(hash, line, &line->two.elasticity[CPSI_DYNAMIC]);
     if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
     if (line->has_break_at) hash_numbers(hash, (size_t)line->n - 1, line->break_at);
@@ -446,6 +459,11 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
         hash_numbers(hash, 3, stage->shift[i].by);
         hash_numbers(hash, 3, stage->shift[i].turn);
         hash_numbers(hash, 3, stage->shift[i].about);
+    }
+    for (int i = 0; i < stage->pay_out_count; i++) {
+        const int what[2] = {stage->pay_out[i].line, stage->pay_out[i].end};
+        hash_bytes(hash, what, sizeof what);
+        hash_numbers(hash, 1, &stage->pay_out[i].length);
     }
     for (int i = 0; i < stage->turn_count; i++) {
         hash_bytes(hash, &stage->turn[i].obstacle, sizeof stage->turn[i].obstacle);

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "cable/held.h"
 #include "cable/report.h"
+#include "cable/winch.h"
 #include "capstan/evolve.h"
 #include "evolve/balance.h"
 #include "evolve/checkpoint.h"
@@ -102,6 +104,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->element_contacts = size.element_contacts;
         line->has_zones = scene->line[i].zone_count > 0;
         line->has_sections = cpsi_has_sections(&scene->line[i]);
+        for (int end = 0; end < 2; end++) line->drums.on[end] = scene->line[i].winch[end].is_there;
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
         line->has_break_at = cpsi_has_break_at(&scene->line[i]);
         line->has_inertia = line->has_field = cpsi_is_in_time(scene);
@@ -124,12 +127,13 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         cpsi_stage_layout(stage, arena, scene->stage[i].change_count,
                           scene->stage[i].point_change_count, scene->stage[i].body_change_count,
                           scene->stage[i].turn_count, scene->stage[i].grasp_change_count,
-                          scene->stage[i].shift_count, scene->stage[i].sway_count);
+                          scene->stage[i].shift_count, scene->stage[i].sway_count,
+                          scene->stage[i].pay_out_count);
     }
     cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->point_count,
                       scene->body_count, scene->obstacle_count,
                       CPSI_GRASP_CHANGES * scene->line_count, scene->obstacle_count,
-                      2 * scene->line_count);
+                      2 * scene->line_count, 2 * scene->line_count);
     cpsi_points_layout(&evolution->points, arena, scene);
     for (int i = 0; i < scene->point_count; i++) {
         const char *name = copy_name(arena, scene->point[i].name);
@@ -201,6 +205,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     if (line->has_sections || line->has_breaking_load || line->has_break_at ||
         line->spring_count > 0)
         cpsi_sections_fill(line, def);
+    cpsi_winch_keep(line);
+    cpsi_winch_set(line, (const double[2]){def->winch[0].stored, def->winch[1].stored});
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++)
             line->obstacle_index[c] = CPS_NO_OBSTACLE;
@@ -211,6 +217,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         line->end[end].kind = CPS_END_KIND_HELD;
         cpsi_start_end(def, end, line->end[end].value);
     }
+    if (cpsi_line_has_winch(line)) cpsi_line_put_held(line, line->position);
     switch (def->start.kind) {
     case CPS_START_STATIC: move_to_free_side(line); break;
     case CPS_START_NODES: cpsi_node_start(line, def); break;
@@ -275,7 +282,11 @@ static void fill_given(CpsEvolution *evolution, const CpsScene *scene) {
                       .length = scene->line[i].length,
                       .element_count = scene->line[i].element_count,
                       .end = {scene->line[i].end[CPS_END_A], scene->line[i].end[CPS_END_B]},
-                      .end_point = {scene->line[i].end_point[0], scene->line[i].end_point[1]}};
+                      .end_point = {scene->line[i].end_point[0], scene->line[i].end_point[1]},
+                      .element_length = cpsi_line_has_winch(&evolution->line[i])
+                                            ? evolution->line[i].drums.length
+                                            : NULL,
+                      .winch = {scene->line[i].winch[0], scene->line[i].winch[1]}};
 }
 
 /* The points, and the memory to find those that are free: with friction that has directions none

@@ -205,7 +205,8 @@ CpsiNetworkPart cpsi_network_part(CpsiBalance *balance, bool first) {
     for (int item = 0; item < balance->line_count; item++)
         for (int end = 0; end < 2; end++) {
             const CpsiLine *line = &balance->evolution->line[balance->line[item]];
-            const int k = balance->ends[item][end], e = end == CPS_END_A ? 0 : line->n - 2;
+            const int k = balance->ends[item][end], node = cpsi_line_end_node(line, end),
+                      e = end == CPS_END_A ? node : node - 1;
             if (k != CPSI_NO_JOINT) balance->joint[k].share += 0.5 * line->element_length[e];
         }
     return part;

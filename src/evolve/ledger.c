@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The ledger of one step:
  *
- *     ends + obstacles + loads = elastic + gravity + dissipated + imbalance
+ *     ends + obstacles + winches + loads = elastic + gravity + dissipated + imbalance
  *
  * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched (of a
  * table of strain and tension sum l W(|e| - 1)),
@@ -11,7 +11,9 @@
  * times its displacement (trapezium rule), or the force after where the one before is not known.
  * Friction does work with the force at the end of the step, on the slip (dissipated) and on the
  * displacement of an obstacle that turns (obstacles); so does the part of an end's force that
- * balances the friction of its half element. So the imbalance of a step is of second order in its
+ * balances the friction of its half element. The work of a winch is that of the pull on its drum,
+ * likewise the mean of before and after, on the length hauled in; what it winds has its weight at
+ * the place of the drum. So the imbalance of a step is of second order in its
  * size where nothing slides, and over a path it vanishes at first order with the steps; on a path
  * on which forces are linear in the displacements and nothing slides it is rounding. */
 #include "evolve/ledger.h"
@@ -21,6 +23,7 @@
 #include "cable/contact.h"
 #include "cable/field.h"
 #include "cable/report.h"
+#include "cable/winch.h"
 
 static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
     const Vec3 origin = vec3_load(line->position);
@@ -66,6 +69,9 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
     for (int i = 0; i < 2; i++) {
         const bool is_free = end[i].kind == CPS_END_KIND_FREE;
         const int j = i == CPS_END_A ? 0 : line->n - 1;
+        if (line->drums.on[i]) start.pull[i] = cpsi_winch_pull(line, i, line->weight_before);
+        start.stored[i] = line->drums.stored[i];
+        start.hangs[i] = line->drums.weight[i];
         start.known[i] = known || is_free;
         for (int a = 0; a < 3; a++) {
             start.end[i].position[a] = line->position[3 * j + a];
@@ -113,7 +119,7 @@ static double end_obstacle_work(const CpsiLine *line) {
     double work = 0;
     if (line->has_local_axes)
         for (int end = 0; end < 2; end++) {
-            const int j = end == CPS_END_A ? 0 : line->n - 1, k = line->obstacle_index[j];
+            const int j = cpsi_line_end_node(line, end), k = line->obstacle_index[j];
             if (!cpsi_line_is_held(line, j) || k < 0 ||
                 (line->turn[k] == 0 && !cpsi_line_is_shifted(line, k)))
                 continue;
@@ -144,6 +150,25 @@ static double obstacle_work(const CpsiLine *line) {
     return work + end_obstacle_work(line);
 }
 
+/* The work of the winches; and in the ledger, the weight of what they have wound at the place of
+ * the drum. */
+static double wind_work(const CpsiLine *line, const CpsiLedgerStart *start, CpsLedger *ledger) {
+    const Vec3 weight =
+        vec3_scale(0.5, vec3_add(vec3_load(line->weight_before), vec3_load(line->weight)));
+    double work = 0;
+    for (int end = 0; end < 2; end++) {
+        const double in = line->drums.stored[end] - start->stored[end],
+                     weighs = line->drums.weight[end] - start->hangs[end];
+        if (!line->drums.on[end] || (in == 0 && weighs == 0)) continue;
+        const double pull = cpsi_winch_pull(line, end, line->weight);
+        const Vec3 drum = vec3_scale(0.5, vec3_add(vec3_load(start->end[end].position),
+                                                   vec3_load(line->report.end[end].position)));
+        work += in * (start->known[end] ? 0.5 * (start->pull[end] + pull) : pull);
+        ledger->gravity -= weighs * vec3_dot(weight, drum);
+    }
+    return work;
+}
+
 /* The work of the loads of the nodes beside their weight, from the reference to the position. */
 static double load_work(const CpsiLine *line) {
     double work = 0;
@@ -165,6 +190,7 @@ CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
     potentials(line, &elastic, &gravity);
     ledger.elastic = elastic - start->elastic;
     ledger.gravity = gravity - start->gravity;
+    ledger.winches = wind_work(line, start, &ledger);
     for (int end = 0; end < 2; end++) {
         CpsEndReport *report = &line->report.end[end];
         report->work = end_work(&start->end[end], report, start->known[end]);
@@ -179,16 +205,16 @@ CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
                                 start->all_known || grasp->imposed.kind == CPS_END_KIND_FREE);
     }
     ledger.loads = load_work(line);
-    ledger.imbalance = ledger.ends + ledger.obstacles + ledger.loads - ledger.elastic -
-                       ledger.gravity - ledger.dissipated;
+    ledger.imbalance = ledger.ends + ledger.obstacles + ledger.winches + ledger.loads -
+                       ledger.elastic - ledger.gravity - ledger.dissipated;
     return ledger;
 }
 
 double cpsi_ledger_exchanged(const CpsLedger *ledger) {
-    const double work[] = {ledger->ends, ledger->obstacles, ledger->loads, -ledger->elastic,
-                           -ledger->gravity};
+    const double work[] = {ledger->ends,  ledger->obstacles, ledger->winches,
+                           ledger->loads, -ledger->elastic,  -ledger->gravity};
     double sum = ledger->dissipated;
-    for (int k = 0; k < 5; k++) sum += work[k] > 0 ? work[k] : 0;
+    for (int k = 0; k < 6; k++) sum += work[k] > 0 ? work[k] : 0;
     return sum;
 }
 
@@ -197,6 +223,7 @@ void cpsi_ledger_add(CpsLedger *sum, const CpsLedger *part) {
     sum->gravity += part->gravity;
     sum->ends += part->ends;
     sum->obstacles += part->obstacles;
+    sum->winches += part->winches;
     sum->loads += part->loads;
     sum->dissipated += part->dissipated;
     sum->imbalance += part->imbalance;

@@ -13,6 +13,8 @@ typedef struct CpsiLedgerStart {
     double pushed; /* [J] work that the reactions at the start do as obstacles are shifted */
     bool known[2]; /* is the force at this end known? */
     CpsEndReport grasp[CPS_MAX_GRASPS];
+    double pull[2];             /* [N] of the line on the drum of a winch (cable/winch.h) */
+    double stored[2], hangs[2]; /* [m] on the drum: natural length, and that of the weight */
 } CpsiLedgerStart;
 
 /* Before a step, with the ends imposed then. The force of a free end is given; that of a held end
@@ -22,8 +24,8 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
 /* After the step; the work of each end is written to the report of that end. */
 CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start);
 
-/* [J] Dissipated plus positive work: the work of the ends and of obstacles that turn, and stored
- * energy released, each where it is positive. */
+/* [J] Dissipated plus positive work: the work of the ends, of winches and of obstacles that turn,
+ * and stored energy released, each where it is positive. */
 double cpsi_ledger_exchanged(const CpsLedger *ledger);
 
 /* sum += part */

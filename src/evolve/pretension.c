@@ -310,6 +310,12 @@ CpsStatus cps_scene_length_for(const CpsScene *scene, int line, int section, int
     if (!length) return cpsi_fail(err, CPS_ERR_ARGUMENT, "length is NULL");
     CpsStatus status = cps_scene_check(scene, err);
     if (status == CPS_OK) status = check(scene, line, section, end, pull, wanted, err);
+    if (status == CPS_OK &&
+        (scene->line[line].winch[0].is_there || scene->line[line].winch[1].is_there))
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "line '%s' has a winch: its tension follows from what is stored on the "
+                           "drum, not from its length",
+                           scene->line[line].name);
     CpsiHeldScene held = {.block = NULL};
     if (status == CPS_OK) status = cpsi_held_scene(scene, &held, err);
     if (status != CPS_OK) return status;

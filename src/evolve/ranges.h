@@ -32,6 +32,11 @@ static inline double cpsi_element_length(const CpsLine *line, int e) {
     return line->element_length ? line->element_length[e] : line->length / line->element_count;
 }
 
+/* [m] Natural length that is off the drums of its winches when the history begins. */
+static inline double cpsi_length_off_drums(const CpsLine *line) {
+    return line->length - line->winch[CPS_END_A].stored - line->winch[CPS_END_B].stored;
+}
+
 static inline const char *cpsi_end_letter(int end) { return end == CPS_END_A ? "A" : "B"; }
 
 #endif

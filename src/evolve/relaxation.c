@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "cable/existence.h"
+#include "cable/winch.h"
 #include "evolve/ledger.h"
 
 /* Largest number of time steps. */
@@ -36,8 +37,11 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
     CpsEnd from[2] = {before[0], before[1]};
     double drag = FIRST_DRAG;
     *done = (CpsiRelaxation){0};
+    const CpsiLedgerStart first = cpsi_ledger_start(line, from, known);
+    cpsi_winch_wind(line);
+    bool winds = line->drums.moved; /* in the step that is next */
     for (int k = 0; k < STEPS && !cpsi_interrupt_seen(program->base.interrupt); k++) {
-        const CpsiLedgerStart start = cpsi_ledger_start(line, from, known);
+        const CpsiLedgerStart start = winds ? first : cpsi_ledger_start(line, from, known);
         line->report.iteration_count = 0;
         const CpsiDampedStep step = cpsi_line_damped_step(line, program, options, drag);
         done->iterations += line->report.iteration_count;
@@ -59,6 +63,7 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
             line->shift[i] = (CpsiShift){0};
         }
         known = true;
+        winds = false;
         double direction[3], load;
         if (cpsi_line_falls_away(line, direction, &load)) return true;
         const double left = step.distance / line->length;

@@ -24,6 +24,7 @@
 #include "evolve/start.h"
 #include "evolve/time_check.h"
 #include "evolve/water.h"
+#include "evolve/winches.h"
 #include "geometry/obstacle.h"
 
 enum { SCENE_COOKIE = 0x5ce9e501, LINE_COOKIE = 0x11e00e02, OBSTACLE_COOKIE = 0x0b57ac03 };
@@ -301,7 +302,7 @@ static CpsStatus check_start_data(const CpsLine *line, CpsError *err) {
 
 static CpsStatus check_start_length(const CpsLine *line, CpsError *err) {
     if (line->start.kind == CPS_START_NODES) return CPS_OK; /* may be slack */
-    const double shape = cpsi_start_length(line), length = line->length;
+    const double shape = cpsi_start_length(line), length = cpsi_length_off_drums(line);
     const bool elastic = cpsi_is_elastic(line);
     const Vec3 first = line->start.point_count > 0 ? vec3_load(line->start.point) : vec3(0, 0, 0);
     const double tolerance = LENGTH_TOLERANCE + line->start.point_count *
@@ -455,6 +456,7 @@ static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
                 cpsi_fail(err, CPS_ERR_ARGUMENT, "line '%s': lines %d and %d have the same name",
                           line->name, i + 1, index + 1);
     if (status == CPS_OK) status = check_numbers(scene, line, err);
+    if (status == CPS_OK) status = cpsi_winches_check(line, err);
     if (status == CPS_OK) status = check_start_data(line, err);
     if (status == CPS_OK && line->start.kind == CPS_START_NODES)
         status = cpsi_fail_inside(err, cpsi_node_start_check(scene, line, err), "start");
@@ -488,7 +490,7 @@ static CpsStatus check_history(const CpsScene *scene, CpsError *err) {
                                   (long long)MAX_STEPS);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "history[%d]", k + 1);
     }
-    return CPS_OK;
+    return cpsi_pay_outs_check_history(scene, err);
 }
 
 static CpsStatus check_options(const CpsScene *scene, CpsError *err) {

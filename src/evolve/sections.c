@@ -15,7 +15,8 @@
 static const double AT_NODE = 1e-9;
 
 bool cpsi_has_sections(const CpsLine *def) {
-    return def->section_count > 0 || def->point_weight_count > 0 || cpsi_has_dynamic_stiffness(def);
+    return def->winch[CPS_END_A].is_there || def->winch[CPS_END_B].is_there ||
+           def->section_count > 0 || def->point_weight_count > 0 || cpsi_has_dynamic_stiffness(def);
 }
 
 /* The table of a section, or of a line of one make; no rows: there is none. */

@@ -11,7 +11,7 @@
  * without sections, weight, stiffness and breaking load. */
 CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsError *err);
 
-/* Has it sections or point weights? Is it elastic? */
+/* Has it sections, point weights or a winch? Is it elastic? */
 bool cpsi_has_sections(const CpsLine *def);
 bool cpsi_is_elastic(const CpsLine *def);
 

@@ -15,6 +15,7 @@
 #include "evolve/shifts.h"
 #include "evolve/time_check.h"
 #include "evolve/water.h"
+#include "evolve/winches.h"
 
 enum { STAGE_COOKIE = 0x57a9e004 };
 
@@ -152,5 +153,6 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
     if (status == CPS_OK) status = cpsi_stage_time_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_point_changes_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_grasp_changes_check(scene, stage, what, err);
+    if (status == CPS_OK) status = cpsi_pay_outs_check(scene, stage, what, err);
     return status == CPS_OK ? cpsi_body_changes_check(scene, stage, what, err) : status;
 }

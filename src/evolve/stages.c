@@ -14,9 +14,11 @@
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
 #include "evolve/water.h"
+#include "evolve/winches.h"
 
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
-                       int bodies, int turns, int grasps, int shifts, int sways) {
+                       int bodies, int turns, int grasps, int shifts, int sways, int pay_outs) {
+    CPSI_PLACE(arena, stage->pay_out, pay_outs);
     CPSI_PLACE(arena, stage->shift, shifts);
     CPSI_PLACE(arena, stage->sway, sways);
     CPSI_PLACE(arena, stage->change, changes);
@@ -66,6 +68,8 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
     stage->sway_count = from->sway_count;
     for (int k = 0; k < from->sway_count; k++) stage->sway[k] = from->sway[k];
+    stage->pay_out_count = from->pay_out_count;
+    for (int k = 0; k < from->pay_out_count; k++) stage->pay_out[k] = from->pay_out[k];
     stage->static_stiffness = from->static_stiffness;
     stage->gravity_changes = from->gravity_changes;
     memcpy(stage->gravity, from->gravity, sizeof stage->gravity);
@@ -132,6 +136,8 @@ CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolut
             cpsi_path_check_point(&scene, &change, point->length, from, grabbed, what, err);
         if (status) return status;
     }
+    const CpsStatus stock = cpsi_pay_outs_check_now(evolution, stage, what, err);
+    if (stock != CPS_OK) return stock;
     return cpsi_grasps_check(evolution, &scene, stage, what, err);
 }
 
@@ -306,6 +312,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
         move->to[change->end] = end_at(evolution, stage, change, part + 1);
     }
     cpsi_grasps_plan(evolution, stage, part);
+    cpsi_pay_outs_plan(evolution, stage);
     plan_bodies(evolution, stage, part);
     plan_points(evolution, stage, part);
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
@@ -335,6 +342,7 @@ static void plan_rest(CpsEvolution *evolution) {
             move->grasp_from[k] = move->grasp_to[k] = line->grasp[k].imposed;
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
     }
+    cpsi_pay_outs_plan(evolution, &(CpsiEvolutionStage){.steps = 1});
     plan_shifts(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);
     plan_points(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);
 }

@@ -8,7 +8,7 @@ static Vec3 shape_point(const CpsLine *line, int i) { return vec3_at(line->start
 
 double cpsi_start_length(const CpsLine *line) {
     if (line->start.kind == CPS_START_ARC || line->start.kind == CPS_START_STATIC)
-        return line->length;
+        return cpsi_length_off_drums(line);
     double length = 0;
     for (int i = 1; i < line->start.point_count; i++)
         length += vec3_norm(vec3_sub(shape_point(line, i), shape_point(line, i - 1)));
@@ -37,12 +37,13 @@ static void statics_guess(const CpsLine *line, Vec3 guess[2]) {
         /* the value of a free end is its force; one without force hangs down */
         const double force = vec3_norm(guess[k]);
         const Vec3 pull = force > 0 ? vec3_scale(1 / force, guess[k]) : vec3(0, 0, -1);
-        guess[k] = vec3_axpy(line->length, pull, guess[1 - k]);
+        guess[k] = vec3_axpy(cpsi_length_off_drums(line), pull, guess[1 - k]);
     }
 }
 
 CpsiStartWalk cpsi_start_walk(const CpsLine *line) {
-    CpsiStartWalk walk = {.line = line, .stretch = cpsi_start_length(line) / line->length};
+    CpsiStartWalk walk = {.line = line,
+                          .stretch = cpsi_start_length(line) / cpsi_length_off_drums(line)};
     if (line->start.kind == CPS_START_ARC) walk.arc = cpsi_start_arc(line);
     if (line->start.kind == CPS_START_STATIC) {
         Vec3 guess[2];
@@ -53,11 +54,18 @@ CpsiStartWalk cpsi_start_walk(const CpsLine *line) {
     return walk;
 }
 
+/* [m] Natural length from end A to the next node, of what is off the drums. */
+static double off_drums(const CpsiStartWalk *walk) {
+    const CpsLine *line = walk->line;
+    const double at = walk->natural - line->winch[CPS_END_A].stored;
+    return fmin(fmax(at, 0), cpsi_length_off_drums(line));
+}
+
 /* the point of a polyline at the walk's abscissa, which never decreases; the last node is exactly
  * the last point */
 static Vec3 polyline_point(CpsiStartWalk *walk) {
     const CpsLine *line = walk->line;
-    const double target = walk->natural * walk->stretch;
+    const double target = off_drums(walk) * walk->stretch;
     for (; walk->piece + 1 < line->start.point_count; walk->piece++) {
         const Vec3 a = shape_point(line, walk->piece), b = shape_point(line, walk->piece + 1);
         const double length = vec3_norm(vec3_sub(b, a));
@@ -76,11 +84,14 @@ static Vec3 arc_point(const CpsiArc *arc, double angle) {
 /* On to the next node. Equal elements: by a product, so that the abscissa does not drift. */
 static void go_on(CpsiStartWalk *walk) {
     const CpsLine *line = walk->line;
-    const double l = cpsi_element_length(line, walk->node);
-    if (line->start.kind == CPS_START_ARC) walk->angle += 2 * asin(l / (2 * walk->arc.radius));
+    const double l = cpsi_element_length(line, walk->node), before = off_drums(walk);
     walk->node++;
     walk->natural =
         line->element_length ? walk->natural + l : line->length * walk->node / line->element_count;
+    if (line->start.kind != CPS_START_ARC) return;
+    const bool has_winch = line->winch[CPS_END_A].is_there || line->winch[CPS_END_B].is_there;
+    const double off = has_winch ? off_drums(walk) - before : l;
+    walk->angle += 2 * asin(off / (2 * walk->arc.radius));
 }
 
 Vec3 cpsi_start_next(CpsiStartWalk *walk) {
@@ -92,7 +103,8 @@ Vec3 cpsi_start_next(CpsiStartWalk *walk) {
     case CPS_START_ARC: x = arc_point(&walk->arc, walk->angle); break;
     case CPS_START_NODES: x = shape_point(line, walk->node); break;
     case CPS_START_STATIC:
-        x = vec3_axpy(walk->natural / line->length, vec3_sub(walk->to, walk->from), walk->from);
+        x = vec3_axpy(off_drums(walk) / cpsi_length_off_drums(line), vec3_sub(walk->to, walk->from),
+                      walk->from);
         if (walk->node == line->element_count) x = walk->to;
         break;
     }

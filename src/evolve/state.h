@@ -16,7 +16,7 @@ enum { CPSI_STEP_NAME = 96, CPSI_GRASP_CHANGES = 2 * CPS_MAX_GRASPS };
 typedef struct CpsiEvolutionStage {
     const char *name;
     int steps, change_count, point_change_count, body_change_count, grasp_change_count, turn_count,
-        shift_count, sway_count;
+        shift_count, sway_count, pay_out_count;
     CpsChange *change;
     CpsGraspChange *grasp_change;
     CpsPointChange *point_change;
@@ -24,6 +24,7 @@ typedef struct CpsiEvolutionStage {
     CpsTurn *turn;
     CpsShift *shift;
     CpsSway *sway;
+    CpsPayOut *pay_out;
     bool static_stiffness;
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "evolve/grasps.h"
+#include "evolve/winches.h"
 
 /* Rounding of the axes of an obstacle. */
 static const double ORTHONORMAL = 1e-9;
@@ -224,6 +225,8 @@ const char *cpsi_state_fault(const CpsEvolution *evolution) {
         const CpsiLine *line = &evolution->line[i];
         for (int end = 0; end < 2; end++)
             if (!is_end(&line->end[end])) return "an end is neither held nor free, or at no place";
+        if (!cpsi_drums_are_sound(line, line->drums.stored))
+            return "a drum has what the line is not long enough for";
         if (!cpsi_grasps_are_sound(line)) return "a node is grasped that cannot be, or at no place";
         if (!is_line_report(&line->report, evolution->obstacle_count))
             return "the report of a line is none";

@@ -31,6 +31,7 @@
 #include "cable/bend.h"
 #include "cable/contact.h"
 #include "cable/obstacle_side.h"
+#include "cable/winch.h"
 #include "evolve/ledger.h"
 #include "evolve/relaxation.h"
 
@@ -106,6 +107,7 @@ void cpsi_substeps_save(const CpsiLine *line, CpsiSubsteps *scratch) {
                contacts * sizeof *line->obstacle_index);
     memcpy(scratch->end, line->report.end, sizeof scratch->end);
     memcpy(scratch->grasp, line->grasp, sizeof scratch->grasp);
+    memcpy(scratch->stored, line->drums.stored, sizeof scratch->stored);
     memcpy(scratch->position, line->position, 3 * n * sizeof *line->position);
 }
 
@@ -119,6 +121,7 @@ void cpsi_substeps_restore(CpsiLine *line, const CpsiSubsteps *scratch) {
                contacts * sizeof *line->obstacle_index);
     memcpy(line->report.end, scratch->end, sizeof scratch->end);
     memcpy(line->grasp, scratch->grasp, sizeof scratch->grasp);
+    cpsi_winch_set(line, scratch->stored);
     memcpy(line->position, scratch->position, 3 * n * sizeof *line->position);
     line->last_change.known = false;
 }
@@ -186,6 +189,12 @@ static void shift_obstacles(const CpsiLine *line, const CpsiMove *move, CpsiSubs
     }
 }
 
+/* [m] What is on the drum of an end at a share of the move. */
+static double stored_at(const CpsiMove *move, int end, double share) {
+    const double from = move->stored_from[end], to = move->stored_to[end];
+    return share < 1 ? from + share * (to - from) : to;
+}
+
 void cpsi_substeps_impose(CpsiLine *line, const CpsiMove *move, CpsiSubsteps *scratch, double from,
                           double to) {
     weight_at(move, from, line->weight_before);
@@ -193,6 +202,7 @@ void cpsi_substeps_impose(CpsiLine *line, const CpsiMove *move, CpsiSubsteps *sc
     for (int end = 0; end < 2; end++) {
         line->end_before[end] = end_at(move, end, from);
         line->end[end] = end_at(move, end, to);
+        line->drums.due[end] = stored_at(move, end, to);
     }
     for (int k = 0; k < move->grasp_count; k++) {
         line->grasp_before[k] = grasp_at(move, k, from);
@@ -219,6 +229,7 @@ static Part accept(Advance *substeps, double from, double to, bool known) {
     for (int end = 0; end < 2; end++) before[end] = end_at(move, end, from);
     impose(substeps, from, to);
     const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
+    cpsi_winch_wind(line);
     cpsi_line_step(line, substeps->program, substeps->options);
     if ((is_answer(line->report.outcome) || line->report.outcome == CPS_OUTCOME_PASSES) &&
         cpsi_contact_turns_too_far(line))
@@ -445,11 +456,31 @@ static double share_of_step(const Portion *portion, double share) {
     return share < 1 ? portion->from + share * (portion->to - portion->from) : portion->to;
 }
 
+/* What is on the drums before a part that is only looked at. */
+typedef struct Drums {
+    double stored[2];
+} Drums;
+
+static Drums wind(const Advance *substeps) {
+    const double *stored = substeps->line->drums.stored;
+    const Drums before = {{stored[CPS_END_A], stored[CPS_END_B]}};
+    cpsi_winch_wind(substeps->line);
+    return before;
+}
+
+/* The part is none: false, and winches are where they were. */
+static bool unwind(const Advance *substeps, const Drums *before) {
+    cpsi_winch_set(substeps->line, before->stored);
+    return false;
+}
+
 /* If the line slides without end from share `from` to share `to`, the end of a portion: add that as
  * the last part. */
 static bool add_slide(Advance *substeps, double from, double to, double margin) {
     impose(substeps, from, to);
-    if (!cpsi_line_step_slides_endlessly(substeps->line, substeps->options, margin)) return false;
+    const Drums before = wind(substeps);
+    if (!cpsi_line_step_slides_endlessly(substeps->line, substeps->options, margin))
+        return unwind(substeps, &before);
     Part part = {0};
     part.report = substeps->line->report;
     part.report.share = to - from;
@@ -503,7 +534,9 @@ static bool relax(Advance *substeps, double from, double to) {
  * (docs/theory.md 5). */
 static bool add_shortfall(Advance *substeps) {
     impose(substeps, 0, 1);
-    if (!cpsi_line_step_falls_short(substeps->line, substeps->options)) return false;
+    const Drums before = wind(substeps);
+    if (!cpsi_line_step_falls_short(substeps->line, substeps->options))
+        return unwind(substeps, &before);
     Part part = {0};
     part.report = substeps->line->report;
     part.report.share = 1;
@@ -526,7 +559,9 @@ static double cost_of(const Advance *substeps, int before, bool good) {
  * the portion: add that as the last part. */
 static bool add_escape(Advance *substeps, double from, double to) {
     impose(substeps, from, to);
-    if (!cpsi_line_step_outruns_bounds(substeps->line, substeps->options)) return false;
+    const Drums before = wind(substeps);
+    if (!cpsi_line_step_outruns_bounds(substeps->line, substeps->options))
+        return unwind(substeps, &before);
     Part part = {0};
     part.report = substeps->line->report;
     part.report.share = to - from;
@@ -538,7 +573,9 @@ static bool add_escape(Advance *substeps, double from, double to) {
  * part. Otherwise the line is not changed. */
 static bool add_catch(Advance *substeps, double from) {
     impose(substeps, from, 1);
-    if (!cpsi_line_step_is_caught(substeps->line, substeps->options)) return false;
+    const Drums before = wind(substeps);
+    if (!cpsi_line_step_is_caught(substeps->line, substeps->options))
+        return unwind(substeps, &before);
     Part part = {0};
     part.report = substeps->line->report;
     part.report.share = 1 - from;

@@ -16,6 +16,7 @@ typedef struct CpsiMove {
     const CpsiShift *shift;
     const CpsiObstacle *obstacle;
     double weight_from[3], weight_to[3]; /* [N/m] per natural length */
+    double stored_from[2], stored_to[2]; /* [m] on the drums of winches */
 } CpsiMove;
 
 /* Scratch memory for the state at the start of a part, and for the result of a part taken whole. */
@@ -26,6 +27,7 @@ typedef struct CpsiSubsteps {
     int *obstacle_index;  /* (contacts, n) */
     CpsEndReport end[2];
     CpsGrasp grasp[CPS_MAX_GRASPS];
+    double stored[2];       /* [m] on the drums of winches */
     double *position;       /* (n, 3) */
     double *trial;          /* (n, 4), NULL without a path tolerance */
     double *turn;           /* (obstacles) what line->turn points to */

@@ -54,6 +54,11 @@ static CpsStatus check_line(const CpsLine *line, bool in_time, CpsError *err) {
                             "line '%s': break_at: lines do not part in a history of which a step "
                             "has a duration: leave it out",
                             line->name);
+    if (in_time && (line->winch[CPS_END_A].is_there || line->winch[CPS_END_B].is_there))
+        return CPSI_FAIL_AT("ends", err, CPS_ERR_ARGUMENT,
+                            "line '%s': stored: winches do not wind in a history of which a step "
+                            "has a duration: leave it out",
+                            line->name);
     return CPS_OK;
 }
 

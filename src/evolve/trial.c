@@ -8,6 +8,7 @@
 
 #include "base/larger.h"
 #include "cable/field.h"
+#include "cable/winch.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/checkpoint.h"
@@ -434,6 +435,12 @@ bool cpsi_is_answer(const CpsiBalance *balance) {
     for (int k = 0; k < balance->count; k++)
         if (!cpsi_obeys_friction(balance, &balance->at[k])) return false;
     return balance->certified && cpsi_is_balanced(balance, cpsi_left_now(balance));
+}
+
+bool cpsi_group_has_winch(const CpsiBalance *balance) {
+    for (int item = 0; item < balance->line_count; item++)
+        if (cpsi_line_has_winch(&balance->evolution->line[balance->line[item]])) return true;
+    return false;
 }
 
 bool cpsi_has_inextensible(const CpsiBalance *balance) {

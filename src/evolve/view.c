@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The views of the lines of an evolution (view.h). */
 #include "evolve/view.h"
+#include "cable/winch.h"
 
 #include "capstan/two_stiffnesses.h"
 
@@ -60,8 +61,8 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .name = from->name,
         .element_count = from->n - 1,
         .contact_count = from->contacts,
-        .one_plane = !from->has_local_axes && from->grasp_count == 0,
-        .arc_length = from->arc_length,
+        .one_plane = !from->has_local_axes && from->grasp_count == 0 && !cpsi_line_has_winch(from),
+        .arc_length = cpsi_line_has_winch(from) ? from->drums.place : from->arc_length,
         .element_length = from->element_length,
         .compliance = from->compliance,
         .compliance_factor = from->has_sections ? from->compliance_factor : fill->one,

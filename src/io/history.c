@@ -54,6 +54,10 @@ CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution) {
     return sum;
 }
 
+bool cpsi_has_winch(const CpsLine *line) {
+    return line->winch[CPS_END_A].is_there || line->winch[CPS_END_B].is_there;
+}
+
 bool cpsi_lets_go(const CpsScene *scene) {
     bool found = false;
     for (int i = 0; i < scene->line_count; ++i) {

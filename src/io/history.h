@@ -21,7 +21,8 @@ typedef struct CpsiLineRow {
     CpsLineReport report;
     bool held[2];           /* whether the position of this end, or of its point, was imposed */
     CpsLineFailure failure; /* without its array */
-    double open_reaction;   /* [N] largest reaction on a node without contact */
+    CpsWinchReport winch[2];
+    double open_reaction; /* [N] largest reaction on a node without contact */
 } CpsiLineRow;
 
 typedef struct CpsiBodyRow {
@@ -119,6 +120,7 @@ struct CpsResults {
     int planned_steps;  /* with the breaks so far */
     bool lets_go;       /* cpsi_lets_go */
     bool in_time;       /* a step may have a duration */
+    bool winds;         /* a line has a winch */
     bool begins_static; /* the first step places lines by statics */
 
     int row_count, row_capacity;
@@ -138,6 +140,8 @@ bool cpsi_lets_go(const CpsScene *scene);
 /* Whether steps of the scene may have a duration. */
 bool cpsi_has_duration(const CpsScene *scene);
 CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution);
+/* Whether a line has a winch. Only then do results say what winches do. */
+bool cpsi_has_winch(const CpsLine *line);
 /* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
 int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
 

@@ -21,6 +21,7 @@
 #include "points.h"
 #include "ranges.h"
 #include "reach.h"
+#include "winches.h"
 
 /* A balance is accepted when no node is off by more than this part of the largest force: rounding
  * leaves 1e-16 per operation, and a drag over thousands of nodes must not hide in it. The same for
@@ -120,7 +121,8 @@ static void check_unaccounted(Findings *findings, const Record *r, const Measure
     static const double MUCH = 0.05;
     const double *entry = r->ledger, made = -entry[LEDGER_IMBALANCE];
     double beside = r->dissipated + fmax(0, entry[LEDGER_ENDS]) + fmax(0, entry[LEDGER_OBSTACLES]) +
-                    fmax(0, -entry[LEDGER_ELASTIC]) + fmax(0, -entry[LEDGER_GRAVITY]);
+                    fmax(0, r->winch_work) + fmax(0, -entry[LEDGER_ELASTIC]) +
+                    fmax(0, -entry[LEDGER_GRAVITY]);
     double least = fmax(MUCH * beside, m->gap + PLACE_TOLERANCE * m->largest_force * m->length +
                                            strain_energy_of_rounding(r, m));
     if (r->unaccounted != 0) same(findings, "unaccounted", r->unaccounted, made, 0);
@@ -141,15 +143,18 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
                    entry[LEDGER_IMBALANCE],
            sizes = r->dissipated;
     for (int k = 0; k < LEDGER_ENTRIES; k++) sizes += fabs(entry[k]);
+    sizes += fabs(r->winch_work);
     // entries are sums over the parts, which may cancel but for rounding
     if (r->substeps > 1) sizes += m->largest_force * m->length;
     at_most(findings, "ledger: ends + obstacles - all else",
-            fabs(entry[LEDGER_ENDS] + entry[LEDGER_OBSTACLES] - spent),
+            fabs(entry[LEDGER_ENDS] + entry[LEDGER_OBSTACLES] + r->winch_work - spent),
             COPY_TOLERANCE * sizes + NOTHING);
     if (r->substeps > 1) return;
     check_unaccounted(findings, r, m);
-    same(findings, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
-    same(findings, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
+    if (!r->winds) {
+        same(findings, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
+        same(findings, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
+    }
     same(findings, "ledger_obstacles", entry[LEDGER_OBSTACLES],
          m->carried + m->pushed + ends_carried, floor);
 }
@@ -578,10 +583,11 @@ static void check_work(const Record *r, const Record *before, const Source *sour
 /* The weight before a step in one part is that after the one before, by the load of any node that
  * no end force acts on. */
 static void check_weight(const Record *r, const Record *before, Findings *findings) {
-    if (!r->has_weight_before || r->substeps != 1 || r->nodes < 3 || before->outcome > OUTCOME_TAUT)
+    if (!r->has_weight_before || r->substeps != 1 || before->nodes < 3 ||
+        before->outcome > OUTCOME_TAUT)
         return;
-    const double share =
-        r->weight_length ? r->weight_length[1] : (r->element_length[0] + r->element_length[1]) / 2;
+    const double share = before->weight_length ? before->weight_length[1]
+                                               : (r->element_length[0] + r->element_length[1]) / 2;
     Real own[3] = {before->load[1][0], before->load[1][1], before->load[1][2]};
     node_load(before, 1, own);
     for (int k = 0; k < 3; k++)
@@ -621,8 +627,7 @@ static void check_element_bound(const Record *r, const Record *before, size_t c,
     double noise = r->factor_noise
                        ? fmax(r->factor_noise[i], r->factor_noise[i + 1]) * R * fmax(1, r->mu[c])
                        : 0;
-    // rounds leave the point where they found it to 1e-10 of the element, the factor changes along
-    // that
+    // rounds leave the point to 1e-10 of the element, along which the factor changes
     if (r != before && r->factor)
         noise += 1e-9 * fabs(r->factor[i + 1] - r->factor[i]) * R * fmax(1, r->mu[c]);
     if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared))
@@ -697,6 +702,24 @@ static void check_bounds(const Source *source, const Record *r, const Record *be
     }
 }
 
+static void check_winches(const Record *r, const Record *before, const Source *source, size_t step,
+                          Findings *findings) {
+    const Measures m = measure_where(source, r, step);
+    if (r->outcome > OUTCOME_TAUT || m.missing) return;
+    for (int e = 0; e < 2; e++)
+        if (!isnan(r->stored[e]))
+            same(findings, "winch_pull", r->winch_pull[e], (double)winches_pull(r, e),
+                 FORCE_TOLERANCE * m.largest_force + NOTHING);
+    if (!before || r->substeps > 1 || before->outcome > OUTCOME_TAUT) return;
+    const WinchLedger own = winches_ledger(r, before);
+    double floor = ENERGY_FLOOR * m.scale + 1e-13 * (m.largest_force * m.reach + (double)own.size);
+    same(findings, "ledger_winches", r->winch_work, (double)own.winches, r->winds ? floor : 0);
+    if (!r->winds) return;
+    same(findings, "ledger_elastic", r->ledger[LEDGER_ELASTIC], (double)own.elastic, floor);
+    if (own.known)
+        same(findings, "ledger_gravity", r->ledger[LEDGER_GRAVITY], (double)own.gravity, floor);
+}
+
 static int check_line(const Source *source, const char *line, FILE *log, CheckerReport *report) {
     Record record = {0}, previous = {0};
     int bad =
@@ -704,15 +727,16 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
     for (size_t step = 0; step < source->steps && !bad; step++) {
         bad = record_read(source, line, step, &record, log);
         if (bad) break;
+        record.winds = step > 0 && winches_wind(&record, &previous);
         check_record(source, &record, step > 0 ? &previous : NULL, line, step, log, report);
         Findings findings = {log, line, step, 0};
-        if (step > 0 && record.substeps == 1 &&
-            memcmp(record.reference, previous.position, record.nodes * sizeof(Vector)) != 0)
+        if (step > 0 && record.substeps == 1 && !winches_continue(&record, &previous))
             find(&findings, "the reference is not the position of the step before");
         const char *fault = elongation_rest_fault(&record, step > 0 ? &previous : NULL);
         if (fault) find(&findings, "%s", fault);
         if (step > 0) check_work(&record, &previous, source, step, &findings);
         if (step > 0) check_weight(&record, &previous, &findings);
+        if (record.drums) check_winches(&record, step ? &previous : NULL, source, step, &findings);
         // with frozen friction the reactions before a first step, or before the last part of one,
         // are not known
         bool statics = step == 0 && source->has_static && without_friction(&record);

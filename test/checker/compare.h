@@ -30,6 +30,14 @@ void same(Compare *compare, const char *what, const char *of, const double *file
           const double *scene, size_t count, double noise);
 void same_number(Compare *compare, const char *what, const char *of, double file, double scene);
 
+/* The stage of a step and its number there, from 1 on; a break is that of the step before it.
+ * False: the statics of lines laid, or a scene without stages. */
+bool stage_of(const Compare *compare, size_t step, int *stage, int *part);
+
+/* What a line has on the drums of its winches after a step. */
+void winches_compare(Compare *compare, const CpsLine *line, int index, size_t step,
+                     const Record *r);
+
 /* Kind, place, shape and friction of an obstacle. */
 void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s);
 

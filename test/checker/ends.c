@@ -141,6 +141,9 @@ Real ends_work(const Record *r, const Record *before) {
     Real work = 0;
     for (int e = 0; e < 2; e++) {
         const size_t j = e ? r->elements : 0;
+        // the node at which a drum is may be another than before
+        const double *from =
+            r->drums ? before->position[e ? before->elements : 0] : r->reference[j];
         const bool free =
             r->end_kind[e] == END_FREE; // let go from the force it carried, all of it the end's
         for (int i = 0; i < 3; i++) {
@@ -150,7 +153,7 @@ Real ends_work(const Record *r, const Record *before) {
                 is_let_go(r, before, e)
                     ? 0
                     : (Real)before->end_force[e][i] + (free ? 0 : before->end_friction_force[e][i]);
-            work += ((first + after) / 2 - stored) * ((Real)r->position[j][i] - r->reference[j][i]);
+            work += ((first + after) / 2 - stored) * ((Real)r->position[j][i] - from[i]);
         }
     }
     return work;

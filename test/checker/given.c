@@ -40,9 +40,7 @@ static void compare_run(Compare *compare) {
 
 /* ---- steps ---- */
 
-/* The stage and its part that a step is, a break those of the step before it; false: the statics of
- * lines laid, or a scene without stages. */
-static bool stage_of(const Compare *compare, size_t step, int *stage, int *part) {
+bool stage_of(const Compare *compare, size_t step, int *stage, int *part) {
     for (size_t i = step + 1; i-- > 0;) step -= is_break(&compare->source, i);
     if (compare->source.has_static && step-- == 0) return false;
     for (*stage = 0; *stage < compare->scene->stage_count; ++*stage) {
@@ -688,6 +686,7 @@ static int compare_steps(Compare *compare, int index) {
             }
         if (!bad && step == 0) compare_nodes(compare, line, &now);
         if (!bad) compare_grasps(compare, line, index, step, step > 0 ? &before : NULL, &now);
+        if (!bad) winches_compare(compare, line, index, step, &now);
         if (!bad) compare_loads(compare, line, step, &now);
         if (!bad && now.has_dynamic) compare_stiffness(compare, line, step, &now);
         if (!bad && index == 0) compare_turns(compare, step, &now);

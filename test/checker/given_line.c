@@ -50,7 +50,7 @@ static double softness(const CpsLine *line, const CpsSection *section) {
 /* [N] What the nodes weigh in the scene, (nodes): half of their elements, and what hangs there; and
  * the sum of the sizes of these terms. */
 void node_weights(const CpsLine *line, const Record *r, double *weight, double *sizes) {
-    double arc = 0;
+    double arc = r->arc_from;
     for (size_t j = 0; j < r->nodes; j++) weight[j] = sizes[j] = 0;
     for (size_t i = 0; i < r->elements; i++) {
         const double l = r->element_length[i];
@@ -62,6 +62,7 @@ void node_weights(const CpsLine *line, const Record *r, double *weight, double *
         for (int k = 0; k < line->point_weight_count; k++) {
             const CpsPointWeight *point = &line->point_weight[k];
             if (fabs(point->arc_length - arc) > 1e-8 * line->length) continue;
+            if (i + 1 == r->elements && r->on_drum[1]) continue;
             weight[i + 1] += point->weight;
             sizes[i + 1] += fabs(point->weight);
         }
@@ -116,6 +117,7 @@ static void compare_sections(Compare *compare, const CpsLine *line, const Record
              mean);
     const bool uniform =
         line->section_count == 0 && line->point_weight_count == 0 && !has_dynamic(line);
+    if (r->drums) return; /* its weights are in every step */
     if (uniform != (r->weight_length == NULL))
         find(compare, "sections or point weights of %s", line->name);
     else if (!uniform)

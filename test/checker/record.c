@@ -8,6 +8,7 @@
 #include "grasps.h"
 #include "places.h"
 #include "shape.h"
+#include "winches.h"
 
 #include <math.h>
 #include <netcdf.h>
@@ -455,11 +456,14 @@ static int read_sections(const Source *source, const char *line, Record *record,
     for (size_t i = 0; i < record->elements; i++)
         record->element_compliance[i] = record->compliance;
     record->least_compliance = record->largest_compliance = record->compliance;
+    snprintf(name, sizeof name, "%s_node_weight_length", line);
+    const bool winds = nc_inq_varid(source->nc, name, &id) == NC_NOERR;
     snprintf(name, sizeof name, "%s_weight_length", line);
-    if (nc_inq_varid(source->nc, name, &id) != NC_NOERR) return 0;
+    if (!winds && nc_inq_varid(source->nc, name, &id) != NC_NOERR) return 0;
     record->weight_length = calloc(record->nodes, sizeof(double));
     if (!record->weight_length) return complain(log, "out of memory for line", line, 0);
-    if (read_static(source, line, "weight_length", record->nodes, record->weight_length, log) ||
+    if ((!winds &&
+         read_static(source, line, "weight_length", record->nodes, record->weight_length, log)) ||
         read_static(source, line, "compliance_factor", record->elements, record->element_compliance,
                     log))
         return -1;
@@ -523,10 +527,12 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (elongation_read(source, line, record, log)) return -1;
     if (read_end_points(source, line, record, log)) return -1;
     if (failure_create(source, line, record, log)) return -1;
-    return read_zones(source, line, record, log);
+    return read_zones(source, line, record, log) || winches_create(source, line, record, log) ? -1
+                                                                                              : 0;
 }
 
 void record_destroy(Record *record) {
+    winches_destroy(record);
     free(record->reference);
     free(record->position);
     free(record->load);
@@ -715,6 +721,7 @@ static int read_weight_before(const Source *source, const char *line, size_t ste
 }
 
 int record_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+    winches_whole(record);
     size_t n = record->nodes, elements = record->elements;
     if (places_at(source, step, log)) return -1;
     int bad = read_step(source, line, "reference", step, n, 3, record->reference[0], log);
@@ -735,7 +742,8 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= grasps_read(source, line, step, record, log);
     bad |= failure_read(source, line, step, record, log);
     bad |= elongation_read_step(source, line, step, record, log);
-    return bad ? -1 : read_scalars(source, line, step, record, log);
+    if (bad || read_scalars(source, line, step, record, log)) return -1;
+    return winches_read(source, line, step, record, log);
 }
 
 /* `columns` numbers of each point; 0: one. */

@@ -117,6 +117,11 @@ typedef struct Record {
     int end_kind[2], outcome, iterations;
     int substeps; /* that the step was taken in; the arrays are those of the last one, */
     double share; /* which is so much of the step */
+    /* of a line with winches, what is off their drums (winches.h); else NULL, and 0 */
+    struct Drums *drums;
+    double arc_from, stored[2], winch_pull[2], winch_work; /* stored, winch_pull: NaN: no winch */
+    bool winds;                        /* a drum has not the same as in the step before */
+    bool on_drum[2];                   /* the node at the end is one that a drum has */
     size_t grasps, grasp_node[GRASPS]; /* nodes between the ends that are held or pulled */
     int grasp_kind[GRASPS];
     Vector grasp_place[GRASPS], grasp_load[GRASPS], grasp_force[GRASPS];

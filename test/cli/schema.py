@@ -56,7 +56,7 @@ def check_definitions(schema, documentation):
             assert re.search(f"`[^`]*\\b{key}\\b[^`]*`", documentation), f"docs/formats.md does not mention `{key}` of {name}"
         for pattern, row in mapping.get("patternProperties", {}).items():
             form = re.search(r"\((\w+)", pattern)
-            example = {"A": "cable.B", "turn": "drum.turn", "point": "knot.point", "body": "spar.body", "node": "cable.node", "obstacle": "post.obstacle"}[form[1]] if form else "cable"
+            example = {"A": "cable.B", "turn": "drum.turn", "pay_out_A": "cable.pay_out_A", "point": "knot.point", "body": "spar.body", "node": "cable.node", "obstacle": "post.obstacle"}[form[1]] if form else "cable"
             assert re.match(pattern, example) and not re.match(pattern, "9"), (name, pattern)
     return mappings
 

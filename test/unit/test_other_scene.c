@@ -79,14 +79,14 @@ static const char POINTS_SCENE[] =
     "  two: {length: 7, elements: 4, mass: 2, stiffness: 1000, start: static,"
     " ends: {A: {point: knot}, B: {point: ring}}}\n"
     "  far: {length: 9, elements: 4, mass: 2, stiffness: 1000, start: static,"
-    " ends: {A: {held: [4, 8, 0]}, B: {point: knot}}}\n"
+    " ends: {A: {held: [4, 8, 0], stored: 0.5}, B: {point: knot}}}\n"
     "  taut: {sections: [{type: rope, length: 3, elements: 2}, {type: rope, length: 3, elements: "
     "2}],"
     " pretension: {end: B, tension: 40, section: 1}, start: static, ends: {A: {held: [0, 60, 0]},"
     " B: {held: [5, 60, 2]}}}\n"
     "types: {rope: {weight: 2, stiffness: 1000}}\n"
     "history:\n"
-    "  - {name: pull, steps: 2, knot.point: {force: [2, 0, 0]}}\n"
+    "  - {name: pull, steps: 2, knot.point: {force: [2, 0, 0]}, far.pay_out_A: 0.1}\n"
     "  - {anchor.point: {position: [1, 0, 0]}, ring.point: {position: [8, 5, 0]},"
     " bed.obstacle: {move: [0, 0, -1], turn: 1, axis: [0, 1, 0], about: [2, 0, -9]}}\n"
     "  - {ring.point: {move: [0, 0, 1]}}\n";
@@ -255,6 +255,8 @@ static const struct Change {
 
 static const struct Change POINT_CHANGE[] = {
     {"OBSTACLE.obstacle", "move: [0, 0, -1]", "move: [0, 0, -2]"},
+    {"LINE.pay_out", "far.pay_out_A: 0.1", "far.pay_out_A: 0.2"},
+    {"stored", "stored: 0.5", "stored: 0.6"},
     {"turn", "turn: 1,", "turn: 2,"},
     {"axis", "axis: [0, 1, 0]", "axis: [1, 1, 0]"},
     {"about", "about: [2, 0, -9]", "about: [1, 0, -9]"},
@@ -279,7 +281,7 @@ static const struct Change POINT_CHANGE[] = {
     {"horizontal", "tension: 40", "horizontal: 40"},
     {"section", "section: 1", "section: 2"},
     {"point", "{A: {point: anchor}, B: {point: knot}}", "{A: {point: knot}, B: {point: anchor}}"},
-    {"point", "{A: {held: [4, 8, 0]}", "{A: {point: ring}"},
+    {"point", "{A: {held: [4, 8, 0], stored: 0.5}", "{A: {point: ring, stored: 0.5}"},
     {"POINT.point", "knot.point: {", "ring.point: {"},
     {"force", "force: [2, 0, 0]", "force: [2, 0, 1]"},
     {"position", "position: [8, 5, 0]", "position: [8, 6, 0]"},

@@ -266,6 +266,22 @@ static CpsStatus build_shifts(const CpsiHistoryBuild *b, const CpsiList *shifts,
     return status;
 }
 
+static CpsStatus build_pay_outs(const CpsiHistoryBuild *b, const CpsiList *pay_outs,
+                                CpsStage *stage) {
+    const CpsiNumberItem *from = pay_outs->item;
+    CpsPayOut *pay = CPSI_POOL_TAKE(b->pool, pay_outs->count, CpsPayOut);
+    if (!pay) return cpsi_document_no_memory(b->d);
+    stage->pay_out = pay;
+    stage->pay_out_count = pay_outs->count;
+    for (int k = 0; k < pay_outs->count; k++) {
+        const char *key = from[k].node->key;
+        pay[k] = (CpsPayOut){.line = find_line(b, key),
+                             .end = key[strlen(key) - 1] == 'A' ? CPS_END_A : CPS_END_B,
+                             .length = from[k].number};
+    }
+    return CPS_OK;
+}
+
 /* Say which obstacles the history moves. */
 static void find_moving(const CpsiHistoryBuild *b, const CpsiList *history) {
     const CpsiStageValues *values = history->item;
@@ -332,6 +348,7 @@ static CpsStatus build_stage(const CpsiHistoryBuild *b, const CpsiStageValues *v
     CpsStatus status = build_stiffness(b, values, stage);
     if (status == CPS_OK) status = build_changes(b, values, stage);
     if (status == CPS_OK) status = build_shifts(b, &values->shifts, stage);
+    if (status == CPS_OK) status = build_pay_outs(b, &values->pay_outs, stage);
     return status == CPS_OK ? build_grasps(b, &values->grasps, stage) : status;
 }
 

@@ -347,7 +347,10 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
         status = values->start.nodes ? build_nodes(b, values, line)
                                      : build_start(b, &values->start, &line->start);
     for (int end = 0; end < 2 && status == CPS_OK; end++) {
-        status = build_end(b, &values->end[end], &line->end[end], &line->end_point[end]);
+        const CpsiEndValues *of = &values->end[end];
+        status = build_end(b, of, &line->end[end], &line->end_point[end]);
+        if (of->node && !isnan(of->stored))
+            line->winch[end] = (CpsWinch){.is_there = true, .stored = of->stored};
         first_position(line, end, held[end]);
     }
     return status;

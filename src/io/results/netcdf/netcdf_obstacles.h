@@ -148,4 +148,18 @@ void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
                                const CpsiNetcdfMotion *ids, size_t step,
                                const CpsEvolution *evolution, int line);
 
+/* The winches of a line, and what is off their drums. */
+typedef struct CpsiNetcdfWinches {
+    bool is_there;              /* the line has a winch */
+    const double *whole_length; /* (elements) [m] as if nothing were on drums */
+    int length_off_drums, stored, pull, weight, work;
+} CpsiNetcdfWinches;
+
+/* Define the variables of a line of the scene, none where it has no winch; and write those of a
+ * step. */
+void cpsi_netcdf_define_winches(CpsiNetcdfFile *file, CpsiNetcdfWinches *ids, const CpsLine *line,
+                                const int on[4]);
+void cpsi_netcdf_append_winches(CpsiNetcdfFile *file, const CpsiNetcdfWinches *ids, size_t step,
+                                const CpsEvolution *evolution, int line);
+
 #endif

@@ -426,6 +426,57 @@ void cpsi_netcdf_append_grasps(CpsiNetcdfFile *file, const CpsiNetcdfGrasps *ids
     cpsi_netcdf_doubles(file, ids->force, start, count, force[0]);
 }
 
+/* ---- winches ---- */
+
+void cpsi_netcdf_define_winches(CpsiNetcdfFile *file, CpsiNetcdfWinches *ids, const CpsLine *line,
+                                const int on[4]) {
+    const int step = on[0], ends[] = {step, on[1]}, nodes[] = {step, on[2]},
+              elements[] = {step, on[3]};
+    const char *of = line->name;
+    ids->is_there = cpsi_has_winch(line);
+    if (!ids->is_there) return;
+    ids->stored = cpsi_netcdf_variable(file, of, "stored", NC_DOUBLE, 2, ends,
+                                       "natural length on the drum of a winch", "m");
+    ids->pull = cpsi_netcdf_variable(file, of, "winch_pull", NC_DOUBLE, 2, ends,
+                                     "pull of the line on the drum of a winch", "N");
+    cpsi_netcdf_may_miss(file, ids->stored);
+    cpsi_netcdf_may_miss(file, ids->pull);
+    ids->length_off_drums =
+        cpsi_netcdf_variable(file, of, "length_off_drums", NC_DOUBLE, 2, elements,
+                             "natural length of the element that is on no drum", "m");
+    ids->weight = cpsi_netcdf_variable(
+        file, of, "node_weight_length", NC_DOUBLE, 2, nodes,
+        "natural length of mean weight that the node carries, without what is on drums", "m");
+    ids->work = cpsi_netcdf_variable(file, of, "ledger_winches", NC_DOUBLE, 1, &step,
+                                     "work of the winches", "J");
+}
+
+void cpsi_netcdf_append_winches(CpsiNetcdfFile *file, const CpsiNetcdfWinches *ids, size_t step,
+                                const CpsEvolution *evolution, int line) {
+    if (!ids->is_there) return;
+    const CpsLineView view = cps_evolution_line_view(evolution, line);
+    const CpsLineReport report = cps_evolution_line_report(evolution, line);
+    const size_t start[] = {step, 0}, ends[] = {1, 2}, one[] = {1, 1},
+                 nodes[] = {1, (size_t)view.element_count + 1};
+    double stored[2], pull[2];
+    int off[2] = {0, view.element_count};
+    for (int end = 0; end < 2; ++end) {
+        const CpsWinchReport winch = cps_evolution_winch_report(evolution, line, end);
+        stored[end] = winch.is_there ? winch.stored : NAN;
+        pull[end] = winch.is_there ? winch.pull : NAN;
+        if (winch.is_there) off[end] = winch.node;
+    }
+    cpsi_netcdf_doubles(file, ids->stored, start, ends, stored);
+    cpsi_netcdf_doubles(file, ids->pull, start, ends, pull);
+    cpsi_netcdf_doubles(file, ids->weight, start, nodes, view.weight_length);
+    cpsi_netcdf_doubles(file, ids->work, start, one, &report.ledger.winches);
+    for (int e = 0; e < view.element_count; ++e) {
+        const size_t at[] = {step, (size_t)e};
+        const double length = e < off[0] || e >= off[1] ? 0 : view.element_length[e];
+        cpsi_netcdf_doubles(file, ids->length_off_drums, at, one, &length);
+    }
+}
+
 /* ---- failure ---- */
 
 void cpsi_netcdf_define_breaks(CpsiNetcdfFile *file, CpsiNetcdfBreaks *ids, const CpsScene *scene,

@@ -142,6 +142,7 @@ typedef struct LineIds {
     int stiffness, rest_strain, dynamic_compliance_factor, dynamic_spring[3]; /* the same */
     int end_point; /* unused without points */
     CpsiNetcdfGrasps grasps;
+    CpsiNetcdfWinches winches;
     CpsiNetcdfFailure failure;
     CpsiNetcdfMotion motion;
 } LineIds;
@@ -379,6 +380,7 @@ static void define_sections(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *vie
         cpsi_netcdf_variable(&nc->file, view->name, "compliance_factor", NC_DOUBLE, 1,
                              &ids->element,
                              "1/EA of the element over the compliance, which is the mean", "1");
+    if (ids->winches.is_there) return; /* it has one in every step */
     ids->weight_length = cpsi_netcdf_variable(
         &nc->file, view->name, "weight_length", NC_DOUBLE, 1, &ids->node,
         "natural length of mean weight that the node carries, negative: it is lifted", "m");
@@ -499,6 +501,8 @@ static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *
         const size_t along = (size_t)view->element_count + (field->place == CPSI_PLACE_NODE);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
         const double *array = in_view(view, field);
+        if (ids->winches.is_there && array == view->element_length)
+            array = ids->winches.whole_length;
         for (int c = 0; c < (field->contact ? ids->contacts : 1);
              ++c, array += along * (field->vector ? XYZ : 1))
             cpsi_netcdf_doubles(&nc->file, ids->field[f][c], start + fixed, count + fixed, array);
@@ -598,7 +602,8 @@ static void write_sections(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView
     if (view->uniform) return;
     cpsi_netcdf_doubles(&nc->file, ids->compliance_factor, &first, &elements,
                         view->compliance_factor);
-    cpsi_netcdf_doubles(&nc->file, ids->weight_length, &first, &nodes, view->weight_length);
+    if (!ids->winches.is_there)
+        cpsi_netcdf_doubles(&nc->file, ids->weight_length, &first, &nodes, view->weight_length);
 }
 
 /* Make the file. libnetcdf strips blanks at the beginning of a path and takes one with "://" for an
@@ -633,11 +638,15 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = constant_view(evolution, i);
         const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);
+        nc->line[i].winches.is_there = cpsi_has_winch(&scene->line[i]);
         define_line(nc, &nc->line[i], &view);
         define_two_stiffnesses(nc, &nc->line[i], view.name, &two);
         define_zones(nc, &nc->line[i], &scene->line[i]);
         define_end_points(nc, &nc->line[i], &scene->line[i]);
         cpsi_netcdf_define_grasps(&nc->file, &nc->line[i].grasps, scene, i, nc->step, nc->xyz);
+        cpsi_netcdf_define_winches(&nc->file, &nc->line[i].winches, &scene->line[i],
+                                   (const int[]){nc->step, nc->end, nc->line[i].node,
+                                                 nc->line[i].element});
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
         cpsi_netcdf_define_motion(&nc->file, &nc->time, &nc->line[i].motion, view.name,
@@ -651,6 +660,10 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = constant_view(evolution, i);
         const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);
+        for (int e = 0; e < ENDS; ++e) {
+            const double *whole = cps_evolution_winch_report(evolution, i, e).length;
+            if (whole) nc->line[i].winches.whole_length = whole;
+        }
         write_fields(nc, &nc->line[i], &view, true);
         write_two_stiffnesses(nc, &nc->line[i], (size_t)view.element_count, &two);
         write_zones(nc, &nc->line[i], &scene->line[i]);
@@ -752,6 +765,7 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);
         write_line(nc, &nc->line[i], &view, &line);
+        cpsi_netcdf_append_winches(&nc->file, &nc->line[i].winches, nc->steps, evolution, i);
         append_two_stiffnesses(nc, &nc->line[i], (size_t)view.element_count, &two);
         cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,
                                    evolution, i);

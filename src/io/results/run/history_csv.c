@@ -72,6 +72,15 @@ static const CpsiColumn FAILURE_COLUMN[] = {
     {"break_share_at", "m", CPSI_MEMBER_IF(CpsLineFailure, has_break_at, arc_length)},
 };
 
+/* Where lines have winches. */
+static const CpsiColumn WINCH_STEP_COLUMN[] = {{"winches", "J", STEP(ledger.winches)}};
+
+#define WINCH(member) CPSI_MEMBER_IF(CpsWinchReport, is_there, member)
+
+static const CpsiColumn WINCH_COLUMN[] = {{"stored", "m", WINCH(stored)},
+                                          {"paid", "m", WINCH(paid)},
+                                          {"winch_pull", "N", WINCH(pull)}};
+
 #define BODY(member) CPSI_MEMBER(CpsiBodyRow, member)
 
 static const CpsiColumn BODY_COLUMN[] = {
@@ -105,6 +114,7 @@ enum {
     MOTION_COLUMNS = sizeof MOTION_COLUMN / sizeof MOTION_COLUMN[0],
     STEP_COLUMNS = sizeof STEP_COLUMN / sizeof STEP_COLUMN[0],
     LINE_COLUMNS = sizeof LINE_COLUMN / sizeof LINE_COLUMN[0],
+    WINCH_COLUMNS = sizeof WINCH_COLUMN / sizeof WINCH_COLUMN[0],
     FAILURE_COLUMNS = sizeof FAILURE_COLUMN / sizeof FAILURE_COLUMN[0],
     BODY_COLUMNS = sizeof BODY_COLUMN / sizeof BODY_COLUMN[0]
 };
@@ -120,6 +130,16 @@ static void write_failure(FILE *out, const CpsLineFailure *failure) {
     for (int end = 0; end < 2; ++end) fprintf(out, ",%s", cps_release_name(failure->release[end]));
 }
 
+/* Names, or units, of the columns of the winches at both ends of a line. */
+static void write_winch_heads(FILE *out, const char *line, bool units) {
+    for (int end = 0; end < 2; ++end)
+        if (units)
+            cpsi_csv_units(out, WINCH_COLUMN, WINCH_COLUMNS);
+        else
+            for (int i = 0; i < WINCH_COLUMNS; ++i)
+                fprintf(out, ",%s.%s.%s", line, end == CPS_END_A ? "A" : "B", WINCH_COLUMN[i].name);
+}
+
 static void write_heads(FILE *out, const CpsResults *results) {
     fputs("step,name,outcome,iterations,substeps,jumps,places_not_unique", out);
     cpsi_csv_names(out, STEP_COLUMN, STEP_COLUMNS, NULL);
@@ -127,6 +147,9 @@ static void write_heads(FILE *out, const CpsResults *results) {
         cpsi_csv_names(out, LINE_COLUMN, LINE_COLUMNS, results->line_name[l]);
     for (int l = 0; l < cpsi_listed_lines(results) && results->lets_go; ++l)
         write_failure_heads(out, results->line_name[l]);
+    if (results->winds) cpsi_csv_names(out, WINCH_STEP_COLUMN, 1, NULL);
+    for (int l = 0; l < cpsi_listed_lines(results) && results->winds; ++l)
+        write_winch_heads(out, results->line_name[l], false);
     for (int i = 0; i < results->body_count; ++i)
         cpsi_csv_names(out, BODY_COLUMN, BODY_COLUMNS, results->body[i].name);
     if (results->in_time) cpsi_csv_names(out, MOTION_COLUMN, MOTION_COLUMNS, NULL);
@@ -138,6 +161,9 @@ static void write_heads(FILE *out, const CpsResults *results) {
         cpsi_csv_units(out, FAILURE_COLUMN, FAILURE_COLUMNS);
         fputs(",,", out);
     }
+    if (results->winds) cpsi_csv_units(out, WINCH_STEP_COLUMN, 1);
+    for (int l = 0; l < cpsi_listed_lines(results) && results->winds; ++l)
+        write_winch_heads(out, results->line_name[l], true);
     for (int i = 0; i < results->body_count; ++i) cpsi_csv_units(out, BODY_COLUMN, BODY_COLUMNS);
     if (results->in_time) cpsi_csv_units(out, MOTION_COLUMN, MOTION_COLUMNS);
     fputs("\n", out);
@@ -157,6 +183,10 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
             cpsi_csv_values(out, LINE_COLUMN, LINE_COLUMNS, &row->line[l].report);
         for (int l = 0; l < cpsi_listed_lines(results) && results->lets_go; ++l)
             write_failure(out, &row->line[l].failure);
+        if (results->winds) cpsi_csv_values(out, WINCH_STEP_COLUMN, 1, &row->report);
+        for (int l = 0; l < cpsi_listed_lines(results) && results->winds; ++l)
+            for (int end = 0; end < 2; ++end)
+                cpsi_csv_values(out, WINCH_COLUMN, WINCH_COLUMNS, &row->line[l].winch[end]);
         for (int i = 0; i < results->body_count; ++i)
             cpsi_csv_values(out, BODY_COLUMN, BODY_COLUMNS, &row->body[i]);
         if (results->in_time) cpsi_csv_values(out, MOTION_COLUMN, MOTION_COLUMNS, &row->motion);

@@ -96,6 +96,8 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->planned_steps = cps_evolution_step_count(evolution);
     results->lets_go = cpsi_lets_go(scene);
     results->in_time = cpsi_has_duration(scene);
+    for (int i = 0; i < scene->line_count; ++i)
+        results->winds = results->winds || cpsi_has_winch(&scene->line[i]);
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
     results->has_water_surface = scene->has_water_surface;
@@ -195,11 +197,13 @@ CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
 /* Largest reaction of an obstacle on a node that does not touch it [N], which complementarity
  * excludes. For a held end the support takes the force; its reaction is only a part of that and is
  * left out. */
-static double open_reaction(const CpsLineView *view) {
+static double open_reaction(const CpsLineView *view, const CpsWinchReport winch[2]) {
     const double touch = CPS_TOUCH * view->arc_length[view->element_count];
     double worst = 0;
-    const int first = view->end[CPS_END_A].kind == CPS_END_KIND_HELD;
-    const int last = view->element_count - (view->end[CPS_END_B].kind == CPS_END_KIND_HELD);
+    const int a = winch[CPS_END_A].is_there ? winch[CPS_END_A].node : 0,
+              b = winch[CPS_END_B].is_there ? winch[CPS_END_B].node : view->element_count;
+    const int first = a + (view->end[CPS_END_A].kind == CPS_END_KIND_HELD);
+    const int last = b - (view->end[CPS_END_B].kind == CPS_END_KIND_HELD);
     for (int j = first; j <= last; ++j) {
         const Vec3 moved = vec3_sub(vec3_load(view->position + 3 * (size_t)j),
                                     vec3_load(view->reference + 3 * (size_t)j));
@@ -296,7 +300,8 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         line->report = cps_evolution_line_report(evolution, i);
         line->failure = cps_evolution_line_failure(evolution, i);
         line->failure.break_at = NULL;
-        line->open_reaction = open_reaction(&view);
+        for (int e = 0; e < 2; ++e) line->winch[e] = cps_evolution_winch_report(evolution, i, e);
+        line->open_reaction = open_reaction(&view, line->winch);
         for (int e = 0; e < 2; ++e) line->held[e] = is_held(results, &row, &view, i, e);
         if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
         if (row.stiffness) find_stiffness(evolution, i, row.stiffness[i]);

@@ -50,8 +50,10 @@ static void write_range(FILE *out, const CpsTensionRange *range) {
     write_number(out, "greatest_bound", range->has_values ? range->greatest_bound : NAN, "}}");
 }
 
-static void write_end(FILE *out, int which, const CpsLineReport *report, const char *after) {
+static void write_end(FILE *out, int which, const CpsiLineRow *row, const char *after) {
+    const CpsLineReport *report = &row->report;
     const CpsEndReport *end = &report->end[which];
+    const CpsWinchReport *winch = &row->winch[which];
     fputs("          ", out);
     write_key(out, which == CPS_END_A ? "A" : "B");
     fputc('{', out);
@@ -61,6 +63,11 @@ static void write_end(FILE *out, int which, const CpsLineReport *report, const c
     write_number(out, "uplift_N", end->uplift, ", ");
     write_number(out, "angle_rad", end->angle, ", ");
     write_number(out, "suspended_m", end->suspended, ", ");
+    if (winch->is_there) {
+        write_number(out, "stored_m", winch->stored, ", ");
+        write_number(out, "paid_m", winch->paid, ", ");
+        write_number(out, "winch_pull_N", winch->pull, ", ");
+    }
     if (report->has_touchdown)
         write_vector(out, "touchdown_m", end->touchdown, "");
     else
@@ -141,8 +148,8 @@ static void write_line(FILE *out, const char *name, const CpsiLineRow *row, bool
     if (lets_go) write_failure(out, &row->failure);
     write_proof(out, report);
     write_bend(out, &report->bend);
-    write_end(out, CPS_END_A, report, ",\n");
-    write_end(out, CPS_END_B, report, "\n        }");
+    write_end(out, CPS_END_A, row, ",\n");
+    write_end(out, CPS_END_B, row, "\n        }");
     fputs(after, out);
 }
 
@@ -175,13 +182,14 @@ static void write_certificate(FILE *out, const CpsResults *results, const CpsiRo
 }
 
 /* the energy balance of a step */
-static void write_ledger(FILE *out, const CpsStepReport *report) {
+static void write_ledger(FILE *out, const CpsStepReport *report, bool winds) {
     const CpsLedger *ledger = &report->ledger;
     fprintf(out, "\"substeps\": %d, \"jumps\": %d, ", report->substep_count, report->jump_count);
     write_number(out, "jump_m", report->jump, ", ");
     write_number(out, "unaccounted_J", report->unaccounted, ",\n      \"ledger_J\": {");
     write_number(out, "ends", ledger->ends, ", ");
     write_number(out, "obstacles", ledger->obstacles, ", ");
+    if (winds) write_number(out, "winches", ledger->winches, ", ");
     write_number(out, "elastic", ledger->elastic, ", ");
     write_number(out, "gravity", ledger->gravity, ", ");
     write_number(out, "dissipated", ledger->dissipated, ", ");
@@ -272,7 +280,7 @@ static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row)
     fprintf(out, "\"iterations\": %d,\n", row->report.iteration_count);
     write_break(out, results, &row->parted);
     write_certificate(out, results, row);
-    write_ledger(out, &row->report);
+    write_ledger(out, &row->report, results->winds);
     write_number(out, "wall_s", row->report.wall, ",\n      \"lines\": {\n");
     for (int i = 0; i < cpsi_listed_lines(results); ++i)
         write_line(out, results->line_name[i], &row->line[i], results->lets_go,

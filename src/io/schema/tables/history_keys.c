@@ -125,6 +125,10 @@ static const CpsiKey STAGE_KEYS[] = {
      .help =
          "what happens to a node between the ends of a line, as in cable.node; to others of the "
          "same line in the same entry cable.node2 to cable.node4"},
+    {"LINE.pay_out", OPTIONAL, OWNED_NUMBERS(Stage, pay_outs), ANY, .owner = "lines",
+     .after = "pay_out_A pay_out_B", .unit = "m",
+     .help = "length that the winch at end A or B of a line pays out in this entry, as in "
+             "cable.pay_out_B; negative: hauls in"},
     {"OBSTACLE.turn", OPTIONAL, OWNED_NUMBERS(Stage, turns), ANY, .owner = "obstacles",
      .after = "turn", .unit = "degrees",
      .help = "turn a cylinder or ball by so much in this entry, as in drum.turn, by the "

@@ -318,8 +318,14 @@ static const CpsiKey END_KEYS[] = {
      .help = "free, pulled with this force"},
     {"point", ONE_OF, TEXT(End, point, 0),
      .help = "name of one of the scene's points, at which the line ends with others"},
+    {"stored", OPTIONAL, NUMBER(End, stored), NOT_NEGATIVE, .unit = "m",
+     .help = "a winch is at this end, and has so much of the line's length on its drum"},
 };
-static const CpsiMapping END = {"end", KEYS(END_KEYS), INTO(End), WHICH(End, word)};
+
+static void begin_end(void *values) { ((CpsiEndValues *)values)->stored = NAN; }
+
+static const CpsiMapping END = {"end", KEYS(END_KEYS), INTO(End), WHICH(End, word),
+                                .begin = begin_end};
 
 static const CpsiKey ENDS_KEYS[] = {
     {"A", REQUIRED, WORD(Line, end[0].word), .words = "held free", .former_words = "fixed free",

@@ -152,6 +152,7 @@ typedef struct CpsiEndValues {
     int word;             /* CpsiEndWord, in either form */
     double value[3];
     const char *point; /* its name */
+    double stored;     /* [m] NaN: no winch */
 } CpsiEndValues;
 
 typedef struct CpsiLineValues {
@@ -233,6 +234,7 @@ typedef struct CpsiStageValues {
     CpsiList grasps;        /* CpsiGraspValues, with the key LINE.node */
     CpsiList turns;         /* CpsiNumberItem, with the key OBSTACLE.turn */
     CpsiList shifts;        /* CpsiShiftValues */
+    CpsiList pay_outs;      /* CpsiNumberItem, with the key LINE.pay_out_A or LINE.pay_out_B */
 } CpsiStageValues;
 
 extern const CpsiMapping cpsi_scene_file;
