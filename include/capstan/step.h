@@ -135,7 +135,7 @@ typedef struct CpsEndReport {
     CpsTensionRange range; /* of the end element, at the last step of a stage */
 } CpsEndReport;
 
-/* The contact at which the mesh changes the law of friction most. A node on a cylinder or sphere,
+/* The contact at which the mesh changes the law of friction most. A node on a curved obstacle,
  * at which the line turns by the angle d, holds tensions up to the ratio k = (1 + mu tan(d/2))/(1 -
  * mu tan(d/2)), where a smooth line holds exp(mu d). From mu tan(d/2) = 0.9 on, the step is not
  * certified (mesh_too_coarse). All are 0 where the line turns round nothing with friction. */

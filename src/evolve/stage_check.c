@@ -96,7 +96,7 @@ static CpsStatus check_turns(const CpsScene *scene, const CpsStage *stage, const
         snprintf(place, sizeof place, "%s.turn", obstacle->name);
         if (obstacle->kind == CPS_OBSTACLE_PLANE)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                                "%s: obstacle '%s' is a plane: only a cylinder or a sphere turns "
+                                "%s: obstacle '%s' is a plane: only a round obstacle turns "
                                 "about its own axis; %s.obstacle has turns about any",
                                 what, obstacle->name, obstacle->name);
         if (obstacle->kind == CPS_OBSTACLE_BOX)
@@ -106,8 +106,8 @@ static CpsStatus check_turns(const CpsScene *scene, const CpsStage *stage, const
                                 what, obstacle->name, obstacle->name);
         if (obstacle->kind == CPS_OBSTACLE_GROUND || obstacle->kind == CPS_OBSTACLE_SURFACE)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                                "%s: obstacle '%s' is a %s: only a cylinder or a sphere turns",
-                                what, obstacle->name,
+                                "%s: obstacle '%s' is a %s: only a round obstacle turns", what,
+                                obstacle->name,
                                 obstacle->kind == CPS_OBSTACLE_GROUND ? "ground" : "surface");
         if (!cpsi_is_usable(turn->angle))
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,

@@ -69,7 +69,7 @@ HISTORIES = [
     ("two moves that end below the bed", "  - {name: up, cable.A: {move: [0, 0, 1]}}\n  - {name: down, cable.A: {move: [0, 0, -2]}}\n", "13:18: stage 2: cable.A is moved to 1 m below obstacle 'bed'"),
     ("held in a history", "  - {name: pull, cable.B: held}\n", "12:18: 'cable.B': found 'held', expected a mapping with position, move, force"),
     ("free and pulled", "  - {name: pull, cable.B: {free: 1}}\n", "12:28: 'cable.B': unknown key 'free'; did you mean 'force'?"),
-    ("a turn of a plane in a later entry", "  - {name: pull, cable.B: {force: [1, 0, 0]}}\n  - {name: turn, bed.turn: 5}\n", "13:18: stage 2: obstacle 'bed' is a plane: only a cylinder or a sphere turns"),
+    ("a turn of a plane in a later entry", "  - {name: pull, cable.B: {force: [1, 0, 0]}}\n  - {name: turn, bed.turn: 5}\n", "13:18: stage 2: obstacle 'bed' is a plane: only a round obstacle turns"),
     ("a turn that is nothing", "  - {name: pull, bed.turn: }\n", "12:18: 'bed.turn': found nothing, expected a number in degrees"),
     ("a turn of a list", "  - {name: pull, bed.turn: [1]}\n", "12:18: 'bed.turn': found a list of 1, expected a number in degrees"),
     ("a turn that is infinite", "  - {name: pull, bed.turn: .inf}\n", "12:18: 'bed.turn': found '.inf', expected a number in degrees"),

@@ -244,7 +244,7 @@ CHANGES = [
     ("grain of a set", "friction: 0.5", "friction: {set: {disc: 1}, grain: [1, 0]}", INPUT, "2:74: 'grain': found a list of 2, expected three numbers"),
     ("unknown friction shape", "friction: 0.5", "friction: {axial: 0.5, shape: disc}", INPUT, "2:70: 'shape': found 'disc', expected one of: ellipse box"),
     ("grain too small", "friction: 0.5", "friction: {axial: 0.5, grain: [0, 0, 1e-200]}", INPUT, "2:70: obstacle 'bed': friction: grain is (0, 0, 1e-200), expected a direction"),
-    ("a plane that turns", "name: pull,", "bed.turn: 90,", INPUT, "12:6: stage 1: obstacle 'bed' is a plane: only a cylinder or a sphere turns"),
+    ("a plane that turns", "name: pull,", "bed.turn: 90,", INPUT, "12:6: stage 1: obstacle 'bed' is a plane: only a round obstacle turns"),
     ("turn in words", "name: pull,", "bed.turn: half,", INPUT, "12:6: 'bed.turn': found 'half', expected a number in degrees"),
     ("turn of nothing", "name: pull,", "bad.turn: 90,", INPUT, "12:6: 'bad.turn': there is no such obstacle; did you mean 'bed.turn'?"),
     ("turn of a line", "name: pull,", "cable.turn: 90,", INPUT, "12:6: 'cable.turn': there is no such obstacle under 'obstacles'"),

@@ -73,7 +73,7 @@ BAD = (
     ("rope.obstacle: {move: [0, 1, 0]}", "16:18: 'rope.obstacle': there is no such obstacle"),
     ("bollard.move: [0, 1, 0]", "16:18: entry: unknown key 'bollard.move'"),
     (GOOD + ", " + GOOD, "16:57: key 'bollard.obstacle' is given twice"),
-    ("ground.turn: 20", "16:18: stage 1: obstacle 'ground' is a plane: only a cylinder or a sphere turns about its own axis; ground.obstacle has turns"),
+    ("ground.turn: 20", "16:18: stage 1: obstacle 'ground' is a plane: only a round obstacle turns about its own axis; ground.obstacle has turns"),
 )
 
 

@@ -65,10 +65,10 @@ static const CpsiKey GROUND_KEYS[] = {
 };
 static const CpsiMapping GROUND = {"ground", KEYS(GROUND_KEYS)};
 
-#define CENTRE                                                                                     \
-    {                                                                                              \
-        "centre", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY,                               \
-            .unit = "m", .formerly = "center", .fallback = "[0, 0, 0]", .help = "the middle of it" \
+#define CENTRE                                                               \
+    {                                                                        \
+        "centre", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY,         \
+            .unit = "m", .fallback = "[0, 0, 0]", .help = "the middle of it" \
     }
 
 static const CpsiKey CAPSULE_KEYS[] = {
