@@ -34,6 +34,8 @@ static const double WARN_BOUND = 0.1, WARN_LIFTED = 0.01, WARN_SUNK = 1e-6, WARN
 static const double WARN_SLACK = 0.5;
 /* ... and the tension caused by rounding of coordinates, as a share of the largest force */
 static const double WARN_ROUNDED = 1e-3;
+/* a buoy so far out of the water, relative to the line's length, is not there by rounding */
+static const double WARN_EMERGED = 1e-6;
 /* difference of the tension ratios of polygon and smooth line */
 static const double WARN_BEND = 0.01;
 
@@ -128,6 +130,25 @@ static void note_anchors(Warnings *warnings, const CpsScene *scene, const CpsEvo
     }
 }
 
+/* Buoys between the ends lift as if they were under water, wherever they are. */
+static void note_buoys(Warnings *warnings, const CpsScene *scene, int line, const CpsLineView *view,
+                       const char *step) {
+    const CpsLine *given = &scene->line[line];
+    const double length = view->arc_length[view->element_count];
+    for (int k = 0; k < given->point_weight_count; ++k) {
+        const CpsPointWeight *buoy = &given->point_weight[k];
+        int node = 0;
+        for (int j = 1; j < view->element_count; ++j)
+            if (fabs(view->arc_length[j] - buoy->arc_length) <
+                fabs(view->arc_length[node] - buoy->arc_length))
+                node = j;
+        const double height = view->position[3 * node + 2] + view->origin[2] - scene->water_surface;
+        if (buoy->weight < 0 && height > WARN_EMERGED * length)
+            note(&warnings->kind[WARNING_EMERGED], height, view->arc_length[node], step,
+                 view->name);
+    }
+}
+
 void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport report = cps_evolution_report(evolution);
     const char *step = report.name;
@@ -155,6 +176,7 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
         if (scene->friction_policy == CPS_FRICTION_POLICY_FROZEN &&
             residual > WARN_BOUND * bounds && bounds > 0)
             note(&warnings->kind[WARNING_BOUND], residual, bounds, step, view.name);
+        if (scene->has_water_surface) note_buoys(warnings, scene, i, &view, step);
         if (line.has_utilisation && line.utilisation > 1)
             note(&warnings->kind[WARNING_BROKEN], line.utilisation, line.utilisation_arc_length,
                  step, view.name);
@@ -206,6 +228,12 @@ static void print_figures(int kind, double value, double of) {
                 value, of);
     else if (kind == WARNING_BROKEN)
         fprintf(stderr, "the tension is %.3g times the breaking load, at %.6g m", value, of);
+    else if (kind == WARNING_EMERGED)
+        fprintf(stderr,
+                "the buoy at %.6g m is %.4g m above the surface of the water, and lifts as if it "
+                "were below it: end the line there at a free point with its mass and volume, which "
+                "floats",
+                of, value);
     else if (kind == WARNING_DRAGGED)
         fprintf(stderr, "the anchor drags: by %.4g m in this step, by %.4g m in all", of, value);
     else if (kind == WARNING_CAPACITY)

@@ -2,7 +2,8 @@
 /* Warnings about a step even if it is solved and certified: with frozen friction or contact of the
  * reference the effects of S90 annex 6; where most of a line is slack; where the forces do not
  * determine the positions; energy created or released; coordinates with too few digits; meshes too
- * coarse for the bends; tensions above a breaking load; anchors beyond their limits. And, whatever
+ * coarse for the bends; tensions above a breaking load; buoys within lines that rise out
+ * of the water; anchors beyond their limits. And, whatever
  * the outcome, where a line penetrates an obstacle. */
 #ifndef CAPSTAN_CLI_RUN_WARNINGS_H
 #define CAPSTAN_CLI_RUN_WARNINGS_H
@@ -22,6 +23,7 @@ enum {
     WARNING_PIERCED,
     WARNING_BEND,
     WARNING_BROKEN,
+    WARNING_EMERGED,
     WARNING_DRAGGED, /* and the two below: of a point */
     WARNING_CAPACITY,
     WARNING_UPLIFT,

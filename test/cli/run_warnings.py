@@ -105,5 +105,23 @@ history: [{name: press, rope.B: {force: [%s, 0, -80]}}]
     if len(told) != 1 or abs(float(told[0].split("jumps by ")[1].split()[0]) - jump) > 1.1e-3:
         faults.append(f"crest: {told}, expected a jump of {jump}")
 
+    # a buoy between the ends is drawn out of the water: it lifts on, which is said with its height; without a surface it is not
+    scene = """capstan: 1
+water_density: 1000
+%s
+lines:
+  rope: {length: 4, elements: 4, weight: 1, stiffness: 1e6, point_weights: [{at: 2, mass: 10, volume: 0.02}], start: static,
+         ends: {A: {held: [0, 0, -4]}, B: {held: [0, 0, -0.5]}}}
+history: [{name: up, rope.B: {position: [0, 0, 0]}, rope.A: {position: [0, 0, -4]}}]
+"""
+    for water, said in (("water_surface: -2.5", True), ("water_surface: 1", False), ("", False)):
+        path = os.path.join(folder, "buoy.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(scene % water)
+        told = [line for line in run(folder, path) if "the buoy at 2 m is" in line]
+        height = float(told[0].split("the buoy at 2 m is ")[1].split()[0]) if told else 0
+        if bool(told) != said or (said and abs(height - 0.5) > 1e-3):
+            faults.append(f"buoy, {water}: {told}")
+
 print("\n".join(faults) or "warnings: said with their figures, and only there")
 sys.exit(1 if faults else 0)
