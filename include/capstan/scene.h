@@ -12,6 +12,7 @@
 #include "capstan/body.h"
 #include "capstan/grasp.h"
 #include "capstan/ground.h"
+#include "capstan/mesh.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
 #include "capstan/shift.h"
@@ -25,7 +26,8 @@ typedef enum CpsObstacleKind {
     CPS_OBSTACLE_CYLINDER, /* a solid cylinder of infinite length: a bollard, a pipe, a drum */
     CPS_OBSTACLE_SPHERE,   /* a solid ball */
     CPS_OBSTACLE_GROUND,   /* what lies below the points of a grid */
-    CPS_OBSTACLE_SURFACE   /* where a function is negative */
+    CPS_OBSTACLE_SURFACE,  /* where a function is negative */
+    CPS_OBSTACLE_MESH      /* what is nearer than the radius to a mesh, or behind it */
 } CpsObstacleKind;
 
 /* The set of friction forces F that two coefficients describe, at the reaction R. By M77 section 4
@@ -42,16 +44,17 @@ typedef struct CpsObstacle {
     const char *name;
     CpsObstacleKind kind; /* default plane */
     /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, or the origin
-     * of a ground or surface; default 0 0 0 */
+     * of a ground, surface or mesh; default 0 0 0 */
     double point[3];
     double normal[3]; /* [-] of a plane, of any length but 0; default 0 0 1 */
     /* [-] of a cylinder, and axis of rotation of cylinder and sphere; of any length but 0; default
      * 0 1 0 */
     double axis[3];
-    double radius; /* [m] of cylinder and sphere, > 0 */
-    /* ground and surface stay in their place. What an evolution needs of a ground it retains. */
+    double radius; /* [m] of cylinder and sphere, > 0; of a mesh, at least 1e-6 of its extent */
+    /* ground and surface stay in their place. An evolution retains a ground or mesh. */
     const CpsGround *ground; /* of a ground */
     CpsSurface surface;      /* of a surface */
+    const CpsMesh *mesh;     /* of a mesh */
     /* [-] coefficient mu >= 0, default 0; where two directions differ, along the first one */
     double friction;
     bool has_friction_lateral; /* default false: the coefficient is the same in all directions */

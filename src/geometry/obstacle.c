@@ -8,9 +8,9 @@
 static const double LEAST = 1e-12;
 
 /* In the order of CpsObstacleKind. */
-static const CpsiShapeTable *const SHAPE[] = {&cpsi_shape_plane, &cpsi_shape_cylinder,
+static const CpsiShapeTable *const SHAPE[] = {&cpsi_shape_plane,  &cpsi_shape_cylinder,
                                               &cpsi_shape_sphere, &cpsi_shape_smooth,
-                                              &cpsi_shape_smooth};
+                                              &cpsi_shape_smooth, &cpsi_shape_mesh};
 
 /* [m] What a shape that is not round has for a radius: the step in which its paths are examined. */
 static double radius_of(const CpsObstacle *def) {
@@ -28,6 +28,7 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
                         .has_set = def->friction_set};
     if (def->kind == CPS_OBSTACLE_GROUND) out.ground = def->ground;
     if (def->kind == CPS_OBSTACLE_SURFACE) out.surface = def->surface;
+    if (def->kind == CPS_OBSTACLE_MESH) out.mesh = def->mesh;
     out.frame = cpsi_plane(def->point, round                             ? def->axis
                                        : def->kind == CPS_OBSTACLE_PLANE ? def->normal
                                                                          : UP);

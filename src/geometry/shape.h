@@ -11,10 +11,12 @@
 typedef struct CpsiObstacle {
     CpsObstacleKind kind;
     CpsiPlane frame; /* plane: the surface. Cylinder: axis[2] is its axis. Sphere: axis[2] is its
-                        axis of rotation */
-    double radius; /* [m] cylinder, sphere; ground, surface: the step in which paths are examined */
+                        axis of rotation. Mesh: its own axes */
+    double radius;   /* [m] cylinder, sphere, mesh; ground, surface: the step in which paths are
+                        examined */
     const CpsGround *ground; /* of a ground, else NULL */
     CpsSurface surface;      /* of a surface given as a function */
+    const CpsMesh *mesh;     /* of a mesh, else NULL */
     double friction[2];      /* [-] along the first tangent of the contact and across it */
     CpsFrictionShape shape;
     bool has_set;   /* the friction forces are those of a set instead, which the line holds
@@ -37,7 +39,7 @@ typedef struct CpsiShapeTable {
 } CpsiShapeTable;
 
 extern const CpsiShapeTable cpsi_shape_plane, cpsi_shape_cylinder, cpsi_shape_sphere,
-    cpsi_shape_smooth;
+    cpsi_shape_smooth, cpsi_shape_mesh;
 
 /* From the plane's point, the cylinder's axis or the sphere's centre to x, on a cylinder across the
  * axis. */

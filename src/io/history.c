@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/math.h"
+#include "base/rotation.h"
 
 enum {
     SHORT_HISTORY = 14, /* every step of a history up to this length is drawn */
@@ -57,6 +58,11 @@ CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obsta
     return now;
 }
 
+void cpsi_results_rotation(const CpsResults *results, int step, int obstacle, double out[4]) {
+    static const double NONE[4] = {1, 0, 0, 0};
+    memcpy(out, step < 0 ? NONE : results->row[step].place[obstacle].rotation, 4 * sizeof *out);
+}
+
 double cpsi_results_turned(const CpsResults *results, int step, int obstacle) {
     return step < 0 ? 0 : results->row[step].place[obstacle].turned;
 }
@@ -79,6 +85,10 @@ void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution
             out[k].point[a] = report.point[a] - results->origin[a];
             out[k].moved = out[k].moved || report.by[a] != 0 || report.turn[a] != 0;
         }
+        double before[4];
+        cpsi_results_rotation(results, results->row_count - 1, k, before);
+        rotation_store(out[k].rotation,
+                       rotation_after(rotation_of(vec3_load(report.turn)), rotation_load(before)));
         if (results->row_count > 0)
             out[k].turned += results->row[results->row_count - 1].place[k].turned;
     }

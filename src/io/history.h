@@ -35,6 +35,7 @@ typedef struct CpsiObstacleRow {
     double point[3], axis[3]; /* [m] relative to the origin of the views; [-] normal or axis */
     double turn, turned;      /* [rad] about its own axis in the step, and since the start */
     bool moved;               /* in the step */
+    double rotation[4];       /* [-] quaternion of its shifts since the start */
 } CpsiObstacleRow;
 
 typedef struct CpsiRow {
@@ -128,6 +129,8 @@ int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int lin
 
 /* An obstacle as it is after a step; of step -1 at the start. */
 CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obstacle);
+/* [-] The rotation by shifts since the start, after a step, as a quaternion. */
+void cpsi_results_rotation(const CpsResults *results, int step, int obstacle, double out[4]);
 /* [rad] Its turn about its own axis since the start, after a step. */
 double cpsi_results_turned(const CpsResults *results, int step, int obstacle);
 /* Whether it turns about its own axis in a step, or otherwise moves in it. */

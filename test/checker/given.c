@@ -54,6 +54,21 @@ static void compare_ground(Compare *compare, const CpsObstacle *o, const Ground 
              points, COPIED);
 }
 
+static void compare_mesh(Compare *compare, const CpsObstacle *o, const Mesh *mesh) {
+    const CpsMeshTriangles of = cps_mesh_triangles(o->mesh);
+    if (mesh->vertices != (size_t)of.vertex_count || mesh->triangles != (size_t)of.triangle_count ||
+        mesh->two_sided != of.two_sided) {
+        find(compare, "mesh of %s: another than that of the scene", o->name);
+        return;
+    }
+    same(compare, "mesh, vertices", o->name, mesh->vertex, of.vertex, 3 * mesh->vertices, COPIED);
+    for (size_t i = 0; i < 3 * mesh->triangles; i++)
+        if (mesh->corner[i] != of.triangle[i]) {
+            find(compare, "mesh of %s: triangle %zu is another", o->name, i / 3);
+            return;
+        }
+}
+
 static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s) {
     static const double UP[3] = {0, 0, 1};
     const bool plane = o->kind == CPS_OBSTACLE_PLANE,
@@ -70,8 +85,10 @@ static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surfa
     same_number(compare, "kind", o->name, s->kind, o->kind);
     same(compare, "point", o->name, point, there, 3, COPIED);
     same(compare, "axis", o->name, axis, unit, 3, COMPUTED);
-    same_number(compare, "radius", o->name, (double)s->radius, round ? o->radius : 0);
+    same_number(compare, "radius", o->name, (double)s->radius,
+                round || o->kind == CPS_OBSTACLE_MESH ? o->radius : 0);
     if (o->kind == CPS_OBSTACLE_GROUND && s->ground) compare_ground(compare, o, s->ground);
+    if (o->kind == CPS_OBSTACLE_MESH && s->mesh) compare_mesh(compare, o, s->mesh);
     if ((s->set != NULL) != (o->friction_set != NULL))
         find(compare, "friction set of %s: one of the two has none", o->name);
     if (s->set && o->friction_set) compare_sets(compare, o, s);

@@ -220,7 +220,9 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
     Real length = hypotl(hypotl(axis[0], axis[1]), axis[2]);
     if (!(kind >= 0 && kind < SURFACE_KINDS) || !(shape == 0 || shape == 1 || shape == 2) ||
         !(mu[0] >= 0 && mu[1] >= 0) || !(length > 0) ||
-        ((kind == SURFACE_CYLINDER || kind == SURFACE_SPHERE) && !(radius > 0)))
+        ((kind == SURFACE_CYLINDER || kind == SURFACE_SPHERE || kind == SURFACE_MESH) &&
+         !(radius > 0)) ||
+        kind == SURFACE_FUNCTION)
         return complain(log, "senseless obstacle in", "obstacle_kind and the like", 0);
     *out = (Surface){.kind = (int)kind, .box = shape == 1, .radius = radius, .mu = {mu[0], mu[1]}};
     for (int i = 0; i < 3; i++) {
@@ -229,6 +231,8 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
         out->grain[i] = grain[i];
     }
     out->grained = grain[0] != 0 || grain[1] != 0 || grain[2] != 0;
+    out->first[0] = 1; /* unless it is shifted later */
+    if (kind == SURFACE_MESH && !(out->mesh = mesh_read(source->nc, k, log))) return -1;
     if (kind == SURFACE_GROUND && !(out->ground = ground_read(source->nc, k, log))) return -1;
     return shape == 2 ? read_set(source, k, &out->set, log) : 0;
 }

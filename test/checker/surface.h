@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Obstacles as the checker sees them: planes, cylinders and balls in long double, written from
- * docs/theory.md. */
+/* Obstacles as the checker sees them: planes, cylinders, balls, ground and meshes in long double,
+ * written from docs/theory.md. */
 #ifndef CAPSTAN_CHECKER_SURFACE_H
 #define CAPSTAN_CHECKER_SURFACE_H
 
@@ -8,9 +8,18 @@
 
 #include "conic.h"
 #include "ground.h"
+#include "mesh.h"
 
 /* flag values of the file */
-enum { SURFACE_PLANE, SURFACE_CYLINDER, SURFACE_SPHERE, SURFACE_GROUND, SURFACE_KINDS };
+enum {
+    SURFACE_PLANE,
+    SURFACE_CYLINDER,
+    SURFACE_SPHERE,
+    SURFACE_GROUND,
+    SURFACE_FUNCTION, /* not in the file: nothing to check */
+    SURFACE_MESH,
+    SURFACE_KINDS
+};
 
 typedef struct Surface {
     int kind;
@@ -20,6 +29,8 @@ typedef struct Surface {
     /* shift of the last step: it turned by the vector `spin` about a point, which went by `by` */
     Real by[3], spin[3], about[3];
     Ground *ground; /* of ground, else NULL */
+    Mesh *mesh;     /* of a mesh, else NULL */
+    Real first[3];  /* of a mesh: its x axis; `axis` is its z axis */
     Conic *set;     /* forces per unit normal force in place of the coefficients, or NULL */
 } Surface;
 
@@ -31,7 +42,8 @@ bool surface_is_round(const Surface *surface);
 Real surface_factor(const Surface *surface, const Real *x);
 /* Does what is known of it end before x, but for `rounding`? */
 bool surface_ends(const Surface *surface, const Real *x, Real rounding);
-/* [m] above the surface, negative below it; of ground to first order. */
+/* [m] above the surface, negative below it; of ground to first order. Of a mesh above the faces
+ * that lie its radius above the triangles. */
 Real surface_distance(const Surface *surface, const Real *x);
 /* How deep an element of natural length l may lie in a round obstacle: its chord cuts in,
  * min(l^2/(4 R), R/4). */
@@ -58,7 +70,8 @@ void surface_carry(const Surface *surface, const Real *x, Real share, Real turn,
 void surface_own(const Surface *surface, const Real *x, const Real *reference, Real share,
                  Real *out);
 /* The shorter geodesic between the feet of two points, as the tangent vector of its length with
- * which it arrives; on ground an arc between them that turns by the angle between the normals. */
+ * which it arrives; on ground an arc between them that turns by the angle between the normals,
+ * on a mesh their chord. */
 void surface_slip(const Surface *surface, const Real *from, const Real *to, Real *out);
 /* [rad] Between the normals of a round surface at two points, 0 to pi. 0 of a plane. */
 Real surface_angle(const Surface *surface, const Real *a, const Real *b);

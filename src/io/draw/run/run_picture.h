@@ -4,6 +4,7 @@
 #ifndef CAPSTAN_SRC_IO_DRAW_RUN_RUN_PICTURE_H
 #define CAPSTAN_SRC_IO_DRAW_RUN_RUN_PICTURE_H
 
+#include "base/rotation.h"
 #include "base/vec3.h"
 #include "io/draw/svg.h"
 #include "io/history.h"
@@ -31,6 +32,20 @@ void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, con
 /* Ground: from above its contours, else its section with the paper. */
 void cpsi_picture_ground(const CpsObstacle *ground, const CpsiView *view, const CpsiFrame *frame,
                          FILE *out);
+
+/* Heights at the corners of the squares of a frame, NaN where there is nothing, with their range;
+ * and contours at round heights. */
+enum { CPSI_SQUARES = 120 };
+typedef struct CpsiRelief {
+    double z[CPSI_SQUARES + 1][CPSI_SQUARES + 1], low, high;
+} CpsiRelief;
+
+void cpsi_picture_contours(const CpsiRelief *relief, const CpsiFrame *frame, FILE *out);
+
+/* A mesh, turned by a quaternion since the start: its outline, with contours from above and its
+ * section with the paper in an elevation. */
+void cpsi_picture_mesh(const CpsObstacle *mesh, const double rotation[4], const CpsiView *view,
+                       const CpsiFrame *frame, FILE *out);
 
 /* Whether the silhouette is a circle: that of a ball, or of a cylinder seen from its end. */
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);

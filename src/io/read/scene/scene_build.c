@@ -12,10 +12,11 @@
 #include "base/math.h"
 #include "capstan/pretension.h"
 #include "io/base/file/read_file.h"
-#include "io/read/ground/ground_build.h"
 #include "io/read/law/set_build.h"
 #include "io/read/scene/node_file.h"
 #include "io/read/scene/section_build.h"
+#include "io/read/shapes/ground/ground_build.h"
+#include "io/read/shapes/mesh/mesh_build.h"
 
 /* A point of the scene, found by its name. */
 typedef struct NamedPoint {
@@ -375,9 +376,23 @@ static CpsStatus build_lines(Build *b, const CpsiList *lines) {
 
 /* ---- obstacles ---- */
 
+static CpsStatus build_mesh(Build *b, const CpsiObstacleValues *values, CpsObstacle *obstacle) {
+    double turn[4] = {1, 0, 0, 0};
+    if (values->rotation.node) cpsi_rotation_build(&values->rotation, turn);
+    if (turn[0] == 0 && turn[1] == 0 && turn[2] == 0 && turn[3] == 0)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->rotation.node,
+                                  "'quaternion': found zeros, expected any other length");
+    return cpsi_mesh_build(b->d, values, rotation_load(turn), (CpsMesh **)&obstacle->mesh);
+}
+
 static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsObstacle *obstacle) {
+    /* in the order of the keys */
+    static const CpsObstacleKind KIND[] = {CPS_OBSTACLE_PLANE, CPS_OBSTACLE_CYLINDER,
+                                           CPS_OBSTACLE_SPHERE, CPS_OBSTACLE_GROUND,
+                                           CPS_OBSTACLE_MESH};
     CpsSet *set = NULL;
     *obstacle = values->obstacle;
+    obstacle->kind = KIND[values->shape];
     obstacle->has_friction_lateral = !isnan(obstacle->friction_lateral);
     if (!obstacle->has_friction_lateral) obstacle->friction_lateral = 0;
     obstacle->name = copy_text(b, values->node->key);
@@ -386,6 +401,8 @@ static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsO
     obstacle->friction_set = set;
     if (status == CPS_OK && obstacle->kind == CPS_OBSTACLE_GROUND)
         status = cpsi_ground_build(b->d, values, (CpsGround **)&obstacle->ground);
+    if (status == CPS_OK && obstacle->kind == CPS_OBSTACLE_MESH)
+        status = build_mesh(b, values, obstacle);
     return status;
 }
 

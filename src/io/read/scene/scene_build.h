@@ -14,6 +14,9 @@ CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values,
 
 /* ---- rigid bodies: body_build.c ---- */
 
+/* A rotation as a quaternion, of any length. */
+void cpsi_rotation_build(const CpsiRotationValues *values, double out[4]);
+
 /* Where a body is held after the preceding entry of the history. */
 typedef struct CpsiHeldPose {
     bool is_known; /* false: it is free */

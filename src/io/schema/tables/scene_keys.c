@@ -5,6 +5,18 @@
 #include "io/schema/rows.h"
 #include "io/schema/tables/set_keys.h"
 
+/* ---- rotations ---- */
+
+static const CpsiKey ROTATION_KEYS[] = {
+    {"quaternion", ONE_OF, POINT(Rotation, quaternion, 4), ANY,
+     .help = "w, x, y, z: by the angle 2 acos(w) about (x, y, z); of any length but zero"},
+    {"roll_pitch_yaw", ONE_OF, POINT(Rotation, angle, 3), ANY, .unit = "degrees",
+     .help = "yaw about z, then pitch about the y axis so turned, then roll about the x axis so "
+             "turned, each by the right-hand rule"},
+};
+static const CpsiMapping ROTATION = {"rotation", KEYS(ROTATION_KEYS), INTO(Rotation),
+                                     WHICH(Rotation, form)};
+
 /* ---- obstacles ---- */
 
 static const CpsiKey PLANE_KEYS[] = {
@@ -56,6 +68,24 @@ static const CpsiKey GROUND_KEYS[] = {
 };
 static const CpsiMapping GROUND = {"ground", KEYS(GROUND_KEYS)};
 
+static const CpsiKey MESH_KEYS[] = {
+    {"file", REQUIRED, TEXT(Obstacle, triangles, 255), ANY, .help = "triangles, beside this file"},
+    {"form", REQUIRED, WORD(Obstacle, mesh_form), .words = "stl obj",
+     .help = "form of the file: STL, binary or text; or Wavefront OBJ"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "by which the triangles are inflated, and convex edges rounded"},
+    {"scale", OPTIONAL, NUMBER(Obstacle, scale), POSITIVE, .fallback = "1",
+     .help = "metres per unit of the file: 0.001 for millimetres"},
+    {"point", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
+     .fallback = "[0, 0, 0]", .help = "where the origin of the file's coordinates is in the scene"},
+    {"rotation", OPTIONAL, MAPPING(Obstacle, rotation), .inside = &ROTATION,
+     .help = "of the file's axes"},
+    {"two_sided", OPTIONAL, FLAG(Obstacle, two_sided), .fallback = "false",
+     .help = "a sheet that lines may touch from both sides; else they stay on the side from which "
+             "corners are seen counter-clockwise"},
+};
+static const CpsiMapping MESH = {"mesh", KEYS(MESH_KEYS)};
+
 static const CpsiKey FRICTION_KEYS[] = {
     {"axial", ONE_OF, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .help = "coefficient along the line, or along the grain"},
@@ -81,6 +111,8 @@ static const CpsiKey OBSTACLE_KEYS[] = {
     {"sphere", ONE_OF, AROUND, .inside = &SPHERE, .help = "a solid ball; lines stay outside"},
     {"ground", ONE_OF, AROUND, .inside = &GROUND,
      .help = "a smooth surface through the points of a grid; lines stay above it"},
+    {"mesh", ONE_OF, AROUND, .inside = &MESH,
+     .help = "triangles, inflated by a radius; lines stay outside"},
     {"friction", OPTIONAL, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .other = &(const CpsiKey){.type = CPSI_MAPPING, .inside = &FRICTION}, .fallback = "0",
      .help = "Coulomb friction coefficient; or one along the line or the grain and another "
@@ -92,22 +124,13 @@ static void begin_obstacle(void *values) {
     *obstacle = cps_obstacle_default();
     obstacle->friction_lateral = NAN; /* not given */
     ((CpsiObstacleValues *)values)->variable = "z";
+    ((CpsiObstacleValues *)values)->scale = 1;
 }
 
 static const CpsiMapping OBSTACLE = {"obstacle", KEYS(OBSTACLE_KEYS), INTO(Obstacle),
-                                     .begin = begin_obstacle, WHICH(Obstacle, obstacle.kind)};
+                                     .begin = begin_obstacle, WHICH(Obstacle, shape)};
 
 /* ---- bodies ---- */
-
-static const CpsiKey ROTATION_KEYS[] = {
-    {"quaternion", ONE_OF, POINT(Rotation, quaternion, 4), ANY,
-     .help = "w, x, y, z: by the angle 2 acos(w) about (x, y, z); of any length but zero"},
-    {"roll_pitch_yaw", ONE_OF, POINT(Rotation, angle, 3), ANY, .unit = "degrees",
-     .help = "yaw about z, then pitch about the y axis so turned, then roll about the x axis so "
-             "turned, each by the right-hand rule"},
-};
-static const CpsiMapping ROTATION = {"rotation", KEYS(ROTATION_KEYS), INTO(Rotation),
-                                     WHICH(Rotation, form)};
 
 static const CpsiKey DIAGONAL_KEYS[] = {
     {"x", OPTIONAL, NUMBER(Diagonal, k[0]), ANY, .unit = "N/m", .fallback = "0",

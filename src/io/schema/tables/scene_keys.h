@@ -20,15 +20,32 @@ typedef struct CpsiSceneValues {
     CpsiList history;   /* CpsiStageValues */
 } CpsiSceneValues;
 
+/* A rotation, in one of two forms. */
+typedef enum CpsiRotationForm { CPSI_ROTATION_QUATERNION, CPSI_ROTATION_ANGLES } CpsiRotationForm;
+
+typedef struct CpsiRotationValues {
+    const CpsiYaml *node; /* NULL: not given */
+    int form;             /* CpsiRotationForm */
+    double quaternion[4];
+    double angle[3]; /* [degrees] roll, pitch, yaw */
+} CpsiRotationValues;
+
 typedef struct CpsiObstacleValues {
     const CpsiYaml *node; /* the key is the name */
     CpsObstacle obstacle;
+    int shape;           /* which of the keys of shapes is given */
     const CpsiYaml *set; /* set of friction forces */
     /* of ground: files beside the scene, their form in the order of CpsiGridForm, and the name of a
      * netCDF file's variable */
     const char *grid, *factors, *variable;
     int form;
     bool are_depths, extends;
+    /* of a mesh: the file beside the scene, its form in the order of CpsiMeshForm, and its place */
+    const char *triangles;
+    int mesh_form;
+    double scale;
+    CpsiRotationValues rotation;
+    bool two_sided;
 } CpsiObstacleValues;
 
 /* A point at which lines end. */
@@ -39,16 +56,6 @@ typedef struct CpsiScenePointValues {
     const char *body;    /* name of the body that it is on */
     double at[3];        /* [m] in its axes */
 } CpsiScenePointValues;
-
-/* A rotation, in one of two forms. */
-typedef enum CpsiRotationForm { CPSI_ROTATION_QUATERNION, CPSI_ROTATION_ANGLES } CpsiRotationForm;
-
-typedef struct CpsiRotationValues {
-    const CpsiYaml *node; /* NULL: not given */
-    int form;             /* CpsiRotationForm */
-    double quaternion[4];
-    double angle[3]; /* [degrees] roll, pitch, yaw */
-} CpsiRotationValues;
 
 /* A hydrostatic stiffness without coupling. */
 typedef struct CpsiDiagonalValues {

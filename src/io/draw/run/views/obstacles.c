@@ -3,10 +3,10 @@
  *
  * A plane seen from above fills the frame and shows its slope; otherwise its intersection with the
  * paper is shown. Cylinders and balls are shown by their silhouettes: a circle, or the band of a
- * cylinder seen from its side, which has no ends. Ground has a picture of its own (ground.c);
- * surfaces given as functions are not shown. An obstacle that turns and is seen along its axis
- * has a spoke that turns with it. One that moves is shown where it is after the step, and lightly
- * where it was before. The water is what is below its surface, in elevations. */
+ * cylinder seen from its side, which has no ends. Ground and meshes have pictures of their own
+ * (ground.c, mesh.c); surfaces given as functions are not shown. An obstacle that turns and is seen
+ * along its axis has a spoke that turns with it. One that moves is shown where it is after the
+ * step, and lightly where it was before. The water is what is below its surface, in elevations. */
 #include <math.h>
 #include <string.h>
 
@@ -175,6 +175,14 @@ static void draw_round(const CpsObstacle *obstacle, const CpsiView *view, const 
                   out);
 }
 
+static void draw_mesh(const CpsResults *results, int k, int step, const CpsiView *view,
+                      const CpsiFrame *frame, FILE *out) {
+    const CpsObstacle now = cpsi_results_obstacle(results, step, k);
+    double rotation[4];
+    cpsi_results_rotation(results, step, k, rotation);
+    cpsi_picture_mesh(&now, rotation, view, frame, out);
+}
+
 /* Where what moves was before it came to its place after a step. */
 static void draw_former(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
                         int step, bool planes, FILE *out) {
@@ -182,7 +190,9 @@ static void draw_former(const CpsResults *results, const CpsiView *view, const C
         const CpsObstacle was = cpsi_results_obstacle(results, step, k);
         if (!was.moves || (was.kind == CPS_OBSTACLE_PLANE) != planes) continue;
         fputs("<g opacity=\"0.4\">", out);
-        if (planes)
+        if (was.kind == CPS_OBSTACLE_MESH)
+            draw_mesh(results, k, step, view, frame, out);
+        else if (planes)
             draw_plane(&was, view, frame, out);
         else
             draw_round(&was, view, frame, out);
@@ -204,6 +214,7 @@ void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, con
     draw_former(results, view, frame, former, false, out);
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle obstacle = cpsi_results_obstacle(results, now, k);
+        if (obstacle.kind == CPS_OBSTACLE_MESH) draw_mesh(results, k, now, view, frame, out);
         if (obstacle.kind != CPS_OBSTACLE_CYLINDER && obstacle.kind != CPS_OBSTACLE_SPHERE)
             continue;
         const Vec3 axis = unit(obstacle.axis);
