@@ -10,11 +10,13 @@
 #define CAPSTAN_SCENE_H
 
 #include "capstan/body.h"
+#include "capstan/elasticity.h"
 #include "capstan/grasp.h"
 #include "capstan/ground.h"
 #include "capstan/mesh.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
+#include "capstan/shape.h"
 #include "capstan/shift.h"
 
 #ifdef __cplusplus
@@ -27,6 +29,10 @@ typedef enum CpsObstacleKind {
     CPS_OBSTACLE_SPHERE,   /* a solid ball */
     CPS_OBSTACLE_GROUND,   /* what lies below the points of a grid */
     CPS_OBSTACLE_SURFACE,  /* where a function is negative */
+    CPS_OBSTACLE_CAPSULE,  /* a cylinder with round ends: a bollard, a tank (shape.h) */
+    CPS_OBSTACLE_TORUS,    /* a ring: a shackle, a bent tube */
+    CPS_OBSTACLE_CONE,     /* a cone with a round tip, without end */
+    CPS_OBSTACLE_BOX,      /* a box with round edges: a quay, a slab */
     CPS_OBSTACLE_MESH      /* what is nearer than the radius to a mesh, or behind it */
 } CpsObstacleKind;
 
@@ -43,18 +49,18 @@ typedef struct CpsObstacle {
     uint32_t cookie;
     const char *name;
     CpsObstacleKind kind; /* default plane */
-    /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, or the origin
-     * of a ground, surface or mesh; default 0 0 0 */
+    /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, capsule, torus
+     * or box, the tip of the cone, or the origin of a ground, surface or mesh; default 0 0 0 */
     double point[3];
     double normal[3]; /* [-] of a plane, of any length but 0; default 0 0 1 */
-    /* [-] of a cylinder, and axis of rotation of cylinder and sphere; of any length but 0; default
-     * 0 1 0 */
+    /* [-] axis of rotation of what is round, of a cone into it; not 0 0 0; default 0 1 0 */
     double axis[3];
-    double radius; /* [m] of cylinder and sphere, > 0; of a mesh, at least 1e-6 of its extent */
-    /* ground and surface stay in their place. An evolution retains a ground or mesh. */
-    const CpsGround *ground; /* of a ground */
-    CpsSurface surface;      /* of a surface */
-    const CpsMesh *mesh;     /* of a mesh */
+    double radius;  /* [m] > 0 of cylinder, sphere and capsule, the tube of a torus, the tip of a
+                       cone, the edges of a box */
+    CpsShape shape; /* what else these have */
+    const CpsGround *ground; /* of a ground, which stays in its place; an evolution retains it */
+    CpsSurface surface;      /* of a surface, which does so as well */
+    const CpsMesh *mesh;     /* of a mesh, which an evolution retains */
     /* [-] coefficient mu >= 0, default 0; where two directions differ, along the first one */
     double friction;
     bool has_friction_lateral; /* default false: the coefficient is the same in all directions */
@@ -112,15 +118,6 @@ typedef struct CpsFrictionZone {
     double factor;   /* [-] >= 0, multiplies the friction of every obstacle that it touches */
 } CpsFrictionZone;
 
-/* A row of a table of strain and tension; a table has 2 to CPS_MAX_STIFFNESS_ROWS of them. The
- * first is 0, 0; strains and tensions rise, with slopes that do not fall. Beyond the last row its
- * slope goes on. */
-enum { CPS_MAX_STIFFNESS_ROWS = 100 };
-typedef struct CpsStiffnessRow {
-    double strain;  /* [-] */
-    double tension; /* [N] */
-} CpsStiffnessRow;
-
 /* A stretch of a line of one make: chain, wire, fibre rope. */
 typedef struct CpsSection {
     const char *type; /* name of its make; may be NULL */
@@ -130,6 +127,8 @@ typedef struct CpsSection {
     /* (stiffness_row_count) in place of `stiffness`; default 0 and NULL */
     int stiffness_row_count;
     const CpsStiffnessRow *stiffness_row;
+    bool has_dynamic_stiffness; /* default false: `stiffness` is the only one */
+    CpsDynamicStiffness dynamic_stiffness;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
     bool has_break_at;      /* default false */
@@ -153,6 +152,8 @@ typedef struct CpsLine {
     double stiffness;        /* [N] EA > 0; INFINITY: inextensible */
     int stiffness_row_count; /* default 0; or of a table in place of `stiffness`, as of a section */
     const CpsStiffnessRow *stiffness_row;
+    bool has_dynamic_stiffness; /* default false; as of a section */
+    CpsDynamicStiffness dynamic_stiffness;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
     bool has_break_at;      /* default false */
@@ -186,7 +187,7 @@ typedef struct CpsChange {
     CpsEnd to;
 } CpsChange;
 
-/* A rotation of a cylinder or sphere about its axis; what sticks to it moves with it. */
+/* A rotation about the axis of a cylinder .. cone; what sticks to it moves with it. */
 typedef struct CpsTurn {
     int obstacle; /* index in the scene */
     double angle; /* [rad] of the rotation in this stage, by the right-hand rule */
@@ -197,6 +198,9 @@ typedef struct CpsStage {
     uint32_t cookie; /* of cps_stage_default(); a stage made otherwise is refused */
     const char *name;
     int step_count; /* >= 1 */
+    /* lines stretch by their static stiffness; default false: those that have a dynamic one by it,
+     * about what was reached before (elasticity.h) */
+    bool static_stiffness;
     int change_count;
     const CpsChange *change;
     int turn_count;

@@ -103,13 +103,13 @@ static double allowance(const CpsiLine *line, int c) {
     return e < 0 || cpsi_line_is_third(line, c)
                ? 0
                : cpsi_obstacle_allowance(&line->obstacle[line->obstacle_index[c]],
-                                         line->element_length[e]);
+                                         line->natural_length[e]);
 }
 
 Vec3 cpsi_contact_slip_between(const CpsiLine *line, int c, Vec3 from, Vec3 to) {
-    CpsiObstacle touched = line->obstacle[line->obstacle_index[c]];
-    if (touched.kind == CPS_OBSTACLE_PLANE) return cpsi_obstacle_slip(&touched, from, to);
-    touched.radius -= allowance(line, c);
+    const CpsiObstacle *obstacle = &line->obstacle[line->obstacle_index[c]];
+    if (obstacle->kind == CPS_OBSTACLE_PLANE) return cpsi_obstacle_slip(obstacle, from, to);
+    const CpsiObstacle touched = cpsi_obstacle_within(obstacle, allowance(line, c));
     return cpsi_obstacle_slip(&touched, from, to);
 }
 
@@ -134,7 +134,8 @@ static void update_winding(CpsiLine *line, int c, Vec3 before) {
     const int k = line->obstacle_index[c];
     if (k < 0) return;
     const CpsiObstacle *obstacle = &line->obstacle[k];
-    const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER && cpsi_line_element(line, c) < 0;
+    const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER &&
+                        cpsi_obstacle_is_round(obstacle) && cpsi_line_element(line, c) < 0;
     const Vec3 from = summed ? before : cpsi_contact_reference_normal(line, k, c);
     const double angle = cpsi_obstacle_angle(obstacle, from, vec3_at(line->normal, c));
     line->winding[c] = summed ? line->winding[c] + angle : angle;

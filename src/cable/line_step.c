@@ -228,20 +228,25 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
     const size_t contacts = (size_t)cpsi_line_all_contacts(line);
     bool tried[STRATEGIES] = {false}, urged = false, again = false;
     int first = 0; /* after the last one of the others that was tried */
-    if (guess != CPSI_GUESS_NONE) {
+    line->newton.guessed = guess >= CPSI_GUESS_REFERENCE;
+    if (line->newton.guessed) {
         if (solve_warm(line, program, options, guess)) return;
+        line->newton.guessed = false;
         again = true;
         /* where Newton's method has solved no program, and moved no base, this was the first
          * strategy */
         if (line->newton.solved == 0 && (guess == CPSI_GUESS_REFERENCE || !line->has_local_axes))
             first = 1;
         line->report.warm_count = 0;
+        guess = CPSI_GUESS_NONE;
     }
     for (;; again = true) {
         const unsigned found = conditions(line, options);
         const int i = next_strategy(found, urged, first, tried);
         if (i == STRATEGIES) return;
-        const CpsiStrategy *strategy = &STRATEGY[i];
+        CpsiStrategy posed = STRATEGY[i];
+        const CpsiStrategy *strategy = &posed;
+        if (i == 0) posed.guess = guess;
         if (again) memset(line->reaction, 0, contacts * sizeof *line->reaction);
         if (options->least) options->least->chose = false;
         line->keeps_tangents = strategy->keeps_tangents;
@@ -357,6 +362,8 @@ bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *opti
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     if (options->friction_policy != CPS_FRICTION_POLICY_CONSISTENT || options->frictionless)
         return false;
+    /* a field, or a load that belongs to a node, does not go along */
+    if (line->has_field || line->has_node_loads) return false;
     report_initial_ends(line);
     cpsi_line_set_reference(line, options);
     if (!cpsi_line_slides_endlessly(line, margin)) return false;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The active set of Newton's method (active_set.c): which of each pair holds, read from the sign of
  * what the other one leaves free. */
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +12,10 @@ static const double LEAST_TENSION = 1e-3;
 /* While the equations have errors, a force that exceeds its bound by less than this share of them
  * may be at it: nodes at rest with such forces are not released yet. */
 static const double SIGNIFICANT = 1e-4;
+/* Of the neighbours on either side of a node, so many are released with it. Where a whole piece is
+ * at its bounds, as after it has slipped, what exceeds them at an iterate may be an error of that
+ * iterate. */
+enum { MOST_RELEASED = 30 };
 
 /* elements ------------------------------------------------------------------------------------- */
 
@@ -35,7 +40,7 @@ static void decide_elements(CpsiNewton *newton) {
         if (now != before) newton->changed = true;
         newton->taut[i] = now;
         if (!now) st->z[i][0] = 0;
-        if (!now && !fixed) keep_taut(newton, i);
+        if (!now && !fixed && !cpsi_newton_may_hang(newton, i)) keep_taut(newton, i);
         if (now && fixed && st->compliance == 0) newton->lost = true;
     }
 }
@@ -100,6 +105,20 @@ static void note_held(CpsiNewton *newton) {
     }
 }
 
+/* Which nodes the field holds by itself: its K - e I is positive definite. */
+static void note_anchored(CpsiNewton *newton) {
+    static const double LEAST = 1e-6; /* e */
+    const CpsiChainProgram *program = newton->program;
+    memset(newton->anchored, 0, (size_t)program->n);
+    for (int j = 0; program->field && j < program->n; j++) {
+        const double *k = &program->field[6 * j], first = k[0] - LEAST,
+                     second = k[2] - LEAST - k[1] * k[1] / first,
+                     mixed = k[4] - k[1] * k[3] / first,
+                     third = k[5] - LEAST - k[3] * k[3] / first - mixed * mixed / second;
+        newton->anchored[j] = first > 0 && second > 0 && third > 0;
+    }
+}
+
 /* The piece of the boundary of its set at which disc d slips: that of the point nearest to the
  * force f, per bound, with a long pull against the slip; -1 where there is none. */
 static int piece_of_slip(const CpsiNewton *newton, int d, const double f[2]) {
@@ -152,7 +171,9 @@ void cpsi_newton_begin(CpsiNewton *newton) {
     CpsiChainProgram *program = newton->program;
     const CpsiUnilateral *unilateral = &program->unilateral;
     const CpsiFrictionDisc *disc = &program->disc;
-    newton->lost = program->conic.count > 0 || program->drag > 0;
+    newton->lost =
+        program->conic.count > 0 || program->drag > 0 || (program->field && program->disc.shape);
+    note_anchored(newton);
     memset(newton->status, 0, (size_t)program->n);
     memset(newton->piece, 0, (size_t)program->n * sizeof *newton->piece);
     memset(disc->w, 0, (size_t)disc->count * sizeof *disc->w);
@@ -214,7 +235,7 @@ static void release(CpsiNewton *newton, int d, const double f[2]) {
         if (!(cpsi_newton_beyond(program, d, now.bound, f, &piece) > 0)) return;
         newton->piece[j] = piece;
     }
-    *status = (*status & (unsigned char)~CPSI_STICKS) | CPSI_RELEASED;
+    *status = (*status & (unsigned char)~(CPSI_STICKS | CPSI_STOPS)) | CPSI_RELEASED;
     for (int a = 0; a < 2; a++) disc->w[d][1 + a] = f[a] / size;
     newton->changed = true;
 }
@@ -249,7 +270,8 @@ static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction
     for (int a = 0; a < 2; a++) q[a] /= size;
     for (int side = -1; side <= 1; side += 2) {
         double left = disc->weight[d] * excess;
-        for (int e = d + side; e >= 0 && e < disc->count; e += side) {
+        int most_released = MOST_RELEASED;
+        for (int e = d + side; e >= 0 && e < disc->count && most_released-- > 0; e += side) {
             const int j = disc->node[e];
             if (j != disc->node[e - side] + side || !(newton->status[j] & CPSI_STICKS)) break;
             const CpsiNodeFriction next = cpsi_newton_friction(program, e);
@@ -264,12 +286,14 @@ static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction
 }
 
 /* F.s of disc d, or n.s at an edge with normal n: what slips is pushed by its friction where this
- * is positive. */
+ * is positive. A slip that is rounding, as that of a node just released, has no direction: 0. */
 static double push(const CpsiNewton *newton, int d) {
     const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
     const CpsiShapePiece *piece = cpsi_newton_piece(newton, d);
-    if (piece && piece->is_edge) return cpsi_newton_dot(now.s, piece->normal[0]);
-    return now.s[0] * now.f[0] + now.s[1] * now.f[1];
+    const double *along = piece && piece->is_edge ? piece->normal[0] : now.f,
+                 by = cpsi_newton_dot(now.s, along),
+                 least = DBL_EPSILON * DBL_EPSILON * cpsi_newton_dot(along, along);
+    return by * by > least ? by : 0;
 }
 
 /* Does disc d slip, on a node beside that of disc e? */

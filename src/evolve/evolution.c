@@ -62,7 +62,8 @@ static void step_line(void *data, int workspace_index, int i) {
     } else {
         if (evolution->move[i].shift) line->obstacle = workspace->scratch.obstacle;
         cpsi_line_substeps(line, &workspace->program, &options, &evolution->move[i],
-                           &workspace->scratch, evolution->report.step_count > 0);
+                           &workspace->scratch,
+                           evolution->report.step_count > 0 && !line->two.has_jumped);
         line->obstacle = evolution->obstacle;
     }
     if (evolution->part == 0) find_range(line, &options);
@@ -377,6 +378,7 @@ CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution, i
     const CpsiShift *shift = &evolution->shift[obstacle];
     vec3_store(report.point, vec3_add(now->frame.point, vec3_load(evolution->origin)));
     vec3_store(report.axis, now->frame.axis[2]);
+    vec3_store(report.side, now->frame.axis[0]);
     vec3_store(report.grain, now->grain);
     vec3_store(report.by, shift->by);
     vec3_store(report.turn, shift->turn);

@@ -33,13 +33,15 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
     return cpsi_obstacle_needs_local_axes(&only);
 }
 
-/* Do elements have contacts, beside the nodes? With round obstacles they do, and where a node may
- * need a third contact; contact of the reference is that of S90, where only nodes touch. */
+/* Do elements have contacts, beside the nodes? With what is convex somewhere they do, and where a
+ * node may need a third contact; contact of the reference is that of S90, where only nodes touch.
+ */
 static bool scene_has_element_contacts(const CpsScene *scene) {
     bool round = false;
-    for (int k = 0; k < scene->obstacle_count; k++)
-        round = round || scene->obstacle[k].kind == CPS_OBSTACLE_CYLINDER ||
-                scene->obstacle[k].kind == CPS_OBSTACLE_SPHERE;
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const CpsiObstacle o = cpsi_obstacle(&scene->obstacle[k]);
+        round = round || cpsi_obstacle_faces_lines(&o);
+    }
     return (round || scene->obstacle_count > 2) &&
            scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
 }
@@ -102,10 +104,15 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
         line->has_break_at = cpsi_has_break_at(&scene->line[i]);
         line->compliance = line->spring_compliance = cpsi_mean_compliance(&scene->line[i]);
-        line->spring_count = cpsi_spring_count(&scene->line[i]);
+        line->spring_count = cpsi_spring_count(&scene->line[i], false);
+        line->two.exists = cpsi_has_dynamic_stiffness(&scene->line[i]);
+        line->two.elasticity[CPSI_STATIC].spring_count = line->spring_count;
+        line->two.elasticity[CPSI_DYNAMIC].spring_count =
+            line->two.exists ? cpsi_spring_count(&scene->line[i], true) : 0;
         cpsi_line_layout(line, arena);
         if (line->n > size.nodes) size.nodes = line->n;
-        if (line->spring_count > size.springs) size.springs = line->spring_count;
+        if (cpsi_line_most_springs(line) > size.springs)
+            size.springs = cpsi_line_most_springs(line);
         if (line->compliance == 0 && line->n > size.inextensible_nodes)
             size.inextensible_nodes = line->n;
     }
@@ -239,7 +246,8 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     if (evolution->has_static) evolution->step_count++;
     if (evolution->step_count == 0) {
         /* no history: one step to the equilibrium under the initial ends */
-        evolution->stage[0] = (CpsiEvolutionStage){.name = "equilibrium", .steps = 1};
+        evolution->stage[0] =
+            (CpsiEvolutionStage){.name = "equilibrium", .steps = 1, .static_stiffness = true};
         evolution->stage_count = evolution->step_count = 1;
     }
     for (int i = 0; i < evolution->workspace_count; i++)

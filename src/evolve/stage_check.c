@@ -102,6 +102,11 @@ static CpsStatus check_turns(const CpsScene *scene, const CpsStage *stage, const
                                 "%s: obstacle '%s' is a mesh: only a cylinder or a sphere turns "
                                 "about its own axis; %s.obstacle has turns about any",
                                 what, obstacle->name, obstacle->name);
+        if (obstacle->kind == CPS_OBSTACLE_BOX)
+            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                                "%s: obstacle '%s' is a box, which has no axis of rotation; "
+                                "%s.obstacle has turns about any",
+                                what, obstacle->name, obstacle->name);
         if (obstacle->kind == CPS_OBSTACLE_GROUND || obstacle->kind == CPS_OBSTACLE_SURFACE)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                                 "%s: obstacle '%s' is a %s: only a cylinder or a sphere turns",

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cable/two_stiffnesses.h"
 #include "evolve/failure.h"
 #include "evolve/grasps.h"
 #include "evolve/path_check.h"
@@ -59,6 +60,7 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
     }
     stage->turn_count = from->turn_count;
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
+    stage->static_stiffness = from->static_stiffness;
     stage->gravity_changes = from->gravity_changes;
     memcpy(stage->gravity, from->gravity, sizeof stage->gravity);
 }
@@ -257,6 +259,8 @@ static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage
 }
 
 void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+    for (int i = 0; i < evolution->line_count; i++)
+        cpsi_line_use_stiffness(&evolution->line[i], !stage->static_stiffness);
     if (part == 0) memcpy(evolution->gravity_from, evolution->gravity, sizeof evolution->gravity);
     plan_weights(evolution, stage, part);
     for (int i = 0; i < evolution->line_count; i++)

@@ -23,6 +23,7 @@ typedef struct CpsiEvolutionStage {
     CpsBodyChange *body_change;
     CpsTurn *turn;
     CpsShift *shift;
+    bool static_stiffness;
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */
     uint64_t hash;     /* of this stage and all before it */

@@ -125,11 +125,19 @@ static bool is_load_change(const CpsiLoadChange *change) {
     return sound;
 }
 
+/* Rest strains of a line that has them. */
+static bool are_rest_strains(const CpsiLine *line) {
+    if (!line->two.exists) return true;
+    for (int e = 0; e + 1 < line->n; e++)
+        if (!(line->two.rest_strain[e] >= 0 && isfinite(line->two.rest_strain[e]))) return false;
+    return true;
+}
+
 static bool are_fields(const CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     return all_finite(line->reference, 3 * n) && all_finite(line->position, 3 * n) &&
-           is_start(line) && all_finite(line->load, 3 * n) && all_finite(line->motion, 3 * n) &&
-           is_load_change(&line->last_change) &&
+           is_start(line) && are_rest_strains(line) && all_finite(line->load, 3 * n) &&
+           all_finite(line->motion, 3 * n) && is_load_change(&line->last_change) &&
            within(line->newton.failures, 0, CPSI_NEWTON_PATIENCE) &&
            within(line->newton.pause, 0, 1 << CPSI_NEWTON_PATIENCE) &&
            all_finite(line->weight, 3) && all_finite(line->weight_before, 3) &&

@@ -402,8 +402,8 @@ static Trial try_part(Advance *substeps, double from, double middle, double to, 
     trial.good = converged(&trial.first);
     if (!trial.good) return trial;
     trial.open = open_energy(substeps, &trial.first, NULL);
-    if (substeps->line->newton.solved > 0 && is_open(&trial.open)) {
-        /* restored, the line has no move to go on from: the part is taken cold */
+    if (substeps->line->newton.guessed && is_open(&trial.open)) {
+        /* restored, the line has no move to go on from: the part begins cold */
         cpsi_substeps_restore(substeps->line, substeps->scratch);
         trial.first = accept(substeps, from, to, substeps->known);
         trial.good = converged(&trial.first);
@@ -666,7 +666,7 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
     }
 }
 
-/* [m] How far a round obstacle is shifted where the line may meet it. An obstacle that turns about
+/* [m] How far a curved obstacle is shifted where the line may meet it. An obstacle that turns about
  * a point moves differently everywhere. */
 static double shift_size(const CpsiLine *line, const CpsiMove *move, int k) {
     const CpsiShift *shift = &move->shift[k], back = cpsi_shift_part(shift, 1, 0);
@@ -680,11 +680,14 @@ static double shift_size(const CpsiLine *line, const CpsiMove *move, int k) {
             drawn = fmax(drawn, vec3_norm(vec3_sub(vec3_load(move->to[end].value),
                                                    vec3_load(move->from[end].value))));
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_at(line->position, j), spoke = cpsi_obstacle_spoke(&start, x),
-                   foot = vec3_sub(x, spoke);
+        const Vec3 x = vec3_at(line->position, j);
+        const bool round = cpsi_obstacle_is_round(&start);
+        const double gap = cpsi_obstacle_gap(&start, x);
+        const Vec3 foot = vec3_sub(x, round ? cpsi_obstacle_spoke(&start, x)
+                                            : vec3_scale(gap, cpsi_obstacle_normal(&start, x)));
         const double size = by + vec3_norm(vec3_cross(shift->turn, vec3_sub(foot, shift->about))),
                      element = line->element_length[j < line->n - 1 ? j : j - 1];
-        if (vec3_norm(spoke) - start.radius <= size + drawn + element) most = fmax(most, size);
+        if (gap <= size + drawn + element) most = fmax(most, size);
     }
     return most;
 }

@@ -55,12 +55,10 @@ CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obsta
     const bool plane = now.kind == CPS_OBSTACLE_PLANE;
     memcpy(now.point, place->point, sizeof now.point);
     memcpy(plane ? now.normal : now.axis, place->axis, sizeof now.axis);
+    if (now.kind == CPS_OBSTACLE_BOX || now.kind == CPS_OBSTACLE_MESH)
+        rotation_store(now.shape.rotation, rotation_after(rotation_load(place->rotation),
+                                                          rotation_load(now.shape.rotation)));
     return now;
-}
-
-void cpsi_results_rotation(const CpsResults *results, int step, int obstacle, double out[4]) {
-    static const double NONE[4] = {1, 0, 0, 0};
-    memcpy(out, step < 0 ? NONE : results->row[step].place[obstacle].rotation, 4 * sizeof *out);
 }
 
 double cpsi_results_turned(const CpsResults *results, int step, int obstacle) {
@@ -81,14 +79,15 @@ void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution
         const CpsObstacleReport report = cps_evolution_obstacle_report(evolution, k);
         out[k] = (CpsiObstacleRow){.turn = report.turned, .turned = report.turned};
         memcpy(out[k].axis, report.axis, sizeof report.axis);
+        const CpsiRow *last = results->row_count > 0 ? &results->row[results->row_count - 1] : NULL;
+        static const double NONE[4] = {1, 0, 0, 0};
+        rotation_store(out[k].rotation,
+                       rotation_after(rotation_of(vec3_load(report.turn)),
+                                      rotation_load(last ? last->place[k].rotation : NONE)));
         for (int a = 0; a < 3; ++a) {
             out[k].point[a] = report.point[a] - results->origin[a];
             out[k].moved = out[k].moved || report.by[a] != 0 || report.turn[a] != 0;
         }
-        double before[4];
-        cpsi_results_rotation(results, results->row_count - 1, k, before);
-        rotation_store(out[k].rotation,
-                       rotation_after(rotation_of(vec3_load(report.turn)), rotation_load(before)));
         if (results->row_count > 0)
             out[k].turned += results->row[results->row_count - 1].place[k].turned;
     }
@@ -138,4 +137,75 @@ CpsOutcome cpsi_results_outcome(const CpsResults *results) {
     for (int i = 0; i < results->row_count; ++i)
         worst = cps_outcome_worse(worst, results->row[i].report.outcome);
     return worst;
+}
+
+/* ---- surfaces of shapes ---- */
+
+/* Parts of a quarter of a circle. */
+enum { QUARTER = 12 };
+
+void cpsi_shape_grid(const CpsObstacle *o, int *rows, int *columns) {
+    *columns = 4 * QUARTER;
+    *rows = 0;
+    if (o->kind == CPS_OBSTACLE_CAPSULE) *rows = 2 * QUARTER + 1;
+    if (o->kind == CPS_OBSTACLE_TORUS) *rows = 4 * QUARTER;
+    if (o->kind == CPS_OBSTACLE_CONE) *rows = QUARTER + 1;
+    if (o->kind != CPS_OBSTACLE_BOX) return;
+    *rows = 2 * QUARTER + 3;
+    *columns = 4 * QUARTER + 4;
+}
+
+/* Away from the axis, and along it: of what is round about an axis. */
+static void profile(const CpsObstacle *o, double end, int row, double out[2]) {
+    const double r = o->radius, part = 0.5 * CPSI_PI / QUARTER;
+    const bool second = row > QUARTER;
+    if (o->kind == CPS_OBSTACLE_TORUS) {
+        out[0] = o->shape.main_radius - r * cos(part * row);
+        out[1] = r * sin(part * row);
+    } else if (o->kind == CPS_OBSTACLE_CAPSULE) {
+        const double angle = part * (row - second);
+        out[0] = r * sin(angle);
+        out[1] = (second ? -0.5 : 0.5) * o->shape.length + r * cos(angle);
+    } else {
+        const double angle = (0.5 * CPSI_PI - o->shape.angle) / QUARTER * (second ? QUARTER : row);
+        out[0] = r * sin(angle);
+        out[1] = r - r * cos(angle);
+        if (!second) return;
+        const double more = fmax(0, end - out[1]);
+        out[0] += more * tan(o->shape.angle);
+        out[1] += more;
+    }
+}
+
+/* In the axes of the box: round every corner an eighth of a ball. */
+static Vec3 box_point(const CpsObstacle *o, int row, int column) {
+    const int last = 2 * QUARTER + 3, corner = column / (QUARTER + 1) % 4;
+    const double r = o->radius, *size = o->shape.size, part = 0.5 * CPSI_PI / QUARTER,
+                 sign[3] = {corner == 0 || corner == 3 ? 1 : -1, corner < 2 ? 1 : -1,
+                            row <= QUARTER + 1 ? 1 : -1};
+    if (row == 0 || row == last) return vec3(0, 0, 0.5 * sign[2] * size[2]);
+    const int step = row <= QUARTER + 1 ? row - 1 : row - 2;
+    const double angle = part * (corner * QUARTER + column % (QUARTER + 1)), polar = part * step;
+    return vec3(sign[0] * (0.5 * size[0] - r) + r * sin(polar) * cos(angle),
+                sign[1] * (0.5 * size[1] - r) + r * sin(polar) * sin(angle),
+                sign[2] * (0.5 * size[2] - r) + r * cos(polar));
+}
+
+static Vec3 unit(Vec3 v) { return vec3_scale(1 / vec3_norm(v), v); }
+
+Vec3 cpsi_shape_point(const CpsObstacle *o, double end, double turned, int row, int column) {
+    const Vec3 centre = vec3_load(o->point);
+    if (o->kind == CPS_OBSTACLE_BOX) {
+        const int round = 4 * QUARTER + 4;
+        return vec3_add(centre, rotation_apply(rotation_load(o->shape.rotation),
+                                               box_point(o, row, column % round)));
+    }
+    const Vec3 axis = unit(vec3_load(o->axis)),
+               seed = fabs(axis.x) <= 0.75 ? vec3(1, 0, 0) : vec3(0, 1, 0),
+               first = unit(vec3_reject(seed, axis)), second = vec3_cross(axis, first);
+    const double angle = turned + 0.5 * CPSI_PI * column / QUARTER;
+    double at[2];
+    profile(o, end, row, at);
+    return vec3_add(vec3_axpy(at[1], axis, centre),
+                    vec3_axpy(at[0] * cos(angle), first, vec3_scale(at[0] * sin(angle), second)));
 }

@@ -10,6 +10,7 @@
 #include <locale.h>
 #include <stdbool.h>
 
+#include "base/vec3.h"
 #include "capstan/failure.h"
 #include "capstan/results.h"
 #include "io/base/directory/write_directory.h"
@@ -33,9 +34,9 @@ typedef struct CpsiBodyRow {
 /* An obstacle after a step. */
 typedef struct CpsiObstacleRow {
     double point[3], axis[3]; /* [m] relative to the origin of the views; [-] normal or axis */
+    double rotation[4];       /* of a box or mesh, since the start */
     double turn, turned;      /* [rad] about its own axis in the step, and since the start */
     bool moved;               /* in the step */
-    double rotation[4];       /* [-] quaternion of its shifts since the start */
 } CpsiObstacleRow;
 
 typedef struct CpsiRow {
@@ -129,8 +130,6 @@ int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int lin
 
 /* An obstacle as it is after a step; of step -1 at the start. */
 CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obstacle);
-/* [-] The rotation by shifts since the start, after a step, as a quaternion. */
-void cpsi_results_rotation(const CpsResults *results, int step, int obstacle, double out[4]);
 /* [rad] Its turn about its own axis since the start, after a step. */
 double cpsi_results_turned(const CpsResults *results, int step, int obstacle);
 /* Whether it turns about its own axis in a step, or otherwise moves in it. */
@@ -139,6 +138,12 @@ bool cpsi_results_moves(const CpsResults *results, int step, int obstacle);
 /* The places of all after the last step of the evolution, which follows the last row. */
 void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution,
                         CpsiObstacleRow *out);
+
+/* The surface of a capsule, torus, cone or box as (rows + 1) x (columns + 1) points; 0 rows of
+ * other kinds. A cone ends at the distance `end` [m] from its tip. It has turned about its axis by
+ * `turned` [rad]. */
+void cpsi_shape_grid(const CpsObstacle *obstacle, int *rows, int *columns);
+Vec3 cpsi_shape_point(const CpsObstacle *obstacle, double end, double turned, int row, int column);
 
 /* The point in words: held, free, stick, slip, on_body; and how large a force nothing balances
  * there [N]. */

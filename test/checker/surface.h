@@ -16,7 +16,11 @@ enum {
     SURFACE_CYLINDER,
     SURFACE_SPHERE,
     SURFACE_GROUND,
-    SURFACE_FUNCTION, /* not in the file: nothing to check */
+    SURFACE_FUNCTION, /* of which the file says nothing */
+    SURFACE_CAPSULE,
+    SURFACE_TORUS,
+    SURFACE_CONE,
+    SURFACE_BOX,
     SURFACE_MESH,
     SURFACE_KINDS
 };
@@ -24,20 +28,25 @@ enum {
 typedef struct Surface {
     int kind;
     bool box, grained;
-    Real point[3], axis[3], radius; /* axis of length 1 */
-    Real mu[2], grain[3];           /* along the line or the grain, and across */
+    Real point[3], axis[3], radius;                    /* axis of length 1 */
+    bool inside;                                       /* lines are inside of it */
+    Real length, main_radius, angle, size[3], side[3]; /* of capsule, torus, cone, box (shape.h) */
+    Real mu[2], grain[3];                              /* along the line or the grain, and across */
     /* shift of the last step: it turned by the vector `spin` about a point, which went by `by` */
     Real by[3], spin[3], about[3];
     Ground *ground; /* of ground, else NULL */
     Mesh *mesh;     /* of a mesh, else NULL */
-    Real first[3];  /* of a mesh: its x axis; `axis` is its z axis */
     Conic *set;     /* forces per unit normal force in place of the coefficients, or NULL */
 } Surface;
 
 /* Free its set and ground. */
 void surface_free(Surface *surface);
-/* Is it a cylinder or a ball? */
+/* Is it a cylinder or a ball, with the lines outside? */
 bool surface_is_round(const Surface *surface);
+/* May an element whose ends are outside cut into it? */
+bool surface_is_cut(const Surface *surface);
+/* The surface that is deeper by `depth`. */
+Surface surface_within(const Surface *surface, Real depth);
 /* By which its friction is multiplied at x. */
 Real surface_factor(const Surface *surface, const Real *x);
 /* Does what is known of it end before x, but for `rounding`? */

@@ -326,8 +326,8 @@ static void refuses_wrong_obstacles(void **state) {
     p.scene.obstacle_count = -1;
     refused(&p, "obstacles: found -1");
     make(&p);
-    p.obstacle.kind = 7;
-    refused(&p, "unknown kind 7");
+    p.obstacle.kind = 70;
+    refused(&p, "unknown kind 70");
     make(&p);
     p.obstacle.kind = CPS_OBSTACLE_CYLINDER;
     refused(&p, "radius is 0 m");

@@ -42,10 +42,13 @@ typedef struct CpsiRelief {
 
 void cpsi_picture_contours(const CpsiRelief *relief, const CpsiFrame *frame, FILE *out);
 
-/* A mesh, turned by a quaternion since the start: its outline, with contours from above and its
- * section with the paper in an elevation. */
-void cpsi_picture_mesh(const CpsObstacle *mesh, const double rotation[4], const CpsiView *view,
-                       const CpsiFrame *frame, FILE *out);
+/* A mesh: its outline, with contours from above and its section with the paper in an elevation. */
+void cpsi_picture_mesh(const CpsObstacle *mesh, const CpsiView *view, const CpsiFrame *frame,
+                       FILE *out);
+/* A capsule, torus, cone or box by its silhouette; and the ranges of the view that show it. */
+void cpsi_picture_shape(const CpsObstacle *obstacle, const char *fill, const char *edge,
+                        const CpsiView *view, const CpsiFrame *frame, FILE *out);
+void cpsi_shape_extend(const CpsObstacle *obstacle, CpsiView *view);
 
 /* Whether the silhouette is a circle: that of a ball, or of a cylinder seen from its end. */
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);

@@ -11,6 +11,7 @@
 enum {
     CPSI_OBSTACLE_FIELDS = 8,
     CPSI_OBSTACLE_MOVES = 5,
+    CPSI_SHAPE_FIELDS = 6,
     CPSI_SET_FIELDS = 5,
     CPSI_GROUND_FIELDS = 4
 };
@@ -26,8 +27,10 @@ typedef struct CpsiNetcdfObstacles {
     bool moves;                    /* one of them does; else the next ones are unused */
     int move[CPSI_OBSTACLE_MOVES]; /* of each step */
     int dimension, turn, field[CPSI_OBSTACLE_FIELDS]; /* unused without obstacles */
-    int set_field[CPSI_SET_FIELDS];                   /* unused without sets, */
-    size_t set_rows, set_unknowns;                    /* where these are 0 */
+    int shape_field[CPSI_SHAPE_FIELDS];               /* unused where has_shapes is false: */
+    bool has_shapes; /* some are neither planes nor outside of cylinders, balls, ground, surfaces */
+    int set_field[CPSI_SET_FIELDS]; /* unused without sets, */
+    size_t set_rows, set_unknowns;  /* where these are 0 */
     /* (count) while the file begins; zeroed where an obstacle has none */
     CpsSetConic *set;
     CpsiNetcdfGround *ground; /* (count) likewise */

@@ -33,18 +33,18 @@ typedef struct CpsiRotationValues {
 typedef struct CpsiObstacleValues {
     const CpsiYaml *node; /* the key is the name */
     CpsObstacle obstacle;
-    int shape;           /* which of the keys of shapes is given */
     const CpsiYaml *set; /* set of friction forces */
     /* of ground: files beside the scene, their form in the order of CpsiGridForm, and the name of a
      * netCDF file's variable */
     const char *grid, *factors, *variable;
     int form;
     bool are_depths, extends;
+    double cone_angle;           /* [degrees] */
+    CpsiRotationValues rotation; /* of a box or a mesh */
     /* of a mesh: the file beside the scene, its form in the order of CpsiMeshForm, and its place */
     const char *triangles;
     int mesh_form;
     double scale;
-    CpsiRotationValues rotation;
     bool two_sided;
 } CpsiObstacleValues;
 
@@ -85,14 +85,21 @@ typedef struct CpsiStiffnessValues {
     CpsiNumberRows strain, tension;
 } CpsiStiffnessValues;
 
+/* A dynamic stiffness; NaN without a table: not given. */
+typedef struct CpsiDynamicValues {
+    double stiffness;
+    CpsiStiffnessValues table;
+} CpsiDynamicValues;
+
 /* What a metre of line weighs: `mass`, in water with its `diameter`, or `weight`; NaN: not given.
  */
 typedef struct CpsiTypeValues {
     const CpsiYaml *node; /* the key is the name */
     double mass, diameter, weight, stiffness, friction;
     CpsiStiffnessValues table; /* in place of `stiffness` */
-    double breaking_load;      /* NaN: not given */
-    double break_at;           /* NaN: not given */
+    CpsiDynamicValues dynamic;
+    double breaking_load; /* NaN: not given */
+    double break_at;      /* NaN: not given */
 } CpsiTypeValues;
 
 /* Elements that become shorter towards an end, or towards both. */
@@ -158,6 +165,7 @@ typedef struct CpsiLineValues {
     double breaking_load;         /* NaN: not given */
     double break_at;              /* NaN: not given */
     CpsiStiffnessValues table;    /* in place of line.stiffness */
+    CpsiDynamicValues dynamic;
     CpsiPretensionValues pretension;
     CpsiList sections;        /* CpsiSectionValues */
     CpsiList point_weights;   /* CpsiPointWeightValues */
@@ -219,6 +227,7 @@ typedef struct CpsiGraspValues {
 typedef struct CpsiStageValues {
     const CpsiYaml *node;
     CpsStage stage;         /* gravity is NaN where not given */
+    int stiffness;          /* in the order of its words */
     CpsiList changes;       /* CpsiChangeValues */
     CpsiList point_changes; /* CpsiChangeValues, with the key POINT.point */
     CpsiList body_changes;  /* CpsiBodyChangeValues */
@@ -228,5 +237,10 @@ typedef struct CpsiStageValues {
 } CpsiStageValues;
 
 extern const CpsiMapping cpsi_scene_file;
+
+/* ---- history_keys.c ---- */
+
+extern const CpsiMapping cpsi_stage_keys;    /* an entry of the history */
+extern const CpsiMapping cpsi_rotation_keys; /* a rotation of a body, there and where it begins */
 
 #endif

@@ -155,9 +155,9 @@ static void draw_section(const Placed *mesh, double cut, const CpsiFrame *frame,
     fputs("\"/>\n", out);
 }
 
-void cpsi_picture_mesh(const CpsObstacle *o, const double rotation[4], const CpsiView *view,
-                       const CpsiFrame *frame, FILE *out) {
-    const Rotation back = rotation_inverse(rotation_load(rotation));
+void cpsi_picture_mesh(const CpsObstacle *o, const CpsiView *view, const CpsiFrame *frame,
+                       FILE *out) {
+    const Rotation back = rotation_inverse(rotation_load(o->shape.rotation));
     const Vec3 point = vec3_load(o->point);
     const Placed mesh = {.of = cps_mesh_triangles(o->mesh),
                          .right = rotation_apply(back, view->right),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sections and weights (section_build.h). */
-#include "io/read/scene/section_build.h"
+#include "io/read/scene/parts/section_build.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -44,6 +44,13 @@ CpsStatus cpsi_stiffness_build(const CpsiMaterials *m, const CpsiStiffnessValues
     *count = rows;
     *row = made;
     return CPS_OK;
+}
+
+CpsStatus cpsi_dynamic_stiffness_build(const CpsiMaterials *m, const CpsiDynamicValues *values,
+                                       bool *has, CpsDynamicStiffness *out) {
+    *has = values->table.node || !isnan(values->stiffness);
+    *out = (CpsDynamicStiffness){.stiffness = isnan(values->stiffness) ? 0 : values->stiffness};
+    return cpsi_stiffness_build(m, &values->table, &out->row_count, &out->row);
 }
 
 /* ---- elements ---- */
@@ -153,8 +160,11 @@ static CpsStatus build_section(const CpsiMaterials *m, const CpsiSectionValues *
     if (section->has_breaking_load) section->breaking_load = (*type)->breaking_load;
     if (section->has_break_at) section->break_at = (*type)->break_at;
     if (!section->type) return cpsi_document_no_memory(m->d);
-    const CpsStatus status = cpsi_stiffness_build(m, &(*type)->table, &section->stiffness_row_count,
-                                                  &section->stiffness_row);
+    CpsStatus status = cpsi_stiffness_build(m, &(*type)->table, &section->stiffness_row_count,
+                                            &section->stiffness_row);
+    if (status == CPS_OK)
+        status = cpsi_dynamic_stiffness_build(m, &(*type)->dynamic, &section->has_dynamic_stiffness,
+                                              &section->dynamic_stiffness);
     if (status != CPS_OK) return status;
     if (isnan((*type)->mass)) return CPS_OK;
     return submerged(m, (*type)->node, (*type)->mass, (*type)->diameter, &section->weight);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rigid bodies: from the values of a scene file to the scene's structs (see scene_build.h). */
+/* Rigid bodies: from the values of a scene file to the scene's structs (see body_build.h). */
 #include <math.h>
 #include <string.h>
 
 #include "base/math.h"
-#include "io/read/scene/scene_build.h"
+#include "io/read/scene/parts/body_build.h"
 
 static void copy_vector(double out[3], const double x[3]) { memcpy(out, x, 3 * sizeof *out); }
 
