@@ -5,6 +5,18 @@
 #include "base/larger.h"
 #include "chain/frame.h"
 
+static void layout_inertia(CpsiInertia *inertia, CpsiArena *arena, size_t n) {
+    CPSI_PLACE(arena, inertia->mass, n);
+    CPSI_PLACE(arena, inertia->span, n);
+    CPSI_PLACE(arena, inertia->rest_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->start, 3 * n);
+    CPSI_PLACE(arena, inertia->start_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->before, 3 * n);
+    CPSI_PLACE(arena, inertia->before_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->restarts, n);
+}
+
 /* The arrays of both stiffnesses of a line of n nodes; spring_count of both is set. */
 static void layout_two_stiffnesses(CpsiTwoStiffnesses *two, CpsiArena *arena, int n) {
     CPSI_PLACE(arena, two->rest_strain, n);
@@ -55,6 +67,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     }
     if (line->has_breaking_load) CPSI_PLACE(arena, line->breaking_load, n);
     if (line->has_break_at) CPSI_PLACE(arena, line->break_at, n);
+    if (line->has_inertia) layout_inertia(&line->inertia, arena, n);
     CPSI_PLACE(arena, line->friction_law, contacts);
     CPSI_PLACE(arena, line->friction_bound, contacts);
     CPSI_PLACE(arena, line->friction_force, 3 * contacts);

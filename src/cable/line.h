@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One line and its last step: the data that a step reads and the fields that it leaves. World axes,
- * SI units.
+/* One line and its last step: what a step reads and the fields that it leaves. World axes, SI.
  *
  * A node touches up to `contacts` obstacles at once. The data of contacts are in arrays (contacts,
  * n): contact c < n is the first contact of node c, contact n <= c < 2 n is the second contact of
@@ -18,6 +17,7 @@
 #include "cable/anderson.h"
 #include "cable/elasticity.h"
 #include "cable/friction_law.h"
+#include "cable/inertia.h"
 #include "cable/load_change.h"
 #include "cable/node_field.h"
 #include "capstan/step.h"
@@ -37,7 +37,7 @@ typedef struct CpsiLine {
                            or none; NULL: no obstacle has one */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
     CpsiShift *shift;   /* (obstacle_count) how each has been shifted in it */
-    bool has_zones;     /* friction differs along the line */
+    bool has_zones, has_inertia;    /* friction differs along it; it may move in time */
     bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
     bool has_sections;              /* weight and compliance may, and there may be point masses */
     bool has_breaking_load, has_break_at; /* an element has one */
@@ -63,8 +63,7 @@ typedef struct CpsiLine {
     CpsiTwoStiffnesses two;
     int *spring_at, *spring_element;         /* (n), (spring_count) */
     double *spring_start, *spring_stiffness; /* (spring_count) [-], [N] */
-    double *weight_length; /* (n) [m] natural length of `weight` that the node carries, with that
-                              of its point masses; negative where a buoy lifts it */
+    double *weight_length; /* (n) [m] of `weight` that the node carries, with its point masses */
     const struct CpsiJoined
         *joined;          /* (line_solve.h) its part of a solution to be taken; or NULL */
     CpsEnd end_before[2]; /* imposed at the beginning of the substep */
@@ -82,8 +81,7 @@ typedef struct CpsiLine {
     double *load;         /* (n, 3) [N] */
     CpsiNodeField field;
     double *normal; /* (contacts, n, 3) */
-    double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: the contact does
-                    not enter the program */
+    double *gap;    /* (contacts, n) [m] n.u >= -gap from the reference; INFINITY: not looked for */
     double *friction_factor;       /* (n) of the obstacles' coefficients; NULL: 1 */
     CpsiFrictionLaw *friction_law; /* (contacts, n) of the obstacle that each contact is with */
     double *friction_bound;        /* (contacts, n) [N] with the larger coefficient */
@@ -96,8 +94,7 @@ typedef struct CpsiLine {
     /* (contacts, n, 3) [m] slip of the node on the obstacle in this step, tangential; without
      * has_local_axes computed after the step, for views */
     double *slip;
-    bool *active;   /* (contacts, n) the constraint is active in the last solution: the reaction
-                       exceeds the distance, both in units of the program */
+    bool *active;   /* (contacts, n) the last solution's reaction, without unit, exceeds its gap */
     bool *at_bound; /* (contacts, n) friction is at its bound in it (warm_step.h) */
     /* with has_local_axes, else NULL: the geometry of the contacts at `base` */
     /* (contacts, n) [rad] angle by which the node has moved round the obstacle in this step: on a
@@ -131,6 +128,7 @@ typedef struct CpsiLine {
     int *obstacle_index_before; /* (contacts, n) with has_local_axes, as obstacle_index */
     struct CpsiForceSet *forces;
     bool exact; /* segments are taut and contacts stick only where positions show it to rounding */
+    CpsiInertia inertia; /* with has_inertia */
     CpsLineReport report;
 } CpsiLine;
 

@@ -295,6 +295,10 @@ static double largest_force(const CpsiLine *line) {
 /* Are the places that the solution of the program leaves unique? With tension in every element and
  * an end held they are. */
 static bool is_unique(CpsiLine *line, const CpsiChainProgram *program, const CpsiRound *round) {
+    if (line->inertia.is_moving) {
+        line->report.places = CPS_PLACES_UNIQUE;
+        return true;
+    }
     cpsi_places_as_found(line, program);
     if (line->report.places == CPS_PLACES_UNIQUE && !cpsi_line_is_loose(line)) return true;
     if (!round->least) return false;

@@ -327,7 +327,8 @@ static void classify(CpsiLine *line, const CpsiChainProgram *program) {
  * the forces before the step, if they can be certified. */
 static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
                           const CpsiStepOptions *options) {
-    if (!line->forces || !cps_outcome_is_certified(line->report.outcome)) return;
+    if (!line->forces || line->inertia.is_moving || !cps_outcome_is_certified(line->report.outcome))
+        return;
     const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
     const CpsCertificate before = line->report.certificate;
     const CpsOutcome outcome = line->report.outcome;

@@ -172,6 +172,24 @@ static void pass_step_report(Tape *tape, CpsStepReport *report) {
     PASS(tape, report->wall);
 }
 
+static void pass_inertia(Tape *tape, CpsiLine *line) {
+    CpsiInertia *inertia = &line->inertia;
+    const size_t n = (size_t)line->n;
+    double *const vectors[] = {inertia->rest_velocity, inertia->start, inertia->velocity,
+                               inertia->before, inertia->before_velocity};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        pass(tape, vectors[i], 3 * n * sizeof(double));
+    pass(tape, inertia->span, n * sizeof *inertia->span);
+    for (size_t j = 0; j < n; j++) pass_flag(tape, &inertia->restarts[j]);
+    pass_flag(tape, &inertia->is_moving);
+    PASS(tape, inertia->kinetic);
+    PASS(tape, inertia->position_bound);
+    PASS(tape, inertia->ledger);
+    PASS(tape, inertia->landed);
+    PASS(tape, inertia->changed);
+    PASS(tape, inertia->snatched);
+}
+
 static void pass_line(Tape *tape, CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     double *const nodes[] = {line->reference, line->position, line->load, line->motion};
@@ -209,6 +227,7 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     PASS(tape, line->newton.failures);
     PASS(tape, line->newton.pause);
     pass_flag(tape, &line->newton.useful);
+    if (line->has_inertia) pass_inertia(tape, line);
     pass_line_report(tape, &line->report);
 }
 
@@ -306,6 +325,9 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     PASS(tape, evolution->move_count);
     PASS(tape, evolution->gravity);
     PASS(tape, evolution->gravity_from);
+    PASS(tape, evolution->time);
+    PASS(tape, evolution->interval);
+    pass_flag(tape, &evolution->ground_moved);
     for (int i = 0; i < 2 * evolution->line_count; i++) pass_end(tape, &evolution->from[i]);
     pass(tape, evolution->release, 2 * (size_t)evolution->line_count * sizeof *evolution->release);
     pass_break(tape, &evolution->parted);
@@ -366,6 +388,10 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
     if (line->two.exists) hash_elasticity(hash, line, &line->two.elasticity[CPSI_DYNAMIC]);
     if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
     if (line->has_break_at) hash_numbers(hash, (size_t)line->n - 1, line->break_at);
+    if (line->has_inertia) {
+        hash_numbers(hash, (size_t)line->n, line->inertia.mass);
+        hash_numbers(hash, 3 * (size_t)line->n, line->inertia.velocity);
+    }
     for (int end = 0; end < 2; end++) {
         hash_bytes(hash, &line->end[end].kind, sizeof line->end[end].kind);
         hash_numbers(hash, 3, line->end[end].value);
@@ -379,11 +405,20 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     hash_bytes(hash, &gravity_changes, sizeof gravity_changes);
     if (stage->static_stiffness) hash_bytes(hash, "static", 6);
     hash_numbers(hash, 3, stage->gravity);
+    hash_numbers(hash, 1, &stage->duration);
     for (int i = 0; i < stage->change_count; i++) {
         const CpsChange *change = &stage->change[i];
         const int what[3] = {change->line, change->end, (int)change->to.kind};
         hash_bytes(hash, what, sizeof what);
         hash_numbers(hash, 3, change->to.value);
+    }
+    for (int i = 0; i < stage->sway_count; i++) {
+        const CpsSway *sway = &stage->sway[i];
+        const int what[2] = {sway->line, sway->end};
+        hash_bytes(hash, what, sizeof what);
+        hash_numbers(hash, 3, sway->sine);
+        hash_numbers(hash, 3, sway->cosine);
+        hash_numbers(hash, 1, &sway->period);
     }
     for (int i = 0; i < stage->point_change_count; i++) {
         const CpsPointChange *change = &stage->point_change[i];
@@ -521,6 +556,7 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
                         evolution->obstacle_count,
                         (int)evolution->options.friction_policy,
                         (int)evolution->options.contact_policy,
+                        (int)evolution->time_scheme,
                         solver->max_iterations,
                         (int)solver->linear_system,
                         solver->max_halvings,

@@ -16,6 +16,7 @@
 #include "evolve/sections.h"
 #include "evolve/stages.h"
 #include "evolve/start.h"
+#include "evolve/time_check.h"
 #include "evolve/trial.h"
 #include "evolve/view.h"
 
@@ -103,6 +104,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->has_sections = cpsi_has_sections(&scene->line[i]);
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
         line->has_break_at = cpsi_has_break_at(&scene->line[i]);
+        line->has_inertia = line->has_field = cpsi_is_in_time(scene);
         line->compliance = line->spring_compliance = cpsi_mean_compliance(&scene->line[i]);
         line->spring_count = cpsi_spring_count(&scene->line[i], false);
         line->two.exists = cpsi_has_dynamic_stiffness(&scene->line[i]);
@@ -122,11 +124,12 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         cpsi_stage_layout(stage, arena, scene->stage[i].change_count,
                           scene->stage[i].point_change_count, scene->stage[i].body_change_count,
                           scene->stage[i].turn_count, scene->stage[i].grasp_change_count,
-                          scene->stage[i].shift_count);
+                          scene->stage[i].shift_count, scene->stage[i].sway_count);
     }
     cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->point_count,
                       scene->body_count, scene->obstacle_count,
-                      CPSI_GRASP_CHANGES * scene->line_count, scene->obstacle_count);
+                      CPSI_GRASP_CHANGES * scene->line_count, scene->obstacle_count,
+                      2 * scene->line_count);
     cpsi_points_layout(&evolution->points, arena, scene);
     for (int i = 0; i < scene->point_count; i++) {
         const char *name = copy_name(arena, scene->point[i].name);
@@ -214,6 +217,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     default: cpsi_line_start_reaction(line, CPS_TOUCH * line->length);
     }
     memcpy(line->reference, line->position, 3 * (size_t)line->n * sizeof *line->reference);
+    if (line->has_inertia) cpsi_inertia_fill(line, def);
     cpsi_line_keep_start(line);
 }
 
@@ -227,6 +231,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         (void)cps_ground_retain(evolution->obstacle[k].ground);
         (void)cps_mesh_retain(evolution->obstacle[k].mesh);
     }
+    evolution->time_scheme = scene->time_scheme;
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {

@@ -22,6 +22,7 @@
 #include "evolve/shape_check.h"
 #include "evolve/stage_check.h"
 #include "evolve/start.h"
+#include "evolve/time_check.h"
 #include "evolve/water.h"
 #include "geometry/obstacle.h"
 
@@ -587,6 +588,7 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
     for (int i = 0; i < scene->line_count && status == CPS_OK; i++)
         status = check_line(&held.scene, i, err);
     if (status == CPS_OK) status = check_history(scene, err);
+    if (status == CPS_OK) status = cpsi_time_check(scene, err);
     if (status == CPS_OK) status = cpsi_path_check(&held.scene, err);
     if (status == CPS_OK) status = cpsi_path_check_points(scene, err);
     free(held.block);

@@ -29,6 +29,31 @@ bool cpsi_results_pictured(const CpsResults *results, int step) {
     return false;
 }
 
+bool cpsi_has_duration(const CpsScene *scene) {
+    bool any = scene->in_time;
+    for (int i = 0; i < scene->stage_count; ++i) any = any || scene->stage[i].duration > 0;
+    return any;
+}
+
+CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution) {
+    CpsiMotionRow sum = {.time = cps_evolution_time(evolution)};
+    for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
+        const CpsLineMotion motion = cps_evolution_line_motion(evolution, i);
+        if (!motion.is_moving) continue;
+        sum.kinetic += motion.kinetic;
+        sum.ledger.kinetic += motion.ledger.kinetic;
+        sum.ledger.impact += motion.ledger.impact;
+        sum.ledger.scheme += motion.ledger.scheme;
+        sum.ledger.turnover += motion.ledger.turnover;
+        sum.landed += motion.landed;
+        sum.changed += motion.changed;
+        sum.snatched += motion.snatched;
+        if (!(motion.position_bound <= sum.position_bound))
+            sum.position_bound = motion.position_bound;
+    }
+    return sum;
+}
+
 bool cpsi_lets_go(const CpsScene *scene) {
     bool found = false;
     for (int i = 0; i < scene->line_count; ++i) {

@@ -39,11 +39,20 @@ typedef struct CpsiObstacleRow {
     bool moved;               /* in the step */
 } CpsiObstacleRow;
 
+/* The motion in time of all lines together; 0 in quasi-static steps. */
+typedef struct CpsiMotionRow {
+    double time, kinetic; /* [s] since the history began, [J] */
+    CpsMotionLedger ledger;
+    double position_bound;            /* [m] the largest of the lines */
+    double landed, changed, snatched; /* sums (CpsLineMotion) */
+} CpsiMotionRow;
+
 typedef struct CpsiRow {
     CpsStepReport report; /* its name is `name` */
     char *name;
     CpsBreak parted;
     double open_reaction; /* [N] largest over the lines */
+    CpsiMotionRow motion;
     CpsiLineRow *line;
     CpsPointReport *point;           /* (points) NULL without points */
     CpsiBodyRow *body;               /* (bodies) NULL without bodies */
@@ -109,6 +118,7 @@ struct CpsResults {
     CpsiStage *stage;
     int planned_steps;  /* with the breaks so far */
     bool lets_go;       /* cpsi_lets_go */
+    bool in_time;       /* a step may have a duration */
     bool begins_static; /* the first step places lines by statics */
 
     int row_count, row_capacity;
@@ -125,6 +135,9 @@ bool cpsi_results_pictured(const CpsResults *results, int step);
 /* Whether ends of the scene's lines may be let go: its history does, or lines may part. Only then
  * do results say which ends were. */
 bool cpsi_lets_go(const CpsScene *scene);
+/* Whether steps of the scene may have a duration. */
+bool cpsi_has_duration(const CpsScene *scene);
+CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution);
 /* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
 int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
 

@@ -18,6 +18,7 @@
 
 #include "elongation.h"
 #include "grasps.h"
+#include "shape.h"
 
 #include "fall.h"
 
@@ -452,6 +453,21 @@ void measure_element_plane(const Record *r, const Surface *on, size_t i, bool fr
     surface_normal(on, frozen ? from : x, plane);
 }
 
+/* Is the straight way from a to b nearest to a shape at the share t? Beside a face or an edge it is
+ * so at more than one place. */
+static bool is_nearest(const Surface *on, const Real *a, const Real *b, Real t, Real reach) {
+    Triple x, y;
+    if (!shape_is(on)) return false;
+    const Real facing = surface_facing(on, a, b);
+    for (int k = 0; k < 3; k++) {
+        x[k] = (1 - t) * a[k] + t * b[k];
+        y[k] = (1 - facing) * a[k] + facing * b[k];
+    }
+    const Real ends = fminl(surface_distance(on, a), surface_distance(on, b)),
+               least = facing > 0 && facing < 1 ? surface_distance(on, y) : ends;
+    return t > 0 && t < 1 && surface_distance(on, x) <= least + 1e-15L * reach;
+}
+
 /* What the point x of element i at the share t, with its reference, sees of surface `on`, in which
  * it may lie by `depth`. */
 static Seat element_seat(const Where *where, const Record *r, const Surface *on, size_t i, Real t,
@@ -518,7 +534,8 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     const Real facing = third ? 1 : surface_facing(on, a, b);
     const bool left = where->frozen && R == 0;
     if (third || !left || (facing > 0 && facing < 1))
-        raise_to(&m->share_error, fabsl(facing - t) * size(along));
+        raise_to(&m->share_error,
+                 is_nearest(on, a, b, t, where->reach) ? 0 : fabsl(facing - t) * size(along));
     for (int k = 0; k < 3; k++) {
         n[k] -= seat.normal[k];
         slip[k] -= seat.slip[k];

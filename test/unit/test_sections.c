@@ -287,8 +287,8 @@ static void each_node_carries_its_own(void **state) {
     p.weight[0].weight = p.weight[1].weight = 0;
     p.line.weight = 0;
     expect_line(&p, 0, (double[ELEMENTS + 1]){0}, ALIKE);
-    p.weight[0] = (CpsPointWeight){8, 7};
-    p.weight[1] = (CpsPointWeight){8, 4};
+    p.weight[0] = (CpsPointWeight){.arc_length = 8, .weight = 7};
+    p.weight[1] = (CpsPointWeight){.arc_length = 8, .weight = 4};
     expect_line(&p, (7 + 4) / 12.0, (double[]){0, 0, 0, 0, 11, 0, 0}, ALIKE);
     /* inextensible sections */
     make(&p);

@@ -143,6 +143,7 @@ typedef struct LineIds {
     int end_point; /* unused without points */
     CpsiNetcdfGrasps grasps;
     CpsiNetcdfFailure failure;
+    CpsiNetcdfMotion motion;
 } LineIds;
 
 struct CpsiNetcdf {
@@ -157,6 +158,7 @@ struct CpsiNetcdf {
     CpsiNetcdfPoints points;
     CpsiNetcdfBodies bodies;
     CpsiNetcdfBreaks breaks;
+    CpsiNetcdfTime time;
     int line_count;
     LineIds *line;
 };
@@ -230,6 +232,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     cpsi_netcdf_define_points(&nc->file, &nc->points, scene, nc->step, nc->xyz);
     cpsi_netcdf_define_bodies(&nc->file, &nc->bodies, &nc->points, scene, nc->step, nc->xyz);
     cpsi_netcdf_define_breaks(&nc->file, &nc->breaks, scene, nc->step);
+    cpsi_netcdf_define_time(&nc->file, &nc->time, scene, nc->step);
 }
 
 /* "LINE_NAME" of a node's first contact, "LINE_NAME_second" of its second. */
@@ -637,6 +640,8 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         cpsi_netcdf_define_grasps(&nc->file, &nc->line[i].grasps, scene, i, nc->step, nc->xyz);
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
+        cpsi_netcdf_define_motion(&nc->file, &nc->time, &nc->line[i].motion, view.name,
+                                  (const int[]){nc->step, nc->line[i].node, nc->xyz});
     }
     if (nc->file.status == NC_NOERR)
         cpsi_netcdf_keep(&nc->file, nc->file.library._enddef(nc->file.id, 0, ALIGN, 0, PAGE));
@@ -652,6 +657,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         write_end_points(nc, &nc->line[i], &scene->line[i]);
         write_sections(nc, &nc->line[i], &view);
         cpsi_netcdf_write_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i);
+        cpsi_netcdf_write_motion(&nc->file, &nc->time, &nc->line[i].motion, evolution, i);
         if (nc->file.status == NC_NOERR)
             cpsi_netcdf_keep(&nc->file,
                              nc->file.library.put_var_double(nc->file.id, nc->line[i].compliance,
@@ -740,6 +746,7 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
     cpsi_netcdf_append_points(&nc->file, &nc->points, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_bodies(&nc->file, &nc->bodies, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_breaks(&nc->file, &nc->breaks, nc->steps, evolution);
+    cpsi_netcdf_append_time(&nc->file, &nc->time, nc->steps, evolution);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
@@ -748,6 +755,8 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
         append_two_stiffnesses(nc, &nc->line[i], (size_t)view.element_count, &two);
         cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,
                                    evolution, i);
+        cpsi_netcdf_append_motion(&nc->file, &nc->time, &nc->line[i].motion, nc->steps, evolution,
+                                  i);
     }
     if (nc->file.status == NC_NOERR && nc->sync)
         cpsi_netcdf_keep(&nc->file, nc->file.library.sync(nc->file.id));

@@ -396,11 +396,16 @@ static const CpsiKey POINT_WEIGHT_KEYS[] = {
      .help = "mass; its weight is mass times gravity, less that of the water it displaces"},
     {"weight", ONE_OF, NUMBER(PointWeight, weight), ANY, .unit = "N",
      .help = "weight (in water: the submerged one), instead of mass; negative: a buoy"},
+    {"inertia", OPTIONAL, NUMBER(PointWeight, inertia), NOT_NEGATIVE, .unit = "kg",
+     .help = "mass that moves with the node in time; by default its mass, 0 of a weight"},
     {"volume", OPTIONAL, NUMBER(PointWeight, volume), NOT_NEGATIVE, .unit = "m3", .with = "mass",
      .fallback = "0", .help = "of the water it displaces"},
 };
 
-static void begin_point_weight(void *values) { ((CpsiPointWeightValues *)values)->mass = NAN; }
+static void begin_point_weight(void *values) {
+    CpsiPointWeightValues *point = values;
+    point->mass = point->inertia = NAN;
+}
 
 static const CpsiMapping POINT_WEIGHT = {"point weight", KEYS(POINT_WEIGHT_KEYS), INTO(PointWeight),
                                          .definition = "point_weight", .begin = begin_point_weight};
@@ -419,6 +424,9 @@ static const CpsiKey TYPE_KEYS[] = {
              "water that its diameter displaces"},
     {"weight", ONE_OF, NUMBER(Type, weight), NOT_NEGATIVE, .unit = "N/m",
      .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
+    {"inertia", OPTIONAL, NUMBER(Type, inertia), NOT_NEGATIVE, .unit = "kg/m",
+     .help = "mass per unstretched length that moves in time, with the water that goes along; by "
+             "default its mass, 0 of a weight"},
     {"diameter", OPTIONAL, NUMBER(Type, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
      .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
     {"stiffness", REQUIRED, NUMBER(Type, stiffness), 0, INFINITY, true, .unit = "N",
@@ -439,7 +447,8 @@ static const CpsiKey TYPE_KEYS[] = {
 
 static void begin_type(void *values) {
     CpsiTypeValues *type = values;
-    type->mass = type->breaking_load = type->break_at = type->dynamic.stiffness = NAN;
+    type->mass = type->inertia = type->breaking_load = type->break_at = type->dynamic.stiffness =
+        NAN;
     type->friction = 1;
 }
 
@@ -479,6 +488,11 @@ static const CpsiKey LINE_KEYS[] = {
              "water that the diameter displaces"},
     {"weight", ONE_OF, NUMBER(Line, line.weight), NOT_NEGATIVE, .unit = "N/m",
      .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
+    {"inertia", OPTIONAL, NUMBER(Line, inertia), NOT_NEGATIVE, .unless = "sections", .unit = "kg/m",
+     .help = "mass per unstretched length that moves in time, with the water that goes along; by "
+             "default its mass, 0 of a weight"},
+    {"velocity", OPTIONAL, POINT(Line, line.velocity, 3), ANY, .unit = "m/s",
+     .fallback = "[0, 0, 0]", .help = "of its free nodes as the history begins"},
     {"sections", ONE_OF, LIST(Line, sections, 1), .inside = &SECTION,
      .help = "stretches of different types, in order from A to B"},
     {"diameter", OPTIONAL, NUMBER(Line, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
@@ -516,7 +530,7 @@ static void begin_line(void *values) {
     CpsiLineValues *line = values;
     line->line = cps_line_default();
     line->mass = line->count = line->breaking_load = line->break_at = line->element_length = NAN;
-    line->dynamic.stiffness = NAN;
+    line->inertia = line->dynamic.stiffness = NAN;
 }
 
 static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};
@@ -578,6 +592,10 @@ static const CpsiKey SCENE_KEYS[] = {
      .formerly = "contact", .former_words = "gained strict", .fallback = "\"reached\"",
      .help = "reached: no node ends a step below the obstacle; reference: only nodes that touch "
              "it in the configuration the step starts from are kept out"},
+    {"time_scheme", OPTIONAL, WORD(Scene, scene.time_scheme), .words = "bdf2 euler",
+     .fallback = "\"bdf2\"",
+     .help = "of steps in time: bdf2 is of second order; euler is of first order, and never gains "
+             "energy"},
     {"solver", OPTIONAL, AROUND, .inside = &SOLVER, .fallback = "{}",
      .help = "how steps are solved"},
     {"history", OPTIONAL, LIST(Scene, history, 0), .inside = &cpsi_stage_keys, .fallback = "[]",

@@ -96,6 +96,7 @@ typedef struct CpsiDynamicValues {
 typedef struct CpsiTypeValues {
     const CpsiYaml *node; /* the key is the name */
     double mass, diameter, weight, stiffness, friction;
+    double inertia;            /* NaN: not given */
     CpsiStiffnessValues table; /* in place of `stiffness` */
     CpsiDynamicValues dynamic;
     double breaking_load; /* NaN: not given */
@@ -126,7 +127,7 @@ typedef struct CpsiSectionValues {
 
 typedef struct CpsiPointWeightValues {
     const CpsiYaml *node;
-    double at, mass, volume, weight; /* mass: NaN: not given */
+    double at, mass, volume, weight, inertia; /* mass and inertia: NaN: not given */
 } CpsiPointWeightValues;
 
 typedef struct CpsiStraightValues {
@@ -162,6 +163,7 @@ typedef struct CpsiLineValues {
     const CpsiYaml *node; /* the key is the name */
     CpsLine line;
     double mass, count, diameter; /* count: number of elements; NaN: not given */
+    double inertia;               /* NaN: not given */
     double breaking_load;         /* NaN: not given */
     double break_at;              /* NaN: not given */
     CpsiStiffnessValues table;    /* in place of line.stiffness */
@@ -189,7 +191,8 @@ typedef struct CpsiChangeValues {
     const CpsiYaml *node; /* the key is LINE.END or POINT.point */
     int kind;             /* CpsiChangeKind */
     double value[3];
-    bool yes; /* of `release` */
+    CpsSway sway; /* of an end; its period is NaN where not given */
+    bool yes;     /* of `release` */
 } CpsiChangeValues;
 
 /* A change of a body: its pose, or the load on it. A key is given where the mapping has it. */
@@ -227,6 +230,7 @@ typedef struct CpsiGraspValues {
 typedef struct CpsiStageValues {
     const CpsiYaml *node;
     CpsStage stage;         /* gravity is NaN where not given */
+    double time_step;       /* [s] NaN: not given */
     int stiffness;          /* in the order of its words */
     CpsiList changes;       /* CpsiChangeValues */
     CpsiList point_changes; /* CpsiChangeValues, with the key POINT.point */
