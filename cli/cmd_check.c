@@ -53,6 +53,23 @@ static void print_ground(const CpsObstacle *o) {
            grid.friction_factor ? ", with factors of friction" : "");
 }
 
+static void print_mesh(const CpsObstacle *o) {
+    const CpsMeshReport of = cps_mesh_report(o->mesh);
+    const CpsMeshTriangles triangles = cps_mesh_triangles(o->mesh);
+    const double *p = o->point, *a = of.low, *b = of.high;
+    printf("mesh of %d triangles, x %g to %g m, y %g to %g m, z %g to %g m, rounded by %g m, ",
+           triangles.triangle_count, a[0] + p[0], b[0] + p[0], a[1] + p[1], b[1] + p[1],
+           a[2] + p[2], b[2] + p[2], o->radius);
+    if (of.rim_count > 0)
+        printf("open (%d edges at its rim), %s", of.rim_count,
+               triangles.two_sided ? "two-sided" : "one-sided");
+    else
+        printf("closed, lines %s", triangles.two_sided ? "on both sides"
+                                   : of.volume >= 0    ? "outside"
+                                                       : "inside");
+    if (of.left_out_count > 0) printf(", %d triangles left out", of.left_out_count);
+}
+
 static void print_shape(const CpsObstacle *o) {
     const double *p = o->point, *d = o->axis, r = o->radius, *size = o->shape.size;
     if (o->kind == CPS_OBSTACLE_CAPSULE)
@@ -81,6 +98,8 @@ static void print_obstacle(const CpsObstacle *o) {
                p[1], p[2], d[0], d[1], d[2]);
     else if (o->kind == CPS_OBSTACLE_SPHERE)
         printf("ball of radius %g m around (%g, %g, %g) m", o->radius, p[0], p[1], p[2]);
+    else if (o->kind == CPS_OBSTACLE_MESH)
+        print_mesh(o);
     else if (o->kind == CPS_OBSTACLE_GROUND)
         print_ground(o);
     else

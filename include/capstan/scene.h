@@ -11,6 +11,7 @@
 #include "capstan/elasticity.h"
 #include "capstan/grasp.h"
 #include "capstan/ground.h"
+#include "capstan/mesh.h"
 #include "capstan/motion.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
@@ -31,7 +32,8 @@ typedef enum CpsObstacleKind {
     CPS_OBSTACLE_CAPSULE,  /* a cylinder with round ends: a bollard, a tank (shape.h) */
     CPS_OBSTACLE_TORUS,    /* a ring: a shackle, a bent tube */
     CPS_OBSTACLE_CONE,     /* a cone with a round tip, without end */
-    CPS_OBSTACLE_BOX       /* a box with round edges: a quay, a slab */
+    CPS_OBSTACLE_BOX,      /* a box with round edges: a quay, a slab */
+    CPS_OBSTACLE_MESH      /* what is nearer than the radius to a mesh, or behind it */
 } CpsObstacleKind;
 
 /* The set of friction forces F that two coefficients describe, at the reaction R. By M77 section 4
@@ -48,18 +50,16 @@ typedef struct CpsObstacle {
     const char *name;
     CpsObstacleKind kind; /* default plane */
     /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, capsule, torus
-     * or box, the tip of the cone, or the origin of a ground or surface; default 0 0 0 */
+     * or box, the tip of the cone, or the origin of a ground, surface or mesh; default 0 0 0 */
     double point[3];
     double normal[3]; /* [-] of a plane, of any length but 0; default 0 0 1 */
-    /* [-] axis of rotation of cylinder, sphere, capsule, torus and cone, which leads from its tip
-     * into it; of any length but 0; default 0 1 0 */
+    /* [-] axis of rotation of what is round, of a cone into it; not 0 0 0; default 0 1 0 */
     double axis[3];
-    double radius;  /* [m] > 0 of cylinder, sphere and capsule, the tube of a torus, the tip of a
-                       cone, the edges of a box */
+    double radius;  /* [m] > 0; of a torus its tube, a cone its tip, a box or mesh its edges */
     CpsShape shape; /* what else these have */
-    /* ground and surface stay in their place. What an evolution needs of a ground it retains. */
-    const CpsGround *ground; /* of a ground */
-    CpsSurface surface;      /* of a surface */
+    const CpsGround *ground; /* of a ground, which stays in its place; an evolution retains it */
+    CpsSurface surface;      /* of a surface, which does so as well */
+    const CpsMesh *mesh;     /* of a mesh, which an evolution retains */
     /* [-] coefficient mu >= 0, default 0; where two directions differ, along the first one */
     double friction;
     bool has_friction_lateral; /* default false: the coefficient is the same in all directions */

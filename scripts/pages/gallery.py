@@ -51,6 +51,7 @@ PICTURES = {
     "run-bridle": of_example("bridle", "plan.svg"),
     "run-moved-bollard": of_example("moved-bollard", "plan.svg"),
     "run-ridge": of_example("ridge", "elevation.svg"),
+    "run-rock": of_example("rock", "plan.svg"),
     "run-ridge-plan": of_example("ridge", "plan.svg"),
     "run-quay": of_example("quay", "plan.svg"),
     "run-bore": of_example("bore", "plan.svg"),

@@ -485,6 +485,15 @@ static void hash_ground(uint64_t *hash, const CpsiObstacle *obstacle) {
     if (grid.friction_factor) hash_numbers(hash, columns * rows, grid.friction_factor);
 }
 
+static void hash_mesh(uint64_t *hash, const CpsMesh *mesh) {
+    if (!mesh) return;
+    const CpsMeshTriangles of = cps_mesh_triangles(mesh);
+    const int what[3] = {of.vertex_count, of.triangle_count, of.two_sided};
+    hash_bytes(hash, what, sizeof what);
+    hash_numbers(hash, 3 * (size_t)of.vertex_count, of.vertex);
+    hash_bytes(hash, of.triangle, 3 * (size_t)of.triangle_count * sizeof *of.triangle);
+}
+
 static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
                           const CpsiFrictionSet *set) {
     const int what[5] = {(int)obstacle->kind, (int)obstacle->shape, obstacle->has_grain,
@@ -505,6 +514,7 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
                                         shape->angle, shape->size[0], shape->size[1],
                                         shape->size[2], side.x, side.y, side.z});
     hash_ground(hash, obstacle);
+    hash_mesh(hash, obstacle->mesh);
     if (!set) return;
     const CpsiConicSet *form = cpsi_friction_set_conic(set);
     hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);

@@ -236,6 +236,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     for (int k = 0; k < scene->obstacle_count; k++) {
         evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
         (void)cps_ground_retain(evolution->obstacle[k].ground);
+        (void)cps_mesh_retain(evolution->obstacle[k].mesh);
     }
     evolution->time_scheme = scene->time_scheme;
     evolution->line_count = scene->line_count;
@@ -385,8 +386,10 @@ void cps_evolution_destroy(CpsEvolution *evolution) {
         cpsi_friction_sets_free(&evolution->workspace[i].friction_sets);
     free(evolution->before);
     cpsi_balance_free(evolution->points.balance);
-    for (int k = 0; k < evolution->obstacle_count; k++)
+    for (int k = 0; k < evolution->obstacle_count; k++) {
         cps_ground_release((CpsGround *)evolution->obstacle[k].ground);
+        cps_mesh_release((CpsMesh *)evolution->obstacle[k].mesh);
+    }
     CpsiArena arena = evolution->arena; /* the evolution itself lies in it */
     cpsi_arena_free(&arena);
 }

@@ -102,17 +102,41 @@ static CpsStatus check_smooth(const CpsObstacle *o, CpsError *err) {
     return CPS_OK;
 }
 
+/* [-] Of the extent of a mesh: a radius below this loses the direction of normals to rounding. */
+static const double LEAST_ROUNDING = 1e-6;
+
+static CpsStatus check_mesh(const CpsObstacle *o, CpsError *err) {
+    if (!cpsi_are_usable(o->point))
+        return CPSI_FAIL_AT("mesh.point", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': mesh point is (%g, %g, %g) m, expected finite numbers",
+                            o->name, o->point[0], o->point[1], o->point[2]);
+    if (!o->mesh)
+        return CPSI_FAIL_AT("mesh", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': its mesh is NULL: make one with cps_mesh_create",
+                            o->name);
+    const CpsMeshReport of = cps_mesh_report(o->mesh);
+    double extent = 0;
+    for (int k = 0; k < 3; k++) extent = fmax(extent, of.high[k] - of.low[k]);
+    if (!cpsi_is_positive(o->radius) || o->radius < LEAST_ROUNDING * extent)
+        return CPSI_FAIL_AT("mesh.radius", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': radius is %g m, expected a finite number of at least "
+                            "%g m, which is %g of the mesh's extent",
+                            o->name, o->radius, LEAST_ROUNDING * extent, LEAST_ROUNDING);
+    return CPS_OK;
+}
+
 static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
     if (o->shape.inside && !cpsi_obstacle_kind_has_radius(o->kind))
         return CPSI_FAIL_AT("inside", err, CPS_ERR_ARGUMENT,
                             "obstacle '%s': lines can be inside of a cylinder, sphere, capsule, "
                             "torus, cone or box alone",
                             o->name);
-    if (o->kind < CPS_OBSTACLE_PLANE || o->kind > CPS_OBSTACLE_BOX)
+    if (o->kind < CPS_OBSTACLE_PLANE || o->kind > CPS_OBSTACLE_MESH)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': unknown kind %d", o->name,
                          (int)o->kind);
     if (o->kind == CPS_OBSTACLE_GROUND || o->kind == CPS_OBSTACLE_SURFACE)
         return check_smooth(o, err);
+    if (o->kind == CPS_OBSTACLE_MESH) return check_mesh(o, err);
     if (o->kind != CPS_OBSTACLE_PLANE) return cpsi_shape_check(o, err);
     const double *d = o->normal;
     if (!cpsi_are_usable(o->point))

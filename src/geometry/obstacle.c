@@ -12,7 +12,7 @@ static const CpsiShapeTable *const SHAPE[] = {&cpsi_shape_plane,   &cpsi_shape_c
                                               &cpsi_shape_sphere,  &cpsi_shape_smooth,
                                               &cpsi_shape_smooth,  &cpsi_shape_rounded,
                                               &cpsi_shape_rounded, &cpsi_shape_rounded,
-                                              &cpsi_shape_rounded};
+                                              &cpsi_shape_rounded, &cpsi_shape_mesh};
 
 static const CpsiShapeTable *shape_of(const CpsiObstacle *o) {
     return o->form.inside ? &cpsi_shape_rounded : SHAPE[o->kind];
@@ -42,6 +42,7 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
                         .has_set = def->friction_set};
     if (def->kind == CPS_OBSTACLE_GROUND) out.ground = def->ground;
     if (def->kind == CPS_OBSTACLE_SURFACE) out.surface = def->surface;
+    if (def->kind == CPS_OBSTACLE_MESH) out.mesh = def->mesh;
     out.frame = cpsi_plane(def->point, axis                              ? def->axis
                                        : def->kind == CPS_OBSTACLE_PLANE ? def->normal
                                                                          : UP);

@@ -11,11 +11,12 @@
 typedef struct CpsiObstacle {
     CpsObstacleKind kind;
     CpsiPlane frame; /* plane: the surface. Cylinder .. cone: axis[2] is its axis. Sphere: axis[2]
-                        is its axis of rotation. Box: its own axes */
+                        is its axis of rotation. Box, mesh: its own axes */
     double radius;   /* [m] as in scene.h; ground, surface: the step in which paths are examined */
     CpsShape form;   /* what shapes have beside a radius */
     const CpsGround *ground; /* of a ground, else NULL */
     CpsSurface surface;      /* of a surface given as a function */
+    const CpsMesh *mesh;     /* of a mesh, else NULL */
     double friction[2];      /* [-] along the first tangent of the contact and across it */
     CpsFrictionShape shape;
     bool has_set;   /* the friction forces are those of a set instead, which the line holds
@@ -38,7 +39,7 @@ typedef struct CpsiShapeTable {
 } CpsiShapeTable;
 
 extern const CpsiShapeTable cpsi_shape_plane, cpsi_shape_cylinder, cpsi_shape_sphere,
-    cpsi_shape_smooth, cpsi_shape_rounded;
+    cpsi_shape_smooth, cpsi_shape_rounded, cpsi_shape_mesh;
 
 /* Where the straight element from a to b is nearest to a body of cpsi_shape_rounded, or farthest
  * out of one that it is inside of, as a share of its way; false where that is one of its ends. */

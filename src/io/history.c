@@ -84,7 +84,7 @@ CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obsta
     const bool plane = now.kind == CPS_OBSTACLE_PLANE;
     memcpy(now.point, place->point, sizeof now.point);
     memcpy(plane ? now.normal : now.axis, place->axis, sizeof now.axis);
-    if (now.kind == CPS_OBSTACLE_BOX)
+    if (now.kind == CPS_OBSTACLE_BOX || now.kind == CPS_OBSTACLE_MESH)
         rotation_store(now.shape.rotation, rotation_after(rotation_load(place->rotation),
                                                           rotation_load(now.shape.rotation)));
     return now;

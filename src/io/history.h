@@ -35,7 +35,7 @@ typedef struct CpsiBodyRow {
 /* An obstacle after a step. */
 typedef struct CpsiObstacleRow {
     double point[3], axis[3]; /* [m] relative to the origin of the views; [-] normal or axis */
-    double rotation[4];       /* of a box, since the start */
+    double rotation[4];       /* of a box or mesh, since the start */
     double turn, turned;      /* [rad] about its own axis in the step, and since the start */
     bool moved;               /* in the step */
 } CpsiObstacleRow;

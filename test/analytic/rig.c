@@ -109,6 +109,54 @@ void rig_turn(Rig *rig, int obstacle, double angle) {
 
 /* the audit ------------------------------------------------------------------------------------ */
 
+/* The nearest point of a triangle to x: of its plane if all three corners' areas are positive
+ * there, else of an edge. */
+static void nearest_of(double p[3][3], const double *x, double *foot) {
+    double u[3], v[3], n[3], w[3], least = INFINITY;
+    bool inside = true;
+    add(u, p[1], -1, p[0]);
+    add(v, p[2], -1, p[0]);
+    cross(n, u, v);
+    unit(n);
+    add(w, x, -1, p[0]);
+    add(foot, x, -dot(w, n), n);
+    for (int i = 0; i < 3; i++) {
+        add(u, p[(i + 1) % 3], -1, p[i]);
+        add(v, foot, -1, p[i]);
+        cross(w, u, v);
+        inside = inside && dot(w, n) >= 0;
+    }
+    if (inside) return;
+    for (int i = 0; i < 3; i++) {
+        double at[3];
+        add(u, p[(i + 1) % 3], -1, p[i]);
+        add(v, x, -1, p[i]);
+        add(at, p[i], fmin(1, fmax(0, dot(u, v) / dot(u, u))), u);
+        add(w, x, -1, at);
+        if (!(norm(w) < least)) continue;
+        least = norm(w);
+        memcpy(foot, at, sizeof at);
+    }
+}
+
+/* Distance of a place outside from an inflated mesh: all its triangles are looked at. */
+static double distance_of_mesh(const CpsObstacle *o, const double *x, double *normal) {
+    const CpsMeshTriangles of = cps_mesh_triangles(o->mesh);
+    double least = INFINITY;
+    for (int t = 0; t < of.triangle_count; t++) {
+        double p[3][3], foot[3], arm[3];
+        for (int i = 0; i < 3; i++)
+            memcpy(p[i], &of.vertex[3 * of.triangle[3 * t + i]], sizeof p[i]);
+        nearest_of(p, x, foot);
+        add(arm, x, -1, foot);
+        if (!(norm(arm) < least)) continue;
+        least = norm(arm);
+        memcpy(normal, arm, sizeof arm);
+    }
+    unit(normal);
+    return least - o->radius;
+}
+
 /* distance of x from an obstacle and the normal there */
 static double distance(const CpsObstacle *o, const double *x, double *normal) {
     double from[3], axis[3];
@@ -128,6 +176,7 @@ static double distance(const CpsObstacle *o, const double *x, double *normal) {
         unit(normal);
         return level;
     }
+    if (o->kind == CPS_OBSTACLE_MESH) return distance_of_mesh(o, from, normal);
     if (o->kind == CPS_OBSTACLE_PLANE) {
         memcpy(normal, o->normal, 3 * sizeof *normal);
         unit(normal);
@@ -167,6 +216,16 @@ static void path_between(const CpsObstacle *o, const double *from, const double 
     add(step, to, -1, from);
     if (o->kind == CPS_OBSTACLE_PLANE) {
         add(out, step, -dot(step, n), n);
+        return;
+    }
+    if (o->kind == CPS_OBSTACLE_MESH) { /* the chord, from foot to foot, turned */
+        double apart[3];
+        add(step, step, -distance(o, to, apart), n);
+        add(step, step, distance(o, from, other), other);
+        add(out, step, -dot(step, n), n);
+        const double flat = norm(out);
+        if (flat > 0)
+            for (int k = 0; k < 3; k++) out[k] *= norm(step) / flat;
         return;
     }
     if (o->kind == CPS_OBSTACLE_SURFACE || o->kind == CPS_OBSTACLE_GROUND) {

@@ -18,7 +18,7 @@ static void cross(double *out, const double *a, const double *b) {
 static double between(double x, double low, double high) { return fmax(low, fmin(high, x)); }
 
 bool rig_is_shape(const CpsObstacle *o) {
-    return o->shape.inside || o->kind >= CPS_OBSTACLE_CAPSULE;
+    return o->shape.inside || (o->kind >= CPS_OBSTACLE_CAPSULE && o->kind <= CPS_OBSTACLE_BOX);
 }
 
 /* The box' own axes: the rows of the rotation matrix of its quaternion, transposed. */

@@ -68,7 +68,8 @@ bool falls_clear(const Source *source, const Record *r, const Real *v) {
                                                        apart[2] * apart[2]));
     }
     for (size_t k = 0; k < source->surfaces; k++)
-        if (source->surface[k].ground) return false; // what lies along the way is not looked at
+        if (source->surface[k].ground || source->surface[k].mesh)
+            return false; // what lies along the way is not looked at
     for (size_t k = 0; k < source->surfaces; k++)
         for (size_t i = 0; i < r->elements; i++)
             if (is_met(&source->surface[k], r, i, v, length, FAR * (extent + length))) return false;

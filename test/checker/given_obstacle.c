@@ -68,12 +68,28 @@ static void compare_shape(Compare *compare, const CpsObstacle *o, const Surface 
     same(compare, "side", o->name, side, first, 3, COMPUTED);
 }
 
+static void compare_mesh(Compare *compare, const CpsObstacle *o, const Mesh *mesh) {
+    const CpsMeshTriangles of = cps_mesh_triangles(o->mesh);
+    if (mesh->vertices != (size_t)of.vertex_count || mesh->triangles != (size_t)of.triangle_count ||
+        mesh->two_sided != of.two_sided) {
+        find(compare, "mesh of %s: another than that of the scene", o->name);
+        return;
+    }
+    same(compare, "mesh, vertices", o->name, mesh->vertex, of.vertex, 3 * mesh->vertices, COPIED);
+    for (size_t i = 0; i < 3 * mesh->triangles; i++)
+        if (mesh->corner[i] != of.triangle[i]) {
+            find(compare, "mesh of %s: triangle %zu is another", o->name, i / 3);
+            return;
+        }
+}
+
 void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s) {
     const bool plane = o->kind == CPS_OBSTACLE_PLANE, box = o->kind == CPS_OBSTACLE_BOX,
                flat = o->kind == CPS_OBSTACLE_GROUND || o->kind == CPS_OBSTACLE_SURFACE;
     double third[3] = {0, 0, 1}, first[3] = {0, 0, 0};
     if (box) box_axes(o->shape.rotation, first, third);
-    const double *given = plane ? o->normal : flat || box ? third : o->axis, length = size(given);
+    const bool turns = !flat && !box && o->kind != CPS_OBSTACLE_MESH;
+    const double *given = plane ? o->normal : turns ? o->axis : third, length = size(given);
     double axis[3], point[3], there[3], grain[3], unit[3];
     for (int k = 0; k < 3; k++) {
         there[k] = o->point[k] - compare->source.origin[k];
@@ -88,6 +104,7 @@ void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s) 
     same_number(compare, "radius", o->name, (double)s->radius, plane || flat ? 0 : o->radius);
     compare_shape(compare, o, s, first);
     if (o->kind == CPS_OBSTACLE_GROUND && s->ground) compare_ground(compare, o, s->ground);
+    if (o->kind == CPS_OBSTACLE_MESH && s->mesh) compare_mesh(compare, o, s->mesh);
     if ((s->set != NULL) != (o->friction_set != NULL))
         find(compare, "friction set of %s: one of the two has none", o->name);
     if (s->set && o->friction_set) compare_sets(compare, o, s);

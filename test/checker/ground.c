@@ -4,6 +4,8 @@
  * the last three); then the same along y through what four rows give. */
 #include "ground.h"
 
+#include "mesh.h"
+
 #include <math.h>
 #include <netcdf.h>
 #include <stdlib.h>
@@ -62,26 +64,9 @@ static bool increase(const double *x, size_t count) {
     return true;
 }
 
-/* The k-th word of the attribute `obstacles`; "" without one. */
-static void name_of(int nc, size_t k, char name[201]) {
-    size_t size = 0;
-    name[0] = '\0';
-    if (nc_inq_attlen(nc, NC_GLOBAL, "obstacles", &size) || size > 1 << 20) return;
-    char *text = calloc(size + 1, 1);
-    if (text && nc_get_att_text(nc, NC_GLOBAL, "obstacles", text) == 0) {
-        const char *word = text;
-        while (k > 0 && (word = strchr(word, ' '))) {
-            word++;
-            k--;
-        }
-        if (word) snprintf(name, 201, "%.*s", (int)strcspn(word, " "), word);
-    }
-    free(text);
-}
-
 Ground *ground_read(int nc, size_t k, FILE *log) {
     char name[201];
-    name_of(nc, k, name);
+    name_of_obstacle(nc, k, name);
     Ground *ground = calloc(1, sizeof *ground);
     const size_t columns = length_of(nc, name, "grid_x"), rows = length_of(nc, name, "grid_y");
     const size_t flat[2] = {rows, columns};

@@ -232,6 +232,8 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
     }
     if (shape_read(source->nc, k, out, log)) return -1;
     out->grained = grain[0] != 0 || grain[1] != 0 || grain[2] != 0;
+    if (kind == SURFACE_MESH) out->side[0] = 1; /* until it is shifted */
+    if (kind == SURFACE_MESH && !(out->mesh = mesh_read(source->nc, k, log))) return -1;
     if (kind == SURFACE_GROUND && !(out->ground = ground_read(source->nc, k, log))) return -1;
     return shape == 2 ? read_set(source, k, &out->set, log) : 0;
 }

@@ -27,6 +27,7 @@ static void arm(const Surface *s, const Real *x, Real *out) {
 void surface_free(Surface *s) {
     conic_free(s->set);
     ground_free(s->ground);
+    mesh_free(s->mesh);
 }
 
 bool surface_is_round(const Surface *s) {
@@ -68,8 +69,22 @@ static Real above_ground(const Surface *s, const Real *x, Real *n) {
     return height * cosine;
 }
 
+/* The same above a mesh, in its axes where it is now. */
+static Real above_mesh(const Surface *s, const Real *x, Real *n) {
+    Real second[3], from[3], inside[3], m[3];
+    cross(s->axis, s->side, second);
+    for (int k = 0; k < 3; k++) from[k] = x[k] - s->point[k];
+    inside[0] = dot(from, s->side);
+    inside[1] = dot(from, second);
+    inside[2] = dot(from, s->axis);
+    const Real distance = mesh_distance(s->mesh, inside, m);
+    for (int k = 0; k < 3; k++) n[k] = m[0] * s->side[k] + m[1] * second[k] + m[2] * s->axis[k];
+    return distance - s->radius;
+}
+
 Real surface_distance(const Surface *s, const Real *x) {
     Real from[3];
+    if (s->mesh) return above_mesh(s, x, from);
     if (shape_is(s)) return shape_distance(s, x, NULL);
     if (s->ground) return above_ground(s, x, from);
     arm(s, x, from);
@@ -77,6 +92,10 @@ Real surface_distance(const Surface *s, const Real *x) {
 }
 
 void surface_normal(const Surface *s, const Real *x, Real *n) {
+    if (s->mesh) {
+        above_mesh(s, x, n);
+        return;
+    }
     if (shape_is(s)) {
         shape_distance(s, x, n);
         return;
@@ -194,7 +213,22 @@ static void slip_on_ground(const Surface *s, const Real *from, const Real *to, R
     for (int k = 0; k < 3; k++) out[k] = flat > 0 ? out[k] * (longer * size(chord) / flat) : 0;
 }
 
+/* The chord from foot to foot, turned into the tangent plane at its end. */
+static void slip_on_mesh(const Surface *s, const Real *from, const Real *to, Real *out) {
+    Real n0[3], n1[3], chord[3];
+    const Real g0 = above_mesh(s, from, n0), g1 = above_mesh(s, to, n1);
+    for (int k = 0; k < 3; k++) chord[k] = (to[k] - g1 * n1[k]) - (from[k] - g0 * n0[k]);
+    const Real rise = dot(chord, n1);
+    for (int k = 0; k < 3; k++) out[k] = chord[k] - rise * n1[k];
+    const Real flat = size(out);
+    for (int k = 0; k < 3; k++) out[k] = flat > 0 ? out[k] * (size(chord) / flat) : 0;
+}
+
 void surface_slip(const Surface *s, const Real *from, const Real *to, Real *out) {
+    if (s->mesh) {
+        slip_on_mesh(s, from, to, out);
+        return;
+    }
     if (s->ground) {
         slip_on_ground(s, from, to, out);
         return;

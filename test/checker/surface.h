@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Obstacles as the checker sees them: planes, cylinders and balls in long double, written from
- * docs/theory.md. */
+/* Obstacles as the checker sees them: planes, cylinders, balls, ground and meshes in long double,
+ * written from docs/theory.md. */
 #ifndef CAPSTAN_CHECKER_SURFACE_H
 #define CAPSTAN_CHECKER_SURFACE_H
 
@@ -8,6 +8,7 @@
 
 #include "conic.h"
 #include "ground.h"
+#include "mesh.h"
 
 /* flag values of the file */
 enum {
@@ -20,6 +21,7 @@ enum {
     SURFACE_TORUS,
     SURFACE_CONE,
     SURFACE_BOX,
+    SURFACE_MESH,
     SURFACE_KINDS
 };
 
@@ -33,6 +35,7 @@ typedef struct Surface {
     /* shift of the last step: it turned by the vector `spin` about a point, which went by `by` */
     Real by[3], spin[3], about[3];
     Ground *ground; /* of ground, else NULL */
+    Mesh *mesh;     /* of a mesh, else NULL */
     Conic *set;     /* forces per unit normal force in place of the coefficients, or NULL */
 } Surface;
 
@@ -48,7 +51,8 @@ Surface surface_within(const Surface *surface, Real depth);
 Real surface_factor(const Surface *surface, const Real *x);
 /* Does what is known of it end before x, but for `rounding`? */
 bool surface_ends(const Surface *surface, const Real *x, Real rounding);
-/* [m] above the surface, negative below it; of ground to first order. */
+/* [m] above the surface, negative below it; of ground to first order. Of a mesh above the faces
+ * that lie its radius above the triangles. */
 Real surface_distance(const Surface *surface, const Real *x);
 /* How deep an element of natural length l may lie in a round obstacle: its chord cuts in,
  * min(l^2/(4 R), R/4). */
@@ -75,7 +79,8 @@ void surface_carry(const Surface *surface, const Real *x, Real share, Real turn,
 void surface_own(const Surface *surface, const Real *x, const Real *reference, Real share,
                  Real *out);
 /* The shorter geodesic between the feet of two points, as the tangent vector of its length with
- * which it arrives; on ground an arc between them that turns by the angle between the normals. */
+ * which it arrives; on ground an arc between them that turns by the angle between the normals,
+ * on a mesh their chord. */
 void surface_slip(const Surface *surface, const Real *from, const Real *to, Real *out);
 /* [rad] Between the normals of a round surface at two points, 0 to pi. 0 of a plane. */
 Real surface_angle(const Surface *surface, const Real *a, const Real *b);

@@ -129,6 +129,18 @@ static const char GROUND_SCENE[] =
     "history:\n"
     "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
 
+/* A mesh, from a file that is written as well. */
+static const char MESH_SCENE[] =
+    "capstan: 1\n"
+    "obstacles: {bed: {mesh: {file: other_scene_d.obj, form: obj, radius: 0.1, scale: 2,"
+    " point: [0, 0, -1], rotation: {roll_pitch_yaw: [0, 0, 10]}, two_sided: false},"
+    " friction: 0.3}}\n"
+    "lines:\n"
+    "  one: {length: 3, elements: 4, mass: 2, stiffness: 1000,"
+    " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held}}\n"
+    "history:\n"
+    "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
+
 /* Shapes, below and round the line. */
 static const char SHAPES_SCENE[] =
     "capstan: 1\n"
@@ -151,6 +163,8 @@ static const struct GroundFile {
     {"other_scene_a.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n0 0\n0 1\n"},
     {"other_scene_b.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n1 1\n1 2\n"},
     {"other_scene_c.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n1 1\n1 3\n"},
+    {"other_scene_d.obj", "v 0 -1 0\nv 2 -1 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n"},
+    {"other_scene_e.obj", "v 0 -1 0\nv 2 -1 0\nv 2 1 0\nv 0 1 0\nf 1 2 4\nf 2 3 4\n"},
 };
 
 /* The key, what is written of it, and what else could be. */
@@ -339,6 +353,19 @@ static const struct Change GROUND_CHANGE[] = {
     {"friction_factor", ", friction_factor: other_scene_b.asc", ""},
 };
 
+static const struct Change MESH_CHANGE[] = {
+    {"mesh",
+     "mesh: {file: other_scene_d.obj, form: obj, radius: 0.1, scale: 2, point: [0, 0, -1],"
+     " rotation: {roll_pitch_yaw: [0, 0, 10]}, two_sided: false}",
+     "plane: {point: [0, 0, -1]}"},
+    {"file", "file: other_scene_d.obj", "file: other_scene_e.obj"},
+    {"radius", "radius: 0.1", "radius: 0.2"},
+    {"scale", "scale: 2", "scale: 2.5"},
+    {"point", "point: [0, 0, -1]", "point: [0, 0, -1.5]"},
+    {"rotation", "roll_pitch_yaw: [0, 0, 10]", "roll_pitch_yaw: [0, 0, 11]"},
+    {"two_sided", "two_sided: false", "two_sided: true"},
+};
+
 static const struct Change SHAPE_CHANGE[] = {
     {"capsule",
      "capsule: {centre: [0, 0, -9], axis: [0, 1, 0], length: 3, radius: 1, inside: false}",
@@ -372,6 +399,7 @@ enum {
     POINT_CHANGES = sizeof POINT_CHANGE / sizeof *POINT_CHANGE,
     BODY_CHANGES = sizeof BODY_CHANGE / sizeof *BODY_CHANGE,
     GROUND_CHANGES = sizeof GROUND_CHANGE / sizeof *GROUND_CHANGE,
+    MESH_CHANGES = sizeof MESH_CHANGE / sizeof *MESH_CHANGE,
     SHAPE_CHANGES = sizeof SHAPE_CHANGE / sizeof *SHAPE_CHANGE,
     LEFT = sizeof LEFT_OUT / sizeof *LEFT_OUT
 };
@@ -387,6 +415,7 @@ static const Suite ALL = {SCENE, CHANGE, CHANGES},
                    POINTS = {POINTS_SCENE, POINT_CHANGE, POINT_CHANGES},
                    BODIES = {BODIES_SCENE, BODY_CHANGE, BODY_CHANGES},
                    GROUND = {GROUND_SCENE, GROUND_CHANGE, GROUND_CHANGES},
+                   MESH = {MESH_SCENE, MESH_CHANGE, MESH_CHANGES},
                    SHAPES = {SHAPES_SCENE, SHAPE_CHANGE, SHAPE_CHANGES};
 
 static CpsEvolution *evolution_of(const char *text) {
@@ -479,7 +508,7 @@ static void every_change_of_bodies_makes_another_scene(void **state) {
     expect_refused(&BODIES, 4, sizeof BODIES_SCENE);
 }
 
-static void every_change_of_ground_makes_another_scene(void **state) {
+static void every_change_of_files_makes_another_scene(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof GROUND_FILE / sizeof *GROUND_FILE; i++) {
         FILE *out = fopen(GROUND_FILE[i].name, "w");
@@ -489,6 +518,8 @@ static void every_change_of_ground_makes_another_scene(void **state) {
     }
     expect_refused(&GROUND, 0, place_of(GROUND_SCENE, "{name: pull"));
     expect_refused(&GROUND, 1, sizeof GROUND_SCENE);
+    expect_refused(&MESH, 0, place_of(MESH_SCENE, "{name: pull"));
+    expect_refused(&MESH, 1, sizeof MESH_SCENE);
     for (size_t i = 0; i < sizeof GROUND_FILE / sizeof *GROUND_FILE; i++)
         unlink(GROUND_FILE[i].name);
 }
@@ -508,6 +539,7 @@ static bool is_tried(const char *key, bool found[CHANGES]) {
     for (int i = 0; i < BODY_CHANGES; i++) tried = tried || strcmp(BODY_CHANGE[i].key, key) == 0;
     for (int i = 0; i < GROUND_CHANGES; i++)
         tried = tried || strcmp(GROUND_CHANGE[i].key, key) == 0;
+    for (int i = 0; i < MESH_CHANGES; i++) tried = tried || strcmp(MESH_CHANGE[i].key, key) == 0;
     for (int i = 0; i < SHAPE_CHANGES; i++) tried = tried || strcmp(SHAPE_CHANGE[i].key, key) == 0;
     for (int i = 0; i < LEFT; i++) tried = tried || strcmp(LEFT_OUT[i], key) == 0;
     return tried;
@@ -575,7 +607,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_change_makes_another_scene),
                                        cmocka_unit_test(every_change_of_points_makes_another_scene),
                                        cmocka_unit_test(every_change_of_bodies_makes_another_scene),
-                                       cmocka_unit_test(every_change_of_ground_makes_another_scene),
+                                       cmocka_unit_test(every_change_of_files_makes_another_scene),
                                        cmocka_unit_test(every_change_of_shapes_makes_another_scene),
                                        cmocka_unit_test(flags_of_a_changed_state_are_flags),
                                        cmocka_unit_test(every_key_is_changed)};

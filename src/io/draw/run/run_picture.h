@@ -4,6 +4,7 @@
 #ifndef CAPSTAN_SRC_IO_DRAW_RUN_RUN_PICTURE_H
 #define CAPSTAN_SRC_IO_DRAW_RUN_RUN_PICTURE_H
 
+#include "base/rotation.h"
 #include "base/vec3.h"
 #include "io/draw/svg.h"
 #include "io/history.h"
@@ -32,6 +33,18 @@ void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, con
 void cpsi_picture_ground(const CpsObstacle *ground, const CpsiView *view, const CpsiFrame *frame,
                          FILE *out);
 
+/* Heights at the corners of the squares of a frame, NaN where there is nothing, with their range;
+ * and contours at round heights. */
+enum { CPSI_SQUARES = 120 };
+typedef struct CpsiRelief {
+    double z[CPSI_SQUARES + 1][CPSI_SQUARES + 1], low, high;
+} CpsiRelief;
+
+void cpsi_picture_contours(const CpsiRelief *relief, const CpsiFrame *frame, FILE *out);
+
+/* A mesh: its outline, with contours from above and its section with the paper in an elevation. */
+void cpsi_picture_mesh(const CpsObstacle *mesh, const CpsiView *view, const CpsiFrame *frame,
+                       FILE *out);
 /* A capsule, torus, cone or box by its silhouette; and the ranges of the view that show it. */
 void cpsi_picture_shape(const CpsObstacle *obstacle, const char *fill, const char *edge,
                         const CpsiView *view, const CpsiFrame *frame, FILE *out);

@@ -8,10 +8,11 @@
 #include <string.h>
 
 #include "io/base/file/read_file.h"
-#include "io/read/ground/ground_build.h"
 #include "io/read/law/set_build.h"
 #include "io/read/scene/parts/node_file.h"
 #include "io/read/scene/parts/section_build.h"
+#include "io/read/shapes/ground/ground_build.h"
+#include "io/read/shapes/mesh/mesh_build.h"
 
 /* A point of the scene, found by its name. */
 typedef struct NamedPoint {
@@ -373,6 +374,15 @@ static CpsStatus build_lines(Build *b, const CpsiList *lines) {
 
 /* ---- obstacles ---- */
 
+static CpsStatus build_mesh(Build *b, const CpsiObstacleValues *values, CpsObstacle *obstacle) {
+    double turn[4] = {1, 0, 0, 0};
+    if (values->rotation.node) cpsi_rotation_build(&values->rotation, turn);
+    if (turn[0] == 0 && turn[1] == 0 && turn[2] == 0 && turn[3] == 0)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->rotation.node,
+                                  "'quaternion': found zeros, expected any other length");
+    return cpsi_mesh_build(b->d, values, rotation_load(turn), (CpsMesh **)&obstacle->mesh);
+}
+
 static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsObstacle *obstacle) {
     CpsSet *set = NULL;
     *obstacle = values->obstacle;
@@ -385,6 +395,8 @@ static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsO
     obstacle->friction_set = set;
     if (status == CPS_OK && obstacle->kind == CPS_OBSTACLE_GROUND)
         status = cpsi_ground_build(b->d, values, (CpsGround **)&obstacle->ground);
+    if (status == CPS_OK && obstacle->kind == CPS_OBSTACLE_MESH)
+        status = build_mesh(b, values, obstacle);
     return status;
 }
 

@@ -22,6 +22,7 @@ void cps_scene_file_destroy(CpsSceneFile *file) {
     for (int k = 0; k < file->scene.obstacle_count; k++) {
         cps_set_release((CpsSet *)file->scene.obstacle[k].friction_set);
         cps_ground_release((CpsGround *)file->scene.obstacle[k].ground);
+        cps_mesh_release((CpsMesh *)file->scene.obstacle[k].mesh);
     }
     cpsi_pool_free(&file->pool);
     free(file);

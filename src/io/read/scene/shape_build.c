@@ -8,10 +8,12 @@
 static const CpsObstacleKind KIND[] = {CPS_OBSTACLE_PLANE,   CPS_OBSTACLE_CYLINDER,
                                        CPS_OBSTACLE_SPHERE,  CPS_OBSTACLE_GROUND,
                                        CPS_OBSTACLE_CAPSULE, CPS_OBSTACLE_TORUS,
-                                       CPS_OBSTACLE_CONE,    CPS_OBSTACLE_BOX};
+                                       CPS_OBSTACLE_CONE,    CPS_OBSTACLE_BOX,
+                                       CPS_OBSTACLE_MESH};
 
 void cpsi_shape_build(const CpsiObstacleValues *values, CpsObstacle *obstacle) {
     obstacle->kind = KIND[values->obstacle.kind];
     obstacle->shape.angle = values->cone_angle * CPSI_DEGREE;
-    if (values->rotation.node) cpsi_rotation_build(&values->rotation, obstacle->shape.rotation);
+    if (values->rotation.node && obstacle->kind == CPS_OBSTACLE_BOX)
+        cpsi_rotation_build(&values->rotation, obstacle->shape.rotation);
 }

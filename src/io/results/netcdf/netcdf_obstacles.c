@@ -30,14 +30,14 @@ static const struct {
     {"obstacle_kind", "kind of surface", "1", false},
     {"obstacle_point",
      "point of the plane or of the cylinder's axis, centre of the sphere, capsule, torus and box, "
-     "tip of the cone, origin of ground",
+     "tip of the cone, origin of ground and mesh",
      "m", true},
     {"obstacle_axis",
      "normal of the plane, axis of cylinder, sphere, capsule, torus and cone, of any length, third "
      "axis of the box; z of the others",
      "1", true},
     {"obstacle_radius",
-     "radius, of the tube of a torus, the tip of a cone, the edges of a box; 0 "
+     "radius, of the tube of a torus, the tip of a cone, the edges of a box or mesh; 0 "
      "of planes, ground and surfaces",
      "m", false},
     {"obstacle_friction_axial", "friction coefficient along the line or the grain", "1", false},
@@ -129,6 +129,38 @@ static void define_sets(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o, const CpsS
                                                SET[f].long_name, "1");
 }
 
+/* ---- meshes: obstacle_NAME_mesh_vertex, _triangle ---- */
+
+static void define_mesh(CpsiNetcdfFile *file, CpsiNetcdfGround *ids, const CpsObstacle *o,
+                        int xyz) {
+    const CpsMeshTriangles of = cps_mesh_triangles(o->mesh);
+    char prefix[128], label[160];
+    int shape[2] = {0, xyz};
+    snprintf(prefix, sizeof prefix, "obstacle_%.100s", o->name);
+    snprintf(label, sizeof label, "%s_mesh_vertex", prefix);
+    shape[0] = cpsi_netcdf_dimension(file, label, (size_t)of.vertex_count);
+    ids->mesh[0] = cpsi_netcdf_variable(file, prefix, "mesh_vertex", NC_DOUBLE, 2, shape,
+                                        "corners of the triangles, relative to obstacle_point, "
+                                        "before the first step",
+                                        "m");
+    snprintf(label, sizeof label, "%s_mesh_triangle", prefix);
+    shape[0] = cpsi_netcdf_dimension(file, label, (size_t)of.triangle_count);
+    snprintf(label, sizeof label, "%s_mesh_corner", prefix);
+    shape[1] = cpsi_netcdf_dimension(file, label, 3);
+    ids->mesh[1] = cpsi_netcdf_variable(file, prefix, "mesh_triangle", NC_INT, 2, shape,
+                                        "indices of the corners, from 0", "1");
+    cpsi_netcdf_text(file, ids->mesh[1], "free_sides",
+                     of.two_sided ? "both" : "that from which corners are seen counter-clockwise");
+}
+
+static void write_mesh(CpsiNetcdfFile *file, const CpsiNetcdfGround *ids, const CpsObstacle *o) {
+    const CpsMeshTriangles of = cps_mesh_triangles(o->mesh);
+    const size_t start[] = {0, 0}, vertices[] = {(size_t)of.vertex_count, XYZ},
+                 triangles[] = {(size_t)of.triangle_count, 3};
+    cpsi_netcdf_doubles(file, ids->mesh[0], start, vertices, of.vertex);
+    cpsi_netcdf_ints(file, ids->mesh[1], start, triangles, of.triangle);
+}
+
 /* ---- ground: obstacle_NAME_grid_x, _y, _z, and the factor of friction where there is one ---- */
 
 typedef enum GroundField { GRID_X, GRID_Y, GRID_Z, GRID_FACTOR } GroundField;
@@ -164,8 +196,11 @@ static void define_one(CpsiNetcdfFile *file, CpsiNetcdfGround *ground, const cha
                      grid->extends ? "goes on with the slope of the edge" : "unknown");
 }
 
-static void define_ground(CpsiNetcdfFile *file, CpsiNetcdfGround *ground, const CpsScene *scene) {
+static void define_ground(CpsiNetcdfFile *file, CpsiNetcdfGround *ground, const CpsScene *scene,
+                          int xyz) {
     for (int k = 0; k < scene->obstacle_count; ++k) {
+        if (scene->obstacle[k].kind == CPS_OBSTACLE_MESH)
+            define_mesh(file, &ground[k], &scene->obstacle[k], xyz);
         for (int f = 0; f < CPSI_GROUND_FIELDS; ++f) ground[k].field[f] = -1;
         if (scene->obstacle[k].kind != CPS_OBSTACLE_GROUND) continue;
         const CpsGroundGrid grid = cps_ground_grid(scene->obstacle[k].ground);
@@ -176,6 +211,8 @@ static void define_ground(CpsiNetcdfFile *file, CpsiNetcdfGround *ground, const 
 static void write_ground(CpsiNetcdfFile *file, const CpsiNetcdfGround *ground,
                          const CpsScene *scene) {
     for (int k = 0; k < scene->obstacle_count; ++k) {
+        if (scene->obstacle[k].kind == CPS_OBSTACLE_MESH)
+            write_mesh(file, &ground[k], &scene->obstacle[k]);
         if (scene->obstacle[k].kind != CPS_OBSTACLE_GROUND) continue;
         const CpsGroundGrid grid = cps_ground_grid(scene->obstacle[k].ground);
         const double *value[] = {grid.x, grid.y, grid.z, grid.friction_factor};
@@ -245,9 +282,9 @@ void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o,
         o->field[f] =
             cpsi_netcdf_variable(file, "", OBSTACLE[f].name, NC_DOUBLE, 1 + OBSTACLE[f].vector,
                                  shape, OBSTACLE[f].long_name, OBSTACLE[f].units);
-    cpsi_netcdf_flags(file, o->field[OBSTACLE_KIND], NC_DOUBLE, 9,
-                      (const int[]){0, 1, 2, 3, 4, 5, 6, 7, 8},
-                      "plane cylinder sphere ground surface capsule torus cone box");
+    cpsi_netcdf_flags(file, o->field[OBSTACLE_KIND], NC_DOUBLE, 10,
+                      (const int[]){0, 1, 2, 3, 4, 5, 6, 7, 8, 9},
+                      "plane cylinder sphere ground surface capsule torus cone box mesh");
     for (int k = 0; k < scene->obstacle_count; ++k)
         o->has_shapes = o->has_shapes || is_shape(&scene->obstacle[k]);
     for (int f = 0; f < (o->has_shapes ? CPSI_SHAPE_FIELDS : 0); ++f)
@@ -266,7 +303,7 @@ void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o,
     define_sets(file, o, scene);
     o->ground = calloc((size_t)scene->obstacle_count, sizeof *o->ground);
     if (!o->ground) cpsi_netcdf_keep(file, NC_ENOMEM);
-    if (o->ground) define_ground(file, o->ground, scene);
+    if (o->ground) define_ground(file, o->ground, scene, xyz);
 }
 
 void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *o) {
@@ -284,7 +321,8 @@ static void write_fields(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstac
         const bool plane = o->kind == CPS_OBSTACLE_PLANE, box = o->kind == CPS_OBSTACLE_BOX;
         double third[XYZ] = {0, 0, 1};
         if (box) box_axis(o, 2, third);
-        const double kind = o->kind, radius = has_axis(o) || box ? o->radius : 0,
+        const double kind = o->kind,
+                     radius = has_axis(o) || box || o->kind == CPS_OBSTACLE_MESH ? o->radius : 0,
                      shape = o->friction_set ? 2 : o->friction_shape;
         const double lateral = o->has_friction_lateral ? o->friction_lateral : o->friction;
         const double point[XYZ] = {o->point[0] - origin[0], o->point[1] - origin[1],

@@ -16,9 +16,10 @@ enum {
     CPSI_GROUND_FIELDS = 4
 };
 
-/* Variables of the ground of one obstacle; negative: there is none. */
+/* Variables of the ground of one obstacle, negative: there is none; or of its mesh. */
 typedef struct CpsiNetcdfGround {
     int field[CPSI_GROUND_FIELDS];
+    int mesh[2]; /* vertices, triangles; unused of what is none */
 } CpsiNetcdfGround;
 
 typedef struct CpsiNetcdfObstacles {

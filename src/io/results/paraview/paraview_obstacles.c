@@ -4,11 +4,13 @@
  * which have no ends, extend a little farther than the lines. Cells carry the number of their
  * sector of the obstacle, which makes a turn visible. Ground has the points of its grid, of a large
  * one every second, third, ..; a cone ends beyond the lines; surfaces given as functions have no
- * quadrilaterals. */
+ * quadrilaterals. A mesh has its triangles, without the radius; one of very many has none. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/math.h"
+#include "base/rotation.h"
 #include "base/status.h"
 #include "base/vec3.h"
 #include "io/results/writers.h"
@@ -16,6 +18,7 @@
 enum { AROUND = 96, ALONG = 48 }; /* quadrilaterals round a circle, and from pole to pole */
 enum { SECTORS = 8 };
 enum { MOST_CELLS = 400 }; /* of ground, along either axis */
+enum { MOST_TRIANGLES = 500000 };
 
 /* Extent beyond that of the lines, relative to it. */
 static const double MARGIN = 0.15;
@@ -28,10 +31,12 @@ typedef struct Patch {
         axis[3]; /* the third is the plane's normal or the axis of rotation of a cylinder or ball */
     double reach[2]
                 [2]; /* plane: along the first two axes; cylinder: along the third, in reach[0] */
-    CpsGroundGrid grid; /* of ground */
-    double end;         /* [m] of a cone, along its axis */
-    CpsObstacle now;    /* of a capsule .. box: where it is */
-    double turned;      /* [rad] about the third axis, which is right-handed with the others */
+    CpsGroundGrid grid;    /* of ground */
+    double end;            /* [m] of a cone, along its axis */
+    CpsObstacle now;       /* of a capsule .. box: where it is */
+    CpsMeshTriangles mesh; /* of a mesh, which has triangles in place of quadrilaterals */
+    double rotation[4];    /* of a mesh since the start */
+    double turned;         /* [rad] about the third axis, which is right-handed with the others */
 } Patch;
 
 static Vec3 unit(Vec3 a) { return vec3_scale(1 / vec3_norm(a), a); }
@@ -76,6 +81,25 @@ static Patch patch_of_ground(const CpsObstacle *obstacle) {
     return patch;
 }
 
+static Patch patch_of_mesh(const CpsResults *results, int step, int k) {
+    const CpsObstacle now = cpsi_results_obstacle(results, step, k);
+    Patch patch = {.obstacle = &results->obstacle[k], .centre = vec3_load(now.point)};
+    const CpsMeshTriangles of = cps_mesh_triangles(now.mesh);
+    memcpy(patch.rotation, now.shape.rotation, sizeof patch.rotation);
+    if (of.triangle_count <= MOST_TRIANGLES) patch.mesh = of;
+    return patch;
+}
+
+static int points_of(const Patch *patch) {
+    return patch->obstacle->kind == CPS_OBSTACLE_MESH ? patch->mesh.vertex_count
+                                                      : (patch->rows + 1) * (patch->columns + 1);
+}
+
+static int cells_of_patch(const Patch *patch) {
+    return patch->obstacle->kind == CPS_OBSTACLE_MESH ? patch->mesh.triangle_count
+                                                      : patch->rows * patch->columns;
+}
+
 /* Of a capsule, torus, cone or box. */
 static Patch patch_of_shape(const CpsResults *results, int k, const CpsObstacle *now) {
     Patch patch = {.obstacle = &results->obstacle[k], .now = *now};
@@ -91,6 +115,7 @@ static Patch patch_of(const CpsResults *results, int step, int k) {
     const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
     if (obstacle->kind == CPS_OBSTACLE_GROUND || obstacle->kind == CPS_OBSTACLE_SURFACE)
         return patch_of_ground(&results->obstacle[k]);
+    if (obstacle->kind == CPS_OBSTACLE_MESH) return patch_of_mesh(results, step, k);
     int rows, columns;
     cpsi_shape_grid(obstacle, &rows, &columns);
     if (rows > 0) return patch_of_shape(results, k, obstacle);
@@ -148,31 +173,50 @@ static Vec3 point_of(const Patch *patch, int row, int column) {
     return place;
 }
 
+static void write_vertices(const Patch *patch, FILE *out) {
+    const Rotation turn = rotation_load(patch->rotation);
+    for (int v = 0; v < patch->mesh.vertex_count; ++v) {
+        const Vec3 x =
+            vec3_add(patch->centre, rotation_apply(turn, vec3_at(patch->mesh.vertex, v)));
+        fprintf(out, "%.12g %.12g %.12g\n", x.x, x.y, x.z);
+    }
+}
+
 static void write_points(int patches, const Patch *patch, FILE *out) {
     for (const Patch *p = patch; p < patch + patches; ++p)
-        for (int row = 0; row <= p->rows; ++row)
-            for (int column = 0; column <= p->columns; ++column) {
-                const Vec3 x = point_of(p, row, column);
-                fprintf(out, "%.12g %.12g %.12g\n", x.x, x.y, x.z);
-            }
+        if (p->obstacle->kind == CPS_OBSTACLE_MESH)
+            write_vertices(p, out);
+        else
+            for (int row = 0; row <= p->rows; ++row)
+                for (int column = 0; column <= p->columns; ++column) {
+                    const Vec3 x = point_of(p, row, column);
+                    fprintf(out, "%.12g %.12g %.12g\n", x.x, x.y, x.z);
+                }
 }
 
 typedef enum CellData { CONNECTIVITY, OFFSETS, OBSTACLE_ID, SECTOR } CellData;
 
-/* one row of text per quadrilateral */
+static void write_triangle(const int *corner, int first, FILE *out) {
+    fprintf(out, "%d %d %d\n", first + corner[0], first + corner[1], first + corner[2]);
+}
+
+/* one row of text per cell */
 static void write_cells(int patches, const Patch *patch, CellData what, FILE *out) {
-    int first = 0, cells = 0;
+    int first = 0, corners = 0;
     for (int k = 0; k < patches; ++k) {
+        const bool mesh = patch[k].obstacle->kind == CPS_OBSTACLE_MESH;
         const int columns = patch[k].columns, width = columns + 1;
-        for (int cell = 0; cell < patch[k].rows * columns; ++cell) {
-            const int at = first + cell / columns * width + cell % columns;
-            if (what == CONNECTIVITY)
+        for (int cell = 0; cell < cells_of_patch(&patch[k]); ++cell) {
+            const int at = mesh ? 0 : first + cell / columns * width + cell % columns;
+            if (what == CONNECTIVITY && mesh)
+                write_triangle(&patch[k].mesh.triangle[3 * (size_t)cell], first, out);
+            if (what == CONNECTIVITY && !mesh)
                 fprintf(out, "%d %d %d %d\n", at, at + 1, at + 1 + width, at + width);
-            if (what == OFFSETS) fprintf(out, "%d\n", 4 * ++cells);
+            if (what == OFFSETS) fprintf(out, "%d\n", corners += mesh ? 3 : 4);
             if (what == OBSTACLE_ID) fprintf(out, "%d\n", k);
-            if (what == SECTOR) fprintf(out, "%d\n", cell % columns * SECTORS / columns);
+            if (what == SECTOR) fprintf(out, "%d\n", mesh ? 0 : cell % columns * SECTORS / columns);
         }
-        first += (patch[k].rows + 1) * width;
+        first += points_of(&patch[k]);
     }
 }
 
@@ -186,8 +230,8 @@ static void write_array(int patches, const Patch *patch, const char *type, const
 static void write_obstacles(int patches, const Patch *patch, FILE *out) {
     int points = 0, cells = 0;
     for (int k = 0; k < patches; ++k) {
-        points += (patch[k].rows + 1) * (patch[k].columns + 1);
-        cells += patch[k].rows * patch[k].columns;
+        points += points_of(&patch[k]);
+        cells += cells_of_patch(&patch[k]);
     }
     fprintf(out,
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "

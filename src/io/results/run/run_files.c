@@ -54,6 +54,9 @@ static bool copy_obstacles(CpsResults *results, const CpsScene *scene) {
         results->obstacle[k].ground = NULL;
         if (scene->obstacle[k].kind == CPS_OBSTACLE_GROUND)
             results->obstacle[k].ground = cps_ground_retain(scene->obstacle[k].ground);
+        results->obstacle[k].mesh = NULL;
+        if (scene->obstacle[k].kind == CPS_OBSTACLE_MESH)
+            results->obstacle[k].mesh = cps_mesh_retain(scene->obstacle[k].mesh);
         results->obstacle_count = k + 1;
         if (!results->obstacle[k].name) return false;
         for (int a = 0; a < 3; ++a) results->obstacle[k].point[a] -= results->origin[a];
@@ -449,6 +452,7 @@ void cps_results_destroy(CpsResults *results) {
     for (int i = 0; i < results->obstacle_count; ++i) {
         free((char *)results->obstacle[i].name);
         cps_ground_release((CpsGround *)results->obstacle[i].ground);
+        cps_mesh_release((CpsMesh *)results->obstacle[i].mesh);
     }
     for (int i = 0; i < results->point_count; ++i) free((char *)results->point[i].name);
     for (int i = 0; i < results->body_count; ++i) free((char *)results->body[i].name);

@@ -122,6 +122,24 @@ static const CpsiKey BOX_KEYS[] = {
 };
 static const CpsiMapping BOX = {"box", KEYS(BOX_KEYS)};
 
+static const CpsiKey MESH_KEYS[] = {
+    {"file", REQUIRED, TEXT(Obstacle, triangles, 255), ANY, .help = "triangles, beside this file"},
+    {"form", REQUIRED, WORD(Obstacle, mesh_form), .words = "stl obj",
+     .help = "form of the file: STL, binary or text; or Wavefront OBJ"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "by which the triangles are inflated, and convex edges rounded"},
+    {"scale", OPTIONAL, NUMBER(Obstacle, scale), POSITIVE, .fallback = "1",
+     .help = "metres per unit of the file: 0.001 for millimetres"},
+    {"point", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
+     .fallback = "[0, 0, 0]", .help = "where the origin of the file's coordinates is in the scene"},
+    {"rotation", OPTIONAL, MAPPING(Obstacle, rotation), .inside = &cpsi_rotation_keys,
+     .help = "of the file's axes"},
+    {"two_sided", OPTIONAL, FLAG(Obstacle, two_sided), .fallback = "false",
+     .help = "a sheet that lines may touch from both sides; else they stay on the side from which "
+             "corners are seen counter-clockwise"},
+};
+static const CpsiMapping MESH = {"mesh", KEYS(MESH_KEYS)};
+
 static const CpsiKey FRICTION_KEYS[] = {
     {"axial", ONE_OF, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .help = "coefficient along the line, or along the grain"},
@@ -152,6 +170,8 @@ static const CpsiKey OBSTACLE_KEYS[] = {
     {"torus", ONE_OF, AROUND, .inside = &TORUS, .help = "a ring (shackle, bent tube)"},
     {"cone", ONE_OF, AROUND, .inside = &CONE, .help = "a cone with a round tip (funnel)"},
     {"box", ONE_OF, AROUND, .inside = &BOX, .help = "a box with round edges (quay, slab)"},
+    {"mesh", ONE_OF, AROUND, .inside = &MESH,
+     .help = "triangles, inflated by a radius; lines stay outside"},
     {"friction", OPTIONAL, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .other = &(const CpsiKey){.type = CPSI_MAPPING, .inside = &FRICTION}, .fallback = "0",
      .help = "Coulomb friction coefficient; or one along the line or the grain and another "
@@ -163,6 +183,7 @@ static void begin_obstacle(void *values) {
     *obstacle = cps_obstacle_default();
     obstacle->friction_lateral = NAN; /* not given */
     ((CpsiObstacleValues *)values)->variable = "z";
+    ((CpsiObstacleValues *)values)->scale = 1;
 }
 
 static const CpsiMapping OBSTACLE = {"obstacle", KEYS(OBSTACLE_KEYS), INTO(Obstacle),

@@ -40,7 +40,12 @@ typedef struct CpsiObstacleValues {
     int form;
     bool are_depths, extends;
     double cone_angle;           /* [degrees] */
-    CpsiRotationValues rotation; /* of a box */
+    CpsiRotationValues rotation; /* of a box or a mesh */
+    /* of a mesh: the file beside the scene, its form in the order of CpsiMeshForm, and its place */
+    const char *triangles;
+    int mesh_form;
+    double scale;
+    bool two_sided;
 } CpsiObstacleValues;
 
 /* A point at which lines end. */

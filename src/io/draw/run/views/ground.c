@@ -12,7 +12,7 @@
 static const char FILL[] = "#efe7d6", EDGE[] = "#b9a67c", SEEN_FROM_ABOVE[] = "#faf7f0",
                   CONTOUR[] = "#d9c9a3", TEXT[] = "#9a8350";
 
-enum { SECTION = 240, SQUARES = 120, CONTOURS = 12 };
+enum { SECTION = 240, SQUARES = CPSI_SQUARES, CONTOURS = 12 };
 /* Up must be so nearly z that heights are seen as such. */
 static const double UPRIGHT = 0.99;
 
@@ -51,13 +51,8 @@ static void draw_section(const CpsObstacle *o, const CpsiView *view, const CpsiF
     if (!isnan(first)) fprintf(out, "%.1f,%.1f %.1f,%.1f\"/>\n", last, bottom, first, bottom);
 }
 
-/* The heights at the corners of the squares of the frame. */
-typedef struct Relief {
-    double z[SQUARES + 1][SQUARES + 1], low, high;
-} Relief;
-
-static Relief relief_of(const CpsObstacle *o, const CpsiView *view, const CpsiFrame *frame) {
-    Relief relief = {.low = INFINITY, .high = -INFINITY};
+static CpsiRelief relief_of(const CpsObstacle *o, const CpsiView *view, const CpsiFrame *frame) {
+    CpsiRelief relief = {.low = INFINITY, .high = -INFINITY};
     for (int j = 0; j <= SQUARES; ++j)
         for (int i = 0; i <= SQUARES; ++i) {
             const double a = frame->x[0] + (frame->x[1] - frame->x[0]) * i / SQUARES,
@@ -70,7 +65,8 @@ static Relief relief_of(const CpsObstacle *o, const CpsiView *view, const CpsiFr
 }
 
 /* The contour of one height, as a path of short lines. */
-static void draw_contour(const Relief *relief, double height, const CpsiFrame *frame, FILE *out) {
+static void draw_contour(const CpsiRelief *relief, double height, const CpsiFrame *frame,
+                         FILE *out) {
     static const int CORNER[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
     const double wide = (frame->x[1] - frame->x[0]) / SQUARES,
                  high = (frame->y[1] - frame->y[0]) / SQUARES;
@@ -99,23 +95,28 @@ static double interval_of(double range) {
     return unit * (least <= unit ? 1 : least <= 2 * unit ? 2 : least <= 5 * unit ? 5 : 10);
 }
 
+void cpsi_picture_contours(const CpsiRelief *relief, const CpsiFrame *frame, FILE *out) {
+    const double left = cpsi_frame_x(frame, frame->x[0]), top = cpsi_frame_y(frame, frame->y[1]);
+    const double range = relief->high - relief->low;
+    if (!(range > 1e-9 * (fabs(relief->low) + fabs(relief->high)))) return; /* level, or nothing */
+    const double interval = interval_of(range);
+    for (double k = ceil(relief->low / interval); k * interval <= relief->high; ++k)
+        draw_contour(relief, k * interval, frame, out);
+    char label[64];
+    snprintf(label, sizeof label, "contours every %.3g m", interval);
+    char style[64];
+    snprintf(style, sizeof style, "fill=\"%s\" font-size=\"11\"", TEXT);
+    cpsi_svg_text(out, left + 8, top + 16, CPSI_START, style, label);
+}
+
 static void draw_plan(const CpsObstacle *o, const CpsiView *view, const CpsiFrame *frame,
                       FILE *out) {
     const double left = cpsi_frame_x(frame, frame->x[0]), top = cpsi_frame_y(frame, frame->y[1]);
     fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", left,
             top, cpsi_frame_x(frame, frame->x[1]) - left, cpsi_frame_y(frame, frame->y[0]) - top,
             SEEN_FROM_ABOVE);
-    const Relief relief = relief_of(o, view, frame);
-    const double range = relief.high - relief.low;
-    if (!(range > 1e-9 * (fabs(relief.low) + fabs(relief.high)))) return; /* level, or nothing */
-    const double interval = interval_of(range);
-    for (double k = ceil(relief.low / interval); k * interval <= relief.high; ++k)
-        draw_contour(&relief, k * interval, frame, out);
-    char label[64];
-    snprintf(label, sizeof label, "contours every %.3g m", interval);
-    char style[64];
-    snprintf(style, sizeof style, "fill=\"%s\" font-size=\"11\"", TEXT);
-    cpsi_svg_text(out, left + 8, top + 16, CPSI_START, style, label);
+    const CpsiRelief relief = relief_of(o, view, frame);
+    cpsi_picture_contours(&relief, frame, out);
 }
 
 void cpsi_picture_ground(const CpsObstacle *ground, const CpsiView *view, const CpsiFrame *frame,

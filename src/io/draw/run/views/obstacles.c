@@ -4,10 +4,10 @@
  * A plane seen from above fills the frame and shows its slope; otherwise its intersection with the
  * paper is shown. Cylinders and balls are shown by their silhouettes: a circle, or the band of a
  * cylinder seen from its side, which has no ends; so are capsules, tori, cones and boxes
- * (shapes.c). What lines are inside of is white. Ground has a picture of its own (ground.c);
- * surfaces given as functions are not shown. An obstacle that turns and is seen along its axis
- * has a spoke that turns with it. One that moves is shown where it is after the step, and lightly
- * where it was before. The water is what is below its surface, in elevations. */
+ * (shapes.c). What lines are inside of is white. Ground and meshes have pictures of their own
+ * (ground.c, mesh.c); surfaces given as functions are not shown. An obstacle that turns and is seen
+ * along its axis has a spoke that turns with it. One that moves is shown where it is after the
+ * step, and lightly where it was before. The water is what is below its surface, in elevations. */
 #include <math.h>
 #include <string.h>
 
@@ -198,7 +198,9 @@ static void draw_former(const CpsResults *results, const CpsiView *view, const C
         const CpsObstacle was = cpsi_results_obstacle(results, step, k);
         if (!was.moves || (was.kind == CPS_OBSTACLE_PLANE) != planes) continue;
         fputs("<g opacity=\"0.4\">", out);
-        if (planes)
+        if (was.kind == CPS_OBSTACLE_MESH)
+            cpsi_picture_mesh(&was, view, frame, out);
+        else if (planes)
             draw_plane(&was, view, frame, out);
         else
             draw_round(&was, view, frame, out);
@@ -220,6 +222,7 @@ void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, con
     draw_former(results, view, frame, former, false, out);
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle obstacle = cpsi_results_obstacle(results, now, k);
+        if (obstacle.kind == CPS_OBSTACLE_MESH) cpsi_picture_mesh(&obstacle, view, frame, out);
         if (obstacle.kind != CPS_OBSTACLE_CYLINDER && obstacle.kind != CPS_OBSTACLE_SPHERE &&
             !is_shape(&obstacle))
             continue;

@@ -18,7 +18,7 @@ static void multiply(const double a[4], const double b[4], double out[4]) {
     out[3] = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
 }
 
-/* As a quaternion. Yaw about z, pitch about the new y and roll about the new x are, in axes that
+/* Yaw about z, pitch about the new y and roll about the new x are, in axes that
  * stay, first roll about x, then pitch about y, then yaw about z. */
 void cpsi_rotation_build(const CpsiRotationValues *values, double out[4]) {
     if (values->form == CPSI_ROTATION_QUATERNION) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Words, numbers and axes of a grid file (grid_parts.h). */
-#include "io/read/ground/grid_parts.h"
+#include "io/read/shapes/ground/grid_parts.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -14,7 +14,7 @@
 #include "base/status.h"
 #include "capstan/ground.h"
 #include "io/base/yaml/yaml.h"
-#include "io/read/ground/grid_parts.h"
+#include "io/read/shapes/ground/grid_parts.h"
 
 enum { BYTE = 1, CHAR, SHORT, INT, FLOAT, DOUBLE };
 enum { DIMENSION = 10, VARIABLE = 11, ATTRIBUTE = 12 };

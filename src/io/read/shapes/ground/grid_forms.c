@@ -7,7 +7,7 @@
 #include "base/status.h"
 #include "io/base/file/read_file.h"
 #include "io/base/yaml/yaml.h"
-#include "io/read/ground/grid_parts.h"
+#include "io/read/shapes/ground/grid_parts.h"
 
 /* ---- ESRI ASCII grid ---- */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What the forms of grids share: words of a text with their places, and points that make a grid. */
-#ifndef CAPSTAN_SRC_IO_READ_GROUND_GRID_PARTS_H
-#define CAPSTAN_SRC_IO_READ_GROUND_GRID_PARTS_H
+#ifndef CAPSTAN_SRC_IO_READ_SHAPES_GROUND_GRID_PARTS_H
+#define CAPSTAN_SRC_IO_READ_SHAPES_GROUND_GRID_PARTS_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The choice of the form of a grid file (grid_file.h). */
-#include "io/read/ground/grid_file.h"
+#include "io/read/shapes/ground/grid_file.h"
 
 #include <stdlib.h>
 #include <string.h>

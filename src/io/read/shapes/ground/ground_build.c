@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A ground from the files that a scene names (ground_build.h). What the files hold in memory of
  * their own is freed; the ground has a copy. */
-#include "io/read/ground/ground_build.h"
+#include "io/read/shapes/ground/ground_build.h"
 
 #include <math.h>
 
 #include "base/status.h"
 #include "io/base/file/read_file.h"
-#include "io/read/ground/grid_file.h"
+#include "io/read/shapes/ground/grid_file.h"
 
 /* [-] Coordinates of two files that differ by less, per length of the axis, are the same. */
 static const double SAME = 1e-9;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Read a grid of numbers over x and y from a file in one of several forms. */
-#ifndef CAPSTAN_SRC_IO_READ_GROUND_GRID_FILE_H
-#define CAPSTAN_SRC_IO_READ_GROUND_GRID_FILE_H
+#ifndef CAPSTAN_SRC_IO_READ_SHAPES_GROUND_GRID_FILE_H
+#define CAPSTAN_SRC_IO_READ_SHAPES_GROUND_GRID_FILE_H
 
-#include "io/read/ground/grid_parts.h"
+#include "io/read/shapes/ground/grid_parts.h"
 
 typedef enum CpsiGridForm {
     CPSI_GRID_ESRI,      /* ESRI ASCII grid: header, rows from the north */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* From the values of a scene file to a ground. */
-#ifndef CAPSTAN_SRC_IO_READ_GROUND_GROUND_BUILD_H
-#define CAPSTAN_SRC_IO_READ_GROUND_GROUND_BUILD_H
+#ifndef CAPSTAN_SRC_IO_READ_SHAPES_GROUND_GROUND_BUILD_H
+#define CAPSTAN_SRC_IO_READ_SHAPES_GROUND_GROUND_BUILD_H
 
 #include "capstan/ground.h"
 #include "io/read/document.h"

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Triangle meshes as the checker sees them: read from result.nc, and searched one by one in long
+ * double. */
+#ifndef CAPSTAN_CHECKER_MESH_H
+#define CAPSTAN_CHECKER_MESH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "conic.h"
+
+enum { MESH_KEPT = 64 };
+
+/* A place that was asked for, with its answer. */
+typedef struct MeshAnswer {
+    bool is_there;
+    Real x[3], normal[3], distance;
+} MeshAnswer;
+
+typedef struct Mesh {
+    size_t vertices, triangles;
+    double *vertex; /* (vertices, 3) */
+    int *corner;    /* (triangles, 3) */
+    bool *rim;      /* (triangles, 3) is the edge from corner i to the next one of no other? */
+    double *ball;   /* (triangles, 4) middle, and a radius that holds the triangle */
+    bool two_sided;
+    MeshAnswer kept[MESH_KEPT]; /* the last ones, by a hash of the place */
+} Mesh;
+
+/* Read the mesh of obstacle k, by its name; NULL, with a line in `log`, where it is not whole. */
+Mesh *mesh_read(int nc, size_t k, FILE *log);
+void mesh_free(Mesh *mesh);
+/* Distance of x from the triangles, negative where lines may not be, and the normal there towards
+ * the free side; x in the axes of the mesh. */
+Real mesh_distance(Mesh *mesh, const Real *x, Real *normal);
+
+/* The name of obstacle k; "" without one. */
+void name_of_obstacle(int nc, size_t k, char name[201]);
+
+#endif
