@@ -9,7 +9,7 @@ packages_tidy=("${packages_build[@]}" clang-tidy-14)
 packages_test=("${packages_build[@]}" g++ binutils libcmocka-dev universal-ctags clang-format-14
                python3 python3-jsonschema python3-yaml
                python3-dev python3-venv python3-cffi python3-numpy python3-pytest python3-xarray python3-pandas python3-scipy
-               python3-matplotlib)
+               python3-matplotlib python3-nbclient python3-ipykernel)
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 

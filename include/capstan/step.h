@@ -155,6 +155,7 @@ typedef struct CpsLedger {
     double gravity;    /* increase of the potential energy of the weight */
     double ends;       /* work of the end forces: mean of before and after, times displacement */
     double obstacles;  /* work of obstacles that turn or are shifted */
+    double loads;      /* work of what acts on the nodes beside their weight */
     double dissipated; /* by friction, >= 0 */
     double imbalance;  /* of first order in the load step; large and positive in a jump */
 } CpsLedger;
@@ -202,8 +203,7 @@ typedef struct CpsLineReport {
     double proof_force;
     bool has_proof_obstacle, has_proof_plane; /* infeasible: not reached round, or caught */
     int proof_obstacle, proof_plane;          /* between the two; passes: the one passed */
-    /* [N] unbounded with frozen friction: what Coulomb's law allows, where that is enough; else 0
-     */
+    /* [N] unbounded with frozen friction: what Coulomb's law allows, if that is enough; else 0 */
     double coulomb;
 } CpsLineReport;
 

@@ -13,6 +13,7 @@ from ._errors import (ArgumentError, Error, FileError, InputError, LimitError, N
 from ._native import lib as _lib
 from ._record import Record
 from . import laws, plots, sets
+from .derivatives import Derivative, derivative
 from .evolution import ARRAYS, Evolution, LineState
 from .move import Move
 from .results import LineHistory, Results, SavedResults, Step, open_results as open, run  # noqa: A004
@@ -24,7 +25,7 @@ from .systems import Motion, System
 
 __version__ = _text(_lib.cps_version())
 
-__all__ = ["ARRAYS", "ArgumentError", "Body", "Error", "Evolution", "FileError", "Friction", "InputError", "Law",
+__all__ = ["ARRAYS", "ArgumentError", "Body", "Derivative", "Error", "Evolution", "FileError", "Friction", "InputError", "Law",
            "LimitError", "Line", "LineHistory", "LineState", "Motion", "Move", "NoAnswer", "Obstacle",
            "OutOfMemory", "Place", "Point", "Record", "Resistance", "Results", "SavedResults", "Scene",
-           "Set", "Step", "System", "__version__", "laws", "open", "plots", "run", "sets", "sweep"]
+           "Set", "Step", "System", "__version__", "derivative", "laws", "open", "plots", "run", "sets", "sweep"]

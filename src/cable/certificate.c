@@ -12,6 +12,7 @@
  *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s); a given
  *                set's phi is its support
  *     contact    R (n.u + gap)
+ *     field      y'K y/2, its force being taken at x + y (field.h)
  *
  * where u and s of a contact of an element are those of its point, (1 - beta) u_j + beta u_{j+1},
  * on whose nodes its forces act by these shares, with s the slip, u_T on a plane. Each is >= 0,
@@ -23,6 +24,7 @@
 #include <math.h>
 
 #include "base/larger.h"
+#include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
 #include "chain/frame.h"
@@ -48,6 +50,7 @@ Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum) {
 /* The sum of the forces on node j except those of the segments. */
 static inline Vec3 node_force(const CpsiLine *line, int j) {
     Vec3 sum = vec3_load(&line->load[3 * j]);
+    if (cpsi_line_has_field(line)) sum = vec3_add(sum, cpsi_line_field_balanced(line, j));
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
         sum = vec3_add(sum, vec3_load(&line->friction_force[3 * c]));
         sum = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3 * c]), sum);
@@ -81,6 +84,20 @@ static bool bound_follows(const CpsiLine *line, CpsFrictionPolicy friction, int 
            fabs(line->friction_bound[c] - bound) <= 1e-12 * bound;
 }
 
+/* Add what a unit of lambda, a change of the field's `beside` by -lambda L, adds to the forces;
+ * returns its trace. */
+static double add_field(const CpsiLine *line, double m[9]) {
+    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5};
+    double trace = 0;
+    for (int j = 0; j < line->n; j++)
+        for (int i = 0; i < 9; i++) {
+            const double by = line->length * line->field.stiffness[6 * j + AT[i]];
+            m[i] += by;
+            if (i % 4 == 0) trace += by;
+        }
+    return trace;
+}
+
 /* Distribute the remaining force `rest` on a line free at both ends. With one vector lambda for all
  * contacts, a contact contributes R (n.lambda) n, the friction F (n.lambda) where its bound is
  * coupled to R, and margin lambda_T within its bound; the sum is a 3 x 3 system. */
@@ -101,6 +118,7 @@ static void distribute_excess(CpsiLine *line, CpsFrictionPolicy friction, Vec3 r
         for (int i = 0; i < 3; i++) m[4 * i] += margin;
         trace += line->reaction[c] + 2 * margin;
     }
+    if (cpsi_line_has_field(line)) trace += add_field(line, m);
     /* A direction without friction or reaction keeps its residual, which shows in
      * force_residual. */
     for (int i = 0; i < 3; i++) m[4 * i] += DBL_EPSILON * trace;
@@ -108,6 +126,9 @@ static void distribute_excess(CpsiLine *line, CpsFrictionPolicy friction, Vec3 r
     cpsi_lu_solve(3, m, pivot, lambda);
     const Vec3 by = vec3_load(lambda);
     if (!(vec3_norm(by) < 1)) return;
+    for (int j = 0; cpsi_line_has_field(line) && j < line->n; j++)
+        vec3_store(&line->field.beside[3 * j],
+                   vec3_axpy(-line->length, by, vec3_at(line->field.beside, j)));
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const Vec3 n = vec3_load(&line->normal[3 * c]), f = vec3_load(&line->friction_force[3 * c]);
         const double along = vec3_dot(n, by),
@@ -121,8 +142,23 @@ static void distribute_excess(CpsiLine *line, CpsFrictionPolicy friction, Vec3 r
     }
 }
 
+/* Where the field is taken: it carries what the forces found leave at each node that is not held.
+ */
+static void balance_field(CpsiLine *line) {
+    double most = 0;
+    for (int e = 0; e + 1 < line->n; e++) most = fmax(most, vec3_norm(segment_force(line, e)));
+    for (int j = 0; j < line->n; j++) {
+        vec3_store(&line->field.beside[3 * j], vec3(0, 0, 0));
+        Vec3 rest = node_force(line, j);
+        if (j > 0) rest = vec3_sub(rest, segment_force(line, j - 1));
+        if (j + 1 < line->n) rest = vec3_add(rest, segment_force(line, j));
+        cpsi_line_field_take(line, j, rest, cpsi_line_is_held(line, j) ? 0 : most / line->length);
+    }
+}
+
 void cpsi_balance_forces(CpsiLine *line, CpsFrictionPolicy friction) {
     const int n = line->n, elements = n - 1;
+    if (cpsi_line_has_field(line)) balance_field(line);
     if (cpsi_line_is_loose(line)) {
         for (int round = 0; round < 2;
              round++) { /* the second round removes the rounding error of the first */
@@ -241,12 +277,27 @@ static double load_scale(const CpsiLine *line, double largest_force, double tole
     double work = 0, moment = 0, loads = 0;
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3 * j]), b = vec3_load(&line->load[3 * j]);
-        work += fabs(vec3_dot(b, vec3_sub(x, vec3_load(&line->reference[3 * j]))));
-        moment += vec3_norm(b) * vec3_norm(vec3_sub(x, anchor));
-        loads += vec3_norm(b);
+        const Vec3 field = cpsi_line_field_force(line, j, x), from = vec3_at(line->reference, j);
+        work += fabs(vec3_dot(b, vec3_sub(x, from))) + fabs(vec3_dot(field, vec3_sub(x, from)));
+        moment += (vec3_norm(b) + vec3_norm(field)) * vec3_norm(vec3_sub(x, anchor));
+        loads += vec3_norm(b) + vec3_norm(field);
     }
     work += GAP_FLOOR * fmax(loads, largest_force) * line->length / tolerance;
     return work <= moment ? work : moment;
+}
+
+/* Add the terms of the field at node j; returns its force. With E and E* its energy and the
+ * conjugate, -E*(-f) = E(z) + f.z, z = x + y. */
+static Vec3 add_field_energy(const CpsiLine *line, int j, CpsCertificate *out) {
+    const Vec3 x = vec3_at(line->position, j), y = vec3_at(line->field.beside, j),
+               f = cpsi_line_field_balanced(line, j);
+    const double energy = cpsi_line_field_energy(line, j, x),
+                 gap = 0.5 * vec3_dot(y, cpsi_line_field_pull(line, j, y));
+    out->gap += gap;
+    out->primal += energy;
+    out->dual += energy - gap + vec3_dot(f, x);
+    raise_to(&out->largest_force, vec3_norm(f));
+    return f;
 }
 
 /* Nodes: friction, contact, loads and the balance of forces. */
@@ -255,7 +306,7 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         const Vec3 x = vec3_load(&line->position[3 * j]), b = vec3_load(&line->load[3 * j]);
         out->primal -= vec3_dot(b, x);
         raise_to(&out->largest_force, vec3_norm(b));
-        Vec3 balance = b;
+        Vec3 balance = cpsi_line_has_field(line) ? vec3_add(b, add_field_energy(line, j, out)) : b;
         if (j > 0) balance = vec3_sub(balance, segment_force(line, j - 1));
         if (j + 1 < line->n) balance = vec3_add(balance, segment_force(line, j));
         double distance;

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "cable/contact.h"
+#include "cable/field.h"
 #include "cable/held.h"
 #include "cable/line_solve.h"
 #include "cable/slopes.h"
@@ -30,9 +31,10 @@ static bool too_short(CpsiLine *line) {
 }
 
 /* No end held: a rigid translation v with B.v > sum w |v_T| lowers the energy for ever, B the sum
- * of loads. The best v has the tangential part of B that friction cannot carry, and the normal part
- * of B where the obstacle does not prevent it. This holds on one plane with isotropic friction, or
- * without obstacles; for several planes see slips_off. */
+ * of loads, which the field of the line does not resist. The best v has the tangential part of B
+ * that friction cannot carry, and the normal part of B where the obstacle does not prevent it. This
+ * holds on one plane with isotropic friction, or without obstacles; for several planes see
+ * slips_off. */
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     if (!cpsi_line_is_loose(line) || line->has_local_axes) return false;
     Vec3 sum = vec3(0, 0, 0);
@@ -47,6 +49,7 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
         least = fmin(least, line->friction_law[j].friction);
         stopped = stopped || isfinite(line->gap[j]);
     }
+    sum = cpsi_line_field_free_part(line, sum);
     const Vec3 n = vec3_load(&line->common_axes[6]);
     const double normal = vec3_dot(sum, n), along = stopped && normal < 0 ? 0 : normal;
     const Vec3 tangent = vec3_axpy(-normal, n, sum);
@@ -57,9 +60,11 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
     const double pull = vec3_norm(tangent), beyond = pull > bound ? pull - bound : 0;
     const double fall = sqrt(beyond * beyond + along * along);
     if (!(fall > CPSI_TAUT * loads)) return false;
-    const Vec3 in_plane = pull > 0 ? vec3_scale(beyond / (pull * fall), tangent) : vec3(0, 0, 0);
+    const Vec3 in_plane = pull > 0 ? vec3_scale(beyond / (pull * fall), tangent) : vec3(0, 0, 0),
+               v = vec3_axpy(along / fall, n, in_plane);
+    if (!cpsi_line_field_lets(line, v)) return false;
     line->report.outcome = CPS_OUTCOME_UNBOUNDED;
-    vec3_store(line->report.proof, vec3_axpy(along / fall, n, in_plane));
+    vec3_store(line->report.proof, v);
     line->report.proof_force = fall;
     /* with bounds coupled to the reactions, whose sum is -B.n, friction would hold the line
      * wherever they act */
@@ -86,8 +91,10 @@ static bool slips_off(CpsiLine *line, bool frozen) {
         fall.sum = vec3_add(fall.sum, b);
         loads += vec3_norm(b);
     }
+    fall.sum = cpsi_line_field_free_part(line, fall.sum);
     cpsi_slopes_fall(&slopes, &fall);
     if (!(fall.power > CPSI_LEAST_POWER * loads)) return false;
+    if (!cpsi_line_field_lets(line, fall.v)) return false;
     line->report.outcome = CPS_OUTCOME_UNBOUNDED;
     vec3_store(line->report.proof, fall.v);
     line->report.proof_force = fall.power;
@@ -133,10 +140,11 @@ bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *loa
         sum = vec3_add(sum, vec3_load(&line->load[3 * j]));
         loads += vec3_norm(vec3_load(&line->load[3 * j]));
     }
+    sum = cpsi_line_field_free_part(line, sum);
     const double size = vec3_norm(sum);
     if (!(size > CPSI_TAUT * loads)) return false;
     const Vec3 v = vec3_scale(1 / size, sum);
-    if (!cpsi_line_moves_away(line, v)) return false;
+    if (!cpsi_line_moves_away(line, v) || !cpsi_line_field_lets(line, v)) return false;
     vec3_store(direction, v);
     *load = size;
     return true;
@@ -147,6 +155,7 @@ bool cpsi_line_outruns_frozen_bounds(CpsiLine *line) { return slips_off(line, tr
 bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options) {
     const bool follows =
         options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT && !options->frictionless;
+    if (line->inertia.is_moving) return too_short(line);
     if (too_short(line) || runs_away(line, options) || (follows && slips_off(line, false)))
         return true;
     double direction[3], load;

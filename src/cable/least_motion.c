@@ -24,6 +24,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "cable/field.h"
 #include "cable/friction_law.h"
 #include "ipm/ipm.h"
 
@@ -230,6 +231,13 @@ static void restrict_contact(const CpsiLine *line, CpsiLeastMotion *least, int c
         restrict_slip(line, least, c, weight, basis, freedom);
 }
 
+/* A field keeps a node where it is in the directions that it resists. */
+static void restrict_by_field(const CpsiLine *line, int j, double *basis, int *freedom) {
+    Vec3 range[3];
+    const int rank = cpsi_field_range(&line->field.stiffness[6 * j], range);
+    for (int i = 0; i < rank; i++) remove_direction(basis, freedom, range[i]);
+}
+
 /* Build the clusters, their free directions, and the position that each would take by itself:
  * translated by the mean displacement of its nodes back to the reference. Returns whether any may
  * move. */
@@ -251,6 +259,7 @@ static bool build_clusters(const CpsiLine *line, CpsiLeastMotion *least, CpsiBou
             back = vec3_axpy(-share, u, back);
             weight += share;
             if (cpsi_line_is_held(line, end)) *freedom = 0;
+            if (cpsi_line_has_field(line)) restrict_by_field(line, end, basis, freedom);
             for (int c = end; c < cpsi_line_contacts(line); c += line->n)
                 restrict_contact(line, least, c, bounds, basis, freedom);
         }

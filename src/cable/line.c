@@ -5,14 +5,51 @@
 #include "base/larger.h"
 #include "chain/frame.h"
 
+static void layout_inertia(CpsiInertia *inertia, CpsiArena *arena, size_t n) {
+    CPSI_PLACE(arena, inertia->mass, n);
+    CPSI_PLACE(arena, inertia->span, n);
+    CPSI_PLACE(arena, inertia->rest_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->start, 3 * n);
+    CPSI_PLACE(arena, inertia->start_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->before, 3 * n);
+    CPSI_PLACE(arena, inertia->before_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->restarts, n);
+}
+
+/* The arrays of both stiffnesses of a line of n nodes; spring_count of both is set. */
+static void layout_two_stiffnesses(CpsiTwoStiffnesses *two, CpsiArena *arena, int n) {
+    CPSI_PLACE(arena, two->rest_strain, n);
+    for (int k = 0; k < 2; k++) {
+        CpsiElasticity *own = &two->elasticity[k];
+        CPSI_PLACE(arena, own->compliance_factor, n);
+        CPSI_PLACE(arena, own->spring_at, n);
+        CPSI_PLACE(arena, own->spring_element, own->spring_count);
+        CPSI_PLACE(arena, own->spring_start, own->spring_count);
+        CPSI_PLACE(arena, own->spring_stiffness, own->spring_count);
+    }
+}
+
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     CPSI_PLACE(arena, line->arc_length, n);
     CPSI_PLACE(arena, line->element_length, n);
+    line->natural_length = line->element_length;
+    if (line->two.exists) {
+        CPSI_PLACE(arena, line->natural_length, n);
+        layout_two_stiffnesses(&line->two, arena, line->n);
+    }
     CPSI_PLACE(arena, line->reference, 3 * n);
     CPSI_PLACE(arena, line->start_element, 3 * (n - 1));
     CPSI_PLACE(arena, line->position, 3 * n);
     CPSI_PLACE(arena, line->load, 3 * n);
+    if (line->has_node_loads) CPSI_PLACE(arena, line->field.load, 3 * n);
+    if (line->has_field) {
+        CPSI_PLACE(arena, line->field.stiffness, 6 * n);
+        CPSI_PLACE(arena, line->field.place, 3 * n);
+        CPSI_PLACE(arena, line->field.beside, 3 * n);
+        CPSI_PLACE(arena, line->field.program, 6 * n);
+    }
     CPSI_PLACE(arena, line->normal, 3 * contacts);
     CPSI_PLACE(arena, line->gap, contacts);
     if (line->has_zones) CPSI_PLACE(arena, line->friction_factor, n);
@@ -21,14 +58,16 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->compliance_factor, n);
         CPSI_PLACE(arena, line->weight_length, n);
     }
-    if (line->spring_count > 0) {
+    const int springs = cpsi_line_most_springs(line);
+    if (springs > 0) {
         CPSI_PLACE(arena, line->spring_at, n);
-        CPSI_PLACE(arena, line->spring_element, line->spring_count);
-        CPSI_PLACE(arena, line->spring_start, line->spring_count);
-        CPSI_PLACE(arena, line->spring_stiffness, line->spring_count);
+        CPSI_PLACE(arena, line->spring_element, springs);
+        CPSI_PLACE(arena, line->spring_start, springs);
+        CPSI_PLACE(arena, line->spring_stiffness, springs);
     }
     if (line->has_breaking_load) CPSI_PLACE(arena, line->breaking_load, n);
     if (line->has_break_at) CPSI_PLACE(arena, line->break_at, n);
+    if (line->has_inertia) layout_inertia(&line->inertia, arena, n);
     CPSI_PLACE(arena, line->friction_law, contacts);
     CPSI_PLACE(arena, line->friction_bound, contacts);
     CPSI_PLACE(arena, line->friction_force, 3 * contacts);
@@ -58,6 +97,11 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     if (line->has_local_axes) CPSI_PLACE(arena, line->obstacle_index_before, contacts);
 }
 
+int cpsi_line_most_springs(const CpsiLine *line) {
+    const int other = line->two.exists ? line->two.elasticity[CPSI_DYNAMIC].spring_count : 0;
+    return line->spring_count > other ? line->spring_count : other;
+}
+
 CpsiElementLaw cpsi_line_spring_law(const CpsiLine *line, int e) {
     CpsiElementLaw law = {.compliance = cpsi_line_compliance(line, e)};
     const int first = line->spring_at[e];
@@ -73,7 +117,9 @@ double cpsi_line_least_compliance(const CpsiLine *line) {
     double least = INFINITY;
     for (int e = 0; e + 1 < line->n; e++) {
         const CpsiElementLaw law = cpsi_line_law(line, e);
-        least = fmin(least, cpsi_law_least_compliance(&law));
+        double own = cpsi_law_least_compliance(&law);
+        if (line->two.exists) own *= 1 + line->two.rest_strain[e];
+        least = fmin(least, own);
     }
     return least;
 }
@@ -108,7 +154,7 @@ double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
             if (!cpsi_obstacle_faces(o, a, b, &share)) continue;
             const Vec3 nearest = vec3_axpy(share, vec3_sub(b, a), a);
             const double depth = -cpsi_obstacle_gap(o, nearest) -
-                                 cpsi_obstacle_allowance(o, line->element_length[e]);
+                                 cpsi_obstacle_allowance(o, line->natural_length[e]);
             if (!(depth > worst)) continue;
             worst = depth;
             *obstacle = k;
@@ -155,6 +201,7 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         const int on = cpsi_line_nearest(line, x, &gap);
         if (!(gap <= touch)) continue;
         Vec3 sum = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
+        sum = vec3_add(sum, cpsi_node_field_at(&line->field, j, x));
         if (j > 0) sum = vec3_sub(sum, start_force(line, j - 1));
         if (j + 1 < line->n) sum = vec3_add(sum, start_force(line, j));
         const double reaction = -vec3_dot(sum, cpsi_obstacle_normal(&line->obstacle[on], x));
@@ -166,7 +213,9 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
 
 Vec3 cpsi_line_start_pull(const CpsiLine *line, int end) {
     const int j = end == CPS_END_A ? 0 : line->n - 1;
-    const Vec3 weight = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
+    const Vec3 own = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
+    const Vec3 weight =
+        vec3_add(own, cpsi_node_field_at(&line->field, j, vec3_at(line->position, j)));
     return end == CPS_END_A ? vec3_add(weight, start_force(line, 0))
                             : vec3_sub(weight, start_force(line, j - 1));
 }

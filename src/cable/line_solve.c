@@ -8,6 +8,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/field.h"
 #include "cable/held.h"
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
@@ -34,6 +35,8 @@ void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
     for (int j = 0; j < line->n; j++)
         for (int a = 0; a < 3; a++)
             line->load[3 * j + a] = cpsi_line_weight_length(line, j) * line->weight[a];
+    if (line->field.load)
+        for (int i = 0; i < 3 * line->n; i++) line->load[i] += line->field.load[i];
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_KIND_FREE)
             for (int a = 0; a < 3; a++)
@@ -58,13 +61,36 @@ bool cpsi_line_is_taut(const CpsiLine *line) {
 
 /* The strain of the whole line at the tension T. */
 static double mean_strain(const CpsiLine *line, double tension) {
-    if (line->spring_count == 0) return line->compliance * tension;
+    if (line->spring_count == 0 && !line->two.exists) return line->compliance * tension;
     double sum = 0;
     for (int e = 0; e + 1 < line->n; e++) {
         const CpsiElementLaw law = cpsi_line_law(line, e);
         sum += line->element_length[e] * cpsi_law_strain(&law, tension);
     }
     return sum / line->length;
+}
+
+/* The length at rest of the whole line over its natural length. */
+static double rest_stretch(const CpsiLine *line) {
+    if (!line->two.exists) return 1;
+    double sum = 0;
+    for (int e = 0; e + 1 < line->n; e++) sum += line->element_length[e];
+    return sum / line->length;
+}
+
+/* The size of the forces of the field; where there are no others, and none at the reference, what
+ * it would oppose to the moves of the held nodes. */
+static double field_scale(const CpsiLine *line, double others) {
+    double size = cpsi_line_field_size(line), stiffness = 0, most = 0;
+    if (size > 0 || others > 0) return size;
+    for (int j = 0; j < line->n; j++) {
+        const double *k = &line->field.stiffness[6 * j];
+        stiffness = fmax(stiffness, k[0] + k[2] + k[5]);
+        if (cpsi_line_is_held(line, j))
+            most = fmax(most, vec3_norm(vec3_sub(cpsi_line_held_place(line, j),
+                                                 vec3_at(line->reference, j))));
+    }
+    return stiffness * most;
 }
 
 /* A force of the size of the tension to come: the largest of the weight, the forces applied, and
@@ -75,7 +101,9 @@ static double force_scale(const CpsiLine *line, double longer) {
     double weight = line->length * vec3_norm(vec3_load(line->weight)), scale = weight, strain = -1;
     CpsiSpan span = {.to = 0};
     bool spans = false;
+    longer *= rest_stretch(line);
     for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
+    if (cpsi_line_has_field(line)) scale = fmax(scale, field_scale(line, scale));
     for (; cpsi_line_next_span(line, span.to, &span); spans = true)
         strain = fmax(strain, span.distance / longer / span.length - 1);
     if (!spans || (scale == 0 && strain <= 0)) return scale;
@@ -259,12 +287,18 @@ static double largest_force(const CpsiLine *line) {
     for (int e = 0; e + 1 < line->n; e++)
         most = fmax(most, vec3_norm(vec3_load(&line->segment_force[3 * e])));
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) most = fmax(most, line->reaction[c]);
+    for (int j = 0; cpsi_line_has_field(line) && j < line->n; j++)
+        most = fmax(most, vec3_norm(cpsi_line_field_force(line, j, vec3_at(line->position, j))));
     return most;
 }
 
 /* Are the places that the solution of the program leaves unique? With tension in every element and
  * an end held they are. */
 static bool is_unique(CpsiLine *line, const CpsiChainProgram *program, const CpsiRound *round) {
+    if (line->inertia.is_moving) {
+        line->report.places = CPS_PLACES_UNIQUE;
+        return true;
+    }
     cpsi_places_as_found(line, program);
     if (line->report.places == CPS_PLACES_UNIQUE && !cpsi_line_is_loose(line)) return true;
     if (!round->least) return false;
@@ -333,11 +367,21 @@ static double sum_of_loads(const CpsiLine *line, const CpsiChainProgram *program
     return sum;
 }
 
+/* The sum of the loads in the unit of force, which energies are compared with: without what a stiff
+ * field has at the reference, far above what it has at the solution, unless there is no other. */
+static double given_loads(const CpsiLine *line, double loads, double unit) {
+    double sum = 0;
+    if (!cpsi_line_has_field(line)) return loads;
+    for (int i = 0; i < 3 * line->n; i++) sum += fabs(line->load[i]);
+    return sum > 0 ? sum / unit : loads;
+}
+
 /* Run the loop on the program, which has been written, or go on with it to refine its solution. */
 static CpsiIpmReport run_loop(CpsiLine *line, CpsiChainProgram *program,
                               const CpsiStepOptions *options, const CpsiStepScale *scale,
                               bool refined, bool goes_on) {
-    const double loads = sum_of_loads(line, program);
+    const double unit = scale->force > 0 ? scale->force : 1,
+                 loads = given_loads(line, sum_of_loads(line, program), unit);
     const CpsiIpmOptions ipm_options = {.target = line->is_rough ? ROUGH * options->solver.tolerance
                                                                  : CPSI_TARGET,
                                         .scale = loads > 0 ? loads : 1,

@@ -327,7 +327,8 @@ static void classify(CpsiLine *line, const CpsiChainProgram *program) {
  * the forces before the step, if they can be certified. */
 static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
                           const CpsiStepOptions *options) {
-    if (!line->forces || !cps_outcome_is_certified(line->report.outcome)) return;
+    if (!line->forces || line->inertia.is_moving || !cps_outcome_is_certified(line->report.outcome))
+        return;
     const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
     const CpsCertificate before = line->report.certificate;
     const CpsOutcome outcome = line->report.outcome;
@@ -362,6 +363,8 @@ bool cpsi_line_step_slides_endlessly(CpsiLine *line, const CpsiStepOptions *opti
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     if (options->friction_policy != CPS_FRICTION_POLICY_CONSISTENT || options->frictionless)
         return false;
+    /* a field, or a load that belongs to a node, does not go along */
+    if (line->has_field || line->has_node_loads) return false;
     report_initial_ends(line);
     cpsi_line_set_reference(line, options);
     if (!cpsi_line_slides_endlessly(line, margin)) return false;

@@ -6,6 +6,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/field.h"
 #include "cable/friction_law.h"
 #include "chain/frame.h"
 
@@ -59,7 +60,7 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     for (int i = 1; i < line->n; i++) {
         const double *s = program->segment.s[i], *z = program->segment.z[i];
         if (z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]))
-            report->slack += line->element_length[i - 1];
+            report->slack += line->natural_length[i - 1];
     }
 }
 
@@ -128,6 +129,13 @@ static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     return vec3_sub(vec3_axpy(-up, n, force), friction_force);
 }
 
+/* What acts on node j beside the line and obstacles. */
+static Vec3 load_of(const CpsiLine *line, int j) {
+    const Vec3 load = vec3_at(line->load, j);
+    if (!cpsi_line_has_field(line)) return load;
+    return vec3_add(load, cpsi_line_field_balanced(line, j));
+}
+
 void cpsi_line_report_ends(CpsiLine *line) {
     for (int end = 0; end < 2; end++) {
         const int j = end_node(line, end), e = end == CPS_END_A ? 0 : line->n - 2;
@@ -139,7 +147,7 @@ void cpsi_line_report_ends(CpsiLine *line) {
              * force of the element's contact on the node */
             const Vec3 pull =
                 vec3_scale(end == CPS_END_A ? 1 : -1, vec3_at(line->segment_force, e));
-            const Vec3 others = cpsi_add_element_contacts(line, j, vec3_at(line->load, j));
+            const Vec3 others = cpsi_add_element_contacts(line, j, load_of(line, j));
             force = vec3_scale(-1, vec3_add(pull, others));
             if (!line->is_at_point[end]) force = rest_on_obstacle(line, end, force);
         }
@@ -153,7 +161,7 @@ void cpsi_line_report_ends(CpsiLine *line) {
         if (grasp->imposed.kind == CPS_END_KIND_HELD) {
             const Vec3 pull =
                 vec3_sub(vec3_at(line->segment_force, j), vec3_at(line->segment_force, j - 1));
-            const Vec3 others = cpsi_add_element_contacts(line, j, vec3_at(line->load, j));
+            const Vec3 others = cpsi_add_element_contacts(line, j, load_of(line, j));
             force = vec3_scale(-1, vec3_add(pull, others));
         }
         vec3_store(grasp->force, force);
@@ -268,7 +276,7 @@ static double suspended(const CpsiLine *line, int end, int *node) {
 /* Where the line is at an arc length, which lies on an element at node j; at an end, the end. */
 static Vec3 place_near(const CpsiLine *line, int j, double arc_length) {
     const int e = j == line->n - 1 || (j > 0 && arc_length < line->arc_length[j]) ? j - 1 : j;
-    const double part = (arc_length - line->arc_length[e]) / line->element_length[e],
+    const double part = (arc_length - line->arc_length[e]) / line->natural_length[e],
                  within = fmin(fmax(part, 0), 1);
     return vec3_add(vec3_scale(1 - within, vec3_at(line->position, e)),
                     vec3_scale(within, vec3_at(line->position, e + 1)));

@@ -9,6 +9,7 @@
 
 #include <string.h>
 
+#include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
 #include "chain/frame.h"
@@ -204,6 +205,14 @@ static void turn_curvature(double out[6], const double axes[9], const double cur
     cpsi_add_mapped(out, by, axes, curvature);
 }
 
+/* Does the wall round a line draw it back wherever it moves along it? Then its reaction is a
+ * stiffness that no round leaves out. */
+static bool draws_back(const CpsiLine *line, int c) {
+    const double *k = &line->curvature[3 * c];
+    return cpsi_line_obstacle(line, c)->form.inside && k[0] <= 0 && k[2] <= 0 &&
+           k[0] * k[2] >= k[1] * k[1];
+}
+
 static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int c,
                             const CpsiStepScale *scale) {
     CpsiUnilateral *unilateral = &program->unilateral;
@@ -218,10 +227,10 @@ static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int
     double axes[9];
     contact_axes(line, program, c, axes);
     memcpy(unilateral->normal[k], &axes[6], sizeof unilateral->normal[k]);
+    const bool turns = scale->reaction_stiffness || draws_back(line, c);
     turn_curvature(unilateral->curvature[k], axes, &line->curvature[3 * c],
-                   scale->reaction_stiffness && j < line->n
-                       ? line->reaction[c] * scale->length / (scale->force * share)
-                       : 0);
+                   turns && j < line->n ? line->reaction[c] * scale->length / (scale->force * share)
+                                        : 0);
 }
 
 static void fill_contact(const CpsiLine *line, CpsiChainProgram *program, int c,
@@ -267,6 +276,24 @@ static void fill_points(const CpsiLine *line, CpsiChainProgram *program,
         fill_contact(line, program, c, scale);
     }
     if (any) cpsi_chain_program_use_points(program);
+}
+
+/* The field: K in the axes of the nodes, and its force at the base. */
+static void fill_field(const CpsiLine *line, CpsiChainProgram *program,
+                       const CpsiStepScale *scale) {
+    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5}, FROM[6] = {0, 1, 4, 2, 5, 8};
+    const double *base = base_of(line), by = scale->length / scale->force;
+    for (int j = 0; j < line->n; j++) {
+        double given[9], own[9], force[3], load[3];
+        const double *axes = node_axes(line, program, j);
+        for (int i = 0; i < 9; i++) given[i] = by * line->field.stiffness[6 * j + AT[i]];
+        cpsi_frame_turn(own, axes, given);
+        for (int i = 0; i < 6; i++) line->field.program[6 * j + i] = own[FROM[i]];
+        vec3_store(force, cpsi_line_field_force(line, j, vec3_at(base, j)));
+        cpsi_frame_to(load, axes, force);
+        for (int a = 0; a < 3; a++) program->base.load[3 * j + a] += load[a] / scale->force;
+    }
+    program->field = line->field.program;
 }
 
 /* A node's displacement in the axes of the chain. */
@@ -315,6 +342,7 @@ void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program,
         for (int j = 0; j < line->n; j++) fill_axes(line, program, j);
     initial_guess(line, program, scale);
     fill_nodes(line, program, scale);
+    if (cpsi_line_has_field(line)) fill_field(line, program, scale);
     if (line->element_contacts > 0) fill_points(line, program, scale);
     fill_elements(line, program, scale);
 }

@@ -21,6 +21,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/field.h"
 #include "chain/frame.h"
 
 /* The stiffness of a direction in which a node is held, beside which those of the line vanish. The
@@ -205,6 +206,18 @@ static void load_contact(Tangent *t, int j, int c) {
     if (t->curved) load_curvature(t, j, c, &at);
 }
 
+/* The field at node j, in its axes. */
+static void load_field(Tangent *t, int j) {
+    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5}, FROM[6] = {0, 1, 4, 2, 5, 8};
+    const CpsiLine *line = t->line;
+    const double *axes = t->program->frame ? &t->program->frame[9 * j] : line->common_axes;
+    double given[9], own[9];
+    for (int i = 0; i < 9; i++)
+        given[i] = line->field.stiffness[6 * j + AT[i]] * line->length / t->force;
+    cpsi_frame_turn(own, axes, given);
+    for (int i = 0; i < 6; i++) t->matrix->diagonal[6 * j + i] += own[FROM[i]];
+}
+
 static void load_nodes(Tangent *t) {
     const CpsiLine *line = t->line;
     const size_t n = (size_t)line->n;
@@ -218,6 +231,7 @@ static void load_nodes(Tangent *t) {
         if (line->has_local_axes)
             memcpy(&t->program->frame[9 * j], line->common_axes, sizeof line->common_axes);
         if (c >= 0 && !t->program->held[j]) load_contact(t, j, c);
+        if (cpsi_line_has_field(line)) load_field(t, j);
     }
 }
 
@@ -266,13 +280,15 @@ static bool all_are_treated(const Tangent *t) {
     return true;
 }
 
-/* Is there a node that nothing holds: one between elements without tension that touches nothing? */
+/* Is there a node that nothing holds: one between elements without tension that touches nothing,
+ * and that no field holds? */
 static bool is_loose(const Tangent *t) {
     const CpsiLine *line = t->line;
     for (int j = 0; j < line->n; j++) {
         const bool before = j > 0 && t->matrix->stiffness[j] > 0,
                    after = j + 1 < line->n && t->matrix->stiffness[j + 1] > 0;
-        if (!t->program->held[j] && !before && !after) return true;
+        if (!t->program->held[j] && !before && !after && !cpsi_line_field_holds(line, j))
+            return true;
     }
     return false;
 }

@@ -121,6 +121,12 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
         line->newton.pause--;
         return CPSI_GUESS_LATER;
     }
+    if (line->inertia.is_moving) {
+        for (int i = 0; i < 3 * line->n; i++)
+            program->base.residual[i] = line->field.place[i] - line->position[i];
+        for (int i = 1; i < line->n; i++) program->dt[i] = line->tension[i - 1];
+        return CPSI_GUESS_EXTRAPOLATED;
+    }
     if (!(ratio > 0)) return CPSI_GUESS_REFERENCE;
     double *shift = program->base.residual, *tension = program->dt;
     for (int i = 0; i < 3 * line->n; i++)

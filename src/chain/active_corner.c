@@ -151,8 +151,8 @@ bool cpsi_corner_begin(CpsiNewton *newton, int first, int second) {
     const CpsiFrictionDisc *disc = &program->disc;
     const int j = unilateral->node[second];
     const double *n = unilateral->normal[second];
-    if (!program->bounds_coupled || !disc->map || !disc->offset || j >= program->n ||
-        newton->corner_count >= newton->most_corners)
+    if (!program->bounds_coupled || program->field || !disc->map || !disc->offset ||
+        j >= program->n || newton->corner_count >= newton->most_corners)
         return false;
     if (first < 0 || unilateral->node[first] != j || !(unilateral->z[first] > 0) ||
         !(fabs(n[1]) >= LEAST_SINE) || !(fabs(n[0]) <= ACROSS))

@@ -65,6 +65,14 @@ static void measure(CpsiNewton *newton) {
             before[a] = after[a];
         }
     }
+    for (int j = 0; program->field && j < program->n; j++) {
+        double pull[3];
+        cpsi_field_pull(program, j, pull);
+        for (int a = 0; a < 3; a++) {
+            g[3 * j + a] -= pull[a];
+            most = cpsi_max_nan(most, fabs(pull[a]));
+        }
+    }
     newton->force = most > 1 ? most : 1;
 }
 
@@ -241,6 +249,7 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
                          .status = bytes,
                          .held = bytes + n,
                          .taut = bytes + 2 * n,
+                         .anchored = bytes + 3 * n,
                          .piece = (int *)(bytes + 4 * n),
                          .corner = (CpsiCorner *)(bytes + 8 * n),
                          .most_corners = (int)(24 * n / sizeof(CpsiCorner)),

@@ -40,7 +40,7 @@ static void decide_elements(CpsiNewton *newton) {
         if (now != before) newton->changed = true;
         newton->taut[i] = now;
         if (!now) st->z[i][0] = 0;
-        if (!now && !fixed) keep_taut(newton, i);
+        if (!now && !fixed && !cpsi_newton_may_hang(newton, i)) keep_taut(newton, i);
         if (now && fixed && st->compliance == 0) newton->lost = true;
     }
 }
@@ -100,6 +100,20 @@ static void note_held(CpsiNewton *newton) {
     }
 }
 
+/* Which nodes the field holds by itself: its K - e I is positive definite. */
+static void note_anchored(CpsiNewton *newton) {
+    static const double LEAST = 1e-6; /* e */
+    const CpsiChainProgram *program = newton->program;
+    memset(newton->anchored, 0, (size_t)program->n);
+    for (int j = 0; program->field && j < program->n; j++) {
+        const double *k = &program->field[6 * j], first = k[0] - LEAST,
+                     second = k[2] - LEAST - k[1] * k[1] / first,
+                     mixed = k[4] - k[1] * k[3] / first,
+                     third = k[5] - LEAST - k[3] * k[3] / first - mixed * mixed / second;
+        newton->anchored[j] = first > 0 && second > 0 && third > 0;
+    }
+}
+
 /* The piece of the boundary of its set at which disc d slips: that of the point nearest to the
  * force f, per bound, with a long pull against the slip; -1 where there is none. */
 static int piece_of_slip(const CpsiNewton *newton, int d, const double f[2]) {
@@ -153,7 +167,9 @@ void cpsi_newton_begin(CpsiNewton *newton) {
     CpsiChainProgram *program = newton->program;
     const CpsiUnilateral *unilateral = &program->unilateral;
     const CpsiFrictionDisc *disc = &program->disc;
-    newton->lost = program->conic.count > 0 || program->drag > 0;
+    newton->lost =
+        program->conic.count > 0 || program->drag > 0 || (program->field && program->disc.shape);
+    note_anchored(newton);
     memset(newton->status, 0, (size_t)program->n);
     memset(newton->piece, 0, (size_t)program->n * sizeof *newton->piece);
     memset(disc->w, 0, (size_t)disc->count * sizeof *disc->w);

@@ -139,9 +139,9 @@ static void load_slip(CpsiNewton *newton, int d) {
                  certain = radius > 0 ? slip / (slip + CPSI_LEAST_SLIP) : 1;
     const double stiffness = weight * to.across;
     double *diagonal = &program->matrix.diagonal[6 * j], *f = &program->base.du[3 * j];
-    diagonal[0] = stiffness * b[0] * b[0] * q[1] * q[1];
-    diagonal[1] = -stiffness * b[0] * b[1] * q[0] * q[1];
-    diagonal[2] = stiffness * b[1] * b[1] * q[0] * q[0];
+    diagonal[0] += stiffness * b[0] * b[0] * q[1] * q[1];
+    diagonal[1] += -stiffness * b[0] * b[1] * q[0] * q[1];
+    diagonal[2] += stiffness * b[1] * b[1] * q[0] * q[0];
     for (int a = 0; a < 2; a++) {
         const double rest = aside * (a ? q[0] : -q[1]), error = (along - now.bound) * q[a];
         f[a] = -weight * b[a] * (error + to.by * rest);
@@ -164,7 +164,7 @@ static void load_nodes(CpsiNewton *newton) {
         const int status = newton->status[j];
         const bool has_friction =
             (status & CPSI_HAS_FRICTION) && (!program->bounds_coupled || (status & CPSI_CLOSED));
-        for (int a = 0; a < 6; a++) diagonal[a] = 0;
+        for (int a = 0; a < 6; a++) diagonal[a] = program->field ? program->field[6 * j + a] : 0;
         for (int a = 0; a < 2; a++) program->matrix.skew[2 * j + a] = 0;
         for (int a = 0; a < 3; a++) f[a] = g[a];
         if (newton->held[j]) continue;
@@ -254,7 +254,7 @@ void cpsi_newton_advance(CpsiNewton *newton) {
             }
             if (newton->taut[j]) {
                 const double least =
-                    cpsi_newton_is_fixed(newton, j) ? -1 : LEAST_TENSION * st->z[j][0];
+                    cpsi_newton_may_hang(newton, j) ? -1 : LEAST_TENSION * st->z[j][0];
                 st->z[j][0] = fmax(least, st->z[j][0] + program->dt[j] +
                                               program->matrix.stiffness[j] * along);
             }

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The elements of a program over a chain (chain_program.h): the arrays of each kind, the program
  * that holds them, and what one kind needs of another. Each kind is a file: segment.c, drag.c,
- * unilateral.c, friction_disc.c, friction_conic.c; chain_program.c puts them together. */
+ * node_field.c, unilateral.c, friction_disc.c, friction_conic.c; chain_program.c puts them
+ * together. */
 #ifndef CAPSTAN_SRC_CHAIN_ELEMENTS_H
 #define CAPSTAN_SRC_CHAIN_ELEMENTS_H
+
+#include <math.h>
 
 #include "base/element_law.h"
 #include "chain/chain_system.h"
@@ -151,6 +154,9 @@ typedef struct CpsiChainProgram {
     } node_frames; /* storage that is used only where nodes have axes of their own */
     CpsiSegment segment;
     double drag; /* d >= 0: a force -d w_j u_j on node j, w_j its share of the line */
+    /* (n, 6) K_j >= 0 as xx, xy, yy, xz, yz, zz in the axes of the node: a force -K_j u_j on it;
+     * the caller's; NULL: none */
+    const double *field;
     CpsiFrictionDisc disc;
     CpsiUnilateral unilateral;
     bool bounds_coupled;     /* friction bounds are coupled to the reactions, A = friction R; else
@@ -176,6 +182,14 @@ static inline double cpsi_unilateral_rise(const CpsiUnilateral *unilateral, int 
     if (!unilateral->normal || !unilateral->second[k]) return v[2];
     const double *n = unilateral->normal[k];
     return n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
+}
+
+/* K_j u_j of the field, which is there. */
+static inline void cpsi_field_pull(const CpsiChainProgram *program, int j, double pull[3]) {
+    const double *k = &program->field[6 * j], *u = &program->base.u[3 * j];
+    pull[0] = k[0] * u[0] + k[1] * u[1] + k[3] * u[2];
+    pull[1] = k[1] * u[0] + k[2] * u[1] + k[4] * u[2];
+    pull[2] = k[3] * u[0] + k[4] * u[1] + k[5] * u[2];
 }
 
 /* Add by x B^T M B to D; B (2, 3), M as xx, xy, yy, D as xx, xy, yy, xz, yz, zz. */
@@ -241,13 +255,14 @@ extern const CpsiKind cpsi_segment_128, cpsi_segment_256, cpsi_segment_512;
 extern const CpsiKind cpsi_unilateral_128, cpsi_unilateral_256, cpsi_unilateral_512;
 extern const CpsiKind cpsi_friction_disc_128, cpsi_friction_disc_256, cpsi_friction_disc_512;
 extern const CpsiKind cpsi_friction_conic_128, cpsi_friction_conic_256, cpsi_friction_conic_512;
-extern const CpsiKind cpsi_drag;
+extern const CpsiKind cpsi_drag, cpsi_node_field;
 
 /* In this order: friction discs and conics read what the same pass has computed for their
  * unilateral contact. */
 enum {
     CPSI_KIND_SEGMENT,
     CPSI_KIND_DRAG,
+    CPSI_KIND_FIELD,
     CPSI_KIND_UNILATERAL,
     CPSI_KIND_FRICTION_DISC,
     CPSI_KIND_FRICTION_CONIC,

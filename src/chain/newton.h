@@ -35,12 +35,13 @@ typedef struct CpsiCorner {
 /* Of one solution. The bytes lie in an array of the interior-point loop that is not used here. */
 typedef struct CpsiNewton {
     CpsiChainProgram *program;
-    unsigned char *status; /* (n) */
-    unsigned char *held;   /* (n) the node cannot move in this set */
-    unsigned char *taut;   /* (n) element i */
-    int *piece;            /* (n) where the friction of a general set is on its boundary
-                              at a node that slips */
-    CpsiCorner *corner;    /* (most_corners) */
+    unsigned char *status;   /* (n) */
+    unsigned char *held;     /* (n) the node cannot move in this set */
+    unsigned char *taut;     /* (n) element i */
+    unsigned char *anchored; /* (n) a field holds the node in all directions */
+    int *piece;              /* (n) where the friction of a general set is on its boundary at a node
+                                that slips */
+    CpsiCorner *corner;      /* (most_corners) */
     int corner_count, most_corners;
     double *frame;                    /* (n, 9) the axes of the nodes in the linear system, those
                                          along an edge turned; NULL: as they are */
@@ -63,6 +64,12 @@ static inline void cpsi_newton_to_common(const CpsiChainProgram *program, int j,
 /* Does element i lie between two nodes that cannot move? */
 static inline bool cpsi_newton_is_fixed(const CpsiNewton *newton, int i) {
     return newton->held[i - 1] && newton->held[i];
+}
+
+/* Have the nodes of element i a place without its tension? */
+static inline bool cpsi_newton_may_hang(const CpsiNewton *newton, int i) {
+    return (newton->held[i - 1] || newton->anchored[i - 1]) &&
+           (newton->held[i] || newton->anchored[i]);
 }
 
 static inline double cpsi_newton_size(const double v[2]) { return sqrt(v[0] * v[0] + v[1] * v[1]); }

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "cable/two_stiffnesses.h"
 #include "evolve/failure.h"
 #include "evolve/state_check.h"
 
@@ -25,7 +26,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '6'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '7'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -51,7 +52,7 @@ static void pass_flag(Tape *tape, bool *flag) {
 
 /* A field that is added to one of these structs has to be added to its function below as well. */
 #if UINTPTR_MAX == 0xffffffffffffffff
-_Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 6 * 8 &&
+_Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 7 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
                "add the new field to pass_energies or pass_end_report, then its size here");
 _Static_assert(sizeof(CpsEndReport) == 17 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
@@ -171,6 +172,24 @@ static void pass_step_report(Tape *tape, CpsStepReport *report) {
     PASS(tape, report->wall);
 }
 
+static void pass_inertia(Tape *tape, CpsiLine *line) {
+    CpsiInertia *inertia = &line->inertia;
+    const size_t n = (size_t)line->n;
+    double *const vectors[] = {inertia->rest_velocity, inertia->start, inertia->velocity,
+                               inertia->before, inertia->before_velocity};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        pass(tape, vectors[i], 3 * n * sizeof(double));
+    pass(tape, inertia->span, n * sizeof *inertia->span);
+    for (size_t j = 0; j < n; j++) pass_flag(tape, &inertia->restarts[j]);
+    pass_flag(tape, &inertia->is_moving);
+    PASS(tape, inertia->kinetic);
+    PASS(tape, inertia->position_bound);
+    PASS(tape, inertia->ledger);
+    PASS(tape, inertia->landed);
+    PASS(tape, inertia->changed);
+    PASS(tape, inertia->snatched);
+}
+
 static void pass_line(Tape *tape, CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     double *const nodes[] = {line->reference, line->position, line->load, line->motion};
@@ -184,6 +203,12 @@ static void pass_line(Tape *tape, CpsiLine *line) {
         pass(tape, scalars[i], contacts * sizeof(double));
     pass(tape, line->segment_force, 3 * (n - 1) * sizeof(double));
     pass(tape, line->tension, (n - 1) * sizeof(double));
+    if (line->has_node_loads) pass(tape, line->field.load, 3 * n * sizeof(double));
+    if (line->has_field) {
+        pass(tape, line->field.stiffness, 6 * n * sizeof(double));
+        pass(tape, line->field.place, 3 * n * sizeof(double));
+        pass(tape, line->field.beside, 3 * n * sizeof(double));
+    }
     pass(tape, line->state, contacts * sizeof *line->state);
     if (line->obstacle_index)
         pass(tape, line->obstacle_index, contacts * sizeof *line->obstacle_index);
@@ -202,7 +227,15 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     PASS(tape, line->newton.failures);
     PASS(tape, line->newton.pause);
     pass_flag(tape, &line->newton.useful);
+    if (line->has_inertia) pass_inertia(tape, line);
     pass_line_report(tape, &line->report);
+}
+
+static void pass_two_stiffnesses(Tape *tape, CpsiLine *line) {
+    if (!line->two.exists) return;
+    pass_flag(tape, &line->two.is_dynamic);
+    pass(tape, line->two.rest_strain, ((size_t)line->n - 1) * sizeof *line->two.rest_strain);
+    if (tape->in) cpsi_line_set_stiffness(line);
 }
 
 static void pass_point(Tape *tape, CpsiPoint *point) {
@@ -292,6 +325,9 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     PASS(tape, evolution->move_count);
     PASS(tape, evolution->gravity);
     PASS(tape, evolution->gravity_from);
+    PASS(tape, evolution->time);
+    PASS(tape, evolution->interval);
+    pass_flag(tape, &evolution->ground_moved);
     for (int i = 0; i < 2 * evolution->line_count; i++) pass_end(tape, &evolution->from[i]);
     pass(tape, evolution->release, 2 * (size_t)evolution->line_count * sizeof *evolution->release);
     pass_break(tape, &evolution->parted);
@@ -301,6 +337,7 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
         pass(tape, evolution->line[i].start_element,
              3 * (size_t)(evolution->line[i].n - 1) * sizeof(float));
         PASS(tape, evolution->line[i].start_end);
+        pass_two_stiffnesses(tape, &evolution->line[i]);
     }
     for (int k = 0; k < evolution->obstacle_count; k++) pass_obstacle(tape, evolution, k);
     for (int i = 0; i < evolution->points.count; i++) pass_point(tape, &evolution->points.point[i]);
@@ -318,6 +355,13 @@ static void hash_bytes(uint64_t *hash, const void *data, size_t size) {
 
 static void hash_numbers(uint64_t *hash, size_t count, const double *number) {
     hash_bytes(hash, number, count * sizeof *number);
+}
+
+static void hash_elasticity(uint64_t *hash, const CpsiLine *line, const CpsiElasticity *own) {
+    hash_numbers(hash, (size_t)line->n - 1, own->compliance_factor);
+    hash_bytes(hash, own->spring_at, (size_t)line->n * sizeof *own->spring_at);
+    hash_numbers(hash, (size_t)own->spring_count, own->spring_start);
+    hash_numbers(hash, (size_t)own->spring_count, own->spring_stiffness);
 }
 
 static void hash_line(uint64_t *hash, const CpsiLine *line) {
@@ -341,8 +385,13 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, (size_t)line->spring_count, line->spring_start);
         hash_numbers(hash, (size_t)line->spring_count, line->spring_stiffness);
     }
+    if (line->two.exists) hash_elasticity(hash, line, &line->two.elasticity[CPSI_DYNAMIC]);
     if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
     if (line->has_break_at) hash_numbers(hash, (size_t)line->n - 1, line->break_at);
+    if (line->has_inertia) {
+        hash_numbers(hash, (size_t)line->n, line->inertia.mass);
+        hash_numbers(hash, 3 * (size_t)line->n, line->inertia.velocity);
+    }
     for (int end = 0; end < 2; end++) {
         hash_bytes(hash, &line->end[end].kind, sizeof line->end[end].kind);
         hash_numbers(hash, 3, line->end[end].value);
@@ -354,12 +403,22 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     hash_bytes(hash, &stage->steps, sizeof stage->steps);
     const int gravity_changes = stage->gravity_changes;
     hash_bytes(hash, &gravity_changes, sizeof gravity_changes);
+    if (stage->static_stiffness) hash_bytes(hash, "static", 6);
     hash_numbers(hash, 3, stage->gravity);
+    hash_numbers(hash, 1, &stage->duration);
     for (int i = 0; i < stage->change_count; i++) {
         const CpsChange *change = &stage->change[i];
         const int what[3] = {change->line, change->end, (int)change->to.kind};
         hash_bytes(hash, what, sizeof what);
         hash_numbers(hash, 3, change->to.value);
+    }
+    for (int i = 0; i < stage->sway_count; i++) {
+        const CpsSway *sway = &stage->sway[i];
+        const int what[2] = {sway->line, sway->end};
+        hash_bytes(hash, what, sizeof what);
+        hash_numbers(hash, 3, sway->sine);
+        hash_numbers(hash, 3, sway->cosine);
+        hash_numbers(hash, 1, &sway->period);
     }
     for (int i = 0; i < stage->point_change_count; i++) {
         const CpsPointChange *change = &stage->point_change[i];
@@ -420,6 +479,13 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     hash_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
     hash_numbers(hash, 3,
                  (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
+    const CpsShape *shape = &obstacle->form;
+    const Vec3 side = obstacle->frame.axis[0];
+    if (cpsi_obstacle_is_rounded(obstacle))
+        hash_numbers(hash, 10,
+                     (const double[10]){shape->inside, shape->length, shape->main_radius,
+                                        shape->angle, shape->size[0], shape->size[1],
+                                        shape->size[2], side.x, side.y, side.z});
     hash_ground(hash, obstacle);
     if (!set) return;
     const CpsiConicSet *form = cpsi_friction_set_conic(set);
@@ -480,6 +546,7 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
                         evolution->obstacle_count,
                         (int)evolution->options.friction_policy,
                         (int)evolution->options.contact_policy,
+                        (int)evolution->time_scheme,
                         solver->max_iterations,
                         (int)solver->linear_system,
                         solver->max_halvings,

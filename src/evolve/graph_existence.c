@@ -56,7 +56,7 @@ bool cpsi_group_is_held(const CpsiBalance *balance) {
 typedef struct Loads {
     Vec3 sum;
     double sizes;    /* [N] sum of their sizes */
-    bool stopped[3]; /* directions in which a body is fixed, or has a stiffness of its own */
+    bool stopped[3]; /* directions in which a body is fixed or has a stiffness, or a line a field */
 } Loads;
 
 static void add_load(Loads *loads, Vec3 load) {
@@ -75,6 +75,16 @@ static void add_body_load(const CpsiBalance *balance, const CpsiRigid *rigid, Lo
     }
 }
 
+/* The directions that the field of a line resists. */
+static void note_stiffness(const CpsiLine *line, bool stopped[3]) {
+    for (int j = 0; j < line->n; j++) {
+        const double *k = &line->field.stiffness[6 * j];
+        stopped[0] = stopped[0] || k[0] > 0;
+        stopped[1] = stopped[1] || k[2] > 0;
+        stopped[2] = stopped[2] || k[5] > 0;
+    }
+}
+
 /* The loads of the step, after the reference of each line has been set. */
 static Loads loads_of(CpsiBalance *balance) {
     const CpsEvolution *evolution = balance->evolution;
@@ -85,6 +95,7 @@ static Loads loads_of(CpsiBalance *balance) {
         cpsi_impose_plan(balance, item);
         cpsi_line_set_reference(line, &options);
         for (int j = 0; j < line->n; j++) add_load(&loads, vec3_at(line->load, j));
+        if (line->has_field) note_stiffness(line, loads.stopped);
     }
     for (int k = 0; k < balance->count; k++) {
         double load[3];

@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The ledger of one step:
  *
- *     ends + obstacles = elastic + gravity + dissipated + imbalance
+ *     ends + obstacles + loads = elastic + gravity + dissipated + imbalance
  *
  * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched (of a
  * table of strain and tension sum l W(|e| - 1)),
  * gravity = - sum (weight of the node) . x, with the mean of the weights before and after where
- * gravity changes. The work of an end is the mean of its force before and after times its
- * displacement (trapezium rule), or the force after where the one before is not known. Friction
- * does work with the force at the end of the step, on the slip (dissipated) and on the displacement
- * of an obstacle that turns (obstacles); so does the part of an end's force that balances the
- * friction of its half element. So the imbalance of a step is of second order in its size where
- * nothing slides, and over a path it vanishes at first order with the steps; on a path on which
- * forces are linear in the displacements and nothing slides it is rounding. */
+ * gravity changes. The work of loads of nodes is what the energy of their field falls by, and a
+ * given load times the displacement. The work of an end is the mean of its force before and after
+ * times its displacement (trapezium rule), or the force after where the one before is not known.
+ * Friction does work with the force at the end of the step, on the slip (dissipated) and on the
+ * displacement of an obstacle that turns (obstacles); so does the part of an end's force that
+ * balances the friction of its half element. So the imbalance of a step is of second order in its
+ * size where nothing slides, and over a path it vanishes at first order with the steps; on a path
+ * on which forces are linear in the displacements and nothing slides it is rounding. */
 #include "evolve/ledger.h"
 
 #include <string.h>
 
 #include "cable/contact.h"
+#include "cable/field.h"
 #include "cable/report.h"
 
 static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
@@ -142,6 +144,19 @@ static double obstacle_work(const CpsiLine *line) {
     return work + end_obstacle_work(line);
 }
 
+/* The work of the loads of the nodes beside their weight, from the reference to the position. */
+static double load_work(const CpsiLine *line) {
+    double work = 0;
+    if (!line->has_field && !line->has_node_loads) return 0;
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 x = vec3_at(line->position, j), from = vec3_at(line->reference, j),
+                   mean = vec3_scale(0.5, vec3_add(x, from));
+        /* the energy is quadratic: its fall is the force half way times the displacement */
+        work += vec3_dot(cpsi_node_field_at(&line->field, j, mean), vec3_sub(x, from));
+    }
+    return work;
+}
+
 CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
     CpsLedger ledger = {.dissipated = line->report.dissipated, .obstacles = obstacle_work(line)};
     double elastic, gravity;
@@ -163,15 +178,17 @@ CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
         ledger.ends += end_work(&start->grasp[k], &now,
                                 start->all_known || grasp->imposed.kind == CPS_END_KIND_FREE);
     }
-    ledger.imbalance =
-        ledger.ends + ledger.obstacles - ledger.elastic - ledger.gravity - ledger.dissipated;
+    ledger.loads = load_work(line);
+    ledger.imbalance = ledger.ends + ledger.obstacles + ledger.loads - ledger.elastic -
+                       ledger.gravity - ledger.dissipated;
     return ledger;
 }
 
 double cpsi_ledger_exchanged(const CpsLedger *ledger) {
-    const double work[] = {ledger->ends, ledger->obstacles, -ledger->elastic, -ledger->gravity};
+    const double work[] = {ledger->ends, ledger->obstacles, ledger->loads, -ledger->elastic,
+                           -ledger->gravity};
     double sum = ledger->dissipated;
-    for (int k = 0; k < 4; k++) sum += work[k] > 0 ? work[k] : 0;
+    for (int k = 0; k < 5; k++) sum += work[k] > 0 ? work[k] : 0;
     return sum;
 }
 
@@ -180,6 +197,7 @@ void cpsi_ledger_add(CpsLedger *sum, const CpsLedger *part) {
     sum->gravity += part->gravity;
     sum->ends += part->ends;
     sum->obstacles += part->obstacles;
+    sum->loads += part->loads;
     sum->dissipated += part->dissipated;
     sum->imbalance += part->imbalance;
 }

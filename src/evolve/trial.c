@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "cable/field.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/checkpoint.h"
@@ -260,7 +261,9 @@ static void count_force(CpsiBalance *balance, double force) {
 /* [N] What acts on a line: its weight, and what pulls at free ends and grasped nodes. */
 static double acting_on(const CpsiLine *line) {
     double sum = 0;
-    for (int j = 0; j < line->n; j++) sum += vec3_norm(vec3_at(line->load, j));
+    for (int j = 0; j < line->n; j++)
+        sum += vec3_norm(vec3_at(line->load, j)) +
+               vec3_norm(cpsi_line_field_force(line, j, vec3_at(line->position, j)));
     return sum;
 }
 

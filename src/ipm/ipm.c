@@ -118,7 +118,7 @@ static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const Cp
 static bool primal_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
     if (sums->ray_cost > 0 || !(sums->ray > RAY)) return false;
     double neglected = sums->bound + program->size * program->imbalance(program) +
-                       sqrt(DBL_EPSILON) * sums->largest / RAY;
+                       sqrt(DBL_EPSILON) * sums->largest / RAY + sums->pulled;
     for (int i = 0; i < program->size; i++) neglected += fabs(program->load[i]);
     return sums->ray > RAY * neglected;
 }
@@ -130,7 +130,7 @@ static bool dual_infeasible(const CpsiProgram *program, const CpsiSums *sums) {
     if (!(size > FAR)) return false;
     double gain = 0;
     for (int i = 0; i < program->size; i++) gain += program->load[i] * program->u[i];
-    return gain > sums->scale + size / FAR;
+    return gain > sums->scale + sums->curved + size / FAR;
 }
 
 CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options) {

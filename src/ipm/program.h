@@ -32,6 +32,8 @@ typedef struct CpsiSums {
     double
         /* minus the work of the duals, as a ray, on the primal data: > 0 indicates infeasibility */
         ray;
+    /* u'K u and the sum of |K u| over what resists any motion with the stiffness K */
+    double curved, pulled;
     double
         ray_cost; /* sum of w c z0^2: > 0 where an element's quadratic energy grows with the ray */
 } CpsiSums;

@@ -18,6 +18,7 @@
 
 #include "elongation.h"
 #include "grasps.h"
+#include "shape.h"
 
 #include "fall.h"
 
@@ -152,7 +153,8 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     widen(r->segment_force[i], p);
     subtract(r->position[i + 1], r->position[i], e);
     for (int k = 0; k < 3; k++) e[k] /= l;
-    Real force = size(p), stretch = size(e), strain = stretch > 1 ? stretch - 1 : 0;
+    const Real rest = elongation_rest(r, i), limit = 1 + rest; /* taut above it */
+    Real force = size(p), stretch = size(e), strain = stretch > limit ? stretch - 1 : rest;
 
     // energy, conjugate and local gap
     Real own = c > 0 ? elongation_strain(r, i, force) : 0, at_own = 0, energy = 0, mismatch = 0;
@@ -161,11 +163,12 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
         at_own = elongation_energy(r, i, own);
         mismatch = elongation_mismatch(r, i, strain, force);
     }
-    Real slack = c > 0 && stretch > 1 ? 0 : force * (1 - stretch), turn = misalignment(p, e);
+    Real slack = c > 0 && stretch > limit ? 0 : force * (limit - stretch),
+         turn = misalignment(p, e);
     add(&s->length, l);
     Triple before;
     subtract(r->reference[i + 1], r->reference[i], before);
-    Real strained = size(before) / l > 1 ? size(before) / l - 1 : 0;
+    Real strained = size(before) / l > limit ? size(before) / l - 1 : rest;
     add(&s->elastic, l * energy - (c > 0 ? l * elongation_energy(r, i, strained) : 0));
     add(&s->primal, l * energy);
     add(&s->dual, -l * (force + force * own - at_own));
@@ -181,11 +184,11 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     Triple here, there;
     widen(r->position[i], here);
     widen(r->position[i + 1], there);
-    Real at_tension = c > 0 && T > 0 ? elongation_strain(r, i, T) : c * T;
+    Real at_tension = c > 0 && T > 0 ? elongation_strain(r, i, T) : rest + c * T;
     raise_to(&m->strain_error,
              stretch - 1 - at_tension - 2 * 0x1p-53L * (size(here) + size(there)) / l);
     if (stretch > 0) raise_to(&m->push, -dot(p, e) / stretch);
-    if (c > 0) raise_to(&m->elongation, stretch - 1 - own);
+    if (c > 0) raise_to(&m->elongation, (stretch - 1 - own) / limit); /* of its length at rest */
     raise_to(&m->tension_estimate, fabsl(T - force));
     raise_to(&m->largest_force, force);
     raise_to(&m->tension_least, -T);
@@ -450,6 +453,21 @@ void measure_element_plane(const Record *r, const Surface *on, size_t i, bool fr
     surface_normal(on, frozen ? from : x, plane);
 }
 
+/* Is the straight way from a to b nearest to a shape at the share t? Beside a face or an edge it is
+ * so at more than one place. */
+static bool is_nearest(const Surface *on, const Real *a, const Real *b, Real t, Real reach) {
+    Triple x, y;
+    if (!shape_is(on)) return false;
+    const Real facing = surface_facing(on, a, b);
+    for (int k = 0; k < 3; k++) {
+        x[k] = (1 - t) * a[k] + t * b[k];
+        y[k] = (1 - facing) * a[k] + facing * b[k];
+    }
+    const Real ends = fminl(surface_distance(on, a), surface_distance(on, b)),
+               least = facing > 0 && facing < 1 ? surface_distance(on, y) : ends;
+    return t > 0 && t < 1 && surface_distance(on, x) <= least + 1e-15L * reach;
+}
+
 /* What the point x of element i at the share t, with its reference, sees of surface `on`, in which
  * it may lie by `depth`. */
 static Seat element_seat(const Where *where, const Record *r, const Surface *on, size_t i, Real t,
@@ -463,8 +481,7 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     surface_carry(on, reference, r->share, turn, carried);
     // the point goes round at its own depth: what friction works on is shorter than the path of its
     // foot
-    Surface within = *on;
-    within.radius -= depth;
+    const Surface within = surface_within(on, depth);
     surface_slip(&within, carried, x, seat.slip);
     if (where->frozen) { // straight, in the plane of the reference
         for (int k = 0; k < 3; k++) seat.slip[k] = x[k] - carried[k];
@@ -517,7 +534,8 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     const Real facing = third ? 1 : surface_facing(on, a, b);
     const bool left = where->frozen && R == 0;
     if (third || !left || (facing > 0 && facing < 1))
-        raise_to(&m->share_error, fabsl(facing - t) * size(along));
+        raise_to(&m->share_error,
+                 is_nearest(on, a, b, t, where->reach) ? 0 : fabsl(facing - t) * size(along));
     for (int k = 0; k < 3; k++) {
         n[k] -= seat.normal[k];
         slip[k] -= seat.slip[k];

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rows of tables of keys: the keys that a mapping of a file may have, and where their values are
- * stored. The vocabularies of scenes (scene_keys.c), of laws (set_keys.c) and of driven systems
- * (drive_keys.c) are tables of these rows. One reader (read/key_reader.c) checks a file against
- * them and fills structs; suggestions, messages and JSON schemas come from the same rows. */
+ * stored. The vocabularies of scenes (scene_keys.c, history_keys.c), of laws (set_keys.c) and of
+ * driven systems (drive_keys.c) are tables of these rows. One reader (read/key_reader.c) checks a
+ * file against them and fills structs; suggestions, messages and JSON schemas come from the same
+ * rows. */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_KEYS_H
 

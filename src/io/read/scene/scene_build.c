@@ -3,19 +3,15 @@
  * cps_scene_default() and similar functions, with which reading begins. */
 #include "io/read/scene/scene_build.h"
 
-#include <limits.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/math.h"
-#include "capstan/pretension.h"
 #include "io/base/file/read_file.h"
 #include "io/read/ground/ground_build.h"
 #include "io/read/law/set_build.h"
-#include "io/read/scene/node_file.h"
-#include "io/read/scene/section_build.h"
+#include "io/read/scene/parts/node_file.h"
+#include "io/read/scene/parts/section_build.h"
 
 /* A point of the scene, found by its name. */
 typedef struct NamedPoint {
@@ -32,13 +28,8 @@ typedef struct Build {
     CpsiSetBuild set; /* of friction sets */
     double elements;  /* number of elements of the lines so far */
     CpsiMaterials materials;
-    bool (*released)[2]; /* (lines) ends that the history has let go so far */
-    /* (lines) [m] position at which each end is held after the preceding entry; NaN: not held, or
-     * not known */
-    double (*held)[2][3];
-    double (*held_point)[3]; /* (points) [m] likewise */
-    NamedPoint *by_name;     /* (points) by name */
-    CpsiHeldPose *held_body; /* (bodies) likewise */
+    CpsiHeldBefore held; /* by the entries of the history so far */
+    NamedPoint *by_name; /* (points) by name */
 } Build;
 
 static const char *copy_text(const Build *b, const char *text) {
@@ -202,9 +193,9 @@ static CpsStatus build_points(Build *b, const CpsiList *points) {
     const CpsiScenePointValues *values = points->item;
     if (points->count == 0) return CPS_OK;
     CpsPoint *point = CPSI_POOL_TAKE(b->pool, points->count, CpsPoint);
-    b->held_point = CPSI_POOL_TAKE(b->d->pool, points->count, double[3]);
+    b->held.point = CPSI_POOL_TAKE(b->d->pool, points->count, double[3]);
     b->by_name = CPSI_POOL_TAKE(b->d->pool, points->count, NamedPoint);
-    if (!point || !b->held_point || !b->by_name) return cpsi_document_no_memory(b->d);
+    if (!point || !b->held.point || !b->by_name) return cpsi_document_no_memory(b->d);
     b->scene->point = point;
     b->scene->point_count = points->count;
     for (int k = 0; k < points->count; k++) {
@@ -218,14 +209,14 @@ static CpsStatus build_points(Build *b, const CpsiList *points) {
         point[k].displaced_weight = cpsi_displaced_weight(&b->materials, values[k].volume);
         point[k].name = copy_text(b, values[k].node->key);
         if (!point[k].name) return cpsi_document_no_memory(b->d);
-        copy_vector(b->held_point[k], point[k].position);
-        if (point[k].kind == CPS_POINT_KIND_FREE || point[k].drags) b->held_point[k][0] = NAN;
+        copy_vector(b->held.point[k], point[k].position);
+        if (point[k].kind == CPS_POINT_KIND_FREE || point[k].drags) b->held.point[k][0] = NAN;
         if (values[k].body) {
             const CpsiYaml *name = cpsi_yaml_child(values[k].node, "body");
             const CpsStatus status = cpsi_body_find(b->d, b->scene, name, &point[k].body);
             if (status != CPS_OK) return status;
             copy_vector(point[k].position, values[k].at);
-            b->held_point[k][0] = NAN;
+            b->held.point[k][0] = NAN;
         }
         b->by_name[k] = (NamedPoint){point[k].name, k};
     }
@@ -342,6 +333,10 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
     if (status == CPS_OK)
         status = cpsi_stiffness_build(&b->materials, &values->table, &line->stiffness_row_count,
                                       &line->stiffness_row);
+    if (status == CPS_OK)
+        status =
+            cpsi_dynamic_stiffness_build(&b->materials, &values->dynamic,
+                                         &line->has_dynamic_stiffness, &line->dynamic_stiffness);
     if (status == CPS_OK) status = build_elements(b, values, line);
     if (status == CPS_OK) status = build_zones(b, &values->zones, line);
     if (status == CPS_OK && values->sections.count > 0)
@@ -361,15 +356,15 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
 static CpsStatus build_lines(Build *b, const CpsiList *lines) {
     const CpsiLineValues *values = lines->item;
     b->line = CPSI_POOL_TAKE(b->pool, lines->count, CpsLine);
-    b->held = CPSI_POOL_TAKE(b->pool, lines->count, double[2][3]);
-    b->released = CPSI_POOL_TAKE(b->pool, lines->count, bool[2]);
-    if (!b->line || !b->held || !b->released) return cpsi_document_no_memory(b->d);
-    for (int i = 0; i < lines->count; i++) b->released[i][0] = b->released[i][1] = false;
+    b->held.end = CPSI_POOL_TAKE(b->pool, lines->count, double[2][3]);
+    b->held.released = CPSI_POOL_TAKE(b->pool, lines->count, bool[2]);
+    if (!b->line || !b->held.end || !b->held.released) return cpsi_document_no_memory(b->d);
+    for (int i = 0; i < lines->count; i++) b->held.released[i][0] = b->held.released[i][1] = false;
     b->scene->line = b->line;
     b->scene->line_count = lines->count;
     CpsStatus status = CPS_OK;
     for (int i = 0; i < lines->count && status == CPS_OK; i++)
-        status = build_line(b, &values[i], &b->line[i], b->held[i]);
+        status = build_line(b, &values[i], &b->line[i], b->held.end[i]);
     return status;
 }
 
@@ -378,6 +373,7 @@ static CpsStatus build_lines(Build *b, const CpsiList *lines) {
 static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsObstacle *obstacle) {
     CpsSet *set = NULL;
     *obstacle = values->obstacle;
+    cpsi_shape_build(values, obstacle);
     obstacle->has_friction_lateral = !isnan(obstacle->friction_lateral);
     if (!obstacle->has_friction_lateral) obstacle->friction_lateral = 0;
     obstacle->name = copy_text(b, values->node->key);
@@ -402,286 +398,6 @@ static CpsStatus build_obstacles(Build *b, const CpsiList *obstacles) {
     return status;
 }
 
-/* ---- history ---- */
-
-/* Whether this is the name before the last dot of NAME.WHAT. */
-static bool is_owner(const char *name, const char *key) {
-    const size_t n = (size_t)(strrchr(key, '.') - key);
-    return strncmp(name, key, n) == 0 && !name[n];
-}
-
-/* The index of the line of LINE.END; the reader has checked that it exists. */
-static int find_line(const Build *b, const char *key) {
-    int i = 0;
-    while (i + 1 < b->scene->line_count && !is_owner(b->line[i].name, key)) i++;
-    return i;
-}
-
-/* The index of the obstacle of OBSTACLE.turn, likewise. */
-static int find_obstacle(const Build *b, const char *key) {
-    int i = 0;
-    while (i + 1 < b->scene->obstacle_count && !is_owner(b->scene->obstacle[i].name, key)) i++;
-    return i;
-}
-
-/* The position or force that a change asks for; `held` is where what it changes is held before it,
- * NaN: not known, and becomes where it is held after it. */
-static void build_value(const CpsiChangeValues *values, double held[3], double out[3]) {
-    const bool move = values->kind == CPSI_CHANGE_MOVE, force = values->kind == CPSI_CHANGE_FORCE;
-    for (int i = 0; i < 3; i++) {
-        out[i] = values->value[i];
-        if (move) out[i] += held[i];
-        held[i] = force ? NAN : out[i];
-    }
-}
-
-/* The index of the point of POINT.point, likewise. */
-static int find_owner_point(const Build *b, const char *key) {
-    int i = 0;
-    while (i + 1 < b->scene->point_count && !is_owner(b->scene->point[i].name, key)) i++;
-    return i;
-}
-
-/* An end that is let go; it is at no point from then on. */
-static CpsStatus build_release(const Build *b, const CpsiChangeValues *values, CpsChange *change) {
-    if (!values->yes)
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
-                                  "'%s': found false, expected true; leave the key out to leave "
-                                  "the end as it is",
-                                  values->node->key);
-    *change = (CpsChange){.line = change->line,
-                          .end = change->end,
-                          .to = {.kind = CPS_END_KIND_RELEASED}};
-    b->held[change->line][change->end][0] = NAN;
-    b->released[change->line][change->end] = true;
-    return CPS_OK;
-}
-
-static CpsStatus build_change(const Build *b, const CpsiChangeValues *values, CpsChange *change) {
-    const char *key = values->node->key;
-    *change = (CpsChange){.line = find_line(b, key)};
-    change->end = key[strlen(key) - 1] == 'A' ? CPS_END_A : CPS_END_B;
-    if (values->kind == CPSI_CHANGE_RELEASE) return build_release(b, values, change);
-    change->to.kind = values->kind == CPSI_CHANGE_FORCE ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
-    const CpsLine *line = &b->line[change->line];
-    const bool at_point = line->end[change->end].kind == CPS_END_KIND_POINT &&
-                          !b->released[change->line][change->end];
-    const char *point = at_point ? b->scene->point[line->end_point[change->end]].name : NULL;
-    double *held = b->held[change->line][change->end];
-    if (point)
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
-                                  "'%s': this end is at the point '%s', expected a change of the "
-                                  "point: write '%s.point', or release the end in an entry before",
-                                  key, point, point);
-    if (values->kind == CPSI_CHANGE_MOVE && isnan(held[0]))
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
-                                  "'%s': found a move, but the end's position before it is not "
-                                  "known (it is free, or held at "
-                                  "the end of an arc): give a position instead",
-                                  key);
-    build_value(values, held, change->to.value);
-    return CPS_OK;
-}
-
-static CpsStatus build_point_change(const Build *b, const CpsiChangeValues *values,
-                                    CpsPointChange *change) {
-    const char *key = values->node->key;
-    change->point = find_owner_point(b, key);
-    const CpsPoint *point = &b->scene->point[change->point];
-    if (point->kind == CPS_POINT_KIND_ON_BODY)
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
-                                  "'%s': this point is on the body '%s', expected a change of the "
-                                  "body: write '%s.body'",
-                                  key, b->scene->body[point->body].name,
-                                  b->scene->body[point->body].name);
-    change->kind = values->kind == CPSI_CHANGE_FORCE ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_HELD;
-    double *held = b->held_point[change->point];
-    const bool drags = b->scene->point[change->point].drags;
-    if (values->kind == CPSI_CHANGE_MOVE && isnan(held[0]))
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
-                                  "'%s': found a move, but the point's position before it is not "
-                                  "known (it is free%s): give a position instead",
-                                  key, drags ? ", or an anchor that drags" : "");
-    build_value(values, held, change->value);
-    if (drags) held[0] = NAN;
-    return CPS_OK;
-}
-
-/* The index of the body of BODY.body, likewise. */
-static int find_owner_body(const Build *b, const char *key) {
-    int i = 0;
-    while (i + 1 < b->scene->body_count && !is_owner(b->scene->body[i].name, key)) i++;
-    return i;
-}
-
-static CpsStatus build_body_changes(const Build *b, const CpsiList *changes, CpsStage *stage) {
-    const CpsiBodyChangeValues *values = changes->item;
-    CpsBodyChange *change = CPSI_POOL_TAKE(b->pool, changes->count, CpsBodyChange);
-    if (!change) return cpsi_document_no_memory(b->d);
-    stage->body_change = change;
-    stage->body_change_count = changes->count;
-    CpsStatus status = CPS_OK;
-    for (int k = 0; k < changes->count && status == CPS_OK; k++) {
-        change[k].body = find_owner_body(b, values[k].node->key);
-        status =
-            cpsi_body_change_build(b->d, &values[k], &b->held_body[change[k].body], &change[k]);
-    }
-    return status;
-}
-
-static CpsStatus build_changes(const Build *b, const CpsiStageValues *values, CpsStage *stage) {
-    const int count = values->changes.count, point_count = values->point_changes.count;
-    const CpsiChangeValues *from = values->changes.item, *point_from = values->point_changes.item;
-    CpsChange *change = CPSI_POOL_TAKE(b->pool, count, CpsChange);
-    CpsPointChange *point_change = CPSI_POOL_TAKE(b->pool, point_count, CpsPointChange);
-    if (!change || !point_change) return cpsi_document_no_memory(b->d);
-    stage->change = change;
-    stage->change_count = count;
-    stage->point_change = point_change;
-    stage->point_change_count = point_count;
-    CpsStatus status = CPS_OK;
-    for (int k = 0; k < count && status == CPS_OK; k++)
-        status = build_change(b, &from[k], &change[k]);
-    for (int k = 0; k < point_count && status == CPS_OK; k++)
-        status = build_point_change(b, &point_from[k], &point_change[k]);
-    return status ? status : build_body_changes(b, &values->body_changes, stage);
-}
-
-/* The node between the ends that is nearest to an arc length; 0: there is none. */
-static int nearest_node(const CpsLine *line, double at) {
-    double arc = 0, least = INFINITY;
-    int nearest = 0;
-    for (int j = 1; j < line->element_count; j++) {
-        arc +=
-            line->element_length ? line->element_length[j - 1] : line->length / line->element_count;
-        if (!(fabs(arc - at) < least)) continue;
-        least = fabs(arc - at);
-        nearest = j;
-    }
-    return nearest;
-}
-
-static CpsStatus build_grasp(const Build *b, const CpsiGraspValues *values,
-                             CpsGraspChange *change) {
-    const bool flag = values->kind == CPSI_GRASP_HOLD || values->kind == CPSI_GRASP_RELEASE;
-    const char *key = values->node->key;
-    change->line = find_line(b, key);
-    const CpsLine *line = &b->line[change->line];
-    change->node = nearest_node(line, values->at);
-    if (values->at > line->length || change->node == 0)
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "at"),
-                                  "'%s': found at %g m, expected a length up to that of the line, "
-                                  "%g m, which has at least two elements",
-                                  key, values->at, line->length);
-    if (flag && !values->yes)
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
-                                  "'%s': found false, expected true; leave the key out to leave "
-                                  "the node as it is",
-                                  key);
-    const bool held = values->kind == CPSI_GRASP_POSITION || values->kind == CPSI_GRASP_HOLD;
-    change->kind = held ? CPS_END_KIND_HELD : CPS_END_KIND_FREE;
-    change->stays = values->kind == CPSI_GRASP_HOLD;
-    change->at_once = values->kind == CPSI_GRASP_RELEASE;
-    if (!flag) memcpy(change->value, values->value, sizeof change->value);
-    return CPS_OK;
-}
-
-static CpsStatus build_grasps(const Build *b, const CpsiList *grasps, CpsStage *stage) {
-    const CpsiGraspValues *from = grasps->item;
-    CpsGraspChange *change = CPSI_POOL_TAKE(b->pool, grasps->count, CpsGraspChange);
-    if (!change) return cpsi_document_no_memory(b->d);
-    stage->grasp_change = change;
-    stage->grasp_change_count = grasps->count;
-    CpsStatus status = CPS_OK;
-    for (int k = 0; k < grasps->count && status == CPS_OK; k++)
-        status = build_grasp(b, &from[k], &change[k]);
-    return status;
-}
-
-static CpsStatus build_shift(const Build *b, const CpsiShiftValues *values, CpsShift *shift) {
-    const double *axis = values->axis, size = hypot(hypot(axis[0], axis[1]), axis[2]),
-                 angle = isnan(values->turn) ? 0 : values->turn * CPSI_DEGREE;
-    if (!cpsi_yaml_child(values->node, "move") && isnan(values->turn))
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
-                                  "'%s': nothing given, expected 'move', or 'turn' with its 'axis'",
-                                  values->node->key);
-    if (!isnan(values->turn) && !(size > 0))
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "axis"),
-                                  "'axis': found a vector of no length, expected a direction");
-    shift->obstacle = find_obstacle(b, values->node->key);
-    for (int i = 0; i < 3; i++) {
-        shift->by[i] = values->move[i];
-        shift->turn[i] = angle != 0 ? angle * (axis[i] / size) : 0;
-        shift->about[i] = values->about[i];
-    }
-    return CPS_OK;
-}
-
-static CpsStatus build_shifts(const Build *b, const CpsiList *shifts, CpsStage *stage) {
-    const CpsiShiftValues *from = shifts->item;
-    CpsShift *shift = CPSI_POOL_TAKE(b->pool, shifts->count, CpsShift);
-    if (!shift) return cpsi_document_no_memory(b->d);
-    stage->shift = shift;
-    stage->shift_count = shifts->count;
-    CpsStatus status = CPS_OK;
-    for (int k = 0; k < shifts->count && status == CPS_OK; k++)
-        status = build_shift(b, &from[k], &shift[k]);
-    return status;
-}
-
-/* Say which obstacles the history moves. */
-static void find_moving(const Build *b, const CpsiList *history) {
-    const CpsiStageValues *values = history->item;
-    for (int i = 0; i < history->count; i++) {
-        const CpsiShiftValues *shift = values[i].shifts.item;
-        for (int k = 0; k < values[i].shifts.count; k++)
-            b->obstacle[find_obstacle(b, shift[k].node->key)].moves = true;
-    }
-}
-
-static CpsStatus build_stage(const Build *b, const CpsiStageValues *values, int index,
-                             CpsStage *stage) {
-    const CpsiNumberItem *turns = values->turns.item;
-    char number[32];
-    snprintf(number, sizeof number, "entry %d", index + 1);
-    *stage = values->stage;
-    stage->name = copy_text(b, stage->name ? stage->name : number);
-    stage->gravity_changes = !isnan(stage->gravity[0]);
-    if (!stage->gravity_changes) stage->gravity[0] = 0;
-
-    CpsTurn *turn = CPSI_POOL_TAKE(b->pool, values->turns.count, CpsTurn);
-    if (!stage->name || !turn) return cpsi_document_no_memory(b->d);
-    stage->turn = turn;
-    stage->turn_count = values->turns.count;
-    for (int k = 0; k < stage->turn_count; k++)
-        turn[k] = (CpsTurn){.obstacle = find_obstacle(b, turns[k].node->key),
-                            .angle = turns[k].number * CPSI_DEGREE};
-    CpsStatus status = build_changes(b, values, stage);
-    if (status == CPS_OK) status = build_shifts(b, &values->shifts, stage);
-    return status == CPS_OK ? build_grasps(b, &values->grasps, stage) : status;
-}
-
-static CpsStatus build_history(const Build *b, const CpsiList *history) {
-    const CpsiStageValues *values = history->item;
-    if (history->count == 0) return CPS_OK;
-    find_moving(b, history);
-    CpsStage *stage = CPSI_POOL_TAKE(b->pool, history->count, CpsStage);
-    if (!stage) return cpsi_document_no_memory(b->d);
-    b->scene->stage = stage;
-    b->scene->stage_count = history->count;
-    int64_t steps = 0;
-    for (int i = 0; i < history->count; i++) {
-        const CpsStatus status = build_stage(b, &values[i], i, &stage[i]);
-        if (status != CPS_OK) return status;
-        steps += stage[i].step_count;
-        if (steps > b->d->limits->max_steps)
-            return cpsi_document_fail(b->d, CPS_ERR_LIMIT, values[i].node,
-                                      "history: %lld load steps so far, the limit is %lld",
-                                      (long long)steps, (long long)b->d->limits->max_steps);
-    }
-    return CPS_OK;
-}
-
 CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values, CpsiPool *pool,
                            CpsScene *scene) {
     Build b = {.d = d, .pool = pool, .scene = scene, .set = {.d = d}};
@@ -698,72 +414,9 @@ CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values,
     CpsStatus status = cpsi_materials_sort(&b.materials, &values->types);
     if (status == CPS_OK) status = build_obstacles(&b, &values->obstacles);
     if (status == CPS_OK)
-        status = cpsi_bodies_build(&b.materials, &values->bodies, scene, &b.held_body);
+        status = cpsi_bodies_build(&b.materials, &values->bodies, scene, &b.held.body);
     if (status == CPS_OK) status = build_points(&b, &values->points);
     if (status == CPS_OK) status = build_lines(&b, &values->lines);
-    return status ? status : build_history(&b, &values->history);
-}
-
-/* ---- lengths ---- */
-
-static CpsStatus find_length(const CpsiDocument *d, const CpsiPretensionValues *values,
-                             CpsiPool *pool, const CpsScene *scene, CpsLine *line) {
-    const int index = (int)(line - scene->line);
-    const bool horizontal = isnan(values->tension);
-    int section = CPS_WHOLE_LINE;
-    if (!isnan(values->section)) section = (int)fmin(values->section, INT_MAX) - 1;
-    if (line->section_count > 0 && section == CPS_WHOLE_LINE)
-        return cpsi_document_fail(d, CPS_ERR_INPUT, values->node,
-                                  "'pretension': 'section' is missing: the number, from 1 to %d, "
-                                  "of the section whose length is found",
-                                  line->section_count);
-    CpsError found;
-    double length;
-    const CpsStatus status =
-        cps_scene_length_for(scene, index, section, values->end,
-                             horizontal ? CPS_PULL_HORIZONTAL : CPS_PULL_TENSION,
-                             horizontal ? values->horizontal : values->tension, &length, &found);
-    if (status != CPS_OK)
-        return cpsi_document_fail(d, status == CPS_ERR_ARGUMENT ? CPS_ERR_INPUT : status,
-                                  values->node, "%s", found.message);
-    const CpsLineArrays arrays = {
-        .element_length = CPSI_POOL_TAKE(pool, line->element_count, double),
-        .section = CPSI_POOL_TAKE(pool, line->section_count + 1, CpsSection),
-        .point_weight = CPSI_POOL_TAKE(pool, line->point_weight_count + 1, CpsPointWeight),
-        .zone = CPSI_POOL_TAKE(pool, line->zone_count + 1, CpsFrictionZone)};
-    if (!arrays.element_length || !arrays.section || !arrays.point_weight || !arrays.zone)
-        return cpsi_document_no_memory(d);
-    cps_line_resize(line, section, length, &arrays);
-    return CPS_OK;
-}
-
-/* Does the history grasp a node of the line? */
-static bool is_grasped(const CpsScene *scene, int line) {
-    for (int s = 0; s < scene->stage_count; s++)
-        for (int k = 0; k < scene->stage[s].grasp_change_count; k++)
-            if (scene->stage[s].grasp_change[k].line == line) return true;
-    return false;
-}
-
-CpsStatus cpsi_scene_find_lengths(const CpsiDocument *d, const CpsiSceneValues *values,
-                                  CpsiPool *pool, CpsScene *scene) {
-    const CpsiLineValues *from = values->lines.item;
-    bool any = false;
-    for (int i = 0; i < scene->line_count; i++) any = any || from[i].pretension.node;
-    if (!any) return CPS_OK;
-    CpsLine *line = CPSI_POOL_TAKE(pool, scene->line_count, CpsLine);
-    if (!line) return cpsi_document_no_memory(d);
-    memcpy(line, scene->line, (size_t)scene->line_count * sizeof *line);
-    scene->line = line;
-    CpsStatus status = CPS_OK;
-    for (int i = 0; i < scene->line_count && status == CPS_OK; i++)
-        if (from[i].pretension.node && is_grasped(scene, i))
-            status = cpsi_document_fail(
-                d, CPS_ERR_INPUT, from[i].pretension.node,
-                "'pretension': the history grasps a node of this line, whose arc length is not "
-                "known before the length is found; give the line the length that `capstan check` "
-                "prints without these entries, and no pretension");
-        else if (from[i].pretension.node)
-            status = find_length(d, &from[i].pretension, pool, scene, &line[i]);
-    return status;
+    const CpsiHistoryBuild history = {d, pool, scene, b.obstacle, b.held};
+    return status ? status : cpsi_history_build(&history, &values->history);
 }

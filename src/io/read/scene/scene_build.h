@@ -4,7 +4,7 @@
 #define CAPSTAN_SRC_IO_READ_SCENE_SCENE_BUILD_H
 
 #include "io/read/document.h"
-#include "io/read/scene/section_build.h"
+#include "io/read/scene/parts/body_build.h"
 #include "io/schema/tables/scene_keys.h"
 
 /* Fill `scene` from the values of a file; arrays and names are allocated in `pool`, which outlives
@@ -12,25 +12,32 @@
 CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values, CpsiPool *pool,
                            CpsScene *scene);
 
-/* ---- rigid bodies: body_build.c ---- */
+/* Fill the kind of an obstacle, and what its shape has, from its values: shape_build.c. */
+void cpsi_shape_build(const CpsiObstacleValues *values, CpsObstacle *obstacle);
 
-/* Where a body is held after the preceding entry of the history. */
-typedef struct CpsiHeldPose {
-    bool is_known; /* false: it is free */
-    double position[3], rotation[4];
-} CpsiHeldPose;
+/* ---- the history: history_build.c ---- */
 
-/* The bodies of the scene; `held`: as many poses in which they begin, in memory of the document. */
-CpsStatus cpsi_bodies_build(const CpsiMaterials *materials, const CpsiList *bodies, CpsScene *scene,
-                            CpsiHeldPose **held);
+/* Where what the history moves is held after the preceding entry. */
+typedef struct CpsiHeldBefore {
+    bool (*released)[2]; /* (lines) ends that the history has let go so far */
+    double (*end)[2][3]; /* (lines) [m] position of each end; NaN: not held, or not known */
+    double (*point)[3];  /* (points) [m] likewise */
+    CpsiHeldPose *body;  /* (bodies) likewise */
+} CpsiHeldBefore;
 
-/* The index of the body whose name is the node's text. */
-CpsStatus cpsi_body_find(const CpsiDocument *d, const CpsScene *scene, const CpsiYaml *node,
-                         int *index);
+/* The scene so far, which the history refers to. */
+typedef struct CpsiHistoryBuild {
+    const CpsiDocument *d;
+    CpsiPool *pool; /* memory of the scene */
+    CpsScene *scene;
+    CpsObstacle *obstacle; /* of the scene: the history says which of them move */
+    CpsiHeldBefore held;   /* before its first entry */
+} CpsiHistoryBuild;
 
-/* What an entry changes at a body, without its index; `held` becomes the pose after it. */
-CpsStatus cpsi_body_change_build(const CpsiDocument *d, const CpsiBodyChangeValues *values,
-                                 CpsiHeldPose *held, CpsBodyChange *change);
+/* The stages of the scene. */
+CpsStatus cpsi_history_build(const CpsiHistoryBuild *b, const CpsiList *history);
+
+/* ---- lengths: pretension_build.c ---- */
 
 /* Give the lines with a pretension the lengths that have it; the scene has been built and
  * checked. */

@@ -15,6 +15,13 @@ static const CpsiKey PLANE_KEYS[] = {
 };
 static const CpsiMapping PLANE = {"plane", KEYS(PLANE_KEYS)};
 
+/* of what has a radius */
+#define INSIDE                                                                     \
+    {                                                                              \
+        "inside", OPTIONAL, FLAG(Obstacle, obstacle.shape.inside),                 \
+            .fallback = "false", .help = "lines are inside of it, and not outside" \
+    }
+
 static const CpsiKey CYLINDER_KEYS[] = {
     {"point", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
      .fallback = "[0, 0, 0]", .help = "a point of the axis"},
@@ -23,6 +30,7 @@ static const CpsiKey CYLINDER_KEYS[] = {
              "right-hand rule"},
     {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
      .help = "radius of the cylinder"},
+    INSIDE,
 };
 static const CpsiMapping CYLINDER = {"cylinder", KEYS(CYLINDER_KEYS)};
 
@@ -33,6 +41,7 @@ static const CpsiKey SPHERE_KEYS[] = {
      .help = "what the ball turns about, through its centre; of any length but zero"},
     {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
      .help = "radius of the ball"},
+    INSIDE,
 };
 static const CpsiMapping SPHERE = {"sphere", KEYS(SPHERE_KEYS)};
 
@@ -56,6 +65,63 @@ static const CpsiKey GROUND_KEYS[] = {
 };
 static const CpsiMapping GROUND = {"ground", KEYS(GROUND_KEYS)};
 
+#define CENTRE                                                                                     \
+    {                                                                                              \
+        "centre", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY,                               \
+            .unit = "m", .formerly = "center", .fallback = "[0, 0, 0]", .help = "the middle of it" \
+    }
+
+static const CpsiKey CAPSULE_KEYS[] = {
+    CENTRE,
+    {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
+     .help = "direction of the axis, of any length but zero; a turn follows it by the right-hand "
+             "rule"},
+    {"length", REQUIRED, NUMBER(Obstacle, obstacle.shape.length), NOT_NEGATIVE, .unit = "m",
+     .help = "between the centres of its round ends: of the cylinder alone"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of cylinder and ends"},
+    INSIDE,
+};
+static const CpsiMapping CAPSULE = {"capsule", KEYS(CAPSULE_KEYS)};
+
+static const CpsiKey TORUS_KEYS[] = {
+    CENTRE,
+    {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
+     .help = "direction of its axis of rotation, of any length but zero"},
+    {"main_radius", REQUIRED, NUMBER(Obstacle, obstacle.shape.main_radius), POSITIVE, .unit = "m",
+     .help = "of the circle that the middle of the tube follows, above radius"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of the tube"},
+    INSIDE,
+};
+static const CpsiMapping TORUS = {"torus", KEYS(TORUS_KEYS)};
+
+static const CpsiKey CONE_KEYS[] = {
+    {"tip", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m", .fallback = "[0, 0, 0]",
+     .help = "the outermost point of its round tip"},
+    {"axis", REQUIRED, POINT(Obstacle, obstacle.axis, 3), ANY,
+     .help = "direction from the tip into the cone, which has no end; of any length but zero"},
+    {"angle", REQUIRED, NUMBER(Obstacle, cone_angle), POSITIVE, .unit = "degrees",
+     .help = "between axis and side, below 90"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of the ball that rounds its tip"},
+    INSIDE,
+};
+static const CpsiMapping CONE = {"cone", KEYS(CONE_KEYS)};
+
+static const CpsiKey BOX_KEYS[] = {
+    CENTRE,
+    {"size", REQUIRED, POINT(Obstacle, obstacle.shape.size, 3), 0, CPSI_LARGEST, true, .unit = "m",
+     .help = "from face to face along its own axes, each above twice the radius"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of its edges and corners"},
+    {"rotation", OPTIONAL, MAPPING(Obstacle, rotation), .inside = &cpsi_rotation_keys,
+     .fallback = "{\"quaternion\": [1, 0, 0, 0]}",
+     .help = "turns its own axes, which begin as those of the scene"},
+    INSIDE,
+};
+static const CpsiMapping BOX = {"box", KEYS(BOX_KEYS)};
+
 static const CpsiKey FRICTION_KEYS[] = {
     {"axial", ONE_OF, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .help = "coefficient along the line, or along the grain"},
@@ -77,10 +143,15 @@ static const CpsiMapping FRICTION = {"friction", KEYS(FRICTION_KEYS)};
 static const CpsiKey OBSTACLE_KEYS[] = {
     {"plane", ONE_OF, AROUND, .inside = &PLANE, .help = "a plane; lines stay on one side of it"},
     {"cylinder", ONE_OF, AROUND, .inside = &CYLINDER,
-     .help = "a solid cylinder without ends (bollard, pipe, drum); lines stay outside"},
+     .help = "a cylinder without ends (bollard, pipe, drum); lines stay outside, or inside"},
     {"sphere", ONE_OF, AROUND, .inside = &SPHERE, .help = "a solid ball; lines stay outside"},
     {"ground", ONE_OF, AROUND, .inside = &GROUND,
      .help = "a smooth surface through the points of a grid; lines stay above it"},
+    {"capsule", ONE_OF, AROUND, .inside = &CAPSULE,
+     .help = "a cylinder with round ends (bollard, tank)"},
+    {"torus", ONE_OF, AROUND, .inside = &TORUS, .help = "a ring (shackle, bent tube)"},
+    {"cone", ONE_OF, AROUND, .inside = &CONE, .help = "a cone with a round tip (funnel)"},
+    {"box", ONE_OF, AROUND, .inside = &BOX, .help = "a box with round edges (quay, slab)"},
     {"friction", OPTIONAL, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .other = &(const CpsiKey){.type = CPSI_MAPPING, .inside = &FRICTION}, .fallback = "0",
      .help = "Coulomb friction coefficient; or one along the line or the grain and another "
@@ -98,16 +169,6 @@ static const CpsiMapping OBSTACLE = {"obstacle", KEYS(OBSTACLE_KEYS), INTO(Obsta
                                      .begin = begin_obstacle, WHICH(Obstacle, obstacle.kind)};
 
 /* ---- bodies ---- */
-
-static const CpsiKey ROTATION_KEYS[] = {
-    {"quaternion", ONE_OF, POINT(Rotation, quaternion, 4), ANY,
-     .help = "w, x, y, z: by the angle 2 acos(w) about (x, y, z); of any length but zero"},
-    {"roll_pitch_yaw", ONE_OF, POINT(Rotation, angle, 3), ANY, .unit = "degrees",
-     .help = "yaw about z, then pitch about the y axis so turned, then roll about the x axis so "
-             "turned, each by the right-hand rule"},
-};
-static const CpsiMapping ROTATION = {"rotation", KEYS(ROTATION_KEYS), INTO(Rotation),
-                                     WHICH(Rotation, form)};
 
 static const CpsiKey DIAGONAL_KEYS[] = {
     {"x", OPTIONAL, NUMBER(Diagonal, k[0]), ANY, .unit = "N/m", .fallback = "0",
@@ -134,7 +195,7 @@ static const CpsiKey SCENE_BODY_KEYS[] = {
     {"free", ONE_OF, POINT(SceneBody, body.position, 3), ANY, .unit = "m",
      .help = "free: each step finds the pose in which the forces and moments on it balance; its "
              "reference point begins here, and hydrostatics count from here"},
-    {"rotation", OPTIONAL, MAPPING(SceneBody, rotation), .inside = &ROTATION,
+    {"rotation", OPTIONAL, MAPPING(SceneBody, rotation), .inside = &cpsi_rotation_keys,
      .fallback = "{\"quaternion\": [1, 0, 0, 0]}",
      .help = "turns its own axes, which begin as those of the scene"},
     {"fixed", OPTIONAL, WORDS(SceneBody, body.fixed, 6), .words = DIRECTIONS, .fallback = "[]",
@@ -314,11 +375,16 @@ static const CpsiKey POINT_WEIGHT_KEYS[] = {
      .help = "mass; its weight is mass times gravity, less that of the water it displaces"},
     {"weight", ONE_OF, NUMBER(PointWeight, weight), ANY, .unit = "N",
      .help = "weight (in water: the submerged one), instead of mass; negative: a buoy"},
+    {"inertia", OPTIONAL, NUMBER(PointWeight, inertia), NOT_NEGATIVE, .unit = "kg",
+     .help = "mass that moves with the node in time; by default its mass, 0 of a weight"},
     {"volume", OPTIONAL, NUMBER(PointWeight, volume), NOT_NEGATIVE, .unit = "m3", .with = "mass",
      .fallback = "0", .help = "of the water it displaces"},
 };
 
-static void begin_point_weight(void *values) { ((CpsiPointWeightValues *)values)->mass = NAN; }
+static void begin_point_weight(void *values) {
+    CpsiPointWeightValues *point = values;
+    point->mass = point->inertia = NAN;
+}
 
 static const CpsiMapping POINT_WEIGHT = {"point weight", KEYS(POINT_WEIGHT_KEYS), INTO(PointWeight),
                                          .definition = "point_weight", .begin = begin_point_weight};
@@ -337,11 +403,19 @@ static const CpsiKey TYPE_KEYS[] = {
              "water that its diameter displaces"},
     {"weight", ONE_OF, NUMBER(Type, weight), NOT_NEGATIVE, .unit = "N/m",
      .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
+    {"inertia", OPTIONAL, NUMBER(Type, inertia), NOT_NEGATIVE, .unit = "kg/m",
+     .help = "mass per unstretched length that moves in time, with the water that goes along; by "
+             "default its mass, 0 of a weight"},
     {"diameter", OPTIONAL, NUMBER(Type, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
      .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
     {"stiffness", REQUIRED, NUMBER(Type, stiffness), 0, INFINITY, true, .unit = "N",
      .other = &(const CpsiKey){.type = MAPPING(Type, table), .inside = &STIFFNESS},
      .help = "axial stiffness EA; .inf for an inextensible type; or a table of strain and tension"},
+    {"dynamic_stiffness", OPTIONAL, NUMBER(Type, dynamic.stiffness), POSITIVE,
+     .other = &(const CpsiKey){.type = MAPPING(Type, dynamic.table), .inside = &STIFFNESS},
+     .unit = "N",
+     .help = "the axial stiffness, or its table, about the state that `stiffness` has reached; "
+             "nowhere softer than it"},
     {"breaking_load", OPTIONAL, NUMBER(Type, breaking_load), POSITIVE, .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over it"},
     {"break_at", OPTIONAL, NUMBER(Type, break_at), POSITIVE, .unit = "N",
@@ -352,7 +426,8 @@ static const CpsiKey TYPE_KEYS[] = {
 
 static void begin_type(void *values) {
     CpsiTypeValues *type = values;
-    type->mass = type->breaking_load = type->break_at = NAN;
+    type->mass = type->inertia = type->breaking_load = type->break_at = type->dynamic.stiffness =
+        NAN;
     type->friction = 1;
 }
 
@@ -392,6 +467,11 @@ static const CpsiKey LINE_KEYS[] = {
              "water that the diameter displaces"},
     {"weight", ONE_OF, NUMBER(Line, line.weight), NOT_NEGATIVE, .unit = "N/m",
      .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
+    {"inertia", OPTIONAL, NUMBER(Line, inertia), NOT_NEGATIVE, .unless = "sections", .unit = "kg/m",
+     .help = "mass per unstretched length that moves in time, with the water that goes along; by "
+             "default its mass, 0 of a weight"},
+    {"velocity", OPTIONAL, POINT(Line, line.velocity, 3), ANY, .unit = "m/s",
+     .fallback = "[0, 0, 0]", .help = "of its free nodes as the history begins"},
     {"sections", ONE_OF, LIST(Line, sections, 1), .inside = &SECTION,
      .help = "stretches of different types, in order from A to B"},
     {"diameter", OPTIONAL, NUMBER(Line, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
@@ -399,6 +479,11 @@ static const CpsiKey LINE_KEYS[] = {
     {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unless = "sections",
      .other = &(const CpsiKey){.type = MAPPING(Line, table), .inside = &STIFFNESS}, .unit = "N",
      .help = "axial stiffness EA; .inf for an inextensible line; or a table of strain and tension"},
+    {"dynamic_stiffness", OPTIONAL, NUMBER(Line, dynamic.stiffness), POSITIVE, .unless = "sections",
+     .other = &(const CpsiKey){.type = MAPPING(Line, dynamic.table), .inside = &STIFFNESS},
+     .unit = "N",
+     .help = "the axial stiffness, or its table, about the state that `stiffness` has reached; "
+             "nowhere softer than it"},
     {"breaking_load", OPTIONAL, NUMBER(Line, breaking_load), POSITIVE, .unless = "sections",
      .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over "
@@ -424,6 +509,7 @@ static void begin_line(void *values) {
     CpsiLineValues *line = values;
     line->line = cps_line_default();
     line->mass = line->count = line->breaking_load = line->break_at = line->element_length = NAN;
+    line->inertia = line->dynamic.stiffness = NAN;
 }
 
 static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};
@@ -449,124 +535,6 @@ static const CpsiKey SOLVER_KEYS[] = {
      .fallback = "\"chain\"", .help = "dense: for comparison on small lines"},
 };
 static const CpsiMapping SOLVER = {"solver", KEYS(SOLVER_KEYS)};
-
-static const CpsiKey CHANGE_KEYS[] = {
-    {"position", ONE_OF, POINT(Change, value, 3), ANY, .unit = "m",
-     .help = "move the end to this position; a free end is grabbed where it is"},
-    {"move", ONE_OF, POINT(Change, value, 3), ANY, .unit = "m",
-     .help = "move the end by this much from where the entry before has put it"},
-    {"force", ONE_OF, POINT(Change, value, 3), ANY, .unit = "N",
-     .help = "pull with this force; a held end is let go, from the force it carries"},
-    {"release", ONE_OF, FLAG(Change, yes),
-     .help = "true: let the end go at once, without force, also from its point"},
-};
-static const CpsiMapping CHANGE = {"change", KEYS(CHANGE_KEYS), INTO(Change), WHICH(Change, kind)};
-
-static const CpsiKey POINT_CHANGE_KEYS[] = {
-    {"position", ONE_OF, POINT(Change, value, 3), ANY, .unit = "m",
-     .help = "move the point to this position; a free one is grabbed where it is"},
-    {"move", ONE_OF, POINT(Change, value, 3), ANY, .unit = "m",
-     .help = "move it by this much from where the entry before has put it"},
-    {"force", ONE_OF, POINT(Change, value, 3), ANY, .unit = "N",
-     .help = "pull it with this force; a held one is let go, from the force that holds it"},
-};
-static const CpsiMapping POINT_CHANGE = {"change", KEYS(POINT_CHANGE_KEYS), INTO(Change),
-                                         .definition = "point_change", WHICH(Change, kind)};
-
-static const CpsiKey BODY_CHANGE_KEYS[] = {
-    {"position", OPTIONAL, POINT(BodyChange, position, 3), ANY, .unit = "m",
-     .help = "hold the body, and move its reference point to this position"},
-    {"move", OPTIONAL, POINT(BodyChange, move, 3), ANY, .unit = "m", .unless = "position",
-     .help = "move it by this much from where the entry before has put it"},
-    {"rotation", OPTIONAL, MAPPING(BodyChange, rotation), .inside = &ROTATION,
-     .help = "hold the body, and turn it to this rotation, the short way about one axis"},
-    {"force", OPTIONAL, POINT(BodyChange, force, 3), ANY, .unit = "N", .fallback = "[0, 0, 0]",
-     .help = "load the body; one that is held is let go, from the load that holds it"},
-    {"moment", OPTIONAL, POINT(BodyChange, moment, 3), ANY, .unit = "N m", .fallback = "[0, 0, 0]",
-     .help = "moment about its reference point, likewise"},
-    {"arm", OPTIONAL, POINT(BodyChange, arm, 3), ANY, .unit = "m", .with = "force",
-     .fallback = "[0, 0, 0]",
-     .help = "from its reference point to where the force acts, in the scene's axes, whatever its "
-             "rotation: the moment gains arm x force"},
-};
-static const CpsiMapping BODY_CHANGE = {
-    "change", KEYS(BODY_CHANGE_KEYS), INTO(BodyChange), .definition = "body_change",
-    .also = "\"oneOf\": [{\"anyOf\": [{\"required\": [\"position\"]}, {\"required\": [\"move\"]}, "
-            "{\"required\": [\"rotation\"]}]}, {\"anyOf\": [{\"required\": [\"force\"]}, "
-            "{\"required\": [\"moment\"]}]}]"};
-static const CpsiKey GRASP_KEYS[] = {
-    {"at", REQUIRED, NUMBER(Grasp, at), NOT_NEGATIVE, .unit = "m",
-     .help = "natural length from end A; the node between the ends that is nearest is grasped"},
-    {"position", ONE_OF, POINT(Grasp, value, 3), ANY, .unit = "m",
-     .help = "hold the node where it is, and move it to this position"},
-    {"hold", ONE_OF, FLAG(Grasp, yes), .help = "true: hold the node where it is"},
-    {"force", ONE_OF, POINT(Grasp, value, 3), ANY, .unit = "N",
-     .help = "pull it with this force; one that is held is let go, from the force that holds it"},
-    {"release", ONE_OF, FLAG(Grasp, yes), .help = "true: let the node go at once, without force"},
-};
-static const CpsiMapping GRASP = {"grasp", KEYS(GRASP_KEYS), INTO(Grasp), WHICH(Grasp, kind)};
-
-static const CpsiKey SHIFT_KEYS[] = {
-    {"move", OPTIONAL, POINT(Shift, move, 3), ANY, .unit = "m", .fallback = "[0, 0, 0]",
-     .help = "move the obstacle by this much in this entry; what sticks to it moves with it"},
-    {"turn", OPTIONAL, NUMBER(Shift, turn), ANY, .unit = "degrees", .with = "axis",
-     .help = "turn it by so much, by the right-hand rule about the axis given"},
-    {"axis", OPTIONAL, POINT(Shift, axis, 3), ANY, .with = "turn",
-     .help = "direction of the axis that it turns about, of any length but zero"},
-    {"about", OPTIONAL, POINT(Shift, about, 3), ANY, .unit = "m", .with = "turn",
-     .fallback = "[0, 0, 0]",
-     .help = "a point of that axis as the entry begins; a move takes it along"},
-};
-
-static void begin_shift(void *values) { ((CpsiShiftValues *)values)->turn = NAN; }
-
-static const CpsiMapping SHIFT = {
-    "change",
-    KEYS(SHIFT_KEYS),
-    INTO(Shift),
-    .definition = "obstacle_change",
-    .begin = begin_shift,
-    .also = "\"anyOf\": [{\"required\": [\"move\"]}, {\"required\": [\"turn\"]}]"};
-
-static const CpsiKey STAGE_KEYS[] = {
-    {"name", OPTIONAL, TEXT(Stage, stage.name, 0),
-     .help = "name of the entry in the results; by default its number"},
-    {"steps", OPTIONAL, INTEGER(Stage, stage.step_count), 1, 1e6, false, .fallback = "1",
-     .help = "go there in so many equal load steps"},
-    {"gravity", OPTIONAL, POINT(Stage, stage.gravity, 3), ANY, .unit = "m/s2",
-     .help = "what gravity becomes in this entry, evenly over its steps; the weight of all "
-             "lines goes with it"},
-    {"LINE.END", OPTIONAL, OWNED(Stage, changes), .owner = "lines", .after = "A B",
-     .inside = &CHANGE,
-     .help = "what happens to an end of a line, as in cable.B; all other ends stay as they are"},
-    {"LINE.node", OPTIONAL, OWNED(Stage, grasps), .owner = "lines",
-     .after = "node node2 node3 node4", .inside = &GRASP,
-     .help =
-         "what happens to a node between the ends of a line, as in cable.node; to others of the "
-         "same line in the same entry cable.node2 to cable.node4"},
-    {"OBSTACLE.turn", OPTIONAL, OWNED_NUMBERS(Stage, turns), ANY, .owner = "obstacles",
-     .after = "turn", .unit = "degrees",
-     .help = "turn a cylinder or ball by so much in this entry, as in drum.turn, by the "
-             "right-hand rule about its axis"},
-    {"POINT.point", OPTIONAL, OWNED(Stage, point_changes), .owner = "points", .after = "point",
-     .inside = &POINT_CHANGE,
-     .help = "what happens to a point where lines meet, as in knot.point; all others stay as they "
-             "are"},
-    {"BODY.body", OPTIONAL, OWNED(Stage, body_changes), .owner = "bodies", .after = "body",
-     .inside = &BODY_CHANGE,
-     .help = "what happens to a body, as in spar.body; all others stay as they are"},
-    {"OBSTACLE.obstacle", OPTIONAL, OWNED(Stage, shifts), .owner = "obstacles", .after = "obstacle",
-     .inside = &SHIFT,
-     .help = "how an obstacle moves, as in bollard.obstacle; all others stay where they are"},
-};
-
-static void begin_stage(void *values) {
-    CpsStage *stage = &((CpsiStageValues *)values)->stage;
-    *stage = cps_stage_default();
-    stage->gravity[0] = NAN; /* not given */
-}
-
-static const CpsiMapping STAGE = {"entry", KEYS(STAGE_KEYS), INTO(Stage), .begin = begin_stage};
 
 static const CpsiKey SCENE_KEYS[] = {
     {"capstan", REQUIRED, INTEGER(Scene, version), 1, 1, false,
@@ -603,9 +571,13 @@ static const CpsiKey SCENE_KEYS[] = {
      .formerly = "contact", .former_words = "gained strict", .fallback = "\"reached\"",
      .help = "reached: no node ends a step below the obstacle; reference: only nodes that touch "
              "it in the configuration the step starts from are kept out"},
+    {"time_scheme", OPTIONAL, WORD(Scene, scene.time_scheme), .words = "bdf2 euler",
+     .fallback = "\"bdf2\"",
+     .help = "of steps in time: bdf2 is of second order; euler is of first order, and never gains "
+             "energy"},
     {"solver", OPTIONAL, AROUND, .inside = &SOLVER, .fallback = "{}",
      .help = "how steps are solved"},
-    {"history", OPTIONAL, LIST(Scene, history, 0), .inside = &STAGE, .fallback = "[]",
+    {"history", OPTIONAL, LIST(Scene, history, 0), .inside = &cpsi_stage_keys, .fallback = "[]",
      .help = "what happens to the lines' ends, to points, to bodies and to obstacles that turn or "
              "move, in turn"},
 };

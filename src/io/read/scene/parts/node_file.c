@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A table of nodes as CSV (see node_file.h). Cells are terminated in place, so that messages can
  * give their columns. */
-#include "io/read/scene/node_file.h"
+#include "io/read/scene/parts/node_file.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What acts on the nodes of a line beside its weight (field.h): on node j the force
+ *
+ *     load_j - K_j (x_j - a_j),      with the energy  (x_j - a_j)'K_j (x_j - a_j)/2 - load_j.x_j
+ *
+ * K_j is symmetric, and 0 or more in every direction. Whoever takes a step fills the arrays before
+ * it; they may change from one substep to the next, and are 0 until they are filled. Several terms
+ * add up: K is their sum, and K a the sum of their K a (cpsi_line_field_add). */
+#ifndef CAPSTAN_SRC_CABLE_NODE_FIELD_H
+#define CAPSTAN_SRC_CABLE_NODE_FIELD_H
+
+#include "base/vec3.h"
+
+typedef struct CpsiNodeField {
+    double *load; /* (n, 3) [N] a load of each node; NULL: none */
+    /* (n, 6) [N/m] K as xx, xy, yy, xz, yz, zz; NULL: there is none, and the rest is not read */
+    double *stiffness;
+    double *place; /* (n, 3) [m] a, in the axes and from the origin of line->position */
+    /* [N] size of the forces that it causes, where K (x_R - a) is no measure of it as for a mass
+     * that goes on; 0: the sum of the |K (x_R - a)| */
+    double size;
+    /* left by a step: (n, 3) [m] y, small: in the balance of forces the field is taken at x + y,
+     * whose part of the gap is y'K y/2 */
+    double *beside;
+    double *program; /* (n, 6) K in the axes and units of a program */
+} CpsiNodeField;
+
+/* K v for K (6). */
+Vec3 cpsi_node_field_product(const double k[6], Vec3 v);
+
+/* [N] The force -K (x - a) on node j at x, 0 where there is no K; and with the load of the node. */
+Vec3 cpsi_node_field_force(const CpsiNodeField *field, int j, Vec3 x);
+Vec3 cpsi_node_field_at(const CpsiNodeField *field, int j, Vec3 x);
+
+#endif

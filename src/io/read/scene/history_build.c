@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The history: from the values of a scene file to the scene's stages (see scene_build.h). */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/math.h"
+#include "io/read/scene/scene_build.h"
+
+/* A duration that is a whole number of steps may be so but for rounding. */
+static const double ROUNDING = 1e-12;
+
+/* Whether this is the name before the last dot of NAME.WHAT. */
+static bool is_owner(const char *name, const char *key) {
+    const size_t n = (size_t)(strrchr(key, '.') - key);
+    return strncmp(name, key, n) == 0 && !name[n];
+}
+
+/* The index of the line of LINE.END; the reader has checked that it exists. */
+static int find_line(const CpsiHistoryBuild *b, const char *key) {
+    int i = 0;
+    while (i + 1 < b->scene->line_count && !is_owner(b->scene->line[i].name, key)) i++;
+    return i;
+}
+
+/* The index of the obstacle of OBSTACLE.turn, likewise. */
+static int find_obstacle(const CpsiHistoryBuild *b, const char *key) {
+    int i = 0;
+    while (i + 1 < b->scene->obstacle_count && !is_owner(b->scene->obstacle[i].name, key)) i++;
+    return i;
+}
+
+/* The position or force that a change asks for; `held` is where what it changes is held before it,
+ * NaN: not known, and becomes where it is held after it. */
+static void build_value(const CpsiChangeValues *values, double held[3], double out[3]) {
+    const bool move = values->kind == CPSI_CHANGE_MOVE, force = values->kind == CPSI_CHANGE_FORCE;
+    for (int i = 0; i < 3; i++) {
+        out[i] = values->value[i];
+        if (move) out[i] += held[i];
+        held[i] = force ? NAN : out[i];
+    }
+}
+
+/* The index of the point of POINT.point, likewise. */
+static int find_owner_point(const CpsiHistoryBuild *b, const char *key) {
+    int i = 0;
+    while (i + 1 < b->scene->point_count && !is_owner(b->scene->point[i].name, key)) i++;
+    return i;
+}
+
+/* An end that is let go; it is at no point from then on. */
+static CpsStatus build_release(const CpsiHistoryBuild *b, const CpsiChangeValues *values,
+                               CpsChange *change) {
+    if (!values->yes)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': found false, expected true; leave the key out to leave "
+                                  "the end as it is",
+                                  values->node->key);
+    *change = (CpsChange){.line = change->line,
+                          .end = change->end,
+                          .to = {.kind = CPS_END_KIND_RELEASED}};
+    b->held.end[change->line][change->end][0] = NAN;
+    b->held.released[change->line][change->end] = true;
+    return CPS_OK;
+}
+
+/* An oscillation has a size, and what is let go none. */
+static CpsStatus check_sway(const CpsiHistoryBuild *b, const CpsiChangeValues *values) {
+    const CpsiYaml *period = cpsi_yaml_child(values->node, "period");
+    if (!period) return CPS_OK;
+    if (values->kind == CPSI_CHANGE_RELEASE)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, period,
+                                  "'period': found beside 'release': what is let go does not "
+                                  "oscillate");
+    if (!cpsi_yaml_child(values->node, "sine") && !cpsi_yaml_child(values->node, "cosine"))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, period,
+                                  "'period': nothing oscillates, expected 'sine' or 'cosine' "
+                                  "beside it");
+    return CPS_OK;
+}
+
+static CpsStatus build_change(const CpsiHistoryBuild *b, const CpsiChangeValues *values,
+                              CpsChange *change) {
+    const char *key = values->node->key;
+    *change = (CpsChange){.line = find_line(b, key)};
+    change->end = key[strlen(key) - 1] == 'A' ? CPS_END_A : CPS_END_B;
+    if (values->kind == CPSI_CHANGE_RELEASE) {
+        const CpsStatus status = check_sway(b, values);
+        return status ? status : build_release(b, values, change);
+    }
+    change->to.kind = values->kind == CPSI_CHANGE_FORCE ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
+    const CpsLine *line = &b->scene->line[change->line];
+    const bool at_point = line->end[change->end].kind == CPS_END_KIND_POINT &&
+                          !b->held.released[change->line][change->end];
+    const char *point = at_point ? b->scene->point[line->end_point[change->end]].name : NULL;
+    double *held = b->held.end[change->line][change->end];
+    if (point)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': this end is at the point '%s', expected a change of the "
+                                  "point: write '%s.point', or release the end in an entry before",
+                                  key, point, point);
+    if (values->kind == CPSI_CHANGE_MOVE && isnan(held[0]))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
+                                  "'%s': found a move, but the end's position before it is not "
+                                  "known (it is free, or held at "
+                                  "the end of an arc): give a position instead",
+                                  key);
+    build_value(values, held, change->to.value);
+    return check_sway(b, values);
+}
+
+static CpsStatus build_point_change(const CpsiHistoryBuild *b, const CpsiChangeValues *values,
+                                    CpsPointChange *change) {
+    const char *key = values->node->key;
+    change->point = find_owner_point(b, key);
+    const CpsPoint *point = &b->scene->point[change->point];
+    if (point->kind == CPS_POINT_KIND_ON_BODY)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': this point is on the body '%s', expected a change of the "
+                                  "body: write '%s.body'",
+                                  key, b->scene->body[point->body].name,
+                                  b->scene->body[point->body].name);
+    change->kind = values->kind == CPSI_CHANGE_FORCE ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_HELD;
+    double *held = b->held.point[change->point];
+    const bool drags = b->scene->point[change->point].drags;
+    if (values->kind == CPSI_CHANGE_MOVE && isnan(held[0]))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node->child,
+                                  "'%s': found a move, but the point's position before it is not "
+                                  "known (it is free%s): give a position instead",
+                                  key, drags ? ", or an anchor that drags" : "");
+    build_value(values, held, change->value);
+    if (drags) held[0] = NAN;
+    return CPS_OK;
+}
+
+/* The index of the body of BODY.body, likewise. */
+static int find_owner_body(const CpsiHistoryBuild *b, const char *key) {
+    int i = 0;
+    while (i + 1 < b->scene->body_count && !is_owner(b->scene->body[i].name, key)) i++;
+    return i;
+}
+
+static CpsStatus build_body_changes(const CpsiHistoryBuild *b, const CpsiList *changes,
+                                    CpsStage *stage) {
+    const CpsiBodyChangeValues *values = changes->item;
+    CpsBodyChange *change = CPSI_POOL_TAKE(b->pool, changes->count, CpsBodyChange);
+    if (!change) return cpsi_document_no_memory(b->d);
+    stage->body_change = change;
+    stage->body_change_count = changes->count;
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < changes->count && status == CPS_OK; k++) {
+        change[k].body = find_owner_body(b, values[k].node->key);
+        status =
+            cpsi_body_change_build(b->d, &values[k], &b->held.body[change[k].body], &change[k]);
+    }
+    return status;
+}
+
+static CpsStatus build_changes(const CpsiHistoryBuild *b, const CpsiStageValues *values,
+                               CpsStage *stage) {
+    const int count = values->changes.count, point_count = values->point_changes.count;
+    const CpsiChangeValues *from = values->changes.item, *point_from = values->point_changes.item;
+    CpsChange *change = CPSI_POOL_TAKE(b->pool, count, CpsChange);
+    CpsPointChange *point_change = CPSI_POOL_TAKE(b->pool, point_count, CpsPointChange);
+    CpsSway *sway = CPSI_POOL_TAKE(b->pool, count, CpsSway);
+    if (!change || !point_change || !sway) return cpsi_document_no_memory(b->d);
+    stage->change = change;
+    stage->change_count = count;
+    stage->sway = sway;
+    stage->point_change = point_change;
+    stage->point_change_count = point_count;
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < count && status == CPS_OK; k++)
+        status = build_change(b, &from[k], &change[k]);
+    for (int k = 0; k < count; k++) {
+        if (isnan(from[k].sway.period)) continue;
+        sway[stage->sway_count] = from[k].sway;
+        sway[stage->sway_count].line = change[k].line;
+        sway[stage->sway_count++].end = change[k].end;
+    }
+    for (int k = 0; k < point_count && status == CPS_OK; k++)
+        status = build_point_change(b, &point_from[k], &point_change[k]);
+    return status ? status : build_body_changes(b, &values->body_changes, stage);
+}
+
+/* The node between the ends that is nearest to an arc length; 0: there is none. */
+static int nearest_node(const CpsLine *line, double at) {
+    double arc = 0, least = INFINITY;
+    int nearest = 0;
+    for (int j = 1; j < line->element_count; j++) {
+        arc +=
+            line->element_length ? line->element_length[j - 1] : line->length / line->element_count;
+        if (!(fabs(arc - at) < least)) continue;
+        least = fabs(arc - at);
+        nearest = j;
+    }
+    return nearest;
+}
+
+static CpsStatus build_grasp(const CpsiHistoryBuild *b, const CpsiGraspValues *values,
+                             CpsGraspChange *change) {
+    const bool flag = values->kind == CPSI_GRASP_HOLD || values->kind == CPSI_GRASP_RELEASE;
+    const char *key = values->node->key;
+    change->line = find_line(b, key);
+    const CpsLine *line = &b->scene->line[change->line];
+    change->node = nearest_node(line, values->at);
+    if (values->at > line->length || change->node == 0)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "at"),
+                                  "'%s': found at %g m, expected a length up to that of the line, "
+                                  "%g m, which has at least two elements",
+                                  key, values->at, line->length);
+    if (flag && !values->yes)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': found false, expected true; leave the key out to leave "
+                                  "the node as it is",
+                                  key);
+    const bool held = values->kind == CPSI_GRASP_POSITION || values->kind == CPSI_GRASP_HOLD;
+    change->kind = held ? CPS_END_KIND_HELD : CPS_END_KIND_FREE;
+    change->stays = values->kind == CPSI_GRASP_HOLD;
+    change->at_once = values->kind == CPSI_GRASP_RELEASE;
+    if (!flag) memcpy(change->value, values->value, sizeof change->value);
+    return CPS_OK;
+}
+
+static CpsStatus build_grasps(const CpsiHistoryBuild *b, const CpsiList *grasps, CpsStage *stage) {
+    const CpsiGraspValues *from = grasps->item;
+    CpsGraspChange *change = CPSI_POOL_TAKE(b->pool, grasps->count, CpsGraspChange);
+    if (!change) return cpsi_document_no_memory(b->d);
+    stage->grasp_change = change;
+    stage->grasp_change_count = grasps->count;
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < grasps->count && status == CPS_OK; k++)
+        status = build_grasp(b, &from[k], &change[k]);
+    return status;
+}
+
+static CpsStatus build_shift(const CpsiHistoryBuild *b, const CpsiShiftValues *values,
+                             CpsShift *shift) {
+    const double *axis = values->axis, size = hypot(hypot(axis[0], axis[1]), axis[2]),
+                 angle = isnan(values->turn) ? 0 : values->turn * CPSI_DEGREE;
+    if (!cpsi_yaml_child(values->node, "move") && isnan(values->turn))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                                  "'%s': nothing given, expected 'move', or 'turn' with its 'axis'",
+                                  values->node->key);
+    if (!isnan(values->turn) && !(size > 0))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, cpsi_yaml_child(values->node, "axis"),
+                                  "'axis': found a vector of no length, expected a direction");
+    shift->obstacle = find_obstacle(b, values->node->key);
+    for (int i = 0; i < 3; i++) {
+        shift->by[i] = values->move[i];
+        shift->turn[i] = angle != 0 ? angle * (axis[i] / size) : 0;
+        shift->about[i] = values->about[i];
+    }
+    return CPS_OK;
+}
+
+static CpsStatus build_shifts(const CpsiHistoryBuild *b, const CpsiList *shifts, CpsStage *stage) {
+    const CpsiShiftValues *from = shifts->item;
+    CpsShift *shift = CPSI_POOL_TAKE(b->pool, shifts->count, CpsShift);
+    if (!shift) return cpsi_document_no_memory(b->d);
+    stage->shift = shift;
+    stage->shift_count = shifts->count;
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < shifts->count && status == CPS_OK; k++)
+        status = build_shift(b, &from[k], &shift[k]);
+    return status;
+}
+
+/* Say which obstacles the history moves. */
+static void find_moving(const CpsiHistoryBuild *b, const CpsiList *history) {
+    const CpsiStageValues *values = history->item;
+    for (int i = 0; i < history->count; i++) {
+        const CpsiShiftValues *shift = values[i].shifts.item;
+        for (int k = 0; k < values[i].shifts.count; k++)
+            b->obstacle[find_obstacle(b, shift[k].node->key)].moves = true;
+    }
+}
+
+/* The number of steps of a duration, none of which is longer than given. */
+static CpsStatus count_steps(const CpsiHistoryBuild *b, const CpsiStageValues *values,
+                             CpsStage *stage) {
+    const double count = ceil(stage->duration / values->time_step * (1 - ROUNDING));
+    if (!(count <= (double)b->d->limits->max_steps))
+        return cpsi_document_fail(b->d, CPS_ERR_LIMIT, cpsi_yaml_child(values->node, "time_step"),
+                                  "'time_step': %.15g steps of %g s, the limit is %lld", count,
+                                  values->time_step, (long long)b->d->limits->max_steps);
+    stage->step_count = count > 1 ? (int)count : 1;
+    return CPS_OK;
+}
+
+/* Which stiffness a stage uses; that of a scene without dynamic ones is not chosen. */
+static CpsStatus build_stiffness(const CpsiHistoryBuild *b, const CpsiStageValues *values,
+                                 CpsStage *stage) {
+    const CpsiYaml *given = cpsi_yaml_child(values->node, "stiffness");
+    bool any = false;
+    for (int i = 0; i < b->scene->line_count; i++) {
+        const CpsLine *line = &b->scene->line[i];
+        any = any || (line->section_count == 0 && line->has_dynamic_stiffness);
+        for (int k = 0; k < line->section_count; k++)
+            any = any || line->section[k].has_dynamic_stiffness;
+    }
+    stage->static_stiffness = values->stiffness == 1;
+    if (!given || any) return CPS_OK;
+    return cpsi_document_fail(b->d, CPS_ERR_INPUT, given,
+                              "'stiffness': found %s, but no line has a 'dynamic_stiffness': leave "
+                              "the key out, or give one",
+                              values->stiffness == 1 ? "static" : "dynamic");
+}
+
+static CpsStatus build_stage(const CpsiHistoryBuild *b, const CpsiStageValues *values, int index,
+                             CpsStage *stage) {
+    const CpsiNumberItem *turns = values->turns.item;
+    char number[32];
+    snprintf(number, sizeof number, "entry %d", index + 1);
+    *stage = values->stage;
+    if (!isnan(values->time_step)) {
+        const CpsStatus status = count_steps(b, values, stage);
+        if (status != CPS_OK) return status;
+    }
+    const char *name = stage->name ? stage->name : number;
+    stage->name = cpsi_pool_text(b->pool, name, strlen(name));
+    stage->gravity_changes = !isnan(stage->gravity[0]);
+    if (!stage->gravity_changes) stage->gravity[0] = 0;
+
+    CpsTurn *turn = CPSI_POOL_TAKE(b->pool, values->turns.count, CpsTurn);
+    if (!stage->name || !turn) return cpsi_document_no_memory(b->d);
+    stage->turn = turn;
+    stage->turn_count = values->turns.count;
+    for (int k = 0; k < stage->turn_count; k++)
+        turn[k] = (CpsTurn){.obstacle = find_obstacle(b, turns[k].node->key),
+                            .angle = turns[k].number * CPSI_DEGREE};
+    CpsStatus status = build_stiffness(b, values, stage);
+    if (status == CPS_OK) status = build_changes(b, values, stage);
+    if (status == CPS_OK) status = build_shifts(b, &values->shifts, stage);
+    return status == CPS_OK ? build_grasps(b, &values->grasps, stage) : status;
+}
+
+CpsStatus cpsi_history_build(const CpsiHistoryBuild *b, const CpsiList *history) {
+    const CpsiStageValues *values = history->item;
+    if (history->count == 0) return CPS_OK;
+    find_moving(b, history);
+    CpsStage *stage = CPSI_POOL_TAKE(b->pool, history->count, CpsStage);
+    if (!stage) return cpsi_document_no_memory(b->d);
+    b->scene->stage = stage;
+    b->scene->stage_count = history->count;
+    int64_t steps = 0;
+    for (int i = 0; i < history->count; i++) {
+        const CpsStatus status = build_stage(b, &values[i], i, &stage[i]);
+        if (status != CPS_OK) return status;
+        steps += stage[i].step_count;
+        if (steps > b->d->limits->max_steps)
+            return cpsi_document_fail(b->d, CPS_ERR_LIMIT, values[i].node,
+                                      "history: %lld load steps so far, the limit is %lld",
+                                      (long long)steps, (long long)b->d->limits->max_steps);
+    }
+    return CPS_OK;
+}
