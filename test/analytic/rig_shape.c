@@ -65,8 +65,9 @@ static double core_of(const CpsObstacle *o, const double *x, double *core, doubl
         radial = on * s;
         axial = o->radius + on * c;
     }
-    for (int k = 0; k < 3 && o->kind != CPS_OBSTACLE_BOX; k++)
-        core[k] = axial * axis[k] + (across > 0 ? radial * flat[k] / across : 0);
+    if (o->kind != CPS_OBSTACLE_BOX)
+        for (int k = 0; k < 3; k++)
+            core[k] = axial * axis[k] + (across > 0 ? radial * flat[k] / across : 0);
     for (int k = 0; k < 3; k++) out[k] = arm[k] - core[k];
     distance = sqrt(dot(out, out));
     for (int k = 0; k < 3; k++) out[k] = distance > 0 ? out[k] / distance : 0;
