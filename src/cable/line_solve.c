@@ -342,15 +342,20 @@ static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
 static CpsiIpmReport polish(CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale,
                             const CpsiRound *round, int max_iterations) {
     cpsi_warm_step_note_round(line, program);
-    return solve_by_newton(line, program, scale, round, CPSI_GUESS_SOLUTION, max_iterations);
+    const CpsiIpmReport newton =
+        solve_by_newton(line, program, scale, round, CPSI_GUESS_SOLUTION, max_iterations);
+    line->newton.unpolished = newton.outcome != CPSI_IPM_SOLVED;
+    return newton;
 }
 
 /* Does Newton's method treat what acts in the solution of the loop: tension everywhere, and no
- * contacts of elements or second ones? */
+ * contacts of elements? */
 static bool can_polish(CpsiLine *line, const CpsiChainProgram *program) {
     const CpsiUnilateral *unilateral = &program->unilateral;
     for (int k = 0; k < unilateral->count; k++)
-        if (unilateral->contact[k] >= line->n && unilateral->z[k] > unilateral->s[k]) return false;
+        if (unilateral->contact[k] >= cpsi_line_contacts(line) &&
+            unilateral->z[k] > unilateral->s[k])
+            return false;
     cpsi_places_as_found(line, program);
     return line->report.places == CPS_PLACES_UNIQUE;
 }
@@ -415,7 +420,7 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
     const bool refined = round->centering && !line->is_rough;
     /* where rounds follow, which go on from an exact solution; on a plane nodes at their limit keep
      * the state that the refined loop finds */
-    const bool polished = by_newton && line->has_local_axes;
+    const bool polished = by_newton && line->has_local_axes && !line->newton.unpolished;
     cpsi_step_program_fill(line, program, &scale);
     scale.force = force;
     CpsiIpmReport ipm = run_loop(line, program, options, &scale, refined && !polished, false);

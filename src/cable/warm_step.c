@@ -87,18 +87,22 @@ static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
     return aside <= SAME_WAY * SAME_WAY * size ? ratio : 0;
 }
 
-/* Does the method treat all contacts that the line has now? Not those of elements, second ones, and
- * those with boxes and sets whose boundary is not known. */
-static bool treats_contacts(const CpsiLine *line) {
+/* How far the method treats the contacts that the line has now: not those of elements, and those
+ * with boxes and sets whose boundary is not known; second ones from the solution of a round on,
+ * since a line may rest in a corner, or slide along it, under the same forces. */
+static CpsiGuess treated_contacts(const CpsiLine *line) {
+    CpsiGuess best = CPSI_GUESS_EXTRAPOLATED;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
         if (!obstacle || line->state[c] == CPS_NODE_STATE_FREE) continue;
-        if (c >= line->n || (!obstacle->has_set && obstacle->shape == CPS_FRICTION_SHAPE_BOX))
-            return false;
+        if (c >= cpsi_line_contacts(line) ||
+            (!obstacle->has_set && obstacle->shape == CPS_FRICTION_SHAPE_BOX))
+            return CPSI_GUESS_NONE;
         const CpsiFrictionSet *given = cpsi_line_friction_law(line, c).given;
-        if (given && !cpsi_friction_set_shape(given)) return false;
+        if (given && !cpsi_friction_set_shape(given)) return CPSI_GUESS_NONE;
+        if (c >= line->n) best = CPSI_GUESS_LATER;
     }
-    return true;
+    return best;
 }
 
 CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
@@ -107,12 +111,13 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
     const double ratio = ratio_of(line, &now);
     const bool settled = line->last_change.known;
     line->newton.tried = line->newton.solved = line->newton.failed = 0;
-    line->newton.guessed = line->newton.began = false;
+    line->newton.guessed = line->newton.began = line->newton.unpolished = false;
     line->last_change = now;
     if (options->frictionless) line->last_change.known = false;
-    if (options->frictionless || options->solver.cold || !treats_contacts(line))
+    const CpsiGuess treated = treated_contacts(line);
+    if (options->frictionless || options->solver.cold || treated == CPSI_GUESS_NONE)
         return CPSI_GUESS_NONE;
-    if (!settled) return CPSI_GUESS_LATER;
+    if (!settled || treated == CPSI_GUESS_LATER) return CPSI_GUESS_LATER;
     if (line->newton.pause > 0) {
         line->newton.pause--;
         return CPSI_GUESS_LATER;
@@ -251,10 +256,12 @@ static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const C
         const int c = disc->contact[d];
         const double over = line->friction_bound[c] > 0 ? 1 / line->friction_bound[c] : 0;
         disc->s[d][0] = slipped(line, c, guess);
-        if (!disc->shape || !disc->shape[d]) continue;
+        const bool shaped = disc->shape && disc->shape[d];
+        if (!shaped && line->contacts < 2) continue; /* it is in no corner */
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
-        for (int a = 0; a < 2; a++) disc->z[d][1 + a] = over * f[a];
+        for (int a = 0; a < 2; a++)
+            disc->z[d][1 + a] = shaped ? over * f[a] : f[a] / (scale->force * disc->weight[d]);
     }
 }
 

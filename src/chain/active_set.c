@@ -31,6 +31,8 @@ static const double PROGRESS = 0.9;
 /* Rounding in units of the last place: of an elongation or a balance, by a few operations; and of a
  * force between nodes at rest, by their coordinates and those of the reference. */
 static const double ROUNDINGS = 16, COORDINATE_ROUNDINGS = 64;
+/* ... which is at most this per largest force: the certificate asks for it (CPSI_CLEAN). */
+static const double MOST_NOISE = 1e-11;
 
 static inline void to_node(const CpsiChainProgram *program, int j, double v[3]) {
     if (!program->frame) return;
@@ -76,12 +78,19 @@ static void measure(CpsiNewton *newton) {
 
 static void set_rounding(CpsiNewton *newton) {
     const CpsiChainProgram *program = newton->program;
-    double shortest = 1, farthest = 0;
-    for (int i = 1; i < program->n; i++) shortest = fmin(shortest, program->segment.length[i]);
+    const double *factor = program->segment.compliance_factor;
+    double shortest = 1, farthest = 0, least = 1;
+    for (int i = 1; i < program->n; i++) {
+        shortest = fmin(shortest, program->segment.length[i]);
+        if (factor) least = fmin(least, factor[i - 1]);
+    }
     for (int a = 0; a < 3 * program->n; a++)
         farthest = cpsi_max_nan(farthest, fabs(program->base.u[a]));
     newton->rounding = ROUNDINGS * DBL_EPSILON * (1 + farthest / shortest);
     newton->noise = COORDINATE_ROUNDINGS * DBL_EPSILON * (1 + 1 / shortest);
+    /* ... and an elongation as a force */
+    const double stiffest = program->segment.compliance * least;
+    newton->noise = fmax(newton->noise, fmin(newton->rounding / stiffest, MOST_NOISE));
 }
 
 /* Decide the active set at the present iterate, and set up its linear system. Returns the error of
@@ -139,11 +148,18 @@ static void finish_shaped(const CpsiNewton *newton, int d) {
     }
 }
 
+static void turn(const double map[6], double v[2]) {
+    const double x = v[0], y = v[1];
+    v[0] = map[0] * x + map[1] * y;
+    v[1] = map[3] * x + map[4] * y;
+}
+
 /* The pair (s, z) of disc d. */
 static void finish_friction(const CpsiNewton *newton, int d) {
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
     double *s = disc->s[d], *z = disc->z[d];
+    if (cpsi_newton_is_corner(newton, disc->node[d])) return;
     if (!cpsi_newton_has_friction(newton, d)) {
         memset(s, 0, sizeof disc->s[d]);
         if (program->bounds_coupled) memset(z, 0, sizeof disc->z[d]);
@@ -165,6 +181,10 @@ static void finish_friction(const CpsiNewton *newton, int d) {
         s[1 + a] = slips ? now.s[a] : 0;
         z[1 + a] = slips && slip > CPSI_LEAST_SLIP ? -now.bound * now.s[a] / slip : keep * now.f[a];
     }
+    if (disc->map && cpsi_newton_is_turned(disc->map[d])) {
+        turn(disc->map[d], &s[1]);
+        turn(disc->map[d], &z[1]);
+    }
 }
 
 /* The pairs (s, z) of the solution. */
@@ -179,6 +199,7 @@ static void finish(const CpsiNewton *newton) {
     }
     for (int k = 0; k < unilateral->count; k++) {
         const int j = unilateral->node[k];
+        if (cpsi_newton_is_corner(newton, j)) continue;
         const bool closed =
             !cpsi_newton_is_other(program, j, k) && (newton->status[j] & CPSI_CLOSED);
         unilateral->s[k] = closed ? 0 : cpsi_newton_gap(program, k);
@@ -230,6 +251,8 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
                          .taut = bytes + 2 * n,
                          .anchored = bytes + 3 * n,
                          .piece = (int *)(bytes + 4 * n),
+                         .corner = (CpsiCorner *)(bytes + 8 * n),
+                         .most_corners = (int)(24 * n / sizeof(CpsiCorner)),
                          .frame = program->disc.shape ? program->conic.frame : NULL};
     set_rounding(&newton);
     cpsi_newton_begin(&newton);
@@ -238,11 +261,15 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
     matrix->frame = newton.frame ? newton.frame : program->frame;
     matrix->second = NULL;
     matrix->share = NULL;
-    const CpsiIpmReport report =
+    CpsiIpmReport report =
         iterate(&newton, max_iterations < MOST_STEPS ? max_iterations : MOST_STEPS);
     matrix->held = program->held;
     matrix->second = second;
     matrix->share = share;
-    if (report.outcome == CPSI_IPM_SOLVED) finish(&newton);
+    if (report.outcome != CPSI_IPM_SOLVED) return report;
+    if (cpsi_corner_finish(&newton))
+        finish(&newton);
+    else
+        report.outcome = CPSI_IPM_STALLED;
     return report;
 }

@@ -47,26 +47,12 @@ static void decide_elements(CpsiNewton *newton) {
 
 /* contacts ------------------------------------------------------------------------------------- */
 
-/* Move node j by (x, y, z) in its own axes. */
-static void move_node(CpsiNewton *newton, int j, double x, double y, double z) {
-    CpsiChainProgram *program = newton->program;
-    CpsiSegment *st = &program->segment;
-    double by[3] = {x, y, z};
-    if (x == 0 && y == 0 && z == 0) return;
-    for (int a = 0; a < 3; a++) program->base.u[3 * j + a] += by[a];
-    cpsi_newton_to_common(program, j, by);
-    for (int a = 0; a < 3; a++) {
-        if (j > 0) st->s[j][1 + a] += by[a] / st->length[j];
-        if (j + 1 < program->n) st->s[j + 1][1 + a] -= by[a] / st->length[j + 1];
-    }
-}
-
 /* Move the node of unilateral contact k onto its surface. */
 static void close_contact(CpsiNewton *newton, int k) {
     const CpsiUnilateral *unilateral = &newton->program->unilateral;
     const int j = unilateral->node[k];
     newton->status[j] |= CPSI_CLOSED;
-    move_node(newton, j, 0, 0, -unilateral->gap[k] - newton->program->base.u[3 * j + 2]);
+    cpsi_newton_move(newton, j, 0, 0, -unilateral->gap[k] - newton->program->base.u[3 * j + 2]);
 }
 
 /* Move the node of disc d back to where it has not slipped. */
@@ -74,7 +60,7 @@ static void stick(CpsiNewton *newton, int d) {
     const int j = newton->program->disc.node[d];
     const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
     newton->status[j] |= CPSI_STICKS;
-    move_node(newton, j, -now.s[0] / now.b[0], -now.s[1] / now.b[1], 0);
+    cpsi_newton_move(newton, j, -now.s[0] / now.b[0], -now.s[1] / now.b[1], 0);
 }
 
 /* Move the node of disc d back to where it has not slipped along an edge of its set. */
@@ -83,15 +69,24 @@ static void stop_along(CpsiNewton *newton, int d, const CpsiShapePiece *edge) {
     double t[2];
     cpsi_newton_tangent(edge, t);
     const double by = -cpsi_newton_dot(now.s, t);
-    move_node(newton, newton->program->disc.node[d], by * t[0], by * t[1], 0);
+    cpsi_newton_move(newton, newton->program->disc.node[d], by * t[0], by * t[1], 0);
 }
 
-/* Is the map of disc d diagonal and regular, and the disc the only one of its node? */
+/* Does a map turn the tangents of the node, and nothing else? */
+static bool is_rotation(const double b[6]) {
+    static const double ROUNDED = 1e-12;
+    return fabs(b[0] * b[0] + b[1] * b[1] - 1) <= ROUNDED && fabs(b[0] - b[4]) <= ROUNDED &&
+           fabs(b[1] + b[3]) <= ROUNDED && b[2] == 0 && b[5] == 0;
+}
+
+/* Is the map of disc d diagonal and regular, or a rotation, and the disc the only one of its
+ * contact? */
 static bool is_plain(const CpsiChainProgram *program, int d) {
     const CpsiFrictionDisc *disc = &program->disc;
     if (d > 0 && disc->node[d - 1] == disc->node[d]) return false;
     if (!disc->map) return true;
     const double *b = disc->map[d];
+    if (cpsi_newton_is_turned(b)) return is_rotation(b) && !cpsi_newton_shape(program, d);
     if (cpsi_newton_shape(program, d) && (b[0] != 1 || b[4] != 1)) return false;
     return b[0] > 0 && b[4] > 0 && b[1] == 0 && b[2] == 0 && b[3] == 0 && b[5] == 0;
 }
@@ -155,7 +150,8 @@ static void begin_piece(CpsiNewton *newton, int d) {
 static bool begin_friction(CpsiNewton *newton, int d) {
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
-    if (cpsi_newton_is_other(program, disc->node[d], disc->unilateral[d]))
+    if (cpsi_newton_is_other(program, disc->node[d], disc->unilateral[d]) ||
+        cpsi_newton_is_corner(newton, disc->node[d]))
         return program->bounds_coupled;
     if (!is_plain(program, d)) return false;
     newton->status[disc->node[d]] |= CPSI_HAS_FRICTION;
@@ -180,8 +176,10 @@ void cpsi_newton_begin(CpsiNewton *newton) {
     for (int i = 1; i < program->n; i++) newton->taut[i] = program->segment.z[i][0] > 0;
     for (int k = 0; k < unilateral->count && !newton->lost; k++) {
         if (!(unilateral->z[k] > 0)) continue;
-        newton->lost = cpsi_newton_is_other(program, unilateral->node[k], k);
-        if (!newton->lost) close_contact(newton, k);
+        if (cpsi_newton_is_other(program, unilateral->node[k], k))
+            newton->lost = !cpsi_corner_begin(newton, k - 1, k);
+        else
+            close_contact(newton, k);
     }
     for (int d = 0; d < disc->count && !newton->lost; d++)
         newton->lost = !begin_friction(newton, d);
@@ -197,6 +195,7 @@ static void decide_contacts(CpsiNewton *newton) {
     const CpsiUnilateral *unilateral = &program->unilateral;
     for (int k = 0; k < unilateral->count; k++) {
         const int j = unilateral->node[k];
+        if (cpsi_newton_is_corner(newton, j)) continue;
         const double gap = cpsi_newton_gap(program, k);
         if (cpsi_newton_is_other(program, j, k)) {
             newton->lost = newton->lost || gap < -newton->rounding;
@@ -273,7 +272,9 @@ static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction
         int most_released = MOST_RELEASED;
         for (int e = d + side; e >= 0 && e < disc->count && most_released-- > 0; e += side) {
             const int j = disc->node[e];
-            if (j != disc->node[e - side] + side || !(newton->status[j] & CPSI_STICKS)) break;
+            if (j != disc->node[e - side] + side || !(newton->status[j] & CPSI_STICKS) ||
+                cpsi_newton_is_corner(newton, j))
+                break;
             const CpsiNodeFriction next = cpsi_newton_friction(program, e);
             const double most = room_of(newton, e, &next, q);
             left -= disc->weight[e] * most;
@@ -411,6 +412,7 @@ static void decide_friction(CpsiNewton *newton) {
 void cpsi_newton_decide(CpsiNewton *newton) {
     decide_contacts(newton);
     decide_friction(newton);
+    cpsi_corner_decide(newton);
     note_held(newton);
     decide_elements(newton);
 }

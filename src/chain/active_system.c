@@ -174,6 +174,7 @@ static void load_nodes(CpsiNewton *newton) {
         }
         if (status & CPSI_STICKS) diagonal[0] = diagonal[2] = status & CPSI_STOPS ? PULLING : RIGID;
         if (has_friction) f[0] = f[1] = 0;
+        if (status & CPSI_CORNER) continue;
         for (int a = 0; a < 3; a++) error = cpsi_max_nan(error, fabs(f[a]));
     }
     newton->force_error = error;
@@ -216,6 +217,7 @@ void cpsi_newton_assemble(CpsiNewton *newton) {
     load_elements(newton);
     load_nodes(newton);
     load_contacts(newton);
+    cpsi_corner_load(newton);
 }
 
 /* Turn the direction of a node that slips against an edge to its own axes. */

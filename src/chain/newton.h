@@ -14,25 +14,35 @@
 
 /* Bits of a node's status: its contact is closed; friction may act; friction sticks; the node has
  * just landed, or stopped (one that slips against an edge of its set: along that), and is not yet
- * where that wants it; it was released and has not yet slipped in the direction of its pull. */
+ * where that wants it; it was released and has not yet slipped in the direction of its pull; both
+ * its contacts are closed, for good. */
 enum {
     CPSI_CLOSED = 1,
     CPSI_HAS_FRICTION = 2,
     CPSI_STICKS = 4,
     CPSI_LANDS = 8,
     CPSI_STOPS = 16,
-    CPSI_RELEASED = 32
+    CPSI_RELEASED = 32,
+    CPSI_CORNER = 64
 };
+
+/* A node whose two contacts are both closed: they, and the discs of their friction, -1: none; and
+ * the sign of the friction along x where it slips. */
+typedef struct CpsiCorner {
+    int node, unilateral[2], disc[2], way;
+} CpsiCorner;
 
 /* Of one solution. The bytes lie in an array of the interior-point loop that is not used here. */
 typedef struct CpsiNewton {
     CpsiChainProgram *program;
-    unsigned char *status;            /* (n) */
-    unsigned char *held;              /* (n) the node cannot move in this set */
-    unsigned char *taut;              /* (n) element i */
-    unsigned char *anchored;          /* (n) a field holds the node in all directions */
-    int *piece;                       /* (n) where the friction of a general set is on its boundary
-                                         at a node that slips */
+    unsigned char *status;   /* (n) */
+    unsigned char *held;     /* (n) the node cannot move in this set */
+    unsigned char *taut;     /* (n) element i */
+    unsigned char *anchored; /* (n) a field holds the node in all directions */
+    int *piece;              /* (n) where the friction of a general set is on its boundary at a node
+                                that slips */
+    CpsiCorner *corner;      /* (most_corners) */
+    int corner_count, most_corners;
     double *frame;                    /* (n, 9) the axes of the nodes in the linear system, those
                                          along an edge turned; NULL: as they are */
     double rounding;                  /* of an elongation, and of a force per largest force */
@@ -64,7 +74,13 @@ static inline bool cpsi_newton_may_hang(const CpsiNewton *newton, int i) {
 
 static inline double cpsi_newton_size(const double v[2]) { return sqrt(v[0] * v[0] + v[1] * v[1]); }
 
-/* The friction of a node in its tangent plane, for one disc: f = F/(w b), s = o + b u. */
+/* Does the map of a disc turn the tangents of its node, as near a corner of two obstacles? */
+static inline bool cpsi_newton_is_turned(const double *map) {
+    return map && (map[1] != 0 || map[3] != 0);
+}
+
+/* The friction of a node in its tangent plane, for one disc: f = F/(w b), s = o + b u. Where the
+ * tangents of the disc are turned from those of the node, s is in the axes of the node. */
 typedef struct CpsiNodeFriction {
     double b[2], s[2], f[2];
     double bound; /* A */
@@ -75,9 +91,13 @@ static inline CpsiNodeFriction cpsi_newton_friction(const CpsiChainProgram *prog
     const int j = disc->node[d];
     const double *u = &program->base.u[3 * j], *g = &program->base.residual[3 * j];
     CpsiNodeFriction out = {.b = {1, 1}};
+    const double *map = disc->map ? disc->map[d] : NULL,
+                 *offset = disc->offset ? disc->offset[d] : NULL;
+    const bool is_turned = cpsi_newton_is_turned(map);
     for (int a = 0; a < 2; a++) {
-        if (disc->map) out.b[a] = disc->map[d][4 * a];
-        out.s[a] = out.b[a] * u[a] + (disc->offset ? disc->offset[d][a] : 0);
+        if (map && !is_turned) out.b[a] = map[4 * a];
+        out.s[a] = out.b[a] * u[a];
+        if (offset) out.s[a] += is_turned ? map[a] * offset[0] + map[3 + a] * offset[1] : offset[a];
         out.f[a] = -g[a] / (disc->weight[d] * out.b[a]);
     }
     out.bound = program->bounds_coupled
@@ -124,11 +144,18 @@ static inline bool cpsi_newton_is_other(const CpsiChainProgram *program, int nod
            (k >= 0 && program->unilateral.normal && program->unilateral.second[k]);
 }
 
-/* May friction act on disc d? */
+/* Are both contacts of node j closed? */
+static inline bool cpsi_newton_is_corner(const CpsiNewton *newton, int j) {
+    return j < newton->program->n && (newton->status[j] & CPSI_CORNER);
+}
+
+/* May friction act on disc d, of a node with one contact? */
 static inline bool cpsi_newton_has_friction(const CpsiNewton *newton, int d) {
     const CpsiChainProgram *program = newton->program;
     const int j = program->disc.node[d];
-    if (cpsi_newton_is_other(program, j, program->disc.unilateral[d])) return false;
+    if (cpsi_newton_is_other(program, j, program->disc.unilateral[d]) ||
+        cpsi_newton_is_corner(newton, j))
+        return false;
     return !program->bounds_coupled || (newton->status[j] & CPSI_CLOSED);
 }
 
@@ -139,6 +166,26 @@ static inline double cpsi_newton_gap(const CpsiChainProgram *program, int k) {
     if (j >= program->n) cpsi_chain_point_place(program, j - program->n, program->base.u);
     return unilateral->gap[k] + cpsi_unilateral_rise(unilateral, k, program->base.u);
 }
+
+/* active_move.c */
+
+/* Move node j by (x, y, z) in its own axes. */
+void cpsi_newton_move(CpsiNewton *newton, int j, double x, double y, double z);
+
+/* active_corner.c */
+
+/* The node of unilateral contacts `first` (-1: it has none) and `second` is in a corner in the
+ * guess; it is moved to where that wants it. False where it is of a kind that is not treated. */
+bool cpsi_corner_begin(CpsiNewton *newton, int first, int second);
+
+/* Nodes that slip in corners and are pushed by their friction stop. */
+void cpsi_corner_decide(CpsiNewton *newton);
+
+/* The rows of the nodes that slip in corners, and the errors of their equations. */
+void cpsi_corner_load(CpsiNewton *newton);
+
+/* The pairs of the solution. False where a node at rest does not bear its force. */
+bool cpsi_corner_finish(const CpsiNewton *newton);
 
 /* active_status.c */
 
