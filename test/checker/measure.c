@@ -20,6 +20,7 @@
 #include "grasps.h"
 
 #include "fall.h"
+#include "inertia.h"
 
 #include <math.h>
 
@@ -291,7 +292,9 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
         for (int k = 0; k < 3; k++) seat.slip[k] = displacement[k] - rise * seat.plane[k];
     }
     seat.gap = where->reached ? surface_distance(seat.surface, x) - dot(seat.normal, u)
-                              : fmaxl(0, surface_distance(seat.surface, reference));
+                              : surface_distance(seat.surface, reference);
+    /* the reference of a step in time may lie below, no other does but for rounding */
+    if (!where->reached && !in_time(r)) seat.gap = fmaxl(0, seat.gap);
     if (!moves)
         for (int k = 0; k < 3; k++) seat.own[k] = seat.slip[k];
     subtract(nodes[j < r->elements ? j + 1 : j], nodes[j > 0 ? j - 1 : j], along);
@@ -570,6 +573,37 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
     add(&s->gravity, -dot(weight, u));
 }
 
+/* The energy of inertia, |x - x* - k v*|^2 K/2 with K = m/k^2, and its part of the gap: it takes
+ * what the other forces leave at a node that is not held, by r^2/(2 K), and `pull` is then 0. */
+static void measure_inertia(const Record *r, size_t j, Real *pull, Measures *m, Sums *s) {
+    const Real stiffness = inertia_stiffness(r, j);
+    if (!(stiffness > 0)) return;
+    Triple force = {0, 0, 0}, x, u, arm, taken;
+    inertia_add(r, j, force);
+    widen(r->position[j], x);
+    subtract(r->position[j], r->reference[j], u);
+    subtract(r->position[j], r->position[0], arm);
+    Real open = 0;
+    for (int k = 0; k < 3; k++) {
+        pull[k] += force[k];
+        taken[k] = force[k];
+        if (held(r, j)) continue;
+        open += pull[k] * pull[k];
+        taken[k] -= pull[k];
+        pull[k] = 0;
+    }
+    const Real energy = dot(force, force) / (2 * stiffness), gap = open / (2 * stiffness);
+    add(&s->primal, energy);
+    add(&s->dual, energy - gap + dot(taken, x));
+    add(&s->gap, gap);
+    add(&s->signed_gap, gap);
+    add(&s->work, fabsl(dot(force, u)));
+    add(&s->moment, size(force) * size(arm));
+    add(&s->loads, size(force));
+    add(&s->magnitude, energy + size(force) * size(x));
+    raise_to(&m->largest_force, size(taken));
+}
+
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
@@ -592,6 +626,7 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
         measure_contact(where, r, j, c, pull, m, s);
     record_element_forces(r, j, pull);
+    measure_inertia(r, j, pull, m, s);
 
     // a held node: the dual pairs the force of the support with the imposed position; a free one
     // must balance
