@@ -9,8 +9,8 @@
  * Only the turn towards the obstacle causes a reaction: asin(e.n) - asin(e'.n), e and e' the
  * directions of the two forces. A line bent sideways on a surface is held by friction whose
  * reaction comes from its weight or from other bends, and the mesh does not change the law there.
- * Nor does a turn cause a reaction on a plane: both elements of a node on a plane lead away from
- * it. */
+ * Nor does a turn cause a reaction on a plane, or inside of what is convex: both elements of a node
+ * there lead away from the surface. */
 #include "cable/bend.h"
 
 #include "base/math.h"
@@ -126,7 +126,7 @@ static CpsBend bend_of(const CpsiLine *line, int c) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     CpsBend bend = {0};
     Vec3 before, after, e, f;
-    if (!obstacle || (!cpsi_obstacle_is_round(obstacle) && !cpsi_obstacle_is_rounded(obstacle)) ||
+    if (!obstacle || !cpsi_obstacle_faces_lines(obstacle) ||
         !(line->reaction[c] > 0 && line->friction_bound[c] > 0) ||
         !forces_beside(line, c, &before, &after))
         return bend;

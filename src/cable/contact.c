@@ -143,13 +143,22 @@ static void update_winding(CpsiLine *line, int c, Vec3 before) {
         line->winding[c] = INFINITY; /* too far in one round for its direction to be known */
 }
 
+/* An element that no longer faces a shape, and bears nothing there, has no contact with it. */
+static void leave_obstacle(CpsiLine *line, int c) {
+    if (line->keeps_reference_axes || cpsi_line_is_third(line, c)) return;
+    cpsi_contact_clear(line, c);
+    line->obstacle_index[c] = CPS_NO_OBSTACLE;
+}
+
 void cpsi_contact_update_geometry(CpsiLine *line) {
     if (line->element_contacts > 0)
         for (int e = 0; e + 1 < line->n; e++) {
-            const int on = line->obstacle_index[cpsi_line_contacts(line) + e];
+            const int c = cpsi_line_contacts(line) + e, on = line->obstacle_index[c];
             double share, gap;
             if (on >= 0 && cpsi_contact_clearance(line, line->base, e, on, &share, &gap))
                 line->beta[e] = share;
+            else if (on >= 0 && !line->active[c] && cpsi_obstacle_is_rounded(&line->obstacle[on]))
+                leave_obstacle(line, c);
             if (cpsi_line_is_third(line, cpsi_line_contacts(line) + e)) line->beta[e] = 1;
         }
     cpsi_line_lay_out_friction(line);

@@ -94,8 +94,7 @@ typedef struct CpsiLine {
     /* (contacts, n, 3) [m] slip of the node on the obstacle in this step, tangential; without
      * has_local_axes computed after the step, for views */
     double *slip;
-    bool *active;   /* (contacts, n) the constraint is active in the last solution: the reaction
-                       exceeds the distance, both in units of the program */
+    bool *active;   /* (contacts, n) the last solution's reaction, without unit, exceeds its gap */
     bool *at_bound; /* (contacts, n) friction is at its bound in it (warm_step.h) */
     /* with has_local_axes, else NULL: the geometry of the contacts at `base` */
     /* (contacts, n) [rad] angle by which the node has moved round the obstacle in this step: on a

@@ -9,7 +9,6 @@
 #include <math.h>
 
 #include "measure.h"
-#include "shape.h"
 
 static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -61,8 +60,8 @@ static void bend_at(const Source *source, const Record *r, bool reached, size_t 
     const Surface *surface = &source->surface[source->surfaces > 1 ? (size_t)r->obstacle[c] : 0];
     Real before[3], after[3], n[3], line[3], chord[3], here[3], plane[3];
     Vector *place = reached ? r->position : r->reference;
-    if (!(surface_is_round(surface) || shape_is(surface)) ||
-        !unit(r->segment_force[j - 1], least, before) || !unit(r->segment_force[j], least, after))
+    if (!surface_is_cut(surface) || !unit(r->segment_force[j - 1], least, before) ||
+        !unit(r->segment_force[j], least, after))
         return;
     for (int k = 0; k < 3; k++) {
         n[k] = r->normal[c][k];

@@ -76,16 +76,32 @@ void inertia_free(Record *record) {
 
 bool in_time(const Record *r) { return r->mass && r->span[0] > 0; }
 
-Real inertia_stiffness(const Record *r, size_t j) {
-    return in_time(r) ? (Real)r->mass[j] / ((Real)r->span[j] * r->span[j]) : 0;
-}
-
 void inertia_add(const Record *r, size_t j, Real *sum) {
     if (!in_time(r)) return;
     for (int a = 0; a < 3; a++) {
         const Real speed = ((Real)r->position[j][a] - r->reference[j][a]) / r->span[j];
         sum[a] -= r->mass[j] * (speed - r->rest_velocity[j][a]) / r->span[j];
     }
+}
+
+bool inertia_terms(const Record *r, size_t j, bool held, Real *pull, Inertia *out) {
+    if (!in_time(r)) return false;
+    const Real stiffness = (Real)r->mass[j] / ((Real)r->span[j] * r->span[j]);
+    Real open = 0, square = 0;
+    *out = (Inertia){0};
+    inertia_add(r, j, out->force);
+    for (int k = 0; k < 3; k++) {
+        pull[k] += out->force[k];
+        square += out->force[k] * out->force[k];
+        out->taken[k] = out->force[k];
+        if (held) continue;
+        open += pull[k] * pull[k];
+        out->taken[k] -= pull[k];
+        pull[k] = 0;
+    }
+    out->energy = square / (2 * stiffness);
+    out->gap = open / (2 * stiffness);
+    return true;
 }
 
 /* The part of the vector across the normals of the contacts at which node j bore. */
@@ -130,7 +146,8 @@ static void check_scheme(const Record *r, const Record *before, const Record *ol
 
 /* Does the contact of element i, or i - 1, touch node j? Its velocity is then changed with that. */
 static bool is_beside_element(const Record *r, size_t j) {
-    for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < r->elements && r->has_elements; i++)
+    if (!r->has_elements) return false;
+    for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < r->elements; i++)
         if (r->obstacle[r->contacts * r->nodes + i] >= 0) return true;
     return false;
 }

@@ -18,6 +18,7 @@
 
 #include "elongation.h"
 #include "grasps.h"
+#include "shape.h"
 
 #include "fall.h"
 #include "inertia.h"
@@ -455,6 +456,21 @@ void measure_element_plane(const Record *r, const Surface *on, size_t i, bool fr
     surface_normal(on, frozen ? from : x, plane);
 }
 
+/* Is the straight way from a to b nearest to a shape at the share t? Beside a face or an edge it is
+ * so at more than one place. */
+static bool is_nearest(const Surface *on, const Real *a, const Real *b, Real t, Real reach) {
+    Triple x, y;
+    if (!shape_is(on)) return false;
+    const Real facing = surface_facing(on, a, b);
+    for (int k = 0; k < 3; k++) {
+        x[k] = (1 - t) * a[k] + t * b[k];
+        y[k] = (1 - facing) * a[k] + facing * b[k];
+    }
+    const Real ends = fminl(surface_distance(on, a), surface_distance(on, b)),
+               least = facing > 0 && facing < 1 ? surface_distance(on, y) : ends;
+    return t > 0 && t < 1 && surface_distance(on, x) <= least + 1e-15L * reach;
+}
+
 /* What the point x of element i at the share t, with its reference, sees of surface `on`, in which
  * it may lie by `depth`. */
 static Seat element_seat(const Where *where, const Record *r, const Surface *on, size_t i, Real t,
@@ -521,7 +537,8 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     const Real facing = third ? 1 : surface_facing(on, a, b);
     const bool left = where->frozen && R == 0;
     if (third || !left || (facing > 0 && facing < 1))
-        raise_to(&m->share_error, fabsl(facing - t) * size(along));
+        raise_to(&m->share_error,
+                 is_nearest(on, a, b, t, where->reach) ? 0 : fabsl(facing - t) * size(along));
     for (int k = 0; k < 3; k++) {
         n[k] -= seat.normal[k];
         slip[k] -= seat.slip[k];
@@ -573,35 +590,22 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
     add(&s->gravity, -dot(weight, u));
 }
 
-/* The energy of inertia, |x - x* - k v*|^2 K/2 with K = m/k^2, and its part of the gap: it takes
- * what the other forces leave at a node that is not held, by r^2/(2 K), and `pull` is then 0. */
 static void measure_inertia(const Record *r, size_t j, Real *pull, Measures *m, Sums *s) {
-    const Real stiffness = inertia_stiffness(r, j);
-    if (!(stiffness > 0)) return;
-    Triple force = {0, 0, 0}, x, u, arm, taken;
-    inertia_add(r, j, force);
+    Triple x, u, arm;
+    Inertia own;
+    if (!inertia_terms(r, j, held(r, j), pull, &own)) return;
     widen(r->position[j], x);
     subtract(r->position[j], r->reference[j], u);
     subtract(r->position[j], r->position[0], arm);
-    Real open = 0;
-    for (int k = 0; k < 3; k++) {
-        pull[k] += force[k];
-        taken[k] = force[k];
-        if (held(r, j)) continue;
-        open += pull[k] * pull[k];
-        taken[k] -= pull[k];
-        pull[k] = 0;
-    }
-    const Real energy = dot(force, force) / (2 * stiffness), gap = open / (2 * stiffness);
-    add(&s->primal, energy);
-    add(&s->dual, energy - gap + dot(taken, x));
-    add(&s->gap, gap);
-    add(&s->signed_gap, gap);
-    add(&s->work, fabsl(dot(force, u)));
-    add(&s->moment, size(force) * size(arm));
-    add(&s->loads, size(force));
-    add(&s->magnitude, energy + size(force) * size(x));
-    raise_to(&m->largest_force, size(taken));
+    add(&s->primal, own.energy);
+    add(&s->dual, own.energy - own.gap + dot(own.taken, x));
+    add(&s->gap, own.gap);
+    add(&s->signed_gap, own.gap);
+    add(&s->work, fabsl(dot(own.force, u)));
+    add(&s->moment, size(own.force) * size(arm));
+    add(&s->loads, size(own.force));
+    add(&s->magnitude, own.energy + size(own.force) * size(x));
+    raise_to(&m->largest_force, size(own.taken));
 }
 
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
@@ -643,50 +647,6 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     }
 }
 
-/* By how much a disc that contains the forces of a box is larger than its longer half-axis. */
-static Real disc_factor(const Surface *on) {
-    const Real most = fmaxl(on->mu[0], on->mu[1]);
-    return on->box && most > 0 ? hypotl(on->mu[0], on->mu[1]) / most : 1;
-}
-
-/* The part of v in the surface's tangent plane; returns its part along the normal. */
-static Real split(const Surface *on, const Real *v, Real *across) {
-    Triple n;
-    surface_normal(on, v, n);
-    const Real rise = dot(n, v);
-    for (int a = 0; a < 3; a++) across[a] = v[a] - rise * n[a];
-    return rise;
-}
-
-/* Does v lead away from every obstacle, a plane, so steeply that no friction on it works against
- * that, wherever the line is and however large the reactions are? n.v >= mu |v_T| with the radius
- * mu of a disc that contains all coefficients. Frozen friction does not grow with the reactions:
- * there n.v >= 0 is enough, and *taken is the most that it can take. */
-static bool leaves_planes(const Source *source, const Record *r, const Real *v, Real *taken) {
-    Real factor = r->factor ? 0 : 1;
-    *taken = 0;
-    if (r->factor)
-        for (size_t j = 0; j < r->nodes; j++) factor = fmaxl(factor, r->factor[j]);
-    for (size_t k = 0; k < source->surfaces; k++) {
-        const Surface *on = &source->surface[k];
-        Triple across;
-        if (on->kind != SURFACE_PLANE || on->set) return false;
-        const Real rise = split(on, v, across),
-                   mu = factor * disc_factor(on) * fmaxl(on->mu[0], on->mu[1]);
-        if (!(rise >= (source->consistent ? mu * size(across) : 0))) return false;
-    }
-    if (source->consistent) return source->surfaces > 0;
-    const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
-    for (size_t c = 0; c < contacts; c++) {
-        if (r->obstacle[c] < 0) continue;
-        const Surface *on = &source->surface[(size_t)r->obstacle[c]];
-        Triple across;
-        (void)split(on, v, across);
-        *taken += disc_factor(on) * r->friction_bound[c] * size(across);
-    }
-    return source->surfaces > 0;
-}
-
 /* What proves that nothing can balance: the fall of the energy along a rigid motion v, sum b.v -
  * sum w |v_T|, which must not lead into the obstacle. Where bounds follow the reactions, these
  * carry the normal part of the loads and sum w is at most the largest mu times it. */
@@ -719,7 +679,7 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
     if (source->consistent) add(&fall, -steepest * fmaxl(0, total(&press)) * across);
     if (source->follows) { // nothing may be touched for ever, or nothing can hold the line
         Real taken;
-        const bool leaves = leaves_planes(source, r, v, &taken);
+        const bool leaves = falls_off_planes(source, r, v, &taken);
         m->meets = !leaves && !falls_clear(source, r, v);
         m->rigid_rise_least = INFINITY;
         fall = (Sum){0, 0};

@@ -6,7 +6,7 @@
 #include "shape.h"
 
 static int complain(FILE *log, const char *name) {
-    fprintf(log, "obstacles: senseless %s\n", name);
+    if (log) fprintf(log, "obstacles: senseless %s\n", name);
     return -1;
 }
 
