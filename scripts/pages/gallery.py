@@ -57,6 +57,7 @@ PICTURES = {
     "run-bore": of_example("bore", "plan.svg"),
     "run-oc3-hywind": of_example("oc3-hywind", "step-00004-elevation.svg"),
     "run-barge": of_example("barge", "step-00006-plan.svg"),
+    "run-dropped-chain": of_example("dropped-chain", "elevation.svg"),
     "run-parting-lines": of_example("parting-lines", "step-00008-plan.svg"),
     "run-net": net,
     "run-moored-buoy": of_example("catenary-moored-buoy", "elevation.svg"),

@@ -71,6 +71,7 @@ static void step_line(void *data, int workspace_index, int i) {
         cpsi_line_place_statically(line, &workspace->program, &placing, &workspace->scratch);
     } else {
         if (evolution->move[i].shift) line->obstacle = workspace->scratch.obstacle;
+        if (line->has_inertia && !(evolution->interval > 0)) cpsi_line_stop(line);
         if (evolution->interval > 0)
             move_line(evolution, workspace, line, &evolution->move[i]);
         else
@@ -222,15 +223,6 @@ static void plan_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, 
     }
 }
 
-/* The time that the step has taken; after a quasi-static one lines are at rest, but for the
- * placing by statics at the start. */
-static void end_time(CpsEvolution *evolution, bool is_start) {
-    evolution->time += evolution->interval;
-    for (int i = 0; i < evolution->line_count; i++)
-        if (evolution->line[i].has_inertia && !(evolution->interval > 0) && !is_start)
-            cpsi_line_stop(&evolution->line[i]);
-}
-
 /* Take a step (plan_step). */
 static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, bool is_move,
                            const CpsBreak *parts, CpsError *err) {
@@ -246,7 +238,7 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
         return cpsi_fail(err, CPS_ERR_INTERRUPTED,
                          "the load step was interrupted, and is not taken");
     }
-    end_time(evolution, stage == NULL && !parts->is_break);
+    evolution->time += evolution->interval;
     report_sweep(evolution, stage == NULL && !parts->is_break);
     const CpsStatus covered = check_cover(evolution, err);
     if (covered != CPS_OK) {

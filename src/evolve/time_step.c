@@ -64,21 +64,23 @@ static bool ground_moves(const CpsiLine *line, const CpsiMove *move) {
 }
 
 /* Solve the step from where it began. Nodes on ground that moves all have the same k, for the
- * ground's way in it. */
-static void attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                    const CpsiMove *move, CpsiSubsteps *scratch, const CpsiTimeStep *step) {
+ * ground's way in it. Returns the share of the step that is k. */
+static double attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                      const CpsiMove *move, CpsiSubsteps *scratch, const CpsiTimeStep *step) {
     bool all = step->scheme == CPS_TIME_SCHEME_EULER || step->restarts;
     if (ground_moves(line, move))
         for (int j = 0; j < line->n; j++) all = all || line->inertia.restarts[j];
     cpsi_line_field_clear(line);
     for (int j = 0; j < line->n; j++) predict(line, j, step, all || line->inertia.restarts[j]);
-    const double share = all ? 1 : 2.0 / 3;
-    cpsi_substeps_impose(line, move, scratch, ground_moves(line, move) ? 1 - share : 0, 1);
+    const double share = all || !ground_moves(line, move) ? 1 : 2.0 / 3;
+    cpsi_substeps_impose(line, move, scratch, 1 - share, 1);
+    memcpy(line->weight_before, move->weight_from, sizeof line->weight_before);
     cpsi_line_step(line, program, options);
     for (int j = 0; j < line->n; j++)
         for (int i = 3 * j; i < 3 * j + 3; i++)
             line->inertia.velocity[i] =
                 (line->position[i] - line->reference[i]) / line->inertia.span[j];
+    return share;
 }
 
 /* The elements that were slack and are taut. Their nodes are to be taken by Euler steps: returns
@@ -220,18 +222,18 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     memcpy(inertia->start, line->position, places);
     memcpy(inertia->start_velocity, inertia->velocity, places);
     cpsi_substeps_save(line, scratch);
-    attempt(line, program, options, move, scratch, step);
+    double share = attempt(line, program, options, move, scratch, step);
     int iterations = line->report.iteration_count;
     if (cps_outcome_is_certified(line->report.outcome) && step->scheme != CPS_TIME_SCHEME_EULER &&
         !step->restarts && find_snatched(line)) {
         cpsi_substeps_restore(line, scratch);
-        attempt(line, program, options, move, scratch, step);
+        share = attempt(line, program, options, move, scratch, step);
         iterations += line->report.iteration_count;
     }
     line->report.iteration_count = iterations;
     line->report.places = CPS_PLACES_UNIQUE;
     line->report.substep_count = 1;
-    line->report.share = 1;
+    line->report.share = share;
     line->last_change.known = cps_outcome_is_certified(line->report.outcome);
     if (cps_outcome_is_final(line->report.outcome))
         stay(line);

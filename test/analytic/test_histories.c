@@ -3,6 +3,7 @@
  * of ever slower histories, and the tip of a chain that is let go falls faster than freely. Each
  * figure is printed. */
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "time_rig.h"
 
@@ -178,11 +179,120 @@ static void the_tip_of_a_chain_falls_faster_than_freely(void **state) {
     CHECK_LESS(fine, coarse);
 }
 
+/* ---- states and moves ---- */
+
+/* A chain whose end B is swung over a rough plane and then let go. */
+static void swung(TimeRig *rig) {
+    time_begin(rig, 3, 30, 1.1, 4e4);
+    time_plane(rig, -1, 0.4);
+    rig->scene.in_time = true;
+    rig->line.start = (CpsStart){.kind = CPS_START_STATIC};
+    rig->line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_KIND_HELD, .value = {0, 0, 0}};
+    rig->line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_KIND_HELD, .value = {1.8, 0, 0}};
+    time_stage(rig, 0.5, 100);
+    time_change(rig, CPS_END_KIND_HELD, 1.8, 0.2, 0);
+    time_sway(rig, 0.4)->sine[2] = 0.2;
+    time_stage(rig, 0.5, 100);
+    time_change(rig, CPS_END_KIND_RELEASED, 0, 0, 0);
+}
+
+static void check_same(const TimeRun *a, const TimeRun *b) {
+    const size_t places = 3 * ((size_t)a->view.element_count + 1) * sizeof(double);
+    assert_memory_equal(a->view.position, b->view.position, places);
+    assert_memory_equal(a->motion.velocity, b->motion.velocity, places);
+    assert_memory_equal(&a->motion.ledger, &b->motion.ledger, sizeof a->motion.ledger);
+    assert_true(cps_evolution_time(a->evolution) == cps_evolution_time(b->evolution));
+}
+
+/* Saved after some step, and loaded into another evolution, it goes on with the same bits. */
+static void a_saved_motion_goes_on_with_the_same_bits(void **state) {
+    (void)state;
+    for (int at = 1; at < 170; at += 37) {
+        TimeRig rig, other;
+        CpsError err;
+        swung(&rig);
+        swung(&other);
+        TimeRun run = time_open(&rig), copy = time_open(&other);
+        time_steps(&run, at);
+        const size_t size = cps_evolution_state_size(run.evolution);
+        void *saved = malloc(size);
+        assert_non_null(saved);
+        cps_evolution_save(run.evolution, saved);
+        if (cps_evolution_load(copy.evolution, saved, size, &err)) fail_msg("%s", err.message);
+        free(saved);
+        time_steps(&run, 30);
+        time_steps(&copy, 30);
+        check_same(&run, &copy);
+        cps_evolution_destroy(run.evolution);
+        cps_evolution_destroy(copy.evolution);
+    }
+}
+
+/* A quasi-static stage between two in time: the audit finds statics there, and rest after it. */
+static void quasi_static_stages_are_at_rest(void **state) {
+    (void)state;
+    TimeRig rig;
+    swung(&rig);
+    rig.scene.stage_count = 1;
+    time_stage(&rig, 0, 3);
+    time_change(&rig, CPS_END_KIND_HELD, 1.8, 0.2, -0.1);
+    time_stage(&rig, 0.2, 40);
+    TimeRun run = time_open(&rig);
+    time_steps(&run, 1 + 100);
+    CHECK_GREATER(run.motion.kinetic, 0);
+    for (int k = 0; k < 3; k++) {
+        time_step(&run);
+        assert_false(run.motion.is_moving);
+        CHECK_NEAR(run.motion.kinetic, 0, 0);
+        CHECK_NEAR(run.motion.velocity[3 * 15 + 2], 0, 0);
+    }
+    time_steps(&run, 40);
+    /* nothing changes: it stays at rest but for the accuracy of statics */
+    CHECK_LESS(run.motion.kinetic, 1e-9);
+    time_close(&run, "quasi-static between");
+}
+
+/* A stage is the same as moves of its steps; a move that is taken back leaves no trace. */
+static void moves_have_durations(void **state) {
+    (void)state;
+    TimeRig rig, other;
+    CpsError err;
+    swung(&rig);
+    swung(&other);
+    other.scene.stage_count = 0;
+    TimeRun run = time_open(&rig), moved = time_open(&other);
+    time_steps(&run, 1 + 20);
+    time_steps(&moved, 1);
+    for (int k = 1; k <= 20; k++) {
+        CpsStage move = cps_stage_default();
+        const double share = k / 100.0, height = 0.2 * sin(2 * PI * (k * (0.5 / 100) / 0.4));
+        const CpsChange change = {.end = CPS_END_B,
+                                  .to = {.kind = CPS_END_KIND_HELD,
+                                         .value = {1.8, share * 0.2, height}}};
+        move.change = &change;
+        move.change_count = 1;
+        move.duration = 0.5 / 100;
+        for (int twice = 0; twice < 2; twice++) {
+            if (cps_evolution_move(moved.evolution, &move, &err)) fail_msg("%s", err.message);
+            if (twice == 0 && cps_evolution_take_back(moved.evolution, &err))
+                fail_msg("%s", err.message);
+        }
+    }
+    moved.view = cps_evolution_line_view(moved.evolution, 0);
+    for (int i = 0; i < 3 * 31; i++) CHECK_NEAR(moved.view.position[i], run.view.position[i], 1e-9);
+    CHECK_NEAR(cps_evolution_time(moved.evolution), cps_evolution_time(run.evolution), 1e-15);
+    cps_evolution_destroy(run.evolution);
+    cps_evolution_destroy(moved.evolution);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_tip_of_a_chain_falls_faster_than_freely),
         cmocka_unit_test(statics_is_the_limit_of_slow_histories),
         cmocka_unit_test(a_line_held_aside_stays),
+        cmocka_unit_test(a_saved_motion_goes_on_with_the_same_bits),
+        cmocka_unit_test(quasi_static_stages_are_at_rest),
+        cmocka_unit_test(moves_have_durations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

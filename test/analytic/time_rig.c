@@ -89,8 +89,9 @@ static void audit_node(TimeRun *run, int j, double largest) {
     double rest[3], slip[3];
     for (int a = 0; a < 3; a++) {
         const int i = 3 * j + a;
-        const double speed = (v->position[i] - v->reference[i]) / m->span[j],
-                     pace = (speed - m->rest_velocity[i]) / m->span[j];
+        const double span = m->is_moving ? m->span[j] : 1,
+                     speed = (v->position[i] - v->reference[i]) / span,
+                     pace = m->is_moving ? (speed - m->rest_velocity[i]) / span : 0;
         rest[a] =
             v->load[i] + v->friction_force[i] + v->reaction[j] * v->normal[i] - m->mass[j] * pace;
         if (j > 0) rest[a] -= v->segment_force[i - 3];
@@ -98,12 +99,14 @@ static void audit_node(TimeRun *run, int j, double largest) {
         slip[a] = a < 2 ? speed : 0;
     }
     /* the certificate leaves the inertia open by a force f with f^2 k^2/(2 m) <= gap */
-    const double open = sqrt(2 * run->report.certificate.gap * m->mass[j]) / m->span[j];
+    const double span = m->is_moving ? m->span[j] : 1;
+    const double open =
+        m->is_moving ? sqrt(2 * run->report.certificate.gap * m->mass[j]) / span : 0;
     raise_to(&run->balance, (size(rest) - open) / largest);
     const double friction = size(&v->friction_force[3 * j]),
                  bound = run->rig->plane.friction * v->reaction[j], speed = size(slip);
     raise_to(&run->outside, (friction - bound) / largest);
-    raise_to(&run->opposed, (dot(&v->friction_force[3 * j], slip) + bound * speed) * m->span[j] /
+    raise_to(&run->opposed, (dot(&v->friction_force[3 * j], slip) + bound * speed) * span /
                                 (largest * run->rig->line.length));
     if (v->reaction[j] > 1e-9 * largest)
         raise_to(&run->lifted,
@@ -118,14 +121,17 @@ void time_step(TimeRun *run) {
     run->report = cps_evolution_line_report(run->evolution, 0);
     run->steps++;
     run->certified += cps_outcome_is_certified(run->report.outcome);
-    if (!run->motion.is_moving) return;
+    if (!run->motion.mass) return; /* of a scene that is not in time */
     const CpsMotionLedger *ledger = &run->motion.ledger;
     double kinetic = 0;
     for (int j = 0; j <= run->view.element_count; j++) {
         kinetic += 0.5 * run->motion.mass[j] *
                    dot(&run->motion.velocity[3 * j], &run->motion.velocity[3 * j]);
-        if (moves(&run->view, j)) audit_node(run, j, run->report.certificate.largest_force);
+        /* statics place the line without friction, by bounds that follow in the next step */
+        if (moves(&run->view, j) && (run->motion.is_moving || run->steps > 1))
+            audit_node(run, j, run->report.certificate.largest_force);
     }
+    if (!run->motion.is_moving) return;
     CHECK_NEAR(run->motion.kinetic, kinetic, 1e-12 * (kinetic + ledger->turnover));
     run->imbalance += fabs(run->report.ledger.imbalance);
     run->turnover += ledger->turnover;

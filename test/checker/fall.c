@@ -75,3 +75,48 @@ bool falls_clear(const Source *source, const Record *r, const Real *v) {
             if (is_met(&source->surface[k], r, i, v, length, FAR * (extent + length))) return false;
     return true;
 }
+
+/* ---- planes that are left ---- */
+
+static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static Real size(const Real *a) { return sqrtl(dot(a, a)); }
+
+/* By how much a disc that contains the forces of a box is larger than its longer half-axis. */
+static Real disc_factor(const Surface *on) {
+    const Real most = fmaxl(on->mu[0], on->mu[1]);
+    return on->box && most > 0 ? hypotl(on->mu[0], on->mu[1]) / most : 1;
+}
+
+/* The part of v in the surface's tangent plane; returns its part along the normal. */
+static Real split(const Surface *on, const Real *v, Real *across) {
+    Real n[3];
+    surface_normal(on, v, n);
+    const Real rise = dot(n, v);
+    for (int a = 0; a < 3; a++) across[a] = v[a] - rise * n[a];
+    return rise;
+}
+
+bool falls_off_planes(const Source *source, const Record *r, const Real *v, Real *taken) {
+    Real factor = r->factor ? 0 : 1;
+    *taken = 0;
+    if (r->factor)
+        for (size_t j = 0; j < r->nodes; j++) factor = fmaxl(factor, r->factor[j]);
+    for (size_t k = 0; k < source->surfaces; k++) {
+        const Surface *on = &source->surface[k];
+        Real across[3];
+        if (on->kind != SURFACE_PLANE || on->set) return false;
+        const Real rise = split(on, v, across),
+                   mu = factor * disc_factor(on) * fmaxl(on->mu[0], on->mu[1]);
+        if (!(rise >= (source->consistent ? mu * size(across) : 0))) return false;
+    }
+    if (source->consistent) return source->surfaces > 0;
+    const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
+    for (size_t c = 0; c < contacts; c++) {
+        if (r->obstacle[c] < 0) continue;
+        const Surface *on = &source->surface[(size_t)r->obstacle[c]];
+        Real across[3];
+        (void)split(on, v, across);
+        *taken += disc_factor(on) * r->friction_bound[c] * size(across);
+    }
+    return source->surfaces > 0;
+}

@@ -11,4 +11,10 @@
  * file? */
 bool falls_clear(const Source *source, const Record *r, const Real *v);
 
+/* Does v lead away from every obstacle, a plane, so steeply that no friction on it works against
+ * that, wherever the line is and however large the reactions are? n.v >= mu |v_T| with the radius
+ * mu of a disc that contains all coefficients. Frozen friction does not grow with the reactions:
+ * there n.v >= 0 is enough, and *taken is the most that it can take. */
+bool falls_off_planes(const Source *source, const Record *r, const Real *v, Real *taken);
+
 #endif

@@ -130,6 +130,20 @@ static CpsEnd first_end(const Source *source, const CpsLine *line, int e, const 
     return end;
 }
 
+/* Add the oscillation of the end, at the time that has passed in its stage. */
+static void oscillate(Imposed *end, const CpsStage *stage, int part, int line, int e) {
+    for (int i = 0; i < stage->sway_count; i++) {
+        const CpsSway *sway = &stage->sway[i];
+        if (sway->line != line || sway->end != e) continue;
+        const double turns = stage->duration * part / stage->step_count / sway->period,
+                     angle = 2 * acos(-1) * turns;
+        for (int k = 0; k < 3; k++)
+            end->now.value[k] += sway->sine[k] * sin(angle) + sway->cosine[k] * (1 - cos(angle));
+        /* the angle is known to its rounding */
+        end->noise = fmax(end->noise, 1e-14 * (1 + turns));
+    }
+}
+
 /* The end at part k of a stage that changes it; `before`: the step before, NULL for the first;
  * `start`: where it starts. */
 static void impose(const Source *source, Imposed *end, const CpsStage *stage, int part, int line,
@@ -158,6 +172,7 @@ static void impose(const Source *source, Imposed *end, const CpsStage *stage, in
                 part == stage->step_count
                     ? to.value[k]
                     : end->from.value[k] + share * (to.value[k] - end->from.value[k]);
+        oscillate(end, stage, part, line, e);
     }
 }
 

@@ -6,6 +6,8 @@
 #include <netcdf.h>
 #include <string.h>
 
+#include "inertia.h"
+
 static int complain(FILE *log, const char *line, const char *what) {
     fprintf(log, "grasps of line %s: %s\n", line, what);
     return -1;
@@ -85,6 +87,7 @@ double grasps_force_error(const Record *r) {
         const size_t j = r->grasp_node[k];
         Real others[3] = {0, 0, 0};
         record_element_forces(r, j, others);
+        inertia_add(r, j, others);
         for (int a = 0; a < 3; a++) {
             const Real balance = (Real)r->segment_force[j - 1][a] - r->segment_force[j][a] -
                                  r->load[j][a] - others[a],

@@ -21,6 +21,7 @@
 #include "shape.h"
 
 #include "fall.h"
+#include "inertia.h"
 
 #include <math.h>
 
@@ -292,7 +293,9 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
         for (int k = 0; k < 3; k++) seat.slip[k] = displacement[k] - rise * seat.plane[k];
     }
     seat.gap = where->reached ? surface_distance(seat.surface, x) - dot(seat.normal, u)
-                              : fmaxl(0, surface_distance(seat.surface, reference));
+                              : surface_distance(seat.surface, reference);
+    /* the reference of a step in time may lie below, no other does but for rounding */
+    if (!where->reached && !in_time(r)) seat.gap = fmaxl(0, seat.gap);
     if (!moves)
         for (int k = 0; k < 3; k++) seat.own[k] = seat.slip[k];
     subtract(nodes[j < r->elements ? j + 1 : j], nodes[j > 0 ? j - 1 : j], along);
@@ -587,6 +590,24 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
     add(&s->gravity, -dot(weight, u));
 }
 
+static void measure_inertia(const Record *r, size_t j, Real *pull, Measures *m, Sums *s) {
+    Triple x, u, arm;
+    Inertia own;
+    if (!inertia_terms(r, j, held(r, j), pull, &own)) return;
+    widen(r->position[j], x);
+    subtract(r->position[j], r->reference[j], u);
+    subtract(r->position[j], r->position[0], arm);
+    add(&s->primal, own.energy);
+    add(&s->dual, own.energy - own.gap + dot(own.taken, x));
+    add(&s->gap, own.gap);
+    add(&s->signed_gap, own.gap);
+    add(&s->work, fabsl(dot(own.force, u)));
+    add(&s->moment, size(own.force) * size(arm));
+    add(&s->loads, size(own.force));
+    add(&s->magnitude, own.energy + size(own.force) * size(x));
+    raise_to(&m->largest_force, size(own.taken));
+}
+
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
@@ -609,6 +630,7 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
         measure_contact(where, r, j, c, pull, m, s);
     record_element_forces(r, j, pull);
+    measure_inertia(r, j, pull, m, s);
 
     // a held node: the dual pairs the force of the support with the imposed position; a free one
     // must balance
@@ -623,50 +645,6 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
         raise_to(&m->force, size(pull));
         add(&s->imbalance_work, dot(pull, x));
     }
-}
-
-/* By how much a disc that contains the forces of a box is larger than its longer half-axis. */
-static Real disc_factor(const Surface *on) {
-    const Real most = fmaxl(on->mu[0], on->mu[1]);
-    return on->box && most > 0 ? hypotl(on->mu[0], on->mu[1]) / most : 1;
-}
-
-/* The part of v in the surface's tangent plane; returns its part along the normal. */
-static Real split(const Surface *on, const Real *v, Real *across) {
-    Triple n;
-    surface_normal(on, v, n);
-    const Real rise = dot(n, v);
-    for (int a = 0; a < 3; a++) across[a] = v[a] - rise * n[a];
-    return rise;
-}
-
-/* Does v lead away from every obstacle, a plane, so steeply that no friction on it works against
- * that, wherever the line is and however large the reactions are? n.v >= mu |v_T| with the radius
- * mu of a disc that contains all coefficients. Frozen friction does not grow with the reactions:
- * there n.v >= 0 is enough, and *taken is the most that it can take. */
-static bool leaves_planes(const Source *source, const Record *r, const Real *v, Real *taken) {
-    Real factor = r->factor ? 0 : 1;
-    *taken = 0;
-    if (r->factor)
-        for (size_t j = 0; j < r->nodes; j++) factor = fmaxl(factor, r->factor[j]);
-    for (size_t k = 0; k < source->surfaces; k++) {
-        const Surface *on = &source->surface[k];
-        Triple across;
-        if (on->kind != SURFACE_PLANE || on->set) return false;
-        const Real rise = split(on, v, across),
-                   mu = factor * disc_factor(on) * fmaxl(on->mu[0], on->mu[1]);
-        if (!(rise >= (source->consistent ? mu * size(across) : 0))) return false;
-    }
-    if (source->consistent) return source->surfaces > 0;
-    const size_t contacts = r->contacts * r->nodes + (r->has_elements ? r->elements : 0);
-    for (size_t c = 0; c < contacts; c++) {
-        if (r->obstacle[c] < 0) continue;
-        const Surface *on = &source->surface[(size_t)r->obstacle[c]];
-        Triple across;
-        (void)split(on, v, across);
-        *taken += disc_factor(on) * r->friction_bound[c] * size(across);
-    }
-    return source->surfaces > 0;
 }
 
 /* What proves that nothing can balance: the fall of the energy along a rigid motion v, sum b.v -
@@ -701,7 +679,7 @@ static void measure_proof(const Source *source, const Record *r, Measures *m) {
     if (source->consistent) add(&fall, -steepest * fmaxl(0, total(&press)) * across);
     if (source->follows) { // nothing may be touched for ever, or nothing can hold the line
         Real taken;
-        const bool leaves = leaves_planes(source, r, v, &taken);
+        const bool leaves = falls_off_planes(source, r, v, &taken);
         m->meets = !leaves && !falls_clear(source, r, v);
         m->rigid_rise_least = INFINITY;
         fall = (Sum){0, 0};

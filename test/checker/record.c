@@ -6,6 +6,7 @@
 #include "elongation.h"
 #include "failure.h"
 #include "grasps.h"
+#include "inertia.h"
 #include "places.h"
 #include "shape.h"
 #include "winches.h"
@@ -529,6 +530,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (elongation_read(source, line, record, log)) return -1;
     if (read_end_points(source, line, record, log)) return -1;
     if (failure_create(source, line, record, log)) return -1;
+    if (inertia_create(source, line, record, log)) return -1;
     return read_zones(source, line, record, log) || winches_create(source, line, record, log) ? -1
                                                                                               : 0;
 }
@@ -546,6 +548,7 @@ void record_destroy(Record *record) {
     free(record->breaking_load);
     free(record->break_at);
     elongation_free(record);
+    inertia_free(record);
     free(record->gap);
     free(record->friction_bound);
     free(record->reaction);
@@ -744,6 +747,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= grasps_read(source, line, step, record, log);
     bad |= failure_read(source, line, step, record, log);
     bad |= elongation_read_step(source, line, step, record, log);
+    bad |= inertia_read(source, line, step, record, log);
     if (bad || read_scalars(source, line, step, record, log)) return -1;
     return winches_read(source, line, step, record, log);
 }

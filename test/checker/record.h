@@ -63,6 +63,9 @@ enum {
     LEDGER_ENTRIES
 };
 
+/* energies of a step in time, by the file */
+enum { TIME_KINETIC, TIME_GROWTH, TIME_IMPACT, TIME_SCHEME, TIME_ENTRIES };
+
 typedef double Vector[3];
 enum { GRASPS = 8 };
 
@@ -97,6 +100,9 @@ typedef struct Record {
     bool has_weight_before; /* [N/m] per natural length, where the step began; else it is that of
                                the loads */
     Vector weight_before;
+    /* of a file with steps in time, else NULL; [kg], [s] k, [m/s]: inertia.h */
+    double *mass, *span, time, time_entry[TIME_ENTRIES];
+    Vector *velocity, *rest_velocity;
     Vector *motion;                          /* of a line that slides without end, else 0 */
     Vector *normal, *friction, *slip;        /* (contacts, nodes) */
     double *gap, *friction_bound, *reaction; /* the same */

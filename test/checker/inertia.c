@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Steps in time (inertia.h).
+ *
+ * The scheme of a node follows from three places: by the backward difference formula of second
+ * order x* = (4 x_n - x_{n-1})/3 and k = 2 h/3, by the implicit Euler method x* = x_n and k = h. A
+ * node that bore in the step before may have forgotten its motion along the normal: there only the
+ * tangential part is compared. */
+#include "inertia.h"
+
+#include <math.h>
+#include <netcdf.h>
+#include <stdlib.h>
+
+#include "elongation.h"
+
+/* Rounding of places, per largest coordinate; of energies, per their sizes. */
+static const double PLACES = 1e-13, ENERGIES = 1e-9;
+
+static int variable(const Source *source, const char *line, const char *what) {
+    char name[400];
+    int id;
+    snprintf(name, sizeof name, "%.200s_%s", line, what);
+    return nc_inq_varid(source->nc, name, &id) == NC_NOERR ? id : -1;
+}
+
+static int complain(FILE *log, const char *what, const char *line) {
+    if (log) fprintf(log, "%s of line '%s'\n", what, line);
+    return -1;
+}
+
+int inertia_create(const Source *source, const char *line, Record *record, FILE *log) {
+    const int id = variable(source, line, "node_mass");
+    if (id < 0) return 0;
+    record->mass = calloc(record->nodes, sizeof(double));
+    record->span = calloc(record->nodes, sizeof(double));
+    record->velocity = calloc(record->nodes, sizeof(Vector));
+    record->rest_velocity = calloc(record->nodes, sizeof(Vector));
+    if (!record->mass || !record->span || !record->velocity || !record->rest_velocity)
+        return complain(log, "out of memory for the motion", line);
+    if (nc_get_var_double(source->nc, id, record->mass))
+        return complain(log, "missing masses", line);
+    for (size_t j = 0; j < record->nodes; j++)
+        if (!(record->mass[j] > 0 && isfinite(record->mass[j])))
+            return complain(log, "senseless masses", line);
+    return 0;
+}
+
+int inertia_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+    static const char *const NUMBER[TIME_ENTRIES] = {"kinetic", "ledger_kinetic", "ledger_impact",
+                                                     "ledger_scheme"};
+    if (!record->mass) return 0;
+    const size_t start[] = {step, 0, 0}, count[] = {1, record->nodes, 3};
+    int time;
+    if (nc_inq_varid(source->nc, "time", &time) ||
+        nc_get_var1_double(source->nc, time, start, &record->time) ||
+        nc_get_vara_double(source->nc, variable(source, line, "span"), start, count,
+                           record->span) ||
+        nc_get_vara_double(source->nc, variable(source, line, "velocity"), start, count,
+                           record->velocity[0]) ||
+        nc_get_vara_double(source->nc, variable(source, line, "rest_velocity"), start, count,
+                           record->rest_velocity[0]))
+        return complain(log, "missing motion", line);
+    for (int k = 0; k < TIME_ENTRIES; k++)
+        if (nc_get_var1_double(source->nc, variable(source, line, NUMBER[k]), start,
+                               &record->time_entry[k]))
+            return complain(log, "missing energies of the motion", line);
+    return 0;
+}
+
+void inertia_free(Record *record) {
+    free(record->mass);
+    free(record->span);
+    free(record->velocity);
+    free(record->rest_velocity);
+}
+
+bool in_time(const Record *r) { return r->mass && r->span[0] > 0; }
+
+void inertia_add(const Record *r, size_t j, Real *sum) {
+    if (!in_time(r)) return;
+    for (int a = 0; a < 3; a++) {
+        const Real speed = ((Real)r->position[j][a] - r->reference[j][a]) / r->span[j];
+        sum[a] -= r->mass[j] * (speed - r->rest_velocity[j][a]) / r->span[j];
+    }
+}
+
+bool inertia_terms(const Record *r, size_t j, bool held, Real *pull, Inertia *out) {
+    if (!in_time(r)) return false;
+    const Real stiffness = (Real)r->mass[j] / ((Real)r->span[j] * r->span[j]);
+    Real open = 0, square = 0;
+    *out = (Inertia){0};
+    inertia_add(r, j, out->force);
+    for (int k = 0; k < 3; k++) {
+        pull[k] += out->force[k];
+        square += out->force[k] * out->force[k];
+        out->taken[k] = out->force[k];
+        if (held) continue;
+        open += pull[k] * pull[k];
+        out->taken[k] -= pull[k];
+        pull[k] = 0;
+    }
+    out->energy = square / (2 * stiffness);
+    out->gap = open / (2 * stiffness);
+    return true;
+}
+
+/* The part of the vector across the normals of the contacts at which node j bore. */
+static void across(const Record *r, size_t j, Real *v) {
+    for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) {
+        if (!(r->reaction[c] > 0)) continue;
+        Real along = 0;
+        for (int a = 0; a < 3; a++) along += v[a] * r->normal[c][a];
+        for (int a = 0; a < 3; a++) v[a] -= along * r->normal[c][a];
+    }
+}
+
+static double size_of(const Real *v) {
+    return (double)sqrtl(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* How far the reference of node j is from that of its scheme; `euler`: k is the whole step. */
+static double off_scheme(const Record *r, const Record *before, const Record *older, size_t j,
+                         bool euler) {
+    Real off[3];
+    for (int a = 0; a < 3; a++) {
+        const Real x = before->position[j][a], past = older ? older->position[j][a] : x;
+        off[a] = r->reference[j][a] - x - (euler ? 0 : (x - past) / 3);
+    }
+    if (!euler) across(before, j, off);
+    return size_of(off);
+}
+
+static void check_scheme(const Record *r, const Record *before, const Record *older, double reach,
+                         InertiaFind *find, void *user) {
+    const double h = r->time - before->time;
+    double off = 0, span = 0;
+    for (size_t j = 0; j < r->nodes; j++) {
+        const bool euler = fabs(r->span[j] - h) <= 1e-9 * h;
+        if (!euler) span = fmax(span, fabs(r->span[j] - 2 * h / 3) / h);
+        off = fmax(off, off_scheme(r, before, older, j, euler));
+    }
+    /* times are sums of steps */
+    if (!(span <= 1e-9 + 1e-15 * r->time / h)) find(user, "span of the scheme, off", span, 0);
+    if (!(off <= PLACES * reach)) find(user, "reference off that of the scheme", off, 0);
+}
+
+/* Does the contact of element i, or i - 1, touch node j? Its velocity is then changed with that. */
+static bool is_beside_element(const Record *r, size_t j) {
+    if (!r->has_elements) return false;
+    for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < r->elements; i++)
+        if (r->obstacle[r->contacts * r->nodes + i] >= 0) return true;
+    return false;
+}
+
+/* [J] of the velocities of the file; these are those of the positions but along normals. */
+static double kinetic_energy(const Record *r, double reach, InertiaFind *find, void *user) {
+    Real sum = 0;
+    double off = 0;
+    for (size_t j = 0; j < r->nodes; j++) {
+        Real v[3];
+        for (int a = 0; a < 3; a++) {
+            const Real own = r->velocity[j][a];
+            sum += own * own * r->mass[j] / 2;
+            v[a] = (own - ((Real)r->position[j][a] - r->reference[j][a]) / r->span[j]);
+        }
+        across(r, j, v);
+        if (!is_beside_element(r, j)) off = fmax(off, size_of(v) * r->span[j]);
+    }
+    if (!(off <= PLACES * reach)) find(user, "velocity off that of the positions, times k", off, 0);
+    return (double)sum;
+}
+
+/* [J] What the forces on the nodes do on their way, and the energies that are stored. */
+typedef struct Works {
+    double elastic, gravity, ends, sizes;
+} Works;
+
+static double stored(const Record *r, const Vector *x, size_t i) {
+    Real l = r->element_length[i], square = 0;
+    for (int a = 0; a < 3; a++)
+        square += ((Real)x[i + 1][a] - x[i][a]) * ((Real)x[i + 1][a] - x[i][a]);
+    const Real strain = sqrtl(square) / l - 1;
+    return r->compliance > 0
+               ? (double)(l * elongation_energy(r, i, fmaxl(strain, elongation_rest(r, i))))
+               : 0;
+}
+
+static Works works_of(const Record *r, const Record *before) {
+    Works w = {0};
+    for (size_t i = 0; i < r->elements; i++)
+        w.elastic += stored(r, (const Vector *)r->position, i) -
+                     stored(r, (const Vector *)before->position, i);
+    for (size_t j = 0; j < r->nodes; j++)
+        for (int a = 0; a < 3; a++) {
+            double load = r->load[j][a];
+            const double way = r->position[j][a] - before->position[j][a];
+            for (int e = 0; e < 2; e++) {
+                if (j != (e ? r->elements : 0)) continue;
+                if (r->end_kind[e] == END_FREE) load -= r->applied_force[e][a];
+                w.ends += r->end_force[e][a] * way;
+            }
+            w.gravity -= load * way;
+            w.sizes += fabs(load * way);
+        }
+    return w;
+}
+
+static void compare(const char *what, double said, double expected, double noise, InertiaFind *find,
+                    void *user) {
+    if (!(fabs(said - expected) <= noise)) find(user, what, said, expected);
+}
+
+void inertia_check(const Source *source, const Record *r, const Record *before, const Record *older,
+                   InertiaFind *find, void *user) {
+    double reach = 0, sizes = r->dissipated;
+    (void)source;
+    if (!in_time(r) || !before || r->outcome > OUTCOME_TAUT) return;
+    for (size_t j = 0; j < r->nodes; j++)
+        for (int a = 0; a < 3; a++) reach = fmax(reach, fabs(r->position[j][a]));
+    check_scheme(r, before, in_time(before) ? older : NULL, reach, find, user);
+    const double kinetic = kinetic_energy(r, reach, find, user);
+    for (int k = 0; k < LEDGER_ENTRIES; k++) sizes += fabs(r->ledger[k]);
+    for (int k = 0; k < TIME_ENTRIES; k++) sizes += fabs(r->time_entry[k]);
+    const double noise = ENERGIES * sizes + 1e-300;
+    compare("kinetic energy", r->time_entry[TIME_KINETIC], kinetic, noise, find, user);
+    if (in_time(before))
+        compare("growth of the kinetic energy", r->time_entry[TIME_GROWTH],
+                kinetic - before->time_entry[TIME_KINETIC], noise, find, user);
+    const double spent = r->ledger[LEDGER_ELASTIC] + r->ledger[LEDGER_GRAVITY] + r->dissipated +
+                         r->time_entry[TIME_GROWTH] + r->time_entry[TIME_IMPACT] +
+                         r->time_entry[TIME_SCHEME] + r->ledger[LEDGER_IMBALANCE];
+    compare("ledger in time, ends + obstacles",
+            r->ledger[LEDGER_ENDS] + r->ledger[LEDGER_OBSTACLES], spent, 1e-12 * sizes + 1e-300,
+            find, user);
+    compare("imbalance of the ledger in time", r->ledger[LEDGER_IMBALANCE], 0, noise, find, user);
+    if (!(r->time_entry[TIME_IMPACT] >= 0))
+        find(user, "energy lost by impact", r->time_entry[TIME_IMPACT], 0);
+    if (r->grasps > 0) return;
+    const Works w = works_of(r, before);
+    compare("ledger_elastic in time", r->ledger[LEDGER_ELASTIC], w.elastic, noise, find, user);
+    compare("ledger_gravity in time", r->ledger[LEDGER_GRAVITY], w.gravity,
+            noise + ENERGIES * w.sizes, find, user);
+    compare("ledger_ends in time", r->ledger[LEDGER_ENDS], w.ends, noise, find, user);
+}
