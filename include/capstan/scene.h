@@ -12,6 +12,7 @@
 #include "capstan/body.h"
 #include "capstan/grasp.h"
 #include "capstan/ground.h"
+#include "capstan/loads.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
 #include "capstan/shift.h"
@@ -170,7 +171,8 @@ typedef struct CpsLine {
     /* Default: A is held where the start places it, B is free without a force. The position of a
      * held end must be that of the start. */
     CpsEnd end[2];
-    int end_point[2]; /* of ends at points: the index in the scene; default 0 */
+    int end_point[2];          /* of ends at points: the index in the scene; default 0 */
+    const CpsLineLoads *loads; /* springs, forces and drag (loads.h); NULL, the default: none */
 } CpsLine;
 
 /* A new imposed position or force of one end of one line, reached in equal increments over the
@@ -260,8 +262,9 @@ typedef struct CpsScene {
     /* default false: all is under water, or nothing. Else free points with a displaced weight float
      * (point.h), and gravity has no part along x or y and does not point upwards */
     bool has_water_surface;
-    double water_surface; /* [m] with the flag: z of the still water's surface */
-    int obstacle_count;   /* >= 0 */
+    double water_surface;      /* [m] with the flag: z of the still water's surface */
+    const CpsCurrent *current; /* (loads.h) NULL, the default: still water, or none */
+    int obstacle_count;        /* >= 0 */
     const CpsObstacle *obstacle;
     int line_count; /* >= 1 */
     const CpsLine *line;

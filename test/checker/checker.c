@@ -12,6 +12,7 @@
 #include "failure.h"
 #include "grasps.h"
 #include "groups.h"
+#include "loads.h"
 #include "long_element.h"
 #include "measure.h"
 #include "motion.h"
@@ -119,7 +120,8 @@ static void check_unaccounted(Findings *findings, const Record *r, const Measure
     static const double MUCH = 0.05;
     const double *entry = r->ledger, made = -entry[LEDGER_IMBALANCE];
     double beside = r->dissipated + fmax(0, entry[LEDGER_ENDS]) + fmax(0, entry[LEDGER_OBSTACLES]) +
-                    fmax(0, -entry[LEDGER_ELASTIC]) + fmax(0, -entry[LEDGER_GRAVITY]);
+                    fmax(0, r->loads ? r->loads->ledger : 0) + fmax(0, -entry[LEDGER_ELASTIC]) +
+                    fmax(0, -entry[LEDGER_GRAVITY]);
     double least = fmax(MUCH * beside, m->gap + PLACE_TOLERANCE * m->largest_force * m->length +
                                            strain_energy_of_rounding(r, m));
     if (r->unaccounted != 0) same(findings, "unaccounted", r->unaccounted, made, 0);
@@ -136,9 +138,10 @@ static void check_unaccounted(Findings *findings, const Record *r, const Measure
 static void check_ledger(Findings *findings, const Record *r, const Measures *m,
                          double ends_carried, double floor) {
     const double *entry = r->ledger;
+    const double loads = r->loads ? r->loads->ledger : 0;
     double spent = entry[LEDGER_ELASTIC] + entry[LEDGER_GRAVITY] + r->dissipated +
-                   entry[LEDGER_IMBALANCE],
-           sizes = r->dissipated;
+                   entry[LEDGER_IMBALANCE] - loads,
+           sizes = r->dissipated + fabs(loads);
     for (int k = 0; k < LEDGER_ENTRIES; k++) sizes += fabs(entry[k]);
     // entries are sums over the parts, which may cancel but for rounding
     if (r->substeps > 1) sizes += m->largest_force * m->length;
@@ -147,6 +150,7 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
             COPY_TOLERANCE * sizes + NOTHING);
     if (r->substeps > 1) return;
     check_unaccounted(findings, r, m);
+    if (r->loads) same(findings, "ledger_loads", loads, m->loads, floor);
     same(findings, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
     same(findings, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
     same(findings, "ledger_obstacles", entry[LEDGER_OBSTACLES],

@@ -79,7 +79,7 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
     for (int i = 0; i < 3; i++)
         end.force[i] = (e ? 1 : -1) * (Real)r->segment_force[element][i] - r->load[j][i];
     Triple others = {0, 0, 0};
-    record_element_forces(r, j, others);
+    record_other_forces(r, j, others);
     for (int i = 0; i < 3; i++) end.force[i] -= others[i];
     if (none) return end;
     const Surface *surface = &source->surface[k];

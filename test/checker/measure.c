@@ -18,6 +18,7 @@
 
 #include "elongation.h"
 #include "grasps.h"
+#include "loads.h"
 
 #include "fall.h"
 
@@ -569,6 +570,23 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
     add(&s->gravity, -dot(weight, u));
 }
 
+/* The springs of a node: their energy, the dual's, and the gap between. */
+static void measure_spring(const Record *r, size_t j, const Real *arm, const Real *u, Measures *m,
+                           Sums *s) {
+    const Spring spring = loads_spring(r, j);
+    const Real at = size(spring.force);
+    if (!r->loads) return;
+    add(&s->primal, spring.energy);
+    add(&s->dual, spring.dual);
+    add(&s->signed_gap, spring.gap);
+    add(&s->gap, spring.gap);
+    add(&s->work, fabsl(dot(spring.force, u)));
+    add(&s->moment, at * size(arm));
+    add(&s->loads, at);
+    add(&s->magnitude, spring.energy + fabsl(spring.dual));
+    raise_to(&m->largest_force, at);
+}
+
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
@@ -590,7 +608,8 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     raise_to(&m->largest_force, size(b));
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
         measure_contact(where, r, j, c, pull, m, s);
-    record_element_forces(r, j, pull);
+    record_other_forces(r, j, pull);
+    measure_spring(r, j, arm, u, m, s);
 
     // a held node: the dual pairs the force of the support with the imposed position; a free one
     // must balance
@@ -752,6 +771,7 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     m.contact = (double)total(&s.contact);
     m.elastic = (double)total(&s.elastic);
     m.gravity = (double)total(&s.gravity);
+    m.loads = (double)loads_work(r);
     m.carried = (double)total(&s.carried);
     m.bound_residual = (double)total(&s.bound_residual);
     m.tension_least = -m.tension_least;

@@ -6,6 +6,7 @@
 #include "elongation.h"
 #include "failure.h"
 #include "grasps.h"
+#include "loads.h"
 #include "places.h"
 
 #include <math.h>
@@ -521,6 +522,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (elongation_read(source, line, record, log)) return -1;
     if (read_end_points(source, line, record, log)) return -1;
     if (failure_create(source, line, record, log)) return -1;
+    if (loads_create(source, line, record, log)) return -1;
     return read_zones(source, line, record, log);
 }
 
@@ -537,6 +539,7 @@ void record_destroy(Record *record) {
     free(record->breaking_load);
     free(record->break_at);
     elongation_free(record);
+    loads_free(record);
     free(record->gap);
     free(record->friction_bound);
     free(record->reaction);
@@ -552,7 +555,9 @@ void record_destroy(Record *record) {
     *record = (Record){0};
 }
 
-void record_element_forces(const Record *r, size_t j, Real *sum) {
+void record_other_forces(const Record *r, size_t j, Real *sum) {
+    const Spring spring = loads_spring(r, j);
+    for (int k = 0; k < 3; k++) sum[k] += spring.force[k];
     if (r->has_elements)
         for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < r->elements; i++) {
             const size_t c = r->contacts * r->nodes + i;
@@ -733,6 +738,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= read_weight_before(source, line, step, record, log);
     bad |= grasps_read(source, line, step, record, log);
     bad |= failure_read(source, line, step, record, log);
+    bad |= loads_read(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }
 

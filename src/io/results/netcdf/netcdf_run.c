@@ -105,6 +105,13 @@ static const Number ZONE[] = {
      CPSI_MEMBER(CpsFrictionZone, factor)},
 };
 
+/* Of lines with springs or loads. */
+static const Number LOAD[] = {
+    {"ledger_loads", "work of springs, given loads and drag", "J", REPORT(ledger.loads)},
+    {"load_residual", "sum over the nodes of the drag used less the drag where they are, in size",
+     "N", CERTIFICATE(load_residual)},
+};
+
 /* Numbers of CpsTensionRange, of each end. */
 static const Number RANGE[] = {
     {"end_tension_least",
@@ -122,6 +129,7 @@ enum {
     RANGES = sizeof RANGE / sizeof RANGE[0],
     FIELDS = CPSI_FIELDS,
     NUMBERS = sizeof NUMBER / sizeof NUMBER[0],
+    LOADS = sizeof LOAD / sizeof LOAD[0],
     ZONES = sizeof ZONE / sizeof ZONE[0]
 };
 
@@ -135,6 +143,7 @@ typedef struct LineIds {
     int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
     int zone[ZONES];                                     /* unused without zones */
+    int load[LOADS];                                     /* unused without loads */
     int compliance_factor, weight_length;                /* unused where the line is uniform */
     int spring_element, spring_strain, spring_stiffness; /* unused where there is none */
     int breaking_load;                                   /* the same */
@@ -250,8 +259,17 @@ static const double *in_view(const CpsLineView *view, const CpsiField *field) {
     return array;
 }
 
-/* Contacts of elements are written only where they are looked for. */
+/* Is the field one of nodes? */
+static bool is_of_nodes(const CpsiField *field) {
+    return field->place == CPSI_PLACE_NODE || field->place == CPSI_PLACE_SPRING ||
+           field->place == CPSI_PLACE_LOAD;
+}
+
+/* Contacts of elements are written only where they are looked for, and what acts on nodes where
+ * something does. */
 static bool has_field(const CpsLineView *view, const CpsiField *field) {
+    if (field->place == CPSI_PLACE_SPRING) return view->has_springs;
+    if (field->place == CPSI_PLACE_LOAD) return view->has_node_loads;
     return field->place != CPSI_PLACE_ELEMENT_CONTACT || view->has_element_contacts;
 }
 
@@ -259,7 +277,7 @@ static void define_field(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view, 
     const CpsiField *field = &cpsi_field[f];
     const char *line = view->name;
     if (!is_wanted(nc, f) || !has_field(view, field)) return;
-    const int along = field->place == CPSI_PLACE_NODE ? ids->node : ids->element;
+    const int along = is_of_nodes(field) ? ids->node : ids->element;
     const int shape[] = {nc->step, along, nc->xyz};
     const int rank = 1 + !field->fixed + field->vector;
     for (int c = 0; c < (field->contact ? ids->contacts : 1); ++c)
@@ -276,6 +294,35 @@ static void define_zones(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
     for (int i = 0; i < ZONES; ++i)
         ids->zone[i] = cpsi_netcdf_variable(&nc->file, line->name, ZONE[i].name, NC_DOUBLE, 1,
                                             &zone, ZONE[i].long_name, ZONE[i].units);
+}
+
+static bool has_loads(const CpsLineView *view) { return view->has_springs || view->has_node_loads; }
+
+static void define_loads(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view,
+                         const CpsLine *line) {
+    if (!has_loads(view)) return;
+    for (int i = 0; i < LOADS; ++i)
+        ids->load[i] = cpsi_netcdf_variable(&nc->file, view->name, LOAD[i].name, NC_DOUBLE, 1,
+                                            &nc->step, LOAD[i].long_name, LOAD[i].units);
+    const CpsDrag *drag = &line->loads->drag;
+    const double given[] = {drag->diameter, drag->normal, drag->tangential};
+    char name[NC_MAX_NAME + 1];
+    snprintf(name, sizeof name, "%.200s_drag", view->name);
+    if (drag->diameter > 0) cpsi_netcdf_numbers(&nc->file, name, XYZ, given);
+}
+
+/* The current as attributes: the density, and z and velocity of row after row. */
+static void define_current(CpsiNetcdf *nc, const CpsCurrent *current, double origin_z) {
+    if (!current) return;
+    double *rows = malloc(4 * (size_t)current->row_count * sizeof *rows);
+    if (!rows) cpsi_netcdf_keep(&nc->file, NC_ENOMEM);
+    for (int k = 0; rows && k < current->row_count; ++k) {
+        rows[4 * k] = current->row[k].z - origin_z;
+        memcpy(&rows[4 * k + 1], current->row[k].velocity, XYZ * sizeof *rows);
+    }
+    cpsi_netcdf_numbers(&nc->file, "water_density", 1, &current->density);
+    if (rows) cpsi_netcdf_numbers(&nc->file, "current", 4 * (size_t)current->row_count, rows);
+    free(rows);
 }
 
 /* What tables of strain and tension add to 1/compliance. */
@@ -424,7 +471,7 @@ static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *
     for (int f = 0; f < FIELDS; ++f) {
         const CpsiField *field = &cpsi_field[f];
         if (field->fixed != fixed || !is_wanted(nc, f) || !has_field(view, field)) continue;
-        const size_t along = (size_t)view->element_count + (field->place == CPSI_PLACE_NODE);
+        const size_t along = (size_t)view->element_count + is_of_nodes(field);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
         const double *array = in_view(view, field);
         for (int c = 0; c < (field->contact ? ids->contacts : 1);
@@ -495,6 +542,10 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
         const double number = cpsi_member(report, NUMBER[i].member);
         cpsi_netcdf_doubles(&nc->file, ids->number[i], start, ONE, &number);
     }
+    for (int i = 0; i < LOADS && has_loads(view); ++i) {
+        const double number = cpsi_member(report, LOAD[i].member);
+        cpsi_netcdf_doubles(&nc->file, ids->load[i], start, ONE, &number);
+    }
 }
 
 static void write_end_points(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line) {
@@ -558,10 +609,12 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         cpsi_netcdf_keep(&nc->file, nc->file.library.set_fill(nc->file.id, NC_NOFILL, &before));
     const CpsLineView first = cps_evolution_line_view(evolution, 0);
     if (nc->open) define_run(nc, scene, first.origin, names);
+    if (nc->open) define_current(nc, scene->current, first.origin[2]);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         define_line(nc, &nc->line[i], &view);
         define_zones(nc, &nc->line[i], &scene->line[i]);
+        define_loads(nc, &nc->line[i], &view, &scene->line[i]);
         define_end_points(nc, &nc->line[i], &scene->line[i]);
         cpsi_netcdf_define_grasps(&nc->file, &nc->line[i].grasps, scene, i, nc->step, nc->xyz);
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,

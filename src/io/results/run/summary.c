@@ -182,6 +182,7 @@ static void write_ledger(FILE *out, const CpsStepReport *report) {
     write_number(out, "unaccounted_J", report->unaccounted, ",\n      \"ledger_J\": {");
     write_number(out, "ends", ledger->ends, ", ");
     write_number(out, "obstacles", ledger->obstacles, ", ");
+    if (ledger->loads != 0) write_number(out, "loads", ledger->loads, ", ");
     write_number(out, "elastic", ledger->elastic, ", ");
     write_number(out, "gravity", ledger->gravity, ", ");
     write_number(out, "dissipated", ledger->dissipated, ", ");
