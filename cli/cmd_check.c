@@ -53,6 +53,23 @@ static void print_ground(const CpsObstacle *o) {
            grid.friction_factor ? ", with factors of friction" : "");
 }
 
+static void print_shape(const CpsObstacle *o) {
+    const double *p = o->point, *d = o->axis, r = o->radius, *size = o->shape.size;
+    if (o->kind == CPS_OBSTACLE_CAPSULE)
+        printf("capsule of radius %g m and length %g m around (%g, %g, %g) m, axis (%g, %g, %g)", r,
+               o->shape.length, p[0], p[1], p[2], d[0], d[1], d[2]);
+    else if (o->kind == CPS_OBSTACLE_TORUS)
+        printf("torus of radii %g and %g m around (%g, %g, %g) m, axis (%g, %g, %g)",
+               o->shape.main_radius, r, p[0], p[1], p[2], d[0], d[1], d[2]);
+    else if (o->kind == CPS_OBSTACLE_CONE)
+        printf("cone of %g degrees with a tip of radius %g m at (%g, %g, %g) m, axis (%g, %g, %g)",
+               o->shape.angle * 180 / 3.14159265358979323846, r, p[0], p[1], p[2], d[0], d[1],
+               d[2]);
+    else
+        printf("box of %g x %g x %g m with edges of radius %g m around (%g, %g, %g) m", size[0],
+               size[1], size[2], r, p[0], p[1], p[2]);
+}
+
 static void print_obstacle(const CpsObstacle *o) {
     const double *p = o->point, *d = o->kind == CPS_OBSTACLE_PLANE ? o->normal : o->axis;
     printf("obstacle %s: ", o->name);
@@ -64,8 +81,11 @@ static void print_obstacle(const CpsObstacle *o) {
                p[1], p[2], d[0], d[1], d[2]);
     else if (o->kind == CPS_OBSTACLE_SPHERE)
         printf("ball of radius %g m around (%g, %g, %g) m", o->radius, p[0], p[1], p[2]);
-    else
+    else if (o->kind == CPS_OBSTACLE_GROUND)
         print_ground(o);
+    else
+        print_shape(o);
+    if (o->shape.inside) printf(", lines inside");
     print_friction(o);
 }
 

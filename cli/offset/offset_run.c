@@ -64,6 +64,7 @@ static CpsStatus go_to(CpsEvolution *evolution, int body, const CpsBodyReport *f
     change.position[0] += offset * cos(heading / DEGREES);
     change.position[1] += offset * sin(heading / DEGREES);
     CpsStage move = cps_stage_default();
+    move.static_stiffness = true; /* an offset that is held */
     move.body_change_count = 1;
     move.body_change = &change;
     return cps_evolution_move(evolution, &move, err);

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/scene.h: lines, obstacles and loads, and the history of their changes.
- *
- * These are plain structs that the caller fills and the library copies; the caller may free them,
- * and all that they point to, after the call. Begin each one as cps_scene_default(),
- * cps_line_default(), cps_obstacle_default() or cps_stage_default(): a struct without their cookie
- * is refused. Ranges are checked by cps_scene_check, whose message names the member. S90 is Souza
- * de Cursi (1990), M77 Moreau (1977). */
+/* capstan/scene.h: lines, obstacles and loads, and the history of their changes. These are plain
+ * structs that the caller fills and the library copies; the caller may free them after the call,
+ * and all that they point to. Begin each one as cps_scene_default(), cps_line_default(),
+ * cps_obstacle_default() or cps_stage_default(): others are refused. cps_scene_check checks
+ * ranges, and its message names the member. S90 is Souza de Cursi (1990), M77 Moreau (1977). */
 #ifndef CAPSTAN_SCENE_H
 #define CAPSTAN_SCENE_H
 
 #include "capstan/body.h"
+#include "capstan/elasticity.h"
 #include "capstan/grasp.h"
 #include "capstan/ground.h"
 #include "capstan/loads.h"
+#include "capstan/motion.h"
 #include "capstan/point.h"
 #include "capstan/set.h"
+#include "capstan/shape.h"
 #include "capstan/shift.h"
 
 #ifdef __cplusplus
@@ -26,7 +27,11 @@ typedef enum CpsObstacleKind {
     CPS_OBSTACLE_CYLINDER, /* a solid cylinder of infinite length: a bollard, a pipe, a drum */
     CPS_OBSTACLE_SPHERE,   /* a solid ball */
     CPS_OBSTACLE_GROUND,   /* what lies below the points of a grid */
-    CPS_OBSTACLE_SURFACE   /* where a function is negative */
+    CPS_OBSTACLE_SURFACE,  /* where a function is negative */
+    CPS_OBSTACLE_CAPSULE,  /* a cylinder with round ends: a bollard, a tank (shape.h) */
+    CPS_OBSTACLE_TORUS,    /* a ring: a shackle, a bent tube */
+    CPS_OBSTACLE_CONE,     /* a cone with a round tip, without end */
+    CPS_OBSTACLE_BOX       /* a box with round edges: a quay, a slab */
 } CpsObstacleKind;
 
 /* The set of friction forces F that two coefficients describe, at the reaction R. By M77 section 4
@@ -42,14 +47,16 @@ typedef struct CpsObstacle {
     uint32_t cookie;
     const char *name;
     CpsObstacleKind kind; /* default plane */
-    /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, or the origin
-     * of a ground or surface; default 0 0 0 */
+    /* [m] a point of the plane or of the cylinder's axis, the centre of the sphere, capsule, torus
+     * or box, the tip of the cone, or the origin of a ground or surface; default 0 0 0 */
     double point[3];
     double normal[3]; /* [-] of a plane, of any length but 0; default 0 0 1 */
-    /* [-] of a cylinder, and axis of rotation of cylinder and sphere; of any length but 0; default
-     * 0 1 0 */
+    /* [-] axis of rotation of cylinder, sphere, capsule, torus and cone, which leads from its tip
+     * into it; of any length but 0; default 0 1 0 */
     double axis[3];
-    double radius; /* [m] of cylinder and sphere, > 0 */
+    double radius;  /* [m] > 0 of cylinder, sphere and capsule, the tube of a torus, the tip of a
+                       cone, the edges of a box */
+    CpsShape shape; /* what else these have */
     /* ground and surface stay in their place. What an evolution needs of a ground it retains. */
     const CpsGround *ground; /* of a ground */
     CpsSurface surface;      /* of a surface */
@@ -110,24 +117,17 @@ typedef struct CpsFrictionZone {
     double factor;   /* [-] >= 0, multiplies the friction of every obstacle that it touches */
 } CpsFrictionZone;
 
-/* A row of a table of strain and tension; a table has 2 to CPS_MAX_STIFFNESS_ROWS of them. The
- * first is 0, 0; strains and tensions rise, with slopes that do not fall. Beyond the last row its
- * slope goes on. */
-enum { CPS_MAX_STIFFNESS_ROWS = 100 };
-typedef struct CpsStiffnessRow {
-    double strain;  /* [-] */
-    double tension; /* [N] */
-} CpsStiffnessRow;
-
 /* A stretch of a line of one make: chain, wire, fibre rope. */
 typedef struct CpsSection {
     const char *type; /* name of its make; may be NULL */
     double length;    /* [m] natural length > 0 */
     double weight;    /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double inertia;   /* [kg/m] >= 0, default 0, as of a line */
     double stiffness; /* [N] EA > 0, INFINITY: inextensible; finite in all sections or in none */
-    /* (stiffness_row_count) in place of `stiffness`; default 0 and NULL */
-    int stiffness_row_count;
+    int stiffness_row_count; /* default 0; or of a table in place of `stiffness` */
     const CpsStiffnessRow *stiffness_row;
+    bool has_dynamic_stiffness; /* default false: `stiffness` is the only one */
+    CpsDynamicStiffness dynamic_stiffness;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
     bool has_break_at;      /* default false */
@@ -138,6 +138,7 @@ typedef struct CpsSection {
 typedef struct CpsPointWeight {
     double arc_length; /* [m] natural, of a node between the ends */
     double weight;     /* [N] along gravity (submerged weight); negative: a buoy lifts the line */
+    double inertia;    /* [kg] >= 0, default 0: mass that moves with the node (motion.h) */
 } CpsPointWeight;
 
 /* A line that carries tension only. Node 0 is end A, node `element_count` is end B. */
@@ -147,45 +148,45 @@ typedef struct CpsLine {
     double length;                /* [m] natural length > 0 */
     int element_count;            /* >= 1 */
     const double *element_length; /* (element_count) [m], their sum is `length`; NULL: all equal */
-    double weight;           /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
-    double stiffness;        /* [N] EA > 0; INFINITY: inextensible */
+    double weight;      /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double inertia;     /* [kg/m] >= 0, default 0: mass per natural length that moves (motion.h) */
+    double velocity[3]; /* [m/s] of the free nodes as the history begins; default 0 0 0 */
+    double stiffness;   /* [N] EA > 0; INFINITY: inextensible */
     int stiffness_row_count; /* default 0; or of a table in place of `stiffness`, as of a section */
     const CpsStiffnessRow *stiffness_row;
+    bool has_dynamic_stiffness; /* default false; as of a section */
+    CpsDynamicStiffness dynamic_stiffness;
     bool has_breaking_load; /* default false */
     double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
     bool has_break_at;      /* default false */
     double break_at;        /* [N] > 0, with the flag: above this tension it parts (failure.h) */
     /* (section_count) from A to B, each ending at a node; their lengths make up `length`. NULL, the
-     * default: the line is of one make, with the weight, stiffness, breaking load and break_at
-     * above, which are not read otherwise. */
+     * default: the line is of one make, with what is above, which is not read otherwise. */
     int section_count;
     const CpsSection *section;
     int point_weight_count;             /* >= 0, default 0 */
-    const CpsPointWeight *point_weight; /* (point_weight_count) in order from A to B; several may be
-                                           at one node */
+    const CpsPointWeight *point_weight; /* in order from A to B; several may be at one node */
     int zone_count;                     /* >= 0, default 0 */
-    /* (zone_count) in order from A to B, without overlap; elsewhere the factor is 1. The factor at
-     * a node is the mean over the length that it stands for. */
+    /* (zone_count) in order, without overlap; elsewhere the factor is 1, at a node it is a mean */
     const CpsFrictionZone *zone;
     CpsStart start;
-    /* Default: A is held where the start places it, B is free without a force. The position of a
-     * held end must be that of the start. */
+    /* default: A is held where the start places it, which a position has to be; B is free */
     CpsEnd end[2];
     int end_point[2];          /* of ends at points: the index in the scene; default 0 */
     const CpsLineLoads *loads; /* springs, forces and drag (loads.h); NULL, the default: none */
 } CpsLine;
 
-/* A new imposed position or force of one end of one line, reached in equal increments over the
- * stage. A free end that gets a position is held where it is and moved from there; a held end that
- * gets a force is released, and the force begins with that which it carried; one of the kind
- * CPS_END_KIND_RELEASED is let go at once (failure.h). */
+/* A new imposed position or force of an end of a line, reached in equal increments over the stage.
+ * A free end that gets a position is moved from where it is; a held end that gets a force is
+ * released from the force that it carried, and one of CPS_END_KIND_RELEASED is let go at once
+ * (failure.h). */
 typedef struct CpsChange {
     int line; /* index in the scene */
     int end;  /* CPS_END_A or CPS_END_B */
     CpsEnd to;
 } CpsChange;
 
-/* A rotation of a cylinder or sphere about its axis; what sticks to it moves with it. */
+/* A rotation about the axis of a cylinder .. cone; what sticks to it moves with it. */
 typedef struct CpsTurn {
     int obstacle; /* index in the scene */
     double angle; /* [rad] of the rotation in this stage, by the right-hand rule */
@@ -195,13 +196,18 @@ typedef struct CpsTurn {
 typedef struct CpsStage {
     uint32_t cookie; /* of cps_stage_default(); a stage made otherwise is refused */
     const char *name;
-    int step_count; /* >= 1 */
+    int step_count;  /* >= 1 */
+    double duration; /* [s] >= 0, default 0: quasi-static; else in time (motion.h) */
+    /* lines stretch by their static stiffness; default false: those that have a dynamic one by it,
+     * about what was reached before (elasticity.h) */
+    bool static_stiffness;
     int change_count;
     const CpsChange *change;
     int turn_count;
     const CpsTurn *turn;
-    int shift_count; /* default 0 */
+    int shift_count, sway_count; /* default 0 */
     const CpsShift *shift;
+    const CpsSway *sway;    /* oscillations of ends that change, with a duration */
     int point_change_count; /* default 0 */
     const CpsPointChange *point_change;
     int body_change_count; /* default 0 */
@@ -209,8 +215,7 @@ typedef struct CpsStage {
     int grasp_change_count; /* default 0 */
     const CpsGraspChange *grasp_change;
     bool gravity_changes; /* default false: gravity stays as it is; needs a scene with a gravity */
-    /* [m/s2] with the flag: the gravity at the end of the stage. The weight of a line changes with
-     * it, in proportion to the scene's. */
+    /* [m/s2] with the flag: at the end of the stage. Weights change in proportion to the scene's */
     double gravity[3];
 } CpsStage;
 
@@ -238,8 +243,7 @@ typedef struct CpsSolverOptions {
      * an elastic line on a plane without directions of friction are solved to a hundredth of it,
      * and nodes in contact are CPS_NODE_STATE_UNRESOLVED unless the step is warm. */
     double tolerance;
-    /* of one program of a line, 1..1000, default 60; 20 more for each doubling of its elements
-     * beyond 12 800 */
+    /* of one program of a line, 1..1000, default 60; 20 more per doubling beyond 12 800 elements */
     int max_iterations;
     CpsLinearSystem linear_system; /* default chain */
     /* [-] 1e-9..1: a step is halved until its halves change the displacements, per length of the
@@ -247,11 +251,10 @@ typedef struct CpsSolverOptions {
      * reason */
     double path_tolerance;
     int max_halvings; /* how often a step may be halved, for any reason, 0..30, default 10 */
-    /* solve each step without using the one before; default false: a step is first solved by
-     * Newton's method from the one before */
+    /* default false: a step is first solved by Newton's method from the one before */
     bool cold;
-    /* threads that share the lines of a step, 1..CPS_MAX_THREADS, default 1: that of the caller.
-     * More than there are lines are of no use. The answers are the same, bit for bit. */
+    /* threads that share the lines, 1..CPS_MAX_THREADS, default 1: that of the caller. The answers
+     * are the same, bit for bit. */
     int thread_count;
 } CpsSolverOptions;
 
@@ -263,7 +266,7 @@ typedef struct CpsScene {
      * (point.h), and gravity has no part along x or y and does not point upwards */
     bool has_water_surface;
     double water_surface;      /* [m] with the flag: z of the still water's surface */
-    const CpsCurrent *current; /* (loads.h) NULL, the default: still water, or none */
+    const CpsCurrent *current; /* (loads.h) default NULL: still water, or none */
     int obstacle_count;        /* >= 0 */
     const CpsObstacle *obstacle;
     int line_count; /* >= 1 */
@@ -276,6 +279,8 @@ typedef struct CpsScene {
     const CpsStage *stage;
     CpsFrictionPolicy friction_policy;
     CpsContactPolicy contact_policy;
+    CpsTimeScheme time_scheme; /* of stages and moves with a duration (motion.h) */
+    bool in_time;              /* default false: moves have a duration only where a stage has one */
     CpsSolverOptions solver;
 } CpsScene;
 
@@ -285,9 +290,8 @@ CPS_API CpsObstacle cps_obstacle_default(void);
 CPS_API CpsStage cps_stage_default(void); /* one step in which nothing changes; without a name */
 
 /* Check all that can be checked before solving. The message of an error names the line, the value
- * found and what was expected; err->where is the path of the member.
- *
- * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
+ * found and what was expected; err->where is the path of the member. Returns CPS_OK,
+ * CPS_ERR_ARGUMENT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err);
 
 #ifdef __cplusplus

@@ -35,7 +35,9 @@ typedef struct CpsShift {
 /* Where an obstacle is now, and how it moved in the last step. */
 typedef struct CpsObstacleReport {
     double point[3]; /* [m] its point, see CpsObstacle */
-    double axis[3];  /* [-] of length 1: the normal of a plane, the axis of a cylinder or sphere */
+    double axis[3];  /* [-] of length 1: the normal of a plane, the axis of a cylinder .. cone, the
+                        third axis of a box */
+    double side[3];  /* [-] of length 1: the first axis of a box, else one across `axis` */
     double grain[3]; /* [-] as the scene gives it, turned by shifts */
     /* [m], [rad], [m] the shift of the last step, see CpsShift; `about` where it turns, else 0 */
     double by[3], turn[3], about[3];

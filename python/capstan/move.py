@@ -31,6 +31,7 @@ class Move:
         "OBSTACLE.obstacle"  {"move": [x, y, z]}, {"turn": degrees, "axis": .., "about": ..} or both, of one that the history
                              moves or that is named in `moving` of the evolution
         "gravity"            [x, y, z]
+        "stiffness"          "static" or "dynamic", of lines with a dynamic stiffness
         "name"               name of the step
 
     The values of vectors can be changed between moves, without a new target:
@@ -74,6 +75,11 @@ class Move:
                 raise ArgumentError(f"name: found {value!r}, expected a text")
             self._stage.name = self._held(ffi.new("char[]", value.encode()))
             return
+        if key == "stiffness":
+            if value not in ("static", "dynamic"):
+                raise ArgumentError(f"stiffness: found {value!r}, expected 'static' or 'dynamic'")
+            self._stage.static_stiffness = value == "static"
+            return
         if key == "gravity":
             self._stage.gravity_changes = True
             self._vector(key, self._stage.gravity, value)
@@ -83,7 +89,7 @@ class Move:
                  "obstacle": "shift", "node": "grasp_change", "node2": "grasp_change", "node3": "grasp_change",
                  "node4": "grasp_change"}
         if not isinstance(key, str) or not dot or what not in kinds:
-            raise ArgumentError(f"target: found the key {key!r}, expected 'gravity', 'name', or a name with "
+            raise ArgumentError(f"target: found the key {key!r}, expected 'gravity', 'stiffness', 'name', or a name with "
                                 ".A, .B, .node, .point, .body, .turn or .obstacle")
         self._rows.setdefault(kinds[what], []).append((key, value))
 

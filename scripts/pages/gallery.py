@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a bollard that is moved, of a cable on ground, of an anchor line, of a net, of a buoy, of a spar and a barge on lines, and of driven systems."""
+"""The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a bollard that is moved, of a cable on ground, of lines on a quay and in a bore, of an anchor line, of a net, of a buoy, of a spar and a barge on lines, and of driven systems."""
 import os
 import re
 import subprocess
@@ -52,6 +52,8 @@ PICTURES = {
     "run-moved-bollard": of_example("moved-bollard", "plan.svg"),
     "run-ridge": of_example("ridge", "elevation.svg"),
     "run-ridge-plan": of_example("ridge", "plan.svg"),
+    "run-quay": of_example("quay", "plan.svg"),
+    "run-bore": of_example("bore", "plan.svg"),
     "run-oc3-hywind": of_example("oc3-hywind", "step-00004-elevation.svg"),
     "run-barge": of_example("barge", "step-00006-plan.svg"),
     "run-parting-lines": of_example("parting-lines", "step-00008-plan.svg"),

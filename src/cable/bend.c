@@ -9,8 +9,8 @@
  * Only the turn towards the obstacle causes a reaction: asin(e.n) - asin(e'.n), e and e' the
  * directions of the two forces. A line bent sideways on a surface is held by friction whose
  * reaction comes from its weight or from other bends, and the mesh does not change the law there.
- * Nor does a turn cause a reaction on a plane: both elements of a node on a plane lead away from
- * it. */
+ * Nor does a turn cause a reaction on a plane, or inside of what is convex: both elements of a node
+ * there lead away from the surface. */
 #include "cable/bend.h"
 
 #include "base/math.h"
@@ -97,11 +97,27 @@ static bool forces_beside(const CpsiLine *line, int c, Vec3 *before, Vec3 *after
     return true;
 }
 
+/* The direction in which element e pulls: of its force or, where that is rounding, its own if it is
+ * not slack, since any force would act along it. False where it has none. */
+static bool direction_of(const CpsiLine *line, int e, Vec3 force, double least, Vec3 *out) {
+    const double size = vec3_norm(force);
+    if (size > least) {
+        *out = vec3_scale(1 / size, force);
+        return true;
+    }
+    if (e < 0) return false;
+    const Vec3 x = vec3_sub(vec3_at(line->position, e + 1), vec3_at(line->position, e));
+    const double length = vec3_norm(x);
+    if (!(length >= (1 - CPS_TOUCH) * line->element_length[e])) return false;
+    *out = vec3_scale(1 / length, x);
+    return true;
+}
+
 /* [m] Natural arc length at contact c. */
 static double arc_of(const CpsiLine *line, int c) {
     const int e = cpsi_line_element(line, c);
     return e < 0 ? line->arc_length[cpsi_line_node(line, c)]
-                 : line->arc_length[e] + line->beta[e] * line->element_length[e];
+                 : line->arc_length[e] + line->beta[e] * line->natural_length[e];
 }
 
 /* The bend at contact c; its turn is 0 where the reaction does not come from a turn of the line
@@ -109,16 +125,17 @@ static double arc_of(const CpsiLine *line, int c) {
 static CpsBend bend_of(const CpsiLine *line, int c) {
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
     CpsBend bend = {0};
-    Vec3 before, after;
-    if (!obstacle || !cpsi_obstacle_is_round(obstacle) ||
+    Vec3 before, after, e, f;
+    if (!obstacle || !cpsi_obstacle_faces_lines(obstacle) ||
         !(line->reaction[c] > 0 && line->friction_bound[c] > 0) ||
         !forces_beside(line, c, &before, &after))
         return bend;
-    const double least = LEAST_FORCE * line->report.certificate.largest_force,
-                 p = vec3_norm(before), q = vec3_norm(after);
-    if (!(p > least && q > least)) return bend;
-    const Vec3 n = vec3_at(line->normal, c), e = vec3_scale(1 / p, before),
-               f = vec3_scale(1 / q, after);
+    const double least = LEAST_FORCE * line->report.certificate.largest_force;
+    const int within = cpsi_line_element(line, c), j = within < 0 ? cpsi_line_node(line, c) : -1;
+    if (!direction_of(line, j < 0 ? -1 : j - 1, before, least, &e) ||
+        !direction_of(line, j, after, least, &f))
+        return bend;
+    const Vec3 n = vec3_at(line->normal, c);
     const double rise = fmax(-1, fmin(1, vec3_dot(e, n))), fall = fmax(-1, fmin(1, vec3_dot(f, n)));
     bend.turn = fmax(0, asin(rise) - asin(fall));
     if (bend.turn > 0) bend.friction = friction_along(line, c, vec3_add(e, f));

@@ -125,7 +125,9 @@ bool cpsi_line_is_caught(const CpsiLine *line, const CpsiStepOptions *options, C
     for (int e = 0; e + 1 < line->n; e++) longest = fmax(longest, line->element_length[e]);
     *out = (CpsiCatch){.ball = CPS_NO_OBSTACLE};
     for (int k = 0; k < line->obstacle_count; k++) {
-        if (line->obstacle[k].kind != CPS_OBSTACLE_SPHERE) continue;
+        if (line->obstacle[k].kind != CPS_OBSTACLE_SPHERE ||
+            !cpsi_obstacle_is_round(&line->obstacle[k]))
+            continue;
         for (int m = 0; m < line->obstacle_count; m++) {
             Arch arch;
             double missing;

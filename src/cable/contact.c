@@ -103,13 +103,13 @@ static double allowance(const CpsiLine *line, int c) {
     return e < 0 || cpsi_line_is_third(line, c)
                ? 0
                : cpsi_obstacle_allowance(&line->obstacle[line->obstacle_index[c]],
-                                         line->element_length[e]);
+                                         line->natural_length[e]);
 }
 
 Vec3 cpsi_contact_slip_between(const CpsiLine *line, int c, Vec3 from, Vec3 to) {
-    CpsiObstacle touched = line->obstacle[line->obstacle_index[c]];
-    if (touched.kind == CPS_OBSTACLE_PLANE) return cpsi_obstacle_slip(&touched, from, to);
-    touched.radius -= allowance(line, c);
+    const CpsiObstacle *obstacle = &line->obstacle[line->obstacle_index[c]];
+    if (obstacle->kind == CPS_OBSTACLE_PLANE) return cpsi_obstacle_slip(obstacle, from, to);
+    const CpsiObstacle touched = cpsi_obstacle_within(obstacle, allowance(line, c));
     return cpsi_obstacle_slip(&touched, from, to);
 }
 
@@ -134,7 +134,8 @@ static void update_winding(CpsiLine *line, int c, Vec3 before) {
     const int k = line->obstacle_index[c];
     if (k < 0) return;
     const CpsiObstacle *obstacle = &line->obstacle[k];
-    const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER && cpsi_line_element(line, c) < 0;
+    const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER &&
+                        cpsi_obstacle_is_round(obstacle) && cpsi_line_element(line, c) < 0;
     const Vec3 from = summed ? before : cpsi_contact_reference_normal(line, k, c);
     const double angle = cpsi_obstacle_angle(obstacle, from, vec3_at(line->normal, c));
     line->winding[c] = summed ? line->winding[c] + angle : angle;
@@ -142,13 +143,22 @@ static void update_winding(CpsiLine *line, int c, Vec3 before) {
         line->winding[c] = INFINITY; /* too far in one round for its direction to be known */
 }
 
+/* An element that no longer faces a shape, and bears nothing there, has no contact with it. */
+static void leave_obstacle(CpsiLine *line, int c) {
+    if (line->keeps_reference_axes || cpsi_line_is_third(line, c)) return;
+    cpsi_contact_clear(line, c);
+    line->obstacle_index[c] = CPS_NO_OBSTACLE;
+}
+
 void cpsi_contact_update_geometry(CpsiLine *line) {
     if (line->element_contacts > 0)
         for (int e = 0; e + 1 < line->n; e++) {
-            const int on = line->obstacle_index[cpsi_line_contacts(line) + e];
+            const int c = cpsi_line_contacts(line) + e, on = line->obstacle_index[c];
             double share, gap;
             if (on >= 0 && cpsi_contact_clearance(line, line->base, e, on, &share, &gap))
                 line->beta[e] = share;
+            else if (on >= 0 && !line->active[c] && cpsi_obstacle_is_rounded(&line->obstacle[on]))
+                leave_obstacle(line, c);
             if (cpsi_line_is_third(line, cpsi_line_contacts(line) + e)) line->beta[e] = 1;
         }
     cpsi_line_lay_out_friction(line);
@@ -197,7 +207,8 @@ static void set_reference(CpsiLine *line, int c, bool frictionless) {
     const bool has_friction = touches && !held && !frictionless;
     line->friction_bound[c] = has_friction ? line->friction_law[c].friction * line->reaction[c] : 0;
     line->gap[c] = !held && near ? 0 : INFINITY;
-    if (cpsi_contact_is_watched(line, c, gap)) line->gap[c] = gap > 0 ? gap : 0;
+    if (cpsi_contact_is_watched(line, c, gap))
+        line->gap[c] = gap > 0 || line->inertia.is_moving ? gap : 0;
     line->gap[c] -= nearer;
     /* a free contact has no reaction; remove what the loop left of it */
     if (!held && (!cpsi_contact_is_watched(line, c, gap) || line->state[c] == CPS_NODE_STATE_FREE))

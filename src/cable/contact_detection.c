@@ -188,7 +188,7 @@ bool cpsi_contact_clearance(const CpsiLine *line, const double *x, int e, int k,
     const Vec3 a = vec3_at(x, e), b = vec3_at(x, e + 1);
     if (!cpsi_obstacle_faces(&line->obstacle[k], a, b, share)) return false;
     *gap = cpsi_obstacle_gap(&line->obstacle[k], vec3_axpy(*share, vec3_sub(b, a), a)) +
-           cpsi_obstacle_allowance(&line->obstacle[k], line->element_length[e]);
+           cpsi_obstacle_allowance(&line->obstacle[k], line->natural_length[e]);
     return true;
 }
 

@@ -122,10 +122,10 @@ static bool fill_motion(const OrientedLine *a) {
 }
 
 /* Does the straight path of the leading end stay clear of obstacle o, for the length of the line?
- * The distance from what is convex is convex along it; of the rest nothing is known. */
+ * The distance from a plane, cylinder or ball is convex along it; of the rest nothing is said. */
 static bool is_clear(const CpsiObstacle *o, Vec3 x, Vec3 t, double reach) {
     double nearest = reach;
-    if (!cpsi_obstacle_is_convex(o)) return false;
+    if (o->kind != CPS_OBSTACLE_PLANE && !cpsi_obstacle_is_round(o)) return false;
     if (cpsi_obstacle_gap(o, x) <= TOUCHING * reach)
         return vec3_dot(cpsi_obstacle_normal(o, x), t) > TOUCHING;
     if (o->kind !=
@@ -183,7 +183,7 @@ static bool has_resting_element(const CpsiLine *line) {
             const Vec3 from = vec3_at(line->reference, e), to = vec3_at(line->reference, e + 1);
             double share;
             if (!cpsi_obstacle_faces(o, from, to, &share)) continue;
-            const double allowance = cpsi_obstacle_allowance(o, line->element_length[e]);
+            const double allowance = cpsi_obstacle_allowance(o, line->natural_length[e]);
             if (cpsi_obstacle_gap(o, vec3_axpy(share, vec3_sub(to, from), from)) <
                 -NEARLY * allowance)
                 return true;

@@ -155,6 +155,7 @@ bool cpsi_line_outruns_frozen_bounds(CpsiLine *line) { return slips_off(line, tr
 bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options) {
     const bool follows =
         options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT && !options->frictionless;
+    if (line->inertia.is_moving) return too_short(line);
     if (too_short(line) || runs_away(line, options) || (follows && slips_off(line, false)))
         return true;
     double direction[3], load;

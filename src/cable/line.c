@@ -5,10 +5,40 @@
 #include "base/larger.h"
 #include "chain/frame.h"
 
+static void layout_inertia(CpsiInertia *inertia, CpsiArena *arena, size_t n) {
+    CPSI_PLACE(arena, inertia->mass, n);
+    CPSI_PLACE(arena, inertia->span, n);
+    CPSI_PLACE(arena, inertia->rest_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->start, 3 * n);
+    CPSI_PLACE(arena, inertia->start_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->before, 3 * n);
+    CPSI_PLACE(arena, inertia->before_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->restarts, n);
+}
+
+/* The arrays of both stiffnesses of a line of n nodes; spring_count of both is set. */
+static void layout_two_stiffnesses(CpsiTwoStiffnesses *two, CpsiArena *arena, int n) {
+    CPSI_PLACE(arena, two->rest_strain, n);
+    for (int k = 0; k < 2; k++) {
+        CpsiElasticity *own = &two->elasticity[k];
+        CPSI_PLACE(arena, own->compliance_factor, n);
+        CPSI_PLACE(arena, own->spring_at, n);
+        CPSI_PLACE(arena, own->spring_element, own->spring_count);
+        CPSI_PLACE(arena, own->spring_start, own->spring_count);
+        CPSI_PLACE(arena, own->spring_stiffness, own->spring_count);
+    }
+}
+
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     CPSI_PLACE(arena, line->arc_length, n);
     CPSI_PLACE(arena, line->element_length, n);
+    line->natural_length = line->element_length;
+    if (line->two.exists) {
+        CPSI_PLACE(arena, line->natural_length, n);
+        layout_two_stiffnesses(&line->two, arena, line->n);
+    }
     CPSI_PLACE(arena, line->reference, 3 * n);
     CPSI_PLACE(arena, line->start_element, 3 * (n - 1));
     CPSI_PLACE(arena, line->position, 3 * n);
@@ -37,14 +67,16 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->compliance_factor, n);
         CPSI_PLACE(arena, line->weight_length, n);
     }
-    if (line->spring_count > 0) {
+    const int springs = cpsi_line_most_springs(line);
+    if (springs > 0) {
         CPSI_PLACE(arena, line->spring_at, n);
-        CPSI_PLACE(arena, line->spring_element, line->spring_count);
-        CPSI_PLACE(arena, line->spring_start, line->spring_count);
-        CPSI_PLACE(arena, line->spring_stiffness, line->spring_count);
+        CPSI_PLACE(arena, line->spring_element, springs);
+        CPSI_PLACE(arena, line->spring_start, springs);
+        CPSI_PLACE(arena, line->spring_stiffness, springs);
     }
     if (line->has_breaking_load) CPSI_PLACE(arena, line->breaking_load, n);
     if (line->has_break_at) CPSI_PLACE(arena, line->break_at, n);
+    if (line->has_inertia) layout_inertia(&line->inertia, arena, n);
     CPSI_PLACE(arena, line->friction_law, contacts);
     CPSI_PLACE(arena, line->friction_bound, contacts);
     CPSI_PLACE(arena, line->friction_force, 3 * contacts);
@@ -53,6 +85,8 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->tension, n);
     CPSI_PLACE(arena, line->motion, 3 * n);
     CPSI_PLACE(arena, line->state, contacts);
+    CPSI_PLACE(arena, line->active, contacts);
+    CPSI_PLACE(arena, line->at_bound, contacts);
     CPSI_PLACE(arena, line->slip, 3 * contacts);
     if (line->has_local_axes) {
         CPSI_PLACE(arena, line->winding, contacts);
@@ -61,8 +95,6 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->reference_axes, 9 * contacts);
         CPSI_PLACE(arena, line->curvature, 3 * contacts);
         CPSI_PLACE(arena, line->obstacle_index, contacts);
-        CPSI_PLACE(arena, line->active, contacts);
-        CPSI_PLACE(arena, line->at_bound, contacts);
         CPSI_PLACE(arena, line->node_reaction, n);
         CPSI_PLACE(arena, line->watched, 6 * n);
         cpsi_anderson_layout(&line->anderson, arena, line->n);
@@ -72,6 +104,11 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->tension_before, n);
     CPSI_PLACE(arena, line->reaction_before, contacts);
     if (line->has_local_axes) CPSI_PLACE(arena, line->obstacle_index_before, contacts);
+}
+
+int cpsi_line_most_springs(const CpsiLine *line) {
+    const int other = line->two.exists ? line->two.elasticity[CPSI_DYNAMIC].spring_count : 0;
+    return line->spring_count > other ? line->spring_count : other;
 }
 
 CpsiElementLaw cpsi_line_spring_law(const CpsiLine *line, int e) {
@@ -89,7 +126,9 @@ double cpsi_line_least_compliance(const CpsiLine *line) {
     double least = INFINITY;
     for (int e = 0; e + 1 < line->n; e++) {
         const CpsiElementLaw law = cpsi_line_law(line, e);
-        least = fmin(least, cpsi_law_least_compliance(&law));
+        double own = cpsi_law_least_compliance(&law);
+        if (line->two.exists) own *= 1 + line->two.rest_strain[e];
+        least = fmin(least, own);
     }
     return least;
 }
@@ -124,7 +163,7 @@ double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
             if (!cpsi_obstacle_faces(o, a, b, &share)) continue;
             const Vec3 nearest = vec3_axpy(share, vec3_sub(b, a), a);
             const double depth = -cpsi_obstacle_gap(o, nearest) -
-                                 cpsi_obstacle_allowance(o, line->element_length[e]);
+                                 cpsi_obstacle_allowance(o, line->natural_length[e]);
             if (!(depth > worst)) continue;
             worst = depth;
             *obstacle = k;

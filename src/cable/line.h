@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One line and its last step: the data that a step reads and the fields that it leaves. World axes,
- * SI units.
+/* One line and its last step: what a step reads and the fields that it leaves. World axes, SI.
  *
  * A node touches up to `contacts` obstacles at once. The data of contacts are in arrays (contacts,
  * n): contact c < n is the first contact of node c, contact n <= c < 2 n is the second contact of
@@ -16,7 +15,9 @@
 #include "base/arena.h"
 #include "base/element_law.h"
 #include "cable/anderson.h"
+#include "cable/elasticity.h"
 #include "cable/friction_law.h"
+#include "cable/inertia.h"
 #include "cable/load_change.h"
 #include "cable/node_field.h"
 #include "capstan/step.h"
@@ -36,7 +37,7 @@ typedef struct CpsiLine {
                            or none; NULL: no obstacle has one */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
     CpsiShift *shift;   /* (obstacle_count) how each has been shifted in it */
-    bool has_zones;     /* friction differs along the line */
+    bool has_zones, has_inertia;    /* friction differs along it; it may move in time */
     bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
     bool has_sections;              /* weight and compliance may, and there may be point masses */
     bool has_breaking_load, has_break_at; /* an element has one */
@@ -50,27 +51,27 @@ typedef struct CpsiLine {
     /* the end is held at a point of the scene, which bears what obstacles do to its half element */
     bool is_at_point[2];
     double *arc_length;               /* (n) [m] */
-    double *element_length;           /* (n - 1) [m] element e joins nodes e and e + 1 */
+    double *element_length;           /* (n - 1) [m] at rest, element e joins nodes e and e + 1 */
+    double *natural_length;           /* (n - 1) the same, but for `two` */
     double *breaking_load, *break_at; /* (n - 1) [N] INFINITY: none; NULL: none anywhere */
     /* of a line of sections or with point masses, else NULL */
     double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
     double *compliance_factor; /* (n - 1) compliance of element e over `compliance`, at T = 0 */
     /* springs beside the elements (base/element_law.h), spring_at[e]..spring_at[e + 1] - 1 of e */
-    int spring_count;                /* 0: none, and the arrays are NULL */
-    double spring_compliance;        /* [1/N] `compliance` as given, not as statics use it */
-    int *spring_at, *spring_element; /* (n), (spring_count) */
+    int spring_count;         /* 0: none, and the arrays are NULL */
+    double spring_compliance; /* [1/N] `compliance` as given, not as statics use it */
+    CpsiTwoStiffnesses two;
+    int *spring_at, *spring_element;         /* (n), (spring_count) */
     double *spring_start, *spring_stiffness; /* (spring_count) [-], [N] */
-    double *weight_length; /* (n) [m] natural length of `weight` that the node carries, with that
-                              of its point masses; negative where a buoy lifts it */
-    /* (line_solve.h) its part of a solution that the step is to take; NULL: it is solved alone */
-    const struct CpsiJoined *joined;
+    double *weight_length; /* (n) [m] of `weight` that the node carries, with its point masses */
+    const struct CpsiJoined
+        *joined;          /* (line_solve.h) its part of a solution to be taken; or NULL */
     CpsEnd end_before[2]; /* imposed at the beginning of the substep */
     int grasp_count;
     CpsGrasp grasp[CPS_MAX_GRASPS]; /* nodes between the ends that are held or pulled, in order */
     CpsEnd grasp_before[CPS_MAX_GRASPS]; /* imposed on them at the beginning of the substep */
     CpsEnd grasp_from[CPS_MAX_GRASPS];   /* ... and of the stage */
-    /* in the last substep; known where position - reference is its move */
-    CpsiLoadChange last_change;
+    CpsiLoadChange last_change; /* in the last substep; known where position - reference moves */
     CpsiNewtonRecord newton;
     /* the step */
     double *reference;    /* (n, 3) [m] */
@@ -80,8 +81,7 @@ typedef struct CpsiLine {
     double *load;         /* (n, 3) [N] */
     CpsiNodeField field;
     double *normal; /* (contacts, n, 3) */
-    double *gap; /* (contacts, n) [m] n.u >= -gap, u from the reference; INFINITY: the contact does
-                    not enter the program */
+    double *gap;    /* (contacts, n) [m] n.u >= -gap from the reference; INFINITY: not looked for */
     double *friction_factor;       /* (n) of the obstacles' coefficients; NULL: 1 */
     CpsiFrictionLaw *friction_law; /* (contacts, n) of the obstacle that each contact is with */
     double *friction_bound;        /* (contacts, n) [N] with the larger coefficient */
@@ -94,6 +94,8 @@ typedef struct CpsiLine {
     /* (contacts, n, 3) [m] slip of the node on the obstacle in this step, tangential; without
      * has_local_axes computed after the step, for views */
     double *slip;
+    bool *active;   /* (contacts, n) the last solution's reaction, without unit, exceeds its gap */
+    bool *at_bound; /* (contacts, n) friction is at its bound in it (warm_step.h) */
     /* with has_local_axes, else NULL: the geometry of the contacts at `base` */
     /* (contacts, n) [rad] angle by which the node has moved round the obstacle in this step: on a
      * cylinder the sum over the rounds, perhaps beyond a turn; on a ball that of the great circle
@@ -107,11 +109,8 @@ typedef struct CpsiLine {
                             an element the one with which it is in contact; -1: none */
     double *beta; /* (n) share of element e, from node e to e + 1, at which it touches; NULL without
                      such contacts */
-    double *node_reaction; /* (n) [N] sum of the reactions on the node and on its elements */
-    bool *active;   /* (contacts, n) the constraint is active in the last solution: the reaction
-                       exceeds the distance, both in units of the program */
-    bool is_rough;  /* the program was solved to a hundredth of the tolerance only */
-    bool *at_bound; /* (contacts, n) friction is at its bound in the last round (warm_step.h) */
+    double *node_reaction;     /* (n) [N] sum of the reactions on the node and on its elements */
+    bool is_rough;             /* the program was solved to a hundredth of the tolerance only */
     bool contact_everywhere;   /* contacts are detected everywhere, not only where the reference
                                   touches */
     bool keeps_reference_axes; /* friction is frozen with its bounds and axes at the reference while
@@ -128,8 +127,8 @@ typedef struct CpsiLine {
     double *reaction_before;    /* (contacts, n) [N] */
     int *obstacle_index_before; /* (contacts, n) with has_local_axes, as obstacle_index */
     struct CpsiForceSet *forces;
-    bool exact; /* segments are taut and contacts stick only where positions show it to rounding:
-                   otherwise the chosen forces could not be certified */
+    bool exact; /* segments are taut and contacts stick only where positions show it to rounding */
+    CpsiInertia inertia; /* with has_inertia */
     CpsLineReport report;
 } CpsiLine;
 
@@ -142,8 +141,8 @@ void cpsi_line_set_arc_length(CpsiLine *line);
 
 /* [m] Natural length that node j represents: half of its elements. */
 static inline double cpsi_line_share(const CpsiLine *line, int j) {
-    const double before = j > 0 ? line->element_length[j - 1] : 0;
-    const double after = j + 1 < line->n ? line->element_length[j] : 0;
+    const double before = j > 0 ? line->natural_length[j - 1] : 0;
+    const double after = j + 1 < line->n ? line->natural_length[j] : 0;
     return 0.5 * (before + after);
 }
 
@@ -160,8 +159,8 @@ static inline Vec3 cpsi_line_weight(const CpsiLine *line, int e) {
 static inline Vec3 cpsi_line_weight_at(const CpsiLine *line, int j) {
     if (!line->weight_factor) return vec3_load(line->weight);
     double sum = 0;
-    if (j > 0) sum += 0.5 * line->element_length[j - 1] * line->weight_factor[j - 1];
-    if (j + 1 < line->n) sum += 0.5 * line->element_length[j] * line->weight_factor[j];
+    if (j > 0) sum += 0.5 * line->natural_length[j - 1] * line->weight_factor[j - 1];
+    if (j + 1 < line->n) sum += 0.5 * line->natural_length[j] * line->weight_factor[j];
     return vec3_scale(sum / cpsi_line_share(line, j), vec3_load(line->weight));
 }
 
@@ -176,8 +175,8 @@ static inline CpsiElementLaw cpsi_line_law(const CpsiLine *line, int e) {
     if (line->spring_count > 0) return cpsi_line_spring_law(line, e);
     return (CpsiElementLaw){.compliance = cpsi_line_compliance(line, e)};
 }
-/* [1/N] of the stiffest element at any tension. */
-double cpsi_line_least_compliance(const CpsiLine *line);
+int cpsi_line_most_springs(const CpsiLine *line);        /* of either of its stiffnesses */
+double cpsi_line_least_compliance(const CpsiLine *line); /* [1/N] of all, at any tension */
 
 /* The number of contacts of all nodes, and the node of one. */
 static inline int cpsi_line_contacts(const CpsiLine *line) { return line->contacts * line->n; }
@@ -217,7 +216,7 @@ static inline Vec3 cpsi_line_place(const CpsiLine *line, const double *x, int c)
 /* [m] Natural length that contact c represents. */
 static inline double cpsi_line_contact_share(const CpsiLine *line, int c) {
     const int e = cpsi_line_element(line, c);
-    return e < 0 ? cpsi_line_share(line, cpsi_line_node(line, c)) : line->element_length[e];
+    return e < 0 ? cpsi_line_share(line, cpsi_line_node(line, c)) : line->natural_length[e];
 }
 
 /* Is node j between the ends held by a grasp? */

@@ -70,12 +70,20 @@ bool cpsi_line_is_taut(const CpsiLine *line) {
 
 /* The strain of the whole line at the tension T. */
 static double mean_strain(const CpsiLine *line, double tension) {
-    if (line->spring_count == 0) return line->compliance * tension;
+    if (line->spring_count == 0 && !line->two.exists) return line->compliance * tension;
     double sum = 0;
     for (int e = 0; e + 1 < line->n; e++) {
         const CpsiElementLaw law = cpsi_line_law(line, e);
         sum += line->element_length[e] * cpsi_law_strain(&law, tension);
     }
+    return sum / line->length;
+}
+
+/* The length at rest of the whole line over its natural length. */
+static double rest_stretch(const CpsiLine *line) {
+    if (!line->two.exists) return 1;
+    double sum = 0;
+    for (int e = 0; e + 1 < line->n; e++) sum += line->element_length[e];
     return sum / line->length;
 }
 
@@ -102,6 +110,7 @@ static double force_scale(const CpsiLine *line, double longer) {
     double weight = line->length * vec3_norm(vec3_load(line->weight)), scale = weight, strain = -1;
     CpsiSpan span = {.to = 0};
     bool spans = false;
+    longer *= rest_stretch(line);
     for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
     if (cpsi_line_has_field(line)) scale = fmax(scale, field_scale(line, scale));
     for (; cpsi_line_next_span(line, span.to, &span); spans = true)
@@ -295,6 +304,10 @@ static double largest_force(const CpsiLine *line) {
 /* Are the places that the solution of the program leaves unique? With tension in every element and
  * an end held they are. */
 static bool is_unique(CpsiLine *line, const CpsiChainProgram *program, const CpsiRound *round) {
+    if (line->inertia.is_moving) {
+        line->report.places = CPS_PLACES_UNIQUE;
+        return true;
+    }
     cpsi_places_as_found(line, program);
     if (line->report.places == CPS_PLACES_UNIQUE && !cpsi_line_is_loose(line)) return true;
     if (!round->least) return false;
@@ -305,25 +318,57 @@ static bool is_unique(CpsiLine *line, const CpsiChainProgram *program, const Cps
 }
 
 /* Solve the program by Newton's method on the active set, where the places are unique. */
-static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
-                                const CpsiStepScale *scale, const CpsiRound *round,
-                                int max_iterations) {
+static CpsiIpmReport solve_by_newton(CpsiLine *line, CpsiChainProgram *program,
+                                     const CpsiStepScale *scale, const CpsiRound *round,
+                                     CpsiGuess guess, int max_iterations) {
     CpsiStepScale by_newton = *scale;
     by_newton.by_newton = true;
     cpsi_step_program_fill(line, program, &by_newton);
-    CpsiIpmReport newton = cpsi_warm_step_solve(line, program, scale, round->guess, max_iterations);
+    CpsiIpmReport newton = cpsi_warm_step_solve(line, program, scale, guess, max_iterations);
     line->report.iteration_count += newton.iterations;
-    line->newton.tried++;
-    line->newton.failed++;
     if (newton.outcome != CPSI_IPM_SOLVED) return newton;
     cpsi_step_program_unpack(line, program, scale);
-    if (is_unique(line, program, round)) {
-        line->newton.solved++;
-        line->newton.failed = 0;
-    } else {
-        newton.outcome = CPSI_IPM_STALLED;
-    }
+    if (!is_unique(line, program, round)) newton.outcome = CPSI_IPM_STALLED;
     return newton;
+}
+
+/* ... from the guess of the round. */
+static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
+                                const CpsiStepScale *scale, const CpsiRound *round,
+                                int max_iterations) {
+    CpsiNewtonRecord *record = &line->newton;
+    const CpsiIpmReport newton =
+        solve_by_newton(line, program, scale, round, round->guess, max_iterations);
+    const bool solved = newton.outcome == CPSI_IPM_SOLVED;
+    record->tried++;
+    record->solved += solved;
+    record->began |= solved && record->tried == 1;
+    record->failed = solved ? 0 : record->failed + 1;
+    return newton;
+}
+
+/* ... from the solution of the loop, which the line holds and which has not been refined. */
+static CpsiIpmReport polish(CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale,
+                            const CpsiRound *round, int max_iterations) {
+    cpsi_warm_step_note_round(line, program);
+    return solve_by_newton(line, program, scale, round, CPSI_GUESS_SOLUTION, max_iterations);
+}
+
+/* Does Newton's method treat what acts in the solution of the loop: tension everywhere, and no
+ * contacts of elements or second ones? */
+static bool can_polish(CpsiLine *line, const CpsiChainProgram *program) {
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    for (int k = 0; k < unilateral->count; k++)
+        if (unilateral->contact[k] >= line->n && unilateral->z[k] > unilateral->s[k]) return false;
+    cpsi_places_as_found(line, program);
+    return line->report.places == CPS_PLACES_UNIQUE;
+}
+
+/* The sum of the loads of the program. */
+static double sum_of_loads(const CpsiLine *line, const CpsiChainProgram *program) {
+    double sum = 0;
+    for (int i = 0; i < 3 * line->n; i++) sum += fabs(program->base.load[i]);
+    return sum;
 }
 
 /* The sum of the loads in the unit of force, which energies are compared with: without what a stiff
@@ -333,6 +378,25 @@ static double given_loads(const CpsiLine *line, double loads, double unit) {
     if (!cpsi_line_has_field(line)) return loads;
     for (int i = 0; i < 3 * line->n; i++) sum += fabs(line->load[i]);
     return sum > 0 ? sum / unit : loads;
+}
+
+/* Run the loop on the program, which has been written, or go on with it to refine its solution. */
+static CpsiIpmReport run_loop(CpsiLine *line, CpsiChainProgram *program,
+                              const CpsiStepOptions *options, const CpsiStepScale *scale,
+                              bool refined, bool goes_on) {
+    const double unit = scale->force > 0 ? scale->force : 1,
+                 loads = given_loads(line, sum_of_loads(line, program), unit);
+    const CpsiIpmOptions ipm_options = {.target = line->is_rough ? ROUGH * options->solver.tolerance
+                                                                 : CPSI_TARGET,
+                                        .scale = loads > 0 ? loads : 1,
+                                        .max_iterations = most_iterations(line, options),
+                                        .centering_steps = refined ? CPSI_CENTERING_STEPS : 0,
+                                        .sharpenings = refined ? CPSI_REFINEMENT_STEPS : 0,
+                                        .goes_on = goes_on};
+    const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
+    cpsi_step_program_unpack(line, program, scale);
+    line->report.iteration_count += ipm.iterations;
+    return ipm;
 }
 
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
@@ -348,8 +412,9 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                            .bounds = round->bounds,
                            .reaction_stiffness = round->reaction_stiffness,
                            .drag = round->drag};
-    if (round->guess != CPSI_GUESS_NONE && round->bounds != CPSI_BOUNDS_TRIAL &&
-        !round->reaction_stiffness && force > 0 && !taut) {
+    const bool by_newton = round->guess != CPSI_GUESS_NONE && round->bounds != CPSI_BOUNDS_TRIAL &&
+                           !round->reaction_stiffness && force > 0 && !taut;
+    if (by_newton && round->guess != CPSI_GUESS_LATER) {
         const CpsiIpmReport newton =
             solve_warm(line, program, &scale, round, most_iterations(line, options));
         if (newton.outcome == CPSI_IPM_SOLVED) return newton;
@@ -357,23 +422,27 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
     line->report.warm_count = 0; /* the step is not warm */
     line->is_rough = round->may_be_rough && options->solver.tolerance > CPSI_RESOLVING;
     const bool refined = round->centering && !line->is_rough;
+    /* where rounds follow, which go on from an exact solution; on a plane nodes at their limit keep
+     * the state that the refined loop finds */
+    const bool polished = by_newton && line->has_local_axes;
     cpsi_step_program_fill(line, program, &scale);
-    double loads = 0;
-    for (int i = 0; i < 3 * line->n; i++) loads += fabs(program->base.load[i]);
-    const double given = given_loads(line, loads, scale.force);
-    const CpsiIpmOptions ipm_options = {.target = line->is_rough ? ROUGH * options->solver.tolerance
-                                                                 : CPSI_TARGET,
-                                        .scale = given > 0 ? given : 1,
-                                        .max_iterations = most_iterations(line, options),
-                                        .centering_steps = refined ? CPSI_CENTERING_STEPS : 0,
-                                        .sharpenings = refined ? CPSI_REFINEMENT_STEPS : 0};
-    const CpsiIpmReport ipm = cpsi_ipm_solve(&program->base, &ipm_options);
     scale.force = force;
-    cpsi_step_program_unpack(line, program, &scale);
-    line->report.iteration_count += ipm.iterations;
+    CpsiIpmReport ipm = run_loop(line, program, options, &scale, refined && !polished, false);
+    if (polished && ipm.outcome == CPSI_IPM_SOLVED) {
+        if (!can_polish(line, program)) {
+            ipm = run_loop(line, program, options, &scale, refined, true);
+        } else {
+            const CpsiIpmReport newton =
+                polish(line, program, &scale, round, most_iterations(line, options));
+            if (newton.outcome == CPSI_IPM_SOLVED) return newton;
+            CpsiRound cold = *round;
+            cold.guess = CPSI_GUESS_NONE;
+            return cpsi_line_solve(line, program, options, &cold);
+        }
+    }
     line->report.places = CPS_PLACES_UNIQUE;
-    if (!(loads > 0) && round->least && largest_force(line) <= CPSI_CLEAN * force &&
-        rests_unloaded(line, program, options, round))
+    if (!(sum_of_loads(line, program) > 0) && round->least &&
+        largest_force(line) <= CPSI_CLEAN * force && rests_unloaded(line, program, options, round))
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
     if (taut)
         cpsi_line_straighten(line, CPSI_TAUT);

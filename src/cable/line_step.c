@@ -229,20 +229,25 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
     const size_t contacts = (size_t)cpsi_line_all_contacts(line);
     bool tried[STRATEGIES] = {false}, urged = false, again = false;
     int first = 0; /* after the last one of the others that was tried */
-    if (guess != CPSI_GUESS_NONE) {
+    line->newton.guessed = guess >= CPSI_GUESS_REFERENCE;
+    if (line->newton.guessed) {
         if (solve_warm(line, program, options, guess)) return;
+        line->newton.guessed = false;
         again = true;
         /* where Newton's method has solved no program, and moved no base, this was the first
          * strategy */
         if (line->newton.solved == 0 && (guess == CPSI_GUESS_REFERENCE || !line->has_local_axes))
             first = 1;
         line->report.warm_count = 0;
+        guess = CPSI_GUESS_NONE;
     }
     for (;; again = true) {
         const unsigned found = conditions(line, options);
         const int i = next_strategy(found, urged, first, tried);
         if (i == STRATEGIES) return;
-        const CpsiStrategy *strategy = &STRATEGY[i];
+        CpsiStrategy posed = STRATEGY[i];
+        const CpsiStrategy *strategy = &posed;
+        if (i == 0) posed.guess = guess;
         if (again) memset(line->reaction, 0, contacts * sizeof *line->reaction);
         if (options->least) options->least->chose = false;
         line->keeps_tangents = strategy->keeps_tangents;
@@ -349,7 +354,8 @@ static void classify(CpsiLine *line, const CpsiChainProgram *program) {
  * the forces before the step, if they can be certified. */
 static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
                           const CpsiStepOptions *options) {
-    if (!line->forces || !cps_outcome_is_certified(line->report.outcome)) return;
+    if (!line->forces || line->inertia.is_moving || !cps_outcome_is_certified(line->report.outcome))
+        return;
     const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
     const CpsCertificate before = line->report.certificate;
     const CpsOutcome outcome = line->report.outcome;

@@ -31,6 +31,8 @@ enum { CPSI_NEWTON_PATIENCE = 4 };
 typedef struct CpsiNewtonRecord {
     int tried, solved; /* programs of the step: tried, and solved */
     int failed;        /* those not solved, in a row */
+    bool guessed;      /* the answer of the step goes back to a guess of it */
+    bool began;        /* the first one was solved, from the guess */
     int failures;      /* steps in a row in which it was of no use, up to CPSI_NEWTON_PATIENCE */
     int pause;         /* steps that are next solved without it */
     bool useful;       /* it was of use in a step of the history */

@@ -63,8 +63,8 @@ static void add_compliance(double m[9], Vec3 d, double along, double across) {
 static bool add_element(const CpsiLine *line, int e, Span *span) {
     const Vec3 p = force_of(line, e), q = load_of(line, e);
     const CpsiElementLaw law = cpsi_line_law(line, e);
-    const double l = line->element_length[e], tension = vec3_norm(p),
-                 c = cpsi_law_compliance(&law, tension);
+    const double l = line->natural_length[e], tension = vec3_norm(p), /* l c: that of its rest */
+        c = cpsi_law_compliance(&law, tension) * (line->element_length[e] / l);
     if (!(tension > l * vec3_norm(q)) || !(tension > 0)) return false;
     const Vec3 t = vec3_scale(1 / tension, p);
     const double along = vec3_dot(q, t);

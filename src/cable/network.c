@@ -37,8 +37,8 @@ void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *
         CpsiChainProgram none, *chain = network->chain ? &network->chain[k] : &none;
         if (k < count)
             cpsi_chain_program_layout(chain, arena, line[k].n, own_axes ? line[k].contacts : 0,
-                                      line[k].element_contacts > 0, line[k].spring_count, NULL,
-                                      ops);
+                                      line[k].element_contacts > 0,
+                                      cpsi_line_most_springs(&line[k]), NULL, ops);
         else
             cpsi_chain_program_layout(chain, arena, 1, own_axes ? 1 : 0, false, 0, NULL, ops);
     }

@@ -60,7 +60,7 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
     for (int i = 1; i < line->n; i++) {
         const double *s = program->segment.s[i], *z = program->segment.z[i];
         if (z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]))
-            report->slack += line->element_length[i - 1];
+            report->slack += line->natural_length[i - 1];
     }
 }
 
@@ -276,7 +276,7 @@ static double suspended(const CpsiLine *line, int end, int *node) {
 /* Where the line is at an arc length, which lies on an element at node j; at an end, the end. */
 static Vec3 place_near(const CpsiLine *line, int j, double arc_length) {
     const int e = j == line->n - 1 || (j > 0 && arc_length < line->arc_length[j]) ? j - 1 : j;
-    const double part = (arc_length - line->arc_length[e]) / line->element_length[e],
+    const double part = (arc_length - line->arc_length[e]) / line->natural_length[e],
                  within = fmin(fmax(part, 0), 1);
     return vec3_add(vec3_scale(1 - within, vec3_at(line->position, e)),
                     vec3_scale(within, vec3_at(line->position, e + 1)));

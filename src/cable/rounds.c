@@ -201,11 +201,11 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
         if (cpsi_interrupt_seen(program->base.interrupt)) break;
         if (turned <= AXES_TOL && off <= BOUND_TOL && cpsi_line_is_clean(&ipm)) break;
         /* a guess that led nowhere: the step is taken again without it */
-        if (strategy->guess != CPSI_GUESS_NONE && line->newton.failed >= GIVEN_UP &&
+        if (strategy->guess >= CPSI_GUESS_REFERENCE && line->newton.failed >= GIVEN_UP &&
             turned > AXES_CONVERGING)
             break;
         if (turned <= AXES_CONVERGING && most < MAX_CONVERGING_ROUNDS &&
-            (strategy->guess == CPSI_GUESS_NONE || line->newton.failed == 0))
+            (strategy->guess < CPSI_GUESS_REFERENCE || line->newton.failed == 0))
             most = MAX_CONVERGING_ROUNDS;
         const bool is_halved = turned < 0.5 * best;
         if (is_halved) {

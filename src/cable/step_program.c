@@ -205,6 +205,14 @@ static void turn_curvature(double out[6], const double axes[9], const double cur
     cpsi_add_mapped(out, by, axes, curvature);
 }
 
+/* Does the wall round a line draw it back wherever it moves along it? Then its reaction is a
+ * stiffness that no round leaves out. */
+static bool draws_back(const CpsiLine *line, int c) {
+    const double *k = &line->curvature[3 * c];
+    return cpsi_line_obstacle(line, c)->form.inside && k[0] <= 0 && k[2] <= 0 &&
+           k[0] * k[2] >= k[1] * k[1];
+}
+
 static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int c,
                             const CpsiStepScale *scale) {
     CpsiUnilateral *unilateral = &program->unilateral;
@@ -219,10 +227,10 @@ static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int
     double axes[9];
     contact_axes(line, program, c, axes);
     memcpy(unilateral->normal[k], &axes[6], sizeof unilateral->normal[k]);
+    const bool turns = scale->reaction_stiffness || draws_back(line, c);
     turn_curvature(unilateral->curvature[k], axes, &line->curvature[3 * c],
-                   scale->reaction_stiffness && j < line->n
-                       ? line->reaction[c] * scale->length / (scale->force * share)
-                       : 0);
+                   turns && j < line->n ? line->reaction[c] * scale->length / (scale->force * share)
+                                        : 0);
 }
 
 static void fill_contact(const CpsiLine *line, CpsiChainProgram *program, int c,
@@ -368,13 +376,11 @@ static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program,
 static void unpack_reactions(CpsiLine *line, const CpsiChainProgram *program,
                              const CpsiStepScale *scale) {
     memset(line->reaction, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->reaction);
-    if (line->has_local_axes)
-        memset(line->active, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->active);
+    memset(line->active, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->active);
     for (int k = 0; k < program->unilateral.count; k++) {
         const int c = program->unilateral.contact[k];
         line->reaction[c] = scale->force * program->unilateral.weight[k] * program->unilateral.z[k];
-        if (line->has_local_axes)
-            line->active[c] = program->unilateral.z[k] > program->unilateral.s[k];
+        line->active[c] = program->unilateral.z[k] > program->unilateral.s[k];
     }
 }
 

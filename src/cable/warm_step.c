@@ -20,6 +20,9 @@ static const double LEAST_TENSION = 0.5;
 enum { USEFUL_PATIENCE = 3 };
 /* A force is at its bound up to what a loop that stopped at the tolerance leaves. */
 static const double ROUGHLY = 1e-2;
+/* The compliance of an inextensible line, per length and force of the program, where slips are told
+ * from forces below their bounds. */
+static const double LEAST_COMPLIANCE = 1e-9;
 
 /* The increments of the loads in the substep. */
 static CpsiLoadChange change_of(const CpsiLine *line) {
@@ -103,13 +106,21 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
     const double ratio = ratio_of(line, &now);
     const bool settled = line->last_change.known;
     line->newton.tried = line->newton.solved = line->newton.failed = 0;
+    line->newton.guessed = line->newton.began = false;
     line->last_change = now;
     if (options->frictionless) line->last_change.known = false;
-    if (!settled || options->frictionless || options->solver.cold || !treats_contacts(line))
+    if (options->frictionless || options->solver.cold || !treats_contacts(line))
         return CPSI_GUESS_NONE;
+    if (!settled) return CPSI_GUESS_LATER;
     if (line->newton.pause > 0) {
         line->newton.pause--;
-        return CPSI_GUESS_NONE;
+        return CPSI_GUESS_LATER;
+    }
+    if (line->inertia.is_moving) {
+        for (int i = 0; i < 3 * line->n; i++)
+            program->base.residual[i] = line->field.place[i] - line->position[i];
+        for (int i = 1; i < line->n; i++) program->dt[i] = line->tension[i - 1];
+        return CPSI_GUESS_EXTRAPOLATED;
     }
     if (!(ratio > 0)) return CPSI_GUESS_REFERENCE;
     double *shift = program->base.residual, *tension = program->dt;
@@ -161,6 +172,12 @@ static void place(const CpsiLine *line, CpsiChainProgram *program, const double 
     }
 }
 
+/* The shift from the base of the program to where the line is. */
+static void note_shift(const CpsiLine *line, CpsiChainProgram *program) {
+    const double *base = line->has_local_axes ? line->base : line->reference;
+    for (int i = 0; i < 3 * line->n; i++) program->base.residual[i] = line->position[i] - base[i];
+}
+
 /* Is the friction of contact c at its bound, up to a share of it? */
 static bool is_at_bound(const CpsiLine *line, int c, double share) {
     double f[3], inside[3];
@@ -178,23 +195,40 @@ static bool is_at_bound(const CpsiLine *line, int c, double share) {
     return inside[0] != f[0] || inside[1] != f[1];
 }
 
+/* The stiffness of the elements beside a node of the program, against its slip, or of the element
+ * of a point, in units of the program. */
+static double stiffness_beside(const CpsiChainProgram *program, int node) {
+    const CpsiSegment *segment = &program->segment;
+    const int n = program->n, first = node < n ? node : node - n,
+              last = node < n ? node + 1 : node - n;
+    double most = 0;
+    for (int i = first; i <= last; i++)
+        if (i > 0 && i < n)
+            most = fmax(most, 1 / (fmax(cpsi_segment_compliance(segment, i), LEAST_COMPLIANCE) *
+                                   segment->length[i]));
+    return most;
+}
+
 void cpsi_warm_step_note_round(CpsiLine *line, const CpsiChainProgram *program) {
     const CpsiFrictionDisc *disc = &program->disc;
     const CpsiFrictionConic *conic = &program->conic;
     memset(line->at_bound, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->at_bound);
     for (int d = 0; d < disc->count; d++) {
         const double *s = disc->s[d], *z = disc->z[d];
-        if (hypot(s[1], s[2]) * z[0] > z[0] - hypot(z[1], z[2]))
+        const double stiffness = stiffness_beside(program, disc->node[d]) / disc->weight[d];
+        if (stiffness * hypot(s[1], s[2]) > z[0] - hypot(z[1], z[2]))
             line->at_bound[disc->contact[d]] = true;
     }
-    for (int k = 0; k < conic->count; k++)
-        line->at_bound[conic->contact[k]] =
-            cpsi_friction_conic_slip(program, k) > cpsi_friction_conic_margin(conic, k);
+    for (int k = 0; k < conic->count; k++) {
+        const double stiffness = stiffness_beside(program, conic->node[k]) / conic->weight[k];
+        line->at_bound[conic->contact[k]] = stiffness * cpsi_friction_conic_slip(program, k) >
+                                            conic->bound[k] * cpsi_friction_conic_margin(conic, k);
+    }
 }
 
 /* Did friction slip at contact c in the last step or round? */
 static bool slipped(const CpsiLine *line, int c, CpsiGuess guess) {
-    if (guess == CPSI_GUESS_BASE) return line->at_bound[c];
+    if (guess >= CPSI_GUESS_BASE) return line->at_bound[c];
     if (guess == CPSI_GUESS_REFERENCE) return false;
     return line->state[c] == CPS_NODE_STATE_UNRESOLVED ? is_at_bound(line, c, ROUGHLY)
                                                        : line->state[c] == CPS_NODE_STATE_SLIP;
@@ -209,7 +243,7 @@ static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const C
     for (int k = 0; k < unilateral->count; k++) {
         const int c = unilateral->contact[k];
         const bool closed =
-            guess == CPSI_GUESS_BASE ? line->active[c] : line->state[c] != CPS_NODE_STATE_FREE;
+            guess >= CPSI_GUESS_BASE ? line->active[c] : line->state[c] != CPS_NODE_STATE_FREE;
         unilateral->z[k] = closed ? line->reaction[c] / (scale->force * unilateral->weight[k]) : 0;
     }
     for (int d = 0; d < disc->count; d++) {
@@ -228,14 +262,16 @@ CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
                                    int max_iterations) {
     const bool extrapolated = guess == CPSI_GUESS_EXTRAPOLATED;
     const bool predicted = guess == CPSI_GUESS_PREDICTED;
-    place(line, program, extrapolated ? program->base.residual : NULL);
+    if (guess == CPSI_GUESS_SOLUTION) note_shift(line, program);
+    place(line, program,
+          extrapolated || guess == CPSI_GUESS_SOLUTION ? program->base.residual : NULL);
     guess_pairs(line, program, scale, guess, extrapolated || predicted ? program->dt : NULL);
     return cpsi_chain_active_set(program, max_iterations);
 }
 
 void cpsi_warm_step_note(CpsiLine *line, bool certified) {
     CpsiNewtonRecord *record = &line->newton;
-    if (certified && 2 * record->solved >= record->tried) {
+    if (certified && record->began) {
         record->useful = true;
         record->failures = 0;
     } else if (record->failures < (record->useful ? USEFUL_PATIENCE : CPSI_NEWTON_PATIENCE)) {

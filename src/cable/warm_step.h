@@ -14,10 +14,12 @@
 /* The guess from which a program is solved. */
 typedef enum CpsiGuess {
     CPSI_GUESS_NONE,         /* the interior-point loop, from its own start */
+    CPSI_GUESS_LATER,        /* the same; what follows starts from its solution */
     CPSI_GUESS_REFERENCE,    /* at rest at the reference */
     CPSI_GUESS_EXTRAPOLATED, /* the last move, from the reference */
     CPSI_GUESS_PREDICTED,    /* the same, where the base has been moved there */
-    CPSI_GUESS_BASE          /* the solution of the last round, where the base is */
+    CPSI_GUESS_BASE,         /* the solution of the last round, where the base is */
+    CPSI_GUESS_SOLUTION      /* the loop's solution of the program itself, which the line holds */
 } CpsiGuess;
 
 /* Before the step, whose loads and reference are still those of the last one: extrapolate the last
@@ -40,8 +42,9 @@ CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
                                    const CpsiStepScale *scale, CpsiGuess guess, int max_iterations);
 
 /* After a step that was solved from a guess: where Newton's method was of no use several times in a
- * row, the next 2, 6 or 14 steps are solved without it, or 2 and 6 where it has been of use in the
- * history. It was of use if the step is certified and half of its programs were solved so. */
+ * row, the next 2, 6 or 14 steps begin without it, or 2 and 6 where it has been of use in the
+ * history. It was of use if the step is certified and its first program was solved from the guess.
+ */
 void cpsi_warm_step_note(CpsiLine *line, bool certified);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The active set of Newton's method (active_set.c): which of each pair holds, read from the sign of
  * what the other one leaves free. */
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +12,10 @@ static const double LEAST_TENSION = 1e-3;
 /* While the equations have errors, a force that exceeds its bound by less than this share of them
  * may be at it: nodes at rest with such forces are not released yet. */
 static const double SIGNIFICANT = 1e-4;
+/* Of the neighbours on either side of a node, so many are released with it. Where a whole piece is
+ * at its bounds, as after it has slipped, what exceeds them at an iterate may be an error of that
+ * iterate. */
+enum { MOST_RELEASED = 30 };
 
 /* elements ------------------------------------------------------------------------------------- */
 
@@ -230,7 +235,7 @@ static void release(CpsiNewton *newton, int d, const double f[2]) {
         if (!(cpsi_newton_beyond(program, d, now.bound, f, &piece) > 0)) return;
         newton->piece[j] = piece;
     }
-    *status = (*status & (unsigned char)~CPSI_STICKS) | CPSI_RELEASED;
+    *status = (*status & (unsigned char)~(CPSI_STICKS | CPSI_STOPS)) | CPSI_RELEASED;
     for (int a = 0; a < 2; a++) disc->w[d][1 + a] = f[a] / size;
     newton->changed = true;
 }
@@ -265,7 +270,8 @@ static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction
     for (int a = 0; a < 2; a++) q[a] /= size;
     for (int side = -1; side <= 1; side += 2) {
         double left = disc->weight[d] * excess;
-        for (int e = d + side; e >= 0 && e < disc->count; e += side) {
+        int most_released = MOST_RELEASED;
+        for (int e = d + side; e >= 0 && e < disc->count && most_released-- > 0; e += side) {
             const int j = disc->node[e];
             if (j != disc->node[e - side] + side || !(newton->status[j] & CPSI_STICKS)) break;
             const CpsiNodeFriction next = cpsi_newton_friction(program, e);
@@ -280,12 +286,14 @@ static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction
 }
 
 /* F.s of disc d, or n.s at an edge with normal n: what slips is pushed by its friction where this
- * is positive. */
+ * is positive. A slip that is rounding, as that of a node just released, has no direction: 0. */
 static double push(const CpsiNewton *newton, int d) {
     const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
     const CpsiShapePiece *piece = cpsi_newton_piece(newton, d);
-    if (piece && piece->is_edge) return cpsi_newton_dot(now.s, piece->normal[0]);
-    return now.s[0] * now.f[0] + now.s[1] * now.f[1];
+    const double *along = piece && piece->is_edge ? piece->normal[0] : now.f,
+                 by = cpsi_newton_dot(now.s, along),
+                 least = DBL_EPSILON * DBL_EPSILON * cpsi_newton_dot(along, along);
+    return by * by > least ? by : 0;
 }
 
 /* Does disc d slip, on a node beside that of disc e? */

@@ -19,6 +19,9 @@ static const double PULLING = 1e12;
  * it decides by slips that are still far from the solution, below one the direction of a slip
  * follows forces that are. */
 static const double SLIP_STIFFNESS = 10;
+/* The direction of a slip is held no more stiffly than that of one of this length: what a stiffness
+ * across it leaves of those along it is known to rounding only. */
+static const double NO_SLIP = 1e-12;
 
 static void load_elements(CpsiNewton *newton) {
     CpsiChainProgram *program = newton->program;
@@ -65,15 +68,22 @@ static Direction direction_of(const CpsiNewton *newton, int d, const CpsiNodeFri
     const double size = cpsi_newton_size(tau), slip = cpsi_newton_size(now->s),
                  beyond = size - now->bound;
     Direction out = {.q = {last[0], last[1]}, .by = 1};
-    if (beyond > now->bound * rho / RIGID) {
+    /* a node just released goes where it was released to, though its force may be at the bound on
+     * the other side */
+    const bool is_released = (newton->status[j] & CPSI_RELEASED) && slip < CPSI_LEAST_SLIP;
+    if (beyond > now->bound * rho / RIGID && !is_released) {
+        const double certain = fmax(beyond, rho * NO_SLIP);
         for (int a = 0; a < 2; a++) out.q[a] = tau[a] / size;
-        out.across = now->bound * rho / beyond;
-        out.by = size / beyond;
+        out.across = now->bound * rho / certain;
+        out.by = size / certain;
         return out;
     }
-    if (slip > 0 && now->s[0] * last[0] + now->s[1] * last[1] <= 0)
+    const bool is_first = last[0] == 0 && last[1] == 0;
+    if (is_first && slip < CPSI_LEAST_SLIP && size > 0)
+        for (int a = 0; a < 2; a++) out.q[a] = tau[a] / size;
+    else if (slip > 0 && now->s[0] * last[0] + now->s[1] * last[1] <= 0 && !is_released)
         for (int a = 0; a < 2; a++) out.q[a] = -now->s[a] / slip;
-    if (now->bound > 0) out.across = slip > now->bound / RIGID ? now->bound / slip : RIGID;
+    out.across = now->bound / fmax(slip, NO_SLIP);
     return out;
 }
 

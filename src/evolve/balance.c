@@ -35,10 +35,13 @@ static const double TARGET = 1e-11;
 /* The search ends after so many iterations or trials, or so many without halving what is left: a
  * body that swings on stiff lines goes down a curved valley, in which its forces do not fall before
  * the end, and so does a group that nothing holds as it turns with its loads. Trials in which a
- * line finds no answer take the most time by far: they are fewer. */
+ * line finds no answer take the most time by far: they are fewer. At last, where nothing was found,
+ * it goes on for longer: in a net whose sides become taut one after the other what is left rises
+ * and falls for thirty iterations before it vanishes. */
 enum {
     ITERATIONS = 100,
     PATIENCE = 6,
+    PATIENCE_AT_LAST = 40,
     PATIENCE_WITH_BODIES = 20,
     PATIENCE_UNHELD = 60,
     MOST_TRIALS = 200,
@@ -206,11 +209,10 @@ static void begin(CpsiBalance *balance, int group) {
     }
 }
 
-static bool search(CpsiBalance *balance, int trials) {
+static bool search_with(CpsiBalance *balance, int trials, int patience) {
     const size_t bytes = (size_t)balance->count * sizeof *balance->at,
                  rigid = (size_t)balance->body_count * sizeof *balance->rigid;
     double best = INFINITY, halved = INFINITY, longer = 1;
-    const bool held = cpsi_group_is_held(balance);
     int waited = 0;
     balance->open_trials = 0;
     cpsi_try_places(balance);
@@ -229,9 +231,6 @@ static bool search(CpsiBalance *balance, int trials) {
             halved = left;
         }
         const bool good = cpsi_is_balanced(balance, best);
-        const int patience = !held                     ? PATIENCE_UNHELD
-                             : balance->body_count > 0 ? PATIENCE_WITH_BODIES
-                                                       : PATIENCE;
         if (waited > (good ? 1 : patience) || balance->trials > most) break;
         if (!cpsi_find_step(balance)) cpsi_follow_forces(balance);
         for (int k = 0; k < balance->unknowns; k++) balance->step[k] *= longer;
@@ -246,6 +245,13 @@ static bool search(CpsiBalance *balance, int trials) {
         cpsi_try_places(balance);
     }
     return cpsi_is_answer(balance);
+}
+
+static bool search(CpsiBalance *balance, int trials) {
+    return search_with(balance, trials,
+                       !cpsi_group_is_held(balance) ? PATIENCE_UNHELD
+                       : balance->body_count > 0    ? PATIENCE_WITH_BODIES
+                                                    : PATIENCE);
 }
 
 /* Search with soft lines, and then with stiffer ones up to their own stiffness: a body that starts
@@ -374,6 +380,8 @@ static void find_places(CpsiBalance *balance, int group) {
     if (!guessed) cpsi_extrapolate_places(balance);
     bool found = search(balance, MOST_TRIALS);
     if (!found && !is_over(balance) && balance->body_count == 0) found = search_again(balance);
+    if (!found && !is_over(balance) && balance->body_count == 0)
+        found = search_with(balance, MOST_TRIALS, PATIENCE_AT_LAST);
     if (!found && is_static && balance->body_count > 0) {
         cpsi_begin_again(balance);
         search_softly(balance);

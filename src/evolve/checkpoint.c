@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "cable/two_stiffnesses.h"
 #include "evolve/failure.h"
 #include "evolve/state_check.h"
 
@@ -171,6 +172,24 @@ static void pass_step_report(Tape *tape, CpsStepReport *report) {
     PASS(tape, report->wall);
 }
 
+static void pass_inertia(Tape *tape, CpsiLine *line) {
+    CpsiInertia *inertia = &line->inertia;
+    const size_t n = (size_t)line->n;
+    double *const vectors[] = {inertia->rest_velocity, inertia->start, inertia->velocity,
+                               inertia->before, inertia->before_velocity};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        pass(tape, vectors[i], 3 * n * sizeof(double));
+    pass(tape, inertia->span, n * sizeof *inertia->span);
+    for (size_t j = 0; j < n; j++) pass_flag(tape, &inertia->restarts[j]);
+    pass_flag(tape, &inertia->is_moving);
+    PASS(tape, inertia->kinetic);
+    PASS(tape, inertia->position_bound);
+    PASS(tape, inertia->ledger);
+    PASS(tape, inertia->landed);
+    PASS(tape, inertia->changed);
+    PASS(tape, inertia->snatched);
+}
+
 static void pass_line(Tape *tape, CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     double *const nodes[] = {line->reference, line->position, line->load, line->motion};
@@ -212,7 +231,15 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     PASS(tape, line->newton.failures);
     PASS(tape, line->newton.pause);
     pass_flag(tape, &line->newton.useful);
+    if (line->has_inertia) pass_inertia(tape, line);
     pass_line_report(tape, &line->report);
+}
+
+static void pass_two_stiffnesses(Tape *tape, CpsiLine *line) {
+    if (!line->two.exists) return;
+    pass_flag(tape, &line->two.is_dynamic);
+    pass(tape, line->two.rest_strain, ((size_t)line->n - 1) * sizeof *line->two.rest_strain);
+    if (tape->in) cpsi_line_set_stiffness(line);
 }
 
 static void pass_point(Tape *tape, CpsiPoint *point) {
@@ -302,6 +329,9 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     PASS(tape, evolution->move_count);
     PASS(tape, evolution->gravity);
     PASS(tape, evolution->gravity_from);
+    PASS(tape, evolution->time);
+    PASS(tape, evolution->interval);
+    pass_flag(tape, &evolution->ground_moved);
     for (int i = 0; i < 2 * evolution->line_count; i++) pass_end(tape, &evolution->from[i]);
     pass(tape, evolution->release, 2 * (size_t)evolution->line_count * sizeof *evolution->release);
     pass_break(tape, &evolution->parted);
@@ -311,6 +341,7 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
         pass(tape, evolution->line[i].start_element,
              3 * (size_t)(evolution->line[i].n - 1) * sizeof(float));
         PASS(tape, evolution->line[i].start_end);
+        pass_two_stiffnesses(tape, &evolution->line[i]);
     }
     for (int k = 0; k < evolution->obstacle_count; k++) pass_obstacle(tape, evolution, k);
     for (int i = 0; i < evolution->points.count; i++) pass_point(tape, &evolution->points.point[i]);
@@ -340,6 +371,13 @@ static void hash_flow(uint64_t *hash, const CpsiFlow *flow) {
     }
 }
 
+static void hash_elasticity(uint64_t *hash, const CpsiLine *line, const CpsiElasticity *own) {
+    hash_numbers(hash, (size_t)line->n - 1, own->compliance_factor);
+    hash_bytes(hash, own->spring_at, (size_t)line->n * sizeof *own->spring_at);
+    hash_numbers(hash, (size_t)own->spring_count, own->spring_start);
+    hash_numbers(hash, (size_t)own->spring_count, own->spring_stiffness);
+}
+
 static void hash_line(uint64_t *hash, const CpsiLine *line) {
     hash_bytes(hash, line->name, strlen(line->name) + 1);
     hash_bytes(hash, &line->n, sizeof line->n);
@@ -367,8 +405,13 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, (size_t)line->spring_count, line->spring_start);
         hash_numbers(hash, (size_t)line->spring_count, line->spring_stiffness);
     }
+    if (line->two.exists) hash_elasticity(hash, line, &line->two.elasticity[CPSI_DYNAMIC]);
     if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
     if (line->has_break_at) hash_numbers(hash, (size_t)line->n - 1, line->break_at);
+    if (line->has_inertia) {
+        hash_numbers(hash, (size_t)line->n, line->inertia.mass);
+        hash_numbers(hash, 3 * (size_t)line->n, line->inertia.velocity);
+    }
     for (int end = 0; end < 2; end++) {
         hash_bytes(hash, &line->end[end].kind, sizeof line->end[end].kind);
         hash_numbers(hash, 3, line->end[end].value);
@@ -380,12 +423,22 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     hash_bytes(hash, &stage->steps, sizeof stage->steps);
     const int gravity_changes = stage->gravity_changes;
     hash_bytes(hash, &gravity_changes, sizeof gravity_changes);
+    if (stage->static_stiffness) hash_bytes(hash, "static", 6);
     hash_numbers(hash, 3, stage->gravity);
+    hash_numbers(hash, 1, &stage->duration);
     for (int i = 0; i < stage->change_count; i++) {
         const CpsChange *change = &stage->change[i];
         const int what[3] = {change->line, change->end, (int)change->to.kind};
         hash_bytes(hash, what, sizeof what);
         hash_numbers(hash, 3, change->to.value);
+    }
+    for (int i = 0; i < stage->sway_count; i++) {
+        const CpsSway *sway = &stage->sway[i];
+        const int what[2] = {sway->line, sway->end};
+        hash_bytes(hash, what, sizeof what);
+        hash_numbers(hash, 3, sway->sine);
+        hash_numbers(hash, 3, sway->cosine);
+        hash_numbers(hash, 1, &sway->period);
     }
     for (int i = 0; i < stage->point_change_count; i++) {
         const CpsPointChange *change = &stage->point_change[i];
@@ -446,6 +499,13 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     hash_numbers(hash, 6, (const double[6]){axis.x, axis.y, axis.z, grain.x, grain.y, grain.z});
     hash_numbers(hash, 3,
                  (const double[3]){obstacle->radius, obstacle->friction[0], obstacle->friction[1]});
+    const CpsShape *shape = &obstacle->form;
+    const Vec3 side = obstacle->frame.axis[0];
+    if (cpsi_obstacle_is_rounded(obstacle))
+        hash_numbers(hash, 10,
+                     (const double[10]){shape->inside, shape->length, shape->main_radius,
+                                        shape->angle, shape->size[0], shape->size[1],
+                                        shape->size[2], side.x, side.y, side.z});
     hash_ground(hash, obstacle);
     if (!set) return;
     const CpsiConicSet *form = cpsi_friction_set_conic(set);
@@ -506,6 +566,7 @@ uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
                         evolution->obstacle_count,
                         (int)evolution->options.friction_policy,
                         (int)evolution->options.contact_policy,
+                        (int)evolution->time_scheme,
                         solver->max_iterations,
                         (int)solver->linear_system,
                         solver->max_halvings,

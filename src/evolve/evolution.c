@@ -22,6 +22,7 @@
 #include "evolve/stage_check.h"
 #include "evolve/stages.h"
 #include "evolve/statics.h"
+#include "evolve/time_step.h"
 #include "evolve/view.h"
 
 int cps_evolution_step_count(const CpsEvolution *evolution) {
@@ -45,6 +46,15 @@ static void find_range(CpsiLine *line, const CpsiStepOptions *options) {
             line->report.end[end].range = (CpsTensionRange){.kind = CPS_RANGE_STRAIN};
 }
 
+/* Take a step in time of a line. Its places are unique, for its nodes have mass. */
+static void move_line(const CpsEvolution *evolution, CpsiWorkspace *workspace, CpsiLine *line,
+                      const CpsiMove *move) {
+    const CpsiTimeStep step = {evolution->interval, evolution->time_scheme, evolution->restarts};
+    CpsiStepOptions options = evolution->options;
+    options.least = NULL;
+    cpsi_line_time_step(line, &workspace->program, &options, move, &workspace->scratch, &step);
+}
+
 /* Take the load step of line i in a workspace: its first equilibrium without friction where it
  * starts by statics, else the step that was planned. */
 static void step_line(void *data, int workspace_index, int i) {
@@ -61,11 +71,15 @@ static void step_line(void *data, int workspace_index, int i) {
         cpsi_line_place_statically(line, &workspace->program, &placing, &workspace->scratch);
     } else {
         if (evolution->move[i].shift) line->obstacle = workspace->scratch.obstacle;
-        cpsi_line_substeps(line, &workspace->program, &options, &evolution->move[i],
-                           &workspace->scratch, evolution->report.step_count > 0);
+        if (evolution->interval > 0)
+            move_line(evolution, workspace, line, &evolution->move[i]);
+        else
+            cpsi_line_substeps(line, &workspace->program, &options, &evolution->move[i],
+                               &workspace->scratch,
+                               evolution->report.step_count > 0 && !line->two.has_jumped);
         line->obstacle = evolution->obstacle;
     }
-    if (evolution->part == 0) find_range(line, &options);
+    if (evolution->part == 0 && !(evolution->interval > 0)) find_range(line, &options);
     cpsi_line_report_uplift(line, evolution->gravity);
     cpsi_line_report_utilisation(line);
 }
@@ -209,6 +223,15 @@ static void plan_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, 
     }
 }
 
+/* The time that the step has taken; after a quasi-static one lines are at rest, but for the
+ * placing by statics at the start. */
+static void end_time(CpsEvolution *evolution, bool is_start) {
+    evolution->time += evolution->interval;
+    for (int i = 0; i < evolution->line_count; i++)
+        if (evolution->line[i].has_inertia && !(evolution->interval > 0) && !is_start)
+            cpsi_line_stop(&evolution->line[i]);
+}
+
 /* Take a step (plan_step). */
 static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, bool is_move,
                            const CpsBreak *parts, CpsError *err) {
@@ -224,6 +247,7 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
         return cpsi_fail(err, CPS_ERR_INTERRUPTED,
                          "the load step was interrupted, and is not taken");
     }
+    end_time(evolution, stage == NULL && !parts->is_break);
     report_sweep(evolution, stage == NULL && !parts->is_break);
     const CpsStatus covered = check_cover(evolution, err);
     if (covered != CPS_OK) {
@@ -301,6 +325,21 @@ static CpsStatus prepare_move(CpsEvolution *evolution, CpsError *err) {
                : cpsi_fail(err, CPS_ERR_MEMORY, "out of memory for the state before a move");
 }
 
+/* May a move have a duration? */
+static CpsStatus check_time(const CpsEvolution *evolution, const char *what, CpsError *err) {
+    bool free = evolution->bodies.count > 0;
+    for (int i = 0; i < evolution->points.count; i++)
+        free = free || evolution->points.point[i].kind != CPS_POINT_KIND_HELD;
+    if (!evolution->line[0].has_inertia)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s: it has a duration, but the scene is not in time: set its in_time",
+                         what);
+    return free
+               ? cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "%s: it has a duration, but a point is free, and moves in no time", what)
+               : CPS_OK;
+}
+
 CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsError *err) {
     if (!evolution || !move)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution and move are both needed");
@@ -311,6 +350,7 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
     if (status == CPS_OK && move->step_count != 1)
         status = cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: steps is %d: a move is one step", what,
                            move->step_count);
+    if (status == CPS_OK && move->duration > 0) status = check_time(evolution, what, err);
     if (status == CPS_OK) status = prepare_move(evolution, err);
     if (status != CPS_OK) return status;
     for (int i = 0; i < move->body_change_count; i++)
@@ -367,6 +407,25 @@ CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line)
     return report;
 }
 
+CpsLineMotion cps_evolution_line_motion(const CpsEvolution *evolution, int line) {
+    if (!has_line(evolution, line) || !evolution->line[line].has_inertia) return (CpsLineMotion){0};
+    const CpsiInertia *inertia = &evolution->line[line].inertia;
+    return (CpsLineMotion){.is_moving = inertia->is_moving,
+                           .kinetic = inertia->kinetic,
+                           .ledger = inertia->ledger,
+                           .landed = inertia->landed,
+                           .changed = inertia->changed,
+                           .snatched = inertia->snatched,
+                           .position_bound = inertia->position_bound,
+                           .mass = inertia->mass,
+                           .velocity = inertia->velocity,
+                           .before = inertia->start,
+                           .rest_velocity = inertia->rest_velocity,
+                           .span = inertia->span};
+}
+
+double cps_evolution_time(const CpsEvolution *evolution) { return evolution ? evolution->time : 0; }
+
 int cps_evolution_obstacle_count(const CpsEvolution *evolution) {
     return evolution ? evolution->obstacle_count : 0;
 }
@@ -378,6 +437,7 @@ CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution, i
     const CpsiShift *shift = &evolution->shift[obstacle];
     vec3_store(report.point, vec3_add(now->frame.point, vec3_load(evolution->origin)));
     vec3_store(report.axis, now->frame.axis[2]);
+    vec3_store(report.side, now->frame.axis[0]);
     vec3_store(report.grain, now->grain);
     vec3_store(report.by, shift->by);
     vec3_store(report.turn, shift->turn);

@@ -17,6 +17,7 @@
 #include "evolve/sections.h"
 #include "evolve/stages.h"
 #include "evolve/start.h"
+#include "evolve/time_check.h"
 #include "evolve/trial.h"
 #include "evolve/view.h"
 
@@ -34,13 +35,15 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
     return cpsi_obstacle_needs_local_axes(&only);
 }
 
-/* Do elements have contacts, beside the nodes? With round obstacles they do, and where a node may
- * need a third contact; contact of the reference is that of S90, where only nodes touch. */
+/* Do elements have contacts, beside the nodes? With what is convex somewhere they do, and where a
+ * node may need a third contact; contact of the reference is that of S90, where only nodes touch.
+ */
 static bool scene_has_element_contacts(const CpsScene *scene) {
     bool round = false;
-    for (int k = 0; k < scene->obstacle_count; k++)
-        round = round || scene->obstacle[k].kind == CPS_OBSTACLE_CYLINDER ||
-                scene->obstacle[k].kind == CPS_OBSTACLE_SPHERE;
+    for (int k = 0; k < scene->obstacle_count; k++) {
+        const CpsiObstacle o = cpsi_obstacle(&scene->obstacle[k]);
+        round = round || cpsi_obstacle_faces_lines(&o);
+    }
     return (round || scene->obstacle_count > 2) &&
            scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
 }
@@ -109,11 +112,18 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
             cpsi_has_forces(&scene->line[i]) || cpsi_has_drag(scene, &scene->line[i]);
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
         line->has_break_at = cpsi_has_break_at(&scene->line[i]);
+        line->has_inertia = cpsi_is_in_time(scene);
+        line->has_field = line->has_field || line->has_inertia;
         line->compliance = line->spring_compliance = cpsi_mean_compliance(&scene->line[i]);
-        line->spring_count = cpsi_spring_count(&scene->line[i]);
+        line->spring_count = cpsi_spring_count(&scene->line[i], false);
+        line->two.exists = cpsi_has_dynamic_stiffness(&scene->line[i]);
+        line->two.elasticity[CPSI_STATIC].spring_count = line->spring_count;
+        line->two.elasticity[CPSI_DYNAMIC].spring_count =
+            line->two.exists ? cpsi_spring_count(&scene->line[i], true) : 0;
         cpsi_line_layout(line, arena);
         if (line->n > size.nodes) size.nodes = line->n;
-        if (line->spring_count > size.springs) size.springs = line->spring_count;
+        if (cpsi_line_most_springs(line) > size.springs)
+            size.springs = cpsi_line_most_springs(line);
         if (line->compliance == 0 && line->n > size.inextensible_nodes)
             size.inextensible_nodes = line->n;
     }
@@ -123,11 +133,12 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         cpsi_stage_layout(stage, arena, scene->stage[i].change_count,
                           scene->stage[i].point_change_count, scene->stage[i].body_change_count,
                           scene->stage[i].turn_count, scene->stage[i].grasp_change_count,
-                          scene->stage[i].shift_count);
+                          scene->stage[i].shift_count, scene->stage[i].sway_count);
     }
     cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->point_count,
                       scene->body_count, scene->obstacle_count,
-                      CPSI_GRASP_CHANGES * scene->line_count, scene->obstacle_count);
+                      CPSI_GRASP_CHANGES * scene->line_count, scene->obstacle_count,
+                      2 * scene->line_count);
     cpsi_points_layout(&evolution->points, arena, scene);
     for (int i = 0; i < scene->point_count; i++) {
         const char *name = copy_name(arena, scene->point[i].name);
@@ -218,6 +229,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     default: cpsi_line_start_reaction(line, CPS_TOUCH * line->length);
     }
     memcpy(line->reference, line->position, 3 * (size_t)line->n * sizeof *line->reference);
+    if (line->has_inertia) cpsi_inertia_fill(line, def);
     cpsi_line_keep_start(line);
 }
 
@@ -230,6 +242,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         evolution->obstacle[k] = cpsi_obstacle(&scene->obstacle[k]);
         (void)cps_ground_retain(evolution->obstacle[k].ground);
     }
+    evolution->time_scheme = scene->time_scheme;
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
     for (int i = 0; i < scene->line_count; i++) {
@@ -249,7 +262,8 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     if (evolution->has_static) evolution->step_count++;
     if (evolution->step_count == 0) {
         /* no history: one step to the equilibrium under the initial ends */
-        evolution->stage[0] = (CpsiEvolutionStage){.name = "equilibrium", .steps = 1};
+        evolution->stage[0] =
+            (CpsiEvolutionStage){.name = "equilibrium", .steps = 1, .static_stiffness = true};
         evolution->stage_count = evolution->step_count = 1;
     }
     for (int i = 0; i < evolution->workspace_count; i++)

@@ -66,10 +66,18 @@ static CpsStatus check_force(const CpsLine *line, int k, CpsError *err) {
     return CPS_OK;
 }
 
-CpsStatus cpsi_line_loads_check(const CpsLine *line, CpsError *err) {
+CpsStatus cpsi_line_loads_check(const CpsLine *line, bool in_time, CpsError *err) {
     const CpsLineLoads *loads = line->loads;
     CpsStatus status = CPS_OK;
     if (!loads) return CPS_OK;
+    if (in_time)
+        return CPSI_FAIL_AT(loads->spring_count > 0  ? "springs"
+                            : loads->force_count > 0 ? "loads"
+                                                     : "drag",
+                            err, CPS_ERR_ARGUMENT,
+                            "line '%s': springs, loads and drag are those of lines at rest: leave "
+                            "them out, or the motion in time",
+                            line->name);
     if (loads->spring_count < 0 || (loads->spring_count > 0 && !loads->spring))
         return CPSI_FAIL_AT("springs", err, CPS_ERR_ARGUMENT,
                             "line '%s': springs: found %d, expected 0 or more", line->name,

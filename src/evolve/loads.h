@@ -6,7 +6,8 @@
 #include "cable/line.h"
 #include "capstan/scene.h"
 
-CpsStatus cpsi_line_loads_check(const CpsLine *line, CpsError *err);
+/* in_time: the scene moves in time, where these loads are refused. */
+CpsStatus cpsi_line_loads_check(const CpsLine *line, bool in_time, CpsError *err);
 CpsStatus cpsi_current_check(const CpsScene *scene, CpsError *err);
 
 /* Has the line springs; given forces; drag in the scene's current? */

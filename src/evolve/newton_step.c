@@ -501,7 +501,11 @@ Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const do
     if (touches) {
         const CpsiObstacle *on = &evolution->obstacle[from->obstacle];
         const double gap = cpsi_obstacle_gap(on, x);
-        if (share == 1 || gap < 0) x = vec3_axpy(-gap, cpsi_obstacle_normal(on, x), x);
+        /* what lies on a round one stays on it, and loses neither reaction nor friction on the way
+         */
+        const bool stays =
+            on->kind != CPS_OBSTACLE_PLANE && from->gap <= cpsi_trial_touch(balance, from);
+        if (share == 1 || gap < 0 || stays) x = vec3_axpy(-gap, cpsi_obstacle_normal(on, x), x);
     }
     if (from->water.displaced > 0 && !touches)
         x.z = cpsi_water_stop(&from->water, evolution->points.surface, x.z);

@@ -18,6 +18,7 @@
 #include "capstan/evolve.h"
 #include "evolve/points.h"
 #include "evolve/ranges.h"
+#include "evolve/stiffness_table.h"
 
 /* The first step away from the straight line, and the last one, per distance of the ends or length
  * that weighs what is wanted; each step is twice the one before. The least length that is tried,
@@ -130,34 +131,25 @@ static LengthTrial lowest(LengthSearch *search, double low, LengthTrial middle, 
     return middle;
 }
 
-/* [-] The strain of a section, or of a line without sections, at a tension. */
-static double strain_at(double stiffness, const CpsStiffnessRow *row, int rows, double tension) {
-    int k = 1;
-    if (rows == 0) return tension / stiffness;
-    while (k + 1 < rows && row[k].tension < tension) k++;
-    return row[k].strain + (tension - row[k].tension) * (row[k].strain - row[k - 1].strain) /
-                               (row[k].tension - row[k - 1].tension);
-}
-
 /* [m] The length at which the line, pulled straight over the distance, has the tension all along;
  * not positive: the other sections are long enough for that. */
 static double straight_length(const LengthSearch *search, double distance, double tension) {
     const CpsLine *line = search->given;
     double natural = 0, pulled = 0;
     if (line->section_count == 0)
-        return distance / (1 + strain_at(line->stiffness, line->stiffness_row,
-                                         line->stiffness_row_count, tension));
+        return distance / (1 + cpsi_stiffness_strain(line->stiffness, line->stiffness_row,
+                                                     line->stiffness_row_count, tension));
     for (int k = 0; k < line->section_count; k++) {
         const CpsSection *of = &line->section[k];
         if (k == search->section) continue;
         natural += of->length;
-        pulled += of->length * (1 + strain_at(of->stiffness, of->stiffness_row,
-                                              of->stiffness_row_count, tension));
+        pulled += of->length * (1 + cpsi_stiffness_strain(of->stiffness, of->stiffness_row,
+                                                          of->stiffness_row_count, tension));
     }
     if (search->section < 0) return distance * natural / pulled;
     const CpsSection *own = &line->section[search->section];
-    return (distance - pulled) /
-           (1 + strain_at(own->stiffness, own->stiffness_row, own->stiffness_row_count, tension));
+    return (distance - pulled) / (1 + cpsi_stiffness_strain(own->stiffness, own->stiffness_row,
+                                                            own->stiffness_row_count, tension));
 }
 
 /* [N] All that pulls the line down, and what lifts it, at its length. */

@@ -20,8 +20,10 @@
 #include "evolve/points.h"
 #include "evolve/ranges.h"
 #include "evolve/sections.h"
+#include "evolve/shape_check.h"
 #include "evolve/stage_check.h"
 #include "evolve/start.h"
+#include "evolve/time_check.h"
 #include "evolve/water.h"
 #include "geometry/obstacle.h"
 
@@ -68,6 +70,7 @@ CpsObstacle cps_obstacle_default(void) {
         .kind = CPS_OBSTACLE_PLANE,
         .normal = {0, 0, 1},
         .axis = {0, 1, 0},
+        .shape.rotation = {1, 0, 0, 0},
     };
 }
 
@@ -100,33 +103,27 @@ static CpsStatus check_smooth(const CpsObstacle *o, CpsError *err) {
 }
 
 static CpsStatus check_surface(const CpsObstacle *o, CpsError *err) {
-    if (o->kind < CPS_OBSTACLE_PLANE || o->kind > CPS_OBSTACLE_SURFACE)
+    if (o->shape.inside && !cpsi_obstacle_kind_has_radius(o->kind))
+        return CPSI_FAIL_AT("inside", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': lines can be inside of a cylinder, sphere, capsule, "
+                            "torus, cone or box alone",
+                            o->name);
+    if (o->kind < CPS_OBSTACLE_PLANE || o->kind > CPS_OBSTACLE_BOX)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "obstacle '%s': unknown kind %d", o->name,
                          (int)o->kind);
     if (o->kind == CPS_OBSTACLE_GROUND || o->kind == CPS_OBSTACLE_SURFACE)
         return check_smooth(o, err);
-    const bool plane = o->kind == CPS_OBSTACLE_PLANE, ball = o->kind == CPS_OBSTACLE_SPHERE;
-    const char *what = plane ? "plane point" : ball ? "sphere centre" : "cylinder point";
+    if (o->kind != CPS_OBSTACLE_PLANE) return cpsi_shape_check(o, err);
+    const double *d = o->normal;
     if (!cpsi_are_usable(o->point))
-        return CPSI_FAIL_AT(plane  ? "plane.point"
-                            : ball ? "sphere.centre"
-                                   : "cylinder.point",
-                            err, CPS_ERR_ARGUMENT,
-                            "obstacle '%s': %s is (%g, %g, %g) m, expected finite numbers", o->name,
-                            what, o->point[0], o->point[1], o->point[2]);
-    const double *d = plane ? o->normal : o->axis;
+        return CPSI_FAIL_AT("plane.point", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': plane point is (%g, %g, %g) m, expected finite numbers",
+                            o->name, o->point[0], o->point[1], o->point[2]);
     if (!cpsi_is_direction(d))
-        return CPSI_FAIL_AT(
-            plane  ? "plane.normal"
-            : ball ? "sphere.axis"
-                   : "cylinder.axis",
-            err, CPS_ERR_ARGUMENT,
-            "obstacle '%s': %s is (%g, %g, %g), expected a direction: finite numbers, not all 0",
-            o->name, plane ? "plane normal" : "axis", d[0], d[1], d[2]);
-    if (!plane && !cpsi_is_positive(o->radius))
-        return CPSI_FAIL_AT(ball ? "sphere.radius" : "cylinder.radius", err, CPS_ERR_ARGUMENT,
-                            "obstacle '%s': radius is %g m, expected a positive finite number",
-                            o->name, o->radius);
+        return CPSI_FAIL_AT("plane.normal", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': plane normal is (%g, %g, %g), expected a direction: "
+                            "finite numbers, not all 0",
+                            o->name, d[0], d[1], d[2]);
     return CPS_OK;
 }
 
@@ -258,7 +255,7 @@ static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsEr
                             line->name, line->length);
     CpsStatus status = check_elements(line, err);
     if (status == CPS_OK) status = cpsi_sections_check(scene, line, err);
-    if (status == CPS_OK) status = cpsi_line_loads_check(line, err);
+    if (status == CPS_OK) status = cpsi_line_loads_check(line, cpsi_is_in_time(scene), err);
     return status ? status : check_zones(line, err);
 }
 
@@ -570,6 +567,7 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
     for (int i = 0; i < scene->line_count && status == CPS_OK; i++)
         status = check_line(&held.scene, i, err);
     if (status == CPS_OK) status = check_history(scene, err);
+    if (status == CPS_OK) status = cpsi_time_check(scene, err);
     if (status == CPS_OK) status = cpsi_path_check(&held.scene, err);
     if (status == CPS_OK) status = cpsi_path_check_points(scene, err);
     free(held.block);

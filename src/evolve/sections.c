@@ -4,8 +4,10 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/status.h"
+#include "cable/two_stiffnesses.h"
 #include "evolve/ranges.h"
 #include "evolve/stiffness_table.h"
 
@@ -13,7 +15,7 @@
 static const double AT_NODE = 1e-9;
 
 bool cpsi_has_sections(const CpsLine *def) {
-    return def->section_count > 0 || def->point_weight_count > 0;
+    return def->section_count > 0 || def->point_weight_count > 0 || cpsi_has_dynamic_stiffness(def);
 }
 
 /* The table of a section, or of a line of one make; no rows: there is none. */
@@ -22,11 +24,30 @@ typedef struct StiffnessTable {
     const CpsStiffnessRow *row;
 } StiffnessTable;
 
+/* The dynamic stiffness of a section, or of a line of one make; NULL: it has none. */
+static const CpsDynamicStiffness *dynamic_of(const CpsLine *def, int section) {
+    if (def->section_count == 0) return def->has_dynamic_stiffness ? &def->dynamic_stiffness : NULL;
+    const CpsSection *of = &def->section[section];
+    return of->has_dynamic_stiffness ? &of->dynamic_stiffness : NULL;
+}
+
+bool cpsi_has_dynamic_stiffness(const CpsLine *def) {
+    bool found = def->section_count == 0 && dynamic_of(def, 0);
+    for (int k = 0; k < def->section_count; k++) found = found || dynamic_of(def, k);
+    return found;
+}
+
 static StiffnessTable table_of(const CpsLine *def, int section) {
     if (def->section_count == 0)
         return (StiffnessTable){def->stiffness_row_count, def->stiffness_row};
     return (StiffnessTable){def->section[section].stiffness_row_count,
                             def->section[section].stiffness_row};
+}
+
+/* ... of the stiffness that holds: the static one where there is no other. */
+static StiffnessTable table_in(const CpsLine *def, int section, bool is_dynamic) {
+    const CpsDynamicStiffness *fast = is_dynamic ? dynamic_of(def, section) : NULL;
+    return fast ? (StiffnessTable){fast->row_count, fast->row} : table_of(def, section);
 }
 
 /* [N] EA without tension. */
@@ -128,6 +149,40 @@ static CpsStatus check_stiffness(const CpsLine *def, int k, CpsError *err) {
     return fail(err, key, whole ? -1 : k, def, found);
 }
 
+/* Check the dynamic stiffness of section k, or of a line of one make. */
+static CpsStatus check_dynamic(const CpsLine *def, int k, CpsError *err) {
+    const bool whole = def->section_count == 0;
+    const char *key = whole ? "dynamic_stiffness" : "sections",
+               *has = whole ? "" : "has a dynamic stiffness that ";
+    const CpsDynamicStiffness *fast = dynamic_of(def, k);
+    const StiffnessTable slow = table_of(def, k);
+    char fault[200], found[280];
+    if (!fast) return CPS_OK;
+    if (fast->row_count != 0) {
+        if (cpsi_stiffness_table_fault(fast->row, fast->row_count, fault, sizeof fault)) {
+            snprintf(found, sizeof found, "%s %s", whole ? "as a table" : has, fault);
+            return fail(err, key, whole ? -1 : k, def, found);
+        }
+    } else if (!cpsi_is_positive(fast->stiffness)) {
+        snprintf(found, sizeof found, "%sis %g N, expected a positive finite number", has,
+                 fast->stiffness);
+        return fail(err, key, whole ? -1 : k, def, found);
+    }
+    if (!isfinite(stiffness_of(def, k))) {
+        snprintf(found, sizeof found, "%sstands beside an inextensible one: give a finite one",
+                 has);
+        return fail(err, key, whole ? -1 : k, def, found);
+    }
+    double at, strain[2];
+    if (!cpsi_stiffness_is_softer(stiffness_of(def, k), slow.row, slow.count, fast, &at, strain))
+        return CPS_OK;
+    snprintf(found, sizeof found,
+             "%sis softer than the static one at %g N, with the strain %g there instead of %g: "
+             "expected one that is nowhere softer",
+             has, at, strain[1], strain[0]);
+    return fail(err, key, whole ? -1 : k, def, found);
+}
+
 static CpsStatus check_section(const CpsLine *def, int k, CpsError *err) {
     const CpsSection *section = &def->section[k];
     char found[160];
@@ -141,7 +196,8 @@ static CpsStatus check_section(const CpsLine *def, int k, CpsError *err) {
                  section->weight);
         return fail(err, "sections", k, def, found);
     }
-    const CpsStatus status = check_stiffness(def, k, err);
+    CpsStatus status = check_stiffness(def, k, err);
+    if (status == CPS_OK) status = check_dynamic(def, k, err);
     if (status != CPS_OK) return status;
     if (section->has_breaking_load && !cpsi_is_positive(section->breaking_load)) {
         snprintf(found, sizeof found, "has the breaking load %g N, expected a positive number",
@@ -220,6 +276,7 @@ CpsStatus cpsi_sections_check(const CpsScene *scene, const CpsLine *def, CpsErro
         return fail(err, "weight", -1, def, found);
     }
     CpsStatus status = def->section_count == 0 ? check_stiffness(def, 0, err) : CPS_OK;
+    if (status == CPS_OK && def->section_count == 0) status = check_dynamic(def, 0, err);
     if (status != CPS_OK) return status;
     if (def->section_count == 0 && def->has_breaking_load &&
         !cpsi_is_positive(def->breaking_load)) {
@@ -275,29 +332,47 @@ static int section_at(const CpsLine *def, double middle, Along *at) {
     return at->section;
 }
 
-/* The springs of the next element, of this section; returns their number. */
-static int fill_springs(CpsiLine *line, const CpsLine *def, int section, int first, int e) {
-    const StiffnessTable table = table_of(def, section);
+/* The springs of the next element by this table; returns their number. */
+static int fill_springs(const CpsiElasticity *to, StiffnessTable table, int first, int e) {
     if (table.count == 0) return 0;
-    const int count =
-        cpsi_stiffness_table_springs(table.row, table.count, &line->spring_start[first],
-                                     &line->spring_stiffness[first]);
-    for (int i = 0; i < count; i++) line->spring_element[first + i] = e;
+    const int count = cpsi_stiffness_table_springs(table.row, table.count, &to->spring_start[first],
+                                                   &to->spring_stiffness[first]);
+    for (int i = 0; i < count; i++) to->spring_element[first + i] = e;
     return count;
 }
 
-int cpsi_spring_count(const CpsLine *def) {
+int cpsi_spring_count(const CpsLine *def, bool is_dynamic) {
     int count = 0;
     double from = 0;
     Along at = {0};
     for (int e = 0; e < def->element_count; e++) {
         const double l = cpsi_element_length(def, e);
-        const StiffnessTable table = table_of(def, section_at(def, from + 0.5 * l, &at));
+        const StiffnessTable table =
+            table_in(def, section_at(def, from + 0.5 * l, &at), is_dynamic);
         if (table.count > 0)
             count += cpsi_stiffness_table_springs(table.row, table.count, NULL, NULL);
         from += l;
     }
     return count;
+}
+
+/* How the elements of a line with two stiffnesses stretch by one of them. */
+static void fill_elasticity(CpsiLine *line, const CpsLine *def, bool is_dynamic) {
+    CpsiElasticity *to = &line->two.elasticity[is_dynamic ? CPSI_DYNAMIC : CPSI_STATIC];
+    Along at = {0};
+    int springs = 0;
+    for (int e = 0; e + 1 < line->n; e++) {
+        const int k = section_at(def, line->arc_length[e] + 0.5 * line->natural_length[e], &at);
+        const StiffnessTable table = table_in(def, k, is_dynamic);
+        const CpsDynamicStiffness *fast = is_dynamic ? dynamic_of(def, k) : NULL;
+        const double stiffness = table.count > 0 ? cpsi_stiffness_table_first(table.row)
+                                 : fast          ? fast->stiffness
+                                                 : stiffness_of(def, k);
+        to->compliance_factor[e] = 1 / stiffness / line->compliance;
+        to->spring_at[e] = springs;
+        springs += fill_springs(to, table, springs, e);
+        to->spring_at[e + 1] = springs;
+    }
 }
 
 static void fill_elements(CpsiLine *line, const CpsLine *def, double weight) {
@@ -309,7 +384,10 @@ static void fill_elements(CpsiLine *line, const CpsLine *def, double weight) {
         const Make make = make_of(def, k);
         if (line->spring_count > 0) {
             line->spring_at[e] = springs;
-            springs += fill_springs(line, def, k, springs, e);
+            const CpsiElasticity own = {.spring_element = line->spring_element,
+                                        .spring_start = line->spring_start,
+                                        .spring_stiffness = line->spring_stiffness};
+            springs += fill_springs(&own, table_of(def, k), springs, e);
             line->spring_at[e + 1] = springs;
         }
         if (line->has_breaking_load) line->breaking_load[e] = make.breaking_load;
@@ -325,6 +403,13 @@ void cpsi_sections_fill(CpsiLine *line, const CpsLine *def) {
     const double weight = cpsi_mean_weight(def);
     fill_elements(line, def, weight);
     if (!line->has_sections) return;
+    if (line->two.exists) {
+        memcpy(line->natural_length, line->element_length,
+               ((size_t)line->n - 1) * sizeof *line->natural_length);
+        fill_elasticity(line, def, false);
+        fill_elasticity(line, def, true);
+        cpsi_line_set_stiffness(line);
+    }
     for (int j = 0; j < line->n; j++) {
         double sum = 0;
         if (j > 0) sum += 0.5 * line->element_length[j - 1] * line->weight_factor[j - 1];

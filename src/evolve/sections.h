@@ -19,8 +19,12 @@ bool cpsi_is_elastic(const CpsLine *def);
 bool cpsi_has_breaking_load(const CpsLine *def);
 bool cpsi_has_break_at(const CpsLine *def);
 
-/* The number of springs beside the stiffness of its elements (base/element_law.h), by tables. */
-int cpsi_spring_count(const CpsLine *def);
+/* Has it, or a section of it, a dynamic stiffness? */
+bool cpsi_has_dynamic_stiffness(const CpsLine *def);
+
+/* The number of springs beside the stiffness of its elements (base/element_law.h), by tables of the
+ * static or the dynamic stiffness. */
+int cpsi_spring_count(const CpsLine *def, bool is_dynamic);
 
 /* [1/N] 1/EA without tension, of a line of sections the mean over its length. */
 double cpsi_mean_compliance(const CpsLine *def);

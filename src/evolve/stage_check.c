@@ -13,6 +13,7 @@
 #include "evolve/points.h"
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
+#include "evolve/time_check.h"
 #include "evolve/water.h"
 
 enum { STAGE_COOKIE = 0x57a9e004 };
@@ -97,6 +98,11 @@ static CpsStatus check_turns(const CpsScene *scene, const CpsStage *stage, const
                                 "%s: obstacle '%s' is a plane: only a cylinder or a sphere turns "
                                 "about its own axis; %s.obstacle has turns about any",
                                 what, obstacle->name, obstacle->name);
+        if (obstacle->kind == CPS_OBSTACLE_BOX)
+            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                                "%s: obstacle '%s' is a box, which has no axis of rotation; "
+                                "%s.obstacle has turns about any",
+                                what, obstacle->name, obstacle->name);
         if (obstacle->kind == CPS_OBSTACLE_GROUND || obstacle->kind == CPS_OBSTACLE_SURFACE)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                                 "%s: obstacle '%s' is a %s: only a cylinder or a sphere turns",
@@ -143,6 +149,7 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
     if (status == CPS_OK) status = cpsi_stage_shifts_check(scene, stage, what, err);
     for (int i = 0; i < stage->change_count && status == CPS_OK; i++)
         status = check_change(scene, stage, i, what, err);
+    if (status == CPS_OK) status = cpsi_stage_time_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_point_changes_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_grasp_changes_check(scene, stage, what, err);
     return status == CPS_OK ? cpsi_body_changes_check(scene, stage, what, err) : status;

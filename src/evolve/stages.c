@@ -2,9 +2,12 @@
 /* What a load step imposes (stages.h). */
 #include "evolve/stages.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/math.h"
+#include "cable/two_stiffnesses.h"
 #include "evolve/failure.h"
 #include "evolve/grasps.h"
 #include "evolve/path_check.h"
@@ -13,8 +16,9 @@
 #include "evolve/water.h"
 
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
-                       int bodies, int turns, int grasps, int shifts) {
+                       int bodies, int turns, int grasps, int shifts, int sways) {
     CPSI_PLACE(arena, stage->shift, shifts);
+    CPSI_PLACE(arena, stage->sway, sways);
     CPSI_PLACE(arena, stage->change, changes);
     CPSI_PLACE(arena, stage->grasp_change, grasps);
     CPSI_PLACE(arena, stage->body_change, bodies);
@@ -24,6 +28,7 @@ void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes,
 
 void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const double origin[3]) {
     stage->steps = from->step_count;
+    stage->duration = from->duration;
     stage->change_count = from->change_count;
     for (int k = 0; k < from->change_count; k++) {
         CpsChange *change = &stage->change[k];
@@ -59,6 +64,9 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
     }
     stage->turn_count = from->turn_count;
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
+    stage->sway_count = from->sway_count;
+    for (int k = 0; k < from->sway_count; k++) stage->sway[k] = from->sway[k];
+    stage->static_stiffness = from->static_stiffness;
     stage->gravity_changes = from->gravity_changes;
     memcpy(stage->gravity, from->gravity, sizeof stage->gravity);
 }
@@ -144,7 +152,15 @@ static void release(CpsEvolution *evolution, int line, int end, CpsRelease by) {
 static CpsEnd end_at(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
                      const CpsChange *change, int part) {
     const CpsEnd *from = &evolution->from[2 * change->line + change->end];
-    return cpsi_stage_value(from, &change->to, part, stage->steps);
+    CpsEnd at = cpsi_stage_value(from, &change->to, part, stage->steps);
+    for (int k = 0; k < stage->sway_count; k++) {
+        const CpsSway *sway = &stage->sway[k];
+        if (sway->line != change->line || sway->end != change->end) continue;
+        const double angle = 2 * CPSI_PI * (part * (stage->duration / stage->steps) / sway->period);
+        for (int a = 0; a < 3; a++)
+            at.value[a] += sway->sine[a] * sin(angle) + sway->cosine[a] * (1 - cos(angle));
+    }
+    return at;
 }
 
 /* The wrench at a share of the way. */
@@ -256,7 +272,17 @@ static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage
     }
 }
 
+/* The time that the step takes. Obstacles go on at the rate of the step before within a stage. */
+static void plan_time(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+    const bool moves = stage->turn_count > 0 || stage->shift_count > 0;
+    evolution->interval = stage->duration / stage->steps;
+    evolution->restarts = part == 0 && (moves || evolution->ground_moved);
+    evolution->ground_moved = moves;
+}
+
 void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+    for (int i = 0; i < evolution->line_count; i++)
+        cpsi_line_use_stiffness(&evolution->line[i], !stage->static_stiffness);
     if (part == 0) memcpy(evolution->gravity_from, evolution->gravity, sizeof evolution->gravity);
     plan_weights(evolution, stage, part);
     for (int i = 0; i < evolution->line_count; i++)
@@ -286,6 +312,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
     for (int k = 0; k < stage->turn_count; k++)
         evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
     plan_shifts(evolution, stage, part);
+    plan_time(evolution, stage, part);
     if (stage->steps == 1)
         snprintf(evolution->step_name, CPSI_STEP_NAME, "%s", stage->name);
     else
@@ -295,6 +322,8 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
 
 /* Nothing changes. */
 static void plan_rest(CpsEvolution *evolution) {
+    evolution->interval = 0;
+    evolution->ground_moved = false;
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int i = 0; i < evolution->line_count; i++) {
         const CpsiLine *line = &evolution->line[i];

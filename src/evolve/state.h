@@ -16,15 +16,18 @@ enum { CPSI_STEP_NAME = 96, CPSI_GRASP_CHANGES = 2 * CPS_MAX_GRASPS };
 typedef struct CpsiEvolutionStage {
     const char *name;
     int steps, change_count, point_change_count, body_change_count, grasp_change_count, turn_count,
-        shift_count;
+        shift_count, sway_count;
     CpsChange *change;
     CpsGraspChange *grasp_change;
     CpsPointChange *point_change;
     CpsBodyChange *body_change;
     CpsTurn *turn;
     CpsShift *shift;
+    CpsSway *sway;
+    bool static_stiffness;
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */
+    double duration;   /* [s] 0: quasi-static */
     uint64_t hash;     /* of this stage and all before it */
 } CpsiEvolutionStage;
 
@@ -67,8 +70,12 @@ struct CpsEvolution {
     CpsOutcome lone;     /* of the points and bodies in the step at which no line ends any more */
     double gravity[3], gravity_from[3]; /* [m/s2] now, and when the stage under way began */
     double gravity_given[3];            /* [m/s2] that of the scene */
-    bool has_static;                    /* the first step places lines by statics */
-    bool *is_static;                    /* (line_count) */
+    CpsTimeScheme time_scheme;
+    double time, interval; /* [s] now, and of the last step, 0: quasi-static */
+    bool ground_moved;     /* an obstacle turned or moved in it */
+    bool restarts;         /* the step under way is an Euler step (time_step.h) */
+    bool has_static;       /* the first step places lines by statics */
+    bool *is_static;       /* (line_count) */
     double *
         mass; /* (line_count) [kg/m] weight per gravity; 0 where there is no gravity at the start */
     int done; /* steps of the history taken */

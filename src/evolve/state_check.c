@@ -125,11 +125,19 @@ static bool is_load_change(const CpsiLoadChange *change) {
     return sound;
 }
 
+/* Rest strains of a line that has them. */
+static bool are_rest_strains(const CpsiLine *line) {
+    if (!line->two.exists) return true;
+    for (int e = 0; e + 1 < line->n; e++)
+        if (!(line->two.rest_strain[e] >= 0 && isfinite(line->two.rest_strain[e]))) return false;
+    return true;
+}
+
 static bool are_fields(const CpsiLine *line) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     return all_finite(line->reference, 3 * n) && all_finite(line->position, 3 * n) &&
-           is_start(line) && all_finite(line->load, 3 * n) && all_finite(line->motion, 3 * n) &&
-           is_load_change(&line->last_change) &&
+           is_start(line) && are_rest_strains(line) && all_finite(line->load, 3 * n) &&
+           all_finite(line->motion, 3 * n) && is_load_change(&line->last_change) &&
            within(line->newton.failures, 0, CPSI_NEWTON_PATIENCE) &&
            within(line->newton.pause, 0, 1 << CPSI_NEWTON_PATIENCE) &&
            all_finite(line->weight, 3) && all_finite(line->weight_before, 3) &&
@@ -138,6 +146,18 @@ static bool are_fields(const CpsiLine *line) {
            none_is_nan(line->gap, contacts) && all_finite(line->friction_bound, contacts) &&
            all_finite(line->reaction, contacts) && all_finite(line->segment_force, 3 * (n - 1)) &&
            all_finite(line->tension, n - 1) && all_finite(line->beta, n);
+}
+
+static bool is_motion(const CpsiLine *line) {
+    const CpsiInertia *inertia = &line->inertia;
+    const size_t n = (size_t)line->n;
+    if (!line->has_inertia) return true;
+    for (size_t j = 0; j < n; j++)
+        if (inertia->is_moving && !(inertia->span[j] > 0)) return false;
+    return all_finite(inertia->rest_velocity, 3 * n) && all_finite(inertia->start, 3 * n) &&
+           all_finite(inertia->velocity, 3 * n) && all_finite(inertia->before, 3 * n) &&
+           all_finite(inertia->before_velocity, 3 * n) && all_finite(inertia->span, n) &&
+           isfinite(inertia->kinetic);
 }
 
 static bool is_point(const CpsiPoint *point, int obstacles) {
@@ -196,6 +216,8 @@ const char *cpsi_state_fault(const CpsEvolution *evolution) {
         if (!is_end(&evolution->from[i])) return "an end comes from nowhere";
     for (int k = 0; k < evolution->obstacle_count; k++)
         if (!is_placed(evolution, k)) return "an obstacle is at no place";
+    if (!(evolution->time >= 0 && isfinite(evolution->time)) || !(evolution->interval >= 0))
+        return "its time is none";
     if (!all_finite(evolution->gravity, 3) || !all_finite(evolution->gravity_from, 3))
         return "its gravity is not finite";
     for (int i = 0; i < evolution->line_count; i++) {
@@ -207,7 +229,7 @@ const char *cpsi_state_fault(const CpsEvolution *evolution) {
             return "the report of a line is none";
         if (!are_contacts(line))
             return "a contact is with an obstacle that there is not, or in no state";
-        if (!are_fields(line)) return "a number is not finite";
+        if (!are_fields(line) || !is_motion(line)) return "a number is not finite";
     }
     for (int i = 0; i < evolution->points.count; i++)
         if (!is_point(&evolution->points.point[i], evolution->obstacle_count))

@@ -60,6 +60,45 @@ const char *cpsi_stiffness_table_fault(const CpsStiffnessRow *row, int count, ch
     return NULL;
 }
 
+double cpsi_stiffness_strain(double stiffness, const CpsStiffnessRow *row, int count,
+                             double tension) {
+    int k = 1;
+    if (count == 0) return tension / stiffness;
+    while (k + 1 < count && row[k].tension < tension) k++;
+    return row[k].strain + (tension - row[k].tension) * (row[k].strain - row[k - 1].strain) /
+                               (row[k].tension - row[k - 1].tension);
+}
+
+/* The slope beyond the last row. */
+static double last_slope(double stiffness, const CpsStiffnessRow *row, int count) {
+    return count > 0 ? slope_of(row, count - 2) : stiffness;
+}
+
+bool cpsi_stiffness_is_softer(double stiffness, const CpsStiffnessRow *row, int count,
+                              const CpsDynamicStiffness *other, double *at, double strain[2]) {
+    double most = 0; /* largest tension of a row */
+    for (int k = 0; k < count + other->row_count; k++) {
+        const double tension = k < count ? row[k].tension : other->row[k - count].tension;
+        if (!(tension > 0)) continue;
+        most = fmax(most, tension);
+        *at = tension;
+        strain[0] = cpsi_stiffness_strain(stiffness, row, count, tension);
+        strain[1] = cpsi_stiffness_strain(other->stiffness, other->row, other->row_count, tension);
+        if (strain[1] > (1 + SAME_SLOPE) * strain[0]) return true;
+    }
+    if (last_slope(other->stiffness, other->row, other->row_count) >=
+        (1 - SAME_SLOPE) * last_slope(stiffness, row, count))
+        return false;
+    /* it is so from some tension on */
+    *at = most > 0 ? most : stiffness;
+    do {
+        *at *= 2;
+        strain[0] = cpsi_stiffness_strain(stiffness, row, count, *at);
+        strain[1] = cpsi_stiffness_strain(other->stiffness, other->row, other->row_count, *at);
+    } while (strain[1] <= strain[0] && *at < 1e300);
+    return true;
+}
+
 double cpsi_stiffness_table_first(const CpsStiffnessRow *row) { return slope_of(row, 0); }
 
 int cpsi_stiffness_table_springs(const CpsStiffnessRow *row, int count, double *start,

@@ -172,13 +172,13 @@ static void weight_at(const CpsiMove *move, double share, double weight[3]) {
 }
 
 /* Put the obstacles where they are at share `to`. */
-static void shift_obstacles(const Advance *substeps, double from, double to) {
-    const CpsiMove *move = substeps->move;
-    for (int k = 0; k < substeps->line->obstacle_count; k++) {
-        CpsiShift *shift = &substeps->scratch->shift[k];
+static void shift_obstacles(const CpsiLine *line, const CpsiMove *move, CpsiSubsteps *scratch,
+                            double from, double to) {
+    for (int k = 0; k < line->obstacle_count; k++) {
+        CpsiShift *shift = &scratch->shift[k];
         *shift = (CpsiShift){0};
         if (!move->shift) continue;
-        CpsiObstacle *obstacle = &substeps->scratch->obstacle[k];
+        CpsiObstacle *obstacle = &scratch->obstacle[k];
         *obstacle = move->obstacle[k];
         *shift = cpsi_shift_part(&move->shift[k], from, to);
         const CpsiShift back = cpsi_shift_part(&move->shift[k], 1, to);
@@ -186,21 +186,24 @@ static void shift_obstacles(const Advance *substeps, double from, double to) {
     }
 }
 
-/* Impose the part of the move from share `from` to share `to`. */
-static void impose(const Advance *substeps, double from, double to) {
-    weight_at(substeps->move, from, substeps->line->weight_before);
-    weight_at(substeps->move, to, substeps->line->weight);
+void cpsi_substeps_impose(CpsiLine *line, const CpsiMove *move, CpsiSubsteps *scratch, double from,
+                          double to) {
+    weight_at(move, from, line->weight_before);
+    weight_at(move, to, line->weight);
     for (int end = 0; end < 2; end++) {
-        substeps->line->end_before[end] = end_at(substeps->move, end, from);
-        substeps->line->end[end] = end_at(substeps->move, end, to);
+        line->end_before[end] = end_at(move, end, from);
+        line->end[end] = end_at(move, end, to);
     }
-    for (int k = 0; k < substeps->move->grasp_count; k++) {
-        substeps->line->grasp_before[k] = grasp_at(substeps->move, k, from);
-        substeps->line->grasp[k].imposed = grasp_at(substeps->move, k, to);
+    for (int k = 0; k < move->grasp_count; k++) {
+        line->grasp_before[k] = grasp_at(move, k, from);
+        line->grasp[k].imposed = grasp_at(move, k, to);
     }
-    for (int k = 0; k < substeps->line->obstacle_count; k++)
-        substeps->scratch->turn[k] = (to - from) * substeps->move->angle[k];
-    shift_obstacles(substeps, from, to);
+    for (int k = 0; k < line->obstacle_count; k++) scratch->turn[k] = (to - from) * move->angle[k];
+    shift_obstacles(line, move, scratch, from, to);
+}
+
+static void impose(const Advance *substeps, double from, double to) {
+    cpsi_substeps_impose(substeps->line, substeps->move, substeps->scratch, from, to);
 }
 
 /* A too coarse mesh counts as an answer: smaller parts would not change it. */
@@ -402,8 +405,8 @@ static Trial try_part(Advance *substeps, double from, double middle, double to, 
     trial.good = converged(&trial.first);
     if (!trial.good) return trial;
     trial.open = open_energy(substeps, &trial.first, NULL);
-    if (substeps->line->newton.solved > 0 && is_open(&trial.open)) {
-        /* restored, the line has no move to go on from: the part is taken cold */
+    if (substeps->line->newton.guessed && is_open(&trial.open)) {
+        /* restored, the line has no move to go on from: the part begins cold */
         cpsi_substeps_restore(substeps->line, substeps->scratch);
         trial.first = accept(substeps, from, to, substeps->known);
         trial.good = converged(&trial.first);
@@ -666,7 +669,7 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
     }
 }
 
-/* [m] How far a round obstacle is shifted where the line may meet it. An obstacle that turns about
+/* [m] How far a curved obstacle is shifted where the line may meet it. An obstacle that turns about
  * a point moves differently everywhere. */
 static double shift_size(const CpsiLine *line, const CpsiMove *move, int k) {
     const CpsiShift *shift = &move->shift[k], back = cpsi_shift_part(shift, 1, 0);
@@ -680,11 +683,14 @@ static double shift_size(const CpsiLine *line, const CpsiMove *move, int k) {
             drawn = fmax(drawn, vec3_norm(vec3_sub(vec3_load(move->to[end].value),
                                                    vec3_load(move->from[end].value))));
     for (int j = 0; j < line->n; j++) {
-        const Vec3 x = vec3_at(line->position, j), spoke = cpsi_obstacle_spoke(&start, x),
-                   foot = vec3_sub(x, spoke);
+        const Vec3 x = vec3_at(line->position, j);
+        const bool round = cpsi_obstacle_is_round(&start);
+        const double gap = cpsi_obstacle_gap(&start, x);
+        const Vec3 foot = vec3_sub(x, round ? cpsi_obstacle_spoke(&start, x)
+                                            : vec3_scale(gap, cpsi_obstacle_normal(&start, x)));
         const double size = by + vec3_norm(vec3_cross(shift->turn, vec3_sub(foot, shift->about))),
                      element = line->element_length[j < line->n - 1 ? j : j - 1];
-        if (vec3_norm(spoke) - start.radius <= size + drawn + element) most = fmax(most, size);
+        if (gap <= size + drawn + element) most = fmax(most, size);
     }
     return most;
 }

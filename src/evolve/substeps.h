@@ -43,6 +43,10 @@ void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int co
 void cpsi_line_substeps(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                         const CpsiMove *move, CpsiSubsteps *scratch, bool known);
 
+/* Impose the part of the move from share `from` to share `to`. */
+void cpsi_substeps_impose(CpsiLine *line, const CpsiMove *move, CpsiSubsteps *scratch, double from,
+                          double to);
+
 /* Save the state at the start of a part, and return to it. */
 void cpsi_substeps_save(const CpsiLine *line, CpsiSubsteps *scratch);
 void cpsi_substeps_restore(CpsiLine *line, const CpsiSubsteps *scratch);

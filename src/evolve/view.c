@@ -2,6 +2,8 @@
 /* The views of the lines of an evolution (view.h). */
 #include "evolve/view.h"
 
+#include "capstan/two_stiffnesses.h"
+
 void cpsi_view_layout(CpsiViewFill *fill, CpsiArena *arena, int n) {
     CPSI_PLACE(arena, fill->zero, 3 * n);
     CPSI_PLACE(arena, fill->one, n);
@@ -92,7 +94,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .obstacle = from->has_local_axes ? from->obstacle_index : only,
         .origin = {evolution->origin[0], evolution->origin[1], evolution->origin[2]},
     };
-    view.has_springs = from->field.diagonal;
+    view.has_springs = from->field.diagonal && !from->has_inertia;
     view.node_stiffness = view.has_springs ? from->field.diagonal : fill->zero;
     view.node_place = view.has_springs ? from->field.own_place : fill->zero;
     view.node_beside = view.has_springs ? from->field.beside : fill->zero;
@@ -100,4 +102,22 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
     view.node_load = view.has_node_loads ? from->field.all : fill->zero;
     view_elements(from, fill, &view);
     return view;
+}
+
+static CpsElasticity elasticity(const CpsiElasticity *own) {
+    return (CpsElasticity){own->compliance_factor, own->spring_count, own->spring_element,
+                           own->spring_start, own->spring_stiffness};
+}
+
+CpsTwoStiffnesses cps_evolution_two_stiffnesses(const CpsEvolution *evolution, int line) {
+    if (!evolution || line < 0 || line >= evolution->line_count ||
+        !evolution->line[line].two.exists)
+        return (CpsTwoStiffnesses){.exists = false};
+    const CpsiLine *from = &evolution->line[line];
+    return (CpsTwoStiffnesses){.exists = true,
+                               .is_dynamic = from->two.is_dynamic,
+                               .element_length = from->natural_length,
+                               .rest_strain = from->two.rest_strain,
+                               .at_static = elasticity(&from->two.elasticity[CPSI_STATIC]),
+                               .at_dynamic = elasticity(&from->two.elasticity[CPSI_DYNAMIC])};
 }

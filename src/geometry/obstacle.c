@@ -8,9 +8,15 @@
 static const double LEAST = 1e-12;
 
 /* In the order of CpsObstacleKind. */
-static const CpsiShapeTable *const SHAPE[] = {&cpsi_shape_plane, &cpsi_shape_cylinder,
-                                              &cpsi_shape_sphere, &cpsi_shape_smooth,
-                                              &cpsi_shape_smooth};
+static const CpsiShapeTable *const SHAPE[] = {&cpsi_shape_plane,   &cpsi_shape_cylinder,
+                                              &cpsi_shape_sphere,  &cpsi_shape_smooth,
+                                              &cpsi_shape_smooth,  &cpsi_shape_rounded,
+                                              &cpsi_shape_rounded, &cpsi_shape_rounded,
+                                              &cpsi_shape_rounded};
+
+static const CpsiShapeTable *shape_of(const CpsiObstacle *o) {
+    return o->form.inside ? &cpsi_shape_rounded : SHAPE[o->kind];
+}
 
 /* [m] What a shape that is not round has for a radius: the step in which its paths are examined. */
 static double radius_of(const CpsObstacle *def) {
@@ -18,19 +24,28 @@ static double radius_of(const CpsObstacle *def) {
     return def->kind == CPS_OBSTACLE_SURFACE ? def->surface.size : def->radius;
 }
 
+/* The axes of a box. */
+static void turn_frame(CpsiPlane *frame, const double rotation[4]) {
+    const Rotation turn = rotation_load(rotation);
+    for (int i = 0; i < 3; i++)
+        frame->axis[i] = rotation_apply(turn, vec3(i == 0 ? 1 : 0, i == 1 ? 1 : 0, i == 2 ? 1 : 0));
+}
+
 CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
     static const double UP[3] = {0, 0, 1};
-    const bool round = def->kind == CPS_OBSTACLE_CYLINDER || def->kind == CPS_OBSTACLE_SPHERE;
+    const bool axis = cpsi_obstacle_kind_has_axis(def->kind);
     CpsiObstacle out = {.kind = def->kind,
                         .radius = radius_of(def),
+                        .form = def->shape,
                         .shape = def->friction_shape,
                         .moves = def->moves,
                         .has_set = def->friction_set};
     if (def->kind == CPS_OBSTACLE_GROUND) out.ground = def->ground;
     if (def->kind == CPS_OBSTACLE_SURFACE) out.surface = def->surface;
-    out.frame = cpsi_plane(def->point, round                             ? def->axis
+    out.frame = cpsi_plane(def->point, axis                              ? def->axis
                                        : def->kind == CPS_OBSTACLE_PLANE ? def->normal
                                                                          : UP);
+    if (def->kind == CPS_OBSTACLE_BOX) turn_frame(&out.frame, def->shape.rotation);
     out.friction[0] = def->friction;
     out.friction[1] = def->has_friction_lateral ? def->friction_lateral : def->friction;
     out.grain = vec3_load(def->grain);
@@ -48,11 +63,19 @@ bool cpsi_obstacle_needs_local_axes(const CpsiObstacle *o) {
 }
 
 bool cpsi_obstacle_is_round(const CpsiObstacle *o) {
-    return o->kind == CPS_OBSTACLE_CYLINDER || o->kind == CPS_OBSTACLE_SPHERE;
+    return (o->kind == CPS_OBSTACLE_CYLINDER || o->kind == CPS_OBSTACLE_SPHERE) && !o->form.inside;
 }
 
+bool cpsi_obstacle_is_rounded(const CpsiObstacle *o) { return shape_of(o) == &cpsi_shape_rounded; }
+
 bool cpsi_obstacle_is_convex(const CpsiObstacle *o) {
-    return o->kind == CPS_OBSTACLE_PLANE || cpsi_obstacle_is_round(o);
+    return o->kind == CPS_OBSTACLE_PLANE || cpsi_obstacle_is_round(o) ||
+           (cpsi_obstacle_is_rounded(o) && o->kind != CPS_OBSTACLE_TORUS && !o->form.inside);
+}
+
+bool cpsi_obstacle_faces_lines(const CpsiObstacle *o) {
+    return cpsi_obstacle_is_round(o) ||
+           (cpsi_obstacle_is_rounded(o) && (!o->form.inside || o->kind == CPS_OBSTACLE_TORUS));
 }
 
 bool cpsi_obstacle_covers(const CpsiObstacle *o, Vec3 x, double rounding) {
@@ -70,27 +93,27 @@ static Vec3 unit(Vec3 v, Vec3 otherwise) {
     return size > 0 ? vec3_scale(1 / size, v) : otherwise;
 }
 
-double cpsi_obstacle_gap(const CpsiObstacle *o, Vec3 x) { return SHAPE[o->kind]->gap(o, x); }
+double cpsi_obstacle_gap(const CpsiObstacle *o, Vec3 x) { return shape_of(o)->gap(o, x); }
 
 double cpsi_obstacle_depth(const CpsiObstacle *o, Vec3 from, Vec3 to) {
-    return SHAPE[o->kind]->depth(o, from, to);
+    return shape_of(o)->depth(o, from, to);
 }
 
-Vec3 cpsi_obstacle_normal(const CpsiObstacle *o, Vec3 x) { return SHAPE[o->kind]->normal(o, x); }
+Vec3 cpsi_obstacle_normal(const CpsiObstacle *o, Vec3 x) { return shape_of(o)->normal(o, x); }
 
 Vec3 cpsi_obstacle_move(const CpsiObstacle *o, Vec3 x, Vec3 u) {
-    return SHAPE[o->kind]->move(o, x, u);
+    return shape_of(o)->move(o, x, u);
 }
 
 Vec3 cpsi_obstacle_slip(const CpsiObstacle *o, Vec3 from, Vec3 to) {
-    return SHAPE[o->kind]->slip(o, from, to);
+    return shape_of(o)->slip(o, from, to);
 }
 
 double cpsi_obstacle_angle(const CpsiObstacle *o, Vec3 from, Vec3 to) {
-    return SHAPE[o->kind]->angle(o, from, to);
+    return shape_of(o)->angle(o, from, to);
 }
 
-double cpsi_obstacle_range(const CpsiObstacle *o, Vec3 x) { return SHAPE[o->kind]->range(o, x); }
+double cpsi_obstacle_range(const CpsiObstacle *o, Vec3 x) { return shape_of(o)->range(o, x); }
 
 void cpsi_obstacle_axes(const CpsiObstacle *o, Vec3 x, Vec3 along, double axes[9],
                         double curvature[3]) {
@@ -106,7 +129,7 @@ void cpsi_obstacle_axes(const CpsiObstacle *o, Vec3 x, Vec3 along, double axes[9
     vec3_store(&axes[0], t);
     vec3_store(&axes[3], b);
     vec3_store(&axes[6], n);
-    SHAPE[o->kind]->curvature(o, x, t, b, curvature);
+    shape_of(o)->curvature(o, x, t, b, curvature);
 }
 
 /* v turned about a unit axis. */
@@ -117,6 +140,7 @@ static Vec3 turned(Vec3 v, Vec3 axis, double angle) {
 }
 
 bool cpsi_obstacle_faces(const CpsiObstacle *o, Vec3 a, Vec3 b, double *share) {
+    if (cpsi_obstacle_is_rounded(o)) return cpsi_rounded_faces(o, a, b, share);
     if (!cpsi_obstacle_is_round(o)) return false;
     const Vec3 from = cpsi_obstacle_spoke(o, a), along = vec3_sub(cpsi_obstacle_spoke(o, b), from);
     const double passed = -vec3_dot(from, along), whole = vec3_dot(along, along);
@@ -124,8 +148,16 @@ bool cpsi_obstacle_faces(const CpsiObstacle *o, Vec3 a, Vec3 b, double *share) {
     return passed > 0 && passed < whole;
 }
 
+CpsiObstacle cpsi_obstacle_within(const CpsiObstacle *o, double depth) {
+    CpsiObstacle out = *o;
+    out.radius += o->form.inside ? depth : -depth;
+    return out;
+}
+
 double cpsi_obstacle_allowance(const CpsiObstacle *o, double l) {
-    return fmin(0.25 * l * (l / o->radius), 0.25 * o->radius);
+    /* seen from inside, only the side of a torus towards its axis is convex */
+    const double r = o->form.inside ? o->form.main_radius - o->radius : o->radius;
+    return fmin(0.25 * l * (l / r), 0.25 * r);
 }
 
 Vec3 cpsi_obstacle_turn(const CpsiObstacle *o, Vec3 x, double angle) {

@@ -2,7 +2,8 @@
 /* Obstacles: distance, axes of contact, and motion along the surface.
  *
  * The normal n(x) of a surface at a point x is the normal at the foot of x, the nearest point of
- * the surface. On plane, cylinder and sphere this map and the geodesics have closed forms. On
+ * the surface. On plane, cylinder and sphere this map and the geodesics have closed forms; on the
+ * other shapes the map has, and ways hold to second order in their length (shape_rounded.c). On
  * ground and surfaces given as functions all of this holds to first order in the height above the
  * surface, and ways to second order in their length (shape_smooth.c). */
 #ifndef CAPSTAN_SRC_GEOMETRY_OBSTACLE_H
@@ -17,8 +18,24 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def);
  * friction depend on the line's direction? */
 bool cpsi_obstacle_needs_local_axes(const CpsiObstacle *obstacle);
 
-/* Is it a cylinder or a sphere, with an axis or a centre that lines may pass? */
+/* Has an obstacle of this kind an axis of rotation? */
+static inline bool cpsi_obstacle_kind_has_axis(CpsObstacleKind kind) {
+    return kind == CPS_OBSTACLE_CYLINDER || kind == CPS_OBSTACLE_SPHERE ||
+           kind == CPS_OBSTACLE_CAPSULE || kind == CPS_OBSTACLE_TORUS || kind == CPS_OBSTACLE_CONE;
+}
+/* Has it a radius, and what else CpsShape says? */
+static inline bool cpsi_obstacle_kind_has_radius(CpsObstacleKind kind) {
+    return cpsi_obstacle_kind_has_axis(kind) || kind == CPS_OBSTACLE_BOX;
+}
+
+/* Is it a cylinder or a sphere with the lines outside, with an axis or a centre that they may
+ * pass? */
 bool cpsi_obstacle_is_round(const CpsiObstacle *obstacle);
+/* Is it a capsule, torus, cone or box, or a shape with the lines inside (shape_rounded.c)? */
+bool cpsi_obstacle_is_rounded(const CpsiObstacle *obstacle);
+/* May a straight element between two points of its free side cut into it, so that
+ * cpsi_obstacle_faces is of use? */
+bool cpsi_obstacle_faces_lines(const CpsiObstacle *obstacle);
 /* Is what lies inside it convex? */
 bool cpsi_obstacle_is_convex(const CpsiObstacle *obstacle);
 /* Is there an obstacle below or above x? Not beyond the edge of a grid that is not extended, but
@@ -50,25 +67,27 @@ Vec3 cpsi_obstacle_move(const CpsiObstacle *obstacle, Vec3 x, Vec3 u);
  * shorter one; for opposite points, one of them. */
 Vec3 cpsi_obstacle_slip(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 
-/* [rad] The angle between two normals of a round obstacle: about a cylinder's axis by the
- * right-hand rule, from -pi to pi; on a ball that of the great circle, from 0 to pi. 0 on a
- * plane. */
+/* [rad] The angle between two normals: of a round obstacle about a cylinder's axis by the
+ * right-hand rule, from -pi to pi; else that of the great circle, from 0 to pi. 0 on a plane. */
 double cpsi_obstacle_angle(const CpsiObstacle *obstacle, Vec3 from, Vec3 to);
 
 /* [m] The range of the tangent plane at x: the radius of curvature of the surface through it. */
 double cpsi_obstacle_range(const CpsiObstacle *obstacle, Vec3 x);
 
 /* The point (1 - share) a + share b of the straight element from a to b that is nearest to the axis
- * of a cylinder or the centre of a sphere. False where that is one of its ends, and of
- * what is not round. */
+ * of a cylinder or the centre of a sphere, or that has the least gap to another shape. False where
+ * that is one of its ends, and of planes, ground and surfaces. */
 bool cpsi_obstacle_faces(const CpsiObstacle *obstacle, Vec3 a, Vec3 b, double *share);
 
 /* Is friction on the obstacle a disc, the same in all directions? */
 bool cpsi_obstacle_is_isotropic(const CpsiObstacle *obstacle);
 
-/* [m] How far an element of natural length l may cut into a round obstacle of radius R: delta =
- * min(l^2/(4 R), R/4). A chord between two points of the surface cuts in by l^2/(8 R) and more, but
- * by less than delta up to l = 1.3 R. */
+/* The obstacle whose surface is parallel to this one, deeper by `depth`. */
+CpsiObstacle cpsi_obstacle_within(const CpsiObstacle *obstacle, double depth);
+
+/* [m] How far an element of natural length l may cut into an obstacle whose smallest convex radius
+ * of curvature is R: delta = min(l^2/(4 R), R/4). A chord between two points of the surface cuts in
+ * by l^2/(8 R) and more, but by less than delta up to l = 1.3 R. */
 double cpsi_obstacle_allowance(const CpsiObstacle *obstacle, double l);
 
 /* x carried along as the obstacle is shifted to where it is now, and turns about its own axis. */

@@ -10,9 +10,10 @@
 
 typedef struct CpsiObstacle {
     CpsObstacleKind kind;
-    CpsiPlane frame; /* plane: the surface. Cylinder: axis[2] is its axis. Sphere: axis[2] is its
-                        axis of rotation */
-    double radius; /* [m] cylinder, sphere; ground, surface: the step in which paths are examined */
+    CpsiPlane frame; /* plane: the surface. Cylinder .. cone: axis[2] is its axis. Sphere: axis[2]
+                        is its axis of rotation. Box: its own axes */
+    double radius;   /* [m] as in scene.h; ground, surface: the step in which paths are examined */
+    CpsShape form;   /* what shapes have beside a radius */
     const CpsGround *ground; /* of a ground, else NULL */
     CpsSurface surface;      /* of a surface given as a function */
     double friction[2];      /* [-] along the first tangent of the contact and across it */
@@ -37,7 +38,11 @@ typedef struct CpsiShapeTable {
 } CpsiShapeTable;
 
 extern const CpsiShapeTable cpsi_shape_plane, cpsi_shape_cylinder, cpsi_shape_sphere,
-    cpsi_shape_smooth;
+    cpsi_shape_smooth, cpsi_shape_rounded;
+
+/* Where the straight element from a to b is nearest to a body of cpsi_shape_rounded, or farthest
+ * out of one that it is inside of, as a share of its way; false where that is one of its ends. */
+bool cpsi_rounded_faces(const CpsiObstacle *obstacle, Vec3 a, Vec3 b, double *share);
 
 /* From the plane's point, the cylinder's axis or the sphere's centre to x, on a cylinder across the
  * axis. */

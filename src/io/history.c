@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/math.h"
+#include "base/rotation.h"
 
 enum {
     SHORT_HISTORY = 14, /* every step of a history up to this length is drawn */
@@ -26,6 +27,31 @@ bool cpsi_results_pictured(const CpsResults *results, int step) {
     for (int i = 0; i < results->stage_count; ++i)
         if (results->stage[i].last == step) return true;
     return false;
+}
+
+bool cpsi_has_duration(const CpsScene *scene) {
+    bool any = scene->in_time;
+    for (int i = 0; i < scene->stage_count; ++i) any = any || scene->stage[i].duration > 0;
+    return any;
+}
+
+CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution) {
+    CpsiMotionRow sum = {.time = cps_evolution_time(evolution)};
+    for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
+        const CpsLineMotion motion = cps_evolution_line_motion(evolution, i);
+        if (!motion.is_moving) continue;
+        sum.kinetic += motion.kinetic;
+        sum.ledger.kinetic += motion.ledger.kinetic;
+        sum.ledger.impact += motion.ledger.impact;
+        sum.ledger.scheme += motion.ledger.scheme;
+        sum.ledger.turnover += motion.ledger.turnover;
+        sum.landed += motion.landed;
+        sum.changed += motion.changed;
+        sum.snatched += motion.snatched;
+        if (!(motion.position_bound <= sum.position_bound))
+            sum.position_bound = motion.position_bound;
+    }
+    return sum;
 }
 
 bool cpsi_lets_go(const CpsScene *scene) {
@@ -54,6 +80,9 @@ CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obsta
     const bool plane = now.kind == CPS_OBSTACLE_PLANE;
     memcpy(now.point, place->point, sizeof now.point);
     memcpy(plane ? now.normal : now.axis, place->axis, sizeof now.axis);
+    if (now.kind == CPS_OBSTACLE_BOX)
+        rotation_store(now.shape.rotation, rotation_after(rotation_load(place->rotation),
+                                                          rotation_load(now.shape.rotation)));
     return now;
 }
 
@@ -75,6 +104,11 @@ void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution
         const CpsObstacleReport report = cps_evolution_obstacle_report(evolution, k);
         out[k] = (CpsiObstacleRow){.turn = report.turned, .turned = report.turned};
         memcpy(out[k].axis, report.axis, sizeof report.axis);
+        const CpsiRow *last = results->row_count > 0 ? &results->row[results->row_count - 1] : NULL;
+        static const double NONE[4] = {1, 0, 0, 0};
+        rotation_store(out[k].rotation,
+                       rotation_after(rotation_of(vec3_load(report.turn)),
+                                      rotation_load(last ? last->place[k].rotation : NONE)));
         for (int a = 0; a < 3; ++a) {
             out[k].point[a] = report.point[a] - results->origin[a];
             out[k].moved = out[k].moved || report.by[a] != 0 || report.turn[a] != 0;
@@ -128,4 +162,75 @@ CpsOutcome cpsi_results_outcome(const CpsResults *results) {
     for (int i = 0; i < results->row_count; ++i)
         worst = cps_outcome_worse(worst, results->row[i].report.outcome);
     return worst;
+}
+
+/* ---- surfaces of shapes ---- */
+
+/* Parts of a quarter of a circle. */
+enum { QUARTER = 12 };
+
+void cpsi_shape_grid(const CpsObstacle *o, int *rows, int *columns) {
+    *columns = 4 * QUARTER;
+    *rows = 0;
+    if (o->kind == CPS_OBSTACLE_CAPSULE) *rows = 2 * QUARTER + 1;
+    if (o->kind == CPS_OBSTACLE_TORUS) *rows = 4 * QUARTER;
+    if (o->kind == CPS_OBSTACLE_CONE) *rows = QUARTER + 1;
+    if (o->kind != CPS_OBSTACLE_BOX) return;
+    *rows = 2 * QUARTER + 3;
+    *columns = 4 * QUARTER + 4;
+}
+
+/* Away from the axis, and along it: of what is round about an axis. */
+static void profile(const CpsObstacle *o, double end, int row, double out[2]) {
+    const double r = o->radius, part = 0.5 * CPSI_PI / QUARTER;
+    const bool second = row > QUARTER;
+    if (o->kind == CPS_OBSTACLE_TORUS) {
+        out[0] = o->shape.main_radius - r * cos(part * row);
+        out[1] = r * sin(part * row);
+    } else if (o->kind == CPS_OBSTACLE_CAPSULE) {
+        const double angle = part * (row - second);
+        out[0] = r * sin(angle);
+        out[1] = (second ? -0.5 : 0.5) * o->shape.length + r * cos(angle);
+    } else {
+        const double angle = (0.5 * CPSI_PI - o->shape.angle) / QUARTER * (second ? QUARTER : row);
+        out[0] = r * sin(angle);
+        out[1] = r - r * cos(angle);
+        if (!second) return;
+        const double more = fmax(0, end - out[1]);
+        out[0] += more * tan(o->shape.angle);
+        out[1] += more;
+    }
+}
+
+/* In the axes of the box: round every corner an eighth of a ball. */
+static Vec3 box_point(const CpsObstacle *o, int row, int column) {
+    const int last = 2 * QUARTER + 3, corner = column / (QUARTER + 1) % 4;
+    const double r = o->radius, *size = o->shape.size, part = 0.5 * CPSI_PI / QUARTER,
+                 sign[3] = {corner == 0 || corner == 3 ? 1 : -1, corner < 2 ? 1 : -1,
+                            row <= QUARTER + 1 ? 1 : -1};
+    if (row == 0 || row == last) return vec3(0, 0, 0.5 * sign[2] * size[2]);
+    const int step = row <= QUARTER + 1 ? row - 1 : row - 2;
+    const double angle = part * (corner * QUARTER + column % (QUARTER + 1)), polar = part * step;
+    return vec3(sign[0] * (0.5 * size[0] - r) + r * sin(polar) * cos(angle),
+                sign[1] * (0.5 * size[1] - r) + r * sin(polar) * sin(angle),
+                sign[2] * (0.5 * size[2] - r) + r * cos(polar));
+}
+
+static Vec3 unit(Vec3 v) { return vec3_scale(1 / vec3_norm(v), v); }
+
+Vec3 cpsi_shape_point(const CpsObstacle *o, double end, double turned, int row, int column) {
+    const Vec3 centre = vec3_load(o->point);
+    if (o->kind == CPS_OBSTACLE_BOX) {
+        const int round = 4 * QUARTER + 4;
+        return vec3_add(centre, rotation_apply(rotation_load(o->shape.rotation),
+                                               box_point(o, row, column % round)));
+    }
+    const Vec3 axis = unit(vec3_load(o->axis)),
+               seed = fabs(axis.x) <= 0.75 ? vec3(1, 0, 0) : vec3(0, 1, 0),
+               first = unit(vec3_reject(seed, axis)), second = vec3_cross(axis, first);
+    const double angle = turned + 0.5 * CPSI_PI * column / QUARTER;
+    double at[2];
+    profile(o, end, row, at);
+    return vec3_add(vec3_axpy(at[1], axis, centre),
+                    vec3_axpy(at[0] * cos(angle), first, vec3_scale(at[0] * sin(angle), second)));
 }

@@ -10,6 +10,7 @@
 #include <locale.h>
 #include <stdbool.h>
 
+#include "base/vec3.h"
 #include "capstan/failure.h"
 #include "capstan/results.h"
 #include "io/base/directory/write_directory.h"
@@ -33,15 +34,25 @@ typedef struct CpsiBodyRow {
 /* An obstacle after a step. */
 typedef struct CpsiObstacleRow {
     double point[3], axis[3]; /* [m] relative to the origin of the views; [-] normal or axis */
+    double rotation[4];       /* of a box, since the start */
     double turn, turned;      /* [rad] about its own axis in the step, and since the start */
     bool moved;               /* in the step */
 } CpsiObstacleRow;
+
+/* The motion in time of all lines together; 0 in quasi-static steps. */
+typedef struct CpsiMotionRow {
+    double time, kinetic; /* [s] since the history began, [J] */
+    CpsMotionLedger ledger;
+    double position_bound;            /* [m] the largest of the lines */
+    double landed, changed, snatched; /* sums (CpsLineMotion) */
+} CpsiMotionRow;
 
 typedef struct CpsiRow {
     CpsStepReport report; /* its name is `name` */
     char *name;
     CpsBreak parted;
     double open_reaction; /* [N] largest over the lines */
+    CpsiMotionRow motion;
     CpsiLineRow *line;
     CpsPointReport *point;           /* (points) NULL without points */
     CpsiBodyRow *body;               /* (bodies) NULL without bodies */
@@ -107,6 +118,7 @@ struct CpsResults {
     CpsiStage *stage;
     int planned_steps;  /* with the breaks so far */
     bool lets_go;       /* cpsi_lets_go */
+    bool in_time;       /* a step may have a duration */
     bool begins_static; /* the first step places lines by statics */
 
     int row_count, row_capacity;
@@ -123,6 +135,9 @@ bool cpsi_results_pictured(const CpsResults *results, int step);
 /* Whether ends of the scene's lines may be let go: its history does, or lines may part. Only then
  * do results say which ends were. */
 bool cpsi_lets_go(const CpsScene *scene);
+/* Whether steps of the scene may have a duration. */
+bool cpsi_has_duration(const CpsScene *scene);
+CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution);
 /* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
 int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
 
@@ -136,6 +151,12 @@ bool cpsi_results_moves(const CpsResults *results, int step, int obstacle);
 /* The places of all after the last step of the evolution, which follows the last row. */
 void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution,
                         CpsiObstacleRow *out);
+
+/* The surface of a capsule, torus, cone or box as (rows + 1) x (columns + 1) points; 0 rows of
+ * other kinds. A cone ends at the distance `end` [m] from its tip. It has turned about its axis by
+ * `turned` [rad]. */
+void cpsi_shape_grid(const CpsObstacle *obstacle, int *rows, int *columns);
+Vec3 cpsi_shape_point(const CpsObstacle *obstacle, double end, double turned, int row, int column);
 
 /* The point in words: held, free, stick, slip, on_body; and how large a force nothing balances
  * there [N]. */

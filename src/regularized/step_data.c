@@ -80,10 +80,11 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
                          "that; give it a stiffness much larger than its tension",
                          view->name);
     if (!view->uniform)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "line '%s' has sections or point weights: the method of 1990 has one "
-                         "stiffness and one weight",
-                         view->name);
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "line '%s' has sections, point weights or a dynamic stiffness: the method of "
+            "1990 has one stiffness and one weight",
+            view->name);
     if (view->spring_count > 0)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "line '%s' has a table of strain and tension: the method of 1990 has one "

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "rig_shape.h"
+
 /* small vectors -------------------------------------------------------------------------------- */
 
 static double dot(const double *a, const double *b) {
@@ -110,6 +112,7 @@ void rig_turn(Rig *rig, int obstacle, double angle) {
 /* distance of x from an obstacle and the normal there */
 static double distance(const CpsObstacle *o, const double *x, double *normal) {
     double from[3], axis[3];
+    if (rig_is_shape(o)) return rig_shape_distance(o, x, normal, NULL);
     add(from, x, -1, o->point);
     if (o->kind == CPS_OBSTACLE_SURFACE || o->kind == CPS_OBSTACLE_GROUND) {
         double level, slope[2];
@@ -156,6 +159,10 @@ static void turned(const CpsObstacle *o, double angle, const double *x, double *
 static void path_between(const CpsObstacle *o, const double *from, const double *to,
                          const double *n, double *out) {
     double other[3], step[3], axis[3], straight = 0;
+    if (rig_is_shape(o)) {
+        rig_shape_path(o, from, to, out);
+        return;
+    }
     distance(o, from, other);
     add(step, to, -1, from);
     if (o->kind == CPS_OBSTACLE_PLANE) {

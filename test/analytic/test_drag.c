@@ -101,7 +101,9 @@ static double cycle(double pretension, double high, double low, int elements, in
     for (int k = 0; k < steps; k++) view = case_step(&run);
     *motion_error = run.motion_error;
     *loss_error = 2 * FRICTION * WEIGHT * LENGTH * run.motion_error;
-    CHECK_NEAR(show("microslip", "tip after the cycle [m]", upper, tip(&view)), 0, *motion_error);
+    // what is at rest is found to a few parts in 1e9 of the length in each substep of the loop
+    const double closing = show("microslip", "tip after the cycle [m]", upper, tip(&view));
+    CHECK_NEAR(closing, 0, fmin(*motion_error, 2 * steps * CPS_TOUCH * LENGTH));
     double loss = run.dissipated;
     case_close(&run);
     return loss;

@@ -78,7 +78,8 @@ static void build(Subject *s, const Mooring *m, int each, const double by[PIECES
     for (int k = 0; k < m->pieces; k++) {
         const Piece *p = &m->piece[m->pieces - 1 - k];
         const double length = p->length * by[k];
-        if (k > 0) s->weight[k - 1] = (CpsPointWeight){s->line.length, p->below};
+        if (k > 0)
+            s->weight[k - 1] = (CpsPointWeight){.arc_length = s->line.length, .weight = p->below};
         s->section[k] =
             (CpsSection){.length = length, .weight = p->weight, .stiffness = p->stiffness};
         for (int i = 0; i < each; i++) s->element[k * each + i] = length / each;

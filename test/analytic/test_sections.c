@@ -88,7 +88,7 @@ static void build(Case *c, int each, Hung hung, CpsSection *section, CpsPointWei
         section[k] = (CpsSection){.length = piece->length,
                                   .weight = piece->weight,
                                   .stiffness = piece->stiffness};
-        if (k > 0) point[k - 1] = (CpsPointWeight){arc, below(piece, hung)};
+        if (k > 0) point[k - 1] = (CpsPointWeight){.arc_length = arc, .weight = below(piece, hung)};
         arc += piece->length;
         for (int i = 0; i < each; i++) length[k * each + i] = piece->length / each;
     }
@@ -225,7 +225,7 @@ static void pulled(bool in_sections, double stiffness, double *position, double 
         {.type = "a", .length = 20, .weight = 50, .stiffness = stiffness},
         {.type = "b", .length = 35, .weight = 50, .stiffness = stiffness},
         {.type = "c", .length = 5, .weight = 50, .stiffness = stiffness}};
-    const CpsPointWeight point[2] = {{30, 0}, {31, -0.0}};
+    const CpsPointWeight point[2] = {{.arc_length = 30}, {.arc_length = 31, .weight = -0.0}};
     Run run;
     case_begin(&c, 60, N, in_sections ? 7 : 50, in_sections ? 3 : stiffness);
     case_bed(&c, 0.6);
@@ -260,7 +260,10 @@ static void bed_bears_the_rest(void **state) {
     static Case c;
     const CpsSection section[2] = {{.length = 30, .weight = 20, .stiffness = 1e6},
                                    {.length = 30, .weight = 90, .stiffness = 3e6}};
-    const CpsPointWeight point[4] = {{10, 700}, {40, -1200}, {40, 100}, {50, 0}};
+    const CpsPointWeight point[4] = {{.arc_length = 10, .weight = 700},
+                                     {.arc_length = 40, .weight = -1200},
+                                     {.arc_length = 40, .weight = 100},
+                                     {.arc_length = 50}};
     Run run;
     case_begin(&c, 60, 120, 0, 1);
     case_bed(&c, 0.4);

@@ -121,7 +121,7 @@ static void make_mooring(Mooring *m) {
                                          .stiffness = line->stiffness};
         line->section_count = 2;
         line->section = m->section;
-        m->clump = (CpsPointWeight){first, line->weight * uniform(1, 20)};
+        m->clump = (CpsPointWeight){.arc_length = first, .weight = line->weight * uniform(1, 20)};
         line->point_weight_count = uniform(0, 1) < 0.5;
         line->point_weight = &m->clump;
     }

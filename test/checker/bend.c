@@ -60,7 +60,7 @@ static void bend_at(const Source *source, const Record *r, bool reached, size_t 
     const Surface *surface = &source->surface[source->surfaces > 1 ? (size_t)r->obstacle[c] : 0];
     Real before[3], after[3], n[3], line[3], chord[3], here[3], plane[3];
     Vector *place = reached ? r->position : r->reference;
-    if (!surface_is_round(surface) || !unit(r->segment_force[j - 1], least, before) ||
+    if (!surface_is_cut(surface) || !unit(r->segment_force[j - 1], least, before) ||
         !unit(r->segment_force[j], least, after))
         return;
     for (int k = 0; k < 3; k++) {

@@ -8,6 +8,7 @@
 
 #include "bodies.h"
 #include "caught.h"
+#include "elongation.h"
 #include "ends.h"
 #include "failure.h"
 #include "grasps.h"
@@ -567,7 +568,14 @@ static void check_work(const Record *r, const Record *before, const Source *sour
     const Measures m = measure_where(source, r, step);
     if (m.missing) return;
     const double said = r->ledger[LEDGER_ENDS];
-    same(findings, "ledger_ends", said, nearest_work(r, before, said),
+    Record as_if = *before; /* forces that another stiffness has changed are those after it */
+    for (int e = 0; e < 2 && elongation_jumps(r, before); e++)
+        if (r->end_kind[e] == END_HELD)
+            for (int k = 0; k < 3; k++) {
+                as_if.end_force[e][k] = r->end_force[e][k];
+                as_if.end_friction_force[e][k] = r->end_friction_force[e][k];
+            }
+    same(findings, "ledger_ends", said, nearest_work(r, &as_if, said),
          ENERGY_FLOOR * m.scale + 1e-13 * m.largest_force * m.reach);
 }
 
@@ -705,6 +713,8 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         if (step > 0 && record.substeps == 1 &&
             memcmp(record.reference, previous.position, record.nodes * sizeof(Vector)) != 0)
             find(&findings, "the reference is not the position of the step before");
+        const char *fault = elongation_rest_fault(&record, step > 0 ? &previous : NULL);
+        if (fault) find(&findings, "%s", fault);
         if (step > 0) check_work(&record, &previous, source, step, &findings);
         if (step > 0) check_weight(&record, &previous, &findings);
         // with frozen friction the reactions before a first step, or before the last part of one,

@@ -30,6 +30,9 @@ void same(Compare *compare, const char *what, const char *of, const double *file
           const double *scene, size_t count, double noise);
 void same_number(Compare *compare, const char *what, const char *of, double file, double scene);
 
+/* Kind, place, shape and friction of an obstacle. */
+void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s);
+
 /* What holds for a line in the whole run: its elements, their makes, its friction zones and what
  * its ends are at. */
 void compare_line(Compare *compare, const CpsLine *line, const Record *r);

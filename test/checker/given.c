@@ -22,69 +22,6 @@
 
 /* ---- what holds for the whole run ---- */
 
-/* Two sets with the same support in DIRECTIONS directions, to what small programs leave of it. */
-static void compare_sets(Compare *compare, const CpsObstacle *o, const Surface *s) {
-    enum { DIRECTIONS = 48 };
-    for (int i = 0; i < DIRECTIONS; i++) {
-        const double angle = 6.283185307179586 * i / DIRECTIONS, d[2] = {cos(angle), sin(angle)};
-        CpsSetAnswer answer;
-        if (cps_set_support(o->friction_set, d, NULL, &answer, NULL) != CPS_OK ||
-            answer.outcome != CPS_SET_OUTCOME_ANSWERED)
-            return;
-        const double file = (double)conic_support(s->set, (Real[]){d[0], d[1]});
-        if (fabs(file - answer.value) <= answer.gap + 1e-9 * (double)s->set->reach) continue;
-        find(compare, "friction set of %s reaches %.17g along (%.3g, %.3g), in the scene %.17g",
-             o->name, file, d[0], d[1], answer.value);
-        return;
-    }
-}
-
-static void compare_ground(Compare *compare, const CpsObstacle *o, const Ground *ground) {
-    const CpsGroundGrid grid = cps_ground_grid(o->ground);
-    if (ground->columns != (size_t)grid.x_count || ground->rows != (size_t)grid.y_count ||
-        ground->extends != grid.extends || !ground->factor != !grid.friction_factor) {
-        find(compare, "grid of %s: another than that of the scene", o->name);
-        return;
-    }
-    const size_t points = ground->columns * ground->rows;
-    same(compare, "grid, x", o->name, ground->x, grid.x, ground->columns, COPIED);
-    same(compare, "grid, y", o->name, ground->y, grid.y, ground->rows, COPIED);
-    same(compare, "grid, z", o->name, ground->z, grid.z, points, COPIED);
-    if (ground->factor)
-        same(compare, "grid, factor of friction", o->name, ground->factor, grid.friction_factor,
-             points, COPIED);
-}
-
-static void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s) {
-    static const double UP[3] = {0, 0, 1};
-    const bool plane = o->kind == CPS_OBSTACLE_PLANE,
-               round = o->kind == CPS_OBSTACLE_CYLINDER || o->kind == CPS_OBSTACLE_SPHERE;
-    const double *given = plane ? o->normal : round ? o->axis : UP, length = size(given);
-    double axis[3], point[3], there[3], grain[3], unit[3];
-    for (int k = 0; k < 3; k++) {
-        there[k] = o->point[k] - compare->source.origin[k];
-        axis[k] = (double)s->axis[k];
-        point[k] = (double)s->point[k];
-        grain[k] = (double)s->grain[k];
-        unit[k] = given[k] / length;
-    }
-    same_number(compare, "kind", o->name, s->kind, o->kind);
-    same(compare, "point", o->name, point, there, 3, COPIED);
-    same(compare, "axis", o->name, axis, unit, 3, COMPUTED);
-    same_number(compare, "radius", o->name, (double)s->radius, round ? o->radius : 0);
-    if (o->kind == CPS_OBSTACLE_GROUND && s->ground) compare_ground(compare, o, s->ground);
-    if ((s->set != NULL) != (o->friction_set != NULL))
-        find(compare, "friction set of %s: one of the two has none", o->name);
-    if (s->set && o->friction_set) compare_sets(compare, o, s);
-    same(compare, "grain", o->name, grain, o->grain, 3, COPIED);
-    if (s->set || o->friction_set) return;
-    same_number(compare, "axial coefficient", o->name, (double)s->mu[0], o->friction);
-    same_number(compare, "lateral coefficient", o->name, (double)s->mu[1],
-                o->has_friction_lateral ? o->friction_lateral : o->friction);
-    same_number(compare, "shape of friction", o->name, s->box,
-                o->friction_shape == CPS_FRICTION_SHAPE_BOX);
-}
-
 static void compare_run(Compare *compare) {
     const CpsScene *scene = compare->scene;
     const Source *source = &compare->source;
@@ -716,6 +653,14 @@ static void compare_end_of_run(Compare *compare, const CpsLine *line, const Reco
         find(compare, "%s is at %.9g of its break_at in the last step", line->name, share);
 }
 
+/* Which stiffness holds: the one of the stage, the static one without a stage. */
+static void compare_stiffness(Compare *compare, const CpsLine *line, size_t step, const Record *r) {
+    int stage, part;
+    const bool staged = stage_of(compare, step, &stage, &part),
+               is_dynamic = staged && !compare->scene->stage[stage].static_stiffness;
+    if (r->is_dynamic != is_dynamic) find(compare, "stiffness of %s in step %zu", line->name, step);
+}
+
 static int compare_steps(Compare *compare, int index) {
     const CpsLine *line = &compare->scene->line[index];
     Record now = {0}, before = {0};
@@ -750,6 +695,7 @@ static int compare_steps(Compare *compare, int index) {
         if (!bad && step == 0) compare_nodes(compare, line, &now);
         if (!bad) compare_grasps(compare, line, index, step, step > 0 ? &before : NULL, &now);
         if (!bad) compare_loads(compare, line, step, &now);
+        if (!bad && now.has_dynamic) compare_stiffness(compare, line, step, &now);
         if (!bad && index == 0) compare_turns(compare, step, &now);
         if (!bad && index == 0) compare_shifts(compare, step);
         const Record swap = before;

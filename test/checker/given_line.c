@@ -26,6 +26,20 @@ static int table_of(const CpsLine *line, const CpsSection *section, const CpsSti
     return section ? section->stiffness_row_count : line->stiffness_row_count;
 }
 
+/* The dynamic stiffness there; NULL: there is none. */
+static const CpsDynamicStiffness *dynamic_of(const CpsLine *line, const CpsSection *section) {
+    const bool has = section ? section->has_dynamic_stiffness : line->has_dynamic_stiffness;
+    if (!has) return NULL;
+    return section ? &section->dynamic_stiffness : &line->dynamic_stiffness;
+}
+
+static bool has_dynamic(const CpsLine *line) {
+    bool found = line->section_count == 0 && line->has_dynamic_stiffness;
+    for (int k = 0; k < line->section_count; k++)
+        found = found || line->section[k].has_dynamic_stiffness;
+    return found;
+}
+
 static double softness(const CpsLine *line, const CpsSection *section) {
     const CpsStiffnessRow *row;
     if (table_of(line, section, &row) > 0) return row[1].strain / row[1].tension;
@@ -100,7 +114,8 @@ static void compare_sections(Compare *compare, const CpsLine *line, const Record
     if (!(fabs(r->compliance - mean) <= (computed ? COMPUTED * mean : 0)))
         find(compare, "compliance of %s is %.17g, in the scene %.17g", line->name, r->compliance,
              mean);
-    const bool uniform = line->section_count == 0 && line->point_weight_count == 0;
+    const bool uniform =
+        line->section_count == 0 && line->point_weight_count == 0 && !has_dynamic(line);
     if (uniform != (r->weight_length == NULL))
         find(compare, "sections or point weights of %s", line->name);
     else if (!uniform)
@@ -130,6 +145,59 @@ static void compare_tables(Compare *compare, const CpsLine *line, const Record *
                  "tension of %s in element %zu at the strain %g: %.17g N, in the scene "
                  "%.17g N",
                  line->name, i, strain, found, given);
+            return;
+        }
+    }
+}
+
+/* [N] The tension at a strain by the scene's dynamic stiffness, where it has none by its static
+ * one. */
+static double tension_given(const CpsLine *line, const CpsSection *section, double strain) {
+    const CpsDynamicStiffness *fast = dynamic_of(line, section);
+    const CpsStiffnessRow *row;
+    int rows = table_of(line, section, &row);
+    double stiffness = section ? section->stiffness : line->stiffness;
+    if (fast) {
+        rows = fast->row_count;
+        row = fast->row;
+        stiffness = fast->stiffness;
+    }
+    if (rows == 0) return stiffness * strain;
+    int k = 1;
+    while (k + 1 < rows && row[k].strain < strain) k++;
+    const double share = (strain - row[k - 1].strain) / (row[k].strain - row[k - 1].strain);
+    return row[k - 1].tension + share * (row[k].tension - row[k - 1].tension);
+}
+
+/* The dynamic stiffness of the file against the scene's, at strains from 0 to beyond its rows. */
+static void compare_dynamic(Compare *compare, const CpsLine *line, const Record *r) {
+    if (has_dynamic(line) != r->has_dynamic) {
+        find(compare, "dynamic stiffness of %s", line->name);
+        return;
+    }
+    if (!r->has_dynamic) return;
+    Record fast = *r;
+    elongation_use(&fast, true);
+    fast.rest_strain = NULL;
+    double arc = 0;
+    for (size_t i = 0; i < r->elements; i++) {
+        const CpsSection *section = section_at(line, arc + r->element_length[i] / 2);
+        const CpsDynamicStiffness *given = dynamic_of(line, section);
+        const CpsStiffnessRow *row;
+        int rows = table_of(line, section, &row);
+        arc += r->element_length[i];
+        if (given) rows = given->row_count;
+        if (given) row = given->row;
+        for (int k = 1; k < rows + 2; k++) {
+            const double last = rows > 0 ? row[rows - 1].strain : 0.1,
+                         strain = k < rows ? row[k].strain : last * (1 + k - rows),
+                         expected = tension_given(line, section, strain),
+                         found = (double)elongation_tension(&fast, i, strain);
+            if (fabs(found - expected) <= COMPUTED * expected) continue;
+            find(compare,
+                 "dynamic tension of %s in element %zu at the strain %g: %.17g N, in the scene "
+                 "%.17g N",
+                 line->name, i, strain, found, expected);
             return;
         }
     }
@@ -192,6 +260,7 @@ void compare_line(Compare *compare, const CpsLine *line, const Record *r) {
     }
     compare_sections(compare, line, r);
     compare_tables(compare, line, r);
+    compare_dynamic(compare, line, r);
     compare_breaking_load(compare, line, r);
     compare_break_at(compare, line, r);
     /* what zones do is in the mean factors, which the reader has made of those in the file */

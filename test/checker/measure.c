@@ -19,6 +19,7 @@
 #include "elongation.h"
 #include "grasps.h"
 #include "loads.h"
+#include "shape.h"
 
 #include "fall.h"
 
@@ -153,7 +154,8 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     widen(r->segment_force[i], p);
     subtract(r->position[i + 1], r->position[i], e);
     for (int k = 0; k < 3; k++) e[k] /= l;
-    Real force = size(p), stretch = size(e), strain = stretch > 1 ? stretch - 1 : 0;
+    const Real rest = elongation_rest(r, i), limit = 1 + rest; /* taut above it */
+    Real force = size(p), stretch = size(e), strain = stretch > limit ? stretch - 1 : rest;
 
     // energy, conjugate and local gap
     Real own = c > 0 ? elongation_strain(r, i, force) : 0, at_own = 0, energy = 0, mismatch = 0;
@@ -162,11 +164,12 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
         at_own = elongation_energy(r, i, own);
         mismatch = elongation_mismatch(r, i, strain, force);
     }
-    Real slack = c > 0 && stretch > 1 ? 0 : force * (1 - stretch), turn = misalignment(p, e);
+    Real slack = c > 0 && stretch > limit ? 0 : force * (limit - stretch),
+         turn = misalignment(p, e);
     add(&s->length, l);
     Triple before;
     subtract(r->reference[i + 1], r->reference[i], before);
-    Real strained = size(before) / l > 1 ? size(before) / l - 1 : 0;
+    Real strained = size(before) / l > limit ? size(before) / l - 1 : rest;
     add(&s->elastic, l * energy - (c > 0 ? l * elongation_energy(r, i, strained) : 0));
     add(&s->primal, l * energy);
     add(&s->dual, -l * (force + force * own - at_own));
@@ -182,11 +185,11 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     Triple here, there;
     widen(r->position[i], here);
     widen(r->position[i + 1], there);
-    Real at_tension = c > 0 && T > 0 ? elongation_strain(r, i, T) : c * T;
+    Real at_tension = c > 0 && T > 0 ? elongation_strain(r, i, T) : rest + c * T;
     raise_to(&m->strain_error,
              stretch - 1 - at_tension - 2 * 0x1p-53L * (size(here) + size(there)) / l);
     if (stretch > 0) raise_to(&m->push, -dot(p, e) / stretch);
-    if (c > 0) raise_to(&m->elongation, stretch - 1 - own);
+    if (c > 0) raise_to(&m->elongation, (stretch - 1 - own) / limit); /* of its length at rest */
     raise_to(&m->tension_estimate, fabsl(T - force));
     raise_to(&m->largest_force, force);
     raise_to(&m->tension_least, -T);
@@ -451,6 +454,21 @@ void measure_element_plane(const Record *r, const Surface *on, size_t i, bool fr
     surface_normal(on, frozen ? from : x, plane);
 }
 
+/* Is the straight way from a to b nearest to a shape at the share t? Beside a face or an edge it is
+ * so at more than one place. */
+static bool is_nearest(const Surface *on, const Real *a, const Real *b, Real t, Real reach) {
+    Triple x, y;
+    if (!shape_is(on)) return false;
+    const Real facing = surface_facing(on, a, b);
+    for (int k = 0; k < 3; k++) {
+        x[k] = (1 - t) * a[k] + t * b[k];
+        y[k] = (1 - facing) * a[k] + facing * b[k];
+    }
+    const Real ends = fminl(surface_distance(on, a), surface_distance(on, b)),
+               least = facing > 0 && facing < 1 ? surface_distance(on, y) : ends;
+    return t > 0 && t < 1 && surface_distance(on, x) <= least + 1e-15L * reach;
+}
+
 /* What the point x of element i at the share t, with its reference, sees of surface `on`, in which
  * it may lie by `depth`. */
 static Seat element_seat(const Where *where, const Record *r, const Surface *on, size_t i, Real t,
@@ -464,8 +482,7 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     surface_carry(on, reference, r->share, turn, carried);
     // the point goes round at its own depth: what friction works on is shorter than the path of its
     // foot
-    Surface within = *on;
-    within.radius -= depth;
+    const Surface within = surface_within(on, depth);
     surface_slip(&within, carried, x, seat.slip);
     if (where->frozen) { // straight, in the plane of the reference
         for (int k = 0; k < 3; k++) seat.slip[k] = x[k] - carried[k];
@@ -518,7 +535,8 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     const Real facing = third ? 1 : surface_facing(on, a, b);
     const bool left = where->frozen && R == 0;
     if (third || !left || (facing > 0 && facing < 1))
-        raise_to(&m->share_error, fabsl(facing - t) * size(along));
+        raise_to(&m->share_error,
+                 is_nearest(on, a, b, t, where->reach) ? 0 : fabsl(facing - t) * size(along));
     for (int k = 0; k < 3; k++) {
         n[k] -= seat.normal[k];
         slip[k] -= seat.slip[k];
@@ -571,20 +589,15 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
 }
 
 /* The springs of a node: their energy, the dual's, and the gap between. */
-static void measure_spring(const Record *r, size_t j, const Real *arm, const Real *u, Measures *m,
-                           Sums *s) {
-    const Spring spring = loads_spring(r, j);
-    const Real at = size(spring.force);
-    if (!r->loads) return;
-    add(&s->primal, spring.energy);
-    add(&s->dual, spring.dual);
-    add(&s->signed_gap, spring.gap);
-    add(&s->gap, spring.gap);
-    add(&s->work, fabsl(dot(spring.force, u)));
-    add(&s->moment, at * size(arm));
-    add(&s->loads, at);
-    add(&s->magnitude, spring.energy + fabsl(spring.dual));
-    raise_to(&m->largest_force, at);
+static void measure_spring(const Spring *spring, const Real *arm, const Real *u, Sums *s) {
+    add(&s->primal, spring->energy);
+    add(&s->dual, spring->dual);
+    add(&s->signed_gap, spring->gap);
+    add(&s->gap, spring->gap);
+    add(&s->work, fabsl(dot(spring->force, u)));
+    add(&s->moment, size(spring->force) * size(arm));
+    add(&s->loads, size(spring->force));
+    add(&s->magnitude, spring->energy + fabsl(spring->dual));
 }
 
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
@@ -609,7 +622,9 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
         measure_contact(where, r, j, c, pull, m, s);
     record_other_forces(r, j, pull);
-    measure_spring(r, j, arm, u, m, s);
+    const Spring spring = loads_spring(r, j);
+    measure_spring(&spring, arm, u, s);
+    raise_to(&m->largest_force, size(spring.force));
 
     // a held node: the dual pairs the force of the support with the imposed position; a free one
     // must balance
@@ -626,21 +641,6 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     }
 }
 
-/* By how much a disc that contains the forces of a box is larger than its longer half-axis. */
-static Real disc_factor(const Surface *on) {
-    const Real most = fmaxl(on->mu[0], on->mu[1]);
-    return on->box && most > 0 ? hypotl(on->mu[0], on->mu[1]) / most : 1;
-}
-
-/* The part of v in the surface's tangent plane; returns its part along the normal. */
-static Real split(const Surface *on, const Real *v, Real *across) {
-    Triple n;
-    surface_normal(on, v, n);
-    const Real rise = dot(n, v);
-    for (int a = 0; a < 3; a++) across[a] = v[a] - rise * n[a];
-    return rise;
-}
-
 /* Does v lead away from every obstacle, a plane, so steeply that no friction on it works against
  * that, wherever the line is and however large the reactions are? n.v >= mu |v_T| with the radius
  * mu of a disc that contains all coefficients. Frozen friction does not grow with the reactions:
@@ -654,8 +654,8 @@ static bool leaves_planes(const Source *source, const Record *r, const Real *v, 
         const Surface *on = &source->surface[k];
         Triple across;
         if (on->kind != SURFACE_PLANE || on->set) return false;
-        const Real rise = split(on, v, across),
-                   mu = factor * disc_factor(on) * fmaxl(on->mu[0], on->mu[1]);
+        const Real rise = surface_split(on, v, across),
+                   mu = factor * surface_disc_factor(on) * fmaxl(on->mu[0], on->mu[1]);
         if (!(rise >= (source->consistent ? mu * size(across) : 0))) return false;
     }
     if (source->consistent) return source->surfaces > 0;
@@ -664,8 +664,8 @@ static bool leaves_planes(const Source *source, const Record *r, const Real *v, 
         if (r->obstacle[c] < 0) continue;
         const Surface *on = &source->surface[(size_t)r->obstacle[c]];
         Triple across;
-        (void)split(on, v, across);
-        *taken += disc_factor(on) * r->friction_bound[c] * size(across);
+        (void)surface_split(on, v, across);
+        *taken += surface_disc_factor(on) * r->friction_bound[c] * size(across);
     }
     return source->surfaces > 0;
 }

@@ -64,15 +64,17 @@ static int advance(const Source *source, size_t step, size_t k, FILE *log) {
         read_three(source, "obstacle_shift_turn", step, k, s->spin, log) ||
         read_three(source, "obstacle_shift_about", step, k, s->about, log))
         return -1;
-    Real point[3], axis[3], grain[3], length = 0;
+    Real point[3], axis[3], grain[3], side[3], length = 0;
     surface_shift(s, s->point, 1, point);
     surface_spin(s->axis, s->spin, axis);
     surface_spin(s->grain, s->spin, grain);
+    surface_spin(s->side, s->spin, side);
     for (int a = 0; a < 3; a++) length += axis[a] * axis[a];
     for (int a = 0; a < 3; a++) {
         s->point[a] = point[a];
         s->axis[a] = axis[a] / sqrtl(length);
         s->grain[a] = grain[a];
+        s->side[a] = side[a];
     }
     return 0;
 }

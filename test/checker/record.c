@@ -8,6 +8,7 @@
 #include "grasps.h"
 #include "loads.h"
 #include "places.h"
+#include "shape.h"
 
 #include <math.h>
 #include <netcdf.h>
@@ -220,8 +221,8 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
     if (bad | read_surface_numbers(source, "obstacle_friction_grain", 3, k, grain, log)) return -1;
     Real length = hypotl(hypotl(axis[0], axis[1]), axis[2]);
     if (!(kind >= 0 && kind < SURFACE_KINDS) || !(shape == 0 || shape == 1 || shape == 2) ||
-        !(mu[0] >= 0 && mu[1] >= 0) || !(length > 0) ||
-        ((kind == SURFACE_CYLINDER || kind == SURFACE_SPHERE) && !(radius > 0)))
+        !(mu[0] >= 0 && mu[1] >= 0) || !(length > 0) || kind == SURFACE_FUNCTION ||
+        (kind != SURFACE_PLANE && kind != SURFACE_GROUND && !(radius > 0)))
         return complain(log, "senseless obstacle in", "obstacle_kind and the like", 0);
     *out = (Surface){.kind = (int)kind, .box = shape == 1, .radius = radius, .mu = {mu[0], mu[1]}};
     for (int i = 0; i < 3; i++) {
@@ -229,6 +230,7 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
         out->axis[i] = axis[i] / length;
         out->grain[i] = grain[i];
     }
+    if (shape_read(source->nc, k, out, log)) return -1;
     out->grained = grain[0] != 0 || grain[1] != 0 || grain[2] != 0;
     if (kind == SURFACE_GROUND && !(out->ground = ground_read(source->nc, k, log))) return -1;
     return shape == 2 ? read_set(source, k, &out->set, log) : 0;
@@ -534,7 +536,6 @@ void record_destroy(Record *record) {
     free(record->friction);
     free(record->segment_force);
     free(record->element_length);
-    free(record->element_compliance);
     free(record->weight_length);
     free(record->breaking_load);
     free(record->break_at);
@@ -665,8 +666,8 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
                      record->share_of};
     int bad = 0;
     for (size_t k = 0; k < source->surfaces; k++)
-        record->has_elements |= (surface_is_round(&source->surface[k]) || source->surfaces > 2) &&
-                                !source->touching_only;
+        record->has_elements |=
+            (surface_is_cut(&source->surface[k]) || source->surfaces > 2) && !source->touching_only;
     if (record->has_elements)
         for (size_t k = 0; k < 8; k++)
             bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);
@@ -739,6 +740,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= grasps_read(source, line, step, record, log);
     bad |= failure_read(source, line, step, record, log);
     bad |= loads_read(source, line, step, record, log);
+    bad |= elongation_read_step(source, line, step, record, log);
     return bad ? -1 : read_scalars(source, line, step, record, log);
 }
 

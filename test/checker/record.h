@@ -66,6 +66,13 @@ enum {
 typedef double Vector[3];
 enum { GRASPS = 8 };
 
+/* How elements stretch, by one of two stiffnesses: the members of Record of these names. */
+typedef struct Elasticity {
+    double *element_compliance, least_compliance, largest_compliance;
+    size_t springs, *spring_of;
+    double *spring_strain, *spring_stiffness;
+} Elasticity;
+
 /* nodes 0..elements; element i joins node i and i + 1 here. Contact c is the first of node c, or
  * the second of node c - nodes; where elements have contacts, contact contacts nodes + i is that of
  * element i. */
@@ -79,6 +86,11 @@ typedef struct Record {
      * spring_of[i + 1] - 1; NULL: there are none */
     size_t springs, *spring_of;
     double *spring_strain, *spring_stiffness;
+    /* of a line with a static and a dynamic stiffness (elongation.h): which holds in the step, and
+     * at which strains there is no tension; else false, and NULL: 0 */
+    bool has_dynamic, is_dynamic;
+    double *rest_strain;
+    Elasticity elasticity[2];
     double *breaking_load;              /* (elements) [N] infinite: none; NULL: the line has none */
     double utilisation, utilisation_at; /* [-], [m], where it has */
     Vector *reference, *position, *load, *segment_force;

@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+#include "shape.h"
+
 static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static Real size(const Real *a) { return sqrtl(dot(a, a)); }
 
@@ -28,7 +30,17 @@ void surface_free(Surface *s) {
 }
 
 bool surface_is_round(const Surface *s) {
-    return s->kind == SURFACE_CYLINDER || s->kind == SURFACE_SPHERE;
+    return (s->kind == SURFACE_CYLINDER || s->kind == SURFACE_SPHERE) && !s->inside;
+}
+
+bool surface_is_cut(const Surface *s) {
+    return surface_is_round(s) || (shape_is(s) && (!s->inside || s->kind == SURFACE_TORUS));
+}
+
+Surface surface_within(const Surface *s, Real depth) {
+    Surface within = *s;
+    within.radius += s->inside ? depth : -depth;
+    return within;
 }
 
 Real surface_factor(const Surface *s, const Real *x) {
@@ -58,12 +70,17 @@ static Real above_ground(const Surface *s, const Real *x, Real *n) {
 
 Real surface_distance(const Surface *s, const Real *x) {
     Real from[3];
+    if (shape_is(s)) return shape_distance(s, x, NULL);
     if (s->ground) return above_ground(s, x, from);
     arm(s, x, from);
     return s->kind == SURFACE_PLANE ? dot(from, s->axis) : size(from) - s->radius;
 }
 
 void surface_normal(const Surface *s, const Real *x, Real *n) {
+    if (shape_is(s)) {
+        shape_distance(s, x, n);
+        return;
+    }
     if (s->ground) {
         above_ground(s, x, n);
         return;
@@ -75,6 +92,12 @@ void surface_normal(const Surface *s, const Real *x, Real *n) {
 
 Real surface_pierced(const Surface *s, const Real *a, const Real *b, Real l) {
     Real from[3], to[3], chord[3], moment[3];
+    if (shape_is(s)) {
+        Real at, x[3];
+        if (!shape_facing(s, a, b, &at)) return -INFINITY;
+        for (int k = 0; k < 3; k++) x[k] = (1 - at) * a[k] + at * b[k];
+        return -shape_distance(s, x, NULL) - surface_allowance(s, l);
+    }
     if (!surface_is_round(s)) return -INFINITY;
     arm(s, a, from);
     arm(s, b, to);
@@ -85,10 +108,15 @@ Real surface_pierced(const Surface *s, const Real *a, const Real *b, Real l) {
     return s->radius - surface_allowance(s, l) - size(moment) / size(chord);
 }
 
-Real surface_allowance(const Surface *s, Real l) { return fminl(l * l / s->radius, s->radius) / 4; }
+Real surface_allowance(const Surface *s, Real l) {
+    /* from inside a tube only its side towards the axis is convex */
+    const Real r = s->inside ? s->main_radius - s->radius : s->radius;
+    return fminl(l * l / r, r) / 4;
+}
 
 Real surface_facing(const Surface *s, const Real *a, const Real *b) {
-    Real from[3], to[3], chord[3];
+    Real from[3], to[3], chord[3], share;
+    if (shape_is(s)) return shape_facing(s, a, b, &share) ? share : -1;
     arm(s, a, from);
     arm(s, b, to);
     for (int k = 0; k < 3; k++) chord[k] = to[k] - from[k];
@@ -169,6 +197,10 @@ static void slip_on_ground(const Surface *s, const Real *from, const Real *to, R
 void surface_slip(const Surface *s, const Real *from, const Real *to, Real *out) {
     if (s->ground) {
         slip_on_ground(s, from, to, out);
+        return;
+    }
+    if (shape_is(s)) {
+        shape_slip(s, from, to, out);
         return;
     }
     Real n0[3], n1[3], shift[3];
@@ -275,4 +307,19 @@ Real surface_gap(const Surface *s, Real w, const Real F[2], const Real slip[2], 
     if (!s->box) return gap + disc_gap(w, f, u);
     for (int a = 0; a < 2; a++) gap += disc_gap(w, (Real[2]){f[a], 0}, (Real[2]){u[a], 0});
     return gap;
+}
+
+/* By how much a disc that contains the forces of a box is larger than its longer half-axis. */
+Real surface_disc_factor(const Surface *on) {
+    const Real most = fmaxl(on->mu[0], on->mu[1]);
+    return on->box && most > 0 ? hypotl(on->mu[0], on->mu[1]) / most : 1;
+}
+
+/* The part of v in the surface's tangent plane; returns its part along the normal. */
+Real surface_split(const Surface *on, const Real *v, Real *across) {
+    Real n[3];
+    surface_normal(on, v, n);
+    const Real rise = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
+    for (int a = 0; a < 3; a++) across[a] = v[a] - rise * n[a];
+    return rise;
 }

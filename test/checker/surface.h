@@ -10,13 +10,26 @@
 #include "ground.h"
 
 /* flag values of the file */
-enum { SURFACE_PLANE, SURFACE_CYLINDER, SURFACE_SPHERE, SURFACE_GROUND, SURFACE_KINDS };
+enum {
+    SURFACE_PLANE,
+    SURFACE_CYLINDER,
+    SURFACE_SPHERE,
+    SURFACE_GROUND,
+    SURFACE_FUNCTION, /* of which the file says nothing */
+    SURFACE_CAPSULE,
+    SURFACE_TORUS,
+    SURFACE_CONE,
+    SURFACE_BOX,
+    SURFACE_KINDS
+};
 
 typedef struct Surface {
     int kind;
     bool box, grained;
-    Real point[3], axis[3], radius; /* axis of length 1 */
-    Real mu[2], grain[3];           /* along the line or the grain, and across */
+    Real point[3], axis[3], radius;                    /* axis of length 1 */
+    bool inside;                                       /* lines are inside of it */
+    Real length, main_radius, angle, size[3], side[3]; /* of capsule, torus, cone, box (shape.h) */
+    Real mu[2], grain[3];                              /* along the line or the grain, and across */
     /* shift of the last step: it turned by the vector `spin` about a point, which went by `by` */
     Real by[3], spin[3], about[3];
     Ground *ground; /* of ground, else NULL */
@@ -25,8 +38,12 @@ typedef struct Surface {
 
 /* Free its set and ground. */
 void surface_free(Surface *surface);
-/* Is it a cylinder or a ball? */
+/* Is it a cylinder or a ball, with the lines outside? */
 bool surface_is_round(const Surface *surface);
+/* May an element whose ends are outside cut into it? */
+bool surface_is_cut(const Surface *surface);
+/* The surface that is deeper by `depth`. */
+Surface surface_within(const Surface *surface, Real depth);
 /* By which its friction is multiplied at x. */
 Real surface_factor(const Surface *surface, const Real *x);
 /* Does what is known of it end before x, but for `rounding`? */
@@ -74,5 +91,10 @@ bool surface_follows(const Surface *surface);
  * outside the set [N], and phi(s) + F.s of a slip s [J], whose dissipation is *phi. */
 Real surface_excess(const Surface *surface, Real w, const Real F[2]);
 Real surface_gap(const Surface *surface, Real w, const Real F[2], const Real s[2], Real *phi);
+
+/* By how much a disc that contains the forces of a box is larger than its longer half-axis. */
+Real surface_disc_factor(const Surface *on);
+/* The part of v in the surface's tangent plane; returns its part along the normal. */
+Real surface_split(const Surface *on, const Real *v, Real *across);
 
 #endif

@@ -223,7 +223,7 @@ static void false_utilisation_is_refused(void **state) {
         size_t index;
         double value;
     } POKE[] = {{"wire_utilisation", 4, 0.1},    {"made_utilisation", 0, 0.5},
-                {"wire_utilisation_at", 4, 0.5}, {"made_utilisation_at", 1, 3.5},
+                {"wire_utilisation_at", 4, 0.5}, {"soft_utilisation_at", 1, 2.5},
                 {"wire_breaking_load", 3, 30},   {"made_breaking_load", 0, 0}};
     for (size_t i = 0; i < sizeof POKE / sizeof *POKE; i++) {
         copy_result();

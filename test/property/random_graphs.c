@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Lines that meet at points: stars, trees, rings and nets, checked from the places alone.
- *                   usage: random_graphs [--scenes N] [--seed S] [--class C] [--meshes N]
+ *                   usage: random_graphs [--scenes N] [--seed S] [--class C] [--meshes N] [--open
+ * N]
  *
  * Wide nets have up to N x N meshes (default 10), each side of them cut and stiff at random, many
  * slack; they hang from their corners or from more of their knots, over a bed, over a ball and
@@ -555,11 +556,12 @@ static void run(Class class, uint64_t seed, Tally *tally) {
 }
 
 int main(int argc, char **argv) {
-    int scenes = 20, only = -1;
+    int scenes = 20, only = -1, may_be_open = -1;
     uint64_t first = 0;
     for (int i = 1; i + 1 < argc; i += 2) {
         if (strcmp(argv[i], "--scenes") == 0) scenes = atoi(argv[i + 1]);
         if (strcmp(argv[i], "--class") == 0) only = atoi(argv[i + 1]);
+        if (strcmp(argv[i], "--open") == 0) may_be_open = atoi(argv[i + 1]);
         if (strcmp(argv[i], "--meshes") == 0) most_meshes = atoi(argv[i + 1]);
         if (strcmp(argv[i], "--seed") == 0) {
             first = strtoull(argv[i + 1], NULL, 10);
@@ -578,7 +580,8 @@ int main(int argc, char **argv) {
                CLASS[class], t.scenes, t.steps, t.open, t.refused, t.wrong,
                (double)t.trials / t.steps, t.most_trials, t.left, t.touching, t.sliding);
         /* one of few may be open */
-        failed = failed || t.wrong > 0 || t.open > fmax(1, OPEN_SHARE * t.steps) ||
+        const double open = may_be_open < 0 ? fmax(1, OPEN_SHARE * t.steps) : may_be_open;
+        failed = failed || t.wrong > 0 || t.open > open ||
                  (only < 0 && t.refused < REFUSED[class] * t.steps);
     }
     return failed;

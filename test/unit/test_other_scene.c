@@ -49,6 +49,8 @@ static const char SCENE[] =
     "  fine: {length: 3, grade: {towards: B, ratio: 4}, element_length: 0.9, mass: 2, stiffness: "
     "2000,"
     " start: {straight: {from: [0, 500, 0], to: [3, 500, 0]}}, ends: {A: held, B: free}}\n"
+    "  poly: {length: 3, mass: 2, stiffness: 2000, dynamic_stiffness: 5000, elements: 3,"
+    " start: {straight: {from: [0, 600, 0], to: [3, 600, 0]}}, ends: {A: held, B: free}}\n"
     "types: {hawser: {mass: 7, diameter: 0.05, stiffness: 3000, breaking_load: 900}, wire: "
     "{weight: 4, stiffness: 3000,"
     " friction: 0.5}, rope: {weight: 2, stiffness: {strain: [0, 0.1, 0.2], tension: [0, 90, "
@@ -60,7 +62,8 @@ static const char SCENE[] =
     "solver: {tolerance: 1e-8, max_iterations: 60, path_tolerance: 0.1, halvings: 3,"
     " linear_system: chain}\n"
     "history:\n"
-    "  - {name: pull, steps: 2, gravity: [0, 0, -9], one.B: {force: [2, 0, 0]}, post.turn: 5}\n"
+    "  - {name: pull, steps: 2, stiffness: static, gravity: [0, 0, -9], one.B: {force: [2, 0, 0]}, "
+    "post.turn: 5}\n"
     "  - {one.A: {move: [1, 0, 0]}, two.A: {position: [0, 6, 0]}}\n"
     "  - {wet.node: {at: 1, hold: true}, one.node: {at: 5, force: [0, 1, 0]}}\n"
     "  - {wet.node: {at: 2, position: [2, 300, 2]}, one.node: {at: 5, release: true}}\n";
@@ -131,6 +134,22 @@ static const char GROUND_SCENE[] =
     "history:\n"
     "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
 
+/* Shapes, below and round the line. */
+static const char SHAPES_SCENE[] =
+    "capstan: 1\n"
+    "obstacles:\n"
+    "  rod: {capsule: {centre: [0, 0, -9], axis: [0, 1, 0], length: 3, radius: 1, inside: false}}\n"
+    "  ring: {torus: {centre: [0, 0, -9], axis: [0, 1, 0], main_radius: 3, radius: 1}}\n"
+    "  tip: {cone: {tip: [0, 0, -9], axis: [0, 0, -1], angle: 30, radius: 1}}\n"
+    "  quay: {box: {centre: [0, 0, -9], size: [2, 3, 4], radius: 0.5,"
+    " rotation: {quaternion: [1, 0, 0, 0]}}}\n"
+    "  bowl: {sphere: {radius: 90, inside: true}}\n"
+    "lines:\n"
+    "  one: {length: 3, elements: 4, mass: 2, stiffness: 1000,"
+    " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held}}\n"
+    "history:\n"
+    "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
+
 static const struct GroundFile {
     const char *name, *text;
 } GROUND_FILE[] = {
@@ -169,6 +188,12 @@ static const struct Change {
     {"mass", "mass: 2", "mass: 2.5"},
     {"weight", "weight: 3", "weight: 3.5"},
     {"stiffness", "mass: 1, stiffness: 1000", "mass: 1, stiffness: .inf"},
+    {"dynamic_stiffness", "dynamic_stiffness: 5000", "dynamic_stiffness: 5001"},
+    {"dynamic_stiffness", "dynamic_stiffness: 5000",
+     "dynamic_stiffness: {strain: [0, 0.1, 0.2], tension: [0, 500, 1100]}"},
+    {"dynamic_stiffness", "rope: {weight: 2, ",
+     "rope: {weight: 2, dynamic_stiffness: {strain: [0, 0.05], tension: [0, 300]}, "},
+    {"stiffness", "stiffness: static", "stiffness: dynamic"},
     {"breaking_load", "stiffness: 3000, breaking_load: 900}",
      "stiffness: 3000, breaking_load: 901}"},
     {"breaking_load", "stiffness: 2000, breaking_load: 80", "stiffness: 2000"},
@@ -332,6 +357,30 @@ static const struct Change GROUND_CHANGE[] = {
     {"friction_factor", ", friction_factor: other_scene_b.asc", ""},
 };
 
+static const struct Change SHAPE_CHANGE[] = {
+    {"capsule",
+     "capsule: {centre: [0, 0, -9], axis: [0, 1, 0], length: 3, radius: 1, inside: false}",
+     "cylinder: {point: [0, 0, -9], axis: [0, 1, 0], radius: 1}"},
+    {"torus", "torus: {centre: [0, 0, -9], axis: [0, 1, 0], main_radius: 3, radius: 1}",
+     "sphere: {centre: [0, 0, -9], radius: 1}"},
+    {"cone", "cone: {tip: [0, 0, -9], axis: [0, 0, -1], angle: 30, radius: 1}",
+     "sphere: {centre: [0, 0, -9], radius: 1}"},
+    {"box",
+     "box: {centre: [0, 0, -9], size: [2, 3, 4], radius: 0.5, rotation: {quaternion: [1, 0, "
+     "0, 0]}}",
+     "sphere: {centre: [0, 0, -9], radius: 1}"},
+    {"length", "length: 3, radius", "length: 4, radius"},
+    {"inside", "{radius: 90, inside: true}", "{centre: [0, 0, -100], radius: 90}"},
+    {"main_radius", "main_radius: 3", "main_radius: 4"},
+    {"tip", "tip: [0, 0, -9]", "tip: [0, 1, -9]"},
+    {"angle", "angle: 30", "angle: 31"},
+    {"size", "size: [2, 3, 4]", "size: [2, 3, 5]"},
+    {"size", "size: [2, 3, 4]", "size: [2, 4, 4]"},
+    {"size", "size: [2, 3, 4]", "size: [3, 3, 4]"},
+    {"radius", "radius: 0.5", "radius: 0.6"},
+    {"rotation", "rotation: {quaternion: [1, 0, 0, 0]}", "rotation: {quaternion: [1, 0, 0, 1]}"},
+};
+
 /* Keys that change no answer, and how the file of a ground is to be read; and a file of places,
  * which is a start as good as any. */
 static const char *const LEFT_OUT[] = {"capstan", "title", "nodes", "form", "variable"};
@@ -341,6 +390,7 @@ enum {
     POINT_CHANGES = sizeof POINT_CHANGE / sizeof *POINT_CHANGE,
     BODY_CHANGES = sizeof BODY_CHANGE / sizeof *BODY_CHANGE,
     GROUND_CHANGES = sizeof GROUND_CHANGE / sizeof *GROUND_CHANGE,
+    SHAPE_CHANGES = sizeof SHAPE_CHANGE / sizeof *SHAPE_CHANGE,
     LEFT = sizeof LEFT_OUT / sizeof *LEFT_OUT
 };
 
@@ -354,7 +404,8 @@ typedef struct Suite {
 static const Suite ALL = {SCENE, CHANGE, CHANGES},
                    POINTS = {POINTS_SCENE, POINT_CHANGE, POINT_CHANGES},
                    BODIES = {BODIES_SCENE, BODY_CHANGE, BODY_CHANGES},
-                   GROUND = {GROUND_SCENE, GROUND_CHANGE, GROUND_CHANGES};
+                   GROUND = {GROUND_SCENE, GROUND_CHANGE, GROUND_CHANGES},
+                   SHAPES = {SHAPES_SCENE, SHAPE_CHANGE, SHAPE_CHANGES};
 
 static CpsEvolution *evolution_of(const char *text) {
     char path[] = "other_scene_test_XXXXXX";
@@ -460,6 +511,12 @@ static void every_change_of_ground_makes_another_scene(void **state) {
         unlink(GROUND_FILE[i].name);
 }
 
+static void every_change_of_shapes_makes_another_scene(void **state) {
+    (void)state;
+    expect_refused(&SHAPES, 0, place_of(SHAPES_SCENE, "{name: pull"));
+    expect_refused(&SHAPES, 1, sizeof SHAPES_SCENE);
+}
+
 /* Whether a key is changed above or left out; found: the changes of keys that there are. */
 static bool is_tried(const char *key, bool found[CHANGES]) {
     bool tried = false;
@@ -469,6 +526,7 @@ static bool is_tried(const char *key, bool found[CHANGES]) {
     for (int i = 0; i < BODY_CHANGES; i++) tried = tried || strcmp(BODY_CHANGE[i].key, key) == 0;
     for (int i = 0; i < GROUND_CHANGES; i++)
         tried = tried || strcmp(GROUND_CHANGE[i].key, key) == 0;
+    for (int i = 0; i < SHAPE_CHANGES; i++) tried = tried || strcmp(SHAPE_CHANGE[i].key, key) == 0;
     for (int i = 0; i < LEFT; i++) tried = tried || strcmp(LEFT_OUT[i], key) == 0;
     return tried;
 }
@@ -536,6 +594,7 @@ int main(void) {
                                        cmocka_unit_test(every_change_of_points_makes_another_scene),
                                        cmocka_unit_test(every_change_of_bodies_makes_another_scene),
                                        cmocka_unit_test(every_change_of_ground_makes_another_scene),
+                                       cmocka_unit_test(every_change_of_shapes_makes_another_scene),
                                        cmocka_unit_test(flags_of_a_changed_state_are_flags),
                                        cmocka_unit_test(every_key_is_changed)};
     return cmocka_run_group_tests(tests, NULL, NULL);

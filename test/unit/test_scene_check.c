@@ -319,6 +319,69 @@ static void refuses_wrong_lines(void **state) {
     refused(&p, "end A is held where the start puts it, but has a position");
 }
 
+/* A good shape but for one number. */
+static void make_shape(Parts *p, CpsObstacleKind kind) {
+    make(p);
+    p->obstacle.kind = kind;
+    p->obstacle.radius = 1;
+    p->obstacle.point[2] = -90;
+    p->obstacle.shape.length = 2;
+    p->obstacle.shape.main_radius = 3;
+    p->obstacle.shape.angle = 0.5;
+    for (int i = 0; i < 3; i++) p->obstacle.shape.size[i] = 4;
+}
+
+static void refuses_wrong_shapes(Parts *p) {
+    static const CpsObstacleKind KIND[] = {CPS_OBSTACLE_CAPSULE, CPS_OBSTACLE_TORUS,
+                                           CPS_OBSTACLE_CONE, CPS_OBSTACLE_BOX};
+    CpsError err = {0};
+    for (int k = 0; k < 4; k++) {
+        static const double WRONG[] = {0, -1, NAN, INFINITY};
+        make_shape(p, KIND[k]);
+        assert_int_equal(cps_scene_check(&p->scene, &err), CPS_OK);
+        for (int i = 0; i < 4; i++) {
+            make_shape(p, KIND[k]);
+            p->obstacle.radius = WRONG[i];
+            refused(p, "expected a positive finite number");
+        }
+        make_shape(p, KIND[k]);
+        p->obstacle.point[1] = NAN;
+        refused(p, "expected finite numbers");
+        make_shape(p, KIND[k]);
+        p->obstacle.axis[1] = NAN;
+        if (KIND[k] != CPS_OBSTACLE_BOX) refused(p, "expected a direction");
+    }
+    static const double LENGTH[] = {-1, NAN, INFINITY}, MAIN[] = {1, 0.5, -3, NAN, INFINITY},
+                        ANGLE[] = {0, -0.1, 1.5707963267948967, 2, NAN}, SIZE[] = {2, 0, -4, NAN};
+    for (int i = 0; i < 3; i++) {
+        make_shape(p, CPS_OBSTACLE_CAPSULE);
+        p->obstacle.shape.length = LENGTH[i];
+        refused(p, "length is");
+    }
+    for (int i = 0; i < 5; i++) {
+        make_shape(p, CPS_OBSTACLE_TORUS);
+        p->obstacle.shape.main_radius = MAIN[i];
+        refused(p, "main_radius is");
+        make_shape(p, CPS_OBSTACLE_CONE);
+        p->obstacle.shape.angle = ANGLE[i];
+        refused(p, "the angle between axis and side is");
+    }
+    for (int i = 0; i < 4; i++) {
+        make_shape(p, CPS_OBSTACLE_BOX);
+        p->obstacle.shape.size[i % 3] = SIZE[i];
+        refused(p, "size is");
+    }
+    make_shape(p, CPS_OBSTACLE_BOX);
+    p->obstacle.shape.rotation[0] = 0;
+    refused(p, "expected a quaternion");
+    make_shape(p, CPS_OBSTACLE_BOX);
+    p->obstacle.shape.rotation[2] = NAN;
+    refused(p, "expected a quaternion");
+    make(p);
+    p->obstacle.shape.inside = true;
+    refused(p, "lines can be inside of a cylinder, sphere, capsule, torus, cone or box alone");
+}
+
 static void refuses_wrong_obstacles(void **state) {
     (void)state;
     Parts p;
@@ -326,8 +389,9 @@ static void refuses_wrong_obstacles(void **state) {
     p.scene.obstacle_count = -1;
     refused(&p, "obstacles: found -1");
     make(&p);
-    p.obstacle.kind = 7;
-    refused(&p, "unknown kind 7");
+    p.obstacle.kind = 70;
+    refused(&p, "unknown kind 70");
+    refuses_wrong_shapes(&p);
     make(&p);
     p.obstacle.kind = CPS_OBSTACLE_CYLINDER;
     refused(&p, "radius is 0 m");

@@ -191,13 +191,24 @@ static void reads_tables(void **state) {
     CpsSceneFile *file = read_good(
         "capstan: 1\n"
         "types:\n  rope: {mass: 2, stiffness: {tension: [0, 4, 9], strain: [0, 0.5, 0.75]}}\n"
-        "  wire: {mass: 2, stiffness: 7}\n"
+        "  wire: {mass: 2, stiffness: 7, dynamic_stiffness: {strain: [0, 0.25], tension: [0, 2]}}\n"
         "lines:\n"
-        "  a: {length: 9, mass: 1, stiffness: {strain: [0, 1e-3], tension: [0, 1e+3]}, start: "
+        "  a: {length: 9, mass: 1, stiffness: {strain: [0, 1e-3], tension: [0, 1e+3]}, "
+        "dynamic_stiffness: 3e6, start: "
         "static, ends: {A: {held: [0, 0, 0]}, B: {held: [0, 1, 0]}}}\n"
         "  b: {sections: [{type: wire, length: 1, elements: 1}, {type: rope, length: 2, elements: "
-        "1}], start: static, ends: {A: {held: [0, 0, 0]}, B: {held: [0, 1, 0]}}}\n");
-    const CpsLine *line = cps_scene_file_scene(file)->line;
+        "1}], start: static, ends: {A: {held: [0, 0, 0]}, B: {held: [0, 1, 0]}}}\n"
+        "history: [{stiffness: static}, {stiffness: dynamic}, {}]\n");
+    const CpsScene *scene = cps_scene_file_scene(file);
+    const CpsLine *line = scene->line;
+    for (int s = 0; s < 3; s++) CHECK_INT(scene->stage[s].static_stiffness, s == 0);
+    assert_true(line[0].has_dynamic_stiffness && line[0].dynamic_stiffness.stiffness == 3e6 &&
+                line[0].dynamic_stiffness.row_count == 0);
+    assert_true(!line[1].has_dynamic_stiffness && !line[1].section[1].has_dynamic_stiffness);
+    assert_true(line[1].section[0].has_dynamic_stiffness &&
+                line[1].section[0].dynamic_stiffness.row_count == 2 &&
+                line[1].section[0].dynamic_stiffness.row[1].strain == 0.25 &&
+                line[1].section[0].dynamic_stiffness.row[1].tension == 2);
     CHECK_INT(line[0].stiffness_row_count, 2);
     assert_true(line[0].stiffness_row[1].strain == 1e-3 && line[0].stiffness_row[1].tension == 1e3);
     const CpsSection *section = line[1].section;

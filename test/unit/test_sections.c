@@ -167,6 +167,54 @@ static void wrong_tables_are_refused(void **state) {
     refused(&p, "sections: number 2 is inextensible or elastic, those before it are not");
 }
 
+/* A dynamic stiffness is one, of an elastic line, and nowhere softer than the static one. */
+static void wrong_dynamic_stiffnesses_are_refused(void **state) {
+    (void)state;
+    static const CpsStiffnessRow SLOW[3] = {{0, 0}, {0.1, 1e4}, {0.2, 4e4}},
+                                 SOFT[3] = {{0, 0}, {0.05, 1e4}, {0.25, 6e4}},
+                                 LATE[2] = {{0, 0}, {0.1, 2e4}}, FINE[2] = {{0, 0}, {0.1, 3.2e4}};
+    static const struct Wrong {
+        CpsDynamicStiffness is;
+        const char *found;
+    } WRONG[] = {{{0, 0, NULL}, "is 0 N, expected a positive finite number"},
+                 {{-2, 0, NULL}, "is -2 N, expected a positive finite number"},
+                 {{INFINITY, 0, NULL}, "is inf N, expected a positive finite number"},
+                 {{NAN, 0, NULL}, "is nan N, expected a positive finite number"},
+                 {{1, 2, NULL}, "has 0 rows, expected 2 to 100"},
+                 {{1, -1, FINE}, "has -1 rows, expected 2 to 100"},
+                 {{9e4, 0, NULL},
+                  "is softer than the static one at 10000 N, with the strain 0.111111"},
+                 {{1.5e5, 0, NULL},
+                  "is softer than the static one at 40000 N, with the strain 0.266667"},
+                 {{1, 3, SOFT}, "is softer than the static one at 120000 N"},
+                 {{1, 2, LATE}, "is softer than the static one at 80000 N"}};
+    Parts p;
+    for (size_t i = 0; i < sizeof WRONG / sizeof *WRONG; i++)
+        for (int whole = 0; whole < 2; whole++) {
+            make(&p);
+            if (whole) {
+                p.line.section_count = p.line.point_weight_count = 0;
+                p.line.has_dynamic_stiffness = true;
+                p.line.dynamic_stiffness = WRONG[i].is;
+                p.line.stiffness_row_count = 3;
+                p.line.stiffness_row = SLOW;
+            } else {
+                p.section[1].has_dynamic_stiffness = true;
+                p.section[1].dynamic_stiffness = WRONG[i].is;
+                p.section[1].stiffness_row_count = 3;
+                p.section[1].stiffness_row = SLOW;
+            }
+            refused(&p, whole ? "line 'rope': dynamic_stiffness "
+                              : "sections: number 2 has a dynamic stiffness that ");
+            refused(&p, WRONG[i].found);
+        }
+    make(&p);
+    for (int k = 0; k < SECTIONS; k++) p.section[k].stiffness = INFINITY;
+    p.section[1].has_dynamic_stiffness = true;
+    p.section[1].dynamic_stiffness.stiffness = 1e6;
+    refused(&p, "stands beside an inextensible one");
+}
+
 static void wrong_point_weights_are_refused(void **state) {
     (void)state;
     static const double WEIGHT[] = {NAN, INFINITY, -INFINITY},
@@ -239,8 +287,8 @@ static void each_node_carries_its_own(void **state) {
     p.weight[0].weight = p.weight[1].weight = 0;
     p.line.weight = 0;
     expect_line(&p, 0, (double[ELEMENTS + 1]){0}, ALIKE);
-    p.weight[0] = (CpsPointWeight){8, 7};
-    p.weight[1] = (CpsPointWeight){8, 4};
+    p.weight[0] = (CpsPointWeight){.arc_length = 8, .weight = 7};
+    p.weight[1] = (CpsPointWeight){.arc_length = 8, .weight = 4};
     expect_line(&p, (7 + 4) / 12.0, (double[]){0, 0, 0, 0, 11, 0, 0}, ALIKE);
     /* inextensible sections */
     make(&p);
@@ -253,6 +301,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_sections_are_refused),
                                        cmocka_unit_test(wrong_tables_are_refused),
                                        cmocka_unit_test(wrong_breaking_loads_are_refused),
+                                       cmocka_unit_test(wrong_dynamic_stiffnesses_are_refused),
                                        cmocka_unit_test(wrong_point_weights_are_refused),
                                        cmocka_unit_test(each_node_carries_its_own)};
     return cmocka_run_group_tests(tests, NULL, NULL);

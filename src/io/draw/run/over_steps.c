@@ -63,6 +63,15 @@ static void value_range(const CpsResults *results, const Panel *panel, double ra
             }
 }
 
+/* Of a history in time the abscissa is the time, which stands still in quasi-static steps. */
+static bool is_over_time(const CpsResults *results) {
+    return results->row_count > 0 && results->row[results->row_count - 1].motion.time > 0;
+}
+
+static double abscissa(const CpsResults *results, int row) {
+    return is_over_time(results) ? results->row[row].motion.time : row;
+}
+
 /* A curve, in pieces between steps without a value; `point` is work space for all rows. */
 static void draw_curve(const CpsResults *results, const Panel *panel, const CpsiFrame *frame,
                        double factor, int line, int curve, double *point, FILE *out) {
@@ -74,7 +83,7 @@ static void draw_curve(const CpsResults *results, const Panel *panel, const Cpsi
         const double value =
             row < results->row_count ? value_at(results, panel, line, curve, row) : NAN;
         if (isfinite(value)) {
-            point[2 * count] = row;
+            point[2 * count] = abscissa(results, row);
             point[2 * count++ + 1] = factor * value;
             continue;
         }
@@ -91,8 +100,8 @@ static void draw_curve(const CpsResults *results, const Panel *panel, const Cpsi
 /* Thin lines where stages end. */
 static void draw_stages(const CpsResults *results, const CpsiFrame *frame, FILE *out) {
     for (int i = 0; i + 1 < results->stage_count; ++i) {
-        const double x = cpsi_frame_x(frame, results->stage[i].last);
         if (results->stage[i].last >= results->row_count - 1) break;
+        const double x = cpsi_frame_x(frame, abscissa(results, results->stage[i].last));
         fprintf(out,
                 "<path d=\"M%.1f %.1fV%.1f\" stroke=\"#bbb\" stroke-width=\"0.8\" "
                 "stroke-dasharray=\"2 3\"/>\n",
@@ -130,12 +139,12 @@ static void draw_panel(const CpsResults *results, const Panel *panel, const doub
                        .top = CPSI_FRAME_TOP + LEGEND + PANEL_PITCH * place,
                        .width = CPSI_FRAME_WIDTH,
                        .height = PANEL_HEIGHT,
-                       .x = {0, results->row_count - 1},
+                       .x = {0, abscissa(results, results->row_count - 1)},
                        .y = {range[0] * unit.factor, range[1] * unit.factor}};
     cpsi_range_pad(frame.y, 0.06);
     char label[48];
     snprintf(label, sizeof label, "%s (%s)", panel->label, unit.name);
-    cpsi_frame_axes(out, &frame, "step", label);
+    cpsi_frame_axes(out, &frame, is_over_time(results) ? "time (s)" : "step", label);
     draw_legend(panel, &frame, out);
     if (place == 0 && results->line_count > 1) draw_names(results, &frame, out);
     cpsi_frame_begin(out, &frame, place);

@@ -32,6 +32,11 @@ void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, con
 void cpsi_picture_ground(const CpsObstacle *ground, const CpsiView *view, const CpsiFrame *frame,
                          FILE *out);
 
+/* A capsule, torus, cone or box by its silhouette; and the ranges of the view that show it. */
+void cpsi_picture_shape(const CpsObstacle *obstacle, const char *fill, const char *edge,
+                        const CpsiView *view, const CpsiFrame *frame, FILE *out);
+void cpsi_shape_extend(const CpsObstacle *obstacle, CpsiView *view);
+
 /* Whether the silhouette is a circle: that of a ball, or of a cylinder seen from its end. */
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);
 

@@ -7,6 +7,9 @@
 #include "base/math.h"
 #include "io/read/scene/scene_build.h"
 
+/* A duration that is a whole number of steps may be so but for rounding. */
+static const double ROUNDING = 1e-12;
+
 /* Whether this is the name before the last dot of NAME.WHAT. */
 static bool is_owner(const char *name, const char *key) {
     const size_t n = (size_t)(strrchr(key, '.') - key);
@@ -61,12 +64,30 @@ static CpsStatus build_release(const CpsiHistoryBuild *b, const CpsiChangeValues
     return CPS_OK;
 }
 
+/* An oscillation has a size, and what is let go none. */
+static CpsStatus check_sway(const CpsiHistoryBuild *b, const CpsiChangeValues *values) {
+    const CpsiYaml *period = cpsi_yaml_child(values->node, "period");
+    if (!period) return CPS_OK;
+    if (values->kind == CPSI_CHANGE_RELEASE)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, period,
+                                  "'period': found beside 'release': what is let go does not "
+                                  "oscillate");
+    if (!cpsi_yaml_child(values->node, "sine") && !cpsi_yaml_child(values->node, "cosine"))
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, period,
+                                  "'period': nothing oscillates, expected 'sine' or 'cosine' "
+                                  "beside it");
+    return CPS_OK;
+}
+
 static CpsStatus build_change(const CpsiHistoryBuild *b, const CpsiChangeValues *values,
                               CpsChange *change) {
     const char *key = values->node->key;
     *change = (CpsChange){.line = find_line(b, key)};
     change->end = key[strlen(key) - 1] == 'A' ? CPS_END_A : CPS_END_B;
-    if (values->kind == CPSI_CHANGE_RELEASE) return build_release(b, values, change);
+    if (values->kind == CPSI_CHANGE_RELEASE) {
+        const CpsStatus status = check_sway(b, values);
+        return status ? status : build_release(b, values, change);
+    }
     change->to.kind = values->kind == CPSI_CHANGE_FORCE ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
     const CpsLine *line = &b->scene->line[change->line];
     const bool at_point = line->end[change->end].kind == CPS_END_KIND_POINT &&
@@ -85,7 +106,7 @@ static CpsStatus build_change(const CpsiHistoryBuild *b, const CpsiChangeValues 
                                   "the end of an arc): give a position instead",
                                   key);
     build_value(values, held, change->to.value);
-    return CPS_OK;
+    return check_sway(b, values);
 }
 
 static CpsStatus build_point_change(const CpsiHistoryBuild *b, const CpsiChangeValues *values,
@@ -141,14 +162,22 @@ static CpsStatus build_changes(const CpsiHistoryBuild *b, const CpsiStageValues 
     const CpsiChangeValues *from = values->changes.item, *point_from = values->point_changes.item;
     CpsChange *change = CPSI_POOL_TAKE(b->pool, count, CpsChange);
     CpsPointChange *point_change = CPSI_POOL_TAKE(b->pool, point_count, CpsPointChange);
-    if (!change || !point_change) return cpsi_document_no_memory(b->d);
+    CpsSway *sway = CPSI_POOL_TAKE(b->pool, count, CpsSway);
+    if (!change || !point_change || !sway) return cpsi_document_no_memory(b->d);
     stage->change = change;
     stage->change_count = count;
+    stage->sway = sway;
     stage->point_change = point_change;
     stage->point_change_count = point_count;
     CpsStatus status = CPS_OK;
     for (int k = 0; k < count && status == CPS_OK; k++)
         status = build_change(b, &from[k], &change[k]);
+    for (int k = 0; k < count; k++) {
+        if (isnan(from[k].sway.period)) continue;
+        sway[stage->sway_count] = from[k].sway;
+        sway[stage->sway_count].line = change[k].line;
+        sway[stage->sway_count++].end = change[k].end;
+    }
     for (int k = 0; k < point_count && status == CPS_OK; k++)
         status = build_point_change(b, &point_from[k], &point_change[k]);
     return status ? status : build_body_changes(b, &values->body_changes, stage);
@@ -247,12 +276,47 @@ static void find_moving(const CpsiHistoryBuild *b, const CpsiList *history) {
     }
 }
 
+/* The number of steps of a duration, none of which is longer than given. */
+static CpsStatus count_steps(const CpsiHistoryBuild *b, const CpsiStageValues *values,
+                             CpsStage *stage) {
+    const double count = ceil(stage->duration / values->time_step * (1 - ROUNDING));
+    if (!(count <= (double)b->d->limits->max_steps))
+        return cpsi_document_fail(b->d, CPS_ERR_LIMIT, cpsi_yaml_child(values->node, "time_step"),
+                                  "'time_step': %.15g steps of %g s, the limit is %lld", count,
+                                  values->time_step, (long long)b->d->limits->max_steps);
+    stage->step_count = count > 1 ? (int)count : 1;
+    return CPS_OK;
+}
+
+/* Which stiffness a stage uses; that of a scene without dynamic ones is not chosen. */
+static CpsStatus build_stiffness(const CpsiHistoryBuild *b, const CpsiStageValues *values,
+                                 CpsStage *stage) {
+    const CpsiYaml *given = cpsi_yaml_child(values->node, "stiffness");
+    bool any = false;
+    for (int i = 0; i < b->scene->line_count; i++) {
+        const CpsLine *line = &b->scene->line[i];
+        any = any || (line->section_count == 0 && line->has_dynamic_stiffness);
+        for (int k = 0; k < line->section_count; k++)
+            any = any || line->section[k].has_dynamic_stiffness;
+    }
+    stage->static_stiffness = values->stiffness == 1;
+    if (!given || any) return CPS_OK;
+    return cpsi_document_fail(b->d, CPS_ERR_INPUT, given,
+                              "'stiffness': found %s, but no line has a 'dynamic_stiffness': leave "
+                              "the key out, or give one",
+                              values->stiffness == 1 ? "static" : "dynamic");
+}
+
 static CpsStatus build_stage(const CpsiHistoryBuild *b, const CpsiStageValues *values, int index,
                              CpsStage *stage) {
     const CpsiNumberItem *turns = values->turns.item;
     char number[32];
     snprintf(number, sizeof number, "entry %d", index + 1);
     *stage = values->stage;
+    if (!isnan(values->time_step)) {
+        const CpsStatus status = count_steps(b, values, stage);
+        if (status != CPS_OK) return status;
+    }
     const char *name = stage->name ? stage->name : number;
     stage->name = cpsi_pool_text(b->pool, name, strlen(name));
     stage->gravity_changes = !isnan(stage->gravity[0]);
@@ -265,7 +329,8 @@ static CpsStatus build_stage(const CpsiHistoryBuild *b, const CpsiStageValues *v
     for (int k = 0; k < stage->turn_count; k++)
         turn[k] = (CpsTurn){.obstacle = find_obstacle(b, turns[k].node->key),
                             .angle = turns[k].number * CPSI_DEGREE};
-    CpsStatus status = build_changes(b, values, stage);
+    CpsStatus status = build_stiffness(b, values, stage);
+    if (status == CPS_OK) status = build_changes(b, values, stage);
     if (status == CPS_OK) status = build_shifts(b, &values->shifts, stage);
     return status == CPS_OK ? build_grasps(b, &values->grasps, stage) : status;
 }

@@ -334,6 +334,10 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
     if (status == CPS_OK)
         status = cpsi_stiffness_build(&b->materials, &values->table, &line->stiffness_row_count,
                                       &line->stiffness_row);
+    if (status == CPS_OK)
+        status =
+            cpsi_dynamic_stiffness_build(&b->materials, &values->dynamic,
+                                         &line->has_dynamic_stiffness, &line->dynamic_stiffness);
     if (status == CPS_OK) status = build_elements(b, values, line);
     if (status == CPS_OK) status = build_zones(b, &values->zones, line);
     if (status == CPS_OK && values->sections.count > 0)
@@ -371,6 +375,7 @@ static CpsStatus build_lines(Build *b, const CpsiList *lines) {
 static CpsStatus build_obstacle(Build *b, const CpsiObstacleValues *values, CpsObstacle *obstacle) {
     CpsSet *set = NULL;
     *obstacle = values->obstacle;
+    cpsi_shape_build(values, obstacle);
     obstacle->has_friction_lateral = !isnan(obstacle->friction_lateral);
     if (!obstacle->has_friction_lateral) obstacle->friction_lateral = 0;
     obstacle->name = copy_text(b, values->node->key);

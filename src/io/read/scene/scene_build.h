@@ -12,6 +12,9 @@
 CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values, CpsiPool *pool,
                            CpsScene *scene);
 
+/* Fill the kind of an obstacle, and what its shape has, from its values: shape_build.c. */
+void cpsi_shape_build(const CpsiObstacleValues *values, CpsObstacle *obstacle);
+
 /* ---- the history: history_build.c ---- */
 
 /* Where what the history moves is held after the preceding entry. */

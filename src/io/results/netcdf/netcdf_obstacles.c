@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/rotation.h"
+
 enum { XYZ = 3, TANGENTS = 2 };
 
 /* Numbers of an obstacle. Their names differ from the names of all fields of a line, whatever its
@@ -27,16 +29,35 @@ static const struct {
 } OBSTACLE[CPSI_OBSTACLE_FIELDS] = {
     {"obstacle_kind", "kind of surface", "1", false},
     {"obstacle_point",
-     "point of the plane or of the cylinder's axis, centre of the sphere, origin of ground", "m",
-     true},
+     "point of the plane or of the cylinder's axis, centre of the sphere, capsule, torus and box, "
+     "tip of the cone, origin of ground",
+     "m", true},
     {"obstacle_axis",
-     "normal of the plane, axis of cylinder and sphere, of any length; z of the others", "1", true},
-    {"obstacle_radius", "radius, 0 of what is not round", "m", false},
+     "normal of the plane, axis of cylinder, sphere, capsule, torus and cone, of any length, third "
+     "axis of the box; z of the others",
+     "1", true},
+    {"obstacle_radius",
+     "radius, of the tube of a torus, the tip of a cone, the edges of a box; 0 "
+     "of planes, ground and surfaces",
+     "m", false},
     {"obstacle_friction_axial", "friction coefficient along the line or the grain", "1", false},
     {"obstacle_friction_lateral", "friction coefficient across it", "1", false},
     {"obstacle_friction_shape", "how the two make a set of forces, or that a set is given instead",
      "1", false},
     {"obstacle_friction_grain", "axial direction, 0: that of the line", "1", true},
+};
+
+/* Of shapes. */
+static const struct {
+    const char *name, *long_name, *units;
+    bool vector;
+} SHAPE[CPSI_SHAPE_FIELDS] = {
+    {"obstacle_inside", "lines are inside of it", "1", false},
+    {"obstacle_length", "of a capsule, between the centres of its round ends", "m", false},
+    {"obstacle_main_radius", "of a torus, of the circle that its tube follows", "m", false},
+    {"obstacle_angle", "of a cone, between axis and side", "rad", false},
+    {"obstacle_size", "of a box, from face to face along its axes", "m", true},
+    {"obstacle_side", "first axis of a box, of length 1", "1", true},
 };
 
 /* Of each step, where an obstacle moves. */
@@ -166,6 +187,41 @@ static void write_ground(CpsiNetcdfFile *file, const CpsiNetcdfGround *ground,
     }
 }
 
+/* ---- shapes ---- */
+
+static bool is_shape(const CpsObstacle *o) {
+    return o->shape.inside || o->kind == CPS_OBSTACLE_CAPSULE || o->kind == CPS_OBSTACLE_TORUS ||
+           o->kind == CPS_OBSTACLE_CONE || o->kind == CPS_OBSTACLE_BOX;
+}
+
+static bool has_axis(const CpsObstacle *o) {
+    return o->kind != CPS_OBSTACLE_BOX &&
+           (is_shape(o) || o->kind == CPS_OBSTACLE_CYLINDER || o->kind == CPS_OBSTACLE_SPHERE);
+}
+
+/* Axis i of a box. */
+static void box_axis(const CpsObstacle *o, int i, double out[XYZ]) {
+    const Vec3 e = vec3(i == 0 ? 1 : 0, i == 1 ? 1 : 0, i == 2 ? 1 : 0);
+    vec3_store(out, rotation_apply(rotation_load(o->shape.rotation), e));
+}
+
+static void write_shape(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
+                        const CpsObstacle *o, size_t k) {
+    const bool box = o->kind == CPS_OBSTACLE_BOX;
+    static const double NONE[XYZ] = {0, 0, 0};
+    double side[XYZ] = {0, 0, 0};
+    if (box) box_axis(o, 0, side);
+    const double inside = o->shape.inside,
+                 length = o->kind == CPS_OBSTACLE_CAPSULE ? o->shape.length : 0,
+                 main_radius = o->kind == CPS_OBSTACLE_TORUS ? o->shape.main_radius : 0,
+                 angle = o->kind == CPS_OBSTACLE_CONE ? o->shape.angle : 0;
+    const double *value[CPSI_SHAPE_FIELDS] = {
+        &inside, &length, &main_radius, &angle, box ? o->shape.size : NONE, side};
+    const size_t start[] = {k, 0}, count[] = {1, XYZ};
+    for (int f = 0; f < CPSI_SHAPE_FIELDS; ++f)
+        cpsi_netcdf_doubles(file, obstacles->shape_field[f], start, count, value[f]);
+}
+
 /* ---- all ---- */
 
 /* Obstacles: their names as an attribute like those of the lines, their numbers as variables. */
@@ -189,8 +245,15 @@ void cpsi_netcdf_define_obstacles(CpsiNetcdfFile *file, CpsiNetcdfObstacles *o,
         o->field[f] =
             cpsi_netcdf_variable(file, "", OBSTACLE[f].name, NC_DOUBLE, 1 + OBSTACLE[f].vector,
                                  shape, OBSTACLE[f].long_name, OBSTACLE[f].units);
-    cpsi_netcdf_flags(file, o->field[OBSTACLE_KIND], NC_DOUBLE, 5, (const int[]){0, 1, 2, 3, 4},
-                      "plane cylinder sphere ground surface");
+    cpsi_netcdf_flags(file, o->field[OBSTACLE_KIND], NC_DOUBLE, 9,
+                      (const int[]){0, 1, 2, 3, 4, 5, 6, 7, 8},
+                      "plane cylinder sphere ground surface capsule torus cone box");
+    for (int k = 0; k < scene->obstacle_count; ++k)
+        o->has_shapes = o->has_shapes || is_shape(&scene->obstacle[k]);
+    for (int f = 0; f < (o->has_shapes ? CPSI_SHAPE_FIELDS : 0); ++f)
+        o->shape_field[f] =
+            cpsi_netcdf_variable(file, "", SHAPE[f].name, NC_DOUBLE, 1 + SHAPE[f].vector, shape,
+                                 SHAPE[f].long_name, SHAPE[f].units);
     cpsi_netcdf_flags(file, o->field[OBSTACLE_SHAPE], NC_DOUBLE, 3, NULL, "ellipse box set");
     o->turn = cpsi_netcdf_variable(file, "", "obstacle_turn", NC_DOUBLE, 2, turned,
                                    "angle turned about its axis in the step", "rad");
@@ -218,21 +281,22 @@ static void write_fields(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstac
                          const CpsScene *scene, const double origin[XYZ]) {
     for (size_t k = 0; k < (size_t)scene->obstacle_count; ++k) {
         const CpsObstacle *o = &scene->obstacle[k];
-        static const double UP[XYZ] = {0, 0, 1};
-        const bool plane = o->kind == CPS_OBSTACLE_PLANE,
-                   round = o->kind == CPS_OBSTACLE_CYLINDER || o->kind == CPS_OBSTACLE_SPHERE;
-        const double kind = o->kind, radius = round ? o->radius : 0,
+        const bool plane = o->kind == CPS_OBSTACLE_PLANE, box = o->kind == CPS_OBSTACLE_BOX;
+        double third[XYZ] = {0, 0, 1};
+        if (box) box_axis(o, 2, third);
+        const double kind = o->kind, radius = has_axis(o) || box ? o->radius : 0,
                      shape = o->friction_set ? 2 : o->friction_shape;
         const double lateral = o->has_friction_lateral ? o->friction_lateral : o->friction;
         const double point[XYZ] = {o->point[0] - origin[0], o->point[1] - origin[1],
                                    o->point[2] - origin[2]};
         const double *value[CPSI_OBSTACLE_FIELDS] = {
-            &kind,   point,        plane ? o->normal : round ? o->axis : UP,
+            &kind,   point,        plane ? o->normal : has_axis(o) ? o->axis : third,
             &radius, &o->friction, &lateral,
             &shape,  o->grain};
         const size_t start[] = {k, 0}, count[] = {1, XYZ};
         for (int f = 0; f < CPSI_OBSTACLE_FIELDS; ++f)
             cpsi_netcdf_doubles(file, obstacles->field[f], start, count, value[f]);
+        if (obstacles->has_shapes) write_shape(file, obstacles, o, k);
     }
 }
 
@@ -302,4 +366,26 @@ void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles
     write_fields(file, obstacles, scene, origin);
     write_sets(file, obstacles);
     if (obstacles->ground) write_ground(file, obstacles->ground, scene);
+}
+
+void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, double origin_z) {
+    const CpsCurrent *current = scene->current;
+    if (!current) return;
+    double *rows = malloc(4 * (size_t)current->row_count * sizeof *rows);
+    if (!rows) cpsi_netcdf_keep(file, NC_ENOMEM);
+    for (int k = 0; rows && k < current->row_count; ++k) {
+        rows[4 * k] = current->row[k].z - origin_z;
+        memcpy(&rows[4 * k + 1], current->row[k].velocity, 3 * sizeof *rows);
+    }
+    cpsi_netcdf_numbers(file, "water_density", 1, &current->density);
+    if (rows) cpsi_netcdf_numbers(file, "current", 4 * (size_t)current->row_count, rows);
+    free(rows);
+    for (int i = 0; i < scene->line_count; ++i) {
+        const CpsLineLoads *loads = scene->line[i].loads;
+        if (!loads || !(loads->drag.diameter > 0)) continue;
+        const double given[] = {loads->drag.diameter, loads->drag.normal, loads->drag.tangential};
+        char name[NC_MAX_NAME + 1];
+        snprintf(name, sizeof name, "%.200s_drag", scene->line[i].name);
+        cpsi_netcdf_numbers(file, name, 3, given);
+    }
 }

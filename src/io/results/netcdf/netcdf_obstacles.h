@@ -11,6 +11,7 @@
 enum {
     CPSI_OBSTACLE_FIELDS = 8,
     CPSI_OBSTACLE_MOVES = 5,
+    CPSI_SHAPE_FIELDS = 6,
     CPSI_SET_FIELDS = 5,
     CPSI_GROUND_FIELDS = 4
 };
@@ -25,8 +26,10 @@ typedef struct CpsiNetcdfObstacles {
     bool moves;                    /* one of them does; else the next ones are unused */
     int move[CPSI_OBSTACLE_MOVES]; /* of each step */
     int dimension, turn, field[CPSI_OBSTACLE_FIELDS]; /* unused without obstacles */
-    int set_field[CPSI_SET_FIELDS];                   /* unused without sets, */
-    size_t set_rows, set_unknowns;                    /* where these are 0 */
+    int shape_field[CPSI_SHAPE_FIELDS];               /* unused where has_shapes is false: */
+    bool has_shapes; /* some are neither planes nor outside of cylinders, balls, ground, surfaces */
+    int set_field[CPSI_SET_FIELDS]; /* unused without sets, */
+    size_t set_rows, set_unknowns;  /* where these are 0 */
     /* (count) while the file begins; zeroed where an obstacle has none */
     CpsSetConic *set;
     CpsiNetcdfGround *ground; /* (count) likewise */
@@ -116,5 +119,37 @@ void cpsi_netcdf_define_grasps(CpsiNetcdfFile *file, CpsiNetcdfGrasps *ids, cons
 /* ... and write those of a step. */
 void cpsi_netcdf_append_grasps(CpsiNetcdfFile *file, const CpsiNetcdfGrasps *ids, size_t step,
                                const CpsLineView *view);
+
+/* The motion in time of a scene; nothing of one without steps in time. Of quasi-static steps among
+ * them velocities and spans are 0. */
+enum { CPSI_MOTION_NUMBERS = 9 };
+
+typedef struct CpsiNetcdfTime {
+    bool is_there; /* otherwise all other variables are unused */
+    int time;
+} CpsiNetcdfTime;
+
+typedef struct CpsiNetcdfMotion {
+    int mass, velocity, rest_velocity, span, number[CPSI_MOTION_NUMBERS];
+} CpsiNetcdfMotion;
+
+/* Define the variables of the run; write those of a step. */
+void cpsi_netcdf_define_time(CpsiNetcdfFile *file, CpsiNetcdfTime *ids, const CpsScene *scene,
+                             int step);
+void cpsi_netcdf_append_time(CpsiNetcdfFile *file, const CpsiNetcdfTime *ids, size_t step,
+                             const CpsEvolution *evolution);
+
+/* The same of a line, and what does not change; the dimensions are step, node and xyz. */
+void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
+                               CpsiNetcdfMotion *ids, const char *line, const int dimension[3]);
+void cpsi_netcdf_write_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
+                              const CpsiNetcdfMotion *ids, const CpsEvolution *evolution, int line);
+void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
+                               const CpsiNetcdfMotion *ids, size_t step,
+                               const CpsEvolution *evolution, int line);
+
+/* The current as attributes: the density, z and velocity of row after row; and the drag of lines.
+ */
+void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, double origin_z);
 
 #endif

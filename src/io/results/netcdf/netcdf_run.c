@@ -16,6 +16,7 @@
 #include <time.h>
 
 #include "base/status.h"
+#include "capstan/two_stiffnesses.h"
 #include "io/base/text/columns.h"
 #include "io/base/text/escape.h"
 #include "io/results/fields.h"
@@ -147,9 +148,11 @@ typedef struct LineIds {
     int compliance_factor, weight_length;                /* unused where the line is uniform */
     int spring_element, spring_strain, spring_stiffness; /* unused where there is none */
     int breaking_load;                                   /* the same */
-    int end_point;                                       /* unused without points */
+    int stiffness, rest_strain, dynamic_compliance_factor, dynamic_spring[3]; /* the same */
+    int end_point; /* unused without points */
     CpsiNetcdfGrasps grasps;
     CpsiNetcdfFailure failure;
+    CpsiNetcdfMotion motion;
 } LineIds;
 
 struct CpsiNetcdf {
@@ -164,6 +167,7 @@ struct CpsiNetcdf {
     CpsiNetcdfPoints points;
     CpsiNetcdfBodies bodies;
     CpsiNetcdfBreaks breaks;
+    CpsiNetcdfTime time;
     int line_count;
     LineIds *line;
 };
@@ -188,19 +192,6 @@ static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
     return id;
 }
 
-/* When the file was begun and by what, as CF wants the first line of a file's history. Where the
- * clock cannot be read, or shows no year, by what alone. */
-static void add_history(CpsiNetcdf *nc, const char *source) {
-    char history[96];
-    struct timespec now;
-    struct tm utc;
-    size_t length = 0;
-    if (timespec_get(&now, TIME_UTC) == TIME_UTC && gmtime_r(&now.tv_sec, &utc))
-        length = strftime(history, sizeof history, "%Y-%m-%dT%H:%M:%SZ: ", &utc);
-    snprintf(history + length, sizeof history - length, "written by %s", source);
-    cpsi_netcdf_text(&nc->file, NC_GLOBAL, "history", history);
-}
-
 static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origin[XYZ],
                        const char *names) {
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "Conventions", "CF-1.8");
@@ -208,7 +199,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     char source[64];
     snprintf(source, sizeof source, "capstan %s", cps_version());
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "source", source);
-    add_history(nc, source);
+    cpsi_netcdf_history(&nc->file, source);
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "lines", names);
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "friction_policy",
                      scene->friction_policy == CPS_FRICTION_POLICY_CONSISTENT ? "consistent"
@@ -237,6 +228,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     cpsi_netcdf_define_points(&nc->file, &nc->points, scene, nc->step, nc->xyz);
     cpsi_netcdf_define_bodies(&nc->file, &nc->bodies, &nc->points, scene, nc->step, nc->xyz);
     cpsi_netcdf_define_breaks(&nc->file, &nc->breaks, scene, nc->step);
+    cpsi_netcdf_define_time(&nc->file, &nc->time, scene, nc->step);
 }
 
 /* "LINE_NAME" of a node's first contact, "LINE_NAME_second" of its second. */
@@ -259,14 +251,12 @@ static const double *in_view(const CpsLineView *view, const CpsiField *field) {
     return array;
 }
 
-/* Is the field one of nodes? */
 static bool is_of_nodes(const CpsiField *field) {
     return field->place == CPSI_PLACE_NODE || field->place == CPSI_PLACE_SPRING ||
            field->place == CPSI_PLACE_LOAD;
 }
 
-/* Contacts of elements are written only where they are looked for, and what acts on nodes where
- * something does. */
+/* Contacts of elements, and what acts on nodes, are written only where there are any. */
 static bool has_field(const CpsLineView *view, const CpsiField *field) {
     if (field->place == CPSI_PLACE_SPRING) return view->has_springs;
     if (field->place == CPSI_PLACE_LOAD) return view->has_node_loads;
@@ -298,31 +288,78 @@ static void define_zones(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
 
 static bool has_loads(const CpsLineView *view) { return view->has_springs || view->has_node_loads; }
 
-static void define_loads(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view,
-                         const CpsLine *line) {
+static void define_loads(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
     if (!has_loads(view)) return;
     for (int i = 0; i < LOADS; ++i)
         ids->load[i] = cpsi_netcdf_variable(&nc->file, view->name, LOAD[i].name, NC_DOUBLE, 1,
                                             &nc->step, LOAD[i].long_name, LOAD[i].units);
-    const CpsDrag *drag = &line->loads->drag;
-    const double given[] = {drag->diameter, drag->normal, drag->tangential};
-    char name[NC_MAX_NAME + 1];
-    snprintf(name, sizeof name, "%.200s_drag", view->name);
-    if (drag->diameter > 0) cpsi_netcdf_numbers(&nc->file, name, XYZ, given);
 }
 
-/* The current as attributes: the density, and z and velocity of row after row. */
-static void define_current(CpsiNetcdf *nc, const CpsCurrent *current, double origin_z) {
-    if (!current) return;
-    double *rows = malloc(4 * (size_t)current->row_count * sizeof *rows);
-    if (!rows) cpsi_netcdf_keep(&nc->file, NC_ENOMEM);
-    for (int k = 0; rows && k < current->row_count; ++k) {
-        rows[4 * k] = current->row[k].z - origin_z;
-        memcpy(&rows[4 * k + 1], current->row[k].velocity, XYZ * sizeof *rows);
-    }
-    cpsi_netcdf_numbers(&nc->file, "water_density", 1, &current->density);
-    if (rows) cpsi_netcdf_numbers(&nc->file, "current", 4 * (size_t)current->row_count, rows);
-    free(rows);
+/* The view of a line whose elements are those of its static stiffness: what is written once. */
+static CpsLineView constant_view(const CpsEvolution *evolution, int line) {
+    CpsLineView view = cps_evolution_line_view(evolution, line);
+    const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, line);
+    if (!two.exists) return view;
+    view.element_length = two.element_length;
+    view.compliance_factor = two.at_static.compliance_factor;
+    view.spring_count = two.at_static.spring_count;
+    view.spring_element = two.at_static.spring_element;
+    view.spring_strain = two.at_static.spring_strain;
+    view.spring_stiffness = two.at_static.spring_stiffness;
+    return view;
+}
+
+/* The dynamic stiffness, and which of the two holds in each step. */
+static void define_two_stiffnesses(CpsiNetcdf *nc, LineIds *ids, const char *line,
+                                   const CpsTwoStiffnesses *two) {
+    if (!two->exists) return;
+    const int of_step[] = {nc->step, ids->element};
+    ids->stiffness = cpsi_netcdf_variable(&nc->file, line, "stiffness", NC_BYTE, 1, &nc->step,
+                                          "which stiffness is in force", "1");
+    cpsi_netcdf_flags(&nc->file, ids->stiffness, NC_BYTE, 2, NULL, "static dynamic");
+    ids->rest_strain = cpsi_netcdf_variable(
+        &nc->file, line, "rest_strain", NC_DOUBLE, 2, of_step,
+        "strain at which an element would be without tension, by the stiffness in force", "1");
+    ids->dynamic_compliance_factor =
+        cpsi_netcdf_variable(&nc->file, line, "dynamic_compliance_factor", NC_DOUBLE, 1,
+                             &ids->element, "compliance_factor of the dynamic stiffness", "1");
+    if (two->at_dynamic.spring_count == 0) return;
+    char name[NC_MAX_NAME + 1];
+    snprintf(name, sizeof name, "%.200s_dynamic_spring", line);
+    const int spring = cpsi_netcdf_dimension(&nc->file, name, (size_t)two->at_dynamic.spring_count);
+    ids->dynamic_spring[0] =
+        cpsi_netcdf_variable(&nc->file, line, "dynamic_spring_element", NC_INT, 1, &spring,
+                             "spring_element of the dynamic stiffness", "1");
+    ids->dynamic_spring[1] =
+        cpsi_netcdf_variable(&nc->file, line, "dynamic_spring_strain", NC_DOUBLE, 1, &spring,
+                             "spring_strain of the dynamic stiffness", "1");
+    ids->dynamic_spring[2] =
+        cpsi_netcdf_variable(&nc->file, line, "dynamic_spring_stiffness", NC_DOUBLE, 1, &spring,
+                             "spring_stiffness of the dynamic stiffness", "N");
+}
+
+static void write_two_stiffnesses(CpsiNetcdf *nc, const LineIds *ids, size_t elements,
+                                  const CpsTwoStiffnesses *two) {
+    const size_t first = 0, springs = (size_t)two->at_dynamic.spring_count;
+    if (!two->exists) return;
+    cpsi_netcdf_doubles(&nc->file, ids->dynamic_compliance_factor, &first, &elements,
+                        two->at_dynamic.compliance_factor);
+    if (springs == 0) return;
+    cpsi_netcdf_ints(&nc->file, ids->dynamic_spring[0], &first, &springs,
+                     two->at_dynamic.spring_element);
+    cpsi_netcdf_doubles(&nc->file, ids->dynamic_spring[1], &first, &springs,
+                        two->at_dynamic.spring_strain);
+    cpsi_netcdf_doubles(&nc->file, ids->dynamic_spring[2], &first, &springs,
+                        two->at_dynamic.spring_stiffness);
+}
+
+static void append_two_stiffnesses(CpsiNetcdf *nc, const LineIds *ids, size_t elements,
+                                   const CpsTwoStiffnesses *two) {
+    if (!two->exists) return;
+    const size_t start[] = {nc->steps, 0}, count[] = {1, elements};
+    const unsigned char which = two->is_dynamic;
+    cpsi_netcdf_bytes(&nc->file, ids->stiffness, start, count, &which);
+    cpsi_netcdf_doubles(&nc->file, ids->rest_strain, start, count, two->rest_strain);
 }
 
 /* What tables of strain and tension add to 1/compliance. */
@@ -609,16 +646,20 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         cpsi_netcdf_keep(&nc->file, nc->file.library.set_fill(nc->file.id, NC_NOFILL, &before));
     const CpsLineView first = cps_evolution_line_view(evolution, 0);
     if (nc->open) define_run(nc, scene, first.origin, names);
-    if (nc->open) define_current(nc, scene->current, first.origin[2]);
+    if (nc->open) cpsi_netcdf_define_current(&nc->file, scene, first.origin[2]);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
-        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        const CpsLineView view = constant_view(evolution, i);
+        const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);
         define_line(nc, &nc->line[i], &view);
+        define_two_stiffnesses(nc, &nc->line[i], view.name, &two);
         define_zones(nc, &nc->line[i], &scene->line[i]);
-        define_loads(nc, &nc->line[i], &view, &scene->line[i]);
+        define_loads(nc, &nc->line[i], &view);
         define_end_points(nc, &nc->line[i], &scene->line[i]);
         cpsi_netcdf_define_grasps(&nc->file, &nc->line[i].grasps, scene, i, nc->step, nc->xyz);
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
+        cpsi_netcdf_define_motion(&nc->file, &nc->time, &nc->line[i].motion, view.name,
+                                  (const int[]){nc->step, nc->line[i].node, nc->xyz});
     }
     if (nc->file.status == NC_NOERR)
         cpsi_netcdf_keep(&nc->file, nc->file.library._enddef(nc->file.id, 0, ALIGN, 0, PAGE));
@@ -626,12 +667,15 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
     cpsi_netcdf_write_points(&nc->file, &nc->points, scene);
     cpsi_netcdf_write_bodies(&nc->file, &nc->bodies, scene, first.origin);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
-        const CpsLineView view = cps_evolution_line_view(evolution, i);
+        const CpsLineView view = constant_view(evolution, i);
+        const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);
         write_fields(nc, &nc->line[i], &view, true);
+        write_two_stiffnesses(nc, &nc->line[i], (size_t)view.element_count, &two);
         write_zones(nc, &nc->line[i], &scene->line[i]);
         write_end_points(nc, &nc->line[i], &scene->line[i]);
         write_sections(nc, &nc->line[i], &view);
         cpsi_netcdf_write_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i);
+        cpsi_netcdf_write_motion(&nc->file, &nc->time, &nc->line[i].motion, evolution, i);
         if (nc->file.status == NC_NOERR)
             cpsi_netcdf_keep(&nc->file,
                              nc->file.library.put_var_double(nc->file.id, nc->line[i].compliance,
@@ -720,12 +764,17 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
     cpsi_netcdf_append_points(&nc->file, &nc->points, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_bodies(&nc->file, &nc->bodies, nc->steps, evolution, first.origin);
     cpsi_netcdf_append_breaks(&nc->file, &nc->breaks, nc->steps, evolution);
+    cpsi_netcdf_append_time(&nc->file, &nc->time, nc->steps, evolution);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
+        const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);
         write_line(nc, &nc->line[i], &view, &line);
+        append_two_stiffnesses(nc, &nc->line[i], (size_t)view.element_count, &two);
         cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,
                                    evolution, i);
+        cpsi_netcdf_append_motion(&nc->file, &nc->time, &nc->line[i].motion, nc->steps, evolution,
+                                  i);
     }
     if (nc->file.status == NC_NOERR && nc->sync)
         cpsi_netcdf_keep(&nc->file, nc->file.library.sync(nc->file.id));

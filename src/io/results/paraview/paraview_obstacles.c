@@ -3,7 +3,8 @@
  * for each step in which an obstacle turns or moves. Balls are complete; planes and cylinders,
  * which have no ends, extend a little farther than the lines. Cells carry the number of their
  * sector of the obstacle, which makes a turn visible. Ground has the points of its grid, of a large
- * one every second, third, ..; surfaces given as functions have no quadrilaterals. */
+ * one every second, third, ..; a cone ends beyond the lines; surfaces given as functions have no
+ * quadrilaterals. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -28,6 +29,8 @@ typedef struct Patch {
     double reach[2]
                 [2]; /* plane: along the first two axes; cylinder: along the third, in reach[0] */
     CpsGroundGrid grid; /* of ground */
+    double end;         /* [m] of a cone, along its axis */
+    CpsObstacle now;    /* of a capsule .. box: where it is */
     double turned;      /* [rad] about the third axis, which is right-handed with the others */
 } Patch;
 
@@ -73,11 +76,24 @@ static Patch patch_of_ground(const CpsObstacle *obstacle) {
     return patch;
 }
 
+/* Of a capsule, torus, cone or box. */
+static Patch patch_of_shape(const CpsResults *results, int k, const CpsObstacle *now) {
+    Patch patch = {.obstacle = &results->obstacle[k], .now = *now};
+    double range[2];
+    cpsi_shape_grid(now, &patch.rows, &patch.columns);
+    reach_along(results, vec3_load(now->point), unit(vec3_load(now->axis)), range);
+    patch.end = range[1];
+    return patch;
+}
+
 /* after a step; before the first one, step is -1 */
 static Patch patch_of(const CpsResults *results, int step, int k) {
     const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
     if (obstacle->kind == CPS_OBSTACLE_GROUND || obstacle->kind == CPS_OBSTACLE_SURFACE)
         return patch_of_ground(&results->obstacle[k]);
+    int rows, columns;
+    cpsi_shape_grid(obstacle, &rows, &columns);
+    if (rows > 0) return patch_of_shape(results, k, obstacle);
     const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE,
                ball = obstacle->kind == CPS_OBSTACLE_SPHERE;
     Patch patch = {.obstacle = &results->obstacle[k],
@@ -106,6 +122,8 @@ static Vec3 point_of(const Patch *patch, int row, int column) {
     if (patch->obstacle->kind == CPS_OBSTACLE_GROUND ||
         patch->obstacle->kind == CPS_OBSTACLE_SURFACE)
         return point_of_ground(patch, row, column);
+    if (patch->now.radius > 0)
+        return cpsi_shape_point(&patch->now, patch->end, patch->turned, row, column);
     const double r = patch->obstacle->radius, angle = patch->turned + 2 * CPSI_PI * column / AROUND,
                  polar = CPSI_PI * row / ALONG;
     double x[3];

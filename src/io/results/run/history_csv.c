@@ -85,7 +85,24 @@ static const CpsiColumn BODY_COLUMN[] = {
     {"residual_m", "N m", BODY(residual[1])},
 };
 
+#define MOTION(member) CPSI_MEMBER(CpsiMotionRow, member)
+
+/* Where steps have a duration. */
+static const CpsiColumn MOTION_COLUMN[] = {
+    {"time", "s", MOTION(time)},
+    {"kinetic", "J", MOTION(kinetic)},
+    {"kinetic_growth", "J", MOTION(ledger.kinetic)},
+    {"impact", "J", MOTION(ledger.impact)},
+    {"scheme", "J", MOTION(ledger.scheme)},
+    {"turnover", "J", MOTION(ledger.turnover)},
+    {"position_bound", "m", MOTION(position_bound)},
+    {"landed", "1", MOTION(landed)},
+    {"changed", "1", MOTION(changed)},
+    {"snatched", "1", MOTION(snatched)},
+};
+
 enum {
+    MOTION_COLUMNS = sizeof MOTION_COLUMN / sizeof MOTION_COLUMN[0],
     STEP_COLUMNS = sizeof STEP_COLUMN / sizeof STEP_COLUMN[0],
     LINE_COLUMNS = sizeof LINE_COLUMN / sizeof LINE_COLUMN[0],
     FAILURE_COLUMNS = sizeof FAILURE_COLUMN / sizeof FAILURE_COLUMN[0],
@@ -112,6 +129,7 @@ static void write_heads(FILE *out, const CpsResults *results) {
         write_failure_heads(out, results->line_name[l]);
     for (int i = 0; i < results->body_count; ++i)
         cpsi_csv_names(out, BODY_COLUMN, BODY_COLUMNS, results->body[i].name);
+    if (results->in_time) cpsi_csv_names(out, MOTION_COLUMN, MOTION_COLUMNS, NULL);
     fputs("\n1,,,1,1,1,1", out);
     cpsi_csv_units(out, STEP_COLUMN, STEP_COLUMNS);
     for (int l = 0; l < cpsi_listed_lines(results); ++l)
@@ -121,6 +139,7 @@ static void write_heads(FILE *out, const CpsResults *results) {
         fputs(",,", out);
     }
     for (int i = 0; i < results->body_count; ++i) cpsi_csv_units(out, BODY_COLUMN, BODY_COLUMNS);
+    if (results->in_time) cpsi_csv_units(out, MOTION_COLUMN, MOTION_COLUMNS);
     fputs("\n", out);
 }
 
@@ -140,6 +159,7 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
             write_failure(out, &row->line[l].failure);
         for (int i = 0; i < results->body_count; ++i)
             cpsi_csv_values(out, BODY_COLUMN, BODY_COLUMNS, &row->body[i]);
+        if (results->in_time) cpsi_csv_values(out, MOTION_COLUMN, MOTION_COLUMNS, &row->motion);
         fputs("\n", out);
     }
 }

@@ -95,6 +95,7 @@ static int point_of(const CpsLine *line, int end) {
 static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvolution *evolution) {
     results->planned_steps = cps_evolution_step_count(evolution);
     results->lets_go = cpsi_lets_go(scene);
+    results->in_time = cpsi_has_duration(scene);
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
     results->has_water_surface = scene->has_water_surface;
@@ -272,7 +273,8 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         results->row_capacity = (int)capacity;
     }
     CpsiRow row = {.report = cps_evolution_report(evolution),
-                   .parted = cps_evolution_break(evolution)};
+                   .parted = cps_evolution_break(evolution),
+                   .motion = cpsi_motion_row(evolution)};
     row.name = copy_text(row.report.name);
     row.report.name = row.name;
     row.line = calloc((size_t)results->line_count, sizeof *row.line);

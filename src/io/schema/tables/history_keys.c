@@ -12,8 +12,19 @@ static const CpsiKey CHANGE_KEYS[] = {
      .help = "pull with this force; a held end is let go, from the force it carries"},
     {"release", ONE_OF, FLAG(Change, yes),
      .help = "true: let the end go at once, without force, also from its point"},
+    {"sine", OPTIONAL, POINT(Change, sway.sine, 3), ANY, .with = "period", .fallback = "[0, 0, 0]",
+     .help = "in an entry with a duration, beside the way to the value: this times sin(2 pi "
+             "t/period), in m of a position and N of a force"},
+    {"cosine", OPTIONAL, POINT(Change, sway.cosine, 3), ANY, .with = "period",
+     .fallback = "[0, 0, 0]", .help = "... and this times 1 - cos(2 pi t/period)"},
+    {"period", OPTIONAL, NUMBER(Change, sway.period), POSITIVE, .unit = "s",
+     .help = "of the oscillation; t is the time since the entry began"},
 };
-static const CpsiMapping CHANGE = {"change", KEYS(CHANGE_KEYS), INTO(Change), WHICH(Change, kind)};
+
+static void begin_change(void *values) { ((CpsiChangeValues *)values)->sway.period = NAN; }
+
+static const CpsiMapping CHANGE = {"change", KEYS(CHANGE_KEYS), INTO(Change), .begin = begin_change,
+                                   WHICH(Change, kind)};
 
 static const CpsiKey POINT_CHANGE_KEYS[] = {
     {"position", ONE_OF, POINT(Change, value, 3), ANY, .unit = "m",
@@ -96,6 +107,13 @@ static const CpsiKey STAGE_KEYS[] = {
      .help = "name of the entry in the results; by default its number"},
     {"steps", OPTIONAL, INTEGER(Stage, stage.step_count), 1, 1e6, false, .fallback = "1",
      .help = "go there in so many equal load steps"},
+    {"duration", OPTIONAL, NUMBER(Stage, stage.duration), POSITIVE, .unit = "s",
+     .help =
+         "take the entry in time: lines move with their mass; without it steps are quasi-static "
+         "and leave the lines at rest"},
+    {"time_step", OPTIONAL, NUMBER(Stage, time_step), POSITIVE, .unit = "s", .with = "duration",
+     .unless = "steps",
+     .help = "length that the steps of the duration shall not exceed, instead of their number"},
     {"gravity", OPTIONAL, POINT(Stage, stage.gravity, 3), ANY, .unit = "m/s2",
      .help = "what gravity becomes in this entry, evenly over its steps; the weight of all "
              "lines goes with it"},
@@ -121,11 +139,16 @@ static const CpsiKey STAGE_KEYS[] = {
     {"OBSTACLE.obstacle", OPTIONAL, OWNED(Stage, shifts), .owner = "obstacles", .after = "obstacle",
      .inside = &SHIFT,
      .help = "how an obstacle moves, as in bollard.obstacle; all others stay where they are"},
+    {"stiffness", OPTIONAL, WORD(Stage, stiffness), .words = "dynamic static",
+     .fallback = "\"dynamic\"",
+     .help = "by which stiffness lines stretch that have a dynamic one: by it, about the state "
+             "reached before, or slowly, by the static one"},
 };
 
 static void begin_stage(void *values) {
     CpsStage *stage = &((CpsiStageValues *)values)->stage;
     *stage = cps_stage_default();
+    ((CpsiStageValues *)values)->time_step = NAN;
     stage->gravity[0] = NAN; /* not given */
 }
 

@@ -15,6 +15,13 @@ static const CpsiKey PLANE_KEYS[] = {
 };
 static const CpsiMapping PLANE = {"plane", KEYS(PLANE_KEYS)};
 
+/* of what has a radius */
+#define INSIDE                                                                     \
+    {                                                                              \
+        "inside", OPTIONAL, FLAG(Obstacle, obstacle.shape.inside),                 \
+            .fallback = "false", .help = "lines are inside of it, and not outside" \
+    }
+
 static const CpsiKey CYLINDER_KEYS[] = {
     {"point", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
      .fallback = "[0, 0, 0]", .help = "a point of the axis"},
@@ -23,6 +30,7 @@ static const CpsiKey CYLINDER_KEYS[] = {
              "right-hand rule"},
     {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
      .help = "radius of the cylinder"},
+    INSIDE,
 };
 static const CpsiMapping CYLINDER = {"cylinder", KEYS(CYLINDER_KEYS)};
 
@@ -33,6 +41,7 @@ static const CpsiKey SPHERE_KEYS[] = {
      .help = "what the ball turns about, through its centre; of any length but zero"},
     {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
      .help = "radius of the ball"},
+    INSIDE,
 };
 static const CpsiMapping SPHERE = {"sphere", KEYS(SPHERE_KEYS)};
 
@@ -56,6 +65,63 @@ static const CpsiKey GROUND_KEYS[] = {
 };
 static const CpsiMapping GROUND = {"ground", KEYS(GROUND_KEYS)};
 
+#define CENTRE                                                                                     \
+    {                                                                                              \
+        "centre", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY,                               \
+            .unit = "m", .formerly = "center", .fallback = "[0, 0, 0]", .help = "the middle of it" \
+    }
+
+static const CpsiKey CAPSULE_KEYS[] = {
+    CENTRE,
+    {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
+     .help = "direction of the axis, of any length but zero; a turn follows it by the right-hand "
+             "rule"},
+    {"length", REQUIRED, NUMBER(Obstacle, obstacle.shape.length), NOT_NEGATIVE, .unit = "m",
+     .help = "between the centres of its round ends: of the cylinder alone"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of cylinder and ends"},
+    INSIDE,
+};
+static const CpsiMapping CAPSULE = {"capsule", KEYS(CAPSULE_KEYS)};
+
+static const CpsiKey TORUS_KEYS[] = {
+    CENTRE,
+    {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
+     .help = "direction of its axis of rotation, of any length but zero"},
+    {"main_radius", REQUIRED, NUMBER(Obstacle, obstacle.shape.main_radius), POSITIVE, .unit = "m",
+     .help = "of the circle that the middle of the tube follows, above radius"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of the tube"},
+    INSIDE,
+};
+static const CpsiMapping TORUS = {"torus", KEYS(TORUS_KEYS)};
+
+static const CpsiKey CONE_KEYS[] = {
+    {"tip", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m", .fallback = "[0, 0, 0]",
+     .help = "the outermost point of its round tip"},
+    {"axis", REQUIRED, POINT(Obstacle, obstacle.axis, 3), ANY,
+     .help = "direction from the tip into the cone, which has no end; of any length but zero"},
+    {"angle", REQUIRED, NUMBER(Obstacle, cone_angle), POSITIVE, .unit = "degrees",
+     .help = "between axis and side, below 90"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of the ball that rounds its tip"},
+    INSIDE,
+};
+static const CpsiMapping CONE = {"cone", KEYS(CONE_KEYS)};
+
+static const CpsiKey BOX_KEYS[] = {
+    CENTRE,
+    {"size", REQUIRED, POINT(Obstacle, obstacle.shape.size, 3), 0, CPSI_LARGEST, true, .unit = "m",
+     .help = "from face to face along its own axes, each above twice the radius"},
+    {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
+     .help = "radius of its edges and corners"},
+    {"rotation", OPTIONAL, MAPPING(Obstacle, rotation), .inside = &cpsi_rotation_keys,
+     .fallback = "{\"quaternion\": [1, 0, 0, 0]}",
+     .help = "turns its own axes, which begin as those of the scene"},
+    INSIDE,
+};
+static const CpsiMapping BOX = {"box", KEYS(BOX_KEYS)};
+
 static const CpsiKey FRICTION_KEYS[] = {
     {"axial", ONE_OF, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .help = "coefficient along the line, or along the grain"},
@@ -77,10 +143,15 @@ static const CpsiMapping FRICTION = {"friction", KEYS(FRICTION_KEYS)};
 static const CpsiKey OBSTACLE_KEYS[] = {
     {"plane", ONE_OF, AROUND, .inside = &PLANE, .help = "a plane; lines stay on one side of it"},
     {"cylinder", ONE_OF, AROUND, .inside = &CYLINDER,
-     .help = "a solid cylinder without ends (bollard, pipe, drum); lines stay outside"},
+     .help = "a cylinder without ends (bollard, pipe, drum); lines stay outside, or inside"},
     {"sphere", ONE_OF, AROUND, .inside = &SPHERE, .help = "a solid ball; lines stay outside"},
     {"ground", ONE_OF, AROUND, .inside = &GROUND,
      .help = "a smooth surface through the points of a grid; lines stay above it"},
+    {"capsule", ONE_OF, AROUND, .inside = &CAPSULE,
+     .help = "a cylinder with round ends (bollard, tank)"},
+    {"torus", ONE_OF, AROUND, .inside = &TORUS, .help = "a ring (shackle, bent tube)"},
+    {"cone", ONE_OF, AROUND, .inside = &CONE, .help = "a cone with a round tip (funnel)"},
+    {"box", ONE_OF, AROUND, .inside = &BOX, .help = "a box with round edges (quay, slab)"},
     {"friction", OPTIONAL, NUMBER(Obstacle, obstacle.friction), NOT_NEGATIVE,
      .other = &(const CpsiKey){.type = CPSI_MAPPING, .inside = &FRICTION}, .fallback = "0",
      .help = "Coulomb friction coefficient; or one along the line or the grain and another "
@@ -358,11 +429,16 @@ static const CpsiKey POINT_WEIGHT_KEYS[] = {
      .help = "mass; its weight is mass times gravity, less that of the water it displaces"},
     {"weight", ONE_OF, NUMBER(PointWeight, weight), ANY, .unit = "N",
      .help = "weight (in water: the submerged one), instead of mass; negative: a buoy"},
+    {"inertia", OPTIONAL, NUMBER(PointWeight, inertia), NOT_NEGATIVE, .unit = "kg",
+     .help = "mass that moves with the node in time; by default its mass, 0 of a weight"},
     {"volume", OPTIONAL, NUMBER(PointWeight, volume), NOT_NEGATIVE, .unit = "m3", .with = "mass",
      .fallback = "0", .help = "of the water it displaces"},
 };
 
-static void begin_point_weight(void *values) { ((CpsiPointWeightValues *)values)->mass = NAN; }
+static void begin_point_weight(void *values) {
+    CpsiPointWeightValues *point = values;
+    point->mass = point->inertia = NAN;
+}
 
 static const CpsiMapping POINT_WEIGHT = {"point weight", KEYS(POINT_WEIGHT_KEYS), INTO(PointWeight),
                                          .definition = "point_weight", .begin = begin_point_weight};
@@ -381,11 +457,19 @@ static const CpsiKey TYPE_KEYS[] = {
              "water that its diameter displaces"},
     {"weight", ONE_OF, NUMBER(Type, weight), NOT_NEGATIVE, .unit = "N/m",
      .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
+    {"inertia", OPTIONAL, NUMBER(Type, inertia), NOT_NEGATIVE, .unit = "kg/m",
+     .help = "mass per unstretched length that moves in time, with the water that goes along; by "
+             "default its mass, 0 of a weight"},
     {"diameter", OPTIONAL, NUMBER(Type, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
      .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
     {"stiffness", REQUIRED, NUMBER(Type, stiffness), 0, INFINITY, true, .unit = "N",
      .other = &(const CpsiKey){.type = MAPPING(Type, table), .inside = &STIFFNESS},
      .help = "axial stiffness EA; .inf for an inextensible type; or a table of strain and tension"},
+    {"dynamic_stiffness", OPTIONAL, NUMBER(Type, dynamic.stiffness), POSITIVE,
+     .other = &(const CpsiKey){.type = MAPPING(Type, dynamic.table), .inside = &STIFFNESS},
+     .unit = "N",
+     .help = "the axial stiffness, or its table, about the state that `stiffness` has reached; "
+             "nowhere softer than it"},
     {"breaking_load", OPTIONAL, NUMBER(Type, breaking_load), POSITIVE, .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over it"},
     {"break_at", OPTIONAL, NUMBER(Type, break_at), POSITIVE, .unit = "N",
@@ -396,7 +480,8 @@ static const CpsiKey TYPE_KEYS[] = {
 
 static void begin_type(void *values) {
     CpsiTypeValues *type = values;
-    type->mass = type->breaking_load = type->break_at = NAN;
+    type->mass = type->inertia = type->breaking_load = type->break_at = type->dynamic.stiffness =
+        NAN;
     type->friction = 1;
 }
 
@@ -436,6 +521,11 @@ static const CpsiKey LINE_KEYS[] = {
              "water that the diameter displaces"},
     {"weight", ONE_OF, NUMBER(Line, line.weight), NOT_NEGATIVE, .unit = "N/m",
      .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
+    {"inertia", OPTIONAL, NUMBER(Line, inertia), NOT_NEGATIVE, .unless = "sections", .unit = "kg/m",
+     .help = "mass per unstretched length that moves in time, with the water that goes along; by "
+             "default its mass, 0 of a weight"},
+    {"velocity", OPTIONAL, POINT(Line, line.velocity, 3), ANY, .unit = "m/s",
+     .fallback = "[0, 0, 0]", .help = "of its free nodes as the history begins"},
     {"sections", ONE_OF, LIST(Line, sections, 1), .inside = &SECTION,
      .help = "stretches of different types, in order from A to B"},
     {"diameter", OPTIONAL, NUMBER(Line, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
@@ -443,6 +533,11 @@ static const CpsiKey LINE_KEYS[] = {
     {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unless = "sections",
      .other = &(const CpsiKey){.type = MAPPING(Line, table), .inside = &STIFFNESS}, .unit = "N",
      .help = "axial stiffness EA; .inf for an inextensible line; or a table of strain and tension"},
+    {"dynamic_stiffness", OPTIONAL, NUMBER(Line, dynamic.stiffness), POSITIVE, .unless = "sections",
+     .other = &(const CpsiKey){.type = MAPPING(Line, dynamic.table), .inside = &STIFFNESS},
+     .unit = "N",
+     .help = "the axial stiffness, or its table, about the state that `stiffness` has reached; "
+             "nowhere softer than it"},
     {"breaking_load", OPTIONAL, NUMBER(Line, breaking_load), POSITIVE, .unless = "sections",
      .unit = "N",
      .help = "tension at which it breaks: results then give the largest tension over "
@@ -475,6 +570,7 @@ static void begin_line(void *values) {
     CpsiLineValues *line = values;
     line->line = cps_line_default();
     line->mass = line->count = line->breaking_load = line->break_at = line->element_length = NAN;
+    line->inertia = line->dynamic.stiffness = NAN;
 }
 
 static const CpsiMapping LINE = {"line", KEYS(LINE_KEYS), INTO(Line), .begin = begin_line};
@@ -539,6 +635,10 @@ static const CpsiKey SCENE_KEYS[] = {
      .formerly = "contact", .former_words = "gained strict", .fallback = "\"reached\"",
      .help = "reached: no node ends a step below the obstacle; reference: only nodes that touch "
              "it in the configuration the step starts from are kept out"},
+    {"time_scheme", OPTIONAL, WORD(Scene, scene.time_scheme), .words = "bdf2 euler",
+     .fallback = "\"bdf2\"",
+     .help = "of steps in time: bdf2 is of second order; euler is of first order, and never gains "
+             "energy"},
     {"solver", OPTIONAL, AROUND, .inside = &SOLVER, .fallback = "{}",
      .help = "how steps are solved"},
     {"history", OPTIONAL, LIST(Scene, history, 0), .inside = &cpsi_stage_keys, .fallback = "[]",

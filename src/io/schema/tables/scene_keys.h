@@ -21,6 +21,16 @@ typedef struct CpsiSceneValues {
     CpsiList history;   /* CpsiStageValues */
 } CpsiSceneValues;
 
+/* A rotation, in one of two forms. */
+typedef enum CpsiRotationForm { CPSI_ROTATION_QUATERNION, CPSI_ROTATION_ANGLES } CpsiRotationForm;
+
+typedef struct CpsiRotationValues {
+    const CpsiYaml *node; /* NULL: not given */
+    int form;             /* CpsiRotationForm */
+    double quaternion[4];
+    double angle[3]; /* [degrees] roll, pitch, yaw */
+} CpsiRotationValues;
+
 typedef struct CpsiObstacleValues {
     const CpsiYaml *node; /* the key is the name */
     CpsObstacle obstacle;
@@ -30,6 +40,8 @@ typedef struct CpsiObstacleValues {
     const char *grid, *factors, *variable;
     int form;
     bool are_depths, extends;
+    double cone_angle;           /* [degrees] */
+    CpsiRotationValues rotation; /* of a box */
 } CpsiObstacleValues;
 
 /* A point at which lines end. */
@@ -40,16 +52,6 @@ typedef struct CpsiScenePointValues {
     const char *body;    /* name of the body that it is on */
     double at[3];        /* [m] in its axes */
 } CpsiScenePointValues;
-
-/* A rotation, in one of two forms. */
-typedef enum CpsiRotationForm { CPSI_ROTATION_QUATERNION, CPSI_ROTATION_ANGLES } CpsiRotationForm;
-
-typedef struct CpsiRotationValues {
-    const CpsiYaml *node; /* NULL: not given */
-    int form;             /* CpsiRotationForm */
-    double quaternion[4];
-    double angle[3]; /* [degrees] roll, pitch, yaw */
-} CpsiRotationValues;
 
 /* A hydrostatic stiffness without coupling. */
 typedef struct CpsiDiagonalValues {
@@ -102,14 +104,22 @@ typedef struct CpsiStiffnessValues {
     CpsiNumberRows strain, tension;
 } CpsiStiffnessValues;
 
+/* A dynamic stiffness; NaN without a table: not given. */
+typedef struct CpsiDynamicValues {
+    double stiffness;
+    CpsiStiffnessValues table;
+} CpsiDynamicValues;
+
 /* What a metre of line weighs: `mass`, in water with its `diameter`, or `weight`; NaN: not given.
  */
 typedef struct CpsiTypeValues {
     const CpsiYaml *node; /* the key is the name */
     double mass, diameter, weight, stiffness, friction;
+    double inertia;            /* NaN: not given */
     CpsiStiffnessValues table; /* in place of `stiffness` */
-    double breaking_load;      /* NaN: not given */
-    double break_at;           /* NaN: not given */
+    CpsiDynamicValues dynamic;
+    double breaking_load; /* NaN: not given */
+    double break_at;      /* NaN: not given */
 } CpsiTypeValues;
 
 /* Elements that become shorter towards an end, or towards both. */
@@ -136,7 +146,7 @@ typedef struct CpsiSectionValues {
 
 typedef struct CpsiPointWeightValues {
     const CpsiYaml *node;
-    double at, mass, volume, weight; /* mass: NaN: not given */
+    double at, mass, volume, weight, inertia; /* mass and inertia: NaN: not given */
 } CpsiPointWeightValues;
 
 typedef struct CpsiStraightValues {
@@ -172,9 +182,11 @@ typedef struct CpsiLineValues {
     const CpsiYaml *node; /* the key is the name */
     CpsLine line;
     double mass, count, diameter; /* count: number of elements; NaN: not given */
+    double inertia;               /* NaN: not given */
     double breaking_load;         /* NaN: not given */
     double break_at;              /* NaN: not given */
     CpsiStiffnessValues table;    /* in place of line.stiffness */
+    CpsiDynamicValues dynamic;
     CpsiPretensionValues pretension;
     CpsiList sections;        /* CpsiSectionValues */
     CpsiList point_weights;   /* CpsiPointWeightValues */
@@ -200,7 +212,8 @@ typedef struct CpsiChangeValues {
     const CpsiYaml *node; /* the key is LINE.END or POINT.point */
     int kind;             /* CpsiChangeKind */
     double value[3];
-    bool yes; /* of `release` */
+    CpsSway sway; /* of an end; its period is NaN where not given */
+    bool yes;     /* of `release` */
 } CpsiChangeValues;
 
 /* A change of a body: its pose, or the load on it. A key is given where the mapping has it. */
@@ -238,6 +251,8 @@ typedef struct CpsiGraspValues {
 typedef struct CpsiStageValues {
     const CpsiYaml *node;
     CpsStage stage;         /* gravity is NaN where not given */
+    double time_step;       /* [s] NaN: not given */
+    int stiffness;          /* in the order of its words */
     CpsiList changes;       /* CpsiChangeValues */
     CpsiList point_changes; /* CpsiChangeValues, with the key POINT.point */
     CpsiList body_changes;  /* CpsiBodyChangeValues */

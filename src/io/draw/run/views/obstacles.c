@@ -3,7 +3,8 @@
  *
  * A plane seen from above fills the frame and shows its slope; otherwise its intersection with the
  * paper is shown. Cylinders and balls are shown by their silhouettes: a circle, or the band of a
- * cylinder seen from its side, which has no ends. Ground has a picture of its own (ground.c);
+ * cylinder seen from its side, which has no ends; so are capsules, tori, cones and boxes
+ * (shapes.c). What lines are inside of is white. Ground has a picture of its own (ground.c);
  * surfaces given as functions are not shown. An obstacle that turns and is seen along its axis
  * has a spoke that turns with it. One that moves is shown where it is after the step, and lightly
  * where it was before. The water is what is below its surface, in elevations. */
@@ -13,14 +14,19 @@
 #include "base/math.h"
 #include "io/draw/run/run_picture.h"
 
-static const char FILL[] = "#efe7d6", ROUND_FILL[] = "#e6dcc4", EDGE[] = "#b9a67c",
-                  SEEN_FROM_ABOVE[] = "#faf7f0", TEXT[] = "#9a8350", WATER[] = "#edf5fb",
-                  SURFACE[] = "#5b8fbf";
+static const char FILL[] = "#efe7d6", ROUND_FILL[] = "#e6dcc4", INSIDE[] = "#ffffff",
+                  EDGE[] = "#b9a67c", SEEN_FROM_ABOVE[] = "#faf7f0", TEXT[] = "#9a8350",
+                  WATER[] = "#edf5fb", SURFACE[] = "#5b8fbf";
 
 /* A cylinder whose axis is this short on paper is shown as a circle. */
 static const double END_ON = 0.1;
 
 enum { CORNERS = 8 };
+
+/* What is round is solid, or hollow. */
+static const char *fill_of(const CpsObstacle *obstacle) {
+    return obstacle->shape.inside ? INSIDE : ROUND_FILL;
+}
 
 static double degrees(double angle) { return angle * 180 / CPSI_PI; }
 
@@ -130,7 +136,7 @@ static void draw_circle(const CpsObstacle *obstacle, const CpsiView *view, const
         "<ellipse cx=\"%.2f\" cy=\"%.2f\" rx=\"%.2f\" ry=\"%.2f\" fill=\"%s\" stroke=\"%s\"/>\n",
         cpsi_frame_x(frame, x), cpsi_frame_y(frame, y),
         cpsi_frame_x(frame, x + r) - cpsi_frame_x(frame, x),
-        cpsi_frame_y(frame, y) - cpsi_frame_y(frame, y + r), ROUND_FILL, EDGE);
+        cpsi_frame_y(frame, y) - cpsi_frame_y(frame, y + r), fill_of(obstacle), EDGE);
 }
 
 /* The band of a cylinder seen from its side. */
@@ -141,7 +147,7 @@ static void draw_band(const CpsObstacle *obstacle, double along_x, double along_
     const double c = a * vec3_dot(view->right, centre) + b * vec3_dot(view->up, centre);
     const Polygon all = whole(frame), half = cut(&all, a, b, c + obstacle->radius);
     const Polygon band = cut(&half, -a, -b, obstacle->radius - c);
-    draw_polygon(frame, &band, ROUND_FILL, EDGE, out);
+    draw_polygon(frame, &band, fill_of(obstacle), EDGE, out);
 }
 
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view) {
@@ -165,8 +171,18 @@ static void draw_water(const CpsResults *results, const CpsiView *view, const Cp
     draw_polygon(frame, &below, WATER, SURFACE, out);
 }
 
+static bool is_shape(const CpsObstacle *obstacle) {
+    int rows, columns;
+    cpsi_shape_grid(obstacle, &rows, &columns);
+    return rows > 0;
+}
+
 static void draw_round(const CpsObstacle *obstacle, const CpsiView *view, const CpsiFrame *frame,
                        FILE *out) {
+    if (is_shape(obstacle)) {
+        cpsi_picture_shape(obstacle, fill_of(obstacle), EDGE, view, frame, out);
+        return;
+    }
     const Vec3 axis = unit(obstacle->axis);
     if (cpsi_obstacle_is_circle(obstacle, view))
         draw_circle(obstacle, view, frame, out);
@@ -204,12 +220,13 @@ void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, con
     draw_former(results, view, frame, former, false, out);
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle obstacle = cpsi_results_obstacle(results, now, k);
-        if (obstacle.kind != CPS_OBSTACLE_CYLINDER && obstacle.kind != CPS_OBSTACLE_SPHERE)
+        if (obstacle.kind != CPS_OBSTACLE_CYLINDER && obstacle.kind != CPS_OBSTACLE_SPHERE &&
+            !is_shape(&obstacle))
             continue;
         const Vec3 axis = unit(obstacle.axis);
         draw_round(&obstacle, view, frame, out);
         const bool end_on = hypot(vec3_dot(axis, view->right), vec3_dot(axis, view->up)) < END_ON;
-        if (step >= 0 && end_on && ever_turns(results, k))
+        if (step >= 0 && end_on && !is_shape(&obstacle) && ever_turns(results, k))
             draw_spoke(&obstacle, cpsi_results_turned(results, step, k), view, frame, out);
     }
 }

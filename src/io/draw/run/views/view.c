@@ -4,6 +4,7 @@
  * line, or along the axis of a cylinder, which is then a circle. All pictures of a run have the
  * same ones, so that steps can be compared. */
 #include <math.h>
+#include <string.h>
 
 #include "io/draw/run/run_picture.h"
 
@@ -61,11 +62,24 @@ static bool is_round(const CpsObstacle *obstacle) {
     return obstacle->kind == CPS_OBSTACLE_CYLINDER || obstacle->kind == CPS_OBSTACLE_SPHERE;
 }
 
+/* A capsule, torus, cone or box, unless the lines would be too small beside it. */
+static void include_shape(const CpsObstacle *obstacle, double spread, CpsiView *view) {
+    CpsiView with = *view;
+    view->true_scale = true;
+    cpsi_shape_extend(obstacle, &with);
+    if (hypot(with.x[1] - with.x[0], with.y[1] - with.y[0]) > 2 * MOST_ROUND * spread) return;
+    memcpy(view->x, with.x, sizeof view->x);
+    memcpy(view->y, with.y, sizeof view->y);
+}
+
 /* include round silhouettes where they are after a step, unless the lines would be too small beside
  * them */
 static void include_round_at(const CpsResults *results, int step, double spread, CpsiView *view) {
     for (int k = 0; k < results->obstacle_count; ++k) {
         const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
+        int rows, columns;
+        cpsi_shape_grid(obstacle, &rows, &columns);
+        if (rows > 0) include_shape(obstacle, spread, view);
         if (!is_round(obstacle)) continue;
         view->true_scale = true;
         const Vec3 centre = vec3_load(obstacle->point);
@@ -192,7 +206,8 @@ static double elevation_angle(const CpsResults *results, Vec3 east, Vec3 north) 
         const int k = i % results->obstacle_count,
                   step = i < results->obstacle_count ? -1 : results->row_count - 1;
         const CpsObstacle now = cpsi_results_obstacle(results, step, k), *obstacle = &now;
-        if (obstacle->kind != CPS_OBSTACLE_PLANE && obstacle->kind != CPS_OBSTACLE_CYLINDER)
+        if ((obstacle->kind != CPS_OBSTACLE_PLANE && obstacle->kind != CPS_OBSTACLE_CYLINDER) ||
+            obstacle->shape.inside)
             continue;
         const bool plane = obstacle->kind == CPS_OBSTACLE_PLANE;
         const Vec3 d = unit(vec3_load(plane ? obstacle->normal : obstacle->axis));

@@ -20,7 +20,7 @@ static void multiply(const double a[4], const double b[4], double out[4]) {
 
 /* As a quaternion. Yaw about z, pitch about the new y and roll about the new x are, in axes that
  * stay, first roll about x, then pitch about y, then yaw about z. */
-static void build_rotation(const CpsiRotationValues *values, double out[4]) {
+void cpsi_rotation_build(const CpsiRotationValues *values, double out[4]) {
     if (values->form == CPSI_ROTATION_QUATERNION) {
         memcpy(out, values->quaternion, 4 * sizeof *out);
         return;
@@ -75,7 +75,7 @@ static CpsStatus build_body(const CpsiMaterials *m, const CpsiSceneBodyValues *v
     *body = values->body;
     body->name = cpsi_pool_text(m->pool, name->key, strlen(name->key));
     if (!body->name) return cpsi_document_no_memory(m->d);
-    if (values->rotation.node) build_rotation(&values->rotation, body->rotation);
+    if (values->rotation.node) cpsi_rotation_build(&values->rotation, body->rotation);
     if (!isnan(values->mass)) body->weight = values->mass * m->gravity;
     if (!isnan(values->volume)) body->buoyancy = m->water * values->volume * m->gravity;
     if (values->hydrostatics.node)
@@ -147,7 +147,7 @@ static CpsStatus build_pose(const CpsiDocument *d, const CpsiBodyChangeValues *v
     if (moves) copy_vector(held->position, values->position);
     if (move)
         for (int i = 0; i < 3; i++) held->position[i] += values->move[i];
-    if (turns) build_rotation(&values->rotation, held->rotation);
+    if (turns) cpsi_rotation_build(&values->rotation, held->rotation);
     held->is_known = true;
     change->kind = CPS_BODY_KIND_HELD;
     copy_vector(change->position, held->position);

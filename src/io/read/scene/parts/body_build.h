@@ -5,6 +5,9 @@
 
 #include "io/read/scene/parts/section_build.h"
 
+/* As a quaternion. */
+void cpsi_rotation_build(const CpsiRotationValues *values, double out[4]);
+
 /* Where a body is held after the preceding entry of the history. */
 typedef struct CpsiHeldPose {
     bool is_known; /* false: it is free */

@@ -20,8 +20,15 @@ static CpsStatus submerged(const CpsiMaterials *m, const CpsiYaml *place, double
                               diameter, mass, *weight);
 }
 
+/* The mass that moves: as given, else the mass of what is given by that. */
+static double inertia_of(double inertia, double mass) {
+    if (!isnan(inertia)) return inertia;
+    return isnan(mass) ? 0 : mass;
+}
+
 CpsStatus cpsi_line_weight_build(const CpsiMaterials *m, const CpsiLineValues *values,
                                  CpsLine *line) {
+    line->inertia = inertia_of(values->inertia, values->mass);
     if (isnan(values->mass)) return CPS_OK;
     return submerged(m, values->node, values->mass, values->diameter, &line->weight);
 }
@@ -44,6 +51,13 @@ CpsStatus cpsi_stiffness_build(const CpsiMaterials *m, const CpsiStiffnessValues
     *count = rows;
     *row = made;
     return CPS_OK;
+}
+
+CpsStatus cpsi_dynamic_stiffness_build(const CpsiMaterials *m, const CpsiDynamicValues *values,
+                                       bool *has, CpsDynamicStiffness *out) {
+    *has = values->table.node || !isnan(values->stiffness);
+    *out = (CpsDynamicStiffness){.stiffness = isnan(values->stiffness) ? 0 : values->stiffness};
+    return cpsi_stiffness_build(m, &values->table, &out->row_count, &out->row);
 }
 
 /* ---- elements ---- */
@@ -147,14 +161,18 @@ static CpsStatus build_section(const CpsiMaterials *m, const CpsiSectionValues *
     *section = (CpsSection){.type = cpsi_pool_text(m->pool, values->type, strlen(values->type)),
                             .length = values->length,
                             .weight = (*type)->weight,
+                            .inertia = inertia_of((*type)->inertia, (*type)->mass),
                             .stiffness = (*type)->stiffness,
                             .has_breaking_load = !isnan((*type)->breaking_load),
                             .has_break_at = !isnan((*type)->break_at)};
     if (section->has_breaking_load) section->breaking_load = (*type)->breaking_load;
     if (section->has_break_at) section->break_at = (*type)->break_at;
     if (!section->type) return cpsi_document_no_memory(m->d);
-    const CpsStatus status = cpsi_stiffness_build(m, &(*type)->table, &section->stiffness_row_count,
-                                                  &section->stiffness_row);
+    CpsStatus status = cpsi_stiffness_build(m, &(*type)->table, &section->stiffness_row_count,
+                                            &section->stiffness_row);
+    if (status == CPS_OK)
+        status = cpsi_dynamic_stiffness_build(m, &(*type)->dynamic, &section->has_dynamic_stiffness,
+                                              &section->dynamic_stiffness);
     if (status != CPS_OK) return status;
     if (isnan((*type)->mass)) return CPS_OK;
     return submerged(m, (*type)->node, (*type)->mass, (*type)->diameter, &section->weight);
@@ -219,7 +237,8 @@ CpsStatus cpsi_point_weights_build(const CpsiMaterials *m, const CpsiList *point
         point[k] =
             (CpsPointWeight){.arc_length = values[k].at,
                              .weight = cpsi_weight_in_water(m, values[k].mass, values[k].volume,
-                                                            values[k].weight)};
+                                                            values[k].weight),
+                             .inertia = inertia_of(values[k].inertia, values[k].mass)};
     line->point_weight = point;
     line->point_weight_count = points->count;
     return CPS_OK;

@@ -29,6 +29,11 @@ CpsStatus cpsi_line_weight_build(const CpsiMaterials *materials, const CpsiLineV
 CpsStatus cpsi_stiffness_build(const CpsiMaterials *materials, const CpsiStiffnessValues *values,
                                int *count, const CpsStiffnessRow **row);
 
+/* The dynamic stiffness of a type or line. */
+CpsStatus cpsi_dynamic_stiffness_build(const CpsiMaterials *materials,
+                                       const CpsiDynamicValues *values, bool *has,
+                                       CpsDynamicStiffness *out);
+
 /* The elements of a stretch of natural length [m]: how many, where `count` is NaN so many that none
  * exceeds `most` [m]; and how long each is, (elements), from A to B. */
 double cpsi_graded_count(double length, double count, double most, const CpsiGradeValues *grade);

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/motion.h: lines that move with inertia.
+ *
+ * A stage or a move (scene.h, evolve.h) with a `duration` is taken in time: each of its steps is of
+ * length h = duration / step_count, and the nodes of its lines have mass. A stage without one is
+ * quasi-static, and leaves the lines at rest.
+ *
+ *     line.inertia = 7.5;
+ *     CpsStage swing = cps_stage_default();
+ *     swing.duration = 10;
+ *     swing.step_count = 200;
+ *
+ * A time step is the same convex program as a quasi-static one, with a quadratic term for each node
+ * (docs/theory.md 8): friction stays a set, and the step has a certificate. The scheme is the
+ * backward difference formula of second order, or the implicit Euler method; the first step in
+ * time, and those at which an element is snatched taut, are Euler steps. A node that lands does not
+ * rebound. It needs Coulomb's law, contact that is reached, and a scene without points, bodies and
+ * lines that part; the path tolerance has no effect. */
+#ifndef CAPSTAN_MOTION_H
+#define CAPSTAN_MOTION_H
+
+#include <stdbool.h>
+
+#include "capstan/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct CpsEvolution;
+
+typedef enum CpsTimeScheme {
+    CPS_TIME_SCHEME_BDF2, /* the default: of second order where the motion is smooth */
+    CPS_TIME_SCHEME_EULER /* of first order; never gains energy */
+} CpsTimeScheme;
+
+/* An oscillation of an end that the stage changes, beside its way to its value:
+ *
+ *     sine sin(w t) + cosine (1 - cos(w t)),    w = 2 pi / period,
+ *
+ * t from the beginning of the stage, in a stage with a duration. It is 0 where the stage begins. */
+typedef struct CpsSway {
+    int line, end; /* index in the scene; CPS_END_A or CPS_END_B, held or free in the change */
+    double sine[3], cosine[3]; /* [m] of a held end, [N] of a free one; default 0 0 0 */
+    double period;             /* [s] > 0 */
+} CpsSway;
+
+/* Energy of a step in time [J]. With the ledger of the line (step.h):
+ *
+ *     ends + obstacles
+ *         = elastic + gravity + dissipated + kinetic + impact + scheme + imbalance
+ *
+ * where each but the last has a formula of its own (docs/theory.md 8), and forces do their work at
+ * their values after the step. So the imbalance is rounding. */
+typedef struct CpsMotionLedger {
+    double kinetic;  /* increase of the kinetic energy */
+    double impact;   /* lost where nodes land */
+    double scheme;   /* lost by the scheme: what a shorter step does not lose */
+    double turnover; /* sum of the sizes of all entries */
+} CpsMotionLedger;
+
+/* The motion of a line in the last step. */
+typedef struct CpsLineMotion {
+    bool is_moving;         /* the last step had a duration; otherwise the next ones are 0 */
+    double kinetic;         /* [J] kinetic energy now */
+    CpsMotionLedger ledger; /* of the step */
+    int landed;             /* contacts of nodes that began to bear */
+    int changed;            /* contacts that went from rest to sliding or back */
+    int snatched;           /* elements that went from slack to taut */
+    /* [m] >= 0: no further, in the mean weighted by mass over the square of `span`, is the line
+     * from the exact solution of the step's program */
+    double position_bound;
+    /* of a scene in time; otherwise NULL. After a quasi-static step 0 but for the masses */
+    const double *mass;          /* (n) [kg] of the nodes */
+    const double *velocity;      /* (n, 3) [m/s] after the step, and after the landing */
+    const double *before;        /* (n, 3) [m] x_n, where the step began */
+    const double *rest_velocity; /* (n, 3) [m/s] v*: the acceleration is (v - v*)/k, v = (x - x*)/k,
+                                    and x* is the reference of the view */
+    const double *span;          /* (n) [s] k */
+} CpsLineMotion;
+
+/* The motion of a line; of what is no line one of zeros. Arrays belong to the evolution, until its
+ * next step. */
+CPS_API CpsLineMotion cps_evolution_line_motion(const struct CpsEvolution *evolution, int line);
+
+/* [s] The time since the history began: the sum of the durations of the steps taken. */
+CPS_API double cps_evolution_time(const struct CpsEvolution *evolution);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a scene gives for steps in time (time_check.h). */
+#include "evolve/time_check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "evolve/ranges.h"
+
+bool cpsi_is_in_time(const CpsScene *scene) {
+    bool any = scene->in_time;
+    for (int k = 0; k < scene->stage_count; k++) any = any || scene->stage[k].duration > 0;
+    return any;
+}
+
+/* ---- the check ---- */
+
+/* [kg/m] of section k of a line, or of a line of one make. */
+static double inertia_of(const CpsLine *line, int k) {
+    return line->section_count > 0 ? line->section[k].inertia : line->inertia;
+}
+
+static CpsStatus check_line(const CpsLine *line, bool in_time, CpsError *err) {
+    const int makes = line->section_count > 0 ? line->section_count : 1;
+    for (int k = 0; k < makes; k++) {
+        const double inertia = inertia_of(line, k);
+        if (!cpsi_is_not_negative(inertia))
+            return CPSI_FAIL_AT("inertia", err, CPS_ERR_ARGUMENT,
+                                "line '%s': inertia is %g kg/m, expected a finite number >= 0",
+                                line->name, inertia);
+        if (in_time && !(inertia > 0))
+            return CPSI_FAIL_AT("inertia", err, CPS_ERR_ARGUMENT,
+                                "line '%s': inertia: a step of the history has a duration, but "
+                                "the line has no mass to move: give its mass",
+                                line->name);
+    }
+    for (int k = 0; k < line->point_weight_count; k++)
+        if (!cpsi_is_not_negative(line->point_weight[k].inertia))
+            return CPSI_FAIL_AT("point_weights", err, CPS_ERR_ARGUMENT,
+                                "line '%s': point_weights: number %d has the inertia %g kg, "
+                                "expected a finite number >= 0",
+                                line->name, k + 1, line->point_weight[k].inertia);
+    const double *v = line->velocity;
+    if (!cpsi_are_usable(v))
+        return CPSI_FAIL_AT("velocity", err, CPS_ERR_ARGUMENT,
+                            "line '%s': velocity is (%g, %g, %g) m/s, expected finite numbers",
+                            line->name, v[0], v[1], v[2]);
+    bool parts = line->section_count == 0 && line->has_break_at;
+    for (int k = 0; k < line->section_count; k++) parts = parts || line->section[k].has_break_at;
+    if (in_time && parts)
+        return CPSI_FAIL_AT("break_at", err, CPS_ERR_ARGUMENT,
+                            "line '%s': break_at: lines do not part in a history of which a step "
+                            "has a duration: leave it out",
+                            line->name);
+    return CPS_OK;
+}
+
+/* Points are held, and there are no bodies. */
+static CpsStatus check_points(const CpsScene *scene, CpsError *err) {
+    bool free = false;
+    for (int i = 0; i < scene->point_count; i++)
+        free = free || scene->point[i].kind != CPS_POINT_KIND_HELD || scene->point[i].drags;
+    for (int k = 0; k < scene->stage_count; k++)
+        for (int i = 0; i < scene->stage[k].point_change_count; i++)
+            free = free || scene->stage[k].point_change[i].kind != CPS_POINT_KIND_HELD;
+    if (free)
+        return CPSI_FAIL_AT("points", err, CPS_ERR_ARGUMENT,
+                            "points: a step of the history has a duration, and in time all points "
+                            "are held: neither free, on a body, nor anchors that drag");
+    if (scene->body_count > 0)
+        return CPSI_FAIL_AT("bodies", err, CPS_ERR_ARGUMENT,
+                            "bodies: a step of the history has a duration, and bodies do not move "
+                            "in time: hold the ends of the lines instead");
+    return CPS_OK;
+}
+
+CpsStatus cpsi_time_check(const CpsScene *scene, CpsError *err) {
+    const bool in_time = cpsi_is_in_time(scene);
+    if (scene->time_scheme != CPS_TIME_SCHEME_BDF2 && scene->time_scheme != CPS_TIME_SCHEME_EULER)
+        return CPSI_FAIL_AT("time_scheme", err, CPS_ERR_ARGUMENT, "time_scheme: unknown scheme %d",
+                            (int)scene->time_scheme);
+    for (int i = 0; i < scene->line_count; i++) {
+        const CpsStatus status = check_line(&scene->line[i], in_time, err);
+        if (status != CPS_OK) return cpsi_fail_inside(err, status, "lines.%s", scene->line[i].name);
+    }
+    if (!in_time) return CPS_OK;
+    if (scene->friction_policy != CPS_FRICTION_POLICY_CONSISTENT)
+        return CPSI_FAIL_AT("friction_policy", err, CPS_ERR_ARGUMENT,
+                            "friction_policy: a step of the history has a duration, which needs "
+                            "consistent friction");
+    if (scene->contact_policy != CPS_CONTACT_POLICY_REACHED)
+        return CPSI_FAIL_AT("contact_policy", err, CPS_ERR_ARGUMENT,
+                            "contact_policy: a step of the history has a duration, which needs "
+                            "contact that is reached");
+    return check_points(scene, err);
+}
+
+/* The change that an oscillation goes with. */
+static const CpsChange *change_of(const CpsStage *stage, const CpsSway *sway) {
+    for (int i = 0; i < stage->change_count; i++)
+        if (stage->change[i].line == sway->line && stage->change[i].end == sway->end)
+            return &stage->change[i];
+    return NULL;
+}
+
+static CpsStatus check_sway(const CpsScene *scene, const CpsStage *stage, int index,
+                            const char *what, CpsError *err) {
+    const CpsSway *sway = &stage->sway[index];
+    const CpsChange *change = change_of(stage, sway);
+    if (!change)
+        return cpsi_fail(
+            err, CPS_ERR_ARGUMENT,
+            "%s: oscillation %d is of line %d, end %d, which the stage does not change", what,
+            index + 1, sway->line, sway->end);
+    const char *name = scene->line[change->line].name, *letter = cpsi_end_letter(change->end);
+    char place[80];
+    snprintf(place, sizeof place, "%s.%s", name, letter);
+    for (int i = 0; i < index; i++)
+        if (stage->sway[i].line == sway->line && stage->sway[i].end == sway->end)
+            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT, "%s: %s.%s oscillates twice", what,
+                                name, letter);
+    if (!cpsi_is_positive(sway->period) || !cpsi_are_usable(sway->sine) ||
+        !cpsi_are_usable(sway->cosine))
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "%s: %s.%s oscillates with the period %g s, sine (%g, %g, %g) and "
+                            "cosine (%g, %g, %g): expected a positive period and finite numbers",
+                            what, name, letter, sway->period, sway->sine[0], sway->sine[1],
+                            sway->sine[2], sway->cosine[0], sway->cosine[1], sway->cosine[2]);
+    if (!(stage->duration > 0))
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "%s: %s.%s oscillates in time, but the stage has no duration", what,
+                            name, letter);
+    if (change->to.kind == CPS_END_KIND_RELEASED)
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "%s: %s.%s is let go, and cannot oscillate", what, name, letter);
+    return CPS_OK;
+}
+
+CpsStatus cpsi_stage_time_check(const CpsScene *scene, const CpsStage *stage, const char *what,
+                                CpsError *err) {
+    const double h = stage->duration / stage->step_count;
+    if (!cpsi_is_not_negative(stage->duration) || (stage->duration > 0 && !cpsi_is_positive(h * h)))
+        return CPSI_FAIL_AT("duration", err, CPS_ERR_ARGUMENT,
+                            "%s: duration is %g s, expected a finite number >= 0", what,
+                            stage->duration);
+    if (stage->sway_count < 0 || (stage->sway_count > 0 && !stage->sway))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: found %d oscillations, expected 0 or more",
+                         what, stage->sway_count);
+    for (int i = 0; i < stage->sway_count; i++) {
+        const CpsStatus status = check_sway(scene, stage, i, what, err);
+        if (status != CPS_OK) return status;
+    }
+    return CPS_OK;
+}
+
+/* ---- fill ---- */
+
+void cpsi_inertia_fill(CpsiLine *line, const CpsLine *def) {
+    CpsiInertia *inertia = &line->inertia;
+    int section = 0;
+    double end = def->section_count > 0 ? def->section[0].length : INFINITY;
+    for (int e = 0; e + 1 < line->n; e++) {
+        const double l = line->element_length[e], middle = line->arc_length[e] + 0.5 * l;
+        while (middle > end && section + 1 < def->section_count)
+            end += def->section[++section].length;
+        for (int j = e; j <= e + 1; j++) inertia->mass[j] += 0.5 * l * inertia_of(def, section);
+    }
+    for (int k = 0; k < def->point_weight_count; k++) {
+        int nearest = 0;
+        for (int j = 1; j < line->n; j++)
+            if (fabs(line->arc_length[j] - def->point_weight[k].arc_length) <
+                fabs(line->arc_length[nearest] - def->point_weight[k].arc_length))
+                nearest = j;
+        inertia->mass[nearest] += def->point_weight[k].inertia;
+    }
+    for (int j = 0; j < line->n; j++) {
+        const bool held = cpsi_line_is_held(line, j);
+        inertia->restarts[j] = true;
+        for (int a = 0; a < 3; a++) {
+            const double v = held ? 0 : def->velocity[a];
+            inertia->velocity[3 * j + a] = v;
+            inertia->kinetic += 0.5 * inertia->mass[j] * v * v;
+        }
+    }
+}

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A step in time of one line (time_step.h).
+ *
+ * By the backward difference formula of second order, with steps of equal length h,
+ *
+ *     x* = (4 x_n - x_{n-1})/3,   v* = (4 v_n - v_{n-1})/3,   k = 2 h/3
+ *
+ * and by the implicit Euler method x* = x_n, v* = v_n, k = h. Then the new configuration minimises
+ * |x - x* - k v*|^2_M/(2 k^2) beside the energies of a quasi-static step with the reference x*, and
+ * v_{n+1} = (x_{n+1} - x*)/k. Dissipation is homogeneous, so friction measured from x* obeys its
+ * law in the new velocity; what rests has x* = x_n, and stays.
+ *
+ * Contact and slack make the motion rough, and there the history of a node must not speak of what
+ * was before: after a step in which it bears, its motion along the normal is that of the ground in
+ * the past as well, so that it does not rebound; after it has landed its next step is an Euler
+ * step, for friction may have stopped it; a step in which an element is snatched taut is taken
+ * again as an Euler step of its two nodes, and their next step is one too. */
+#include "evolve/time_step.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cable/field.h"
+#include "cable/line_step.h"
+#include "evolve/time_ledger.h"
+
+/* [-] An element shorter than its length by this share is slack. */
+static const double SLACK = 1e-9;
+/* Two normals with a sine below this are one. */
+static const double PARALLEL = 1e-6;
+
+static bool is_slack(const CpsiLine *line, const double *x, int e) {
+    const double size = vec3_norm(vec3_sub(vec3_at(x, e + 1), vec3_at(x, e)));
+    return size < (1 - SLACK) * line->element_length[e];
+}
+
+/* The reference of node j, v* and k, and its inertia. A node that goes on has no force by it: its
+ * size is told by how its velocity changes. */
+static void predict(CpsiLine *line, int j, const CpsiTimeStep *step, bool euler) {
+    CpsiInertia *inertia = &line->inertia;
+    inertia->span[j] = euler ? step->length : 2 * step->length / 3;
+    for (int i = 3 * j; i < 3 * j + 3; i++) {
+        const double x = inertia->start[i], v = inertia->start_velocity[i];
+        const double place = euler ? x : x + (x - inertia->before[i]) / 3,
+                     velocity = euler ? v : v + (v - inertia->before_velocity[i]) / 3;
+        line->position[i] = place;
+        inertia->rest_velocity[i] = velocity;
+        line->field.place[i] = place + inertia->span[j] * velocity;
+    }
+    const double span = inertia->span[j], stiffness = inertia->mass[j] / (span * span);
+    const double pace = vec3_norm(
+        vec3_sub(vec3_at(inertia->rest_velocity, j), vec3_at(inertia->start_velocity, j)));
+    double *k = &line->field.stiffness[6 * j];
+    k[0] = k[2] = k[5] = stiffness;
+    line->field.size += inertia->mass[j] * pace / span;
+}
+
+/* Does an obstacle turn or move in the step? */
+static bool ground_moves(const CpsiLine *line, const CpsiMove *move) {
+    for (int k = 0; k < line->obstacle_count; k++)
+        if (move->angle[k] != 0 || (move->shift && !cpsi_shift_is_none(&move->shift[k])))
+            return true;
+    return false;
+}
+
+/* Solve the step from where it began. Nodes on ground that moves all have the same k, for the
+ * ground's way in it. */
+static void attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                    const CpsiMove *move, CpsiSubsteps *scratch, const CpsiTimeStep *step) {
+    bool all = step->scheme == CPS_TIME_SCHEME_EULER || step->restarts;
+    if (ground_moves(line, move))
+        for (int j = 0; j < line->n; j++) all = all || line->inertia.restarts[j];
+    cpsi_line_field_clear(line);
+    for (int j = 0; j < line->n; j++) predict(line, j, step, all || line->inertia.restarts[j]);
+    const double share = all ? 1 : 2.0 / 3;
+    cpsi_substeps_impose(line, move, scratch, ground_moves(line, move) ? 1 - share : 0, 1);
+    cpsi_line_step(line, program, options);
+    for (int j = 0; j < line->n; j++)
+        for (int i = 3 * j; i < 3 * j + 3; i++)
+            line->inertia.velocity[i] =
+                (line->position[i] - line->reference[i]) / line->inertia.span[j];
+}
+
+/* The elements that were slack and are taut. Their nodes are to be taken by Euler steps: returns
+ * whether one was not. */
+static bool find_snatched(CpsiLine *line) {
+    CpsiInertia *inertia = &line->inertia;
+    bool found = false;
+    inertia->snatched = 0;
+    for (int e = 0; e + 1 < line->n; e++) {
+        if (!is_slack(line, inertia->start, e) || is_slack(line, line->position, e)) continue;
+        inertia->snatched++;
+        for (int j = e; j <= e + 1; j++) {
+            found = found || !inertia->restarts[j];
+            inertia->restarts[j] = true;
+        }
+    }
+    return found;
+}
+
+/* The velocity of contact c's ground. */
+static Vec3 ground_velocity(const CpsiLine *line, int c) {
+    const int k = line->has_local_axes ? line->obstacle_index[c] : 0;
+    if (!line->has_local_axes || k < 0 || !cpsi_line_is_shifted(line, k)) return vec3(0, 0, 0);
+    const double span = line->inertia.span[cpsi_line_node(line, c)];
+    return vec3_scale(1 / span,
+                      cpsi_shift_to(&line->shift[k], cpsi_line_place(line, line->position, c)));
+}
+
+/* Give node j, along the unit vector n, the velocity v and such a past. */
+static void stop_along(CpsiLine *line, int j, Vec3 n, double v, double h) {
+    CpsiInertia *inertia = &line->inertia;
+    double *now = &inertia->velocity[3 * j], *old = &inertia->before_velocity[3 * j],
+           *before = &inertia->before[3 * j];
+    const Vec3 x = vec3_at(line->position, j);
+    vec3_store(now, vec3_axpy(v - vec3_dot(n, vec3_load(now)), n, vec3_load(now)));
+    vec3_store(old, vec3_axpy(v - vec3_dot(n, vec3_load(old)), n, vec3_load(old)));
+    const double off = vec3_dot(n, vec3_sub(x, vec3_load(before))) - h * v;
+    vec3_store(before, vec3_axpy(off, n, vec3_load(before)));
+}
+
+/* Stop node j along the normals of the contacts at which it bears. */
+static void stop_node(CpsiLine *line, int j, double h) {
+    Vec3 first = vec3(0, 0, 0);
+    bool any = false;
+    if (cpsi_line_is_held(line, j)) return;
+    for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
+        if (line->state[c] == CPS_NODE_STATE_FREE) continue;
+        Vec3 n = vec3_at(line->normal, c);
+        const Vec3 ground = ground_velocity(line, c);
+        if (any) {
+            const Vec3 aside = vec3_reject(n, first);
+            const double sine = vec3_norm(aside);
+            if (sine < PARALLEL) continue;
+            n = vec3_scale(1 / sine, aside);
+        }
+        stop_along(line, j, n, vec3_dot(n, ground), h);
+        first = n;
+        any = true;
+    }
+}
+
+/* The points of elements that bear, by the least change of their two nodes. */
+static void stop_elements(CpsiLine *line) {
+    CpsiInertia *inertia = &line->inertia;
+    for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++) {
+        const int e = cpsi_line_element(line, c);
+        if (e + 1 >= line->n || line->state[c] == CPS_NODE_STATE_FREE) continue;
+        const Vec3 n = vec3_at(line->normal, c), ground = ground_velocity(line, c);
+        double rate = -vec3_dot(n, ground), ease = 0, part[2];
+        for (int i = 0; i < 2; i++) {
+            const bool held = cpsi_line_is_held(line, e + i);
+            part[i] = held ? 0 : cpsi_line_part(line, e, e + i);
+            ease += part[i] * part[i] / inertia->mass[e + i];
+            rate += cpsi_line_part(line, e, e + i) * vec3_dot(n, vec3_at(inertia->velocity, e + i));
+        }
+        if (!(ease > 0)) continue;
+        for (int i = 0; i < 2; i++) {
+            double *v = &inertia->velocity[3 * (e + i)];
+            vec3_store(v,
+                       vec3_axpy(-part[i] / inertia->mass[e + i] * rate / ease, n, vec3_load(v)));
+        }
+    }
+}
+
+/* Count what changed at contacts. Friction may stop at once what lands: the next step of its nodes
+ * is an Euler step. */
+static void note_events(CpsiLine *line, const unsigned char *state) {
+    CpsiInertia *inertia = &line->inertia;
+    inertia->landed = inertia->changed = 0;
+    for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+        if (line->state[c] == CPS_NODE_STATE_FREE || line->state[c] == state[c]) continue;
+        if (state[c] != CPS_NODE_STATE_FREE) {
+            inertia->changed++;
+            continue;
+        }
+        const int e = cpsi_line_element(line, c);
+        inertia->landed++;
+        inertia->restarts[e < 0 ? cpsi_line_node(line, c) : e] = true;
+        if (e >= 0) inertia->restarts[e + 1] = true;
+    }
+}
+
+/* Go on from the step: it becomes the past. */
+static void advance(CpsiLine *line, const CpsiTimeStep *step, const unsigned char *state) {
+    CpsiInertia *inertia = &line->inertia;
+    const size_t places = 3 * (size_t)line->n * sizeof *inertia->before;
+    memset(inertia->restarts, 0, (size_t)line->n * sizeof *inertia->restarts);
+    (void)find_snatched(line);
+    note_events(line, state);
+    cpsi_time_ledger(line, step->length, state);
+    memcpy(inertia->before, inertia->start, places);
+    memcpy(inertia->before_velocity, inertia->start_velocity, places);
+    const double energy = cpsi_kinetic_energy(line);
+    for (int j = 0; j < line->n; j++) stop_node(line, j, step->length);
+    stop_elements(line);
+    cpsi_time_ledger_close(line, energy - cpsi_kinetic_energy(line));
+    double stiffness = 0;
+    for (int j = 0; j < line->n; j++)
+        stiffness += inertia->mass[j] / (inertia->span[j] * inertia->span[j]);
+    const double gap = line->report.certificate.gap;
+    inertia->position_bound = stiffness > 0 && gap > 0 ? sqrt(2 * gap / stiffness) : 0;
+}
+
+/* There is no such motion: the line stays where it was. */
+static void stay(CpsiLine *line) {
+    CpsiInertia *inertia = &line->inertia;
+    const size_t places = 3 * (size_t)line->n * sizeof *inertia->start;
+    memcpy(line->position, inertia->start, places);
+    memcpy(inertia->velocity, inertia->start_velocity, places);
+    inertia->ledger = (CpsMotionLedger){0};
+    inertia->landed = inertia->changed = inertia->snatched = 0;
+}
+
+void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                         const CpsiMove *move, CpsiSubsteps *scratch, const CpsiTimeStep *step) {
+    CpsiInertia *inertia = &line->inertia;
+    const size_t places = 3 * (size_t)line->n * sizeof *inertia->start;
+    inertia->is_moving = true;
+    memcpy(inertia->start, line->position, places);
+    memcpy(inertia->start_velocity, inertia->velocity, places);
+    cpsi_substeps_save(line, scratch);
+    attempt(line, program, options, move, scratch, step);
+    int iterations = line->report.iteration_count;
+    if (cps_outcome_is_certified(line->report.outcome) && step->scheme != CPS_TIME_SCHEME_EULER &&
+        !step->restarts && find_snatched(line)) {
+        cpsi_substeps_restore(line, scratch);
+        attempt(line, program, options, move, scratch, step);
+        iterations += line->report.iteration_count;
+    }
+    line->report.iteration_count = iterations;
+    line->report.places = CPS_PLACES_UNIQUE;
+    line->report.substep_count = 1;
+    line->report.share = 1;
+    line->last_change.known = cps_outcome_is_certified(line->report.outcome);
+    if (cps_outcome_is_final(line->report.outcome))
+        stay(line);
+    else
+        advance(line, step, scratch->state);
+}
+
+void cpsi_line_stop(CpsiLine *line) {
+    CpsiInertia *inertia = &line->inertia;
+    const size_t n = (size_t)line->n;
+    inertia->is_moving = false;
+    cpsi_line_field_clear(line);
+    inertia->kinetic = inertia->position_bound = 0;
+    inertia->ledger = (CpsMotionLedger){0};
+    inertia->landed = inertia->changed = inertia->snatched = 0;
+    memset(inertia->velocity, 0, 3 * n * sizeof *inertia->velocity);
+    memset(inertia->rest_velocity, 0, 3 * n * sizeof *inertia->rest_velocity);
+    memset(inertia->span, 0, n * sizeof *inertia->span);
+    for (size_t j = 0; j < n; j++) inertia->restarts[j] = true;
+}

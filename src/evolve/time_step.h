@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A step in time of one line (docs/theory.md): the program of a quasi-static step with the inertia
+ * of its nodes, from the reference that the scheme gives. */
+#ifndef CAPSTAN_SRC_EVOLVE_TIME_STEP_H
+#define CAPSTAN_SRC_EVOLVE_TIME_STEP_H
+
+#include "evolve/substeps.h"
+
+typedef struct CpsiTimeStep {
+    double length; /* [s] h > 0 */
+    CpsTimeScheme scheme;
+    bool restarts; /* the obstacles have not moved at this rate before: an Euler step */
+} CpsiTimeStep;
+
+/* Take the step; the line has mass. Its report is that of a step of one part, and its motion in
+ * line->inertia. */
+void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                         const CpsiMove *move, CpsiSubsteps *scratch, const CpsiTimeStep *step);
+
+/* The line is at rest, and its next step in time is an Euler step. */
+void cpsi_line_stop(CpsiLine *line);
+
+#endif

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "time_rig.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void time_begin(TimeRig *rig, double length, int elements, double mass, double stiffness) {
+    *rig = (TimeRig){.gravity = 9.81};
+    rig->scene = cps_scene_default();
+    rig->line = cps_line_default();
+    rig->line.name = "line";
+    rig->line.length = length;
+    rig->line.element_count = elements;
+    rig->line.weight = rig->gravity * mass;
+    rig->line.inertia = mass;
+    rig->line.stiffness = stiffness;
+    rig->line.start.kind = CPS_START_NODES;
+    rig->line.start.point = rig->point;
+    rig->line.start.point_count = elements + 1;
+    rig->scene.line = &rig->line;
+    rig->scene.line_count = 1;
+    rig->scene.stage = rig->stage;
+}
+
+void time_plane(TimeRig *rig, double height, double friction) {
+    rig->plane = cps_obstacle_default();
+    rig->plane.name = "plane";
+    rig->plane.point[2] = height;
+    rig->plane.friction = friction;
+    rig->scene.obstacle = &rig->plane;
+    rig->scene.obstacle_count = 1;
+}
+
+void time_node(TimeRig *rig, int j, double x, double y, double z) {
+    const double at[3] = {x, y, z};
+    memcpy(&rig->point[3 * j], at, sizeof at);
+}
+
+CpsStage *time_stage(TimeRig *rig, double duration, int steps) {
+    CpsStage *stage = &rig->stage[rig->scene.stage_count++];
+    *stage = cps_stage_default();
+    stage->name = "stage";
+    stage->duration = duration;
+    stage->step_count = steps;
+    return stage;
+}
+
+CpsChange *time_change(TimeRig *rig, CpsEndKind kind, double x, double y, double z) {
+    const int s = rig->scene.stage_count - 1;
+    rig->change[s] = (CpsChange){.end = CPS_END_B, .to = {.kind = kind, .value = {x, y, z}}};
+    rig->stage[s].change = &rig->change[s];
+    rig->stage[s].change_count = 1;
+    return &rig->change[s];
+}
+
+CpsSway *time_sway(TimeRig *rig, double period) {
+    const int s = rig->scene.stage_count - 1;
+    rig->sway[s] = (CpsSway){.line = 0, .end = CPS_END_B, .period = period};
+    rig->stage[s].sway = &rig->sway[s];
+    rig->stage[s].sway_count = 1;
+    return &rig->sway[s];
+}
+
+TimeRun time_open(TimeRig *rig) {
+    TimeRun run = {.rig = rig};
+    CpsError err;
+    if (cps_evolution_create(&rig->scene, &run.evolution, &err)) fail_msg("%s", err.message);
+    return run;
+}
+
+static void raise_to(double *worst, double value) {
+    if (!(value <= *worst)) *worst = value;
+}
+
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+static double size(const double *a) { return sqrt(dot(a, a)); }
+
+/* Is node j free to move? */
+static int moves(const CpsLineView *v, int j) {
+    const int end = j == 0 ? CPS_END_A : CPS_END_B;
+    return (j > 0 && j < v->element_count) || v->end[end].kind == CPS_END_KIND_FREE;
+}
+
+static void audit_node(TimeRun *run, int j, double largest) {
+    const CpsLineView *v = &run->view;
+    const CpsLineMotion *m = &run->motion;
+    double rest[3], slip[3];
+    for (int a = 0; a < 3; a++) {
+        const int i = 3 * j + a;
+        const double speed = (v->position[i] - v->reference[i]) / m->span[j],
+                     pace = (speed - m->rest_velocity[i]) / m->span[j];
+        rest[a] =
+            v->load[i] + v->friction_force[i] + v->reaction[j] * v->normal[i] - m->mass[j] * pace;
+        if (j > 0) rest[a] -= v->segment_force[i - 3];
+        if (j < v->element_count) rest[a] += v->segment_force[i];
+        slip[a] = a < 2 ? speed : 0;
+    }
+    /* the certificate leaves the inertia open by a force f with f^2 k^2/(2 m) <= gap */
+    const double open = sqrt(2 * run->report.certificate.gap * m->mass[j]) / m->span[j];
+    raise_to(&run->balance, (size(rest) - open) / largest);
+    const double friction = size(&v->friction_force[3 * j]),
+                 bound = run->rig->plane.friction * v->reaction[j], speed = size(slip);
+    raise_to(&run->outside, (friction - bound) / largest);
+    raise_to(&run->opposed, (dot(&v->friction_force[3 * j], slip) + bound * speed) * m->span[j] /
+                                (largest * run->rig->line.length));
+    if (v->reaction[j] > 1e-9 * largest)
+        raise_to(&run->lifted,
+                 fabs(v->position[3 * j + 2] - run->rig->plane.point[2]) / run->rig->line.length);
+}
+
+void time_step(TimeRun *run) {
+    CpsError err;
+    if (cps_evolution_step(run->evolution, &err)) fail_msg("%s", err.message);
+    run->view = cps_evolution_line_view(run->evolution, 0);
+    run->motion = cps_evolution_line_motion(run->evolution, 0);
+    run->report = cps_evolution_line_report(run->evolution, 0);
+    run->steps++;
+    run->certified += cps_outcome_is_certified(run->report.outcome);
+    if (!run->motion.is_moving) return;
+    const CpsMotionLedger *ledger = &run->motion.ledger;
+    double kinetic = 0;
+    for (int j = 0; j <= run->view.element_count; j++) {
+        kinetic += 0.5 * run->motion.mass[j] *
+                   dot(&run->motion.velocity[3 * j], &run->motion.velocity[3 * j]);
+        if (moves(&run->view, j)) audit_node(run, j, run->report.certificate.largest_force);
+    }
+    CHECK_NEAR(run->motion.kinetic, kinetic, 1e-12 * (kinetic + ledger->turnover));
+    run->imbalance += fabs(run->report.ledger.imbalance);
+    run->turnover += ledger->turnover;
+    run->kinetic += ledger->kinetic;
+    run->impact += ledger->impact;
+    run->scheme += ledger->scheme;
+    run->lost += run->report.ledger.dissipated;
+    run->landed += run->motion.landed;
+    run->changed += run->motion.changed;
+    run->snatched += run->motion.snatched;
+}
+
+void time_steps(TimeRun *run, int count) {
+    for (int k = 0; (count == 0 || k < count) && cps_evolution_remaining_count(run->evolution) > 0;
+         k++)
+        time_step(run);
+}
+
+void time_close(TimeRun *run, const char *name) {
+    run->remainder = run->turnover > 0 ? run->imbalance / run->turnover : 0;
+    printf(
+        "%-24s %6d steps, %d certified; %d landed, %d changed, %d snatched; balance %.1e, friction "
+        "outside %.1e, not opposite %.1e, lifted %.1e, remainder %.1e\n",
+        name, run->steps, run->certified, run->landed, run->changed, run->snatched, run->balance,
+        run->outside, run->opposed, run->lifted, run->remainder);
+    CHECK_INT(run->certified, run->steps);
+    /* forces balance to rounding, which k amplifies: m x/k^2 with x to 1e-16 of its size */
+    CHECK_LESS(run->balance, 1e-8);
+    CHECK_LESS(run->outside, 1e-11);
+    CHECK_LESS(run->opposed, 1e-9);
+    CHECK_LESS(run->lifted, 1e-11);
+    CHECK_LESS(run->remainder, 1e-10);
+    cps_evolution_destroy(run->evolution);
+}

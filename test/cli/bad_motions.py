@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bad scenes with steps in time: each must be refused with its exit code, its place (file:line:column) and its message.
+
+usage: bad_motions.py CAPSTAN
+
+Every case is one change to a good scene. Expected is the exit code and what follows the file name in the message; standard error must be one
+line, and standard output empty.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+from checks import is_told
+
+INPUT, LIMIT = 3, 6
+GOOD = """\
+capstan: 1
+obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}
+lines:
+  cable:
+    length: 10
+    elements: 4
+    mass: 1
+    stiffness: 1e6
+    start: {straight: {from: [0, 0, 1], to: [10, 0, 1]}}
+    ends: {A: held, B: held}
+history:
+  - {name: swing, duration: 2, time_step: 0.01, cable.B: {move: [0, 0, 0], sine: [0, 0, 0.5], period: 2}}
+"""
+ENTRY = "duration: 2, time_step: 0.01"
+CHANGE = "{move: [0, 0, 0], sine: [0, 0, 0.5], period: 2}"
+# name, what is replaced in GOOD, by what, exit code, expected after "FILE:"
+CHANGES = [
+    ("no duration", "duration: 2", "duration: 0", INPUT, "12:19: 'duration': found '0', expected a number in s, greater than 0"),
+    ("negative duration", "duration: 2", "duration: -2", INPUT, "12:19: 'duration': found '-2', expected a number in s, greater than 0"),
+    ("endless duration", "duration: 2", "duration: .inf", INPUT, "12:19: 'duration': found '.inf', expected a number in s"),
+    ("NaN", "duration: 2", "duration: .nan", INPUT, "12:19: 'duration': found '.nan', expected a number in s"),
+    ("a unit", "duration: 2", "duration: 2 s", INPUT, "12:19: 'duration': found '2 s', expected a number in s, greater than 0: write the number alone"),
+    ("a word", "duration: 2", "duration: long", INPUT, "12:19: 'duration': found 'long', expected a number in s"),
+    ("no step", "time_step: 0.01", "time_step: 0", INPUT, "12:32: 'time_step': found '0', expected a number in s, greater than 0"),
+    ("negative step", "time_step: 0.01", "time_step: -0.01", INPUT, "12:32: 'time_step': found '-0.01', expected a number in s, greater than 0"),
+    ("step and steps", ENTRY, ENTRY + ", steps: 3", INPUT, "12:32: 'time_step': it does not go with 'steps': leave one of them out"),
+    ("step without a duration", "duration: 2, ", "", INPUT, "12:19: 'time_step': it goes with 'duration', which is not given"),
+    ("too many steps", "time_step: 0.01", "time_step: 1e-9", LIMIT, "12:32: 'time_step': 2000000000 steps of 1e-09 s, the limit is"),
+    ("steps of no length", "duration: 2, time_step: 0.01", "duration: 1e-90, steps: 3", INPUT, "12:19: stage 1: duration is 1e-90 s"),
+    ("misspelt duration", "duration:", "duratoin:", INPUT, "12:19: entry: unknown key 'duratoin'; did you mean 'duration'?"),
+    ("misspelt step", "time_step:", "timestep:", INPUT, "12:32: entry: unknown key 'timestep'; did you mean 'time_step'?"),
+    ("misspelt sine", "sine:", "sin:", INPUT, "12:76: 'cable.B': unknown key 'sin'; did you mean 'sine'?"),
+    ("sine without a period", ", period: 2", "", INPUT, "12:76: 'sine': it goes with 'period', which is not given"),
+    ("cosine without a period", "sine: [0, 0, 0.5], period: 2", "cosine: [0, 0, 0.5]", INPUT, "12:76: 'cosine': it goes with 'period', which is not given"),
+    ("a period of nothing", "sine: [0, 0, 0.5], ", "", INPUT, "12:76: 'period': nothing oscillates, expected 'sine' or 'cosine' beside it"),
+    ("period 0", "period: 2", "period: 0", INPUT, "12:95: 'period': found '0', expected a number in s, greater than 0"),
+    ("negative period", "period: 2", "period: -2", INPUT, "12:95: 'period': found '-2', expected a number in s, greater than 0"),
+    ("two components", "[0, 0, 0.5]", "[0, 0.5]", INPUT, "12:76: 'sine': found a list of 2, expected three numbers"),
+    ("text in a sine", "[0, 0, 0.5]", "[0, 0, up]", INPUT, "12:89: 'sine': found 'up', expected a number"),
+    ("nothing beside a sine", "move: [0, 0, 0], ", "", INPUT, "12:49: 'cable.B': nothing given, expected exactly one of 'position', 'move', 'force', 'release'"),
+    ("an oscillation of what is let go", "move: [0, 0, 0]", "release: true", INPUT, "12:93: 'period': found beside 'release': what is let go does not oscillate"),
+    ("an oscillation without time", ENTRY, "steps: 3", INPUT, "12:29: stage 1: cable.B oscillates in time, but the stage has no duration"),
+    ("negative inertia", "mass: 1", "mass: 1\n    inertia: -1", INPUT, "8:5: 'inertia': found '-1', expected a number in kg/m, at least 0"),
+    ("endless inertia", "mass: 1", "mass: 1\n    inertia: .inf", INPUT, "8:5: 'inertia': found '.inf', expected a number in kg/m"),
+    ("no inertia", "mass: 1", "weight: 10", INPUT, "4:3: line 'cable': inertia: a step of the history has a duration, but the line has no mass to move: give its mass"),
+    ("an inertia of 0", "mass: 1", "mass: 1\n    inertia: 0", INPUT, "8:5: line 'cable': inertia: a step of the history has a duration, but the line has no mass to move"),
+    ("a massless line", "mass: 1", "mass: 0", INPUT, "4:3: line 'cable': inertia: a step of the history has a duration"),
+    ("velocity of two components", "mass: 1", "mass: 1\n    velocity: [1, 2]", INPUT, "8:5: 'velocity': found a list of 2, expected three numbers in m/s"),
+    ("NaN in a velocity", "mass: 1", "mass: 1\n    velocity: [1, 2, .nan]", INPUT, "8:22: 'velocity': found '.nan', expected a number in m/s"),
+    ("frozen friction", "capstan: 1\n", "capstan: 1\nfriction_policy: frozen\n", INPUT, "2:1: friction_policy: a step of the history has a duration, which needs consistent friction"),
+    ("contact of the reference", "capstan: 1\n", "capstan: 1\ncontact_policy: reference\n", INPUT, "2:1: contact_policy: a step of the history has a duration, which needs contact that is reached"),
+    ("an unknown scheme", "capstan: 1\n", "capstan: 1\ntime_scheme: newmark\n", INPUT, "2:1: 'time_scheme': found 'newmark', expected one of: bdf2 euler"),
+    ("a line that parts", "mass: 1", "mass: 1\n    break_at: 1e5", INPUT, "8:5: line 'cable': break_at: lines do not part in a history of which a step has a duration"),
+    ("a free point", "lines:\n", "points: {knot: {free: [0, 5, 5]}}\nlines:\n  leg: {length: 5, mass: 1, stiffness: 1e6, start: {straight: {from: [0, 5, 5], to: [5, 5, 5]}}, ends: {A: {point: knot}, B: held}}\n", INPUT, "3:1: points: a step of the history has a duration, and in time all points are held"),
+    ("an anchor that drags", "lines:\n", "points: {knot: {held: [0, 5, 5], holding_capacity: 10, drags: true}}\nlines:\n  leg: {length: 5, mass: 1, stiffness: 1e6, start: {straight: {from: [0, 5, 5], to: [5, 5, 5]}}, ends: {A: {point: knot}, B: held}}\n", INPUT, "3:1: points: a step of the history has a duration, and in time all points are held"),
+]
+
+
+def main():
+    failed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "scene.yaml")
+
+        def run(text):
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+            return subprocess.run([sys.argv[1], "check", path], capture_output=True, text=True, check=False)
+
+        good = run(GOOD)
+        if good.returncode:
+            failed += 1
+            print("the good scene:", good.stderr)
+        for name, old, new, code, wanted in CHANGES:
+            assert GOOD.count(old) == 1, name
+            done = run(GOOD.replace(old, new))
+            told = done.stderr.replace(path + ":", "", 1).replace("capstan: ", "", 1)
+            if done.returncode != code or done.stdout or done.stderr.count("\n") != 1 or not told.startswith(wanted):
+                failed += 1
+                print(f"{name}: exit code {done.returncode}, expected {code}; {done.stderr.rstrip()}\n    expected {wanted}")
+    print(f"{len(CHANGES)} cases, {failed} failed")
+    return 0 if is_told(len(CHANGES)) and not failed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
