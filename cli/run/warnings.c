@@ -81,8 +81,8 @@ static double lifted_friction(const CpsLineView *view, double *bounds) {
 
 /* [J] dissipation plus positive work in a step */
 static double exchanged(const CpsLedger *l) {
-    return l->dissipated + fmax(0, l->ends) + fmax(0, l->obstacles) + fmax(0, l->winches) +
-           fmax(0, -l->elastic) + fmax(0, -l->gravity);
+    return l->dissipated + fmax(0, l->ends) + fmax(0, l->obstacles) + fmax(0, l->loads) +
+           fmax(0, l->winches) + fmax(0, -l->elastic) + fmax(0, -l->gravity);
 }
 
 /* Energy that the step created or released. The initial forces at held ends are not known, so their

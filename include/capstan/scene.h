@@ -11,6 +11,7 @@
 #include "capstan/elasticity.h"
 #include "capstan/grasp.h"
 #include "capstan/ground.h"
+#include "capstan/loads.h"
 #include "capstan/mesh.h"
 #include "capstan/motion.h"
 #include "capstan/point.h"
@@ -171,8 +172,9 @@ typedef struct CpsLine {
     CpsStart start;
     /* default: A is held where the start places it, which a position has to be; B is free */
     CpsEnd end[2];
-    int end_point[2];  /* of ends at points: the index in the scene; default 0 */
-    CpsWinch winch[2]; /* at ends A and B; default none */
+    int end_point[2];          /* of ends at points: the index in the scene; default 0 */
+    CpsWinch winch[2];         /* at ends A and B; default none */
+    const CpsLineLoads *loads; /* springs, forces and drag (loads.h); NULL, the default: none */
 } CpsLine;
 
 /* A new imposed position or force of an end of a line, reached in equal increments over the stage.
@@ -241,8 +243,7 @@ typedef struct CpsSolverOptions {
      * an elastic line on a plane without directions of friction are solved to a hundredth of it,
      * and nodes in contact are CPS_NODE_STATE_UNRESOLVED unless the step is warm. */
     double tolerance;
-    /* of one program of a line, 1..1000, default 60; 20 more for each doubling of its elements
-     * beyond 12 800 */
+    /* of one program of a line, 1..1000, default 60; 20 more per doubling beyond 12 800 elements */
     int max_iterations;
     CpsLinearSystem linear_system; /* default chain */
     /* [-] 1e-9..1: a step is halved until its halves change the displacements, per length of the
@@ -250,11 +251,10 @@ typedef struct CpsSolverOptions {
      * reason */
     double path_tolerance;
     int max_halvings; /* how often a step may be halved, for any reason, 0..30, default 10 */
-    /* solve each step without using the one before; default false: a step is first solved by
-     * Newton's method from the one before */
+    /* default false: a step is first solved by Newton's method from the one before */
     bool cold;
-    /* threads that share the lines of a step, 1..CPS_MAX_THREADS, default 1: that of the caller.
-     * More than there are lines are of no use. The answers are the same, bit for bit. */
+    /* threads that share the lines, 1..CPS_MAX_THREADS, default 1: that of the caller. The answers
+     * are the same, bit for bit. */
     int thread_count;
 } CpsSolverOptions;
 
@@ -265,8 +265,9 @@ typedef struct CpsScene {
     /* default false: all is under water, or nothing. Else free points with a displaced weight float
      * (point.h), and gravity has no part along x or y and does not point upwards */
     bool has_water_surface;
-    double water_surface; /* [m] with the flag: z of the still water's surface */
-    int obstacle_count;   /* >= 0 */
+    double water_surface;      /* [m] with the flag: z of the still water's surface */
+    const CpsCurrent *current; /* (loads.h) default NULL: still water, or none */
+    int obstacle_count;        /* >= 0 */
     const CpsObstacle *obstacle;
     int line_count; /* >= 1 */
     const CpsLine *line;
@@ -289,9 +290,8 @@ CPS_API CpsObstacle cps_obstacle_default(void);
 CPS_API CpsStage cps_stage_default(void); /* one step in which nothing changes; without a name */
 
 /* Check all that can be checked before solving. The message of an error names the line, the value
- * found and what was expected; err->where is the path of the member.
- *
- * Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
+ * found and what was expected; err->where is the path of the member. Returns CPS_OK,
+ * CPS_ERR_ARGUMENT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err);
 
 #ifdef __cplusplus

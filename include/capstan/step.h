@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/step.h: what a load step reports: its outcome, the certificate of its answer, the forces
  * at the ends of a line, where the energy went, and the arrays of a line. The library (evolve.h)
- * fills everything here for the caller. Quantities are in SI units, vectors in the axes of the
- * scene. S90 is Souza de Cursi (1990), "theory" docs/theory.md.
+ * fills everything for the caller. SI units; vectors in the axes of the scene. S90 is Souza de
+ * Cursi (1990), "theory" docs/theory.md.
  *
- * A load step is taken as one or more substeps: it is divided where it does not converge, where it
- * depends on the path (`path_tolerance`), and where an obstacle turns far (theory 2.9). */
+ * A load step is divided into substeps where it does not converge, where it depends on the path
+ * (`path_tolerance`), and where an obstacle turns far (theory 2.9). */
 #ifndef CAPSTAN_STEP_H
 #define CAPSTAN_STEP_H
 
@@ -15,8 +15,7 @@
 extern "C" {
 #endif
 
-/* What the mathematics found. The outcome of a step is the worst of those of its lines
- * (cps_outcome_worse); the numbers are no order. */
+/* That of a step is the worst of its lines' (cps_outcome_worse); the numbers are no order. */
 #define CPS_OUTCOME_LIST(X)                                                                       \
     X(CPS_OUTCOME_SOLVED, 0, "solved", "solved and certified")                                    \
     X(CPS_OUTCOME_TAUT, 1, "taut",                                                                \
@@ -64,6 +63,7 @@ typedef struct CpsCertificate {
     double law_residual;        /* [J] sum of phi(u) + <u, F> over the contacts */
     double contact_residual;    /* [J] sum of R (n.u + gap) over the contacts */
     double friction_residual;   /* [N] sum of |w - mu R|: error of frozen bounds, else rounding */
+    double load_residual;       /* [N] sum over the nodes of drag used less drag where they are */
     double element_push;        /* [N] largest compressive part of an element's force */
     double elongation_residual; /* [-] largest |x'| - (1 + c |p|) of an elastic element */
     double stretch_residual;    /* [-] largest |x'| - 1 of an inextensible element */
@@ -72,11 +72,10 @@ typedef struct CpsCertificate {
     bool has_tension_bound;     /* not inextensible, nor a bound above the tension; else it is 0 */
 } CpsCertificate;
 
-/* No reaction; at rest on the obstacle; or sliding on it with friction at its bound. */
 typedef enum CpsNodeState {
-    CPS_NODE_STATE_FREE = 0,
-    CPS_NODE_STATE_STICK = 1,
-    CPS_NODE_STATE_SLIP = 2,
+    CPS_NODE_STATE_FREE = 0,      /* no reaction */
+    CPS_NODE_STATE_STICK = 1,     /* at rest on the obstacle */
+    CPS_NODE_STATE_SLIP = 2,      /* sliding on it with friction at its bound */
     CPS_NODE_STATE_UNRESOLVED = 3 /* in contact; at rest or not (CpsSolverOptions.tolerance) */
 } CpsNodeState;
 
@@ -101,9 +100,8 @@ typedef enum CpsRange {
 CPS_API const char *cps_range_name(CpsRange range); /* "bounded"; never NULL */
 CPS_API const char *cps_range_text(CpsRange range); /* its sentence; never NULL */
 
-/* Least and greatest tension (theory 4a) of the element at an end, among all forces that are in
- * equilibrium and obey the laws at the positions and slips found. The first value of each pair is
- * attained by such forces; the second is a bound, from virtual displacements. */
+/* Least and greatest tension (theory 4a) of the element at an end, among all forces that balance
+ * and obey the laws at the places found. The first of each pair is attained, the second a bound. */
 typedef struct CpsTensionRange {
     CpsRange kind;
     bool has_values;                 /* the kind is bounded or unbounded; otherwise all are 0 */
@@ -111,17 +109,16 @@ typedef struct CpsTensionRange {
     double greatest, greatest_bound; /* [N] INFINITY where unbounded */
 } CpsTensionRange;
 
-/* Whether the forces of a step determine the positions. Where they do not, the nearest compatible
- * configuration is taken, that of least sum h |x - x_R|^2. */
+/* Whether the forces of a step determine the places; else those of least sum h |u|^2 are taken. */
 typedef enum CpsPlaces {
-    CPS_PLACES_UNIQUE = 0,
-    CPS_PLACES_NEAREST = 1, /* not unique, and the nearest is taken */
-    CPS_PLACES_ANY = 2      /* not unique, and one is taken that need not be the nearest */
+    CPS_PLACES_UNIQUE,
+    CPS_PLACES_NEAREST, /* not unique, and the nearest is taken */
+    CPS_PLACES_ANY      /* not unique, and one is taken that need not be the nearest */
 } CpsPlaces;
 
-/* The force at an end of a line. The last half element, of length h/2, has the weight w h/2 and,
- * where a held end lies on an obstacle, its own reaction and friction; so this force differs from
- * the one in the middle of the end element (theory 3). Up is against gravity, or z without. */
+/* The force at an end of a line. The last half element has its weight and, where a held end lies on
+ * an obstacle, its own reaction and friction; so this force differs from that in the middle of the
+ * end element (theory 3). Up is against gravity, or z without. */
 typedef struct CpsEndReport {
     double position[3]; /* [m] in the coordinates of the scene */
     double force[3];    /* [N] on the line at this end */
@@ -135,10 +132,10 @@ typedef struct CpsEndReport {
     CpsTensionRange range; /* of the end element, at the last step of a stage */
 } CpsEndReport;
 
-/* The contact at which the mesh changes the law of friction most. A node on a curved obstacle,
- * at which the line turns by the angle d, holds tensions up to the ratio k = (1 + mu tan(d/2))/(1 -
- * mu tan(d/2)), where a smooth line holds exp(mu d). From mu tan(d/2) = 0.9 on, the step is not
- * certified (mesh_too_coarse). All are 0 where the line turns round nothing with friction. */
+/* The contact at which the mesh changes the law of friction most: a node on a curved obstacle that
+ * turns the line by d holds tensions up to the ratio k = (1 + mu tan(d/2))/(1 - mu tan(d/2)), a
+ * smooth line exp(mu d). From mu tan(d/2) = 0.9 on, the step is not certified (mesh_too_coarse).
+ * All are 0 where the line turns round nothing with friction. */
 typedef struct CpsBend {
     double turn;       /* [rad] d, towards the obstacle */
     double friction;   /* [-] mu along the line, the larger of both directions of slip */
@@ -174,9 +171,8 @@ typedef struct CpsLineReport {
     double share;   /* share of the step that the last substep was, which the view shows */
     int jump_count; /* substeps in which the line jumped, however small the load */
     double jump;    /* [m] longest displacement of a node in such a substep */
-    /* [J] energy that substeps which could not be halved any more created; with a path tolerance
-     * also the energy that they lost, jumps excepted. 0 unless it exceeds 5 % of what such a
-     * substep dissipates and works. */
+    /* [J] that substeps which could not be halved any more created; with a path tolerance also that
+     * they lost, jumps excepted. 0 unless above 5 % of what such a substep dissipates and works. */
     double unaccounted;
     CpsEndReport end[2]; /* of ends A and B */
     double grounded;     /* [m] natural length in contact with a reaction */
@@ -199,8 +195,8 @@ typedef struct CpsLineReport {
     /* [m] > 0, infeasible: the distance of the ends, or the least length of a line round an
      * obstacle, less the line's; or how deep an element stays in one; otherwise 0 */
     double proof_length;
-    /* [N] > 0, unbounded: decrease of the energy per metre; slides: least power along the path of
-     * the loads, less all that friction can dissipate, per unit of speed; otherwise 0 */
+    /* [N] > 0, unbounded: decrease of the energy per metre; slides: least power of the loads, less
+     * all that friction can dissipate, per unit of speed; otherwise 0 */
     double proof_force;
     bool has_proof_obstacle, has_proof_plane; /* infeasible: not reached round, or caught */
     int proof_obstacle, proof_plane;          /* between the two; passes: the one passed */
@@ -229,9 +225,9 @@ typedef struct CpsStepReport {
 
 enum { CPS_NO_OBSTACLE = -1 }; /* in an array of obstacles' indices: there is none */
 
-/* All arrays of one line after a step or its last substep, until the evolution's next step. n =
- * element_count + 1 nodes, stored one after the other; forces act on the line. In an array over
- * contacts entry j is the contact of node j with its nearest obstacle, entry n + j its second. */
+/* All arrays of one line after a step or its last substep, until the next. n = element_count +
+ * 1 nodes; forces act on the line. In an array over contacts entry j is the contact of node j with
+ * its nearest obstacle, entry n + j its second. */
 typedef struct CpsLineView {
     const char *name;
     int element_count;
@@ -253,7 +249,7 @@ typedef struct CpsLineView {
     const CpsGrasp *grasp;   /* (grasp_count) nodes between the ends that are held or pulled */
     const double *reference; /* (n, 3) [m] x_R, where the step or its last substep began */
     const double *position;  /* (n, 3) [m] */
-    const double *load;      /* (n, 3) [N] weight, and the force on a free end */
+    const double *load;      /* (n, 3) [N] weight, drag, given loads, the force on a free end */
     double weight_before[3]; /* [N/m] weight where the step, or its last substep, began */
     const int *obstacle;     /* (contact_count, n) index in the scene, or CPS_NO_OBSTACLE */
     const double *normal;    /* (contact_count, n, 3) [-] at `position`; 0 0 0 without obstacle */
@@ -264,22 +260,25 @@ typedef struct CpsLineView {
     const double *friction_factor; /* (n) [-] mean factor of the zones at a node; 1 without */
     const double *friction_force;  /* (contact_count, n, 3) [N] F, within the set that w bounds */
     const double *reaction;        /* (contact_count, n) [N] R >= 0, along the normal */
-    /* (contact_count, n, 3) [m] slip on the obstacle in this step, tangential: on a plane the part
-     * of u in it, on a curved obstacle along the surface; 0 before the first step */
+    /* (contact_count, n, 3) [m] slip on the obstacle in this step, tangential: along the surface; 0
+     * before the first step */
     const double *slip;
     const double *segment_force; /* (element_count, 3) [N] p, of the B side on the A side */
     const double *tension;       /* (element_count) [N] T >= 0, of the elongation unknown */
     const double *motion; /* (n, 3) [-] slides: proving velocities, the largest of size 1; else 0 */
     const unsigned char *state; /* (contact_count, n) CpsNodeState */
-    /* [m] the point from which reference, position and held ends are measured, the same for all
-     * lines: 0 0 0, or a point near the lines where these lie more than 512 lengths away */
+    /* [m] from which positions are measured, the same for all lines: 0 0 0, or a point near the
+     * lines where these lie more than 512 lengths away */
     double origin[3];
-    /* Contact of element e with a round obstacle at the point (1 - beta) x_e + beta x_{e+1} that
-     * was nearest to its axis or centre; its forces act on the two nodes in these shares, and its
-     * slip is that of the point with this beta since the reference. With a plane it is the third
-     * contact of the node at the end of the element, of share 1. Such contacts exist (the flag;
-     * else all is 0) where an obstacle is round or there are more than two, and contact is not that
-     * of the reference. What an element with CPS_NO_OBSTACLE has means nothing. */
+    bool has_springs, has_node_loads; /* (loads.h) of nodes; without, what follows is 0 */
+    /* (n, 3) [N/m] K, diagonal, [m] a, [m] y, small: their force -K (x + y - a) balances; [N] drag
+     * and given loads, a part of `load` */
+    const double *node_stiffness, *node_place, *node_beside, *node_load;
+    /* Contact of element e with a round obstacle at the point (1 - beta) x_e + beta x_{e+1} nearest
+     * to its axis or centre; its forces act on the nodes in these shares, its slip is that of the
+     * point with this beta. With a plane it is the third contact of the node at the element's end,
+     * of share 1. They exist (the flag; else all is 0) where an obstacle is round or there are more
+     * than two, and contact is not that of the reference; without an obstacle they mean nothing. */
     bool has_element_contacts;
     const int *element_obstacle;  /* (element_count) */
     const double *element_share;  /* (element_count) [-] beta */

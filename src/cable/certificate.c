@@ -25,6 +25,7 @@
 
 #include "base/larger.h"
 #include "cable/field.h"
+#include "cable/flow.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
 #include "chain/frame.h"
@@ -350,6 +351,7 @@ CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance) {
     add_segments(line, &out);
     add_nodes(line, &out);
     out.scale += load_scale(line, out.largest_force, tolerance);
+    out.load_residual = cpsi_line_flow_change(line);
     out.element_penetration = cpsi_line_pierces(line, &(int){0});
     /* P - D >= sum (l c/2) (T - T*)^2, so rms(T - T*) <= sqrt(2 gap/(c L)) with the least c; it
      * says nothing beyond the tension itself */

@@ -26,20 +26,33 @@ Vec3 cpsi_line_field_force(const CpsiLine *line, int j, Vec3 x) {
     return cpsi_node_field_force(&line->field, j, x);
 }
 
+Vec3 cpsi_line_load_at(const CpsiLine *line, int j) {
+    const Vec3 weight = cpsi_line_weight_at(line, j);
+    if (!line->has_field && !line->has_node_loads) return weight;
+    Vec3 sum = cpsi_line_field_force(line, j, vec3_at(line->position, j));
+    if (line->has_node_loads) sum = vec3_add(sum, vec3_at(line->field.all, j));
+    return vec3_axpy(1 / cpsi_line_share(line, j), sum, weight);
+}
+
 double cpsi_line_field_energy(const CpsiLine *line, int j, Vec3 x) {
     if (!cpsi_line_has_field(line)) return 0;
     const Vec3 off = vec3_sub(x, vec3_at(line->field.place, j));
     return 0.5 * vec3_dot(off, cpsi_line_field_pull(line, j, off));
 }
 
+static bool is_stiff(const double k[6]) { return k[0] > 0 || k[2] > 0 || k[5] > 0; }
+
 void cpsi_line_field_clear(CpsiLine *line) {
     CpsiNodeField *field = &line->field;
     const size_t n = (size_t)line->n;
-    if (field->load) memset(field->load, 0, 3 * n * sizeof *field->load);
+    if (field->load) memcpy(field->load, field->own_load, 3 * n * sizeof *field->load);
     if (!cpsi_line_has_field(line)) return;
-    memset(field->stiffness, 0, 6 * n * sizeof *field->stiffness);
-    memcpy(field->place, line->position, 3 * n * sizeof *field->place);
+    memcpy(field->stiffness, field->own_stiffness, 6 * n * sizeof *field->stiffness);
+    memcpy(field->place, field->own_place, 3 * n * sizeof *field->place);
     field->size = 0;
+    for (int j = 0; j < line->n; j++)
+        if (!is_stiff(&field->stiffness[6 * j]))
+            memcpy(&field->place[3 * j], &line->position[3 * j], 3 * sizeof *field->place);
 }
 
 /* x with K x = b, for b in the range of K; 0 in the directions that K does not resist. */

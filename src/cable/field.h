@@ -12,10 +12,13 @@ static inline bool cpsi_line_has_field(const CpsiLine *line) { return line->fiel
 Vec3 cpsi_line_field_pull(const CpsiLine *line, int j, Vec3 v);
 Vec3 cpsi_line_field_force(const CpsiLine *line, int j, Vec3 x);
 
+/* [N/m] What acts on node j per length of the line: its weight, given loads, drag and field. */
+Vec3 cpsi_line_load_at(const CpsiLine *line, int j);
+
 /* [J] (x - a)'K (x - a)/2 */
 double cpsi_line_field_energy(const CpsiLine *line, int j, Vec3 x);
 
-/* Set K and load of all nodes to 0. */
+/* Set K and load of all nodes to what the scene gives, 0 without. */
 void cpsi_line_field_clear(CpsiLine *line);
 /* Add (x - place)'K (x - place)/2 to the energy of node j: K (6) [N/m] >= 0, place [m]. */
 void cpsi_line_field_add(CpsiLine *line, int j, const double stiffness[6], Vec3 place);

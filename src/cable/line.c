@@ -43,12 +43,21 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->start_element, 3 * (n - 1));
     CPSI_PLACE(arena, line->position, 3 * n);
     CPSI_PLACE(arena, line->load, 3 * n);
-    if (line->has_node_loads) CPSI_PLACE(arena, line->field.load, 3 * n);
+    if (line->has_node_loads) {
+        CPSI_PLACE(arena, line->field.load, 3 * n);
+        CPSI_PLACE(arena, line->field.own_load, 3 * n);
+        CPSI_PLACE(arena, line->field.drag, 3 * n);
+        CPSI_PLACE(arena, line->field.all, 3 * n);
+        cpsi_anderson_layout(&line->field.rounds, arena, line->n);
+    }
     if (line->has_field) {
         CPSI_PLACE(arena, line->field.stiffness, 6 * n);
         CPSI_PLACE(arena, line->field.place, 3 * n);
         CPSI_PLACE(arena, line->field.beside, 3 * n);
         CPSI_PLACE(arena, line->field.program, 6 * n);
+        CPSI_PLACE(arena, line->field.own_stiffness, 6 * n);
+        CPSI_PLACE(arena, line->field.own_place, 3 * n);
+        CPSI_PLACE(arena, line->field.diagonal, 3 * n);
     }
     CPSI_PLACE(arena, line->normal, 3 * contacts);
     CPSI_PLACE(arena, line->gap, contacts);

@@ -9,6 +9,7 @@
 #include "cable/certificate.h"
 #include "cable/contact.h"
 #include "cable/field.h"
+#include "cable/flow.h"
 #include "cable/held.h"
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
@@ -29,14 +30,15 @@ static const double ROUGH = 0.01;
 /* A reaction of an open contact below this share of the unit of force is rounding. */
 static const double LEAST_REACTION = 1e-12;
 
-void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
-    cpsi_contact_set_reference(line, options->contact_policy, options->friction_policy,
-                               options->frictionless);
+void cpsi_line_set_loads(CpsiLine *line) {
     for (int j = 0; j < line->n; j++)
         for (int a = 0; a < 3; a++)
             line->load[3 * j + a] = cpsi_line_weight_length(line, j) * line->weight[a];
-    if (line->field.load)
-        for (int i = 0; i < 3 * line->n; i++) line->load[i] += line->field.load[i];
+    if (line->has_node_loads)
+        for (int i = 0; i < 3 * line->n; i++) {
+            line->field.all[i] = line->field.load[i] + line->field.drag[i];
+            line->load[i] += line->field.all[i];
+        }
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_KIND_FREE)
             for (int a = 0; a < 3; a++)
@@ -45,6 +47,13 @@ void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
         if (line->grasp[k].imposed.kind == CPS_END_KIND_FREE)
             for (int a = 0; a < 3; a++)
                 line->load[3 * line->grasp[k].node + a] += line->grasp[k].imposed.value[a];
+}
+
+void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
+    cpsi_contact_set_reference(line, options->contact_policy, options->friction_policy,
+                               options->frictionless);
+    if (line->has_node_loads) cpsi_line_follow_flow(line, line->position);
+    cpsi_line_set_loads(line);
 }
 
 bool cpsi_line_both_ends(const CpsiLine *line, CpsEndKind kind) {

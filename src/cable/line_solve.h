@@ -29,6 +29,8 @@ enum { CPSI_CENTERING_STEPS = 2, CPSI_REFINEMENT_STEPS = 6 };
 /* Set the data of a step: contacts at the reference, and the loads: weight, half of each element to
  * each of its nodes, and the forces at free ends. */
 void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options);
+/* The loads of the nodes: weight, what is given, and the drag that was found last. */
+void cpsi_line_set_loads(CpsiLine *line);
 
 bool cpsi_line_both_ends(const CpsiLine *line, CpsEndKind kind);
 /* Is a span between two held nodes taut? */

@@ -34,6 +34,7 @@
 #include "cable/contact_detection.h"
 #include "cable/endless_slide.h"
 #include "cable/existence.h"
+#include "cable/flow.h"
 #include "cable/line_solve.h"
 #include "cable/mesh_error.h"
 #include "cable/report.h"
@@ -261,6 +262,32 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
     }
 }
 
+/* The drag follows the line to where it comes to be: the step is solved again with the drag there,
+ * until that hardly changes. */
+static void follow_flow(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+    enum { MOST = 60 };
+    const size_t contacts = (size_t)cpsi_line_all_contacts(line);
+    for (int round = 0; round < MOST; round++) {
+        const CpsCertificate *found = &line->report.certificate;
+        if (!cps_outcome_is_certified(line->report.outcome) ||
+            !(found->load_residual > CPSI_FOLLOWED * found->largest_force))
+            return;
+        cpsi_line_approach_flow(line, round == 0);
+        cpsi_line_set_loads(line);
+        memset(line->reaction, 0, contacts * sizeof *line->reaction);
+        if (line->has_local_axes) cpsi_contact_reset(line);
+        solve_with_fallbacks(line, program, options, CPSI_GUESS_NONE);
+    }
+}
+
+/* Loads that are not those of the place are no answer. */
+static void judge_flow(CpsiLine *line, const CpsiStepOptions *options) {
+    const CpsCertificate *found = &line->report.certificate;
+    if (cps_outcome_is_certified(line->report.outcome) &&
+        !(found->load_residual <= options->solver.tolerance * found->largest_force))
+        line->report.outcome = CPS_OUTCOME_STALLED;
+}
+
 /* Take the line's part of a solution of the step together with other lines. */
 static void take_joined(CpsiLine *line, const CpsiStepOptions *options) {
     const CpsiJoined *joined = line->joined;
@@ -458,6 +485,8 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
         solve_across(line, program, options);
     else
         solve_with_fallbacks(line, program, options, guess);
+    if (line->field.flow && !line->joined) follow_flow(line, program, options);
+    judge_flow(line, options);
     if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
     report_piercing(line);

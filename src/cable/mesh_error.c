@@ -21,6 +21,7 @@
 
 #include <math.h>
 
+#include "cable/field.h"
 #include "linalg/dense.h"
 
 typedef struct Span {
@@ -29,6 +30,12 @@ typedef struct Span {
 } Span;
 
 static Vec3 force_of(const CpsiLine *line, int e) { return vec3_at(line->segment_force, e); }
+
+/* [N/m] q of element e: of a line with loads beside its weight the mean of its nodes. */
+static Vec3 load_of(const CpsiLine *line, int e) {
+    if (!line->has_field && !line->has_node_loads) return cpsi_line_weight(line, e);
+    return vec3_scale(0.5, vec3_add(cpsi_line_load_at(line, e), cpsi_line_load_at(line, e + 1)));
+}
 
 /* The contact of node j with the largest reaction, or -1. */
 static int carrying_contact(const CpsiLine *line, int j) {
@@ -55,7 +62,7 @@ static void add_compliance(double m[9], Vec3 d, double along, double across) {
 
 /* Add element e of a span; false: its weight exceeds its tension. */
 static bool add_element(const CpsiLine *line, int e, Span *span) {
-    const Vec3 p = force_of(line, e), q = cpsi_line_weight(line, e);
+    const Vec3 p = force_of(line, e), q = load_of(line, e);
     const CpsiElementLaw law = cpsi_line_law(line, e);
     const double l = line->natural_length[e], tension = vec3_norm(p), /* l c: that of its rest */
         c = cpsi_law_compliance(&law, tension) * (line->element_length[e] / l);
@@ -74,8 +81,7 @@ static bool add_element(const CpsiLine *line, int e, Span *span) {
 static void add_support(const CpsiLine *line, int j, int e, int inward, Span *span) {
     const int c = carrying_contact(line, j);
     if (cpsi_line_is_held(line, j) || c < 0) return;
-    const Vec3 n = vec3_at(line->normal, c), q = cpsi_line_weight_at(line, j),
-               p = force_of(line, e);
+    const Vec3 n = vec3_at(line->normal, c), q = cpsi_line_load_at(line, j), p = force_of(line, e);
     const double normal_load = -vec3_dot(q, n), l = line->element_length[e];
     const Vec3 flat = vec3_reject(p, n);
     const double tight = vec3_norm(flat);

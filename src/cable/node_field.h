@@ -10,6 +10,16 @@
 #define CAPSTAN_SRC_CABLE_NODE_FIELD_H
 
 #include "base/vec3.h"
+#include "cable/anderson.h"
+#include "capstan/loads.h"
+
+/* A current about a line. */
+typedef struct CpsiFlow {
+    double density; /* [kg/m3] */
+    CpsDrag drag;
+    int row_count;
+    const CpsCurrentRow *row;
+} CpsiFlow;
 
 typedef struct CpsiNodeField {
     double *load; /* (n, 3) [N] a load of each node; NULL: none */
@@ -23,6 +33,13 @@ typedef struct CpsiNodeField {
      * whose part of the gap is y'K y/2 */
     double *beside;
     double *program; /* (n, 6) K in the axes and units of a program */
+    /* what the scene gives, to which cpsi_line_field_clear sets load, K and a; NULL as these */
+    double *own_load, *own_stiffness, *own_place;
+    double *diagonal;     /* (n, 3) [N/m] of own_stiffness */
+    const CpsiFlow *flow; /* NULL: none */
+    double *all;          /* (n, 3) [N] load and drag together; NULL as load */
+    CpsiAnderson rounds;  /* of the drag */
+    double *drag;         /* (n, 3) [N] of the flow, where the line was last seen; NULL: none */
 } CpsiNodeField;
 
 /* K v for K (6). */

@@ -231,7 +231,7 @@ static double grounded_part(const CpsiLine *line, int c) {
                after = touches(line, j + 1, obstacle, &density);
     if (before && after) return 1;
     if (obstacle->kind == CPS_OBSTACLE_PLANE)
-        density = -vec3_dot(cpsi_line_weight_at(line, j), vec3_at(line->normal, c));
+        density = -vec3_dot(cpsi_line_load_at(line, j), vec3_at(line->normal, c));
     else if (before == after || !touches(line, before ? j - 2 : j + 2, obstacle, &other))
         return 1;
     const double bears = density * cpsi_line_share(line, j);

@@ -7,6 +7,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/flow.h"
 #include "cable/friction_law.h"
 #include "cable/line_solve.h"
 #include "chain/frame.h"
@@ -76,6 +77,7 @@ bool cpsi_line_stands_still(CpsiLine *line, const CpsiStepOptions *options,
     const CpsCertificate *c = &line->report.certificate;
     line->report.outcome = cpsi_line_outcome(line, options, &nothing_left);
     if (!cps_outcome_is_certified(line->report.outcome) ||
+        !(c->load_residual <= CPSI_FOLLOWED * c->largest_force) ||
         !(c->gap <= fmax(GAP_GROWTH * before->certificate.gap, CPSI_TARGET * c->scale)))
         return false;
     for (int i = 0; i < cpsi_line_all_contacts(line); i++)

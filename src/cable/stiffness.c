@@ -56,7 +56,7 @@ typedef struct Tangent {
 static bool is_nearly_open(const CpsiLine *line, int c) {
     if (cpsi_line_element(line, c) >= 0 || !cpsi_line_obstacle(line, c)) return false;
     const int j = cpsi_line_node(line, c);
-    const double weight = vec3_norm(cpsi_line_weight_at(line, j)) * cpsi_line_share(line, j);
+    const double weight = vec3_norm(cpsi_line_load_at(line, j)) * cpsi_line_share(line, j);
     return line->reaction[c] <= LEFT_OPEN * weight &&
            cpsi_obstacle_gap(cpsi_line_obstacle(line, c), vec3_at(line->position, j)) >
                CPS_TOUCH * line->length;
@@ -364,7 +364,7 @@ static bool find_front(const Tangent *t, int j, int step, Front *out) {
     const CpsiObstacle *plane = cpsi_line_obstacle(line, c);
     if (is_round(plane) || plane != cpsi_line_obstacle(line, next) || !(line->tension[e] > 0))
         return false;
-    const Vec3 n = vec3_at(line->normal, c), weight = cpsi_line_weight_at(line, j);
+    const Vec3 n = vec3_at(line->normal, c), weight = cpsi_line_load_at(line, j);
     const double q = -vec3_dot(weight, n) * cpsi_line_share(line, j),
                  p = step * vec3_dot(vec3_at(line->segment_force, e), n);
     if (!(q > 0)) return false;

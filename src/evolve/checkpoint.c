@@ -53,7 +53,7 @@ static void pass_flag(Tape *tape, bool *flag) {
 
 /* A field that is added to one of these structs has to be added to its function below as well. */
 #if UINTPTR_MAX == 0xffffffffffffffff
-_Static_assert(sizeof(CpsCertificate) == 17 * 8 && sizeof(CpsLedger) == 8 * 8 &&
+_Static_assert(sizeof(CpsCertificate) == 18 * 8 && sizeof(CpsLedger) == 8 * 8 &&
                    sizeof(CpsTensionRange) == 5 * 8,
                "add the new field to pass_energies or pass_end_report, then its size here");
 _Static_assert(sizeof(CpsEndReport) == 17 * 8 + sizeof(CpsTensionRange) && sizeof(CpsBend) == 7 * 8,
@@ -205,7 +205,11 @@ static void pass_line(Tape *tape, CpsiLine *line) {
         pass(tape, scalars[i], contacts * sizeof(double));
     pass(tape, line->segment_force, 3 * (n - 1) * sizeof(double));
     pass(tape, line->tension, (n - 1) * sizeof(double));
-    if (line->has_node_loads) pass(tape, line->field.load, 3 * n * sizeof(double));
+    if (line->has_node_loads) {
+        pass(tape, line->field.load, 3 * n * sizeof(double));
+        pass(tape, line->field.drag, 3 * n * sizeof(double));
+        pass(tape, line->field.all, 3 * n * sizeof(double));
+    }
     if (line->has_field) {
         pass(tape, line->field.stiffness, 6 * n * sizeof(double));
         pass(tape, line->field.place, 3 * n * sizeof(double));
@@ -364,6 +368,16 @@ static void hash_numbers(uint64_t *hash, size_t count, const double *number) {
     hash_bytes(hash, number, count * sizeof *number);
 }
 
+static void hash_flow(uint64_t *hash, const CpsiFlow *flow) {
+    const double given[] = {flow->density, flow->drag.diameter, flow->drag.normal,
+                            flow->drag.tangential};
+    hash_numbers(hash, sizeof given / sizeof *given, given);
+    for (int k = 0; k < flow->row_count; k++) {
+        hash_numbers(hash, 1, &flow->row[k].z);
+        hash_numbers(hash, 3, flow->row[k].velocity);
+    }
+}
+
 static void hash_elasticity(uint64_t *hash, const CpsiLine *line, const CpsiElasticity *own) {
     hash_numbers(hash, (size_t)line->n - 1, own->compliance_factor);
     hash_bytes(hash, own->spring_at, (size_t)line->n * sizeof *own->spring_at);
@@ -387,6 +401,12 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, (size_t)line->n - 1, line->weight_factor);
         hash_numbers(hash, (size_t)line->n - 1, line->compliance_factor);
     }
+    if (line->has_field) {
+        hash_numbers(hash, 6 * (size_t)line->n, line->field.own_stiffness);
+        hash_numbers(hash, 3 * (size_t)line->n, line->field.own_place);
+    }
+    if (line->has_node_loads) hash_numbers(hash, 3 * (size_t)line->n, line->field.own_load);
+    if (line->field.flow) hash_flow(hash, line->field.flow);
     if (line->spring_count > 0) {
         hash_bytes(hash, line->spring_at, (size_t)line->n * sizeof *line->spring_at);
         hash_numbers(hash, (size_t)line->spring_count, line->spring_start);

@@ -105,6 +105,7 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->gap += from->gap;
     to->scale += from->scale;
     to->friction_residual += from->friction_residual;
+    to->load_residual += from->load_residual;
     to->law_residual += from->law_residual;
     to->contact_residual += from->contact_residual;
     to->has_tension_bound = to->has_tension_bound && from->has_tension_bound;

@@ -13,6 +13,7 @@
 #include "evolve/checkpoint.h"
 #include "evolve/failure.h"
 #include "evolve/friction_zone.h"
+#include "evolve/loads.h"
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
 #include "evolve/sections.h"
@@ -85,6 +86,10 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     CPSI_PLACE(arena, evolution->move, scene->line_count);
     CPSI_PLACE(arena, evolution->from, 2 * scene->line_count);
     CPSI_PLACE(arena, evolution->release, 2 * scene->line_count);
+    if (scene->current) {
+        CPSI_PLACE(arena, evolution->current_row, scene->current->row_count);
+        CPSI_PLACE(arena, evolution->flow, scene->line_count);
+    }
     layout_given(evolution, arena, scene, real);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
                               .contacts = scene->obstacle_count > 1 ? 2 : 1,
@@ -105,9 +110,13 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->has_zones = scene->line[i].zone_count > 0;
         line->has_sections = cpsi_has_sections(&scene->line[i]);
         for (int end = 0; end < 2; end++) line->drums.on[end] = scene->line[i].winch[end].is_there;
+        line->has_field = cpsi_has_springs(&scene->line[i]);
+        line->has_node_loads =
+            cpsi_has_forces(&scene->line[i]) || cpsi_has_drag(scene, &scene->line[i]);
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
         line->has_break_at = cpsi_has_break_at(&scene->line[i]);
-        line->has_inertia = line->has_field = cpsi_is_in_time(scene);
+        line->has_inertia = cpsi_is_in_time(scene);
+        line->has_field = line->has_field || line->has_inertia;
         line->compliance = line->spring_compliance = cpsi_mean_compliance(&scene->line[i]);
         line->spring_count = cpsi_spring_count(&scene->line[i], false);
         line->two.exists = cpsi_has_dynamic_stiffness(&scene->line[i]);
@@ -211,6 +220,9 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         for (int c = 0; c < cpsi_line_all_contacts(line); c++)
             line->obstacle_index[c] = CPS_NO_OBSTACLE;
     cpsi_start_place(def, line->position);
+    if (def->loads)
+        cpsi_line_loads_fill(line, scene, def, evolution->origin, evolution->current_row,
+                             evolution->flow ? &evolution->flow[def - scene->line] : NULL);
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
         if (def->end[end].kind == CPS_END_KIND_FREE) continue;

@@ -96,6 +96,7 @@ static Loads loads_of(CpsiBalance *balance) {
         cpsi_line_set_reference(line, &options);
         for (int j = 0; j < line->n; j++) add_load(&loads, vec3_at(line->load, j));
         if (line->has_field) note_stiffness(line, loads.stopped);
+        if (line->field.flow) loads.stopped[0] = loads.stopped[1] = loads.stopped[2] = true;
     }
     for (int k = 0; k < balance->count; k++) {
         double load[3];

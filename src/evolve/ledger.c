@@ -7,21 +7,23 @@
  * table of strain and tension sum l W(|e| - 1)),
  * gravity = - sum (weight of the node) . x, with the mean of the weights before and after where
  * gravity changes. The work of loads of nodes is what the energy of their field falls by, and a
- * given load times the displacement. The work of an end is the mean of its force before and after
- * times its displacement (trapezium rule), or the force after where the one before is not known.
- * Friction does work with the force at the end of the step, on the slip (dissipated) and on the
- * displacement of an obstacle that turns (obstacles); so does the part of an end's force that
- * balances the friction of its half element. The work of a winch is that of the pull on its drum,
- * likewise the mean of before and after, on the length hauled in; what it winds has its weight at
- * the place of the drum. So the imbalance of a step is of second order in its
- * size where nothing slides, and over a path it vanishes at first order with the steps; on a path
- * on which forces are linear in the displacements and nothing slides it is rounding. */
+ * given load, or the mean of a drag before and after, times the displacement. The work of an end is
+ * the mean of its force before and after times its displacement (trapezium rule), or the force
+ * after where the one before is not known. Friction does work with the force at the end of the
+ * step, on the slip (dissipated) and on the displacement of an obstacle that turns (obstacles); so
+ * does the part of an end's force that balances the friction of its half element. The work of a
+ * winch is that of the pull on its drum, likewise the mean of before and after, on the length
+ * hauled in; what it winds has its weight at the place of the drum. So the imbalance of a step is
+ * of second order in its size where nothing slides, and over a path it vanishes at first order with
+ * the steps; on a path on which forces are linear in the displacements and nothing slides it is
+ * rounding. */
 #include "evolve/ledger.h"
 
 #include <string.h>
 
 #include "cable/contact.h"
 #include "cable/field.h"
+#include "cable/flow.h"
 #include "cable/report.h"
 #include "cable/winch.h"
 
@@ -178,6 +180,7 @@ static double load_work(const CpsiLine *line) {
                    mean = vec3_scale(0.5, vec3_add(x, from));
         /* the energy is quadratic: its fall is the force half way times the displacement */
         work += vec3_dot(cpsi_node_field_at(&line->field, j, mean), vec3_sub(x, from));
+        if (line->field.flow) work += vec3_dot(cpsi_line_mean_drag(line, j), vec3_sub(x, from));
     }
     return work;
 }

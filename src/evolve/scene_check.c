@@ -11,6 +11,7 @@
 #include "cable/friction_set.h"
 #include "capstan/scene.h"
 #include "evolve/bodies.h"
+#include "evolve/loads.h"
 #include "evolve/names.h"
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
@@ -279,6 +280,7 @@ static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsEr
                             line->name, line->length);
     CpsStatus status = check_elements(line, err);
     if (status == CPS_OK) status = cpsi_sections_check(scene, line, err);
+    if (status == CPS_OK) status = cpsi_line_loads_check(line, cpsi_is_in_time(scene), err);
     return status ? status : check_zones(line, err);
 }
 
@@ -582,7 +584,8 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
                                 "lines: %lld elements or more together, the limit is %lld",
                                 (long long)elements, (long long)MAX_ELEMENTS);
     }
-    status = cpsi_bodies_check(scene, err);
+    status = cpsi_current_check(scene, err);
+    if (status == CPS_OK) status = cpsi_bodies_check(scene, err);
     if (status == CPS_OK) status = cpsi_points_check(scene, err);
     if (status != CPS_OK) return status;
     CpsiHeldScene held;

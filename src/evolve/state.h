@@ -53,6 +53,9 @@ struct CpsEvolution {
     double *angle;          /* (obstacle_count) [rad] by which each turns in the step */
     CpsiMove *move;         /* (line_count) the change of each line in the step */
     CpsiLine *line;         /* (line_count) */
+    CpsCurrentRow
+        *current_row; /* the scene's current, about the origin; and of each line, or NULL */
+    CpsiFlow *flow;
     CpsiPoints points;
     CpsiBodies bodies;
     CpsiEvolutionStage *stage; /* (stage_count) */

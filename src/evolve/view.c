@@ -95,6 +95,12 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .obstacle = from->has_local_axes ? from->obstacle_index : only,
         .origin = {evolution->origin[0], evolution->origin[1], evolution->origin[2]},
     };
+    view.has_springs = from->field.diagonal && !from->has_inertia;
+    view.node_stiffness = view.has_springs ? from->field.diagonal : fill->zero;
+    view.node_place = view.has_springs ? from->field.own_place : fill->zero;
+    view.node_beside = view.has_springs ? from->field.beside : fill->zero;
+    view.has_node_loads = from->has_node_loads;
+    view.node_load = view.has_node_loads ? from->field.all : fill->zero;
     view_elements(from, fill, &view);
     return view;
 }

@@ -49,6 +49,11 @@ static CpsStatus check_winch(const CpsLine *line, int end, CpsError *err) {
                             "line '%s': ends: a line with a winch has no start from nodes: use a "
                             "shape, or 'static'",
                             line->name);
+    if (line->loads)
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "line '%s': ends: a line with a winch has no springs, loads or drag: "
+                            "leave them out, or the winch",
+                            line->name);
     if (cpsi_has_break_at(line))
         return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                             "line '%s': ends: a line with a winch has no break_at: give it a "

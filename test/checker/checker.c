@@ -14,6 +14,7 @@
 #include "grasps.h"
 #include "groups.h"
 #include "inertia.h"
+#include "loads.h"
 #include "long_element.h"
 #include "measure.h"
 #include "motion.h"
@@ -122,8 +123,8 @@ static void check_unaccounted(Findings *findings, const Record *r, const Measure
     static const double MUCH = 0.05;
     const double *entry = r->ledger, made = -entry[LEDGER_IMBALANCE];
     double beside = r->dissipated + fmax(0, entry[LEDGER_ENDS]) + fmax(0, entry[LEDGER_OBSTACLES]) +
-                    fmax(0, r->winch_work) + fmax(0, -entry[LEDGER_ELASTIC]) +
-                    fmax(0, -entry[LEDGER_GRAVITY]);
+                    fmax(0, r->loads ? r->loads->ledger : 0) + fmax(0, r->winch_work) +
+                    fmax(0, -entry[LEDGER_ELASTIC]) + fmax(0, -entry[LEDGER_GRAVITY]);
     double least = fmax(MUCH * beside, m->gap + PLACE_TOLERANCE * m->largest_force * m->length +
                                            strain_energy_of_rounding(r, m));
     if (r->unaccounted != 0) same(findings, "unaccounted", r->unaccounted, made, 0);
@@ -140,9 +141,10 @@ static void check_unaccounted(Findings *findings, const Record *r, const Measure
 static void check_ledger(Findings *findings, const Record *r, const Measures *m,
                          double ends_carried, double floor) {
     const double *entry = r->ledger;
+    const double loads = r->loads ? r->loads->ledger : 0;
     double spent = entry[LEDGER_ELASTIC] + entry[LEDGER_GRAVITY] + r->dissipated +
-                   entry[LEDGER_IMBALANCE],
-           sizes = r->dissipated;
+                   entry[LEDGER_IMBALANCE] - loads,
+           sizes = r->dissipated + fabs(loads);
     for (int k = 0; k < LEDGER_ENTRIES; k++) sizes += fabs(entry[k]);
     sizes += fabs(r->winch_work);
     // entries are sums over the parts, which may cancel but for rounding
@@ -152,6 +154,7 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
             COPY_TOLERANCE * sizes + NOTHING);
     if (r->substeps > 1) return;
     check_unaccounted(findings, r, m);
+    if (r->loads) same(findings, "ledger_loads", loads, m->loads, floor);
     if (!r->winds) {
         same(findings, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
         same(findings, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
@@ -636,22 +639,6 @@ static void check_element_bound(const Record *r, const Record *before, size_t c,
              w, i, before->mu[c], R);
 }
 
-/* Rounding of the coefficient at node j on ground whose friction varies: that of its coordinates,
- * a few times, over the spacing of the points between which it changes. */
-static double ground_noise(const Source *source, const Record *r, size_t j, size_t k) {
-    const Surface *on = k < source->surfaces ? &source->surface[k] : NULL;
-    if (!on || !on->ground || !on->ground->factor) return 0;
-    double reach = 0;
-    for (int a = 0; a < 3; a++)
-        reach = fmax(reach, fabs(r->position[j][a]) + fabs((double)on->point[a]));
-    const Ground *g = on->ground;
-    for (size_t i = 0; i < g->columns; i++) reach = fmax(reach, fabs(g->x[i]));
-    for (size_t i = 0; i < g->rows; i++) reach = fmax(reach, fabs(g->y[i]));
-    const double zone = r->factor ? r->factor[j] : 1;
-    return zone * (double)surface_friction(on) * 8 * 0x1p-53 *
-           (ground_range_of_factors(g) * reach / (double)ground_spacing(g) + 2);
-}
-
 /* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step
  * before (frozen friction) or of the step itself (consistent friction), which is `before`. Frozen
  * friction takes nodes that carry less than 1e-3 of the largest load or reaction, or 1e-7 of the
@@ -694,7 +681,10 @@ static void check_bounds(const Source *source, const Record *r, const Record *be
         // one product and its rounding, and that of a mean over zones; a coefficient above 1 goes
         // with both
         double noise = r->factor_noise ? r->factor_noise[j] * R * fmax(1, r->mu[c]) : 0;
-        if (r->obstacle[c] >= 0) noise += ground_noise(source, r, j, (size_t)r->obstacle[c]) * R;
+        const Surface *on = r->obstacle[c] >= 0 ? &source->surface[(size_t)r->obstacle[c]] : NULL;
+        if (on && on->ground && on->ground->factor)
+            noise += (r->factor ? r->factor[j] : 1) * (double)surface_friction(on) * R *
+                     ground_factor_noise(on->ground, r->position[j], on->point);
         if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared)) {
             find(findings, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g",
                  w, j, r->mu[c], R);
@@ -767,28 +757,18 @@ static bool is_certified(int outcome) {
     return outcome != OUTCOME_STALLED && outcome != OUTCOME_LIMIT;
 }
 
-/* Where findings on points and bodies go. */
-typedef struct PointFindings {
+/* Where findings on points, bodies and releases of lines go. */
+typedef struct OtherFindings {
+    const char *of;
     FILE *log;
     CheckerReport *report;
-} PointFindings;
+} OtherFindings;
 
-static void find_at_point(void *user, const char *name, size_t step, const char *sentence) {
-    const PointFindings *findings = user;
+static void find_at(void *user, const char *name, size_t step, const char *sentence) {
+    const OtherFindings *findings = user;
     findings->report->refuted++;
-    if (findings->log) fprintf(findings->log, "step %zu point %s: %s\n", step, name, sentence);
-}
-
-static void find_at_body(void *user, const char *name, size_t step, const char *sentence) {
-    const PointFindings *findings = user;
-    findings->report->refuted++;
-    if (findings->log) fprintf(findings->log, "step %zu body %s: %s\n", step, name, sentence);
-}
-
-static void find_at_line(void *user, const char *name, size_t step, const char *sentence) {
-    const PointFindings *findings = user;
-    findings->report->refuted++;
-    if (findings->log) fprintf(findings->log, "step %zu line %s: %s\n", step, name, sentence);
+    if (findings->log)
+        fprintf(findings->log, "step %zu %s %s: %s\n", step, findings->of, name, sentence);
 }
 
 int checker_file(const char *path, CheckerReport *worst, FILE *log) {
@@ -800,10 +780,11 @@ int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     if (!bad && source.steps == 0 && log) fprintf(log, "%s holds no step\n", path);
     for (size_t i = 0; i < source.lines && !bad; i++)
         bad = check_line(&source, source.line_name[i], log, report);
-    PointFindings findings = {log, report};
-    if (!bad) bad = points_check(&source, is_certified, find_at_point, &findings, log);
-    if (!bad) bad = bodies_check(&source, is_certified, find_at_body, &findings, log);
-    if (!bad) bad = failures_check(&source, find_at_line, &findings, log);
+    OtherFindings point = {"point", log, report}, body = {"body", log, report},
+                  release = {"line", log, report};
+    if (!bad) bad = points_check(&source, is_certified, find_at, &point, log);
+    if (!bad) bad = bodies_check(&source, is_certified, find_at, &body, log);
+    if (!bad) bad = failures_check(&source, find_at, &release, log);
     source_close(&source);
     if (bad) report->refuted++;
     if (bad) return 2;

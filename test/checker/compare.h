@@ -45,6 +45,9 @@ void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s);
  * its ends are at. */
 void compare_line(Compare *compare, const CpsLine *line, const Record *r);
 
+/* Springs, given loads and drag, after a step. */
+void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, size_t step);
+
 /* [N] What the nodes weigh in the scene, (nodes), and the sum of the sizes of its terms; and [N/m]
  * all weights over the length, the unit of the file's weights. */
 void node_weights(const CpsLine *line, const Record *r, double *weight, double *sizes);

@@ -17,6 +17,7 @@
 
 #include "failure.h"
 #include "inertia.h"
+#include "loads.h"
 
 typedef Real Triple[3];
 
@@ -80,7 +81,7 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
     for (int i = 0; i < 3; i++)
         end.force[i] = (e ? 1 : -1) * (Real)r->segment_force[element][i] - r->load[j][i];
     Triple others = {0, 0, 0};
-    record_element_forces(r, j, others);
+    loads_add_others(r, j, others);
     inertia_add(r, j, others);
     for (int i = 0; i < 3; i++) end.force[i] -= others[i];
     if (none) return end;

@@ -16,6 +16,7 @@
 #include "failure.h"
 #include "given_bodies.h"
 #include "grasps.h"
+#include "loads.h"
 #include "record.h"
 #include "water.h"
 
@@ -229,6 +230,7 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
             if (!(fabs(r->weight_before[k] - weight * was[k]) <= COPIED * most))
                 find(compare, "weight_before of %s, step %zu, is %.17g, in the scene %.17g",
                      line->name, step, r->weight_before[k], weight * was[k]);
+    compare_node_loads(compare, line, r, step);
     double *own = calloc(2 * r->nodes, sizeof *own), *sizes = own + r->nodes;
     if (!own) {
         find(compare, "no memory for the weights of %s", line->name);
@@ -248,6 +250,10 @@ static void compare_loads(Compare *compare, const CpsLine *line, size_t step, co
             if (r->grasp_kind[i] == END_HELD || r->grasp_node[i] != j) continue;
             for (int k = 0; k < 3; k++) load[k] += r->grasp_load[i][k];
             noise += size(r->grasp_load[i]);
+        }
+        if (r->loads && r->loads->given) {
+            for (int k = 0; k < 3; k++) load[k] += r->loads->given[j][k];
+            noise += size(r->loads->given[j]);
         }
         for (int k = 0; k < 3; k++)
             if (!(fabs(r->load[j][k] - load[k]) <= COPIED * noise)) {

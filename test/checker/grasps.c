@@ -2,6 +2,8 @@
 /* Nodes that are held or pulled (grasps.h). */
 #include "grasps.h"
 
+#include "loads.h"
+
 #include <math.h>
 #include <netcdf.h>
 #include <string.h>
@@ -79,6 +81,8 @@ void node_load(const Record *r, size_t j, Real *load) {
     const size_t k = find(r, j);
     if (k < r->grasps && r->grasp_kind[k] == END_FREE)
         for (int a = 0; a < 3; a++) load[a] -= r->grasp_load[k][a];
+    if (r->loads && r->loads->given)
+        for (int a = 0; a < 3; a++) load[a] -= r->loads->given[j][a];
 }
 
 double grasps_force_error(const Record *r) {
@@ -86,7 +90,7 @@ double grasps_force_error(const Record *r) {
     for (size_t k = 0; k < r->grasps; k++) {
         const size_t j = r->grasp_node[k];
         Real others[3] = {0, 0, 0};
-        record_element_forces(r, j, others);
+        loads_add_others(r, j, others);
         inertia_add(r, j, others);
         for (int a = 0; a < 3; a++) {
             const Real balance = (Real)r->segment_force[j - 1][a] - r->segment_force[j][a] -

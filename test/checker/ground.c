@@ -183,3 +183,11 @@ Real ground_spacing(const Ground *g) {
     for (size_t j = 1; j < g->rows; j++) least = fminl(least, (Real)g->y[j] - g->y[j - 1]);
     return least;
 }
+
+double ground_factor_noise(const Ground *g, const double *position, const Real *point) {
+    double reach = 0;
+    for (int a = 0; a < 3; a++) reach = fmax(reach, fabs(position[a]) + fabs((double)point[a]));
+    for (size_t i = 0; i < g->columns; i++) reach = fmax(reach, fabs(g->x[i]));
+    for (size_t i = 0; i < g->rows; i++) reach = fmax(reach, fabs(g->y[i]));
+    return 8 * 0x1p-53 * (ground_range_of_factors(g) * reach / (double)ground_spacing(g) + 2);
+}

@@ -26,5 +26,8 @@ Real ground_factor(const Ground *ground, Real x, Real y);
 double ground_range_of_factors(const Ground *ground);
 /* [m] The smallest distance of two neighbouring points. */
 Real ground_spacing(const Ground *ground);
+/* Rounding of the factor at a position: that of its coordinates and of the ground's reference
+ * point, a few times, over the spacing of the points between which the factor changes. */
+double ground_factor_noise(const Ground *ground, const double *position, const Real *point);
 
 #endif

@@ -18,6 +18,7 @@
 
 #include "elongation.h"
 #include "grasps.h"
+#include "loads.h"
 #include "shape.h"
 
 #include "fall.h"
@@ -608,6 +609,18 @@ static void measure_inertia(const Record *r, size_t j, Real *pull, Measures *m, 
     raise_to(&m->largest_force, size(own.taken));
 }
 
+/* The springs of a node: their energy, the dual's, and the gap between. */
+static void measure_spring(const Spring *spring, const Real *arm, const Real *u, Sums *s) {
+    add(&s->primal, spring->energy);
+    add(&s->dual, spring->dual);
+    add(&s->signed_gap, spring->gap);
+    add(&s->gap, spring->gap);
+    add(&s->work, fabsl(dot(spring->force, u)));
+    add(&s->moment, size(spring->force) * size(arm));
+    add(&s->loads, size(spring->force));
+    add(&s->magnitude, spring->energy + fabsl(spring->dual));
+}
+
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
@@ -629,7 +642,10 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     raise_to(&m->largest_force, size(b));
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
         measure_contact(where, r, j, c, pull, m, s);
-    record_element_forces(r, j, pull);
+    loads_add_others(r, j, pull);
+    const Spring spring = loads_spring(r, j);
+    measure_spring(&spring, arm, u, s);
+    raise_to(&m->largest_force, size(spring.force));
     measure_inertia(r, j, pull, m, s);
 
     // a held node: the dual pairs the force of the support with the imposed position; a free one
@@ -748,6 +764,7 @@ Measures measure(const Source *source, const Record *r, Sight sight) {
     m.contact = (double)total(&s.contact);
     m.elastic = (double)total(&s.elastic);
     m.gravity = (double)total(&s.gravity);
+    m.loads = (double)loads_work(r);
     m.carried = (double)total(&s.carried);
     m.bound_residual = (double)total(&s.bound_residual);
     m.tension_least = -m.tension_least;

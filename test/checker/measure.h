@@ -28,6 +28,7 @@ typedef struct Measures {
     double largest_force;    /* [N] */
     double elastic, gravity; /* [J] growth of the energy of elongation and of the weight's potential
                                 from the reference */
+    double loads;            /* [J] work of springs, given loads and drag */
     double carried;          /* [J] work of friction on the path of obstacles that turn or move */
     double pushed;           /* [J] work of the reactions on that; not found here (places.h) */
     double bound_residual;   /* [N] sum of |w - mu R| */

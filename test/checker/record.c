@@ -7,6 +7,7 @@
 #include "failure.h"
 #include "grasps.h"
 #include "inertia.h"
+#include "loads.h"
 #include "places.h"
 #include "shape.h"
 #include "winches.h"
@@ -526,13 +527,13 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (read_static(source, line, "element_length", record->elements, record->element_length, log))
         return -1;
     if (read_static(source, line, "compliance", 0, &record->compliance, log)) return -1;
-    if (read_sections(source, line, record, log)) return -1;
-    if (elongation_read(source, line, record, log)) return -1;
-    if (read_end_points(source, line, record, log)) return -1;
-    if (failure_create(source, line, record, log)) return -1;
-    if (inertia_create(source, line, record, log)) return -1;
-    return read_zones(source, line, record, log) || winches_create(source, line, record, log) ? -1
-                                                                                              : 0;
+    static int (*const CREATE[])(const Source *, const char *, Record *,
+                                 FILE *) = {read_sections,  elongation_read, read_end_points,
+                                            failure_create, inertia_create,  loads_create,
+                                            read_zones,     winches_create};
+    for (size_t k = 0; k < sizeof CREATE / sizeof *CREATE; k++)
+        if (CREATE[k](source, line, record, log)) return -1;
+    return 0;
 }
 
 void record_destroy(Record *record) {
@@ -549,6 +550,7 @@ void record_destroy(Record *record) {
     free(record->break_at);
     elongation_free(record);
     inertia_free(record);
+    loads_free(record);
     free(record->gap);
     free(record->friction_bound);
     free(record->reaction);
@@ -562,17 +564,6 @@ void record_destroy(Record *record) {
     free(record->factor);
     free(record->factor_noise);
     *record = (Record){0};
-}
-
-void record_element_forces(const Record *r, size_t j, Real *sum) {
-    if (r->has_elements)
-        for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < r->elements; i++) {
-            const size_t c = r->contacts * r->nodes + i;
-            const Real part = i == j ? 1 - (Real)r->share_of[i] : r->share_of[i];
-            if (r->obstacle[c] >= 0)
-                for (int k = 0; k < 3; k++)
-                    sum[k] += part * (r->friction[c][k] + (Real)r->reaction[c] * r->normal[c][k]);
-        }
 }
 
 /* numbers that stand alone in a step */
@@ -746,6 +737,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= read_weight_before(source, line, step, record, log);
     bad |= grasps_read(source, line, step, record, log);
     bad |= failure_read(source, line, step, record, log);
+    bad |= loads_read(source, line, step, record, log);
     bad |= elongation_read_step(source, line, step, record, log);
     bad |= inertia_read(source, line, step, record, log);
     if (bad || read_scalars(source, line, step, record, log)) return -1;

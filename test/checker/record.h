@@ -139,6 +139,7 @@ typedef struct Record {
     int proof_obstacle, proof_plane; /* -1: none, or the file does not say */
     double proof_length, proof_force, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES],
         unaccounted;
+    struct Loads *loads; /* (loads.h) beside the weight; NULL: there are none */
 } Record;
 
 /* A point where lines meet, after a step; forces are on the point. */
@@ -182,9 +183,6 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
 
 /* All points of the source after a step, (points). */
 int junctions_read(const Source *source, size_t step, Junction *all, FILE *log);
-
-/* Add what the contacts of its elements do on node j: reaction and friction by their shares. */
-void record_element_forces(const Record *record, size_t j, Real *sum);
 
 /* Both accept a zeroed struct. */
 void source_close(Source *source);

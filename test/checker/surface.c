@@ -342,3 +342,18 @@ Real surface_gap(const Surface *s, Real w, const Real F[2], const Real slip[2], 
     for (int a = 0; a < 2; a++) gap += disc_gap(w, (Real[2]){f[a], 0}, (Real[2]){u[a], 0});
     return gap;
 }
+
+/* By how much a disc that contains the forces of a box is larger than its longer half-axis. */
+Real surface_disc_factor(const Surface *on) {
+    const Real most = fmaxl(on->mu[0], on->mu[1]);
+    return on->box && most > 0 ? hypotl(on->mu[0], on->mu[1]) / most : 1;
+}
+
+/* The part of v in the surface's tangent plane; returns its part along the normal. */
+Real surface_split(const Surface *on, const Real *v, Real *across) {
+    Real n[3];
+    surface_normal(on, v, n);
+    const Real rise = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
+    for (int a = 0; a < 3; a++) across[a] = v[a] - rise * n[a];
+    return rise;
+}

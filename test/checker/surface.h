@@ -97,4 +97,9 @@ bool surface_follows(const Surface *surface);
 Real surface_excess(const Surface *surface, Real w, const Real F[2]);
 Real surface_gap(const Surface *surface, Real w, const Real F[2], const Real s[2], Real *phi);
 
+/* By how much a disc that contains the forces of a box is larger than its longer half-axis. */
+Real surface_disc_factor(const Surface *on);
+/* The part of v in the surface's tangent plane; returns its part along the normal. */
+Real surface_split(const Surface *on, const Real *v, Real *across);
+
 #endif

@@ -37,6 +37,10 @@ static const char SCENE[] =
     "  made: {sections: [{type: hawser, length: 4, elements: 2}, {type: wire, length: 6,"
     " element_length: 1.5}], point_weights: [{at: 2, mass: 5, volume: 0.003}, {at: 4, weight: 3}],"
     " start: {straight: {from: [0, 200, 0], to: [0, 210, 0]}}, ends: {A: held, B: free}}\n"
+    "  tied: {length: 10, elements: 4, mass: 2, stiffness: 1000, springs:"
+    " [{from: 2, to: 5, stiffness: [1, 2, 3]}, {at: 7, stiffness: [1, 1, 0], place: [7, 1, 0]}],"
+    " loads: [{force: [0, 0, 1], to: 6}], drag: {diameter: 0.1, normal: 1.2, tangential: 0.3},"
+    " start: {straight: {from: [0, 600, 0], to: [10, 600, 0]}}, ends: {A: held, B: free}}\n"
     "  wet: {length: 3, elements: 3, mass: 4, diameter: 0.04, stiffness: 2000, breaking_load: 80,"
     " break_at: 90000,"
     " start: {straight: {from: [0, 300, 0], to: [3, 300, 0]}}, ends: {A: held, B: free}}\n"
@@ -52,6 +56,7 @@ static const char SCENE[] =
     " friction: 0.5}, rope: {weight: 2, stiffness: {strain: [0, 0.1, 0.2], tension: [0, 90, "
     "400]}}}\n"
     "water_density: 900\n"
+    "current: [{z: -5, velocity: [0.5, 0, 0]}, {z: 5, velocity: [1, 0.5, 0]}]\n"
     "friction_policy: consistent\n"
     "contact_policy: reached\n"
     "solver: {tolerance: 1e-8, max_iterations: 60, path_tolerance: 0.1, halvings: 3,"
@@ -225,6 +230,21 @@ static const struct Change {
     {"volume", "volume: 0.003", "volume: 0.004"},
     {"diameter", "mass: 4, diameter: 0.04", "mass: 4, diameter: 0.03"},
     {"friction_zones", "[{from: 2, to: 5, factor: 2}]", "[]"},
+    {"springs", ", {at: 7, stiffness: [1, 1, 0], place: [7, 1, 0]}", ""},
+    {"at", "{at: 7, stiffness", "{at: 2, stiffness"},
+    {"stiffness", "stiffness: [1, 2, 3]", "stiffness: [1, 2, 4]"},
+    {"place", "place: [7, 1, 0]", "place: [7, 2, 0]"},
+    {"from", "{from: 2, to: 5, stiffness", "{from: 1, to: 5, stiffness"},
+    {"to", "to: 5, stiffness", "to: 6, stiffness"},
+    {"loads", "loads: [{force: [0, 0, 1], to: 6}]", "loads: []"},
+    {"force", "{force: [0, 0, 1], to", "{force: [0, 0, 2], to"},
+    {"drag", "drag: {diameter: 0.1", "drag: {diameter: 0.2"},
+    {"diameter", "drag: {diameter: 0.1", "drag: {diameter: 0.3"},
+    {"normal", "normal: 1.2", "normal: 1.3"},
+    {"tangential", "tangential: 0.3", "tangential: 0.4"},
+    {"current", "[1, 0.5, 0]}]", "[1, 0.6, 0]}]"},
+    {"z", "{z: -5, velocity", "{z: -4, velocity"},
+    {"velocity", "velocity: [0.5, 0, 0]", "velocity: [0.4, 0, 0]"},
     {"from", "{from: 2, to", "{from: 0.2, to"},
     {"to", "to: 5, factor", "to: 9, factor"},
     {"factor", "factor: 2", "factor: 2.5"},

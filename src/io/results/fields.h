@@ -7,6 +7,8 @@
 
 typedef enum CpsiPlace {
     CPSI_PLACE_NODE,
+    CPSI_PLACE_SPRING, /* of nodes, where the line has springs; where it has loads */
+    CPSI_PLACE_LOAD,
     CPSI_PLACE_ELEMENT,
     CPSI_PLACE_ELEMENT_CONTACT /* of elements, where their contacts are looked for */
 } CpsiPlace;
@@ -21,7 +23,7 @@ typedef struct CpsiField {
     size_t offset; /* offset of a const double * in CpsLineView */
 } CpsiField;
 
-enum { CPSI_FIELDS = 21 };
+enum { CPSI_FIELDS = 25 };
 extern const CpsiField cpsi_field[CPSI_FIELDS];
 
 /* The selected fields: a bit for each field, and these two for arrays that do not contain

@@ -9,6 +9,7 @@
 
 #include "io/base/file/read_file.h"
 #include "io/read/law/set_build.h"
+#include "io/read/scene/parts/load_build.h"
 #include "io/read/scene/parts/node_file.h"
 #include "io/read/scene/parts/section_build.h"
 #include "io/read/shapes/ground/ground_build.h"
@@ -344,6 +345,7 @@ static CpsStatus build_line(Build *b, const CpsiLineValues *values, CpsLine *lin
         status = cpsi_sections_build(&b->materials, values, line);
     if (status == CPS_OK)
         status = cpsi_point_weights_build(&b->materials, &values->point_weights, line);
+    if (status == CPS_OK) status = cpsi_loads_build(&b->materials, values, line);
     if (status == CPS_OK)
         status = values->start.nodes ? build_nodes(b, values, line)
                                      : build_start(b, &values->start, &line->start);
@@ -427,6 +429,7 @@ CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values,
     if (scene->title) scene->title = copy_text(&b, scene->title);
     if (values->scene.title && !scene->title) return cpsi_document_no_memory(d);
     CpsStatus status = cpsi_materials_sort(&b.materials, &values->types);
+    if (status == CPS_OK) status = cpsi_current_build(&b.materials, &values->current, scene);
     if (status == CPS_OK) status = build_obstacles(&b, &values->obstacles);
     if (status == CPS_OK)
         status = cpsi_bodies_build(&b.materials, &values->bodies, scene, &b.held.body);

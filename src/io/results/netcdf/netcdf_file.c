@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 void cpsi_netcdf_keep(CpsiNetcdfFile *file, int status) {
     if (file->status == NC_NOERR) file->status = status;
@@ -73,4 +74,17 @@ void cpsi_netcdf_bytes(CpsiNetcdfFile *file, int variable, const size_t *start, 
 
 void cpsi_netcdf_int(CpsiNetcdfFile *file, int variable, const size_t *start, int value) {
     CALL(file, put_var1_int, variable, start, &value);
+}
+
+/* When the file was begun and by what, as CF wants the first line of a file's history. Where the
+ * clock cannot be read, or shows no year, by what alone. */
+void cpsi_netcdf_history(CpsiNetcdfFile *file, const char *source) {
+    char history[96];
+    struct timespec now;
+    struct tm utc;
+    size_t length = 0;
+    if (timespec_get(&now, TIME_UTC) == TIME_UTC && gmtime_r(&now.tv_sec, &utc))
+        length = strftime(history, sizeof history, "%Y-%m-%dT%H:%M:%SZ: ", &utc);
+    snprintf(history + length, sizeof history - length, "written by %s", source);
+    cpsi_netcdf_text(file, NC_GLOBAL, "history", history);
 }

@@ -31,6 +31,9 @@ void cpsi_netcdf_flags(CpsiNetcdfFile *file, int variable, nc_type type, size_t 
 /* Doubles that may be missing: they are NaN then, the _FillValue of the variable. */
 void cpsi_netcdf_may_miss(CpsiNetcdfFile *file, int variable);
 
+/* The first line of the file's history: when it was begun, and by what. */
+void cpsi_netcdf_history(CpsiNetcdfFile *file, const char *source);
+
 /* Values. */
 void cpsi_netcdf_doubles(CpsiNetcdfFile *file, int variable, const size_t *start,
                          const size_t *count, const double *value);

@@ -405,3 +405,25 @@ void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles
     write_sets(file, obstacles);
     if (obstacles->ground) write_ground(file, obstacles->ground, scene);
 }
+
+void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, double origin_z) {
+    const CpsCurrent *current = scene->current;
+    if (!current) return;
+    double *rows = malloc(4 * (size_t)current->row_count * sizeof *rows);
+    if (!rows) cpsi_netcdf_keep(file, NC_ENOMEM);
+    for (int k = 0; rows && k < current->row_count; ++k) {
+        rows[4 * k] = current->row[k].z - origin_z;
+        memcpy(&rows[4 * k + 1], current->row[k].velocity, 3 * sizeof *rows);
+    }
+    cpsi_netcdf_numbers(file, "water_density", 1, &current->density);
+    if (rows) cpsi_netcdf_numbers(file, "current", 4 * (size_t)current->row_count, rows);
+    free(rows);
+    for (int i = 0; i < scene->line_count; ++i) {
+        const CpsLineLoads *loads = scene->line[i].loads;
+        if (!loads || !(loads->drag.diameter > 0)) continue;
+        const double given[] = {loads->drag.diameter, loads->drag.normal, loads->drag.tangential};
+        char name[NC_MAX_NAME + 1];
+        snprintf(name, sizeof name, "%.200s_drag", scene->line[i].name);
+        cpsi_netcdf_numbers(file, name, 3, given);
+    }
+}

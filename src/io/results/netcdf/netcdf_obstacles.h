@@ -163,4 +163,8 @@ void cpsi_netcdf_define_winches(CpsiNetcdfFile *file, CpsiNetcdfWinches *ids, co
 void cpsi_netcdf_append_winches(CpsiNetcdfFile *file, const CpsiNetcdfWinches *ids, size_t step,
                                 const CpsEvolution *evolution, int line);
 
+/* The current as attributes: the density, z and velocity of row after row; and the drag of lines.
+ */
+void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, double origin_z);
+
 #endif

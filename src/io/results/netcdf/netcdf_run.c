@@ -106,6 +106,13 @@ static const Number ZONE[] = {
      CPSI_MEMBER(CpsFrictionZone, factor)},
 };
 
+/* Of lines with springs or loads. */
+static const Number LOAD[] = {
+    {"ledger_loads", "work of springs, given loads and drag", "J", REPORT(ledger.loads)},
+    {"load_residual", "sum over the nodes of the drag used less the drag where they are, in size",
+     "N", CERTIFICATE(load_residual)},
+};
+
 /* Numbers of CpsTensionRange, of each end. */
 static const Number RANGE[] = {
     {"end_tension_least",
@@ -123,6 +130,7 @@ enum {
     RANGES = sizeof RANGE / sizeof RANGE[0],
     FIELDS = CPSI_FIELDS,
     NUMBERS = sizeof NUMBER / sizeof NUMBER[0],
+    LOADS = sizeof LOAD / sizeof LOAD[0],
     ZONES = sizeof ZONE / sizeof ZONE[0]
 };
 
@@ -136,6 +144,7 @@ typedef struct LineIds {
     int element_obstacle, element_state; /* the same */
     int number[NUMBERS];
     int zone[ZONES];                                     /* unused without zones */
+    int load[LOADS];                                     /* unused without loads */
     int compliance_factor, weight_length;                /* unused where the line is uniform */
     int spring_element, spring_strain, spring_stiffness; /* unused where there is none */
     int breaking_load;                                   /* the same */
@@ -184,19 +193,6 @@ static int add_outcome(CpsiNetcdf *nc, const char *prefix) {
     return id;
 }
 
-/* When the file was begun and by what, as CF wants the first line of a file's history. Where the
- * clock cannot be read, or shows no year, by what alone. */
-static void add_history(CpsiNetcdf *nc, const char *source) {
-    char history[96];
-    struct timespec now;
-    struct tm utc;
-    size_t length = 0;
-    if (timespec_get(&now, TIME_UTC) == TIME_UTC && gmtime_r(&now.tv_sec, &utc))
-        length = strftime(history, sizeof history, "%Y-%m-%dT%H:%M:%SZ: ", &utc);
-    snprintf(history + length, sizeof history - length, "written by %s", source);
-    cpsi_netcdf_text(&nc->file, NC_GLOBAL, "history", history);
-}
-
 static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origin[XYZ],
                        const char *names) {
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "Conventions", "CF-1.8");
@@ -204,7 +200,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     char source[64];
     snprintf(source, sizeof source, "capstan %s", cps_version());
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "source", source);
-    add_history(nc, source);
+    cpsi_netcdf_history(&nc->file, source);
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "lines", names);
     cpsi_netcdf_text(&nc->file, NC_GLOBAL, "friction_policy",
                      scene->friction_policy == CPS_FRICTION_POLICY_CONSISTENT ? "consistent"
@@ -256,8 +252,15 @@ static const double *in_view(const CpsLineView *view, const CpsiField *field) {
     return array;
 }
 
-/* Contacts of elements are written only where they are looked for. */
+static bool is_of_nodes(const CpsiField *field) {
+    return field->place == CPSI_PLACE_NODE || field->place == CPSI_PLACE_SPRING ||
+           field->place == CPSI_PLACE_LOAD;
+}
+
+/* Contacts of elements, and what acts on nodes, are written only where there are any. */
 static bool has_field(const CpsLineView *view, const CpsiField *field) {
+    if (field->place == CPSI_PLACE_SPRING) return view->has_springs;
+    if (field->place == CPSI_PLACE_LOAD) return view->has_node_loads;
     return field->place != CPSI_PLACE_ELEMENT_CONTACT || view->has_element_contacts;
 }
 
@@ -265,7 +268,7 @@ static void define_field(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view, 
     const CpsiField *field = &cpsi_field[f];
     const char *line = view->name;
     if (!is_wanted(nc, f) || !has_field(view, field)) return;
-    const int along = field->place == CPSI_PLACE_NODE ? ids->node : ids->element;
+    const int along = is_of_nodes(field) ? ids->node : ids->element;
     const int shape[] = {nc->step, along, nc->xyz};
     const int rank = 1 + !field->fixed + field->vector;
     for (int c = 0; c < (field->contact ? ids->contacts : 1); ++c)
@@ -282,6 +285,15 @@ static void define_zones(CpsiNetcdf *nc, LineIds *ids, const CpsLine *line) {
     for (int i = 0; i < ZONES; ++i)
         ids->zone[i] = cpsi_netcdf_variable(&nc->file, line->name, ZONE[i].name, NC_DOUBLE, 1,
                                             &zone, ZONE[i].long_name, ZONE[i].units);
+}
+
+static bool has_loads(const CpsLineView *view) { return view->has_springs || view->has_node_loads; }
+
+static void define_loads(CpsiNetcdf *nc, LineIds *ids, const CpsLineView *view) {
+    if (!has_loads(view)) return;
+    for (int i = 0; i < LOADS; ++i)
+        ids->load[i] = cpsi_netcdf_variable(&nc->file, view->name, LOAD[i].name, NC_DOUBLE, 1,
+                                            &nc->step, LOAD[i].long_name, LOAD[i].units);
 }
 
 /* The view of a line whose elements are those of its static stiffness: what is written once. */
@@ -498,7 +510,7 @@ static void write_fields(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *
     for (int f = 0; f < FIELDS; ++f) {
         const CpsiField *field = &cpsi_field[f];
         if (field->fixed != fixed || !is_wanted(nc, f) || !has_field(view, field)) continue;
-        const size_t along = (size_t)view->element_count + (field->place == CPSI_PLACE_NODE);
+        const size_t along = (size_t)view->element_count + is_of_nodes(field);
         const size_t start[] = {nc->steps, 0, 0}, count[] = {1, along, XYZ};
         const double *array = in_view(view, field);
         if (ids->winches.is_there && array == view->element_length)
@@ -571,6 +583,10 @@ static void write_line(CpsiNetcdf *nc, const LineIds *ids, const CpsLineView *vi
         const double number = cpsi_member(report, NUMBER[i].member);
         cpsi_netcdf_doubles(&nc->file, ids->number[i], start, ONE, &number);
     }
+    for (int i = 0; i < LOADS && has_loads(view); ++i) {
+        const double number = cpsi_member(report, LOAD[i].member);
+        cpsi_netcdf_doubles(&nc->file, ids->load[i], start, ONE, &number);
+    }
 }
 
 static void write_end_points(CpsiNetcdf *nc, const LineIds *ids, const CpsLine *line) {
@@ -635,6 +651,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         cpsi_netcdf_keep(&nc->file, nc->file.library.set_fill(nc->file.id, NC_NOFILL, &before));
     const CpsLineView first = cps_evolution_line_view(evolution, 0);
     if (nc->open) define_run(nc, scene, first.origin, names);
+    if (nc->open) cpsi_netcdf_define_current(&nc->file, scene, first.origin[2]);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = constant_view(evolution, i);
         const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);
@@ -642,6 +659,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         define_line(nc, &nc->line[i], &view);
         define_two_stiffnesses(nc, &nc->line[i], view.name, &two);
         define_zones(nc, &nc->line[i], &scene->line[i]);
+        define_loads(nc, &nc->line[i], &view);
         define_end_points(nc, &nc->line[i], &scene->line[i]);
         cpsi_netcdf_define_grasps(&nc->file, &nc->line[i].grasps, scene, i, nc->step, nc->xyz);
         cpsi_netcdf_define_winches(&nc->file, &nc->line[i].winches, &scene->line[i],

@@ -190,6 +190,7 @@ static void write_ledger(FILE *out, const CpsStepReport *report, bool winds) {
     write_number(out, "ends", ledger->ends, ", ");
     write_number(out, "obstacles", ledger->obstacles, ", ");
     if (winds) write_number(out, "winches", ledger->winches, ", ");
+    if (ledger->loads != 0) write_number(out, "loads", ledger->loads, ", ");
     write_number(out, "elastic", ledger->elastic, ", ");
     write_number(out, "gravity", ledger->gravity, ", ");
     write_number(out, "dissipated", ledger->dissipated, ", ");

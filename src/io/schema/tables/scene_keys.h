@@ -13,6 +13,7 @@ typedef struct CpsiSceneValues {
     CpsScene scene;     /* without its lists */
     double water;       /* [kg/m3] 0: in air */
     CpsiList types;     /* CpsiTypeValues */
+    CpsiList current;   /* CpsiCurrentValues */
     CpsiList obstacles; /* CpsiObstacleValues */
     CpsiList bodies;    /* CpsiSceneBodyValues */
     CpsiList points;    /* CpsiScenePointValues */
@@ -78,6 +79,29 @@ typedef struct CpsiZoneValues {
     const CpsiYaml *node;
     CpsFrictionZone zone;
 } CpsiZoneValues;
+
+typedef struct CpsiSpringValues {
+    const CpsiYaml *node;
+    double at, from, to; /* NaN: not given */
+    double stiffness[3];
+    double place[3]; /* NaN: not given */
+} CpsiSpringValues;
+
+typedef struct CpsiForceValues {
+    const CpsiYaml *node;
+    double from, to; /* NaN: not given */
+    double force[3];
+} CpsiForceValues;
+
+typedef struct CpsiDragValues {
+    const CpsiYaml *node; /* NULL: none */
+    CpsDrag drag;
+} CpsiDragValues;
+
+typedef struct CpsiCurrentValues {
+    const CpsiYaml *node;
+    CpsCurrentRow row;
+} CpsiCurrentValues;
 
 /* A table of strains and tensions. */
 typedef struct CpsiStiffnessValues {
@@ -175,7 +199,9 @@ typedef struct CpsiLineValues {
     const CpsiYaml *elements; /* a list of them */
     double element_length;    /* NaN: not given */
     CpsiGradeValues grade;
-    CpsiList zones; /* CpsiZoneValues */
+    CpsiList zones;          /* CpsiZoneValues */
+    CpsiList springs, loads; /* CpsiSpringValues, CpsiForceValues */
+    CpsiDragValues drag;
     CpsiStartValues start;
     CpsiEndValues end[2];
 } CpsiLineValues;

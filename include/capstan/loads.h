@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* capstan/loads.h: what acts on a line beside its weight and what it touches: springs to the
+ * ground, given forces, and the drag of a current on a line at rest.
+ *
+ *     CpsSpring bed = {.from = 0, .to = 40, .stiffness = {200, 200, 0}, .at_start = true};
+ *     CpsLineLoads loads = {.spring_count = 1, .spring = &bed};
+ *     line.loads = &loads;
+ *
+ * These are plain structs like those of scene.h, as whose part they are given. */
+#ifndef CAPSTAN_LOADS_H
+#define CAPSTAN_LOADS_H
+
+#include <stdbool.h>
+
+#include "capstan/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Springs from a piece of a line to the ground: the energy (x - a)'K (x - a)/2 per metre of line, K
+ * diagonal, a the place of the spring. */
+typedef struct CpsSpring {
+    double from, to;     /* [m] unstretched length from end A, 0 <= from <= to <= length */
+    double stiffness[3]; /* [N/m2] >= 0, per metre of line, along x, y and z; where from = to [N/m]
+                            of one spring at the node nearest to it */
+    bool at_start;       /* a is where each node is at the start, which must be a shape; else */
+    double place[3];     /* [m] a, the same for all: a field towards a place */
+} CpsSpring;
+
+/* A force that does not depend on the place. */
+typedef struct CpsLineForce {
+    double from, to; /* [m] as of a spring, from < to */
+    double force[3]; /* [N/m] per metre of unstretched line */
+} CpsLineForce;
+
+/* The drag of a current on a line at rest, per metre of unstretched line (Morison):
+ *
+ *     (rho/2) d (normal |u_n| u_n + pi tangential |u_t| u_t),
+ *
+ * u_n and u_t the velocity of the water across and along the line where the line comes to be. */
+typedef struct CpsDrag {
+    double diameter;           /* [m] >= 0, default 0: no drag */
+    double normal, tangential; /* [-] >= 0 */
+} CpsDrag;
+
+/* Of a line; all is 0 in a struct that is initialised so. */
+typedef struct CpsLineLoads {
+    int spring_count;
+    const CpsSpring *spring; /* (spring_count) they add up where they overlap */
+    int force_count;
+    const CpsLineForce *force; /* (force_count) the same */
+    CpsDrag drag;
+} CpsLineLoads;
+
+typedef struct CpsCurrentRow {
+    double z;           /* [m] height */
+    double velocity[3]; /* [m/s] of the water there */
+} CpsCurrentRow;
+
+/* A steady current. Between rows it is interpolated, below the first and above the last one it is
+ * as there. */
+typedef struct CpsCurrent {
+    double density;           /* [kg/m3] > 0 of the water */
+    int row_count;            /* >= 1 */
+    const CpsCurrentRow *row; /* (row_count) with z that rises from row to row */
+} CpsCurrent;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Springs, forces and drag (loads.h). A node has the springs and forces of the length that it
+ * stands for, half of the elements beside it, so that their sums are the integrals. */
+#include "evolve/loads.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "cable/field.h"
+#include "cable/flow.h"
+#include "evolve/ranges.h"
+
+bool cpsi_has_springs(const CpsLine *line) { return line->loads && line->loads->spring_count > 0; }
+bool cpsi_has_forces(const CpsLine *line) { return line->loads && line->loads->force_count > 0; }
+bool cpsi_has_drag(const CpsScene *scene, const CpsLine *line) {
+    return scene->current && line->loads && line->loads->drag.diameter > 0;
+}
+
+/* check ---------------------------------------------------------------------------------------- */
+
+static CpsStatus check_spring(const CpsLine *line, int k, CpsError *err) {
+    const CpsSpring *spring = &line->loads->spring[k];
+    char place[32];
+    snprintf(place, sizeof place, "springs[%d]", k + 1);
+    if (!(spring->from >= 0 && spring->from <= spring->to && spring->to <= line->length))
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "line '%s': springs: number %d goes from %g m to %g m, expected a "
+                            "piece of the line's length %g m",
+                            line->name, k + 1, spring->from, spring->to, line->length);
+    for (int a = 0; a < 3; a++)
+        if (!cpsi_is_not_negative(spring->stiffness[a]))
+            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                                "line '%s': springs: number %d has the stiffness %g along %c, "
+                                "expected a finite number >= 0",
+                                line->name, k + 1, spring->stiffness[a], "xyz"[a]);
+    if (!spring->at_start && !cpsi_are_usable(spring->place))
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "line '%s': springs: number %d is at (%g, %g, %g) m, expected finite "
+                            "numbers",
+                            line->name, k + 1, spring->place[0], spring->place[1],
+                            spring->place[2]);
+    if (spring->at_start && line->start.kind == CPS_START_STATIC)
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "line '%s': springs: number %d is where the line starts, but the start "
+                            "is static: give the spring a place, or the line a shape to start from",
+                            line->name, k + 1);
+    return CPS_OK;
+}
+
+static CpsStatus check_force(const CpsLine *line, int k, CpsError *err) {
+    const CpsLineForce *force = &line->loads->force[k];
+    char place[32];
+    snprintf(place, sizeof place, "loads[%d]", k + 1);
+    if (!(force->from >= 0 && force->from < force->to && force->to <= line->length))
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "line '%s': loads: number %d goes from %g m to %g m, expected a piece "
+                            "of the line's length %g m",
+                            line->name, k + 1, force->from, force->to, line->length);
+    if (!cpsi_are_usable(force->force))
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "line '%s': loads: number %d has the force (%g, %g, %g) N/m, expected "
+                            "finite numbers",
+                            line->name, k + 1, force->force[0], force->force[1], force->force[2]);
+    return CPS_OK;
+}
+
+CpsStatus cpsi_line_loads_check(const CpsLine *line, bool in_time, CpsError *err) {
+    const CpsLineLoads *loads = line->loads;
+    CpsStatus status = CPS_OK;
+    if (!loads) return CPS_OK;
+    if (in_time)
+        return CPSI_FAIL_AT(loads->spring_count > 0  ? "springs"
+                            : loads->force_count > 0 ? "loads"
+                                                     : "drag",
+                            err, CPS_ERR_ARGUMENT,
+                            "line '%s': springs, loads and drag are those of lines at rest: leave "
+                            "them out, or the motion in time",
+                            line->name);
+    if (loads->spring_count < 0 || (loads->spring_count > 0 && !loads->spring))
+        return CPSI_FAIL_AT("springs", err, CPS_ERR_ARGUMENT,
+                            "line '%s': springs: found %d, expected 0 or more", line->name,
+                            loads->spring ? loads->spring_count : 0);
+    if (loads->force_count < 0 || (loads->force_count > 0 && !loads->force))
+        return CPSI_FAIL_AT("loads", err, CPS_ERR_ARGUMENT,
+                            "line '%s': loads: found %d, expected 0 or more", line->name,
+                            loads->force ? loads->force_count : 0);
+    for (int k = 0; k < loads->spring_count && status == CPS_OK; k++)
+        status = check_spring(line, k, err);
+    for (int k = 0; k < loads->force_count && status == CPS_OK; k++)
+        status = check_force(line, k, err);
+    const CpsDrag *drag = &loads->drag;
+    if (status == CPS_OK &&
+        !(cpsi_is_not_negative(drag->diameter) && cpsi_is_not_negative(drag->normal) &&
+          cpsi_is_not_negative(drag->tangential)))
+        return CPSI_FAIL_AT("drag", err, CPS_ERR_ARGUMENT,
+                            "line '%s': drag: diameter %g m, normal %g, tangential %g, expected "
+                            "finite numbers >= 0",
+                            line->name, drag->diameter, drag->normal, drag->tangential);
+    return status;
+}
+
+CpsStatus cpsi_current_check(const CpsScene *scene, CpsError *err) {
+    const CpsCurrent *current = scene->current;
+    if (!current) return CPS_OK;
+    if (!cpsi_is_positive(current->density))
+        return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
+                            "current: the water's density is %g kg/m3, expected a positive finite "
+                            "number: give water_density",
+                            current->density);
+    if (current->row_count < 1 || !current->row)
+        return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
+                            "current: found no rows, expected one or more");
+    for (int k = 0; k < current->row_count; k++) {
+        const CpsCurrentRow *row = &current->row[k];
+        char place[32];
+        snprintf(place, sizeof place, "current[%d]", k + 1);
+        const double z[3] = {row->z, 0, 0};
+        if (!cpsi_are_usable(z) || !cpsi_are_usable(row->velocity))
+            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                                "current: row %d has z = %g m and the velocity (%g, %g, %g) m/s, "
+                                "expected finite numbers",
+                                k + 1, row->z, row->velocity[0], row->velocity[1],
+                                row->velocity[2]);
+        if (k > 0 && !(row->z > row[-1].z))
+            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                                "current: row %d has z = %g m, after %g m: give the rows from the "
+                                "lowest to the highest",
+                                k + 1, row->z, row[-1].z);
+    }
+    return CPS_OK;
+}
+
+/* fill ----------------------------------------------------------------------------------------- */
+
+/* [m] The part of the length of node j from `from` to `to`. */
+static double part_of(const CpsiLine *line, int j, double from, double to) {
+    const double s = line->arc_length[j], low = j > 0 ? s - 0.5 * line->element_length[j - 1] : s,
+                 high = j + 1 < line->n ? s + 0.5 * line->element_length[j] : s;
+    return fmax(0, fmin(high, to) - fmax(low, from));
+}
+
+static int nearest_node(const CpsiLine *line, double s) {
+    int best = 0;
+    for (int j = 1; j < line->n; j++)
+        if (fabs(line->arc_length[j] - s) < fabs(line->arc_length[best] - s)) best = j;
+    return best;
+}
+
+static void add_spring(CpsiLine *line, const CpsSpring *spring, const double origin[3]) {
+    const bool single = spring->from == spring->to;
+    const int only = single ? nearest_node(line, spring->from) : -1;
+    for (int j = 0; j < line->n; j++) {
+        const double by = !single ? part_of(line, j, spring->from, spring->to) : j == only ? 1 : 0;
+        const double *k = spring->stiffness,
+                     stiffness[6] = {by * k[0], 0, by * k[1], 0, 0, by * k[2]};
+        const Vec3 place = vec3_sub(vec3_load(spring->place), vec3_load(origin));
+        if (by > 0)
+            cpsi_line_field_add(line, j, stiffness,
+                                spring->at_start ? vec3_at(line->position, j) : place);
+    }
+}
+
+void cpsi_line_loads_fill(CpsiLine *line, const CpsScene *scene, const CpsLine *def,
+                          const double origin[3], CpsCurrentRow *row, CpsiFlow *flow) {
+    CpsiNodeField *field = &line->field;
+    const CpsLineLoads *loads = def->loads;
+    const size_t n = (size_t)line->n;
+    if (!loads) return;
+    cpsi_line_field_clear(line);
+    for (int k = 0; k < loads->spring_count; k++) add_spring(line, &loads->spring[k], origin);
+    for (int k = 0; k < loads->force_count; k++)
+        for (int i = 0; i < 3 * line->n; i++) {
+            const CpsLineForce *force = &loads->force[k];
+            field->load[i] += force->force[i % 3] * part_of(line, i / 3, force->from, force->to);
+        }
+    if (line->has_field) {
+        memcpy(field->own_stiffness, field->stiffness, 6 * n * sizeof *field->stiffness);
+        memcpy(field->own_place, field->place, 3 * n * sizeof *field->place);
+        for (int j = 0; j < line->n; j++) {
+            field->diagonal[3 * j] = field->stiffness[6 * j];
+            field->diagonal[3 * j + 1] = field->stiffness[6 * j + 2];
+            field->diagonal[3 * j + 2] = field->stiffness[6 * j + 5];
+        }
+    }
+    if (line->has_node_loads) memcpy(field->own_load, field->load, 3 * n * sizeof *field->load);
+    if (!cpsi_has_drag(scene, def)) return;
+    const CpsCurrent *current = scene->current;
+    for (int k = 0; k < current->row_count; k++) {
+        row[k] = current->row[k];
+        row[k].z -= origin[2];
+    }
+    *flow = (CpsiFlow){.density = current->density,
+                       .drag = loads->drag,
+                       .row_count = current->row_count,
+                       .row = row};
+    field->flow = flow;
+    cpsi_line_follow_flow(line, line->position);
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Springs, forces and drag (load_build.h). */
+#include "io/read/scene/parts/load_build.h"
+
+#include <math.h>
+#include <string.h>
+
+static CpsSpring spring_of(const CpsiSpringValues *values, const CpsLine *line) {
+    CpsSpring out = {.from = isnan(values->from) ? 0 : values->from,
+                     .to = isnan(values->to) ? line->length : values->to,
+                     .at_start = isnan(values->place[0])};
+    if (!isnan(values->at)) out.from = out.to = values->at;
+    memcpy(out.stiffness, values->stiffness, sizeof out.stiffness);
+    if (!out.at_start) memcpy(out.place, values->place, sizeof out.place);
+    return out;
+}
+
+static CpsLineForce force_of(const CpsiForceValues *values, const CpsLine *line) {
+    CpsLineForce out = {.from = isnan(values->from) ? 0 : values->from,
+                        .to = isnan(values->to) ? line->length : values->to};
+    memcpy(out.force, values->force, sizeof out.force);
+    return out;
+}
+
+CpsStatus cpsi_loads_build(const CpsiMaterials *m, const CpsiLineValues *values, CpsLine *line) {
+    const CpsiSpringValues *springs = values->springs.item;
+    const CpsiForceValues *forces = values->loads.item;
+    if (values->springs.count + values->loads.count == 0 && !values->drag.node) return CPS_OK;
+    CpsLineLoads *loads = CPSI_POOL_TAKE(m->pool, 1, CpsLineLoads);
+    CpsSpring *spring = CPSI_POOL_TAKE(m->pool, values->springs.count + 1, CpsSpring);
+    CpsLineForce *force = CPSI_POOL_TAKE(m->pool, values->loads.count + 1, CpsLineForce);
+    if (!loads || !spring || !force) return cpsi_document_no_memory(m->d);
+    for (int k = 0; k < values->springs.count; k++) spring[k] = spring_of(&springs[k], line);
+    for (int k = 0; k < values->loads.count; k++) force[k] = force_of(&forces[k], line);
+    *loads = (CpsLineLoads){.spring_count = values->springs.count,
+                            .spring = spring,
+                            .force_count = values->loads.count,
+                            .force = force};
+    if (values->drag.node) loads->drag = values->drag.drag;
+    line->loads = loads;
+    return CPS_OK;
+}
+
+CpsStatus cpsi_current_build(const CpsiMaterials *m, const CpsiList *rows, CpsScene *scene) {
+    const CpsiCurrentValues *values = rows->item;
+    if (rows->count == 0) return CPS_OK;
+    CpsCurrent *current = CPSI_POOL_TAKE(m->pool, 1, CpsCurrent);
+    CpsCurrentRow *row = CPSI_POOL_TAKE(m->pool, rows->count, CpsCurrentRow);
+    if (!current || !row) return cpsi_document_no_memory(m->d);
+    for (int k = 0; k < rows->count; k++) row[k] = values[k].row;
+    *current = (CpsCurrent){.density = m->water, .row_count = rows->count, .row = row};
+    scene->current = current;
+    return CPS_OK;
+}

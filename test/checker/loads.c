@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Springs, given loads and drag (loads.h). A spring with the diagonal K pulls its node towards a
+ * with K (a - x), and is taken at x + y, y so small that (K y).y/2 is nothing beside energies. */
+#include "loads.h"
+
+#include <math.h>
+#include <netcdf.h>
+#include <stdlib.h>
+
+static int complain(FILE *log, const char *what, const char *name) {
+    if (log) fprintf(log, "%s: %s\n", what, name);
+    return -1;
+}
+
+/* A variable of the line, of one step where it has steps; false where there is none. */
+static bool find(const Source *source, const char *line, const char *what, int *id) {
+    char name[400];
+    snprintf(name, sizeof name, "%s_%s", line, what);
+    return nc_inq_varid(source->nc, name, id) == NC_NOERR;
+}
+
+/* (nodes, 3) numbers that must be finite. */
+static int read_vectors(const Source *source, const char *line, const char *what, long step,
+                        size_t nodes, Vector *out, FILE *log) {
+    int id;
+    const size_t start[] = {(size_t)(step < 0 ? 0 : step), 0, 0}, count[] = {1, nodes, 3};
+    const int skip = step < 0;
+    if (!find(source, line, what, &id) ||
+        nc_get_vara_double(source->nc, id, start + skip, count + skip, out[0]) != NC_NOERR)
+        return complain(log, "cannot read", what);
+    for (size_t i = 0; i < 3 * nodes; i++)
+        if (!isfinite(out[0][i])) return complain(log, "a value that cannot be", what);
+    return 0;
+}
+
+static int read_number(const Source *source, const char *line, const char *what, size_t step,
+                       double *out, FILE *log) {
+    int id;
+    if (!find(source, line, what, &id) ||
+        nc_get_var1_double(source->nc, id, &step, out) != NC_NOERR || !isfinite(*out))
+        return complain(log, "cannot read", what);
+    return 0;
+}
+
+static int read_current(const Source *source, Loads *loads, FILE *log) {
+    size_t length;
+    if (nc_inq_attlen(source->nc, NC_GLOBAL, "current", &length) != NC_NOERR || length < 4 ||
+        length % 4 != 0)
+        return complain(log, "no rows", "current");
+    loads->rows = length / 4;
+    loads->row = calloc(length, sizeof(double));
+    if (!loads->row || nc_get_att_double(source->nc, NC_GLOBAL, "current", loads->row) ||
+        nc_get_att_double(source->nc, NC_GLOBAL, "water_density", &loads->density))
+        return complain(log, "cannot read", "current");
+    return 0;
+}
+
+int loads_create(const Source *source, const char *line, Record *record, FILE *log) {
+    int id;
+    char name[400];
+    const bool springs = find(source, line, "node_stiffness", &id),
+               given = find(source, line, "node_load", &id);
+    if (!springs && !given) return 0;
+    Loads *loads = record->loads = calloc(1, sizeof *loads);
+    if (!loads) return complain(log, "out of memory", "loads");
+    Vector **array[] = {&loads->stiffness, &loads->place, &loads->beside, &loads->given};
+    for (int k = 0; k < 4; k++) {
+        if (!(k < 3 ? springs : given)) continue;
+        *array[k] = calloc(record->nodes, sizeof(Vector));
+        if (!*array[k]) return complain(log, "out of memory", "loads");
+    }
+    if (springs &&
+        (read_vectors(source, line, "node_stiffness", -1, record->nodes, loads->stiffness, log) ||
+         read_vectors(source, line, "node_place", -1, record->nodes, loads->place, log)))
+        return -1;
+    const size_t numbers = springs ? 3 * record->nodes : 0;
+    for (size_t i = 0; i < numbers; i++)
+        if (loads->stiffness[0][i] < 0) return complain(log, "negative", "node_stiffness");
+    snprintf(name, sizeof name, "%s_drag", line);
+    loads->has_drag = nc_get_att_double(source->nc, NC_GLOBAL, name, loads->drag) == NC_NOERR &&
+                      nc_inq_attlen(source->nc, NC_GLOBAL, "current", &(size_t){0}) == NC_NOERR;
+    return loads->has_drag ? read_current(source, loads, log) : 0;
+}
+
+int loads_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
+    Loads *loads = record->loads;
+    int bad = 0;
+    if (!loads) return 0;
+    bad |= read_number(source, line, "ledger_loads", step, &loads->ledger, log);
+    bad |= read_number(source, line, "load_residual", step, &loads->residual, log);
+    if (loads->given)
+        bad |=
+            read_vectors(source, line, "node_load", (long)step, record->nodes, loads->given, log);
+    if (loads->beside)
+        bad |= read_vectors(source, line, "node_beside", (long)step, record->nodes, loads->beside,
+                            log);
+    return bad ? -1 : 0;
+}
+
+void loads_free(Record *record) {
+    Loads *loads = record->loads;
+    if (!loads) return;
+    free(loads->stiffness);
+    free(loads->place);
+    free(loads->beside);
+    free(loads->given);
+    free(loads->row);
+    free(loads);
+    record->loads = NULL;
+}
+
+Spring loads_spring(const Record *record, size_t j) {
+    const Loads *loads = record->loads;
+    Spring out = {.gap = 0};
+    if (!loads || !loads->stiffness) return out;
+    for (int a = 0; a < 3; a++) {
+        const Real k = loads->stiffness[j][a], x = record->position[j][a],
+                   from = record->reference[j][a], at = loads->place[j][a], y = loads->beside[j][a];
+        const Real off = x - at, before = from - at;
+        out.force[a] = -k * (off + y);
+        out.energy += k * off * off / 2;
+        out.gap += k * y * y / 2;
+        out.dual += out.force[a] * x;
+        out.fall -= k * (x - from) * (off + before) / 2;
+    }
+    out.dual += out.energy - out.gap;
+    return out;
+}
+
+/* The velocity of the water at height z, linear between the rows. */
+static void velocity(const Loads *loads, Real z, Real *u) {
+    const double *low = loads->row, *high = &loads->row[4 * (loads->rows - 1)];
+    for (size_t k = 0; k < loads->rows; k++) {
+        const double *row = &loads->row[4 * k];
+        if (row[0] <= z && row[0] >= low[0]) low = row;
+    }
+    for (size_t k = loads->rows; k-- > 0;) {
+        const double *row = &loads->row[4 * k];
+        if (row[0] >= z && row[0] <= high[0]) high = row;
+    }
+    Real share = high[0] > low[0] ? (z - low[0]) / ((Real)high[0] - low[0]) : 0;
+    share = share < 0 ? 0 : share > 1 ? 1 : share;
+    for (int a = 0; a < 3; a++) u[a] = (1 - share) * low[1 + a] + share * high[1 + a];
+}
+
+/* Half of the drag on element i at the places x: Morison's law across and along it. */
+static void add_half(const Record *record, Vector *x, size_t i, Real *out) {
+    const Loads *loads = record->loads;
+    const double diameter = loads->drag[0], across_by = loads->drag[1], along_by = loads->drag[2];
+    Real u[3], t[3], size = 0, along = 0, across[3], speed = 0;
+    velocity(loads, ((Real)x[i][2] + x[i + 1][2]) / 2, u);
+    for (int a = 0; a < 3; a++) {
+        t[a] = (Real)x[i + 1][a] - x[i][a];
+        size += t[a] * t[a];
+    }
+    size = sqrtl(size);
+    for (int a = 0; a < 3; a++) along += size > 0 ? u[a] * t[a] / size : 0;
+    for (int a = 0; a < 3; a++) {
+        across[a] = u[a] - (size > 0 ? along * t[a] / size : 0);
+        speed += across[a] * across[a];
+    }
+    speed = sqrtl(speed);
+    const Real pressed = (Real)loads->density * record->element_length[i] / 4;
+    for (int a = 0; a < 3; a++)
+        out[a] +=
+            pressed * diameter *
+            (across_by * speed * across[a] +
+             (size > 0 ? 3.14159265358979323846L * along_by * fabsl(along) * along * t[a] / size
+                       : 0));
+}
+
+void loads_drag(const Record *record, Vector *x, size_t j, Real *out) {
+    out[0] = out[1] = out[2] = 0;
+    if (!record->loads || !record->loads->has_drag) return;
+    if (j > 0) add_half(record, x, j - 1, out);
+    if (j < record->elements) add_half(record, x, j, out);
+}
+
+Real loads_work(const Record *record) {
+    const Loads *loads = record->loads;
+    Real work = 0;
+    if (!loads) return 0;
+    for (size_t j = 0; j < record->nodes; j++) {
+        Real before[3], after[3];
+        work += loads_spring(record, j).fall;
+        if (!loads->given) continue;
+        loads_drag(record, record->reference, j, before);
+        loads_drag(record, record->position, j, after);
+        for (int a = 0; a < 3; a++)
+            work += (loads->given[j][a] + (before[a] - after[a]) / 2) *
+                    ((Real)record->position[j][a] - record->reference[j][a]);
+    }
+    return work;
+}
+
+void loads_add_others(const Record *r, size_t j, Real *sum) {
+    const Spring spring = loads_spring(r, j);
+    for (int k = 0; k < 3; k++) sum[k] += spring.force[k];
+    if (r->has_elements)
+        for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < r->elements; i++) {
+            const size_t c = r->contacts * r->nodes + i;
+            const Real part = i == j ? 1 - (Real)r->share_of[i] : r->share_of[i];
+            if (r->obstacle[c] >= 0)
+                for (int k = 0; k < 3; k++)
+                    sum[k] += part * (r->friction[c][k] + (Real)r->reaction[c] * r->normal[c][k]);
+        }
+}

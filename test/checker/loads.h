@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What acts on the nodes of a line beside its weight: springs, given loads, and the drag of a
+ * current, all from the file. */
+#ifndef CAPSTAN_CHECKER_LOADS_H
+#define CAPSTAN_CHECKER_LOADS_H
+
+#include "record.h"
+
+/* Of one line and step; arrays are NULL where the file has none. */
+typedef struct Loads {
+    Vector *stiffness, *place, *beside; /* (nodes) of springs, K diagonal */
+    Vector *given;                      /* (nodes) [N] given loads and drag */
+    double ledger, residual;            /* as claimed */
+    bool has_drag;
+    double drag[3]; /* diameter, coefficients across and along */
+    double density;
+    size_t rows;
+    double *row; /* (rows, 4) z and velocity */
+} Loads;
+
+/* What the file has of a line; record->loads is NULL where that is nothing. Both return 0, or -1
+ * after one sentence on log. */
+int loads_create(const Source *source, const char *line, Record *record, FILE *log);
+int loads_read(const Source *source, const char *line, size_t step, Record *record, FILE *log);
+void loads_free(Record *record);
+
+/* Of the springs of a node: their force in the balance, what they have of energy, dual and gap, and
+ * by how much their energy has fallen since the reference. */
+typedef struct Spring {
+    Real force[3], energy, dual, gap, fall;
+} Spring;
+Spring loads_spring(const Record *record, size_t j);
+
+/* Add what the springs of node j do on it, and the contacts of its elements: reaction and friction
+ * by their shares. */
+void loads_add_others(const Record *record, size_t j, Real *sum);
+
+/* [J] The work of springs, given loads and drag in the step: of drag the mean of before and after.
+ */
+Real loads_work(const Record *record);
+
+/* [N] The drag on node j at the places x. */
+void loads_drag(const Record *record, Vector *x, size_t j, Real *out);
+
+#endif
