@@ -11,6 +11,8 @@
 
 bool cpsi_is_in_time(const CpsScene *scene) {
     bool any = scene->in_time;
+    /* also asked before the history is checked */
+    if (!scene->stage) return any;
     for (int k = 0; k < scene->stage_count; k++) any = any || scene->stage[k].duration > 0;
     return any;
 }

@@ -681,7 +681,9 @@ static void check_bounds(const Source *source, const Record *r, const Record *be
         // one product and its rounding, and that of a mean over zones; a coefficient above 1 goes
         // with both
         double noise = r->factor_noise ? r->factor_noise[j] * R * fmax(1, r->mu[c]) : 0;
-        const Surface *on = r->obstacle[c] >= 0 ? &source->surface[(size_t)r->obstacle[c]] : NULL;
+        const bool known_obstacle =
+            r->obstacle[c] >= 0 && r->obstacle[c] < (double)source->surfaces;
+        const Surface *on = known_obstacle ? &source->surface[(size_t)r->obstacle[c]] : NULL;
         if (on && on->ground && on->ground->factor)
             noise += (r->factor ? r->factor[j] : 1) * (double)surface_friction(on) * R *
                      ground_factor_noise(on->ground, r->position[j], on->point);

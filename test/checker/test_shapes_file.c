@@ -43,7 +43,7 @@ static void sound_file_is_the_scenes(void **state) {
 static const FalseNumber FALSE[] = {
     {"obstacle_kind", ROD, 1, "depth below an obstacle"},
     {"obstacle_kind", ROD, 4, "senseless obstacle in 'obstacle_kind and the like'"},
-    {"obstacle_kind", QUAY, 9, "senseless obstacle in 'obstacle_kind and the like'"},
+    {"obstacle_kind", QUAY, 70, "senseless obstacle in 'obstacle_kind and the like'"},
     {"obstacle_length", ROD, 0.5, "sum of local gaps"},
     {"obstacle_length", ROD, -1, "senseless obstacle_length"},
     {"obstacle_radius", ROD, 0.99, "slip against the path from the reference"},

@@ -162,6 +162,18 @@ static const char SHAPES_SCENE[] =
     "history:\n"
     "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
 
+/* A line that moves in time. */
+static const char MOTION_SCENE[] =
+    "capstan: 1\n"
+    "time_scheme: bdf2\n"
+    "lines:\n"
+    "  one: {length: 3, elements: 4, mass: 2, inertia: 3, velocity: [0, 0, 1], stiffness: 1000,"
+    " point_weights: [{at: 1.5, mass: 1, inertia: 1.2}],"
+    " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held}}\n"
+    "history:\n"
+    "  - {name: pull, duration: 2, time_step: 0.5,"
+    " one.B: {move: [0, 0, 0.1], sine: [0, 0, 0.2], cosine: [0, 0, 0.3], period: 4}}\n";
+
 static const struct GroundFile {
     const char *name, *text;
 } GROUND_FILE[] = {
@@ -410,6 +422,18 @@ static const struct Change SHAPE_CHANGE[] = {
     {"rotation", "rotation: {quaternion: [1, 0, 0, 0]}", "rotation: {quaternion: [1, 0, 0, 1]}"},
 };
 
+static const struct Change MOTION_CHANGE[] = {
+    {"time_scheme", "time_scheme: bdf2", "time_scheme: euler"},
+    {"inertia", "inertia: 3", "inertia: 3.5"},
+    {"inertia", "inertia: 1.2", "inertia: 1.3"},
+    {"velocity", "velocity: [0, 0, 1]", "velocity: [0, 0, 2]"},
+    {"duration", "duration: 2", "duration: 1.9"},
+    {"time_step", "time_step: 0.5", "time_step: 0.25"},
+    {"sine", "sine: [0, 0, 0.2]", "sine: [0, 0, 0.21]"},
+    {"cosine", "cosine: [0, 0, 0.3]", "cosine: [0, 0.1, 0.3]"},
+    {"period", "period: 4", "period: 5"},
+};
+
 /* Keys that change no answer, and how the file of a ground is to be read; and a file of places,
  * which is a start as good as any. */
 static const char *const LEFT_OUT[] = {"capstan", "title", "nodes", "form", "variable"};
@@ -421,6 +445,7 @@ enum {
     GROUND_CHANGES = sizeof GROUND_CHANGE / sizeof *GROUND_CHANGE,
     MESH_CHANGES = sizeof MESH_CHANGE / sizeof *MESH_CHANGE,
     SHAPE_CHANGES = sizeof SHAPE_CHANGE / sizeof *SHAPE_CHANGE,
+    MOTION_CHANGES = sizeof MOTION_CHANGE / sizeof *MOTION_CHANGE,
     LEFT = sizeof LEFT_OUT / sizeof *LEFT_OUT
 };
 
@@ -436,7 +461,8 @@ static const Suite ALL = {SCENE, CHANGE, CHANGES},
                    BODIES = {BODIES_SCENE, BODY_CHANGE, BODY_CHANGES},
                    GROUND = {GROUND_SCENE, GROUND_CHANGE, GROUND_CHANGES},
                    MESH = {MESH_SCENE, MESH_CHANGE, MESH_CHANGES},
-                   SHAPES = {SHAPES_SCENE, SHAPE_CHANGE, SHAPE_CHANGES};
+                   SHAPES = {SHAPES_SCENE, SHAPE_CHANGE, SHAPE_CHANGES},
+                   MOTION = {MOTION_SCENE, MOTION_CHANGE, MOTION_CHANGES};
 
 static CpsEvolution *evolution_of(const char *text) {
     char path[] = "other_scene_test_XXXXXX";
@@ -550,6 +576,12 @@ static void every_change_of_shapes_makes_another_scene(void **state) {
     expect_refused(&SHAPES, 1, sizeof SHAPES_SCENE);
 }
 
+static void every_change_of_motions_makes_another_scene(void **state) {
+    (void)state;
+    expect_refused(&MOTION, 0, place_of(MOTION_SCENE, "{name: pull"));
+    expect_refused(&MOTION, 1, sizeof MOTION_SCENE);
+}
+
 /* Whether a key is changed above or left out; found: the changes of keys that there are. */
 static bool is_tried(const char *key, bool found[CHANGES]) {
     bool tried = false;
@@ -561,6 +593,8 @@ static bool is_tried(const char *key, bool found[CHANGES]) {
         tried = tried || strcmp(GROUND_CHANGE[i].key, key) == 0;
     for (int i = 0; i < MESH_CHANGES; i++) tried = tried || strcmp(MESH_CHANGE[i].key, key) == 0;
     for (int i = 0; i < SHAPE_CHANGES; i++) tried = tried || strcmp(SHAPE_CHANGE[i].key, key) == 0;
+    for (int i = 0; i < MOTION_CHANGES; i++)
+        tried = tried || strcmp(MOTION_CHANGE[i].key, key) == 0;
     for (int i = 0; i < LEFT; i++) tried = tried || strcmp(LEFT_OUT[i], key) == 0;
     return tried;
 }
@@ -629,6 +663,8 @@ int main(void) {
                                        cmocka_unit_test(every_change_of_bodies_makes_another_scene),
                                        cmocka_unit_test(every_change_of_files_makes_another_scene),
                                        cmocka_unit_test(every_change_of_shapes_makes_another_scene),
+                                       cmocka_unit_test(
+                                           every_change_of_motions_makes_another_scene),
                                        cmocka_unit_test(flags_of_a_changed_state_are_flags),
                                        cmocka_unit_test(every_key_is_changed)};
     return cmocka_run_group_tests(tests, NULL, NULL);

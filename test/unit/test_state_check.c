@@ -126,6 +126,7 @@ static const char *const REASON[] = {
     "an end is let go that there is not, or in no way",
     "an end comes from nowhere",
     "an obstacle is at no place",
+    "its time is none",
     "its gravity is not finite",
     "an end is neither held nor free, or at no place",
     "a node is grasped that cannot be, or at no place",

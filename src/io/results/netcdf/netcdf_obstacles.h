@@ -6,6 +6,7 @@
 
 #include "capstan/failure.h"
 #include "capstan/set.h"
+#include "capstan/two_stiffnesses.h"
 #include "io/results/netcdf/netcdf_file.h"
 
 enum {
@@ -166,5 +167,20 @@ void cpsi_netcdf_append_winches(CpsiNetcdfFile *file, const CpsiNetcdfWinches *i
 /* The current as attributes: the density, z and velocity of row after row; and the drag of lines.
  */
 void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, double origin_z);
+
+/* Of a line with a static and a dynamic stiffness: the dynamic one, and which of the two is in
+ * force in each step. Nothing of other lines. */
+typedef struct CpsiNetcdfStiffnesses {
+    int which, rest_strain, compliance_factor, spring[3];
+} CpsiNetcdfStiffnesses;
+
+/* The dimensions are step and element. */
+void cpsi_netcdf_define_stiffnesses(CpsiNetcdfFile *file, CpsiNetcdfStiffnesses *ids,
+                                    const char *line, const CpsTwoStiffnesses *two,
+                                    const int shape[2]);
+void cpsi_netcdf_write_stiffnesses(CpsiNetcdfFile *file, const CpsiNetcdfStiffnesses *ids,
+                                   size_t elements, const CpsTwoStiffnesses *two);
+void cpsi_netcdf_append_stiffnesses(CpsiNetcdfFile *file, const CpsiNetcdfStiffnesses *ids,
+                                    size_t step, size_t elements, const CpsTwoStiffnesses *two);
 
 #endif

@@ -614,3 +614,52 @@ void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
     for (int i = 0; i < CPSI_MOTION_NUMBERS; ++i)
         cpsi_netcdf_doubles(file, ids->number[i], start, count, &number[i]);
 }
+
+/* ---- lines of two stiffnesses ---- */
+
+void cpsi_netcdf_define_stiffnesses(CpsiNetcdfFile *file, CpsiNetcdfStiffnesses *ids,
+                                    const char *line, const CpsTwoStiffnesses *two,
+                                    const int shape[2]) {
+    if (!two->exists) return;
+    ids->which = cpsi_netcdf_variable(file, line, "stiffness", NC_BYTE, 1, &shape[0],
+                                      "which stiffness is in force", "1");
+    cpsi_netcdf_flags(file, ids->which, NC_BYTE, 2, NULL, "static dynamic");
+    ids->rest_strain = cpsi_netcdf_variable(
+        file, line, "rest_strain", NC_DOUBLE, 2, shape,
+        "strain at which an element would be without tension, by the stiffness in force", "1");
+    ids->compliance_factor =
+        cpsi_netcdf_variable(file, line, "dynamic_compliance_factor", NC_DOUBLE, 1, &shape[1],
+                             "compliance_factor of the dynamic stiffness", "1");
+    if (two->at_dynamic.spring_count == 0) return;
+    char name[NC_MAX_NAME + 1];
+    snprintf(name, sizeof name, "%.200s_dynamic_spring", line);
+    const int spring = cpsi_netcdf_dimension(file, name, (size_t)two->at_dynamic.spring_count);
+    ids->spring[0] = cpsi_netcdf_variable(file, line, "dynamic_spring_element", NC_INT, 1, &spring,
+                                          "spring_element of the dynamic stiffness", "1");
+    ids->spring[1] = cpsi_netcdf_variable(file, line, "dynamic_spring_strain", NC_DOUBLE, 1,
+                                          &spring, "spring_strain of the dynamic stiffness", "1");
+    ids->spring[2] =
+        cpsi_netcdf_variable(file, line, "dynamic_spring_stiffness", NC_DOUBLE, 1, &spring,
+                             "spring_stiffness of the dynamic stiffness", "N");
+}
+
+void cpsi_netcdf_write_stiffnesses(CpsiNetcdfFile *file, const CpsiNetcdfStiffnesses *ids,
+                                   size_t elements, const CpsTwoStiffnesses *two) {
+    const size_t first = 0, springs = (size_t)two->at_dynamic.spring_count;
+    if (!two->exists) return;
+    cpsi_netcdf_doubles(file, ids->compliance_factor, &first, &elements,
+                        two->at_dynamic.compliance_factor);
+    if (springs == 0) return;
+    cpsi_netcdf_ints(file, ids->spring[0], &first, &springs, two->at_dynamic.spring_element);
+    cpsi_netcdf_doubles(file, ids->spring[1], &first, &springs, two->at_dynamic.spring_strain);
+    cpsi_netcdf_doubles(file, ids->spring[2], &first, &springs, two->at_dynamic.spring_stiffness);
+}
+
+void cpsi_netcdf_append_stiffnesses(CpsiNetcdfFile *file, const CpsiNetcdfStiffnesses *ids,
+                                    size_t step, size_t elements, const CpsTwoStiffnesses *two) {
+    if (!two->exists) return;
+    const size_t start[] = {step, 0}, count[] = {1, elements};
+    const unsigned char which = two->is_dynamic;
+    cpsi_netcdf_bytes(file, ids->which, start, count, &which);
+    cpsi_netcdf_doubles(file, ids->rest_strain, start, count, two->rest_strain);
+}

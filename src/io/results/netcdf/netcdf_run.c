@@ -148,8 +148,8 @@ typedef struct LineIds {
     int compliance_factor, weight_length;                /* unused where the line is uniform */
     int spring_element, spring_strain, spring_stiffness; /* unused where there is none */
     int breaking_load;                                   /* the same */
-    int stiffness, rest_strain, dynamic_compliance_factor, dynamic_spring[3]; /* the same */
-    int end_point; /* unused without points */
+    int end_point;                                       /* unused without points */
+    CpsiNetcdfStiffnesses stiffnesses;
     CpsiNetcdfGrasps grasps;
     CpsiNetcdfWinches winches;
     CpsiNetcdfFailure failure;
@@ -308,59 +308,6 @@ static CpsLineView constant_view(const CpsEvolution *evolution, int line) {
     view.spring_strain = two.at_static.spring_strain;
     view.spring_stiffness = two.at_static.spring_stiffness;
     return view;
-}
-
-/* The dynamic stiffness, and which of the two holds in each step. */
-static void define_two_stiffnesses(CpsiNetcdf *nc, LineIds *ids, const char *line,
-                                   const CpsTwoStiffnesses *two) {
-    if (!two->exists) return;
-    const int of_step[] = {nc->step, ids->element};
-    ids->stiffness = cpsi_netcdf_variable(&nc->file, line, "stiffness", NC_BYTE, 1, &nc->step,
-                                          "which stiffness is in force", "1");
-    cpsi_netcdf_flags(&nc->file, ids->stiffness, NC_BYTE, 2, NULL, "static dynamic");
-    ids->rest_strain = cpsi_netcdf_variable(
-        &nc->file, line, "rest_strain", NC_DOUBLE, 2, of_step,
-        "strain at which an element would be without tension, by the stiffness in force", "1");
-    ids->dynamic_compliance_factor =
-        cpsi_netcdf_variable(&nc->file, line, "dynamic_compliance_factor", NC_DOUBLE, 1,
-                             &ids->element, "compliance_factor of the dynamic stiffness", "1");
-    if (two->at_dynamic.spring_count == 0) return;
-    char name[NC_MAX_NAME + 1];
-    snprintf(name, sizeof name, "%.200s_dynamic_spring", line);
-    const int spring = cpsi_netcdf_dimension(&nc->file, name, (size_t)two->at_dynamic.spring_count);
-    ids->dynamic_spring[0] =
-        cpsi_netcdf_variable(&nc->file, line, "dynamic_spring_element", NC_INT, 1, &spring,
-                             "spring_element of the dynamic stiffness", "1");
-    ids->dynamic_spring[1] =
-        cpsi_netcdf_variable(&nc->file, line, "dynamic_spring_strain", NC_DOUBLE, 1, &spring,
-                             "spring_strain of the dynamic stiffness", "1");
-    ids->dynamic_spring[2] =
-        cpsi_netcdf_variable(&nc->file, line, "dynamic_spring_stiffness", NC_DOUBLE, 1, &spring,
-                             "spring_stiffness of the dynamic stiffness", "N");
-}
-
-static void write_two_stiffnesses(CpsiNetcdf *nc, const LineIds *ids, size_t elements,
-                                  const CpsTwoStiffnesses *two) {
-    const size_t first = 0, springs = (size_t)two->at_dynamic.spring_count;
-    if (!two->exists) return;
-    cpsi_netcdf_doubles(&nc->file, ids->dynamic_compliance_factor, &first, &elements,
-                        two->at_dynamic.compliance_factor);
-    if (springs == 0) return;
-    cpsi_netcdf_ints(&nc->file, ids->dynamic_spring[0], &first, &springs,
-                     two->at_dynamic.spring_element);
-    cpsi_netcdf_doubles(&nc->file, ids->dynamic_spring[1], &first, &springs,
-                        two->at_dynamic.spring_strain);
-    cpsi_netcdf_doubles(&nc->file, ids->dynamic_spring[2], &first, &springs,
-                        two->at_dynamic.spring_stiffness);
-}
-
-static void append_two_stiffnesses(CpsiNetcdf *nc, const LineIds *ids, size_t elements,
-                                   const CpsTwoStiffnesses *two) {
-    if (!two->exists) return;
-    const size_t start[] = {nc->steps, 0}, count[] = {1, elements};
-    const unsigned char which = two->is_dynamic;
-    cpsi_netcdf_bytes(&nc->file, ids->stiffness, start, count, &which);
-    cpsi_netcdf_doubles(&nc->file, ids->rest_strain, start, count, two->rest_strain);
 }
 
 /* What tables of strain and tension add to 1/compliance. */
@@ -657,7 +604,8 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);
         nc->line[i].winches.is_there = cpsi_has_winch(&scene->line[i]);
         define_line(nc, &nc->line[i], &view);
-        define_two_stiffnesses(nc, &nc->line[i], view.name, &two);
+        cpsi_netcdf_define_stiffnesses(&nc->file, &nc->line[i].stiffnesses, view.name, &two,
+                                       (const int[]){nc->step, nc->line[i].element});
         define_zones(nc, &nc->line[i], &scene->line[i]);
         define_loads(nc, &nc->line[i], &view);
         define_end_points(nc, &nc->line[i], &scene->line[i]);
@@ -683,7 +631,8 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
             if (whole) nc->line[i].winches.whole_length = whole;
         }
         write_fields(nc, &nc->line[i], &view, true);
-        write_two_stiffnesses(nc, &nc->line[i], (size_t)view.element_count, &two);
+        cpsi_netcdf_write_stiffnesses(&nc->file, &nc->line[i].stiffnesses,
+                                      (size_t)view.element_count, &two);
         write_zones(nc, &nc->line[i], &scene->line[i]);
         write_end_points(nc, &nc->line[i], &scene->line[i]);
         write_sections(nc, &nc->line[i], &view);
@@ -784,7 +733,8 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
         const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);
         write_line(nc, &nc->line[i], &view, &line);
         cpsi_netcdf_append_winches(&nc->file, &nc->line[i].winches, nc->steps, evolution, i);
-        append_two_stiffnesses(nc, &nc->line[i], (size_t)view.element_count, &two);
+        cpsi_netcdf_append_stiffnesses(&nc->file, &nc->line[i].stiffnesses, nc->steps,
+                                       (size_t)view.element_count, &two);
         cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,
                                    evolution, i);
         cpsi_netcdf_append_motion(&nc->file, &nc->time, &nc->line[i].motion, nc->steps, evolution,
