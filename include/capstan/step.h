@@ -232,7 +232,7 @@ typedef struct CpsLineView {
     const char *name;
     int element_count;
     int contact_count;        /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    bool one_plane;           /* no node is grasped or on a drum; one isotropic plane or none */
+    bool one_plane;           /* one isotropic plane or none, no grasp, drum, load or mass */
     const double *arc_length; /* (n) [m] natural, of the nodes from end A, drums included */
     const double *element_length; /* (element_count) [m]; on a drum the whole */
     double compliance; /* [1/N] 1/EA at T = 0, of sections the mean; 0 of an inextensible line */

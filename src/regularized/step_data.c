@@ -93,9 +93,9 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
     if (!view->one_plane)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "line '%s': more than one obstacle, or one that is curved or has "
-                         "directions, or a node that is grasped; the paper's step slides in one "
-                         "tangent plane with one "
-                         "coefficient: use plane obstacles with friction alone",
+                         "directions, a node that is grasped, a winch, springs, loads or drag; the "
+                         "paper's step slides in one tangent plane with one coefficient: use plane "
+                         "obstacles with friction alone",
                          view->name);
     *step = (CpsiStep){.compliance = view->compliance,
                        .held = view->end[CPS_END_B].kind == CPS_END_KIND_HELD};
