@@ -190,7 +190,7 @@ static void one_cylinder(void **state) {
     bed.point[2] = -ROUND;
     follow(&bed, &exact);
     double before = 0, force, first = 0;
-    char figure[80], order[32];
+    char figure[120], order[32];
     for (int columns = 14; columns <= 56; columns *= 2) {
         CpsGround *ground = grid_of(columns);
         bed = bed_of(CPS_OBSTACLE_GROUND, 0, NULL);

@@ -281,7 +281,7 @@ typedef struct Hanging {
 } Hanging;
 
 /* From A to B with the force h, v at B; h_0, v_0 the one before, where the stiffness is dynamic. */
-static void span(const Hanging *of, const double now[2], const double *before, double out[2]) {
+static void span(const Hanging *of, const double now[2], const double *before, double *out) {
     static const double AT[3] = {-0.774596669241483377, 0, 0.774596669241483377},
                         BY[3] = {5 / 9.0, 8 / 9.0, 5 / 9.0};
     enum { PARTS = 2000 };

@@ -29,7 +29,7 @@ static int read_vectors(const Source *source, const char *line, const char *what
         nc_get_vara_double(source->nc, id, start + skip, count + skip, out[0]) != NC_NOERR)
         return complain(log, "cannot read", what);
     for (size_t i = 0; i < 3 * nodes; i++)
-        if (!isfinite(out[0][i])) return complain(log, "a value that cannot be", what);
+        if (!isfinite(out[i / 3][i % 3])) return complain(log, "a value that cannot be", what);
     return 0;
 }
 
@@ -75,7 +75,7 @@ int loads_create(const Source *source, const char *line, Record *record, FILE *l
         return -1;
     const size_t numbers = springs ? 3 * record->nodes : 0;
     for (size_t i = 0; i < numbers; i++)
-        if (loads->stiffness[0][i] < 0) return complain(log, "negative", "node_stiffness");
+        if (loads->stiffness[i / 3][i % 3] < 0) return complain(log, "negative", "node_stiffness");
     snprintf(name, sizeof name, "%s_drag", line);
     loads->has_drag = nc_get_att_double(source->nc, NC_GLOBAL, name, loads->drag) == NC_NOERR &&
                       nc_inq_attlen(source->nc, NC_GLOBAL, "current", &(size_t){0}) == NC_NOERR;
