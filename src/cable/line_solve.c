@@ -358,12 +358,13 @@ static CpsiIpmReport polish(CpsiLine *line, CpsiChainProgram *program, const Cps
 }
 
 /* Does Newton's method treat what acts in the solution of the loop: tension everywhere, and no
- * contacts of elements? */
+ * contacts of elements that it leaves out? */
 static bool can_polish(CpsiLine *line, const CpsiChainProgram *program) {
     const CpsiUnilateral *unilateral = &program->unilateral;
     for (int k = 0; k < unilateral->count; k++)
         if (unilateral->contact[k] >= cpsi_line_contacts(line) &&
-            unilateral->z[k] > unilateral->s[k])
+            unilateral->z[k] > unilateral->s[k] &&
+            !cpsi_warm_step_treats_element(line, unilateral->contact[k]))
             return false;
     cpsi_places_as_found(line, program);
     return line->report.places == CPS_PLACES_UNIQUE;
