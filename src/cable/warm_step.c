@@ -87,25 +87,28 @@ static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
     return aside <= SAME_WAY * SAME_WAY * size ? ratio : 0;
 }
 
-bool cpsi_warm_step_treats_element(const CpsiLine *line, int c) {
+/* ... of an element? */
+static bool treats_element(const CpsiLine *line, int c) {
     for (int k = 0; k < line->obstacle_count; k++)
         if (line->obstacle[k].has_set) return false;
     return !line->keeps_reference_axes && !cpsi_line_is_third(line, c);
 }
 
-/* How far the method treats the contacts that the line has now: not third ones, those of elements
- * beside sets, and those with boxes and sets whose boundary is not known; second ones from the solution of a round on,
- * since a line may rest in a corner, or slide along it, under the same forces. */
+bool cpsi_warm_step_treats(const CpsiLine *line, int c) {
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    if (c >= cpsi_line_contacts(line) && !treats_element(line, c)) return false;
+    if (!obstacle->has_set) return obstacle->shape != CPS_FRICTION_SHAPE_BOX;
+    const CpsiFrictionSet *given = cpsi_line_friction_law(line, c).given;
+    return !given || cpsi_friction_set_shape(given);
+}
+
+/* How far the method treats the contacts that the line has now; second ones from the solution of a
+ * round on, since a line may rest in a corner, or slide along it, under the same forces. */
 static CpsiGuess treated_contacts(const CpsiLine *line) {
     CpsiGuess best = CPSI_GUESS_EXTRAPOLATED;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-        const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-        if (!obstacle || line->state[c] == CPS_NODE_STATE_FREE) continue;
-        if ((c >= cpsi_line_contacts(line) && !cpsi_warm_step_treats_element(line, c)) ||
-            (!obstacle->has_set && obstacle->shape == CPS_FRICTION_SHAPE_BOX))
-            return CPSI_GUESS_NONE;
-        const CpsiFrictionSet *given = cpsi_line_friction_law(line, c).given;
-        if (given && !cpsi_friction_set_shape(given)) return CPSI_GUESS_NONE;
+        if (!cpsi_line_obstacle(line, c) || line->state[c] == CPS_NODE_STATE_FREE) continue;
+        if (!cpsi_warm_step_treats(line, c)) return CPSI_GUESS_NONE;
         if (c >= line->n && c < cpsi_line_contacts(line)) best = CPSI_GUESS_LATER;
     }
     return best;

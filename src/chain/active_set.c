@@ -201,8 +201,7 @@ static void finish(const CpsiNewton *newton) {
     for (int k = 0; k < unilateral->count; k++) {
         const int j = unilateral->node[k];
         if (cpsi_newton_is_corner(newton, j)) continue;
-        const bool closed =
-            !cpsi_newton_is_other(program, k) && (newton->status[j] & CPSI_CLOSED);
+        const bool closed = !cpsi_newton_is_other(program, k) && (newton->status[j] & CPSI_CLOSED);
         unilateral->s[k] = closed ? 0 : cpsi_newton_gap(program, k);
         if (!closed) unilateral->z[k] = 0;
     }

@@ -157,7 +157,10 @@ static bool begin_friction(CpsiNewton *newton, int d) {
     if (cpsi_newton_is_other(program, disc->unilateral[d]) ||
         cpsi_newton_is_corner(newton, disc->node[d]))
         return program->bounds_coupled;
-    if (!is_plain(program, d)) return false;
+    if (!is_plain(program, d)) {
+        newton->status[disc->node[d]] |= CPSI_BARRED;
+        return program->bounds_coupled && !(newton->status[disc->node[d]] & CPSI_CLOSED);
+    }
     newton->status[disc->node[d]] |= CPSI_HAS_FRICTION;
     if (!cpsi_newton_has_friction(newton, d)) return true;
     if (cpsi_newton_is_point(newton, disc->node[d])) cpsi_newton_begin_point_friction(newton, d);
@@ -222,7 +225,8 @@ static void decide_contacts(CpsiNewton *newton) {
             *status &= CPSI_HAS_FRICTION;
             newton->changed = true;
         } else if (gap < -newton->rounding) {
-            newton->lost |= is_point && !cpsi_newton_may_close_point(newton, j);
+            newton->lost |=
+                (*status & CPSI_BARRED) || (is_point && !cpsi_newton_may_close_point(newton, j));
             if (newton->lost) continue;
             if (is_point) cpsi_newton_close_point(newton, j);
             *status |= CPSI_CLOSED | CPSI_LANDS;

@@ -62,8 +62,12 @@ static Direction direction_of(const CpsiNewton *newton, int d, const CpsiNodeFri
     const double *stiffness = program->matrix.stiffness, *last = &program->disc.w[d][1];
     const int j = program->disc.node[d];
     const bool is_point = cpsi_newton_is_point(newton, j);
-    const double before = is_point ? stiffness[j - program->n] : j > 0 ? stiffness[j] : 0,
-                 after = is_point ? before : j + 1 < program->n ? stiffness[j + 1] : 0,
+    const double before = is_point ? stiffness[j - program->n]
+                          : j > 0  ? stiffness[j]
+                                   : 0,
+                 after = is_point             ? before
+                         : j + 1 < program->n ? stiffness[j + 1]
+                                              : 0,
                  rho = SLIP_STIFFNESS * (before + after) / program->disc.weight[d];
     const double tau[2] = {now->f[0] - rho * now->s[0], now->f[1] - rho * now->s[1]};
     const double size = cpsi_newton_size(tau), slip = cpsi_newton_size(now->s),

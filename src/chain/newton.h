@@ -12,10 +12,11 @@
 /* A slip shorter than this, per length of the line, has no direction (CPS_TOUCH). */
 #define CPSI_LEAST_SLIP 1e-9
 
-/* Bits of the status of a node, or of the point of an element: its contact is closed; friction may act; friction sticks; the node has
- * just landed, or stopped (one that slips against an edge of its set: along that), and is not yet
- * where that wants it; it was released and has not yet slipped in the direction of its pull; both
- * its contacts are closed, for good. */
+/* Bits of the status of a node, or of the point of an element: its contact is closed; friction may
+ * act; friction sticks; the node has just landed, or stopped (one that slips against an edge of its
+ * set: along that), and is not yet where that wants it; it was released and has not yet slipped in
+ * the direction of its pull; both its contacts are closed, for good; its contact, which is open,
+ * has friction of a kind that is not treated. */
 enum {
     CPSI_CLOSED = 1,
     CPSI_HAS_FRICTION = 2,
@@ -23,7 +24,8 @@ enum {
     CPSI_LANDS = 8,
     CPSI_STOPS = 16,
     CPSI_RELEASED = 32,
-    CPSI_CORNER = 64
+    CPSI_CORNER = 64,
+    CPSI_BARRED = 128
 };
 
 /* A node whose two contacts are both closed: they, and the discs of their friction, -1: none; and
