@@ -43,6 +43,7 @@
 #include "cable/standstill.h"
 #include "cable/strategy.h"
 #include "cable/tension_field.h"
+#include "cable/winch.h"
 #include "ipm/ipm.h"
 
 /* strategies ----------------------------------------------------------------------------------- */
@@ -296,6 +297,7 @@ static void take_joined(CpsiLine *line, const CpsiStepOptions *options) {
     if (joined->scale.longer > 1) cpsi_line_straighten(line, joined->scale.longer - 1);
     for (int e = 0; e + 1 < line->n; e++)
         for (int a = 0; a < 3; a++) line->segment_force[3 * e + a] += joined->shift[a];
+    cpsi_winch_unload(line);
     line->report.iteration_count = joined->ipm.iterations;
     cpsi_places_as_found(line, program);
     cpsi_contact_plane_slip(line);

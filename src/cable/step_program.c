@@ -12,6 +12,7 @@
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
+#include "cable/winch.h"
 #include "chain/frame.h"
 
 /* Friction bounds below this share of the force scale count as zero: they cannot be distinguished
@@ -439,4 +440,5 @@ void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program,
         cpsi_frame_from(&line->segment_force[3 * (i - 1)], line->common_axes, force);
         line->tension[i - 1] = scale->force * z[0];
     }
+    cpsi_winch_unload(line);
 }
