@@ -48,8 +48,9 @@ CPS_API const char *cps_stiffness_text(CpsStiffnessKind kind); /* its sentence; 
     X(CPS_STIFFNESS_OUTCOME_LOOSE, 3, "loose",                                          \
       "a loose part of the line has no one place, and no stiffness")                    \
     X(CPS_STIFFNESS_OUTCOME_NOT_GIVEN, 4, "not_given",                                  \
-      "an element touches, a node slides in a corner, with a box or a set of friction " \
-      "forces, or by axes that change, or states are not resolved: not looked into")
+      "an obstacle gives, an element touches, a node slides in a corner, with a box or a " \
+      "set of friction forces, or by axes that change, or states are not resolved: not "  \
+      "looked into")
 
 typedef enum CpsStiffnessOutcome {
 #define CPS_STIFFNESS_OUTCOME_ENUM(name, number, key, sentence) name = number,

@@ -38,6 +38,7 @@ typedef struct CpsiLine {
                            or none; NULL: no obstacle has one */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
     CpsiShift *shift;   /* (obstacle_count) how each has been shifted in it */
+    double bearing_width;           /* [m] with which it bears on what gives */
     bool has_zones, has_inertia;    /* friction differs along it; it may move in time */
     bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
     bool has_sections;              /* weight and compliance may, and there may be point masses */
@@ -273,8 +274,10 @@ void cpsi_line_local_slip(const CpsiLine *line, int c, double slip[3]);
 /* [m] The largest displacement of a node from the positions `from` (n, 3). */
 double cpsi_line_largest_displacement(const CpsiLine *line, const double *from);
 
-/* The obstacle nearest to a point (CPS_NO_OBSTACLE: none) and the distance to it (INFINITY). */
+/* The obstacle nearest to a point (CPS_NO_OBSTACLE: none) and the distance to it (INFINITY); among
+ * all, or among those that are rigid. */
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap);
+int cpsi_line_nearest_rigid(const CpsiLine *line, Vec3 x, double *gap);
 
 /* [m] The largest penetration of an element into a round obstacle at `position`, beyond the
  * allowance of its chord (cpsi_obstacle_allowance), and that obstacle; 0, and *obstacle as it

@@ -7,6 +7,7 @@
 
 #include "cable/friction_law.h"
 #include "cable/held.h"
+#include "cable/soft.h"
 #include "chain/active_set.h"
 #include "chain/frame.h"
 
@@ -88,10 +89,11 @@ static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
 }
 
 /* How far the method treats the contacts that the line has now: not those of elements, and those
- * with boxes and sets whose boundary is not known; second ones from the solution of a round on,
+ * with boxes, with what gives, and sets whose boundary is not known; second ones from the solution of a round on,
  * since a line may rest in a corner, or slide along it, under the same forces. */
 static CpsiGuess treated_contacts(const CpsiLine *line) {
     CpsiGuess best = CPSI_GUESS_EXTRAPOLATED;
+    if (cpsi_line_has_soft(line)) return CPSI_GUESS_NONE;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
         if (!obstacle || line->state[c] == CPS_NODE_STATE_FREE) continue;

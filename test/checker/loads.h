@@ -8,7 +8,8 @@
 
 /* Of one line and step; arrays are NULL where the file has none. */
 typedef struct Loads {
-    Vector *stiffness, *place, *beside; /* (nodes) of springs, K diagonal */
+    /* (nodes) of springs: K, its xx, yy, zz and xy, xz, yz; a; y */
+    Vector *stiffness, *coupling, *place, *beside;
     Vector *given;                      /* (nodes) [N] given loads and drag */
     double ledger, residual;            /* as claimed */
     bool has_drag;

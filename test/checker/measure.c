@@ -23,6 +23,7 @@
 
 #include "fall.h"
 #include "inertia.h"
+#include "soft.h"
 
 #include <math.h>
 
@@ -283,11 +284,12 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     const Real turn = (Real)r->turn[seat.surface - where->source->surface];
     const bool moves = turn != 0 || surface_moves(seat.surface);
     surface_carry(seat.surface, reference, r->share, turn, carried);
-    if (moves) surface_own(seat.surface, x, reference, r->share, seat.own);
+    const Surface at = soft_level(seat.surface, x);
+    if (moves) surface_own(&at, x, reference, r->share, seat.own);
     if (where->reached && !where->frozen) {
         /* half round no way is shorter than all others; where no friction acts none is asked for */
         const bool half = surface_angle(seat.surface, carried, x) > 2 * QUARTER - HALF_ROUND;
-        if (!half || r->friction_bound[c] > 0) surface_slip(seat.surface, carried, x, seat.slip);
+        if (!half || r->friction_bound[c] > 0) surface_slip(&at, carried, x, seat.slip);
     } else {
         Triple displacement = {x[0] - carried[0], x[1] - carried[1], x[2] - carried[2]};
         Real rise = dot(displacement, seat.plane);
@@ -296,7 +298,8 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     seat.gap = where->reached ? surface_distance(seat.surface, x) - dot(seat.normal, u)
                               : surface_distance(seat.surface, reference);
     /* the reference of a step in time may lie below, no other does but for rounding */
-    if (!where->reached && !in_time(r)) seat.gap = fmaxl(0, seat.gap);
+    if (!where->reached && !in_time(r) && !(seat.surface->gives > 0))
+        seat.gap = fmaxl(0, seat.gap);
     if (!moves)
         for (int k = 0; k < 3; k++) seat.own[k] = seat.slip[k];
     subtract(nodes[j < r->elements ? j + 1 : j], nodes[j > 0 ? j - 1 : j], along);
@@ -332,6 +335,10 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     if (c == j)
         for (size_t k = 0; k < where->source->surfaces; k++) {
             Real depth = -surface_distance(&where->source->surface[k], x);
+            if (where->source->surface[k].gives > 0) {
+                if (depth > margin && !soft_bears(r, j, k)) m->misplaced++;
+                continue;
+            }
             raise_to(&m->depth, depth);
             if (surface_ends(&where->source->surface[k], x, PLACE_MARGIN * where->reach))
                 m->misplaced++;
@@ -432,12 +439,23 @@ static void measure_contact(const Where *where, const Record *r, size_t j, size_
         return;
     }
     Real distance = dot(n, u) + gap;
+    add(&s->dual, -R * gap);
+    add(&s->magnitude, fabsl(R * gap));
+    if (seat.surface && seat.surface->gives > 0) {
+        const Soft soft = soft_spring(r, seat.surface, j, distance, R);
+        add(&s->primal, soft.energy);
+        add(&s->scale, soft.energy);
+        add(&s->dual, -soft.conjugate);
+        add(&s->signed_gap, soft.gap);
+        add(&s->gap, soft.gap);
+        add(&s->contact, soft.gap);
+        add(&s->magnitude, soft.energy + soft.conjugate);
+        return;
+    }
     raise_to(&m->penetration, -distance);
     add(&s->signed_gap, R * distance);
     add(&s->gap, fabsl(R * distance));
     add(&s->contact, fabsl(R * distance));
-    add(&s->dual, -R * gap);
-    add(&s->magnitude, fabsl(R * gap));
 }
 
 /* the point of element i at the share t of its way */
@@ -624,6 +642,7 @@ static void measure_spring(const Spring *spring, const Real *arm, const Real *u,
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
+    if (!held(r, j)) add(&s->elastic, soft_growth(where->source, r, j));
     widen(r->load[j], b);
     widen(r->load[j], pull);
     widen(r->position[j], x);
@@ -727,7 +746,8 @@ static void measure_pierced(const Source *source, const Record *r, Measures *m) 
         widen(r->position[i], a);
         widen(r->position[i + 1], b);
         for (size_t k = 0; k < source->surfaces; k++)
-            raise_to(&m->pierced,
+            if (!(source->surface[k].gives > 0))
+                raise_to(&m->pierced,
                      surface_pierced(&source->surface[k], a, b, (Real)r->element_length[i]));
     }
 }
