@@ -148,11 +148,11 @@ typedef struct CpsLine {
     double length;                /* [m] natural length > 0 */
     int element_count;            /* >= 1 */
     const double *element_length; /* (element_count) [m], their sum is `length`; NULL: all equal */
-    double weight;      /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
-    double inertia;     /* [kg/m] >= 0, default 0: mass per natural length that moves (motion.h) */
-    double bearing_width; /* [m] >= 0, default 0: with which it bears on obstacles that give */
-    double velocity[3]; /* [m/s] of the free nodes as the history begins; default 0 0 0 */
-    double stiffness;   /* [N] EA > 0; INFINITY: inextensible */
+    double weight;  /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double inertia; /* [kg/m] >= 0, default 0: mass per natural length that moves (motion.h) */
+    double bearing_width;    /* [m] >= 0, default 0: with which it bears on obstacles that give */
+    double velocity[3];      /* [m/s] of the free nodes as the history begins; default 0 0 0 */
+    double stiffness;        /* [N] EA > 0; INFINITY: inextensible */
     int stiffness_row_count; /* default 0; or of a table in place of `stiffness`, as of a section */
     const CpsStiffnessRow *stiffness_row;
     bool has_dynamic_stiffness; /* default false; as of a section */

@@ -251,8 +251,7 @@ static void add_soft(const CpsiLine *line, int c, double gives, CpsCertificate *
     const Vec3 u = vec3_sub(cpsi_line_place(line, line->position, c),
                             cpsi_line_place(line, line->reference, c));
     const double depth = -(vec3_dot(vec3_at(line->normal, c), u) + line->gap[c]),
-                 reaction = line->reaction[c], sunk = fmax(0, depth),
-                 off = sunk - reaction / gives;
+                 reaction = line->reaction[c], sunk = fmax(0, depth), off = sunk - reaction / gives;
     out->primal += 0.5 * gives * sunk * sunk;
     out->dual -= 0.5 * reaction * (reaction / gives);
     out->scale += 0.5 * gives * sunk * sunk;
@@ -332,7 +331,8 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         if (j > 0) balance = vec3_sub(balance, segment_force(line, j - 1));
         if (j + 1 < line->n) balance = vec3_add(balance, segment_force(line, j));
         double distance;
-        if (cpsi_line_nearest_rigid(line, x, &distance) >= 0) raise_to(&out->penetration, -distance);
+        if (cpsi_line_nearest_rigid(line, x, &distance) >= 0)
+            raise_to(&out->penetration, -distance);
         balance = cpsi_add_element_contacts(line, j, balance);
         if (cpsi_line_is_held(line, j)) {
             /* the held node's term of D: the force of its support times its position */

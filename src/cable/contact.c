@@ -215,8 +215,7 @@ static void set_reference(CpsiLine *line, int c, bool frictionless) {
     line->friction_bound[c] = has_friction ? line->friction_law[c].friction * line->reaction[c] : 0;
     line->gap[c] = !held && near ? 0 : INFINITY;
     if (cpsi_contact_is_watched(line, c, gap))
-        line->gap[c] =
-            gap > 0 || line->inertia.is_moving || obstacle->stiffness > 0 ? gap : 0;
+        line->gap[c] = gap > 0 || line->inertia.is_moving || obstacle->stiffness > 0 ? gap : 0;
     line->gap[c] -= nearer;
     /* a free contact has no reaction; remove what the loop left of it */
     if (!held && (!cpsi_contact_is_watched(line, c, gap) || line->state[c] == CPS_NODE_STATE_FREE))

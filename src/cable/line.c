@@ -225,9 +225,8 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         const int on = cpsi_line_nearest(line, x, &gap);
         if (!(gap <= touch)) continue;
         if (line->obstacle[on].stiffness > 0) {
-            line->reaction[j] =
-                line->obstacle[on].stiffness * line->bearing_width * cpsi_line_share(line, j) *
-                fmax(0, -gap);
+            line->reaction[j] = line->obstacle[on].stiffness * line->bearing_width *
+                                cpsi_line_share(line, j) * fmax(0, -gap);
             line->state[j] = CPS_NODE_STATE_STICK;
             if (line->has_local_axes) line->obstacle_index[j] = on;
             continue;

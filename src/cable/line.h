@@ -5,8 +5,7 @@
  * n): contact c < n is the first contact of node c, contact n <= c < 2 n is the second contact of
  * node c - n. Where there are round obstacles, or more than two, and contact is not that of the
  * reference, elements touch as well: the contact of element e has the number `contacts` * n + e, at
- * the point of the element nearest to the axis or centre. With a plane it is the third contact of
- * node e + 1. */
+ * the point of it nearest to the axis or centre; with a plane it is the third of node e + 1. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_H
 #define CAPSTAN_SRC_CABLE_LINE_H
 
@@ -36,9 +35,8 @@ typedef struct CpsiLine {
     const CpsiFrictionSet *const
         *friction_set;  /* (obstacle_count) general friction sets; an entry NULL: a set that is {0},
                            or none; NULL: no obstacle has one */
-    const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
-    CpsiShift *shift;   /* (obstacle_count) how each has been shifted in it */
-    double bearing_width;           /* [m] with which it bears on what gives */
+    const double *turn; /* (obstacle_count) [rad] by which each turns in this substep, and */
+    CpsiShift *shift;   /* how each has been shifted in it */
     bool has_zones, has_inertia;    /* friction differs along it; it may move in time */
     bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
     bool has_sections;              /* weight and compliance may, and there may be point masses */
@@ -46,6 +44,7 @@ typedef struct CpsiLine {
     bool has_local_axes;    /* each contact has its own axes: not on one plane with a disc */
     int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
     int element_contacts;   /* of an element, 0 or 1: so many more rows have arrays (contacts, n) */
+    double bearing_width;   /* [m] on what gives */
     double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
     CpsEnd end[2];          /* imposed now */
     CpsiDrums drums;        /* what is on winches at the ends */

@@ -24,7 +24,7 @@ double cpsi_soft_stiffness(const CpsiLine *line, int c) {
 double cpsi_soft_way_depth(const CpsiObstacle *obstacle, Vec3 x) {
     const double depth = fmax(0, -cpsi_obstacle_gap(obstacle, x));
     return cpsi_obstacle_kind_has_radius(obstacle->kind) && depth < 0.5 * obstacle->radius ? depth
-                                                                                          : 0;
+                                                                                           : 0;
 }
 
 double cpsi_soft_missed(const CpsiLine *line, int j) {

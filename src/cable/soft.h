@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Obstacles that give (CpsObstacle.stiffness, CpsLine.bearing_width): the obstacle opposes to a node that
- * lies deeper than its surface by d the reaction R = k d, k = stiffness x width x the length of
- * line that the node stands for, and pulls at none. Friction has the bound mu R as on a rigid one.
- * Only nodes bear on it: the integral of the pressure over the line is taken by their values. */
+/* Obstacles that give (CpsObstacle.stiffness, CpsLine.bearing_width): the obstacle opposes to a
+ * node that lies deeper than its surface by d the reaction R = k d, k = stiffness x width x the
+ * length of line that the node stands for, and pulls at none. Friction has the bound mu R as on a
+ * rigid one. Only nodes bear on it: the integral of the pressure over the line is taken by their
+ * values. */
 #ifndef CAPSTAN_SRC_CABLE_SOFT_H
 #define CAPSTAN_SRC_CABLE_SOFT_H
 

@@ -89,8 +89,8 @@ static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
 }
 
 /* How far the method treats the contacts that the line has now: not those of elements, and those
- * with boxes, with what gives, and sets whose boundary is not known; second ones from the solution of a round on,
- * since a line may rest in a corner, or slide along it, under the same forces. */
+ * with boxes, with what gives, and sets whose boundary is not known; second ones from the solution
+ * of a round on, since a line may rest in a corner, or slide along it, under the same forces. */
 static CpsiGuess treated_contacts(const CpsiLine *line) {
     CpsiGuess best = CPSI_GUESS_EXTRAPOLATED;
     if (cpsi_line_has_soft(line)) return CPSI_GUESS_NONE;

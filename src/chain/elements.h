@@ -88,11 +88,11 @@ typedef struct CpsiFrictionDisc {
 typedef struct CpsiUnilateral {
     int count;
     int *node;
-    int *contact;   /* (count) the caller's number */
-    double *weight; /* (count) w_k > 0 */
-    double *gap;    /* (count) g_k >= 0, any where it gives */
+    int *contact;       /* (count) the caller's number */
+    double *weight;     /* (count) w_k > 0 */
+    double *gap;        /* (count) g_k >= 0, any where it gives */
     double *compliance; /* (count) c_k >= 0: the distance is g_k + n_k.u + c_k R_k */
-    bool *second;   /* (count) its normal is not z: the second contact of its node */
+    bool *second;       /* (count) its normal is not z: the second contact of its node */
     double (
         *normal)[3]; /* (count) n_k; of a first contact z. NULL: all are z, and none is second */
     double (*curvature)[6]; /* (count) R0 times the curvature of the surface, xx, xy, yy, xz, yz,

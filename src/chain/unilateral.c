@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Unilateral contact along the normal n: s = gap + n.u + c z >= 0 with reaction z >= 0, s z = 0. With
- * a compliance c > 0 the obstacle gives: z = max(0, -(gap + n.u)/c).
+/* Unilateral contact along the normal n: s = gap + n.u + c z >= 0 with reaction z >= 0, s z = 0.
+ * With a compliance c > 0 the obstacle gives: z = max(0, -(gap + n.u)/c).
  *
  * On a curved obstacle the reaction turns with the normal as the node moves along it (`curvature`,
  * see chain_program.h).
@@ -207,9 +207,8 @@ static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
 CPSI_LANES_PART void direct_lanes(UnilateralLanes *restrict x, const bool seconds, double keep,
                                   double *restrict inverse) {
     CPSI_FOR_LANES(l) {
-        const double s = x->s[l], z = x->z[l], q = x->q[l], c = x->compliance[l],
-                     stiffness = z / s, whole = 1 + c * stiffness,
-                     rho = keep * (x->gap[l] + x->rise[l] + c * z - s);
+        const double s = x->s[l], z = x->z[l], q = x->q[l], c = x->compliance[l], stiffness = z / s,
+                     whole = 1 + c * stiffness, rho = keep * (x->gap[l] + x->rise[l] + c * z - s);
         double ds = x->d_rise[l] + rho, dz = (q - stiffness * ds) / whole;
         ds += c * dz;
         if (seconds) {

@@ -37,10 +37,11 @@ CpsStatus cpsi_soft_line_check(const CpsScene *scene, const CpsLine *line, CpsEr
         if (scene->obstacle[k].stiffness > 0) soft = &scene->obstacle[k];
     if (!soft) return CPS_OK;
     if (!(line->bearing_width > 0))
-        return CPSI_FAIL_AT("bearing_width", err, CPS_ERR_ARGUMENT,
-                            "line '%s': bearing_width: obstacle '%s' gives (stiffness), so how wide the "
-                            "line bears on it has to be known: give its bearing_width",
-                            line->name, soft->name);
+        return CPSI_FAIL_AT(
+            "bearing_width", err, CPS_ERR_ARGUMENT,
+            "line '%s': bearing_width: obstacle '%s' gives (stiffness), so how wide the "
+            "line bears on it has to be known: give its bearing_width",
+            line->name, soft->name);
     if (line->start.kind == CPS_START_NODES && (line->start.reaction || line->start.friction_bound))
         return CPSI_FAIL_AT("start", err, CPS_ERR_ARGUMENT,
                             "line '%s': start: obstacle '%s' gives (stiffness), so the reactions "

@@ -207,8 +207,7 @@ static void catenary_on_winklers_bed(void **state) {
                 hypot(found.quarter[0] - middle[0], found.quarter[1] - middle[1]) / w->length;
         }
         for (int what = 0; what < 3; what++) {
-            const double order =
-                log2(error[0][what] / error[MESHES - 1][what]) / (MESHES - 1);
+            const double order = log2(error[0][what] / error[MESHES - 1][what]) / (MESHES - 1);
             print_message("bed %g N/m2, %s: %.2e %.2e %.2e %.2e, order %.2f\n", w->bed,
                           what == 0   ? "force at A"
                           : what == 1 ? "force at B"

@@ -133,8 +133,9 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
     }
     /* what certified steps have used differs from what is there by no more than they say */
     const bool certified = r->outcome == OUTCOME_SOLVED || r->outcome == OUTCOME_TAUT;
-    if (certified && drag && !(loads->residual <= 1.001 * compare->scene->solver.tolerance *
-                                                  r->claim[CLAIM_LARGEST_FORCE]))
+    if (certified && drag &&
+        !(loads->residual <=
+          1.001 * compare->scene->solver.tolerance * r->claim[CLAIM_LARGEST_FORCE]))
         find(compare, "drag of %s, step %zu: certified, but said to be off by %.17g N", line->name,
              step, loads->residual);
     if (certified && forces && !(off <= 1.001 * loads->residual + 1e-10 * sizes))

@@ -90,7 +90,8 @@ int loads_create(const Source *source, const char *line, Record *record, FILE *l
          read_vectors(source, line, "node_coupling", -1, record->nodes, loads->coupling, log) ||
          read_vectors(source, line, "node_place", -1, record->nodes, loads->place, log)))
         return -1;
-    for (size_t j = 0; springs && j < record->nodes; j++)
+    const size_t on_springs = springs ? record->nodes : 0;
+    for (size_t j = 0; j < on_springs; j++)
         if (!is_convex(loads->stiffness[j], loads->coupling[j]))
             return complain(log, "negative energy", "node_stiffness");
     snprintf(name, sizeof name, "%s_drag", line);

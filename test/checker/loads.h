@@ -10,8 +10,8 @@
 typedef struct Loads {
     /* (nodes) of springs: K, its xx, yy, zz and xy, xz, yz; a; y */
     Vector *stiffness, *coupling, *place, *beside;
-    Vector *given;                      /* (nodes) [N] given loads and drag */
-    double ledger, residual;            /* as claimed */
+    Vector *given;           /* (nodes) [N] given loads and drag */
+    double ledger, residual; /* as claimed */
     bool has_drag;
     double drag[3]; /* diameter, coefficients across and along */
     double density;

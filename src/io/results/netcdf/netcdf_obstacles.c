@@ -416,7 +416,8 @@ void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene) {
     }
     if (most > 0) cpsi_netcdf_numbers(file, "obstacle_stiffness", count, stiffness);
     free(stiffness);
-    for (int i = 0; i < scene->line_count && most > 0; ++i) {
+    const int lines = most > 0 ? scene->line_count : 0;
+    for (int i = 0; i < lines; ++i) {
         char name[NC_MAX_NAME + 1];
         snprintf(name, sizeof name, "%.200s_bearing_width", scene->line[i].name);
         cpsi_netcdf_numbers(file, name, 1, &scene->line[i].bearing_width);
