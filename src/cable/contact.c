@@ -294,7 +294,11 @@ void cpsi_contact_clear_undetermined_slip(CpsiLine *line) {
 bool cpsi_contact_turns_too_far(const CpsiLine *line) {
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-            if (line->obstacle_index[c] < 0 || !(line->friction_bound[c] > 0)) continue;
+            const int k = line->obstacle_index[c];
+            /* what gives may also be gone through */
+            if (k < 0 || !(line->friction_bound[c] > 0 ||
+                           (line->obstacle[k].stiffness > 0 && line->reaction[c] > 0)))
+                continue;
             /* it has left the surface, and its slip is that in the plane of the reference */
             if (line->keeps_reference_axes && !(line->reaction[c] > 0)) continue;
             if (!(fabs(line->winding[c]) <= CPSI_QUARTER + QUARTER_ROUNDING) ||

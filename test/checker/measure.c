@@ -240,11 +240,23 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     return seat;
 }
 
+/* [m] Of a node at x that hangs inside of a sphere, cylinder, capsule or cone: how far from its
+ * middle, where no wall is nearest. Infinite of others. */
+static Real off_middle(const Surface *on, const Real *x) {
+    if (!on || !on->inside || on->kind == SURFACE_TORUS || on->kind == SURFACE_BOX) return INFINITY;
+    Triple arm;
+    for (int k = 0; k < 3; k++) arm[k] = x[k] - on->point[k];
+    const Real along = on->kind == SURFACE_SPHERE ? 0 : dot(arm, on->axis);
+    for (int k = 0; k < 3; k++) arm[k] -= along * on->axis[k];
+    return size(arm);
+}
+
 /* By how much more than places normals are off by rounding: on ground slopes may change within a
  * cell. */
-static Real turning(const Where *where, const Surface *on) {
+static Real turning(const Where *where, const Surface *on, const Real *x) {
     if (!on || on->kind == SURFACE_PLANE) return 0;
-    return where->reach / (on->ground ? ground_spacing(on->ground) : on->radius);
+    return where->reach /
+           (on->ground ? ground_spacing(on->ground) : fminl(on->radius, off_middle(on, x)));
 }
 
 /* normal, slip and gap on file against those recomputed, and depth below whatever obstacle */
@@ -263,8 +275,13 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
         slip[k] -= seat->slip[k];
     }
     bool round = seat->surface && surface_is_round(seat->surface);
-    raise_to(&m->normal_error, size(n) / (1 + turning(where, seat->surface)));
-    raise_to(&m->slip_error, size(slip));
+    raise_to(&m->normal_error, size(n) / (1 + turning(where, seat->surface, x)));
+    // the slip of what hangs is that of its foot
+    const Real hangs =
+        seat->surface && seat->surface->inside
+            ? fmaxl(0, surface_distance(seat->surface, x)) / off_middle(seat->surface, x)
+            : 0;
+    raise_to(&m->slip_error, size(slip) / (1 + hangs));
     if (c == j)
         for (size_t k = 0; k < where->source->surfaces; k++) {
             Real depth = -surface_distance(&where->source->surface[k], x);
