@@ -100,6 +100,7 @@ static void fill_joint(const CpsiJoint *joint, bool own_axes, const double axes[
     unilateral->second[0] = false;
     unilateral->weight[0] = share;
     unilateral->gap[0] = fmax(0, joint->gap) / scale->length;
+    unilateral->compliance[0] = 0;
     if (chain->frame) {
         memset(unilateral->normal[0], 0, sizeof unilateral->normal[0]);
         unilateral->normal[0][2] = 1;
@@ -197,7 +198,8 @@ static void move_ends(CpsiLine *line, const CpsiNetworkPart *part, int item) {
     for (int end = 0; end < 2 && line->has_local_axes; end++) {
         const int k = part->at[item][end], beyond = line->drums.nodes[end],
                   first = end == CPS_END_A ? 0 : line->n - 1 - beyond;
-        for (int j = first; j <= first + beyond && k != CPSI_NO_JOINT && k < part->own; j++)
+        if (k == CPSI_NO_JOINT || k >= part->own) continue;
+        for (int j = first; j <= first + beyond; j++)
             vec3_store(&line->base[3 * j], part->joint[k].position);
     }
 }

@@ -6,9 +6,10 @@ without winches, whose lines are as long as what is off the drums.
 usage: random_winches.py CAPSTAN CHECKER [--count N] [--seed S] [--only CLASS] [--keep FOLDER]
 
 Of each class N scenes: two to four lines, elastic or not, with and without weight, hold a point or a body; drums at some of their ends pay
-out and haul in, and an anchor moves. At least 995 of 1000 steps must be certified, 970 with a body, of some of which the static start is not, those refused with a proof counted
-apart, and the checker must refute none. Of `whole`, elastic lines with weight without an obstacle, drums hold whole elements when the
-history ends: place and forces there are those of the mooring without winches, to 1e-7 of its size and of its largest force.
+out and haul in, and an anchor moves. At least 995 of 1000 steps must be certified, 970 with a body, of some of which the static start is
+not, those refused with a proof counted apart, and the checker must refute none. Of `whole`, elastic lines with weight without an obstacle,
+drums hold whole elements when the history ends: place and forces there are those of the mooring without winches, to 1e-7 of its size and of
+its largest force.
 """
 import argparse
 import math
