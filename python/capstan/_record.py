@@ -31,7 +31,7 @@ def enum_value(kind: str, word: str) -> int:
     """The constant of a word; ValueError names the words that there are."""
     words = enum_words(ffi.typeof(kind))
     for value, name in words.items():
-        if name == word:
+        if isinstance(word, str) and name == word:
             return value
     raise ValueError(f"found {word!r}, expected one of {', '.join(words.values())}")
 

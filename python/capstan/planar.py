@@ -236,8 +236,8 @@ class Sweep(_State):
         return Record(out)
 
 
-def planimeter(points: Numbers, *, steps: int = 100, pole: Numbers = (0, 0), pole_arm: float, tracer_arm: float, wheel: float = 0.0,
-               friction: float = 0.0, load: float = 0.0, left_elbow: bool = False) -> Record:
+def planimeter(points: Numbers, *, steps: int = 100, pole: Numbers = (0, 0), pole_arm: float, tracer_arm: float, friction: float,
+               load: float, wheel: float = 0.0, left_elbow: bool = False) -> Record:
     """Trace a closed polygon (points, 2) [m] by a polar planimeter: what it reads (CpsPlanimeterReading of planar.h).
 
     >>> square = [[0.2, 0.2], [0.4, 0.2], [0.4, 0.4], [0.2, 0.4]]
