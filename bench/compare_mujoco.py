@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The ropes of examples/notebooks/beside_mujoco.ipynb in MuJoCo.   usage: compare_mujoco.py [FILE]
 
-Writes what MuJoCo finds, with its version, settings and processor times, to FILE, by default examples/notebooks/mujoco.json, which the
-notebook reads. MuJoCo (package index) is installed into build/mujoco-venv at the first run. A few minutes.
+Writes what MuJoCo finds, with its version, settings and processor times, to FILE, by default bench/results/mujoco.json, which the notebook
+reads. MuJoCo (package index) is installed into build/mujoco-venv at the first run. A few minutes.
 
 A rope is a chain of point masses with three slides each, which touch by small spheres and are joined by tendons of limited length:
 MuJoCo's own constraint solver carries tension and contact. The masses do not turn, so that they slide and do not roll.
@@ -154,7 +154,7 @@ def creep(settings):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", nargs="?", default=os.path.join(ROOT, "examples", "notebooks", "mujoco.json"))
+    parser.add_argument("file", nargs="?", default=os.path.join(ROOT, "bench", "results", "mujoco.json"))
     options = parser.parse_args()
     with_packages()
     import mujoco

@@ -4,6 +4,7 @@
 The library opens what the environment variable CAPSTAN_NETCDF says, or else the system's."""
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import os
 import pathlib
@@ -27,3 +28,18 @@ def point_to_it() -> None:
         path = found()
         if path:
             os.environ["CAPSTAN_NETCDF"] = path
+
+
+def load_with_its_own() -> None:
+    """Before it is opened by its path: what it needs lies beside it, where the package netCDF4 finds it."""
+    if os.environ.get("CAPSTAN_NETCDF", "") and os.environ["CAPSTAN_NETCDF"] == found():
+        importlib.import_module("netCDF4")
+
+
+def for_a_command() -> None:
+    """The same for a program that takes over this process."""
+    point_to_it()
+    path = os.environ.get("CAPSTAN_NETCDF", "")
+    if path and path == found():
+        before = os.environ.get("LD_LIBRARY_PATH", "")
+        os.environ["LD_LIBRARY_PATH"] = os.path.dirname(path) + (os.pathsep + before if before else "")

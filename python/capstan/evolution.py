@@ -133,7 +133,7 @@ class LineState:
         return self._evolution._ask(lambda handle: Record(lib.cps_evolution_line_failure(handle, self._index)))
 
     @property
-    def motion(self) -> Record:
+    def in_time(self) -> Record:
         """Velocity and energy of a line in time (CpsLineMotion of motion.h); its arrays are copies, None where there are none."""
         def asked(handle: Any) -> Record:
             found, n = lib.cps_evolution_line_motion(handle, self._index), lib.cps_evolution_line_view(handle, self._index).element_count + 1

@@ -10,7 +10,7 @@ import numpy as np
 
 from ._errors import ArgumentError
 from ._native import ffi, lib
-from ._shapes import shapes
+from ._surfaces import surfaces
 from .evolution import Evolution
 from .results import Results
 from .sets import Set
@@ -52,22 +52,22 @@ def _lines(source: Source, step: int, names: Optional[List[str]] = None) -> Iter
 
 def _obstacles(source: Source, axes: Tuple[int, ...], ax: "Axes", step: int, lines: Any) -> None:
     """The obstacles in grey, behind the lines. Seen along an axis, planes and ground that face the viewer are left out."""
-    low, high = (np.array([getattr(data["position"], which)(0) for _, data in lines]) for which in ("min", "max"))
-    for shape in shapes(_evolution(source, step), low.min(0), high.max(0)):
+    from matplotlib.collections import PolyCollection
+
+    places = np.concatenate([data["position"] for _, data in lines])
+    for name, surface in surfaces(_evolution(source, step), places.min(0), places.max(0)):
         if len(axes) == 3:
-            from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-
-            faces: Any = Poly3DCollection(shape.polygons, facecolor="0.75", edgecolor="0.6", linewidth=0.2, alpha=0.35)
-            faces.set_label(shape.name)
-            ax.add_collection3d(faces)
-            ax.auto_scale_xyz(*shape.polygons.reshape(-1, 3).T)
+            look: Dict[str, Any] = {"facecolor": "0.75", "edgecolor": "0.6", "alpha": 0.35, "linewidth": 0.2}
+            x = np.moveaxis(surface.point, -1, 0)
+            if surface.triangle is None:
+                ax.plot_surface(*x, rstride=1, cstride=1, **look)  # type: ignore[attr-defined]
+            else:
+                ax.plot_trisurf(*x[:2], surface.triangle, x[2], **look)  # type: ignore[attr-defined]
             continue
-        if shape.normal is not None and abs(np.delete(shape.normal, axes)[0]) > 0.5:
+        if surface.normal is not None and abs(np.delete(surface.normal, axes)[0]) > 0.5:
             continue
-        from matplotlib.collections import PolyCollection
-
-        seen = PolyCollection(list(shape.polygons[:, :, axes]), facecolor="0.85", edgecolor="0.85", linewidth=0.8, zorder=0)
-        seen.set_label(shape.name)
+        seen = PolyCollection(surface.polygons(axes), facecolor="0.85", edgecolor="0.85", linewidth=0.8, zorder=0)
+        seen.set_label(name)
         ax.add_collection(seen)
 
 

@@ -9,7 +9,7 @@ import os
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, Mapping, Optional, Union
 
-from . import _yaml
+from . import _netcdf, _yaml
 from ._errors import ArgumentError, FileError, Place, check, text
 from ._native import ffi, lib
 from ._schema import documented
@@ -204,6 +204,8 @@ class Scene:
     def _file(self) -> Any:
         """The scene as the library reads it: a CpsSceneFile that is freed with this object."""
         out, err, source = ffi.new("CpsSceneFile **"), ffi.new("CpsError *"), self._source()
+        if b"netcdf" in source:  # of a ground
+            _netcdf.load_with_its_own()
         if b"\0" in source:
             raise ArgumentError("the scene's text contains a zero byte")
         check(lib.cps_scene_read_text(source, os.fsencode(self._name), ffi.NULL, out, err), err)
