@@ -194,7 +194,7 @@ NOT_CALLED = {
     r"cps_evolution_(body|line|obstacle|point)_count|cps_law_file_(space|title)|cps_loaded_law_\w+|cps_extremes_add": "lists of Python",
     r"cps_set_(support|contains|gauge|dissipation)|cps_evolution_interrupt": "called by native.c, in loops and for signals",
     r"cps_set_conic\w*|cps_set_user": "for programs in C that extend the library",
-    r"cps_(ground|mesh)_(create|report|distance)": "scenes read grounds and meshes from files",
+    r"cps_(ground|mesh)_(create|report|distance|height)": "scenes read grounds and meshes from files",
     r"cps_(json_\w+|write_file|row_read|suggest|read_limits_default|(law|drive)_write_schema|drive_walk)": "of the command",
     r"cps_drive_(read\w*|draw_\w+)|cps_(law|resistance)_draw|cps_law_picture_default": "files of driven systems: `python -m capstan drive`",
     r"cps_(journal|study|methods|completed|regularized|first_order|offsets)_\w+|cps_completed_\w+|cps_results_write_summary":
