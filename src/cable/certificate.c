@@ -295,13 +295,20 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
  * floor; never more than the moments |b_j| |x_j - x_A|. */
 static double load_scale(const CpsiLine *line, double largest_force, double tolerance) {
     const Vec3 anchor = vec3_load(&line->position[0]);
+    const bool has_field = cpsi_line_has_field(line);
     double work = 0, moment = 0, loads = 0;
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3 * j]), b = vec3_load(&line->load[3 * j]);
-        const Vec3 field = cpsi_line_field_force(line, j, x), from = vec3_at(line->reference, j);
-        work += fabs(vec3_dot(b, vec3_sub(x, from))) + fabs(vec3_dot(field, vec3_sub(x, from)));
-        moment += (vec3_norm(b) + vec3_norm(field)) * vec3_norm(vec3_sub(x, anchor));
-        loads += vec3_norm(b) + vec3_norm(field);
+        const Vec3 moved = vec3_sub(x, vec3_at(line->reference, j));
+        double load = vec3_norm(b);
+        work += fabs(vec3_dot(b, moved));
+        if (has_field) {
+            const Vec3 field = cpsi_line_field_force(line, j, x);
+            work += fabs(vec3_dot(field, moved));
+            load += vec3_norm(field);
+        }
+        moment += load * vec3_norm(vec3_sub(x, anchor));
+        loads += load;
     }
     work += GAP_FLOOR * fmax(loads, largest_force) * line->length / tolerance;
     return work <= moment ? work : moment;

@@ -172,6 +172,7 @@ double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
     double worst = 0;
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *o = &line->obstacle[k];
+        if (!cpsi_obstacle_is_round(o) && !cpsi_obstacle_is_rounded(o)) continue;
         for (int e = 0; e + 1 < line->n; e++) {
             const Vec3 a = vec3_at(line->position, e), b = vec3_at(line->position, e + 1);
             double share;

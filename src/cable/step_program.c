@@ -180,8 +180,10 @@ static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
     const int j = node_of(line, c), count = line->has_local_axes && law->box ? 2 : 1;
     const double share = cpsi_line_contact_share(line, c) / scale->length;
     double slip[3] = {0}, axes[9];
-    if (line->has_local_axes) cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slip[3 * c]);
-    friction_axes(line, program, c, axes);
+    if (line->has_local_axes) {
+        cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slip[3 * c]);
+        friction_axes(line, program, c, axes);
+    }
     for (int i = 0; i < count; i++) {
         const int k = disc->count++;
         disc->node[k] = j;
