@@ -311,59 +311,61 @@ typedef struct Parts {
 } Parts;
 
 /* Is the set, in its conic form, one of half-lines alone? */
-static bool is_flat(const CpsSet *set) {
+static CpsStatus is_flat(const CpsSet *set, bool *flat, CpsError *err) {
     CpsiConicForm *form = NULL;
-    CpsError unused;
-    if (cpsi_conic_form_make(set, 1, &form, &unused)) return false;
-    bool flat = true;
-    for (int k = 0; k < form->cones; k++) flat = flat && form->dim[k] == 1;
+    const CpsStatus status = cpsi_conic_form_make(set, 1, &form, err);
+    *flat = !status;
+    for (int k = 0; *flat && k < form->cones; k++) *flat = form->dim[k] == 1;
     cpsi_conic_form_free(form);
-    return flat;
+    return status;
 }
 
-/* Sort the parts of an intersection, and of intersections among them. False where there is another
- * one. */
-static bool sort_parts(const CpsSet *of, Parts *parts) {
-    for (int k = 0; k < of->count; k++) {
+/* Sort the parts of an intersection, and of intersections among them. `known` becomes false where
+ * there is another one. */
+static CpsStatus sort_parts(const CpsSet *of, Parts *parts, bool *known, CpsError *err) {
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < of->count && *known && !status; k++) {
         const CpsSet *part = of->part[k];
-        double reach;
-        CpsError unused;
-        if (parts->round == MOST_ROWS || parts->flat == MOST_ROWS) return false;
+        double reach = INFINITY;
+        bool flat = false;
+        *known = parts->round < MOST_ROWS && parts->flat < MOST_ROWS;
+        if (!*known) break;
         if (part->kind == CPSI_SET_INTERSECTION) {
-            if (!sort_parts(part, parts)) return false;
-        } else if (is_flat(part)) {
-            parts->flat_part[parts->flat++] = part;
-        } else if (cpsi_support_is_closed(part) && !find_reach(part, &reach, &unused) &&
-                   isfinite(reach)) {
-            parts->round_part[parts->round++] = part;
-        } else {
-            return false;
+            status = sort_parts(part, parts, known, err);
+            continue;
         }
+        status = is_flat(part, &flat, err);
+        if (!status && !flat && cpsi_support_is_closed(part))
+            status = find_reach(part, &reach, err);
+        if (flat)
+            parts->flat_part[parts->flat++] = part;
+        else if (!status && isfinite(reach))
+            parts->round_part[parts->round++] = part;
+        else
+            *known = false;
     }
-    return true;
+    return status;
 }
 
 /* The boundary of what flat parts have in common, in a box. */
-static bool find_flat(Parts *parts, double reach, CpsiFrictionShape *shape) {
+static CpsStatus find_flat(Parts *parts, double reach, CpsiFrictionShape *shape, CpsError *err) {
     const double far = BOX * reach, low[2] = {-far, -far}, high[2] = {far, far};
     double corner[2 * MOST_ROWS];
     int count = 0;
     CpsSet *box = NULL, *all = NULL, *hull = NULL;
-    CpsSetAnswer answer;
-    CpsError unused;
+    CpsSetAnswer answer = {.outcome = CPS_SET_OUTCOME_ANSWERED};
     shape->count = 0;
-    if (!cps_set_box(2, low, high, &box, &unused)) {
-        parts->flat_part[parts->flat] = box;
-        if (!cps_set_intersection(parts->flat + 1, parts->flat_part, &all, &unused) &&
-            !cps_set_vertices(all, 0, MOST_ROWS, corner, &count, &answer, &unused) &&
-            answer.outcome == CPS_SET_OUTCOME_ANSWERED && count <= MOST_ROWS &&
-            !cps_set_hull_of_points(2, count, corner, &hull, &unused))
-            cpsi_friction_boundary_find(hull, 2 * far, shape);
-    }
+    CpsStatus status = cps_set_box(2, low, high, &box, err);
+    parts->flat_part[parts->flat] = box;
+    if (!status) status = cps_set_intersection(parts->flat + 1, parts->flat_part, &all, err);
+    if (!status) status = cps_set_vertices(all, 0, MOST_ROWS, corner, &count, &answer, err);
+    const bool found = answer.outcome == CPS_SET_OUTCOME_ANSWERED && count <= MOST_ROWS;
+    if (!status && found) status = cps_set_hull_of_points(2, count, corner, &hull, err);
+    if (hull) cpsi_friction_boundary_find(hull, 2 * far, shape);
     cps_set_release(box);
     cps_set_release(all);
     cps_set_release(hull);
-    return shape->count > 0;
+    return status;
 }
 
 /* Does the small program find the support function of the boundary, at its normals and between
@@ -381,23 +383,28 @@ static bool is_boundary(const CpsiFrictionSet *set, const CpsiFrictionShape *sha
     return shape->count > 0;
 }
 
-/* The boundary of an intersection, where those of its parts are known. */
-static void find_common(const CpsSet *of, CpsiFrictionSet *set) {
+/* The boundary of an intersection, where those of its parts are known. A call that fails leaves it
+ * unknown, but for lack of memory. */
+static CpsStatus find_common(const CpsSet *of, CpsiFrictionSet *set, CpsError *err) {
     const CpsiConicSet *form = &set->shape;
     Parts parts = {.round = 0};
-    if (of->kind != CPSI_SET_INTERSECTION || !sort_parts(of, &parts)) return;
+    bool known = of->kind == CPSI_SET_INTERSECTION;
+    CpsStatus status = known ? sort_parts(of, &parts, &known, err) : CPS_OK;
     double inside[2];
     for (int a = 0; a < 2; a++)
         inside[a] =
             form->origin[a] +
             cpsi_dot(form->unknowns, &form->p[(size_t)a * (size_t)form->unknowns], form->centre);
     CpsiFrictionShape *common = &set->boundary;
-    bool known = parts.flat == 0 || find_flat(&parts, form->reach, common);
-    for (int k = 0; k < parts.round && known; k++) {
+    if (!status && known && parts.flat > 0) {
+        status = find_flat(&parts, form->reach, common, err);
+        known = common->count > 0;
+    }
+    for (int k = 0; k < parts.round && known && !status; k++) {
         CpsiFrictionShape part, before = *common;
         double reach;
-        CpsError unused;
-        known = !find_reach(parts.round_part[k], &reach, &unused);
+        status = find_reach(parts.round_part[k], &reach, err);
+        known = !status;
         if (known) cpsi_friction_boundary_find(parts.round_part[k], reach, &part);
         known = known && part.count > 0;
         if (known && before.count > 0) cpsi_boundary_intersect(&before, &part, inside, common);
@@ -405,7 +412,8 @@ static void find_common(const CpsSet *of, CpsiFrictionSet *set) {
         known = known && common->count > 0;
     }
     common->reach = form->reach;
-    if (!known || !is_boundary(set, common)) common->count = 0;
+    if (status || !known || !is_boundary(set, common)) common->count = 0;
+    return status == CPS_ERR_MEMORY ? status : CPS_OK;
 }
 
 static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, CpsError *err) {
@@ -428,7 +436,7 @@ static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, 
     describe(set, reach);
     status = find_closed(of, set, err);
     if (!status && set->closed) cpsi_friction_boundary_find(set->closed, reach, &set->boundary);
-    if (!status && !set->closed) find_common(of, set);
+    if (!status && !set->closed) status = find_common(of, set, err);
     return status;
 }
 

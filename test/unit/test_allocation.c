@@ -30,7 +30,9 @@ void *__wrap_calloc(size_t count, size_t size) {
     return refuse() ? NULL : counted(__real_calloc(count, size));
 }
 void *__wrap_realloc(void *place, size_t size) {
-    return refuse() ? NULL : __real_realloc(place, size);
+    if (refuse()) return NULL;
+    void *moved = __real_realloc(place, size);
+    return place ? moved : counted(moved);
 }
 void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return refuse() ? NULL : counted(__real_aligned_alloc(alignment, size));
