@@ -95,7 +95,7 @@ def over(kind, shape, start=0.0):
 
 def faces(ax):
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-    return np.concatenate([part._vec.T[:, :3] for part in ax.collections if isinstance(part, Poly3DCollection)])
+    return np.concatenate([part._vec.T[:, :3] if hasattr(part, "_vec") else np.asarray(part._faces).reshape(-1, 3) for part in ax.collections if isinstance(part, Poly3DCollection)])
 
 
 @pytest.mark.parametrize("kind", SHAPES)
