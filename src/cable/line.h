@@ -17,6 +17,7 @@
 #include "cable/anderson.h"
 #include "cable/drums.h"
 #include "cable/elasticity.h"
+#include "cable/end_set.h"
 #include "cable/friction_law.h"
 #include "cable/inertia.h"
 #include "cable/load_change.h"
@@ -47,6 +48,7 @@ typedef struct CpsiLine {
     int element_contacts;   /* of an element, 0 or 1: so many more rows have arrays (contacts, n) */
     double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
     CpsEnd end[2];          /* imposed now */
+    CpsiEndSet on[2];       /* that free ends are held to */
     CpsiDrums drums;        /* what is on winches at the ends */
     bool is_at_point[2];    /* held at a point, which bears what obstacles do to the half element */
     double *arc_length;     /* (n) [m] */

@@ -323,6 +323,7 @@ static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     memset(line->friction_bound, 0, contacts * sizeof *line->friction_bound);
     memset(line->reaction, 0, contacts * sizeof *line->reaction);
     memset(line->tension, 0, n * sizeof *line->tension);
+    cpsi_line_clear_set_reactions(line);
     if (line->has_local_axes) {
         cpsi_contact_reset(line);
         cpsi_contact_update_geometry(line);
@@ -354,7 +355,7 @@ static void classify(CpsiLine *line, const CpsiChainProgram *program) {
  * the forces before the step, if they can be certified. */
 static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
                           const CpsiStepOptions *options) {
-    if (!line->forces || line->inertia.is_moving || !cps_outcome_is_certified(line->report.outcome))
+    if (!line->forces || line->inertia.is_moving || cpsi_line_has_sets(line) || !cps_outcome_is_certified(line->report.outcome))
         return;
     const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
     const CpsCertificate before = line->report.certificate;
@@ -445,6 +446,7 @@ void cpsi_line_refuse_step(CpsiLine *line, const CpsiStepOptions *options, CpsOu
     line->report.substep_count = 1;
     line->report.share = 1;
     line->last_change.known = false;
+    cpsi_line_clear_set_reactions(line);
     memset(line->friction_force, 0, 3 * contacts * sizeof *line->friction_force);
     memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
     memset(line->tension, 0, n * sizeof *line->tension);
