@@ -194,7 +194,10 @@ bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options
     const bool follows =
         options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT && !options->frictionless;
     if (line->inertia.is_moving) return too_short(line);
-    if (cpsi_line_has_sets(line)) return too_short(line) || misses_set(line) || slides_off(line);
+    if (cpsi_line_has_sets(line)) {
+        cpsi_line_clear_set_reactions(line);
+        return too_short(line) || misses_set(line) || slides_off(line);
+    }
     if (too_short(line) || runs_away(line, options) || (follows && slips_off(line, false)))
         return true;
     double direction[3], load;

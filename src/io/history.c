@@ -58,6 +58,11 @@ bool cpsi_has_winch(const CpsLine *line) {
     return line->winch[CPS_END_A].is_there || line->winch[CPS_END_B].is_there;
 }
 
+bool cpsi_has_set(const CpsLine *line) {
+    return line->constraint[CPS_END_A].kind != CPS_CONSTRAINT_KIND_NONE ||
+           line->constraint[CPS_END_B].kind != CPS_CONSTRAINT_KIND_NONE;
+}
+
 bool cpsi_lets_go(const CpsScene *scene) {
     bool found = false;
     for (int i = 0; i < scene->line_count; ++i) {

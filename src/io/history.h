@@ -22,6 +22,7 @@ typedef struct CpsiLineRow {
     bool held[2];           /* whether the position of this end, or of its point, was imposed */
     CpsLineFailure failure; /* without its array */
     CpsWinchReport winch[2];
+    CpsConstraintReport constraint[2];
     double open_reaction; /* [N] largest reaction on a node without contact */
 } CpsiLineRow;
 
@@ -121,6 +122,7 @@ struct CpsResults {
     bool lets_go;       /* cpsi_lets_go */
     bool in_time;       /* a step may have a duration */
     bool winds;         /* a line has a winch */
+    bool has_sets;      /* an end of a line is held to a set */
     bool begins_static; /* the first step places lines by statics */
 
     int row_count, row_capacity;
@@ -142,6 +144,8 @@ bool cpsi_has_duration(const CpsScene *scene);
 CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution);
 /* Whether a line has a winch. Only then do results say what winches do. */
 bool cpsi_has_winch(const CpsLine *line);
+/* ... and whether an end of it is held to a set, likewise. */
+bool cpsi_has_set(const CpsLine *line);
 /* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
 int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
 

@@ -19,6 +19,7 @@
 #include "elongation.h"
 #include "grasps.h"
 #include "loads.h"
+#include "sets.h"
 #include "shape.h"
 
 #include "fall.h"
@@ -621,6 +622,19 @@ static void measure_spring(const Spring *spring, const Real *arm, const Real *u,
     add(&s->magnitude, spring->energy + fabsl(spring->dual));
 }
 
+/* The set that holds an end: its gap, and the dual's part, minus the support at minus its force. */
+static void measure_set(const Record *r, size_t j, const Real *x, Real *pull, Measures *m, Sums *s) {
+    Triple f = {0, 0, 0};
+    const Real force = sets_add(r, j, f), gap = sets_gap(r, j);
+    if (force == 0) return;
+    for (int k = 0; k < 3; k++) pull[k] += f[k];
+    add(&s->gap, gap);
+    add(&s->signed_gap, gap);
+    add(&s->dual, dot(f, x) - gap);
+    add(&s->magnitude, force * size(x));
+    raise_to(&m->largest_force, force);
+}
+
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
@@ -647,6 +661,7 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     measure_spring(&spring, arm, u, s);
     raise_to(&m->largest_force, size(spring.force));
     measure_inertia(r, j, pull, m, s);
+    measure_set(r, j, x, pull, m, s);
 
     // a held node: the dual pairs the force of the support with the imposed position; a free one
     // must balance

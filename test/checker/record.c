@@ -10,6 +10,7 @@
 #include "loads.h"
 #include "places.h"
 #include "shape.h"
+#include "sets.h"
 #include "winches.h"
 
 #include <math.h>
@@ -530,7 +531,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     static int (*const CREATE[])(const Source *, const char *, Record *,
                                  FILE *) = {read_sections,  elongation_read, read_end_points,
                                             failure_create, inertia_create,  loads_create,
-                                            read_zones,     winches_create};
+                                            read_zones,     winches_create, sets_create};
     for (size_t k = 0; k < sizeof CREATE / sizeof *CREATE; k++)
         if (CREATE[k](source, line, record, log)) return -1;
     return 0;
@@ -538,6 +539,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
 
 void record_destroy(Record *record) {
     winches_destroy(record);
+    sets_free(record);
     free(record->reference);
     free(record->position);
     free(record->load);
@@ -739,6 +741,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= failure_read(source, line, step, record, log);
     bad |= loads_read(source, line, step, record, log);
     bad |= elongation_read_step(source, line, step, record, log);
+    bad |= sets_read(source, line, step, record, log);
     bad |= inertia_read(source, line, step, record, log);
     if (bad || read_scalars(source, line, step, record, log)) return -1;
     return winches_read(source, line, step, record, log);

@@ -100,6 +100,8 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->lets_go = cpsi_lets_go(scene);
     results->in_time = cpsi_has_duration(scene);
     for (int i = 0; i < scene->line_count; ++i)
+        results->has_sets = results->has_sets || cpsi_has_set(&scene->line[i]);
+    for (int i = 0; i < scene->line_count; ++i)
         results->winds = results->winds || cpsi_has_winch(&scene->line[i]);
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
@@ -304,6 +306,8 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         line->failure = cps_evolution_line_failure(evolution, i);
         line->failure.break_at = NULL;
         for (int e = 0; e < 2; ++e) line->winch[e] = cps_evolution_winch_report(evolution, i, e);
+        for (int e = 0; e < 2; ++e)
+            line->constraint[e] = cps_evolution_constraint_report(evolution, i, e);
         line->open_reaction = open_reaction(&view, line->winch);
         for (int e = 0; e < 2; ++e) line->held[e] = is_held(results, &row, &view, i, e);
         if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
