@@ -628,7 +628,7 @@ static void measure_set(const Record *r, size_t j, const Real *x, Real *pull, Me
     const Real force = sets_add(r, j, f), gap = sets_gap(r, j);
     if (force == 0) return;
     for (int k = 0; k < 3; k++) pull[k] += f[k];
-    add(&s->gap, gap);
+    add(&s->gap, fabsl(gap)); // below 0 by rounding: sets_check
     add(&s->signed_gap, gap);
     add(&s->dual, dot(f, x) - gap);
     add(&s->magnitude, force * size(x));

@@ -174,6 +174,7 @@ static Real distance(const Set *set, const Real *x) {
     if (set->kind == HALF_SPACE) return fmaxl(0, -along);
     for (int a = 0; a < 3; a++) off[a] = y[a] - along * u[a];
     if (set->kind == DISC) return hypotl(along, fmaxl(0, norm(off) - set->radius));
+    if (isinf(set->length)) return norm(off);
     return hypotl(norm(off), fmaxl(fmaxl(0, -along), along - set->length));
 }
 

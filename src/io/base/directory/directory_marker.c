@@ -40,7 +40,7 @@ static bool ends_with(const char *name, const char *end) {
 
 bool cpsi_marker_knows(const char *name) {
     static const char *const PLAIN[] = {
-        "summary.json", "history.csv",     "result.nc",          "result.pvd",    "obstacles.vtp",
+        "summary.json", "history.csv",     "result.nc",          "result.pvd",    "obstacles.vtp", "sets.vtp",
         "plan.svg",     "elevation.svg",   "tension.svg",        "history.svg",   "stiffness.csv",
         "points.csv",   "bodies.csv",      "body-stiffness.csv", "study.csv",     "study.svg",
         "study.json",   "first-order.csv", "first-order.svg",    "relaxed.svg",   "methods.csv",

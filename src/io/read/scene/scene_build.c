@@ -291,8 +291,14 @@ static CpsStatus build_set(const Build *b, const CpsiOnValues *values, CpsEnd *e
     on->kind = (CpsConstraintKind)(CPS_CONSTRAINT_KIND_RAIL + values->kind);
     end->kind = CPS_END_KIND_FREE;
     copy_vector(end->value, values->force);
-    if (on->kind == CPS_CONSTRAINT_KIND_BOX && values->rotation.node)
+    if (on->kind == CPS_CONSTRAINT_KIND_BOX && values->rotation.node) {
         cpsi_rotation_build(&values->rotation, on->rotation);
+        const double *q = on->rotation;
+        if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
+            return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->rotation.node,
+                                      "rotation: it is (0, 0, 0, 0), expected a quaternion of any "
+                                      "length but zero");
+    }
     if (on->kind != CPS_CONSTRAINT_KIND_RAIL) return CPS_OK;
     on->length = INFINITY;
     if (values->rail == 1) return CPS_OK;

@@ -106,15 +106,16 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
     results->has_water_surface = scene->has_water_surface;
-    results->water_surface = scene->water_surface - results->origin[2];
     memcpy(results->origin, cps_evolution_line_view(evolution, 0).origin, sizeof results->origin);
+    results->water_surface = scene->water_surface - results->origin[2];
     const size_t lines = (size_t)cps_evolution_line_count(evolution);
     results->line_name = calloc(lines, sizeof *results->line_name);
     results->line_length = calloc(lines, sizeof *results->line_length);
     results->line_elements = calloc(lines, sizeof *results->line_elements);
     results->line_point = calloc(lines, sizeof *results->line_point);
+    results->line_constraint = calloc(lines, sizeof *results->line_constraint);
     if (!results->title || !results->line_name || !results->line_length ||
-        !results->line_elements || !results->line_point)
+        !results->line_elements || !results->line_point || !results->line_constraint)
         return false;
     if (!copy_obstacles(results, scene) || !copy_points(results, scene) ||
         !copy_bodies(results, scene))
@@ -124,7 +125,12 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
         results->line_length[i] = view.arc_length[view.element_count];
         results->line_elements[i] = view.element_count;
         results->line_name[i] = copy_text(view.name);
-        for (int e = 0; e < 2; ++e) results->line_point[i][e] = point_of(&scene->line[i], e);
+        for (int e = 0; e < 2; ++e) {
+            results->line_point[i][e] = point_of(&scene->line[i], e);
+            results->line_constraint[i][e] = scene->line[i].constraint[e];
+            for (int a = 0; a < 3; ++a)
+                results->line_constraint[i][e].point[a] -= results->origin[a];
+        }
         results->begins_static |= scene->line[i].start.kind == CPS_START_STATIC;
         results->line_count = (int)i + 1;
         if (!results->line_name[i]) return false;
@@ -404,6 +410,7 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     if (!status) status = cpsi_directory_sync(results->directory, "result.nc", err);
     if (!status && results->paraview) status = cpsi_paraview_list(results, err);
     if (!status && results->paraview) status = cpsi_paraview_obstacles(results, err);
+    if (!status && results->paraview) status = cpsi_paraview_sets(results, err);
     if (!status) status = cpsi_pictures_write(results, err);
     if (!status) status = write_table(results, "history.csv", cpsi_history_write, err);
     if (!status && results->point_count > 0)
@@ -467,6 +474,7 @@ void cps_results_destroy(CpsResults *results) {
     free(results->line_length);
     free(results->line_elements);
     free(results->line_point);
+    free(results->line_constraint);
     free(results->point);
     free(results->body);
     free(results->obstacle);
