@@ -46,9 +46,9 @@ typedef struct CpsConstraint {
 
 /* A constraint after the last step. */
 typedef struct CpsConstraintReport {
+    double reaction[3]; /* [N] on the end */
     bool is_there;      /* otherwise all else is 0 */
     bool is_active;     /* the reaction is more than 1e-9 of the largest force in the line */
-    double reaction[3]; /* [N] on the end */
     double residual; /* [m] from the end to the set, 0 to rounding */
     double gap; /* [J] the part of the certificate's gap: support function at -r, plus r.x */
 } CpsConstraintReport;

@@ -179,7 +179,7 @@ def resumed(folder):
 
 
 def vector(numbers):
-    return "[" + ", ".join("%.9g" % x for x in numbers) + "]"
+    return "[" + ", ".join(repr(float(x)) for x in numbers) + "]"
 
 
 def random_set(rng, place, size):
@@ -221,7 +221,8 @@ def random_scene(rng):
     start = f"{{polyline: [[{far}, 0, 0], [{far + span/2!r}, 0, {-sag!r}], [{far + span!r}, 0, 0]]}}"
     if kind in ("bed", "slope"):
         start, span = f"{{straight: {{from: [{far}, 0, 0], to: [{far + length!r}, 0, 0]}}}}", length
-    if kind == "post":
+    if kind == "post":  # where it is inextensible, a set may come to be out of reach round the post, for which there is no proof
+        stiffness = "%g" % (10**rng.uniform(2, 4)*length)
         start, span = f"{{straight: {{from: [{far}, 0, 0], to: [{far + length!r}, 0, 0]}}}}", length
     obstacle = {"hang": "", "bed": f"bed: {{plane: {{point: [{far}, 0, 0]}}, friction: {rng.uniform(0, 1):.3f}}}",
                 "slope": f"bed: {{plane: {{point: [{far}, 0, 0], normal: [0, 0.2, 1]}}, friction: {{axial: 0.3, lateral: 0.7}}}}",
@@ -242,7 +243,7 @@ def random_scene(rng):
         entry = [f"steps: {steps}"]
         for end in "AB":
             if end in ends:
-                push = [rng.uniform(-1, 1)*8*length for _ in range(3)]
+                push = [rng.uniform(-1, 1)*(3 if kind == "post" else 8)*length for _ in range(3)]
                 if kind in ("bed", "slope"):
                     push[2] = abs(push[2])
                 entry.append(f"rope.{end}: {{force: {vector(push if rng.random() < 0.8 else [0, 0, 0])}}}")
