@@ -182,11 +182,11 @@ def vector(numbers):
     return "[" + ", ".join(repr(float(x)) for x in numbers) + "]"
 
 
-def random_set(rng, place, size):
+def random_set(rng, place, size, bounded):
     """A set of any kind that has the place in it, and its keys."""
     def some(scale):
         return [rng.uniform(-1, 1)*scale for _ in range(3)]
-    kind, axis = rng.choice(["rail", "line", "half_space", "ball", "disc", "box"]), some(1)
+    kind, axis = rng.choice(["rail", "ball", "disc", "box"] if bounded else ["rail", "line", "half_space", "ball", "disc", "box"]), some(1)
     length = math.hypot(*axis)
     if kind == "line":
         return f"rail: {{from: {vector(place)}, along: {vector(axis)}}}"
@@ -208,7 +208,7 @@ def random_set(rng, place, size):
 
 
 def random_scene(rng):
-    """One line with a set of any kind at either end or at both, the other end held or loaded; on nothing, a bed or a slope, or over a
+    """One line with a set of any kind at either end or at both, of which one has bounds so that there is an equilibrium, the other end held or loaded; on nothing, a bed or a slope, or over a
     post; inextensible or not, far from the origin or not, with a clump or a buoy; with forces on the ends that grow, turn and end, and moves
     of what is held. Of 16 steps in all."""
     elements, length = rng.choice([6, 17, 40]), rng.choice([2.0, 30.0, 400.0])
@@ -234,7 +234,7 @@ def random_scene(rng):
         if kind in ("bed", "slope"):
             force[2] = abs(force[2])
         if end in ends:
-            words.append(f"{end}: {{on: {{{random_set(rng, place[end], 0.3*length)}, force: {vector(force) if rng.random() < 0.5 else [0, 0, 0]}}}}}")
+            words.append(f"{end}: {{on: {{{random_set(rng, place[end], 0.3*length, end + ends == 'AAB')}, force: {vector(force) if rng.random() < 0.5 else [0, 0, 0]}}}}}")
         else:
             words.append(f"{end}: held")
     hung = f"\n    point_weights: [{{at: {length/elements*(elements//2)!r}, weight: {rng.choice([-3, 6])*length}}}]" if rng.random() < 0.3 else ""
