@@ -290,8 +290,8 @@ CPS_API CpsLine cps_line_default(void);
 CPS_API CpsObstacle cps_obstacle_default(void);
 CPS_API CpsStage cps_stage_default(void); /* one step in which nothing changes; without a name */
 
-/* Check all that can be checked before solving. An error's message names line, value and what was
- * expected, err->where the member. Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_LIMIT, CPS_ERR_MEMORY. */
+/* Check all that can be checked before solving. The message of an error names line, value and what
+ * was expected. Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err);
 
 #ifdef __cplusplus

@@ -25,6 +25,7 @@
 #include <math.h>
 
 #include "base/larger.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/flow.h"
 #include "cable/friction_law.h"
@@ -303,8 +304,8 @@ static Vec3 add_field_energy(const CpsiLine *line, int j, CpsCertificate *out) {
     return f;
 }
 
-/* Add the terms of the set that holds an end, node j; returns its reaction r. With v = -r the part of
- * D is minus the support function, v.x + gap. */
+/* Add the terms of the set that holds an end, node j; returns its reaction r. With v = -r the part
+ * of D is minus the support function, v.x + gap. */
 static Vec3 add_set(const CpsiLine *line, int j, CpsCertificate *out) {
     const Vec3 r = cpsi_line_set_reaction(line, j);
     const double gap = cpsi_line_set_gap(line, j);

@@ -133,11 +133,23 @@ void cpsi_line_unpack_sets(CpsiLine *line, const CpsiChainProgram *program, doub
     }
 }
 
-/* How far the sets' nearest places are apart along v, by their support. */
+/* Rounding of the components of a unit vector: along a direction without end it counts as 0. */
+static const double ROUNDING = 1e-12;
+
+/* How far the sets' nearest places are apart along the unit vector v, by their support. */
 static double apart_along(const CpsiPlaceSet *set, Vec3 v, Vec3 x) {
     double own[3];
     cpsi_place_set_to(set, v, own);
+    for (int a = set->round; a < 3; a++)
+        if (fabs(own[a]) < ROUNDING && isinf(own[a] > 0 ? set->high[a] : set->low[a])) own[a] = 0;
     return cpsi_place_set_gap(set, own, x);
+}
+
+static int last_held(const CpsiLine *line) {
+    int last = line->n;
+    for (int j = cpsi_line_next_held(line, 0); j < line->n; j = cpsi_line_next_held(line, j + 1))
+        last = j;
+    return last;
 }
 
 bool cpsi_line_set_distance(const CpsiLine *line, double *distance, double *length, Vec3 *apart) {
@@ -149,16 +161,14 @@ bool cpsi_line_set_distance(const CpsiLine *line, double *distance, double *leng
         const CpsiEndSet *to = &line->on[end];
         const bool both = held == line->n;
         if (!to->is_there || (both && (end == CPS_END_A || !a->is_there || !b->is_there))) continue;
-        int last = held;
-        for (int j = held; end == CPS_END_B && j < line->n; j = cpsi_line_next_held(line, j + 1))
-            last = j;
+        const int last = end == CPS_END_A ? held : last_held(line);
         Vec3 x = both ? vec3_load(line->position) : cpsi_line_held_place(line, last), y;
         cpsi_place_sets_nearest(both ? &a->set : NULL, &to->set, &x, &y);
         const double size = vec3_norm(vec3_sub(y, x)),
-                     between = both ? line->length
-                                    : cpsi_line_length_between(line, end == CPS_END_A ? 0 : last,
-                                                               end == CPS_END_A ? last
-                                                                                : line->n - 1);
+                     between =
+                         both ? line->length
+                              : cpsi_line_length_between(line, end == CPS_END_A ? 0 : last,
+                                                         end == CPS_END_A ? last : line->n - 1);
         if (!(size > 0)) continue;
         const Vec3 v = vec3_scale(1 / size, vec3_sub(y, x));
         double least = size - apart_along(&to->set, vec3_scale(-1, v), y);
@@ -180,5 +190,5 @@ Vec3 cpsi_line_sets_let(const CpsiLine *line, Vec3 v) {
     for (int i = 0; i < PROJECTIONS; i++)
         for (int end = 0; end < 2; end++)
             if (line->on[end].is_there) v = cpsi_place_set_recedes(&line->on[end].set, v);
-    return vec3_norm(v) > 1e-12 * size ? v : vec3(0, 0, 0);
+    return vec3_norm(v) > ROUNDING * size ? v : vec3(0, 0, 0);
 }

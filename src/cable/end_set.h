@@ -6,13 +6,7 @@
 
 #include <stdbool.h>
 
-#include "geometry/place_set.h"
-
-typedef struct CpsiEndSet {
-    bool is_there;
-    CpsiPlaceSet set;
-    double reaction[3]; /* [N] on the end, in the axes of the set */
-} CpsiEndSet;
+#include "base/vec3.h"
 
 struct CpsiLine;
 struct CpsiChainProgram;
@@ -35,18 +29,18 @@ void cpsi_line_clear_set_reactions(struct CpsiLine *line);
  * reactions may grow; returns what they do not take. */
 Vec3 cpsi_line_sets_take(struct CpsiLine *line, Vec3 rest);
 
-/* Write the sets as constraints of the program, in lengths of the line, from the base (n, 3) [m] and
- * the axes of the nodes, (9) each, of which there is one for all where `common`. */
+/* Write the sets as constraints of the program, in lengths of the line, from the base (n, 3) [m]
+ * and the axes of the nodes, (9) each, of which there is one for all where `common`. */
 void cpsi_line_fill_sets(const struct CpsiLine *line, struct CpsiChainProgram *program,
                          const double *base, const double *axes, bool common);
 /* Read the reactions back, and put the ends into their sets, by rounding. */
 void cpsi_line_unpack_sets(struct CpsiLine *line, const struct CpsiChainProgram *program,
                            double force);
 
-/* [m] The least distance between the places of two nodes that are held, or in a set, the last one of
- * which is an end in its set; what an inextensible line between them needs. `apart`: the unit vector
- * from the first to the second. *length is the natural length between. False: there is no such end,
- * or nothing else holds the line. */
+/* [m] The least distance between the places of two nodes that are held, or in a set, the last one
+ * of which is an end in its set; what an inextensible line between them needs. `apart`: the unit
+ * vector from the first to the second. *length is the natural length between. False: there is no
+ * such end, or nothing else holds the line. */
 bool cpsi_line_set_distance(const struct CpsiLine *line, double *distance, double *length,
                             Vec3 *apart);
 

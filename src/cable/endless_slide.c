@@ -30,6 +30,7 @@
 
 #include <math.h>
 
+#include "cable/end_set.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
 #include "chain/frame.h"

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "cable/contact.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/held.h"
 #include "cable/line_solve.h"

@@ -24,6 +24,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/winch.h"

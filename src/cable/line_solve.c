@@ -8,6 +8,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/flow.h"
 #include "cable/held.h"

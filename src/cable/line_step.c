@@ -32,6 +32,7 @@
 #include "cable/certificate.h"
 #include "cable/contact.h"
 #include "cable/contact_detection.h"
+#include "cable/end_set.h"
 #include "cable/endless_slide.h"
 #include "cable/existence.h"
 #include "cable/flow.h"
@@ -355,7 +356,8 @@ static void classify(CpsiLine *line, const CpsiChainProgram *program) {
  * the forces before the step, if they can be certified. */
 static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
                           const CpsiStepOptions *options) {
-    if (!line->forces || line->inertia.is_moving || cpsi_line_has_sets(line) || !cps_outcome_is_certified(line->report.outcome))
+    if (!line->forces || line->inertia.is_moving || cpsi_line_has_sets(line) ||
+        !cps_outcome_is_certified(line->report.outcome))
         return;
     const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
     const CpsCertificate before = line->report.certificate;

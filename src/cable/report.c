@@ -6,6 +6,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/winch.h"

@@ -9,6 +9,7 @@
 
 #include <string.h>
 
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"

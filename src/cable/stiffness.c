@@ -21,6 +21,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "chain/frame.h"
 

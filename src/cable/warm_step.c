@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/end_set.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
 #include "chain/active_set.h"

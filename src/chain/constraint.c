@@ -6,10 +6,10 @@
  *     equation                        v = 0, z of any sign
  *
  * Linearised, with the scaling H of a cone (cone.h): dz = q - H ds, ds = A du + rho + e dz, e being
- * small. Without e the node's block gains A'H A, whose entries grow without bound as v and z come to
- * the boundary; rows are oblique to the axes of the node, and the block would lose its digits across
- * them. With e they stay below 1/e, an equation is the limit of a large H, and what e leaves of the
- * residual, e dz, vanishes with the steps. So
+ * small. Without e the node's block gains A'H A, whose entries grow without bound as v and z come
+ * to the boundary; rows are oblique to the axes of the node, and the block would lose its digits
+ * across them. With e they stay below 1/e, an equation is the limit of a large H, and what e leaves
+ * of the residual, e dz, vanishes with the steps. So
  *
  *     dz = M (H^-1 q - rho - A du),        M = (H^-1 + e)^-1,
  *
@@ -26,8 +26,7 @@ static const double YIELD = 1e-9;
 
 /* The cones of a constraint: k with its first row i; an equation has dimension 0 and one row. */
 static inline int rows_of(int dim) { return dim > 0 ? dim : 1; }
-#define FOR_CONES(k, i, of) \
-    for (int k = 0, i = 0; k < (of)->cones; i += rows_of((of)->dim[k]), k++)
+#define FOR_CONES(k, i, of) for (int k = 0, i = 0; k < (of)->cones; i += rows_of((of)->dim[k]), k++)
 
 static double value_of(const CpsiConstraint *of, int row, const double *u) {
     const double *x = &u[3 * of->node], *a = of->a[row];
@@ -111,14 +110,15 @@ static void apply(const CpsiConstraint *of, int k, int i, bool inverse, double m
     double size = 0, along = 0;
     for (int r = 1; r < dim; r++) size += w[r] * w[r];
     size = sqrt(size);
-    for (int r = 1; r < dim && size > 0; r++) along += w[r] / size * x[r];
+    const double over = size > 0 ? 1 / size : 0;
+    for (int r = 1; r < dim; r++) along += over * w[r] * x[r];
     const double wide = (w[0] + size) * (w[0] + size), value[3] = {wide / g, 1 / (wide * g), 1 / g};
     double factor[3];
     for (int e = 0; e < 3; e++) factor[e] = inverse ? value[e] : 1 / (value[e] + more);
     const double up = factor[0] * 0.5 * (x[0] + along), down = factor[1] * 0.5 * (x[0] - along);
     out[0] = up + down;
     for (int r = 1; r < dim; r++) {
-        const double n = size > 0 ? w[r] / size : 0;
+        const double n = over * w[r];
         out[r] = (up - down) * n + factor[2] * (x[r] - along * n);
     }
 }
@@ -197,16 +197,16 @@ static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
             for (int r = 0; r < rows_of(dim); r++) {
                 of->dz[i + r] = fixed[r] - by[r];
                 of->ds[i + r] =
-                    dim == 0 ? 0
-                             : moved[r] +
-                                   aim->keep * (value_of(of, i + r, base->u) - of->s[i + r]) +
-                                   YIELD * of->dz[i + r];
+                    dim == 0
+                        ? 0
+                        : moved[r] + aim->keep * (value_of(of, i + r, base->u) - of->s[i + r]) +
+                              YIELD * of->dz[i + r];
             }
             if (dim > 0)
-                sums->inverse_step = cpsi_max_nan(
-                    sums->inverse_step,
-                    cpsi_cone_step(dim, &of->w[i], of->g[k], &of->s[i], &of->z[i], &of->ds[i],
-                                   &of->dz[i], scratch));
+                sums->inverse_step =
+                    cpsi_max_nan(sums->inverse_step,
+                                 cpsi_cone_step(dim, &of->w[i], of->g[k], &of->s[i], &of->z[i],
+                                                &of->ds[i], &of->dz[i], scratch));
         }
     }
 }

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "base/status.h"
+#include "cable/end_set.h"
 #include "evolve/places.h"
 #include "evolve/ranges.h"
 #include "evolve/sections.h"
@@ -28,24 +29,29 @@ static CpsStatus check_numbers(const CpsLine *line, int end, CpsError *err) {
     const bool has_axis = on->kind == CPS_CONSTRAINT_KIND_RAIL ||
                           on->kind == CPS_CONSTRAINT_KIND_HALF_SPACE ||
                           on->kind == CPS_CONSTRAINT_KIND_DISC,
-               is_round = on->kind == CPS_CONSTRAINT_KIND_BALL || on->kind == CPS_CONSTRAINT_KIND_DISC;
+               is_round =
+                   on->kind == CPS_CONSTRAINT_KIND_BALL || on->kind == CPS_CONSTRAINT_KIND_DISC;
     if (on->kind < CPS_CONSTRAINT_KIND_NONE || on->kind > CPS_CONSTRAINT_KIND_BOX)
         return refuse(line, end, "", "is of an unknown kind", err);
     if (!cpsi_are_usable(on->point))
         return refuse(line, end, "", "has a point that is not finite", err);
     if (has_axis && !(cpsi_are_usable(on->axis) && size > 0 && isfinite(size)))
-        return refuse(line, end, "", "has an axis without a direction, expected one of any non-zero "
-                                     "length", err);
+        return refuse(line, end, "",
+                      "has an axis without a direction, expected one of any non-zero "
+                      "length",
+                      err);
     if (is_round && !cpsi_is_positive(on->radius))
         return refuse(line, end, "", "has a radius that is no finite number > 0", err);
     if (on->kind == CPS_CONSTRAINT_KIND_RAIL && !(on->length > 0))
         return refuse(line, end, "", "is a rail whose length is no number > 0", err);
-    if (on->kind == CPS_CONSTRAINT_KIND_RAIL && isfinite(on->length) && !cpsi_is_positive(on->length))
+    if (on->kind == CPS_CONSTRAINT_KIND_RAIL && isfinite(on->length) &&
+        !cpsi_is_positive(on->length))
         return refuse(line, end, "", "is a rail that is too long", err);
     if (on->kind == CPS_CONSTRAINT_KIND_BOX)
         for (int a = 0; a < 3; a++)
             if (!cpsi_is_positive(on->size[a]))
-                return refuse(line, end, "", "is a box with a size that is no finite number > 0", err);
+                return refuse(line, end, "", "is a box with a size that is no finite number > 0",
+                              err);
     if (on->kind == CPS_CONSTRAINT_KIND_BOX)
         for (int a = 0; a < 4; a++)
             if (!cpsi_is_usable(on->rotation[a]))
@@ -57,16 +63,23 @@ static CpsStatus check_one(const CpsLine *line, int end, CpsError *err) {
     CpsStatus status = check_numbers(line, end, err);
     if (status != CPS_OK || line->constraint[end].kind == CPS_CONSTRAINT_KIND_NONE) return status;
     if (line->end[end].kind != CPS_END_KIND_FREE)
-        return refuse(line, end, "", "needs a free end, which a force may act on: leave the set out, "
-                                     "or let the end be free", err);
+        return refuse(line, end, "",
+                      "needs a free end, which a force may act on: leave the set out, "
+                      "or let the end be free",
+                      err);
     if (line->end[!end].kind == CPS_END_KIND_POINT)
-        return refuse(line, end, "", "does not go together with a point at the other end: hold the "
-                                     "other end, or let it be free", err);
+        return refuse(line, end, "",
+                      "does not go together with a point at the other end: hold the "
+                      "other end, or let it be free",
+                      err);
     if (line->winch[0].is_there || line->winch[1].is_there)
-        return refuse(line, end, "", "does not go together with a winch: leave one of them out", err);
+        return refuse(line, end, "", "does not go together with a winch: leave one of them out",
+                      err);
     if (cpsi_has_break_at(line))
-        return refuse(line, end, "", "does not go together with break_at: give the line a "
-                                     "breaking_load, which is only reported", err);
+        return refuse(line, end, "",
+                      "does not go together with break_at: give the line a "
+                      "breaking_load, which is only reported",
+                      err);
     if (line->start.kind == CPS_START_STATIC) return CPS_OK;
     const CpsiPlaceSet set = cpsi_place_set(&line->constraint[end]);
     double start[3];
@@ -75,10 +88,11 @@ static CpsStatus check_one(const CpsLine *line, int end, CpsError *err) {
     const double off = vec3_norm(vec3_sub(near, x));
     if (off <= cpsi_place_tolerance(line, x)) return CPS_OK;
     char what[200];
-    snprintf(what, sizeof what,
-             "is %g m away from where the start puts the end, (%.6g, %.6g, %.6g) m: let it begin in "
-             "the set, as at (%.6g, %.6g, %.6g) m",
-             off, x.x, x.y, x.z, near.x, near.y, near.z);
+    snprintf(
+        what, sizeof what,
+        "is %g m away from where the start puts the end, (%.6g, %.6g, %.6g) m: let it begin in "
+        "the set, as at (%.6g, %.6g, %.6g) m",
+        off, x.x, x.y, x.z, near.x, near.y, near.z);
     return refuse(line, end, "", what, err);
 }
 
@@ -98,13 +112,15 @@ CpsStatus cpsi_constraints_check_stage(const CpsScene *scene, const CpsStage *st
             change->to.kind == CPS_END_KIND_FREE)
             continue;
         snprintf(place, sizeof place, "%s.%s", line->name, cpsi_end_letter(change->end));
-        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                            "%s: %s.%s is %s, but it is held to a set, which stays where it is: give "
-                            "it a force",
-                            what, line->name, cpsi_end_letter(change->end),
-                            change->to.kind == CPS_END_KIND_HELD ? "moved" : "released");
+        return CPSI_FAIL_AT(
+            place, err, CPS_ERR_ARGUMENT,
+            "%s: %s.%s is %s, but it is held to a set, which stays where it is: give "
+            "it a force",
+            what, line->name, cpsi_end_letter(change->end),
+            change->to.kind == CPS_END_KIND_HELD ? "moved" : "released");
     }
-    for (int k = 0; k < scene->line_count && stage->duration > 0; k++)
+    if (!(stage->duration > 0)) return CPS_OK;
+    for (int k = 0; k < scene->line_count; k++)
         for (int end = 0; end < 2; end++)
             if (scene->line[k].constraint[end].kind != CPS_CONSTRAINT_KIND_NONE)
                 return CPSI_FAIL_AT("duration", err, CPS_ERR_ARGUMENT,
@@ -116,8 +132,8 @@ CpsStatus cpsi_constraints_check_stage(const CpsScene *scene, const CpsStage *st
 
 void cpsi_constraints_fill(CpsiLine *line, const CpsLine *given) {
     for (int end = 0; end < 2; end++) {
-        line->on[end] = (CpsiEndSet){.is_there = given->constraint[end].kind !=
-                                                 CPS_CONSTRAINT_KIND_NONE};
+        line->on[end] =
+            (CpsiEndSet){.is_there = given->constraint[end].kind != CPS_CONSTRAINT_KIND_NONE};
         if (line->on[end].is_there) line->on[end].set = cpsi_place_set(&given->constraint[end]);
     }
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The views of the lines of an evolution (view.h). */
 #include "evolve/view.h"
+#include "cable/end_set.h"
 #include "cable/winch.h"
 
 #include "capstan/two_stiffnesses.h"

@@ -138,7 +138,8 @@ enum { PROJECTIONS = 1000 };
 void cpsi_place_sets_nearest(const CpsiPlaceSet *first, const CpsiPlaceSet *second, Vec3 *a,
                              Vec3 *b) {
     *b = cpsi_place_set_project(second, *a);
-    for (int i = 0; first && i < PROJECTIONS; i++) {
+    if (!first) return;
+    for (int i = 0; i < PROJECTIONS; i++) {
         const Vec3 before = *a;
         *a = cpsi_place_set_project(first, *b);
         *b = cpsi_place_set_project(second, *a);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Closed convex sets of places (capstan/constraint.h), all of one form: with y = Q (x - centre), the
- * rows of Q being orthonormal axes,
+/* Closed convex sets of places (capstan/constraint.h), all of one form: with y = Q (x - centre),
+ * the rows of Q being orthonormal axes,
  *
  *     low <= y <= high   along each axis, and   |(y_1 .. y_round)| <= radius   where round > 0.
  *
@@ -12,11 +12,11 @@
 #include "capstan/constraint.h"
 
 typedef struct CpsiPlaceSet {
-    Vec3 centre;     /* [m] */
-    double axes[9];  /* rows */
+    Vec3 centre;            /* [m] */
+    double axes[9];         /* rows */
     double low[3], high[3]; /* [m] */
-    int round;       /* 0, 2 or 3: the first axes so many */
-    double radius;   /* [m] */
+    int round;              /* 0, 2 or 3: the first axes so many */
+    double radius;          /* [m] */
 } CpsiPlaceSet;
 
 /* Of a constraint that has been checked and is one. */
@@ -25,8 +25,8 @@ CpsiPlaceSet cpsi_place_set(const CpsConstraint *given);
 /* The place of the set nearest to x. */
 Vec3 cpsi_place_set_project(const CpsiPlaceSet *set, Vec3 x);
 
-/* sup over y in the set of v.(y - x), for x in the set and v (3) in its own axes: v is in the normal
- * cone at x where it vanishes. INFINITY: the set has no end in that direction. */
+/* sup over y in the set of v.(y - x), for x in the set and v (3) in its own axes: v is in the
+ * normal cone at x where it vanishes. INFINITY: the set has no end in that direction. */
 double cpsi_place_set_gap(const CpsiPlaceSet *set, const double v[3], Vec3 x);
 
 /* The vector with components (3) in the axes of the set; and the components of a vector. */

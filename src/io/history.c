@@ -278,7 +278,8 @@ int cpsi_set_outline(const CpsConstraint *on, Vec3 about, double reach, int piec
     static const double X[5] = {-1, 1, 1, -1, -1}, Y[5] = {-1, -1, 1, 1, -1};
     const Vec3 point = vec3_load(on->point), from = vec3_sub(about, point);
     if (on->kind == CPS_CONSTRAINT_KIND_BOX) return box_outline(on, piece, out);
-    if (on->kind == CPS_CONSTRAINT_KIND_NONE || piece > (on->kind == CPS_CONSTRAINT_KIND_BALL ? 2 : 0))
+    if (on->kind == CPS_CONSTRAINT_KIND_NONE ||
+        piece > (on->kind == CPS_CONSTRAINT_KIND_BALL ? 2 : 0))
         return 0;
     const double r = on->radius;
     if (on->kind == CPS_CONSTRAINT_KIND_BALL) {

@@ -148,8 +148,8 @@ CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution);
 bool cpsi_has_winch(const CpsLine *line);
 /* ... and whether an end of it is held to a set, likewise. */
 bool cpsi_has_set(const CpsLine *line);
-/* Polyline `piece`, from 0 on, of the outline of a set; returns its points, 0: there is no such one.
- * What has no end is shown to `reach` [m] from the place of it that is nearest to `about`. */
+/* Polyline `piece`, from 0 on, of the outline of a set; returns its points, 0: there is no such
+ * one. What has no end is shown to `reach` [m] from the place of it that is nearest to `about`. */
 enum { CPSI_OUTLINE_POINTS = 49 };
 int cpsi_set_outline(const CpsConstraint *on, Vec3 about, double reach, int piece,
                      Vec3 out[CPSI_OUTLINE_POINTS]);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ends held to convex sets (S90 remark 2.3: x in C2, a perfect constraint). What is known beforehand:
+/* Ends held to convex sets (S90 remark 2.3: x in C2, a perfect constraint). What is known
+ * beforehand:
  *
  *   - on a rail without friction the pull of a hanging line has no part along the rail: with the
  *     catenary in closed form the place follows by bisection, and the step finds it at order 2;
@@ -7,8 +8,8 @@
  *     force is in the normal cone of a ball, a half-space, a disc, an edge and a corner of a box;
  *   - a set that does not bear, or is far larger than the line: the answer of a free end;
  *   - the load of an end on a face does as much work as it moves along it, and the reaction none;
- *   - a set farther away than an inextensible line is long, or a load along a rail without ends that
- *     nothing else bears: no equilibrium, with its proof. */
+ *   - a set farther away than an inextensible line is long, or a load along a rail without ends
+ * that nothing else bears: no equilibrium, with its proof. */
 #include <math.h>
 #include <string.h>
 
@@ -16,8 +17,6 @@
 #include "catenary.h"
 #include "check.h"
 #include "splitmix.h"
-
-
 
 /* [m] An interior point leaves a place that far inside a boundary that bears tens of newtons. */
 static const double INSIDE = 1e-10;
@@ -67,11 +66,12 @@ static double rail_error(int elements, double slope, double stiffness, double tu
         else
             high = s;
     }
-    line.constraint[CPS_END_B] = (CpsConstraint){
-        .kind = CPS_CONSTRAINT_KIND_RAIL,
-        .point = {6 * cos(turn), 6 * sin(turn), 0},
-        .axis = {3 * cos(slope) * cos(turn), 3 * cos(slope) * sin(turn), -3 * sin(slope)},
-        .length = INFINITY};
+    line.constraint[CPS_END_B] =
+        (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
+                        .point = {6 * cos(turn), 6 * sin(turn), 0},
+                        .axis = {3 * cos(slope) * cos(turn), 3 * cos(slope) * sin(turn),
+                                 -3 * sin(slope)},
+                        .length = INFINITY};
     assert_true(low > -3.4 && low < 3.4);
     CpsEvolution *evolution = solve(&line, CPS_OUTCOME_SOLVED);
     const CpsLineReport report = cps_evolution_line_report(evolution, 0);
@@ -118,7 +118,8 @@ static CpsConstraintReport is_as_held(const CpsLine *line, CpsLineReport *report
     memcpy(other.end[CPS_END_B].value, report->end[CPS_END_B].position, 3 * sizeof(double));
     CpsEvolution *held = solve(&other, CPS_OUTCOME_SOLVED);
     const CpsLineReport as = cps_evolution_line_report(held, 0);
-    const CpsLineView view = cps_evolution_line_view(in_set, 0), seen = cps_evolution_line_view(held, 0);
+    const CpsLineView view = cps_evolution_line_view(in_set, 0),
+                      seen = cps_evolution_line_view(held, 0);
     CHECK_VECTOR(report->end[CPS_END_B].force, as.end[CPS_END_B].force,
                  1e-6 * as.certificate.largest_force);
     for (int j = 0; j < 3 * (line->element_count + 1); j++)
@@ -140,26 +141,31 @@ static void an_end_in_a_set_is_as_one_that_is_held(void **state) {
         CpsLineReport report;
         CpsLine line = hung(10, 60, i ? INFINITY : 5e3);
         CpsConstraint *on = &line.constraint[CPS_END_B];
-        *on = (CpsConstraint){
-            .kind = CPS_CONSTRAINT_KIND_BALL, .point = {5, 2, 1}, .radius = 1.5};
+        *on = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_BALL, .point = {5, 2, 1}, .radius = 1.5};
         CpsConstraintReport found = is_as_held(&line, &report);
         double size = sqrt(dot(found.reaction, found.reaction));
         for (int a = 0; a < 3; a++) /* towards the centre, from the surface */
             CHECK_NEAR(report.end[CPS_END_B].position[a] - on->point[a],
                        -1.5 * found.reaction[a] / size, 1e-7);
-        *on = (CpsConstraint){
-            .kind = CPS_CONSTRAINT_KIND_HALF_SPACE, .point = {0, 0, -4}, .axis = {-1, 0, 2}};
+        *on = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_HALF_SPACE,
+                              .point = {0, 0, -4},
+                              .axis = {-1, 0, 2}};
         found = is_as_held(&line, &report);
-        CHECK_NEAR(found.reaction[0] * 2 + found.reaction[2], 0, 1e-12 * report.certificate.largest_force);
+        CHECK_NEAR(found.reaction[0] * 2 + found.reaction[2], 0,
+                   1e-12 * report.certificate.largest_force);
         CHECK_GREATER(found.reaction[2], 1);
-        *on = (CpsConstraint){
-            .kind = CPS_CONSTRAINT_KIND_DISC, .point = {5, 0, 0}, .axis = {0, 0, 1}, .radius = 1};
-        found = is_as_held(&line, &report); /* at its rim, the normal cone of which is a half-plane */
+        *on = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_DISC,
+                              .point = {5, 0, 0},
+                              .axis = {0, 0, 1},
+                              .radius = 1};
+        found =
+            is_as_held(&line, &report); /* at its rim, the normal cone of which is a half-plane */
         CHECK_NEAR(report.end[CPS_END_B].position[0], 4, 1e-7);
         CHECK_GREATER(found.reaction[0], 1);
-        /* an edge, a corner: outward parts along the axes whose faces are reached, none along others */
-        *on = (CpsConstraint){
-            .kind = CPS_CONSTRAINT_KIND_BOX, .point = {5, 3, 1}, .size = {2, 2, 2}};
+        /* an edge, a corner: outward parts along the axes whose faces are reached, none along
+         * others */
+        *on =
+            (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_BOX, .point = {5, 3, 1}, .size = {2, 2, 2}};
         found = is_as_held(&line, &report);
         CHECK_VECTOR(report.end[CPS_END_B].position, ((double[]){4, 2, 0}), INSIDE);
         for (int a = 0; a < 3; a++) CHECK_GREATER(found.reaction[a], 1);
@@ -191,7 +197,8 @@ static void a_set_that_does_not_bear_changes_nothing(void **state) {
         line.constraint[CPS_END_B] = LOOSE[k / 2];
         CpsEvolution *in_set = solve(&line, CPS_OUTCOME_SOLVED);
         const CpsConstraintReport on = cps_evolution_constraint_report(in_set, 0, CPS_END_B);
-        const CpsLineView a = cps_evolution_line_view(is_free, 0), b = cps_evolution_line_view(in_set, 0);
+        const CpsLineView a = cps_evolution_line_view(is_free, 0),
+                          b = cps_evolution_line_view(in_set, 0);
         for (int j = 0; j < 3 * 51; j++) CHECK_NEAR(a.position[j], b.position[j], 1e-9);
         for (int e = 0; e < 50; e++) CHECK_NEAR(a.tension[e], b.tension[e], 1e-8 * 60);
         assert_true(on.is_there && !on.is_active);
@@ -201,7 +208,8 @@ static void a_set_that_does_not_bear_changes_nothing(void **state) {
     }
 }
 
-/* A slack line whose end is loaded along a level rail: the load moves it, the reaction does nothing.
+/* A slack line whose end is loaded along a level rail: the load moves it, the reaction does
+ * nothing.
  */
 static void a_reaction_does_no_work(void **state) {
     (void)state;
@@ -261,9 +269,10 @@ static void no_equilibrium(void **state) {
     line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = straight};
     line.constraint[CPS_END_A] =
         (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL, .axis = {0, 1, 0}, .length = INFINITY};
-    line.constraint[CPS_END_B] =
-        (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL, .point = {10, 0, 0}, .axis = {0, 2, 0},
-                        .length = INFINITY};
+    line.constraint[CPS_END_B] = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
+                                                 .point = {10, 0, 0},
+                                                 .axis = {0, 2, 0},
+                                                 .length = INFINITY};
     memcpy(line.end[CPS_END_B].value, (double[]){0, 7, 0}, 3 * sizeof(double));
     evolution = solve(&line, CPS_OUTCOME_UNBOUNDED);
     report = cps_evolution_line_report(evolution, 0);
@@ -280,8 +289,8 @@ static void no_equilibrium(void **state) {
     cps_evolution_destroy(evolution);
 }
 
-/* S90 remark 2.3.3: C = C1 and C2, r = r1 + r2: a line on a rough bed (C1) whose end is on a rail (C2).
- * The rail bears what the bed does not, and both are in one certificate. */
+/* S90 remark 2.3.3: C = C1 and C2, r = r1 + r2: a line on a rough bed (C1) whose end is on a rail
+ * (C2). The rail bears what the bed does not, and both are in one certificate. */
 static void both_constraints_of_the_remark(void **state) {
     (void)state;
     CpsObstacle bed = cps_obstacle_default();
@@ -292,8 +301,10 @@ static void both_constraints_of_the_remark(void **state) {
     line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = straight};
     line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_KIND_AT_START};
     memcpy(line.end[CPS_END_B].value, (double[]){8, 60, 0}, 3 * sizeof(double));
-    line.constraint[CPS_END_B] = (CpsConstraint){
-        .kind = CPS_CONSTRAINT_KIND_RAIL, .point = {10, 0, 0}, .axis = {-1, 2, 1}, .length = 1.5};
+    line.constraint[CPS_END_B] = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
+                                                 .point = {10, 0, 0},
+                                                 .axis = {-1, 2, 1},
+                                                 .length = 1.5};
     CpsScene scene = cps_scene_default();
     scene.obstacle_count = scene.line_count = 1;
     scene.obstacle = &bed;

@@ -415,10 +415,8 @@ static void check_infeasible(Findings *findings, const Record *r, const Measures
         find(findings, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
     Span span = {.distance = NAN};
     longest_span(r, &span);
-    if (!(span.distance > span.length) && r->sets) {
-        sets_check_infeasible(r, m->length + m->extent, find_number, findings);
-        return;
-    }
+    if (!(span.distance > span.length) && r->sets)
+        return sets_check_infeasible(r, m->length + m->extent, find_number, findings);
     if (!(span.distance > span.length)) {
         find(findings, "infeasible, but held nodes are %.17g apart and the length is %.17g",
              span.distance, span.length);

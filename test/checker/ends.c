@@ -158,10 +158,10 @@ Real ends_work(const Record *r, const Record *before) {
             sets_add(before, e ? before->elements : 0, then);
             const Real after = (Real)r->end_force[e][i] + r->end_friction_force[e][i] - now[i],
                        stored = r->end_friction_force[e][i];
-            const Real first =
-                is_let_go(r, before, e)
-                    ? 0
-                    : (Real)before->end_force[e][i] - then[i] + (free ? 0 : before->end_friction_force[e][i]);
+            const Real first = is_let_go(r, before, e)
+                                   ? 0
+                                   : (Real)before->end_force[e][i] - then[i] +
+                                         (free ? 0 : before->end_friction_force[e][i]);
             work += ((first + after) / 2 - stored) * ((Real)r->position[j][i] - from[i]);
         }
     }

@@ -28,7 +28,8 @@ void sets_compare(Compare *compare, const CpsLine *line, const Record *r) {
     const bool any = line->constraint[0].kind != CPS_CONSTRAINT_KIND_NONE ||
                      line->constraint[1].kind != CPS_CONSTRAINT_KIND_NONE;
     if (any != (r->sets != NULL)) find(compare, "sets of the ends of %s", line->name);
-    for (int e = 0; e < 2 && any && r->sets; e++) {
+    if (!any || !r->sets) return;
+    for (int e = 0; e < 2; e++) {
         const CpsConstraint *on = &line->constraint[e];
         const double kind = on->kind;
         compare_numbers(compare, line->name, "set_kind", e, &kind, 1, NULL);

@@ -623,11 +623,10 @@ static void measure_spring(const Spring *spring, const Real *arm, const Real *u,
 }
 
 /* The set that holds an end: its gap, and the dual's part, minus the support at minus its force. */
-static void measure_set(const Record *r, size_t j, const Real *x, Real *pull, Measures *m, Sums *s) {
+static void measure_set(const Record *r, size_t j, const Real *x, Real *p, Measures *m, Sums *s) {
     Triple f = {0, 0, 0};
     const Real force = sets_add(r, j, f), gap = sets_gap(r, j);
-    if (force == 0) return;
-    for (int k = 0; k < 3; k++) pull[k] += f[k];
+    sets_add(r, j, p);
     add(&s->gap, fabsl(gap)); // below 0 by rounding: sets_check
     add(&s->signed_gap, gap);
     add(&s->dual, dot(f, x) - gap);

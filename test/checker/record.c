@@ -9,8 +9,8 @@
 #include "inertia.h"
 #include "loads.h"
 #include "places.h"
-#include "shape.h"
 #include "sets.h"
+#include "shape.h"
 #include "winches.h"
 
 #include <math.h>
@@ -531,7 +531,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     static int (*const CREATE[])(const Source *, const char *, Record *,
                                  FILE *) = {read_sections,  elongation_read, read_end_points,
                                             failure_create, inertia_create,  loads_create,
-                                            read_zones,     winches_create, sets_create};
+                                            read_zones,     winches_create,  sets_create};
     for (size_t k = 0; k < sizeof CREATE / sizeof *CREATE; k++)
         if (CREATE[k](source, line, record, log)) return -1;
     return 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sets to which ends are held (sets.h). Of each kind the support function, sup of v.y over y in K, is
- * written down from its definition; the rest follows from it. */
+/* Sets to which ends are held (sets.h). Of each kind the support function, sup of v.y over y in K,
+ * is written down from its definition; the rest follows from it. */
 #include "sets.h"
 
 #include <math.h>
@@ -84,7 +84,8 @@ int sets_create(const Source *source, const char *line, Record *r, FILE *log) {
 }
 
 int sets_read(const Source *source, const char *line, size_t step, Record *r, FILE *log) {
-    for (int e = 0; e < 2 && r->sets; e++)
+    if (!r->sets) return 0;
+    for (int e = 0; e < 2; e++)
         if (read_one(source, line, "set_reaction", step, e, 3, r->sets->end[e].reaction) ||
             !all_finite(r->sets->end[e].reaction, 3))
             return complain(log, line, "a reaction is missing, or not finite");
@@ -121,8 +122,8 @@ static void box_axis(const Set *set, int i, Real *u) {
     for (int a = 0; a < 3; a++) u[a] = m[a][i];
 }
 
-/* sup of v.(y - point) over y in the set. What of v points along an endless direction by no more than
- * its rounding counts as 0; INFINITY beyond that. */
+/* sup of v.(y - point) over y in the set. What of v points along an endless direction by no more
+ * than its rounding counts as 0; INFINITY beyond that. */
 static Real support(const Set *set, const Real *v) {
     Real u[3], sum = 0;
     const Real size = norm(v), nothing = DIRECTION * size;
@@ -267,7 +268,8 @@ static Real excess_along(const Record *r, const Real *v) {
 
 void sets_check_infeasible(const Record *r, double reach, SetFind *find, void *user) {
     const Real v[3] = {r->proof[0], r->proof[1], r->proof[2]}, excess = excess_along(r, v);
-    if (!(excess > 0)) find(user, "infeasible, but a set is within reach, excess", (double)excess, 0);
+    if (!(excess > 0))
+        find(user, "infeasible, but a set is within reach, excess", (double)excess, 0);
     if (!(fabsl(excess - r->proof_length) <= 1e-12L * reach))
         find(user, "proof_length", r->proof_length, (double)excess);
     if (!(norm(v) <= 1 + 1e-12L)) find(user, "length of the proof", (double)norm(v), 1);

@@ -444,11 +444,14 @@ void cpsi_netcdf_define_sets(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const Cp
     ids->kind = cpsi_netcdf_variable(file, of, "set_kind", NC_BYTE, 1, end,
                                      "set that the free end is held to", "1");
     cpsi_netcdf_flags(file, ids->kind, NC_BYTE, 6, NULL, "none rail half_space ball disc box");
-    ids->point = cpsi_netcdf_variable(file, of, "set_point", NC_DOUBLE, 2, xyz,
-                                      "beginning or middle of the set, or a point of its plane", "m");
-    ids->axis = cpsi_netcdf_variable(file, of, "set_axis", NC_DOUBLE, 2, xyz,
-                                     "direction of a rail, inward normal of a half-space, normal of a "
-                                     "disc", "1");
+    ids->point =
+        cpsi_netcdf_variable(file, of, "set_point", NC_DOUBLE, 2, xyz,
+                             "beginning or middle of the set, or a point of its plane", "m");
+    ids->axis =
+        cpsi_netcdf_variable(file, of, "set_axis", NC_DOUBLE, 2, xyz,
+                             "direction of a rail, inward normal of a half-space, normal of a "
+                             "disc",
+                             "1");
     ids->length = cpsi_netcdf_variable(file, of, "set_length", NC_DOUBLE, 1, end,
                                        "length of a rail, infinite without ends", "m");
     ids->radius = cpsi_netcdf_variable(file, of, "set_radius", NC_DOUBLE, 1, end,
@@ -456,8 +459,9 @@ void cpsi_netcdf_define_sets(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const Cp
     ids->size = cpsi_netcdf_variable(file, of, "set_size", NC_DOUBLE, 2, xyz,
                                      "size of a box along its own axes", "m");
     const int turn[] = {dimension[1], cpsi_netcdf_dimension(file, four, QUATERNION)};
-    ids->rotation = cpsi_netcdf_variable(file, of, "set_rotation", NC_DOUBLE, 2, turn,
-                                         "rotation of a box, quaternion w x y z; 0 0 0 0: none", "1");
+    ids->rotation =
+        cpsi_netcdf_variable(file, of, "set_rotation", NC_DOUBLE, 2, turn,
+                             "rotation of a box, quaternion w x y z; 0 0 0 0: none", "1");
     ids->reaction = cpsi_netcdf_variable(file, of, "set_reaction", NC_DOUBLE, 3, dimension,
                                          "reaction of the set on the end", "N");
 }

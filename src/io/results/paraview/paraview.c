@@ -194,7 +194,8 @@ CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err) {
                     "name=\"points\"/>\n",
                     i, i);
         if (results->has_sets)
-            fprintf(out, "    <DataSet timestep=\"%d\" part=\"3\" file=\"sets.vtp\" name=\"sets\"/>\n",
+            fprintf(out,
+                    "    <DataSet timestep=\"%d\" part=\"3\" file=\"sets.vtp\" name=\"sets\"/>\n",
                     i);
     }
     fputs("  </Collection>\n</VTKFile>\n", out);

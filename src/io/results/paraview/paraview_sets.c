@@ -4,8 +4,17 @@
 
 typedef enum CellData { POINTS, CONNECTIVITY, OFFSETS, LINE_ID } CellData;
 
+/* The corners of a polyline, or their numbers from `first` on. */
+static void write_corners(CellData what, const Vec3 *x, int count, int first, FILE *out) {
+    for (int i = 0; i < count; ++i) {
+        if (what == POINTS) fprintf(out, "%.17g %.17g %.17g\n", x[i].x, x[i].y, x[i].z);
+        if (what == CONNECTIVITY) fprintf(out, "%d\n", first + i);
+    }
+}
+
 /* Write one kind of numbers of all outlines; returns the number of points, and of polylines. */
-static void write_all(const CpsResults *results, CellData what, FILE *out, int *points, int *lines) {
+static void write_all(const CpsResults *results, CellData what, FILE *out, int *points,
+                      int *lines) {
     *points = *lines = 0;
     for (int l = 0; l < results->line_count; ++l)
         for (int end = 0; end < 2; ++end) {
@@ -16,10 +25,7 @@ static void write_all(const CpsResults *results, CellData what, FILE *out, int *
             for (int piece = 0; (count = cpsi_set_outline(on, vec3_load(about),
                                                           results->line_length[l], piece, x)) > 0;
                  ++piece) {
-                for (int i = 0; i < count && out && what == POINTS; ++i)
-                    fprintf(out, "%.17g %.17g %.17g\n", x[i].x, x[i].y, x[i].z);
-                for (int i = 0; i < count && out && what == CONNECTIVITY; ++i)
-                    fprintf(out, "%d\n", *points + i);
+                if (out) write_corners(what, x, count, *points, out);
                 *points += count;
                 ++*lines;
                 if (out && what == OFFSETS) fprintf(out, "%d\n", *points);
@@ -56,6 +62,7 @@ CpsStatus cpsi_paraview_sets(CpsResults *results, CpsError *err) {
           "        <DataArray type=\"Int32\" Name=\"line\" format=\"ascii\">\n",
           out);
     write_all(results, LINE_ID, out, &points, &lines);
-    fputs("        </DataArray>\n      </CellData>\n    </Piece>\n  </PolyData>\n</VTKFile>\n", out);
+    fputs("        </DataArray>\n      </CellData>\n    </Piece>\n  </PolyData>\n</VTKFile>\n",
+          out);
     return cpsi_directory_close_file(results->directory, out, err);
 }

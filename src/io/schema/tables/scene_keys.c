@@ -349,14 +349,12 @@ static const CpsiKey HALF_SPACE_KEYS[] = {
 };
 static const CpsiMapping HALF_SPACE = {"half_space", KEYS(HALF_SPACE_KEYS)};
 
-#define ON_CENTRE                                                                                 \
-    {                                                                                             \
-        "centre", REQUIRED, POINT(On, on.point, 3), ANY, .unit = "m", .help = "the middle of it" \
-    }
-#define ON_RADIUS                                                         \
-    {                                                                     \
-        "radius", REQUIRED, NUMBER(On, on.radius), POSITIVE, .unit = "m", \
-            .help = "the end is no farther from the middle"               \
+#define ON_CENTRE \
+    { "centre", REQUIRED, POINT(On, on.point, 3), ANY, .unit = "m", .help = "the middle of it" }
+#define ON_RADIUS                                                        \
+    {                                                                    \
+        "radius", REQUIRED, NUMBER(On, on.radius), POSITIVE,             \
+            .unit = "m", .help = "the end is no farther from the middle" \
     }
 
 static const CpsiKey BALL_KEYS[] = {ON_CENTRE, ON_RADIUS};
