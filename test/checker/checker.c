@@ -408,15 +408,16 @@ static void find_number(void *user, const char *what, double said, double expect
     find(user, "%s: %.9g, expected %.9g", what, said, expected);
 }
 
-/* a constant force along the unit vector from A to B has the dual value t (distance - length),
- * unbounded in t */
+/* a constant force t along the unit vector from A to B has the dual value t (distance - length) */
 static void check_infeasible(Findings *findings, const Record *r, const Measures *m) {
     if (r->compliance != 0)
         find(findings, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
     Span span = {.distance = NAN};
     longest_span(r, &span);
-    if (!(span.distance > span.length) && r->sets)
-        return sets_check_infeasible(r, m->length + m->extent, find_number, findings);
+    if (!(span.distance > span.length) && r->sets) {
+        sets_check_infeasible(r, m->length + m->extent, find_number, findings);
+        return;
+    }
     if (!(span.distance > span.length)) {
         find(findings, "infeasible, but held nodes are %.17g apart and the length is %.17g",
              span.distance, span.length);
