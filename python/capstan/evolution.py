@@ -34,6 +34,7 @@ ARRAYS: Dict[str, Tuple[np.dtype, str, str]] = {
     "load": (_DOUBLE, "n3", "[N] weight, given loads, drag, and the force on a free end"),
     "node_load": (_DOUBLE, "n3", "[N] of that, given loads and drag; 0 where there are none"),
     "node_stiffness": (_DOUBLE, "n3", "[N/m] of the springs of the nodes; 0 without"),
+    "node_coupling": (_DOUBLE, "n3", "[N/m] the same, of x and y, x and z, y and z"),
     "node_place": (_DOUBLE, "n3", "[m] where they are without force"),
     "node_beside": (_DOUBLE, "n3", "[m] beside the position at which they are taken, small"),
     "obstacle": (_INT, "cn", "index of the obstacle of a contact, -1: none"),

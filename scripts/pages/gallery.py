@@ -60,6 +60,7 @@ PICTURES = {
     "run-bollard-and-rail": of_example("bollard-and-rail", "plan.svg"),
     "run-winch": of_example("winched-mooring", "tension.svg"),
     "run-riser": of_example("riser-in-a-current", "elevation.svg"),
+    "run-soft-clay": of_example("soft-clay", "elevation.svg"),
     "run-dropped-chain": of_example("dropped-chain", "elevation.svg"),
     "run-parting-lines": of_example("parting-lines", "step-00008-plan.svg"),
     "run-net": net,

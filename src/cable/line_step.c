@@ -41,6 +41,7 @@
 #include "cable/report.h"
 #include "cable/rounds.h"
 #include "cable/shortfall.h"
+#include "cable/soft.h"
 #include "cable/standstill.h"
 #include "cable/strategy.h"
 #include "cable/tension_field.h"
@@ -353,11 +354,12 @@ static void classify(CpsiLine *line, const CpsiChainProgram *program) {
 }
 
 /* Where the position of an inextensible line does not determine its forces: choose those nearest to
- * the forces before the step, if they can be certified. */
+ * the forces before the step, if they can be certified. On what gives the reactions follow from the
+ * position, and the forces found are kept. */
 static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
                           const CpsiStepOptions *options) {
-    if (!line->forces || line->inertia.is_moving || cpsi_line_has_sets(line) ||
-        !cps_outcome_is_certified(line->report.outcome))
+    if (!line->forces || line->inertia.is_moving || cpsi_line_has_soft(line) ||
+        cpsi_line_has_sets(line) || !cps_outcome_is_certified(line->report.outcome))
         return;
     const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
     const CpsCertificate before = line->report.certificate;

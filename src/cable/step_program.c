@@ -13,6 +13,7 @@
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
+#include "cable/soft.h"
 #include "chain/frame.h"
 
 /* Friction bounds below this share of the force scale count as zero: they cannot be distinguished
@@ -225,6 +226,8 @@ static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int
     unilateral->second[k] = is_second(line, c);
     unilateral->weight[k] = share;
     unilateral->gap[k] = open_gap(line, c) / scale->length;
+    const double gives = cpsi_soft_stiffness(line, c) * scale->length;
+    unilateral->compliance[k] = gives > 0 ? share * scale->force / gives : 0;
     if (!line->has_local_axes) return;
     double axes[9];
     contact_axes(line, program, c, axes);

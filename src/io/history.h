@@ -125,6 +125,7 @@ struct CpsResults {
     bool in_time;       /* a step may have a duration */
     bool winds;         /* a line has a winch */
     bool has_sets;      /* an end of a line is held to a set */
+    bool has_loads;     /* a line has springs, given loads or drag */
     bool begins_static; /* the first step places lines by statics */
 
     int row_count, row_capacity;

@@ -91,14 +91,13 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
                          "stiffness",
                          view->name);
     if (!view->one_plane)
-        return cpsi_fail(
-            err, CPS_ERR_ARGUMENT,
-            "line '%s': more than one obstacle, or one that is curved or has "
-            "directions, a node that is grasped, an end held to a set, a winch, springs, "
-            "loads or drag; the "
-            "paper's step slides in one tangent plane with one coefficient: use plane "
-            "obstacles with friction alone",
-            view->name);
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "line '%s': more than one obstacle, or one that is curved, gives or has "
+                         "directions, a node that is grasped, an end in a set, a winch, springs, "
+                         "loads or drag; the "
+                         "paper's step slides in one tangent plane with one coefficient: use plane "
+                         "obstacles with friction alone",
+                         view->name);
     *step = (CpsiStep){.compliance = view->compliance,
                        .held = view->end[CPS_END_B].kind == CPS_END_KIND_HELD};
     layout(&step->own, view->element_count, &step->arena);

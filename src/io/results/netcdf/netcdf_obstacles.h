@@ -179,6 +179,8 @@ void cpsi_netcdf_write_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, con
 void cpsi_netcdf_append_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size_t step,
                              const CpsEvolution *evolution, int line);
 
+/* How obstacles give, and the widths with which lines bear on them; nothing where none gives. */
+void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene);
 /* The current as attributes: the density, z and velocity of row after row; and the drag of lines.
  */
 void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, double origin_z);
