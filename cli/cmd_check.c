@@ -163,18 +163,48 @@ static void print_point(const CpsScene *scene, const CpsPoint *point) {
     putchar('\n');
 }
 
+static void print_set(const CpsConstraint *on) {
+    const double *p = on->point, *a = on->axis, *s = on->size;
+    switch (on->kind) {
+    case CPS_CONSTRAINT_KIND_NONE: break;
+    case CPS_CONSTRAINT_KIND_RAIL:
+        printf(", on a rail from (%g, %g, %g) m along (%g, %g, %g)", p[0], p[1], p[2], a[0], a[1],
+               a[2]);
+        if (isfinite(on->length)) printf(", %g m", on->length);
+        break;
+    case CPS_CONSTRAINT_KIND_HALF_SPACE:
+        printf(", in the half-space of (%g, %g, %g) m, normal (%g, %g, %g)", p[0], p[1], p[2], a[0],
+               a[1], a[2]);
+        break;
+    case CPS_CONSTRAINT_KIND_BALL:
+        printf(", in a ball about (%g, %g, %g) m, radius %g m", p[0], p[1], p[2], on->radius);
+        break;
+    case CPS_CONSTRAINT_KIND_DISC:
+        printf(", in a disc about (%g, %g, %g) m, radius %g m, normal (%g, %g, %g)", p[0], p[1],
+               p[2], on->radius, a[0], a[1], a[2]);
+        break;
+    case CPS_CONSTRAINT_KIND_BOX:
+        printf(", in a box about (%g, %g, %g) m, %g x %g x %g m", p[0], p[1], p[2], s[0], s[1],
+               s[2]);
+        break;
+    }
+}
+
 static void print_end(const CpsScene *scene, const CpsLine *line, int e) {
     const CpsEnd *end = &line->end[e];
     const char letter = e == CPS_END_A ? 'A' : 'B';
     const double *v = end->value;
-    if (end->kind == CPS_END_KIND_POINT)
+    if (end->kind == CPS_END_KIND_POINT) {
         printf("  end %c: at point %s\n", letter, scene->point[line->end_point[e]].name);
-    else if (end->kind == CPS_END_KIND_FREE)
-        printf("  end %c: free, force (%g, %g, %g) N\n", letter, v[0], v[1], v[2]);
-    else if (end->kind == CPS_END_KIND_AT_START)
+    } else if (end->kind == CPS_END_KIND_FREE) {
+        printf("  end %c: free, force (%g, %g, %g) N", letter, v[0], v[1], v[2]);
+        print_set(&line->constraint[e]);
+        putchar('\n');
+    } else if (end->kind == CPS_END_KIND_AT_START) {
         printf("  end %c: held where the start puts it\n", letter);
-    else
+    } else {
         printf("  end %c: held at (%g, %g, %g) m\n", letter, v[0], v[1], v[2]);
+    }
 }
 
 /* What a section has, or a line of one make. */

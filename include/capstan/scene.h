@@ -8,6 +8,7 @@
 #define CAPSTAN_SCENE_H
 
 #include "capstan/body.h"
+#include "capstan/constraint.h"
 #include "capstan/elasticity.h"
 #include "capstan/grasp.h"
 #include "capstan/ground.h"
@@ -170,11 +171,11 @@ typedef struct CpsLine {
     /* (zone_count) in order, without overlap; elsewhere the factor is 1, at a node it is a mean */
     const CpsFrictionZone *zone;
     CpsStart start;
-    /* default: A is held where the start places it, which a position has to be; B is free */
-    CpsEnd end[2];
-    int end_point[2];          /* of ends at points: the index in the scene; default 0 */
-    CpsWinch winch[2];         /* at ends A and B; default none */
-    const CpsLineLoads *loads; /* springs, forces and drag (loads.h); NULL, the default: none */
+    CpsEnd end[2]; /* default: A held where the start places it, as a position has to be; B free */
+    int end_point[2];            /* of ends at points: the index in the scene; default 0 */
+    CpsWinch winch[2];           /* at ends A and B; default none */
+    CpsConstraint constraint[2]; /* of free ends A and B (constraint.h); default none */
+    const CpsLineLoads *loads;   /* springs, forces and drag (loads.h); NULL, the default: none */
 } CpsLine;
 
 /* A new imposed position or force of an end of a line, reached in equal increments over the stage.
@@ -275,8 +276,8 @@ typedef struct CpsScene {
     const CpsPoint *point;
     int body_count; /* >= 0, default 0 */
     const CpsBody *body;
-    int stage_count; /* >= 0 */
-    const CpsStage *stage;
+    int stage_count;
+    const CpsStage *stage; /* (stage_count) */
     CpsFrictionPolicy friction_policy;
     CpsContactPolicy contact_policy;
     CpsTimeScheme time_scheme; /* of stages and moves with a duration (motion.h) */
@@ -289,9 +290,8 @@ CPS_API CpsLine cps_line_default(void);
 CPS_API CpsObstacle cps_obstacle_default(void);
 CPS_API CpsStage cps_stage_default(void); /* one step in which nothing changes; without a name */
 
-/* Check all that can be checked before solving. The message of an error names the line, the value
- * found and what was expected; err->where is the path of the member. Returns CPS_OK,
- * CPS_ERR_ARGUMENT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
+/* Check all that can be checked before solving. The message of an error names line, value and what
+ * was expected. Returns CPS_OK, CPS_ERR_ARGUMENT, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err);
 
 #ifdef __cplusplus

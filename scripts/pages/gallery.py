@@ -57,6 +57,7 @@ PICTURES = {
     "run-bore": of_example("bore", "plan.svg"),
     "run-oc3-hywind": of_example("oc3-hywind", "step-00004-elevation.svg"),
     "run-barge": of_example("barge", "step-00006-plan.svg"),
+    "run-bollard-and-rail": of_example("bollard-and-rail", "plan.svg"),
     "run-winch": of_example("winched-mooring", "tension.svg"),
     "run-riser": of_example("riser-in-a-current", "elevation.svg"),
     "run-soft-clay": of_example("soft-clay", "elevation.svg"),

@@ -12,6 +12,7 @@
  *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s); a given
  *                set's phi is its support
  *     contact    R (n.u + gap)
+ *     end set    sup over y in K of -r.(y - x), r the reaction of a set K that holds an end
  *                where the obstacle gives, with k the stiffness of the node and d = -(n.u + gap),
  *                (d^+ - R/k)^2 k/2 + R d^-
  *     field      y'K y/2, its force being taken at x + y (field.h)
@@ -26,6 +27,7 @@
 #include <math.h>
 
 #include "base/larger.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/flow.h"
 #include "cable/friction_law.h"
@@ -55,6 +57,7 @@ Vec3 cpsi_add_element_contacts(const CpsiLine *line, int j, Vec3 sum) {
 static inline Vec3 node_force(const CpsiLine *line, int j) {
     Vec3 sum = vec3_load(&line->load[3 * j]);
     if (cpsi_line_has_field(line)) sum = vec3_add(sum, cpsi_line_field_balanced(line, j));
+    if (cpsi_line_is_in_set(line, j)) sum = vec3_add(sum, cpsi_line_set_reaction(line, j));
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
         sum = vec3_add(sum, vec3_load(&line->friction_force[3 * c]));
         sum = vec3_axpy(line->reaction[c], vec3_load(&line->normal[3 * c]), sum);
@@ -168,7 +171,7 @@ void cpsi_balance_forces(CpsiLine *line, CpsFrictionPolicy friction) {
              round++) { /* the second round removes the rounding error of the first */
             Vec3 rest = vec3(0, 0, 0);
             for (int j = 0; j < n; j++) rest = vec3_add(rest, node_force(line, j));
-            distribute_excess(line, friction, rest);
+            distribute_excess(line, friction, cpsi_line_sets_take(line, rest));
         }
     }
     /* from A to the first held node, starting from zero beyond the free end, if a node is held at
@@ -328,6 +331,17 @@ static Vec3 add_field_energy(const CpsiLine *line, int j, CpsCertificate *out) {
     return f;
 }
 
+/* Add the terms of the set that holds an end, node j; returns its reaction r. With v = -r the part
+ * of D is minus the support function, v.x + gap. */
+static Vec3 add_set(const CpsiLine *line, int j, CpsCertificate *out) {
+    const Vec3 r = cpsi_line_set_reaction(line, j);
+    const double gap = cpsi_line_set_gap(line, j);
+    out->gap += gap;
+    out->dual += vec3_dot(r, vec3_at(line->position, j)) - gap;
+    raise_to(&out->largest_force, vec3_norm(r));
+    return r;
+}
+
 /* Nodes: friction, contact, loads and the balance of forces. */
 static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
     for (int j = 0; j < line->n; j++) {
@@ -337,6 +351,7 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         Vec3 balance = cpsi_line_has_field(line) ? vec3_add(b, add_field_energy(line, j, out)) : b;
         if (j > 0) balance = vec3_sub(balance, segment_force(line, j - 1));
         if (j + 1 < line->n) balance = vec3_add(balance, segment_force(line, j));
+        if (cpsi_line_is_in_set(line, j)) balance = vec3_add(balance, add_set(line, j, out));
         double distance;
         if (cpsi_line_nearest_rigid(line, x, &distance) >= 0)
             raise_to(&out->penetration, -distance);

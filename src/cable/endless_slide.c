@@ -30,6 +30,7 @@
 
 #include <math.h>
 
+#include "cable/end_set.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
 #include "chain/frame.h"
@@ -206,7 +207,8 @@ static bool slides_towards(CpsiLine *line, bool to_a, double margin) {
 }
 
 bool cpsi_line_slides_endlessly(CpsiLine *line, double margin) {
-    if (!cpsi_line_is_loose(line) || line->grasp_count > 0) return false;
+    if (!cpsi_line_is_loose(line) || line->grasp_count > 0 || cpsi_line_has_sets(line))
+        return false;
     /* sections move along with the line, so that its weight beyond a place changes */
     if (line->has_sections) return false;
     if (line->element_contacts > 0 && has_resting_element(line)) return false;

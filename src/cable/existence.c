@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "cable/contact.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/held.h"
 #include "cable/line_solve.h"
@@ -27,6 +28,43 @@ static bool too_short(CpsiLine *line) {
     line->report.outcome = CPS_OUTCOME_INFEASIBLE;
     vec3_store(line->report.proof, vec3_scale(1 / worst.distance, apart));
     line->report.proof_length = worst.distance - worst.length;
+    return true;
+}
+
+/* The same of an end that is held to a set farther away than the line is long. */
+static bool misses_set(CpsiLine *line) {
+    double distance, length;
+    Vec3 apart;
+    if (line->compliance > 0 || !cpsi_line_has_sets(line)) return false;
+    if (!cpsi_line_set_distance(line, &distance, &length, &apart)) return false;
+    if (!(distance > length * (1 + CPSI_TAUT))) return false;
+    line->report.outcome = CPS_OUTCOME_INFEASIBLE;
+    vec3_store(line->report.proof, apart);
+    line->report.proof_length = distance - length;
+    return true;
+}
+
+/* No node held, but ends in sets: B.v > 0 for a direction v in which the sets have no end, and in
+ * which the line meets no obstacle. */
+static bool slides_off(CpsiLine *line) {
+    Vec3 sum = vec3(0, 0, 0);
+    double loads = 0;
+    if (!cpsi_line_is_loose(line) || line->field.flow) return false;
+    for (int j = 0; j < line->n; j++) {
+        sum = vec3_add(sum, vec3_at(line->load, j));
+        loads += vec3_norm(vec3_at(line->load, j));
+    }
+    const Vec3 v = cpsi_line_sets_let(line, cpsi_line_field_free_part(line, sum));
+    const double size = vec3_norm(v);
+    if (!(size > CPSI_TAUT * loads)) return false;
+    const Vec3 unit = vec3_scale(1 / size, v);
+    const double fall = vec3_dot(sum, unit);
+    if (!(fall > CPSI_TAUT * loads) || !cpsi_line_moves_away(line, unit) ||
+        !cpsi_line_field_lets(line, unit))
+        return false;
+    line->report.outcome = CPS_OUTCOME_UNBOUNDED;
+    vec3_store(line->report.proof, unit);
+    line->report.proof_force = fall;
     return true;
 }
 
@@ -82,6 +120,7 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
 static bool slips_off(CpsiLine *line, bool frozen) {
     CpsiSlopes slopes;
     if (!cpsi_line_is_loose(line) || !line->has_local_axes || line->field.flow) return false;
+    if (cpsi_line_has_sets(line)) return false;
     if (!cpsi_slopes_fill(line, cpsi_largest_friction_factor(line), frozen, &slopes)) return false;
     if (frozen) cpsi_slopes_add_bounds(line, &slopes);
     CpsiFall fall = {0};
@@ -133,7 +172,7 @@ bool cpsi_line_moves_away(const CpsiLine *line, Vec3 v) {
 }
 
 bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *load) {
-    if (!cpsi_line_is_loose(line) || line->field.flow) return false;
+    if (!cpsi_line_is_loose(line) || line->field.flow || cpsi_line_has_sets(line)) return false;
     Vec3 sum = vec3(0, 0, 0);
     double loads = 0;
     for (int j = 0; j < line->n; j++) {
@@ -156,6 +195,10 @@ bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options
     const bool follows =
         options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT && !options->frictionless;
     if (line->inertia.is_moving) return too_short(line);
+    if (cpsi_line_has_sets(line)) {
+        cpsi_line_clear_set_reactions(line);
+        return too_short(line) || misses_set(line) || slides_off(line);
+    }
     if (too_short(line) || runs_away(line, options) || (follows && slips_off(line, false)))
         return true;
     double direction[3], load;

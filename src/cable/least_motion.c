@@ -24,6 +24,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/winch.h"
@@ -260,7 +261,7 @@ static bool build_clusters(const CpsiLine *line, CpsiLeastMotion *least, CpsiBou
             least->cluster[end] = count;
             back = vec3_axpy(-share, u, back);
             weight += share;
-            if (cpsi_line_is_held(line, end)) *freedom = 0;
+            if (cpsi_line_is_held(line, end) || cpsi_line_is_in_set(line, end)) *freedom = 0;
             if (cpsi_line_has_field(line)) restrict_by_field(line, end, basis, freedom);
             for (int c = end; c < cpsi_line_contacts(line); c += line->n)
                 restrict_contact(line, least, c, bounds, basis, freedom);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One line and its last step: what a step reads and the fields that it leaves. World axes, SI.
- *
- * A node touches up to `contacts` obstacles at once. The data of contacts are in arrays (contacts,
+/* One line and its last step: what a step reads and the fields that it leaves. World axes, SI. A
+ * node touches up to `contacts` obstacles at once. The data of contacts are in arrays (contacts,
  * n): contact c < n is the first contact of node c, contact n <= c < 2 n is the second contact of
  * node c - n. Where there are round obstacles, or more than two, and contact is not that of the
  * reference, elements touch as well: the contact of element e has the number `contacts` * n + e, at
@@ -17,6 +16,7 @@
 #include "cable/drums.h"
 #include "cable/elasticity.h"
 #include "cable/friction_law.h"
+#include "cable/in_set.h"
 #include "cable/inertia.h"
 #include "cable/load_change.h"
 #include "cable/node_field.h"
@@ -41,13 +41,14 @@ typedef struct CpsiLine {
     bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
     bool has_sections;              /* weight and compliance may, and there may be point masses */
     bool has_breaking_load, has_break_at; /* an element has one */
-    bool has_local_axes;    /* each contact has its own axes: not on one plane with a disc */
-    int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
-    int element_contacts;   /* of an element, 0 or 1: so many more rows have arrays (contacts, n) */
-    double bearing_width;   /* [m] on what gives */
-    double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
-    CpsEnd end[2];          /* imposed now */
-    CpsiDrums drums;        /* what is on winches at the ends */
+    bool has_local_axes;   /* each contact has its own axes: not on one plane with a disc */
+    int contacts;          /* of a node: 2 where there is more than one obstacle, else 1 */
+    int element_contacts;  /* of an element, 0 or 1: so many more rows have arrays (contacts, n) */
+    double bearing_width;  /* [m] on what gives */
+    double common_axes[9]; /* axes of the whole line: those of the one plane, or of the world */
+    CpsEnd end[2], end_before[2]; /* imposed now, and at the beginning of the substep */
+    CpsiEndSet on[2];             /* that free ends are held to */
+    CpsiDrums drums;              /* what is on winches at the ends */
     bool is_at_point[2];    /* held at a point, which bears what obstacles do to the half element */
     double *arc_length;     /* (n) [m] */
     double *element_length; /* (n - 1) [m] at rest, element e joins nodes e and e + 1 */
@@ -64,8 +65,7 @@ typedef struct CpsiLine {
     double *spring_start, *spring_stiffness; /* (spring_count) [-], [N] */
     double *weight_length; /* (n) [m] of `weight` that the node carries, with its point masses */
     const struct CpsiJoined
-        *joined;          /* (line_solve.h) its part of a solution to be taken; or NULL */
-    CpsEnd end_before[2]; /* imposed at the beginning of the substep */
+        *joined; /* (line_solve.h) its part of a solution to be taken; or NULL */
     int grasp_count;
     CpsGrasp grasp[CPS_MAX_GRASPS]; /* nodes between the ends that are held or pulled, in order */
     CpsEnd grasp_before[CPS_MAX_GRASPS]; /* imposed on them at the beginning of the substep */

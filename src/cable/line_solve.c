@@ -8,6 +8,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/flow.h"
 #include "cable/held.h"
@@ -115,6 +116,12 @@ static double force_scale(const CpsiLine *line, double longer) {
     if (cpsi_line_has_field(line)) scale = fmax(scale, field_scale(line, scale));
     for (; cpsi_line_next_span(line, span.to, &span); spans = true)
         strain = fmax(strain, span.distance / longer / span.length - 1);
+    double distance, between;
+    Vec3 apart;
+    if (cpsi_line_has_sets(line) && cpsi_line_set_distance(line, &distance, &between, &apart)) {
+        strain = fmax(strain, distance / longer / between - 1);
+        spans = true;
+    }
     if (!spans || (scale == 0 && strain <= 0)) return scale;
     /* the left side grows with T: bracket the root by doubling, then bisect */
     double low = scale > 0 ? scale : DBL_MIN, high = low;
@@ -410,6 +417,7 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
     const bool taut = cpsi_line_is_taut(line);
     const double force = cpsi_line_unit_force(line, round->bounds);
     line->is_rough = false;
+    cpsi_line_clear_set_reactions(line);
     if (!(force > 0) && round->least && rests_unloaded(line, program, options, round))
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
     CpsiStepScale scale = {.length = line->length,

@@ -32,6 +32,7 @@
 #include "cable/certificate.h"
 #include "cable/contact.h"
 #include "cable/contact_detection.h"
+#include "cable/end_set.h"
 #include "cable/endless_slide.h"
 #include "cable/existence.h"
 #include "cable/flow.h"
@@ -326,6 +327,7 @@ static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     memset(line->friction_bound, 0, contacts * sizeof *line->friction_bound);
     memset(line->reaction, 0, contacts * sizeof *line->reaction);
     memset(line->tension, 0, n * sizeof *line->tension);
+    cpsi_line_clear_set_reactions(line);
     if (line->has_local_axes) {
         cpsi_contact_reset(line);
         cpsi_contact_update_geometry(line);
@@ -359,7 +361,7 @@ static void classify(CpsiLine *line, const CpsiChainProgram *program) {
 static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
                           const CpsiStepOptions *options) {
     if (!line->forces || line->inertia.is_moving || cpsi_line_has_soft(line) ||
-        !cps_outcome_is_certified(line->report.outcome))
+        cpsi_line_has_sets(line) || !cps_outcome_is_certified(line->report.outcome))
         return;
     const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
     const CpsCertificate before = line->report.certificate;
@@ -450,6 +452,7 @@ void cpsi_line_refuse_step(CpsiLine *line, const CpsiStepOptions *options, CpsOu
     line->report.substep_count = 1;
     line->report.share = 1;
     line->last_change.known = false;
+    cpsi_line_clear_set_reactions(line);
     memset(line->friction_force, 0, 3 * contacts * sizeof *line->friction_force);
     memset(line->segment_force, 0, 3 * n * sizeof *line->segment_force);
     memset(line->tension, 0, n * sizeof *line->tension);

@@ -6,6 +6,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/winch.h"
@@ -151,6 +152,7 @@ void cpsi_line_report_ends(CpsiLine *line) {
             force = vec3_scale(-1, vec3_add(pull, others));
             if (!line->is_at_point[end]) force = rest_on_obstacle(line, end, force);
         }
+        if (line->on[end].is_there) force = vec3_add(force, cpsi_line_set_reaction(line, j));
         vec3_store(out->force, force);
         out->tension = vec3_norm(force);
     }

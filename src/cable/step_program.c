@@ -9,6 +9,7 @@
 
 #include <string.h>
 
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
@@ -350,6 +351,8 @@ void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program,
     initial_guess(line, program, scale);
     fill_nodes(line, program, scale);
     if (cpsi_line_has_field(line)) fill_field(line, program, scale);
+    cpsi_line_fill_sets(line, program, base_of(line),
+                        program->frame ? program->frame : line->common_axes, !program->frame);
     if (line->element_contacts > 0) fill_points(line, program, scale);
     fill_elements(line, program, scale);
 }
@@ -437,6 +440,7 @@ static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program,
 void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program,
                               const CpsiStepScale *scale) {
     unpack_positions(line, program, scale);
+    cpsi_line_unpack_sets(line, program, scale->force);
     unpack_reactions(line, program, scale);
     unpack_friction(line, program, scale);
     for (int i = 1; i < line->n; i++) {

@@ -21,6 +21,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/soft.h"
 #include "chain/frame.h"
@@ -428,6 +429,8 @@ CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program
                  .landed = -1,
                  .force = line->report.certificate.largest_force};
     if (line->report.outcome != CPS_OUTCOME_SOLVED || !(t.force > 0)) return out;
+    out.outcome = CPS_STIFFNESS_OUTCOME_NOT_GIVEN;
+    if (cpsi_line_has_sets(line)) return out;
     out.outcome = CPS_STIFFNESS_OUTCOME_TOUCHES;
     if (contact_of(&t, t.end_node, &both) >= 0) return out;
     out.outcome = CPS_STIFFNESS_OUTCOME_NOT_GIVEN;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/end_set.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
 #include "cable/soft.h"
@@ -127,7 +128,8 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
     line->last_change = now;
     if (options->frictionless) line->last_change.known = false;
     const CpsiGuess treated = treated_contacts(line);
-    if (options->frictionless || options->solver.cold || treated == CPSI_GUESS_NONE)
+    if (options->frictionless || options->solver.cold || treated == CPSI_GUESS_NONE ||
+        cpsi_line_has_sets(line))
         return CPSI_GUESS_NONE;
     if (!settled || treated == CPSI_GUESS_LATER) return CPSI_GUESS_LATER;
     if (line->newton.pause > 0) {

@@ -3,12 +3,13 @@
 #include "chain/elements.h"
 #include "ipm/width.h"
 
-#define KINDS(width)                                                                             \
-    {                                                                                            \
-        [CPSI_KIND_SEGMENT] = &cpsi_segment_##width, [CPSI_KIND_DRAG] = &cpsi_drag,              \
-        [CPSI_KIND_FIELD] = &cpsi_node_field, [CPSI_KIND_UNILATERAL] = &cpsi_unilateral_##width, \
-        [CPSI_KIND_FRICTION_DISC] = &cpsi_friction_disc_##width,                                 \
-        [CPSI_KIND_FRICTION_CONIC] = &cpsi_friction_conic_##width                                \
+#define KINDS(width)                                                                     \
+    {                                                                                    \
+        [CPSI_KIND_SEGMENT] = &cpsi_segment_##width, [CPSI_KIND_DRAG] = &cpsi_drag,      \
+        [CPSI_KIND_FIELD] = &cpsi_node_field, [CPSI_KIND_CONSTRAINT] = &cpsi_constraint, \
+        [CPSI_KIND_UNILATERAL] = &cpsi_unilateral_##width,                               \
+        [CPSI_KIND_FRICTION_DISC] = &cpsi_friction_disc_##width,                         \
+        [CPSI_KIND_FRICTION_CONIC] = &cpsi_friction_conic_##width                        \
     }
 
 const CpsiKind *const *cpsi_chain_kinds(void) {

@@ -240,6 +240,8 @@ static void pass_line(Tape *tape, CpsiLine *line) {
         PASS(tape, stored);
         if (tape->in) cpsi_winch_set(line, stored);
     }
+    for (int end = 0; end < 2; end++)
+        if (line->on[end].is_there) PASS(tape, line->on[end].reaction);
     pass_line_report(tape, &line->report);
 }
 
@@ -386,6 +388,17 @@ static void hash_elasticity(uint64_t *hash, const CpsiLine *line, const CpsiElas
     hash_numbers(hash, (size_t)own->spring_count, own->spring_stiffness);
 }
 
+static void hash_set(uint64_t *hash, const CpsiEndSet *on) {
+    if (!on->is_there) return;
+    const double centre[3] = {on->set.centre.x, on->set.centre.y, on->set.centre.z},
+                 radius = on->set.round + on->set.radius;
+    hash_numbers(hash, 3, centre);
+    hash_numbers(hash, 9, on->set.axes);
+    hash_numbers(hash, 3, on->set.low);
+    hash_numbers(hash, 3, on->set.high);
+    hash_numbers(hash, 1, &radius);
+}
+
 static void hash_line(uint64_t *hash, const CpsiLine *line) {
     hash_bytes(hash, line->name, strlen(line->name) + 1);
     hash_bytes(hash, &line->n, sizeof line->n);
@@ -420,6 +433,7 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, 2, line->drums.stored);
         hash_numbers(hash, (size_t)line->n - 1, line->drums.length);
     }
+    for (int end = 0; end < 2; end++) hash_set(hash, &line->on[end]);
     if (line->two.exists) hash_elasticity(hash, line, &line->two.elasticity[CPSI_DYNAMIC]);
     if (line->has_breaking_load) hash_numbers(hash, (size_t)line->n - 1, line->breaking_load);
     if (line->has_break_at) hash_numbers(hash, (size_t)line->n - 1, line->break_at);

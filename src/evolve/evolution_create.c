@@ -11,6 +11,7 @@
 #include "capstan/evolve.h"
 #include "evolve/balance.h"
 #include "evolve/checkpoint.h"
+#include "evolve/constraints.h"
 #include "evolve/failure.h"
 #include "evolve/friction_zone.h"
 #include "evolve/loads.h"
@@ -230,6 +231,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         line->end[end].kind = CPS_END_KIND_HELD;
         cpsi_start_end(def, end, line->end[end].value);
     }
+    cpsi_constraints_fill(line, def);
     if (cpsi_line_has_winch(line)) cpsi_line_put_held(line, line->position);
     switch (def->start.kind) {
     case CPS_START_STATIC: move_to_free_side(line); break;
@@ -300,7 +302,8 @@ static void fill_given(CpsEvolution *evolution, const CpsScene *scene) {
                       .element_length = cpsi_line_has_winch(&evolution->line[i])
                                             ? evolution->line[i].drums.length
                                             : NULL,
-                      .winch = {scene->line[i].winch[0], scene->line[i].winch[1]}};
+                      .winch = {scene->line[i].winch[0], scene->line[i].winch[1]},
+                      .constraint = {scene->line[i].constraint[0], scene->line[i].constraint[1]}};
 }
 
 /* The points, and the memory to find those that are free: with friction that has directions none

@@ -187,6 +187,13 @@ static double load_work(const CpsiLine *line) {
     return work;
 }
 
+/* The work of the load of an end that is held to a set, whose reaction does none. */
+static double work_in_set(const CpsEndReport *before, const CpsiLine *line, int end) {
+    CpsEndReport after = line->report.end[end];
+    memcpy(after.force, line->end[end].value, sizeof after.force);
+    return end_work(before, &after, true);
+}
+
 CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
     CpsLedger ledger = {.dissipated = line->report.dissipated, .obstacles = obstacle_work(line)};
     double elastic, gravity;
@@ -199,6 +206,7 @@ CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
     for (int end = 0; end < 2; end++) {
         CpsEndReport *report = &line->report.end[end];
         report->work = end_work(&start->end[end], report, start->known[end]);
+        if (line->on[end].is_there) report->work = work_in_set(&start->end[end], line, end);
         ledger.ends += report->work;
     }
     for (int k = 0; k < line->grasp_count; k++) {

@@ -108,6 +108,7 @@ CpsStatus cpsi_local_scene(const CpsScene *scene, CpsiLocalScene *out, CpsError 
         for (int k = 0; k < points; k++) shift(&point[3 * k], origin);
         line[i].start.point = point;
         for (int end = 0; end < 2; end++) shift_end(&line[i].end[end], origin);
+        for (int end = 0; end < 2; end++) shift(line[i].constraint[end].point, origin);
     }
     for (int i = 0; i < scene->stage_count; i++) {
         CpsChange *change =

@@ -11,6 +11,7 @@
 #include "cable/friction_set.h"
 #include "capstan/scene.h"
 #include "evolve/bodies.h"
+#include "evolve/constraints.h"
 #include "evolve/loads.h"
 #include "evolve/names.h"
 #include "evolve/node_start.h"
@@ -493,6 +494,7 @@ static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
     if (status == CPS_OK) status = check_start_length(line, err);
     if (status == CPS_OK) status = check_start_height(scene, line, err);
     for (int end = 0; end < 2 && status == CPS_OK; end++) status = check_end(scene, line, end, err);
+    if (status == CPS_OK) status = cpsi_constraints_check(line, err);
     if (status == CPS_OK && line->start.kind == CPS_START_STATIC &&
         line->end[0].kind == CPS_END_KIND_FREE && line->end[1].kind == CPS_END_KIND_FREE)
         status = CPSI_FAIL_AT("ends", err, CPS_ERR_ARGUMENT,

@@ -8,6 +8,7 @@
 #include "base/math.h"
 #include "base/status.h"
 #include "evolve/bodies.h"
+#include "evolve/constraints.h"
 #include "evolve/grasps.h"
 #include "evolve/places.h"
 #include "evolve/points.h"
@@ -159,5 +160,6 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
     if (status == CPS_OK) status = cpsi_point_changes_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_grasp_changes_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_pay_outs_check(scene, stage, what, err);
+    if (status == CPS_OK) status = cpsi_constraints_check_stage(scene, stage, what, err);
     return status == CPS_OK ? cpsi_body_changes_check(scene, stage, what, err) : status;
 }

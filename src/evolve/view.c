@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The views of the lines of an evolution (view.h). */
 #include "evolve/view.h"
+#include "cable/end_set.h"
 #include "cable/winch.h"
 
 #include "capstan/two_stiffnesses.h"
@@ -61,7 +62,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .name = from->name,
         .element_count = from->n - 1,
         .contact_count = from->contacts,
-        .one_plane = !from->has_local_axes && from->grasp_count == 0 &&
+        .one_plane = !from->has_local_axes && from->grasp_count == 0 && !cpsi_line_has_sets(from) &&
                      !cpsi_line_has_winch(from) && !from->has_field && !from->has_node_loads,
         .arc_length = cpsi_line_has_winch(from) ? from->drums.place : from->arc_length,
         .element_length = from->element_length,

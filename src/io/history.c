@@ -58,6 +58,11 @@ bool cpsi_has_winch(const CpsLine *line) {
     return line->winch[CPS_END_A].is_there || line->winch[CPS_END_B].is_there;
 }
 
+bool cpsi_has_set(const CpsLine *line) {
+    return line->constraint[CPS_END_A].kind != CPS_CONSTRAINT_KIND_NONE ||
+           line->constraint[CPS_END_B].kind != CPS_CONSTRAINT_KIND_NONE;
+}
+
 bool cpsi_lets_go(const CpsScene *scene) {
     bool found = false;
     for (int i = 0; i < scene->line_count; ++i) {
@@ -237,4 +242,64 @@ Vec3 cpsi_shape_point(const CpsObstacle *o, double end, double turned, int row, 
     profile(o, end, row, at);
     return vec3_add(vec3_axpy(at[1], axis, centre),
                     vec3_axpy(at[0] * cos(angle), first, vec3_scale(at[0] * sin(angle), second)));
+}
+
+/* ---- outlines of sets ---- */
+
+/* A circle about the centre, through `first` and `second` from it. */
+static int circle(Vec3 centre, Vec3 first, Vec3 second, Vec3 out[CPSI_OUTLINE_POINTS]) {
+    for (int i = 0; i < CPSI_OUTLINE_POINTS; ++i) {
+        const double angle = 2 * CPSI_PI * i / (CPSI_OUTLINE_POINTS - 1);
+        out[i] = vec3_axpy(cos(angle), first, vec3_axpy(sin(angle), second, centre));
+    }
+    return CPSI_OUTLINE_POINTS;
+}
+
+/* Face below, face above, and the edges between. */
+static int box_outline(const CpsConstraint *on, int piece, Vec3 out[CPSI_OUTLINE_POINTS]) {
+    static const double X[5] = {-1, 1, 1, -1, -1}, Y[5] = {-1, -1, 1, 1, -1};
+    static const double NONE[4] = {1, 0, 0, 0};
+    const double *q = on->rotation;
+    const bool turned = q[0] != 0 || q[1] != 0 || q[2] != 0 || q[3] != 0;
+    const Rotation turn = rotation_load(turned ? q : NONE);
+    const int count = piece < 2 ? 5 : 2;
+    if (piece > 5) return 0;
+    for (int i = 0; i < count; ++i) {
+        const int corner = piece < 2 ? i : piece - 2, up = piece < 2 ? piece : i;
+        const Vec3 own = vec3(0.5 * X[corner] * on->size[0], 0.5 * Y[corner] * on->size[1],
+                              (up - 0.5) * on->size[2]);
+        out[i] = vec3_add(vec3_load(on->point), rotation_apply(turn, own));
+    }
+    return count;
+}
+
+int cpsi_set_outline(const CpsConstraint *on, Vec3 about, double reach, int piece,
+                     Vec3 out[CPSI_OUTLINE_POINTS]) {
+    static const double X[5] = {-1, 1, 1, -1, -1}, Y[5] = {-1, -1, 1, 1, -1};
+    const Vec3 point = vec3_load(on->point), from = vec3_sub(about, point);
+    if (on->kind == CPS_CONSTRAINT_KIND_BOX) return box_outline(on, piece, out);
+    if (on->kind == CPS_CONSTRAINT_KIND_NONE ||
+        piece > (on->kind == CPS_CONSTRAINT_KIND_BALL ? 2 : 0))
+        return 0;
+    const double r = on->radius;
+    if (on->kind == CPS_CONSTRAINT_KIND_BALL) {
+        const Vec3 axis[3] = {vec3(r, 0, 0), vec3(0, r, 0), vec3(0, 0, r)};
+        return circle(point, axis[piece], axis[(piece + 1) % 3], out);
+    }
+    const Vec3 n = unit(vec3_load(on->axis)),
+               seed = fabs(n.x) <= 0.75 ? vec3(1, 0, 0) : vec3(0, 1, 0),
+               first = unit(vec3_reject(seed, n)), second = vec3_cross(n, first);
+    if (on->kind == CPS_CONSTRAINT_KIND_DISC)
+        return circle(point, vec3_scale(r, first), vec3_scale(r, second), out);
+    if (on->kind == CPS_CONSTRAINT_KIND_RAIL) {
+        const double middle = isinf(on->length) ? vec3_dot(from, n) : 0.5 * on->length,
+                     half = isinf(on->length) ? reach : 0.5 * on->length;
+        out[0] = vec3_axpy(middle - half, n, point);
+        out[1] = vec3_axpy(middle + half, n, point);
+        return 2;
+    }
+    for (int i = 0; i < 5; ++i)
+        out[i] = vec3_add(vec3_add(point, vec3_reject(from, n)),
+                          vec3_axpy(reach * X[i], first, vec3_scale(reach * Y[i], second)));
+    return 5;
 }

@@ -22,6 +22,7 @@ typedef struct CpsiLineRow {
     bool held[2];           /* whether the position of this end, or of its point, was imposed */
     CpsLineFailure failure; /* without its array */
     CpsWinchReport winch[2];
+    CpsConstraintReport constraint[2];
     double open_reaction; /* [N] largest reaction on a node without contact */
 } CpsiLineRow;
 
@@ -111,6 +112,8 @@ struct CpsResults {
     double *line_length; /* [m] */
     int *line_elements;
     int (*line_point)[2]; /* (line_count) the point of each end; CPSI_AT_NO_POINT: none */
+    /* (line_count) sets of the ends, relative to the origin of the views */
+    CpsConstraint (*line_constraint)[2];
     int point_count;
     CpsPoint *point; /* (point_count) */
     int body_count;
@@ -121,6 +124,7 @@ struct CpsResults {
     bool lets_go;       /* cpsi_lets_go */
     bool in_time;       /* a step may have a duration */
     bool winds;         /* a line has a winch */
+    bool has_sets;      /* an end of a line is held to a set */
     bool has_loads;     /* a line has springs, given loads or drag */
     bool begins_static; /* the first step places lines by statics */
 
@@ -143,6 +147,13 @@ bool cpsi_has_duration(const CpsScene *scene);
 CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution);
 /* Whether a line has a winch. Only then do results say what winches do. */
 bool cpsi_has_winch(const CpsLine *line);
+/* ... and whether an end of it is held to a set, likewise. */
+bool cpsi_has_set(const CpsLine *line);
+/* Polyline `piece`, from 0 on, of the outline of a set; returns its points, 0: there is no such
+ * one. What has no end is shown to `reach` [m] from the place of it that is nearest to `about`. */
+enum { CPSI_OUTLINE_POINTS = 49 };
+int cpsi_set_outline(const CpsConstraint *on, Vec3 about, double reach, int piece,
+                     Vec3 out[CPSI_OUTLINE_POINTS]);
 /* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
 int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
 

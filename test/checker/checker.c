@@ -24,6 +24,7 @@
 #include "ranges.h"
 #include "reach.h"
 #include "rounding.h"
+#include "sets.h"
 #include "winches.h"
 
 /* A balance is accepted when no node is off by more than this part of the largest force: rounding
@@ -395,13 +396,20 @@ static void check_caught(Findings *findings, const Source *source, const Record 
     same(findings, "proof_length", r->proof_length, missing, COPY_TOLERANCE * size);
 }
 
-/* a constant force along the unit vector from A to B has the dual value t (distance - length),
- * unbounded in t */
+static void find_number(void *user, const char *what, double said, double expected) {
+    find(user, "%s: %.9g, expected %.9g", what, said, expected);
+}
+
+/* a constant force t along the unit vector from A to B has the dual value t (distance - length) */
 static void check_infeasible(Findings *findings, const Record *r, const Measures *m) {
     if (r->compliance != 0)
         find(findings, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
     Span span = {.distance = NAN};
     longest_span(r, &span);
+    if (!(span.distance > span.length) && r->sets) {
+        sets_check_infeasible(r, m->length + m->extent, find_number, findings);
+        return;
+    }
     if (!(span.distance > span.length)) {
         find(findings, "infeasible, but held nodes are %.17g apart and the length is %.17g",
              span.distance, span.length);
@@ -426,6 +434,7 @@ static void check_unbounded(Findings *findings, const Record *r, const Measures 
         }
     double size = hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]);
     at_most(findings, "length of the rigid motion - 1", fabs(size - 1), PLACE_TOLERANCE);
+    if (!sets_let(r)) find(findings, "unbounded, but a set holds an end");
     if (!(m->rigid_fall > 0))
         find(findings, "unbounded, but the energy falls by %.3g N along the proof", m->rigid_fall);
     if (m->meets) find(findings, "unbounded, but the line meets an obstacle on its path");
@@ -706,10 +715,6 @@ static void check_winches(const Record *r, const Record *before, const Source *s
         same(findings, "ledger_gravity", r->ledger[LEDGER_GRAVITY], (double)own.gravity, floor);
 }
 
-static void find_in_time(void *user, const char *what, double said, double expected) {
-    find(user, "%s: %.9g, expected %.9g", what, said, expected);
-}
-
 static int check_line(const Source *source, const char *line, FILE *log, CheckerReport *report) {
     Record record = {0}, previous = {0}, older = {0};
     int bad = record_create(source, line, &record, log) ||
@@ -727,8 +732,9 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         const char *fault = elongation_rest_fault(&record, step > 0 ? &previous : NULL);
         if (fault) find(&findings, "%s", fault);
         inertia_check(source, &record, step > 0 ? &previous : NULL, step > 1 ? &older : NULL,
-                      find_in_time, &findings);
+                      find_number, &findings);
         if (step > 0 && !in_time(&record)) check_work(&record, &previous, source, step, &findings);
+        if (record.outcome <= OUTCOME_TAUT) sets_check(&record, find_number, &findings);
         if (step > 0) check_weight(&record, &previous, &findings);
         if (record.drums) check_winches(&record, step ? &previous : NULL, source, step, &findings);
         // with frozen friction the reactions before a first step, or before the last part of one,

@@ -38,6 +38,9 @@ bool stage_of(const Compare *compare, size_t step, int *stage, int *part);
 void winches_compare(Compare *compare, const CpsLine *line, int index, size_t step,
                      const Record *r);
 
+/* The sets that ends of a line are held to. */
+void sets_compare(Compare *compare, const CpsLine *line, const Record *r);
+
 /* Kind, place, shape and friction of an obstacle. */
 void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s);
 

@@ -18,6 +18,7 @@
 #include "failure.h"
 #include "inertia.h"
 #include "loads.h"
+#include "sets.h"
 
 typedef Real Triple[3];
 
@@ -119,6 +120,7 @@ End end_measure(const Source *source, const Record *r, int e) {
     if (r->end_kind[e] == END_FREE) {
         End end = {.reaction = r->reaction[j]};
         widen(r->applied_force[e], end.force);
+        sets_add(r, j, end.force);
         return end;
     }
     if (r->end_point[e] >= 0) /* the point bears what obstacles do to the half element */
@@ -154,12 +156,16 @@ Real ends_work(const Record *r, const Record *before) {
         const bool free =
             r->end_kind[e] == END_FREE; // let go from the force it carried, all of it the end's
         for (int i = 0; i < 3; i++) {
-            const Real after = (Real)r->end_force[e][i] + r->end_friction_force[e][i],
+            // the reaction of a set does no work
+            Triple now = {0, 0, 0}, then = {0, 0, 0};
+            sets_add(r, j, now);
+            sets_add(before, e ? before->elements : 0, then);
+            const Real after = (Real)r->end_force[e][i] + r->end_friction_force[e][i] - now[i],
                        stored = r->end_friction_force[e][i];
-            const Real first =
-                is_let_go(r, before, e)
-                    ? 0
-                    : (Real)before->end_force[e][i] + (free ? 0 : before->end_friction_force[e][i]);
+            const Real first = is_let_go(r, before, e)
+                                   ? 0
+                                   : (Real)before->end_force[e][i] - then[i] +
+                                         (free ? 0 : before->end_friction_force[e][i]);
             work += ((first + after) / 2 - stored) * ((Real)r->position[j][i] - from[i]);
         }
     }

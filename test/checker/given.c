@@ -706,6 +706,7 @@ static int compare_steps(Compare *compare, int index) {
                 compare_end(compare, line, e, &end[e], &was, step, &now);
             }
         if (!bad && step == 0) compare_nodes(compare, line, &now);
+        if (!bad && step == 0) sets_compare(compare, line, &now);
         if (!bad) compare_grasps(compare, line, index, step, step > 0 ? &before : NULL, &now);
         if (!bad) winches_compare(compare, line, index, step, &now);
         if (!bad) compare_loads(compare, line, step, &now);

@@ -20,6 +20,7 @@
 #include "grasps.h"
 #include "loads.h"
 #include "missing.h"
+#include "sets.h"
 #include "shape.h"
 
 #include "fall.h"
@@ -589,6 +590,18 @@ static void measure_spring(const Spring *spring, const Real *arm, const Real *u,
     add(&s->magnitude, spring->energy + fabsl(spring->dual));
 }
 
+/* The set that holds an end: its gap, and the dual's part, minus the support at minus its force. */
+static void measure_set(const Record *r, size_t j, const Real *x, Real *p, Measures *m, Sums *s) {
+    Triple f = {0, 0, 0};
+    const Real force = sets_add(r, j, f), gap = sets_gap(r, j);
+    sets_add(r, j, p);
+    add(&s->gap, fabsl(gap)); // below 0 by rounding: sets_check
+    add(&s->signed_gap, gap);
+    add(&s->dual, dot(f, x) - gap);
+    add(&s->magnitude, force * size(x));
+    raise_to(&m->largest_force, force);
+}
+
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
@@ -616,6 +629,7 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
     measure_spring(&spring, arm, u, s);
     raise_to(&m->largest_force, size(spring.force));
     measure_inertia(r, j, pull, m, s);
+    measure_set(r, j, x, pull, m, s);
 
     // a held node: the dual pairs the force of the support with the imposed position; a free one
     // must balance

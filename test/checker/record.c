@@ -9,6 +9,7 @@
 #include "inertia.h"
 #include "loads.h"
 #include "places.h"
+#include "sets.h"
 #include "shape.h"
 #include "soft.h"
 #include "winches.h"
@@ -531,7 +532,8 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     static int (*const CREATE[])(const Source *, const char *, Record *,
                                  FILE *) = {read_sections,  elongation_read, read_end_points,
                                             failure_create, inertia_create,  loads_create,
-                                            read_zones,     winches_create,  soft_create};
+                                            read_zones,     winches_create,  soft_create,
+                                            sets_create};
     for (size_t k = 0; k < sizeof CREATE / sizeof *CREATE; k++)
         if (CREATE[k](source, line, record, log)) return -1;
     return 0;
@@ -539,6 +541,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
 
 void record_destroy(Record *record) {
     winches_destroy(record);
+    sets_free(record);
     free(record->reference);
     free(record->position);
     free(record->load);
@@ -740,6 +743,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= failure_read(source, line, step, record, log);
     bad |= loads_read(source, line, step, record, log);
     bad |= elongation_read_step(source, line, step, record, log);
+    bad |= sets_read(source, line, step, record, log);
     bad |= inertia_read(source, line, step, record, log);
     if (bad || read_scalars(source, line, step, record, log)) return -1;
     return winches_read(source, line, step, record, log);

@@ -140,6 +140,7 @@ typedef struct Record {
     double proof_length, proof_force, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES],
         unaccounted;
     double bearing_width; /* [m] on what gives (soft.h) */
+    struct Sets *sets;    /* (sets.h) that ends are held to; NULL: there are none */
     struct Loads *loads;  /* (loads.h) beside the weight; NULL: there are none */
 } Record;
 

@@ -52,6 +52,8 @@ CpsStatus cpsi_paraview_step(CpsResults *results, const CpsEvolution *evolution,
 CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err);
 /* paraview_points.c: the points and bodies after the last step, if there are any. */
 CpsStatus cpsi_paraview_points(CpsResults *results, CpsError *err);
+/* paraview_sets.c: the outlines of the sets to which ends are held, if there are any: sets.vtp. */
+CpsStatus cpsi_paraview_sets(CpsResults *results, CpsError *err);
 /* paraview_obstacles.c: the surfaces of the obstacles, if there are any: obstacles.vtp, and one
  * more file for each step in which an obstacle turns or moves. */
 CpsStatus cpsi_paraview_obstacles(CpsResults *results, CpsError *err);

@@ -50,6 +50,12 @@ void cpsi_picture_shape(const CpsObstacle *obstacle, const char *fill, const cha
                         const CpsiView *view, const CpsiFrame *frame, FILE *out);
 void cpsi_shape_extend(const CpsObstacle *obstacle, CpsiView *view);
 
+/* The outlines of the sets to which ends of lines are held; and the ranges of the view that show
+ * those, where its diagonal is then no longer than `most` [m]. */
+void cpsi_picture_sets(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
+                       FILE *out);
+void cpsi_view_include_sets(const CpsResults *results, double most, CpsiView *view);
+
 /* Whether the silhouette is a circle: that of a ball, or of a cylinder seen from its end. */
 bool cpsi_obstacle_is_circle(const CpsObstacle *obstacle, const CpsiView *view);
 

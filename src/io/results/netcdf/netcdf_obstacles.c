@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/rotation.h"
+#include "io/history.h"
 
 enum { XYZ = 3, TANGENTS = 2 };
 
@@ -444,4 +445,72 @@ void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, dou
         snprintf(name, sizeof name, "%.200s_drag", scene->line[i].name);
         cpsi_netcdf_numbers(file, name, 3, given);
     }
+}
+
+/* ---- sets of ends ---- */
+
+enum { QUATERNION = 4 };
+
+void cpsi_netcdf_define_sets(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const CpsLine *line,
+                             const int dimension[3]) {
+    const int *end = &dimension[1], *xyz = &dimension[1];
+    const char *of = line->name;
+    ids->is_there = cpsi_has_set(line);
+    if (!ids->is_there) return;
+    char four[256];
+    snprintf(four, sizeof four, "%.200s_set_quaternion", of);
+    ids->kind = cpsi_netcdf_variable(file, of, "set_kind", NC_BYTE, 1, end,
+                                     "set that the free end is held to", "1");
+    cpsi_netcdf_flags(file, ids->kind, NC_BYTE, 6, NULL, "none rail half_space ball disc box");
+    ids->point =
+        cpsi_netcdf_variable(file, of, "set_point", NC_DOUBLE, 2, xyz,
+                             "beginning or middle of the set, or a point of its plane", "m");
+    ids->axis =
+        cpsi_netcdf_variable(file, of, "set_axis", NC_DOUBLE, 2, xyz,
+                             "direction of a rail, inward normal of a half-space, normal of a "
+                             "disc",
+                             "1");
+    ids->length = cpsi_netcdf_variable(file, of, "set_length", NC_DOUBLE, 1, end,
+                                       "length of a rail, infinite without ends", "m");
+    ids->radius = cpsi_netcdf_variable(file, of, "set_radius", NC_DOUBLE, 1, end,
+                                       "radius of a ball or disc", "m");
+    ids->size = cpsi_netcdf_variable(file, of, "set_size", NC_DOUBLE, 2, xyz,
+                                     "size of a box along its own axes", "m");
+    const int turn[] = {dimension[1], cpsi_netcdf_dimension(file, four, QUATERNION)};
+    ids->rotation =
+        cpsi_netcdf_variable(file, of, "set_rotation", NC_DOUBLE, 2, turn,
+                             "rotation of a box, quaternion w x y z; 0 0 0 0: none", "1");
+    ids->reaction = cpsi_netcdf_variable(file, of, "set_reaction", NC_DOUBLE, 3, dimension,
+                                         "reaction of the set on the end", "N");
+}
+
+void cpsi_netcdf_write_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, const CpsLine *line,
+                            const double origin[3]) {
+    if (!ids->is_there) return;
+    for (size_t end = 0; end < 2; ++end) {
+        const CpsConstraint *on = &line->constraint[end];
+        const size_t start[] = {end, 0}, one[] = {1}, three[] = {1, 3}, four[] = {1, QUATERNION};
+        const unsigned char kind = (unsigned char)on->kind;
+        double point[3];
+        for (int a = 0; a < 3; ++a) point[a] = on->point[a] - origin[a];
+        cpsi_netcdf_bytes(file, ids->kind, start, one, &kind);
+        cpsi_netcdf_doubles(file, ids->point, start, three, point);
+        cpsi_netcdf_doubles(file, ids->axis, start, three, on->axis);
+        cpsi_netcdf_doubles(file, ids->length, start, one, &on->length);
+        cpsi_netcdf_doubles(file, ids->radius, start, one, &on->radius);
+        cpsi_netcdf_doubles(file, ids->size, start, three, on->size);
+        cpsi_netcdf_doubles(file, ids->rotation, start, four, on->rotation);
+    }
+}
+
+void cpsi_netcdf_append_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size_t step,
+                             const CpsEvolution *evolution, int line) {
+    const size_t start[] = {step, 0, 0}, count[] = {1, 2, 3};
+    double reaction[2][3];
+    if (!ids->is_there) return;
+    for (int end = 0; end < 2; ++end) {
+        const CpsConstraintReport report = cps_evolution_constraint_report(evolution, line, end);
+        memcpy(reaction[end], report.reaction, sizeof reaction[end]);
+    }
+    cpsi_netcdf_doubles(file, ids->reaction, start, count, reaction[0]);
 }

@@ -164,6 +164,21 @@ void cpsi_netcdf_define_winches(CpsiNetcdfFile *file, CpsiNetcdfWinches *ids, co
 void cpsi_netcdf_append_winches(CpsiNetcdfFile *file, const CpsiNetcdfWinches *ids, size_t step,
                                 const CpsEvolution *evolution, int line);
 
+/* The sets to which ends of a line are held (capstan/constraint.h). */
+typedef struct CpsiNetcdfSets {
+    bool is_there; /* the line has one */
+    int kind, point, axis, length, radius, size, rotation, reaction;
+} CpsiNetcdfSets;
+
+/* Define the variables of a line of the scene, none where it has no such end; the dimensions are
+ * step, end, xyz. Write what does not change, about an origin; and what does in a step. */
+void cpsi_netcdf_define_sets(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const CpsLine *line,
+                             const int dimension[3]);
+void cpsi_netcdf_write_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, const CpsLine *line,
+                            const double origin[3]);
+void cpsi_netcdf_append_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size_t step,
+                             const CpsEvolution *evolution, int line);
+
 /* How obstacles give, and the widths with which lines bear on them; nothing where none gives. */
 void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene);
 /* The current as attributes: the density, z and velocity of row after row; and the drag of lines.

@@ -152,6 +152,7 @@ typedef struct LineIds {
     CpsiNetcdfStiffnesses stiffnesses;
     CpsiNetcdfGrasps grasps;
     CpsiNetcdfWinches winches;
+    CpsiNetcdfSets sets;
     CpsiNetcdfFailure failure;
     CpsiNetcdfMotion motion;
 } LineIds;
@@ -614,6 +615,8 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         cpsi_netcdf_define_winches(&nc->file, &nc->line[i].winches, &scene->line[i],
                                    (const int[]){nc->step, nc->end, nc->line[i].node,
                                                  nc->line[i].element});
+        cpsi_netcdf_define_sets(&nc->file, &nc->line[i].sets, &scene->line[i],
+                                (const int[]){nc->step, nc->end, nc->xyz});
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
         cpsi_netcdf_define_motion(&nc->file, &nc->time, &nc->line[i].motion, view.name,
@@ -637,6 +640,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         write_zones(nc, &nc->line[i], &scene->line[i]);
         write_end_points(nc, &nc->line[i], &scene->line[i]);
         write_sections(nc, &nc->line[i], &view);
+        cpsi_netcdf_write_sets(&nc->file, &nc->line[i].sets, &scene->line[i], first.origin);
         cpsi_netcdf_write_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i);
         cpsi_netcdf_write_motion(&nc->file, &nc->time, &nc->line[i].motion, evolution, i);
         if (nc->file.status == NC_NOERR)
@@ -734,6 +738,7 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
         const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);
         write_line(nc, &nc->line[i], &view, &line);
         cpsi_netcdf_append_winches(&nc->file, &nc->line[i].winches, nc->steps, evolution, i);
+        cpsi_netcdf_append_sets(&nc->file, &nc->line[i].sets, nc->steps, evolution, i);
         cpsi_netcdf_append_stiffnesses(&nc->file, &nc->line[i].stiffnesses, nc->steps,
                                        (size_t)view.element_count, &two);
         cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,

@@ -84,6 +84,13 @@ static const CpsiColumn WINCH_COLUMN[] = {{"stored", "m", WINCH(stored)},
                                           {"paid", "m", WINCH(paid)},
                                           {"winch_pull", "N", WINCH(pull)}};
 
+#define SET(member) CPSI_MEMBER_IF(CpsConstraintReport, is_there, member)
+
+/* Where ends of lines are held to sets. */
+static const CpsiColumn SET_COLUMN[] = {{"reaction_x", "N", SET(reaction[0])},
+                                        {"reaction_y", "N", SET(reaction[1])},
+                                        {"reaction_z", "N", SET(reaction[2])}};
+
 #define BODY(member) CPSI_MEMBER(CpsiBodyRow, member)
 
 static const CpsiColumn BODY_COLUMN[] = {
@@ -118,6 +125,7 @@ enum {
     STEP_COLUMNS = sizeof STEP_COLUMN / sizeof STEP_COLUMN[0],
     LINE_COLUMNS = sizeof LINE_COLUMN / sizeof LINE_COLUMN[0],
     WINCH_COLUMNS = sizeof WINCH_COLUMN / sizeof WINCH_COLUMN[0],
+    SET_COLUMNS = sizeof SET_COLUMN / sizeof SET_COLUMN[0],
     FAILURE_COLUMNS = sizeof FAILURE_COLUMN / sizeof FAILURE_COLUMN[0],
     BODY_COLUMNS = sizeof BODY_COLUMN / sizeof BODY_COLUMN[0]
 };
@@ -133,14 +141,15 @@ static void write_failure(FILE *out, const CpsLineFailure *failure) {
     for (int end = 0; end < 2; ++end) fprintf(out, ",%s", cps_release_name(failure->release[end]));
 }
 
-/* Names, or units, of the columns of the winches at both ends of a line. */
-static void write_winch_heads(FILE *out, const char *line, bool units) {
+/* Names, or units, of columns of both ends of a line. */
+static void write_end_heads(FILE *out, const char *line, const CpsiColumn *column, int count,
+                            bool units) {
     for (int end = 0; end < 2; ++end)
         if (units)
-            cpsi_csv_units(out, WINCH_COLUMN, WINCH_COLUMNS);
+            cpsi_csv_units(out, column, count);
         else
-            for (int i = 0; i < WINCH_COLUMNS; ++i)
-                fprintf(out, ",%s.%s.%s", line, end == CPS_END_A ? "A" : "B", WINCH_COLUMN[i].name);
+            for (int i = 0; i < count; ++i)
+                fprintf(out, ",%s.%s.%s", line, end == CPS_END_A ? "A" : "B", column[i].name);
 }
 
 static void write_heads(FILE *out, const CpsResults *results) {
@@ -152,7 +161,9 @@ static void write_heads(FILE *out, const CpsResults *results) {
         write_failure_heads(out, results->line_name[l]);
     if (results->winds) cpsi_csv_names(out, WINCH_STEP_COLUMN, 1, NULL);
     for (int l = 0; l < cpsi_listed_lines(results) && results->winds; ++l)
-        write_winch_heads(out, results->line_name[l], false);
+        write_end_heads(out, results->line_name[l], WINCH_COLUMN, WINCH_COLUMNS, false);
+    for (int l = 0; l < cpsi_listed_lines(results) && results->has_sets; ++l)
+        write_end_heads(out, results->line_name[l], SET_COLUMN, SET_COLUMNS, false);
     for (int i = 0; i < results->body_count; ++i)
         cpsi_csv_names(out, BODY_COLUMN, BODY_COLUMNS, results->body[i].name);
     if (results->has_loads) cpsi_csv_names(out, LOADS_COLUMN, 1, NULL);
@@ -167,7 +178,9 @@ static void write_heads(FILE *out, const CpsResults *results) {
     }
     if (results->winds) cpsi_csv_units(out, WINCH_STEP_COLUMN, 1);
     for (int l = 0; l < cpsi_listed_lines(results) && results->winds; ++l)
-        write_winch_heads(out, results->line_name[l], true);
+        write_end_heads(out, results->line_name[l], WINCH_COLUMN, WINCH_COLUMNS, true);
+    for (int l = 0; l < cpsi_listed_lines(results) && results->has_sets; ++l)
+        write_end_heads(out, results->line_name[l], SET_COLUMN, SET_COLUMNS, true);
     for (int i = 0; i < results->body_count; ++i) cpsi_csv_units(out, BODY_COLUMN, BODY_COLUMNS);
     if (results->has_loads) cpsi_csv_units(out, LOADS_COLUMN, 1);
     if (results->in_time) cpsi_csv_units(out, MOTION_COLUMN, MOTION_COLUMNS);
@@ -192,6 +205,9 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
         for (int l = 0; l < cpsi_listed_lines(results) && results->winds; ++l)
             for (int end = 0; end < 2; ++end)
                 cpsi_csv_values(out, WINCH_COLUMN, WINCH_COLUMNS, &row->line[l].winch[end]);
+        for (int l = 0; l < cpsi_listed_lines(results) && results->has_sets; ++l)
+            for (int end = 0; end < 2; ++end)
+                cpsi_csv_values(out, SET_COLUMN, SET_COLUMNS, &row->line[l].constraint[end]);
         for (int i = 0; i < results->body_count; ++i)
             cpsi_csv_values(out, BODY_COLUMN, BODY_COLUMNS, &row->body[i]);
         if (results->has_loads) cpsi_csv_values(out, LOADS_COLUMN, 1, &row->report);

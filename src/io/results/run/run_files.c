@@ -100,21 +100,23 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->lets_go = cpsi_lets_go(scene);
     results->in_time = cpsi_has_duration(scene);
     for (int i = 0; i < scene->line_count; ++i) {
+        results->has_sets = results->has_sets || cpsi_has_set(&scene->line[i]);
         results->winds = results->winds || cpsi_has_winch(&scene->line[i]);
         results->has_loads = results->has_loads || scene->line[i].loads;
     }
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
     results->has_water_surface = scene->has_water_surface;
-    results->water_surface = scene->water_surface - results->origin[2];
     memcpy(results->origin, cps_evolution_line_view(evolution, 0).origin, sizeof results->origin);
+    results->water_surface = scene->water_surface - results->origin[2];
     const size_t lines = (size_t)cps_evolution_line_count(evolution);
     results->line_name = calloc(lines, sizeof *results->line_name);
     results->line_length = calloc(lines, sizeof *results->line_length);
     results->line_elements = calloc(lines, sizeof *results->line_elements);
     results->line_point = calloc(lines, sizeof *results->line_point);
+    results->line_constraint = calloc(lines, sizeof *results->line_constraint);
     if (!results->title || !results->line_name || !results->line_length ||
-        !results->line_elements || !results->line_point)
+        !results->line_elements || !results->line_point || !results->line_constraint)
         return false;
     if (!copy_obstacles(results, scene) || !copy_points(results, scene) ||
         !copy_bodies(results, scene))
@@ -124,7 +126,12 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
         results->line_length[i] = view.arc_length[view.element_count];
         results->line_elements[i] = view.element_count;
         results->line_name[i] = copy_text(view.name);
-        for (int e = 0; e < 2; ++e) results->line_point[i][e] = point_of(&scene->line[i], e);
+        for (int e = 0; e < 2; ++e) {
+            results->line_point[i][e] = point_of(&scene->line[i], e);
+            results->line_constraint[i][e] = scene->line[i].constraint[e];
+            for (int a = 0; a < 3; ++a)
+                results->line_constraint[i][e].point[a] -= results->origin[a];
+        }
         results->begins_static |= scene->line[i].start.kind == CPS_START_STATIC;
         results->line_count = (int)i + 1;
         if (!results->line_name[i]) return false;
@@ -306,6 +313,8 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         line->failure = cps_evolution_line_failure(evolution, i);
         line->failure.break_at = NULL;
         for (int e = 0; e < 2; ++e) line->winch[e] = cps_evolution_winch_report(evolution, i, e);
+        for (int e = 0; e < 2; ++e)
+            line->constraint[e] = cps_evolution_constraint_report(evolution, i, e);
         line->open_reaction = open_reaction(&view, line->winch);
         for (int e = 0; e < 2; ++e) line->held[e] = is_held(results, &row, &view, i, e);
         if (!(line->open_reaction <= row.open_reaction)) row.open_reaction = line->open_reaction;
@@ -402,6 +411,7 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     if (!status) status = cpsi_directory_sync(results->directory, "result.nc", err);
     if (!status && results->paraview) status = cpsi_paraview_list(results, err);
     if (!status && results->paraview) status = cpsi_paraview_obstacles(results, err);
+    if (!status && results->paraview) status = cpsi_paraview_sets(results, err);
     if (!status) status = cpsi_pictures_write(results, err);
     if (!status) status = write_table(results, "history.csv", cpsi_history_write, err);
     if (!status && results->point_count > 0)
@@ -465,6 +475,7 @@ void cps_results_destroy(CpsResults *results) {
     free(results->line_length);
     free(results->line_elements);
     free(results->line_point);
+    free(results->line_constraint);
     free(results->point);
     free(results->body);
     free(results->obstacle);

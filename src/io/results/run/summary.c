@@ -68,6 +68,8 @@ static void write_end(FILE *out, int which, const CpsiLineRow *row, const char *
         write_number(out, "paid_m", winch->paid, ", ");
         write_number(out, "winch_pull_N", winch->pull, ", ");
     }
+    if (row->constraint[which].is_there)
+        write_vector(out, "reaction_N", row->constraint[which].reaction, ", ");
     if (report->has_touchdown)
         write_vector(out, "touchdown_m", end->touchdown, "");
     else

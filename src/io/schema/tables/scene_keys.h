@@ -173,15 +173,32 @@ typedef struct CpsiStartValues {
     const char *nodes; /* name of a file */
 } CpsiStartValues;
 
+/* A set that an end is held to. */
+typedef struct CpsiOnValues {
+    const CpsiYaml *node; /* NULL: none */
+    int kind;             /* as the CpsConstraintKind after NONE */
+    CpsConstraint on;     /* without its kind */
+    int rail;             /* 0: to a place, 1: without ends */
+    double to[3];
+    CpsiRotationValues rotation;
+    double force[3];
+} CpsiOnValues;
+
 /* An end of a line: `held` or `free` as a word, or with its position or force; or at a point. */
-typedef enum CpsiEndWord { CPSI_END_HELD, CPSI_END_FREE, CPSI_END_AT_POINT } CpsiEndWord;
+typedef enum CpsiEndWord {
+    CPSI_END_HELD,
+    CPSI_END_FREE,
+    CPSI_END_AT_POINT,
+    CPSI_END_ON_SET
+} CpsiEndWord;
 
 typedef struct CpsiEndValues {
     const CpsiYaml *node; /* NULL: a word */
     int word;             /* CpsiEndWord, in either form */
     double value[3];
     const char *point; /* its name */
-    double stored;     /* [m] NaN: no winch */
+    CpsiOnValues on;
+    double stored; /* [m] NaN: no winch */
 } CpsiEndValues;
 
 typedef struct CpsiLineValues {

@@ -349,6 +349,7 @@ static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFra
     fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#fdfdfd\"/>\n",
             frame->left, frame->top, frame->width, frame->height);
     cpsi_picture_obstacles(results, view, frame, step, out);
+    cpsi_picture_sets(results, view, frame, out);
     cpsi_frame_end(out);
     snprintf(label, sizeof label, "%s%s", view->y_label, more);
     cpsi_frame_axes(out, frame, view->x_label, label);

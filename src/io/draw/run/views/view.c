@@ -99,6 +99,7 @@ static void include_round_at(const CpsResults *results, int step, double spread,
 /* ... at the start, and where lines are drawn */
 static void include_round(const CpsResults *results, CpsiView *view) {
     const double spread = hypot(view->x[1] - view->x[0], view->y[1] - view->y[0]);
+    cpsi_view_include_sets(results, MOST_ROUND * spread, view);
     include_round_at(results, -1, spread, view);
     for (int s = 0; s < results->snapshot_count; ++s)
         include_round_at(results, results->snapshot[s].step, spread, view);

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Ends of a line that are held to convex sets (end_set.h). */
+#include "cable/end_set.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cable/held.h"
+#include "cable/line.h"
+#include "chain/elements.h"
+#include "chain/frame.h"
+
+bool cpsi_line_has_sets(const CpsiLine *line) {
+    return line->on[CPS_END_A].is_there || line->on[CPS_END_B].is_there;
+}
+
+/* The set of node j, or NULL. */
+static const CpsiEndSet *set_of(const CpsiLine *line, int j) {
+    if (j == 0 && line->on[CPS_END_A].is_there) return &line->on[CPS_END_A];
+    if (j == line->n - 1 && line->on[CPS_END_B].is_there) return &line->on[CPS_END_B];
+    return NULL;
+}
+
+bool cpsi_line_is_in_set(const CpsiLine *line, int j) { return set_of(line, j); }
+
+Vec3 cpsi_line_set_reaction(const CpsiLine *line, int j) {
+    const CpsiEndSet *on = set_of(line, j);
+    return on ? cpsi_place_set_from(&on->set, on->reaction) : vec3(0, 0, 0);
+}
+
+double cpsi_line_set_gap(const CpsiLine *line, int j) {
+    const CpsiEndSet *on = set_of(line, j);
+    if (!on) return 0;
+    const double outwards[3] = {-on->reaction[0], -on->reaction[1], -on->reaction[2]};
+    return fabs(cpsi_place_set_gap(&on->set, outwards, vec3_at(line->position, j)));
+}
+
+void cpsi_line_clear_set_reactions(CpsiLine *line) {
+    for (int end = 0; end < 2; end++)
+        memset(line->on[end].reaction, 0, sizeof line->on[end].reaction);
+}
+
+/* May the reaction of a set have the component `own` along its axis a? */
+static bool may_have(const CpsiPlaceSet *set, int a, double own) {
+    if (a < set->round || own == 0) return true;
+    return own > 0 ? isfinite(set->low[a]) : isfinite(set->high[a]);
+}
+
+Vec3 cpsi_line_sets_take(CpsiLine *line, Vec3 rest) {
+    for (int end = 0; end < 2; end++) {
+        CpsiEndSet *on = &line->on[end];
+        if (!on->is_there) continue;
+        double own[3];
+        cpsi_place_set_to(&on->set, rest, own);
+        for (int a = 0; a < 3; a++) {
+            if (!may_have(&on->set, a, on->reaction[a] - own[a])) continue;
+            on->reaction[a] -= own[a];
+            own[a] = 0;
+        }
+        rest = cpsi_place_set_from(&on->set, own);
+    }
+    return rest;
+}
+
+/* One row by x + at of a constraint; direction in the common axes. */
+static void add_row(CpsiConstraint *out, int row, Vec3 direction, double at, const double *axes) {
+    double common[3];
+    vec3_store(common, direction);
+    cpsi_frame_to(out->a[row], axes, common);
+    out->b[row] = at;
+}
+
+/* The cones of a set: an equation where an interval is a point, a half-line for each end of one, a
+ * second-order cone for the round axes. Along these the reaction is the dual of the row. */
+static void fill_set(const CpsiPlaceSet *set, CpsiConstraint *out, Vec3 base, double length,
+                     const double *axes) {
+    double y[3];
+    int row = 0;
+    cpsi_place_set_to(set, vec3_sub(base, set->centre), y);
+    for (int a = set->round; a < 3; a++) {
+        const Vec3 axis = vec3_at(set->axes, a);
+        const bool point = set->low[a] == set->high[a];
+        if (isfinite(set->low[a])) {
+            out->dim[out->cones++] = point ? 0 : 1;
+            add_row(out, row++, axis, (y[a] - set->low[a]) / length, axes);
+        }
+        if (isfinite(set->high[a]) && !point) {
+            out->dim[out->cones++] = 1;
+            add_row(out, row++, vec3_scale(-1, axis), (set->high[a] - y[a]) / length, axes);
+        }
+    }
+    if (set->round == 0) return;
+    out->dim[out->cones++] = set->round + 1;
+    add_row(out, row++, vec3(0, 0, 0), set->radius / length, axes);
+    for (int a = 0; a < set->round; a++)
+        add_row(out, row++, vec3_at(set->axes, a), y[a] / length, axes);
+}
+
+void cpsi_line_fill_sets(const CpsiLine *line, CpsiChainProgram *program, const double *base,
+                         const double *axes, bool common) {
+    CpsiConstraints *out = &program->constraints;
+    out->count = 0;
+    for (int end = 0; end < 2; end++) {
+        const int j = end == CPS_END_A ? 0 : line->n - 1;
+        if (!line->on[end].is_there) continue;
+        CpsiConstraint *of = &out->item[out->count++];
+        *of = (CpsiConstraint){.node = j};
+        fill_set(&line->on[end].set, of, vec3_at(base, j), line->length,
+                 common ? axes : &axes[9 * j]);
+    }
+}
+
+/* The reaction of a set in its own axes, from the duals. */
+static void read_reaction(const CpsiPlaceSet *set, const CpsiConstraint *of, double force,
+                          double own[3]) {
+    int row = 0;
+    memset(own, 0, 3 * sizeof *own);
+    for (int a = set->round; a < 3; a++) {
+        if (isfinite(set->low[a])) own[a] += force * of->z[row++];
+        if (isfinite(set->high[a]) && set->low[a] != set->high[a]) own[a] -= force * of->z[row++];
+    }
+    for (int a = 0; a < set->round; a++) own[a] = force * of->z[row + 1 + a];
+}
+
+void cpsi_line_unpack_sets(CpsiLine *line, const CpsiChainProgram *program, double force) {
+    const CpsiConstraints *from = &program->constraints;
+    for (int end = 0, k = 0; end < 2 && k < from->count; end++) {
+        CpsiEndSet *on = &line->on[end];
+        if (!on->is_there) continue;
+        double *x = &line->position[3 * (end == CPS_END_A ? 0 : line->n - 1)];
+        read_reaction(&on->set, &from->item[k++], force, on->reaction);
+        vec3_store(x, cpsi_place_set_project(&on->set, vec3_load(x)));
+    }
+}
+
+/* Rounding of the components of a unit vector: along a direction without end it counts as 0. */
+static const double ROUNDING = 1e-12;
+
+/* How far the sets' nearest places are apart along the unit vector v, by their support. */
+static double apart_along(const CpsiPlaceSet *set, Vec3 v, Vec3 x) {
+    double own[3];
+    cpsi_place_set_to(set, v, own);
+    for (int a = set->round; a < 3; a++)
+        if (fabs(own[a]) < ROUNDING && isinf(own[a] > 0 ? set->high[a] : set->low[a])) own[a] = 0;
+    return cpsi_place_set_gap(set, own, x);
+}
+
+static int last_held(const CpsiLine *line) {
+    int last = line->n;
+    for (int j = cpsi_line_next_held(line, 0); j < line->n; j = cpsi_line_next_held(line, j + 1))
+        last = j;
+    return last;
+}
+
+bool cpsi_line_set_distance(const CpsiLine *line, double *distance, double *length, Vec3 *apart) {
+    const CpsiEndSet *a = &line->on[CPS_END_A], *b = &line->on[CPS_END_B];
+    const int held = cpsi_line_next_held(line, 0);
+    bool found = false;
+    *distance = 0;
+    for (int end = 0; end < 2; end++) {
+        const CpsiEndSet *to = &line->on[end];
+        const bool both = held == line->n;
+        if (!to->is_there || (both && (end == CPS_END_A || !a->is_there || !b->is_there))) continue;
+        const int last = end == CPS_END_A ? held : last_held(line);
+        Vec3 x = both ? vec3_load(line->position) : cpsi_line_held_place(line, last), y;
+        cpsi_place_sets_nearest(both ? &a->set : NULL, &to->set, &x, &y);
+        const double size = vec3_norm(vec3_sub(y, x)),
+                     between =
+                         both ? line->length
+                              : cpsi_line_length_between(line, end == CPS_END_A ? 0 : last,
+                                                         end == CPS_END_A ? last : line->n - 1);
+        if (!(size > 0)) continue;
+        const Vec3 v = vec3_scale(1 / size, vec3_sub(y, x));
+        double least = size - apart_along(&to->set, vec3_scale(-1, v), y);
+        if (both) least -= apart_along(&a->set, v, x);
+        if (found && least - between <= *distance - *length) continue;
+        *distance = least;
+        *length = between;
+        *apart = v;
+        found = true;
+    }
+    return found;
+}
+
+/* Projections to and fro between two cones, until they stay. */
+enum { PROJECTIONS = 200 };
+
+Vec3 cpsi_line_sets_let(const CpsiLine *line, Vec3 v) {
+    const double size = vec3_norm(v);
+    for (int i = 0; i < PROJECTIONS; i++)
+        for (int end = 0; end < 2; end++)
+            if (line->on[end].is_there) v = cpsi_place_set_recedes(&line->on[end].set, v);
+    return vec3_norm(v) > ROUNDING * size ? v : vec3(0, 0, 0);
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The check of ends that are held to sets, and the report on them (capstan/constraint.h). */
+#ifndef CAPSTAN_SRC_EVOLVE_CONSTRAINTS_H
+#define CAPSTAN_SRC_EVOLVE_CONSTRAINTS_H
+
+#include "evolve/state.h"
+
+/* Check the constraints of a line whose start and ends have been checked. */
+CpsStatus cpsi_constraints_check(const CpsLine *line, CpsError *err);
+
+/* Check what a stage does to such ends. */
+CpsStatus cpsi_constraints_check_stage(const CpsScene *scene, const CpsStage *stage,
+                                       const char *what, CpsError *err);
+
+/* Fill the sets of a line. */
+void cpsi_constraints_fill(CpsiLine *line, const CpsLine *given);
+
+#endif

@@ -1,0 +1,346 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Ends held to convex sets (S90 remark 2.3: x in C2, a perfect constraint). What is known
+ * beforehand:
+ *
+ *   - on a rail without friction the pull of a hanging line has no part along the rail: with the
+ *     catenary in closed form the place follows by bisection, and the step finds it at order 2;
+ *   - remark 2.3.4: an end in a set is in the place, and has the force, of an end held there; the
+ *     force is in the normal cone of a ball, a half-space, a disc, an edge and a corner of a box;
+ *   - a set that does not bear, or is far larger than the line: the answer of a free end;
+ *   - the load of an end on a face does as much work as it moves along it, and the reaction none;
+ *   - a set farther away than an inextensible line is long, or a load along a rail without ends
+ * that nothing else bears: no equilibrium, with its proof. */
+#include <math.h>
+#include <string.h>
+
+#include "capstan/evolve.h"
+#include "catenary.h"
+#include "check.h"
+#include "splitmix.h"
+
+/* [m] An interior point leaves a place that far inside a boundary that bears tens of newtons. */
+static const double INSIDE = 1e-10;
+
+static CpsLine hung(double length, int elements, double stiffness) {
+    CpsLine line = cps_line_default();
+    line.name = "line";
+    line.length = length;
+    line.element_count = elements;
+    line.weight = 10;
+    line.stiffness = stiffness;
+    line.start.kind = CPS_START_STATIC;
+    line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_KIND_HELD};
+    line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_KIND_FREE};
+    return line;
+}
+
+static CpsEvolution *solve(const CpsLine *line, CpsOutcome outcome) {
+    CpsScene scene = cps_scene_default();
+    scene.line_count = 1;
+    scene.line = line;
+    CpsEvolution *evolution = NULL;
+    CpsError err;
+    if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+    if (cps_evolution_step(evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+    CHECK_INT((int)cps_evolution_line_report(evolution, 0).outcome, (int)outcome);
+    return evolution;
+}
+
+/* The pull of the line at (x, z) along the rail; the end goes down it while that is positive. */
+static double pull_along(double s, double slope, double stiffness, double *h, double *v) {
+    const double x = 6 + s * cos(slope), z = -s * sin(slope);
+    Catenary c = {.length = 10, .weight = 10, .stiffness = stiffness, .h = 30, .v = 60};
+    if (!catenary_solve(&c, x, z)) fail_msg("no catenary at %g, %g", x, z);
+    *h = c.h;
+    *v = c.v;
+    return c.v * sin(slope) - c.h * cos(slope);
+}
+
+static double rail_error(int elements, double slope, double stiffness, double turn) {
+    CpsLine line = hung(10, elements, stiffness);
+    double low = -3.5, high = 3.5, h, v;
+    for (int i = 0; i < 80; i++) {
+        const double s = 0.5 * (low + high);
+        if (pull_along(s, slope, stiffness, &h, &v) > 0)
+            low = s;
+        else
+            high = s;
+    }
+    line.constraint[CPS_END_B] =
+        (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
+                        .point = {6 * cos(turn), 6 * sin(turn), 0},
+                        .axis = {3 * cos(slope) * cos(turn), 3 * cos(slope) * sin(turn),
+                                 -3 * sin(slope)},
+                        .length = INFINITY};
+    assert_true(low > -3.4 && low < 3.4);
+    CpsEvolution *evolution = solve(&line, CPS_OUTCOME_SOLVED);
+    const CpsLineReport report = cps_evolution_line_report(evolution, 0);
+    const CpsConstraintReport on = cps_evolution_constraint_report(evolution, 0, CPS_END_B);
+    const double *x = report.end[CPS_END_B].position,
+                 off = hypot(hypot(x[0] - (6 + low * cos(slope)) * cos(turn),
+                                   x[1] - (6 + low * cos(slope)) * sin(turn)),
+                             x[2] + low * sin(slope)),
+                 wanted[3] = {h * cos(turn), h * sin(turn), v};
+    CHECK_LESS(on.residual, 1e-14);
+    assert_true(on.is_there && on.is_active);
+    for (int a = 0; a < 3; a++) {
+        CHECK_NEAR(on.reaction[a], report.end[CPS_END_B].force[a], 1e-12);
+        CHECK_NEAR(on.reaction[a], wanted[a], 30 * off + 1e-6 * hypot(h, v));
+    }
+    const double *u = line.constraint[CPS_END_B].axis;
+    CHECK_NEAR(on.reaction[0] * u[0] + on.reaction[1] * u[1] + on.reaction[2] * u[2], 0,
+               1e-12 * hypot(h, v));
+    cps_evolution_destroy(evolution);
+    return off;
+}
+
+static void a_rail_is_normal_to_the_pull(void **state) {
+    (void)state;
+    static const double STIFFNESS[] = {INFINITY, 2e3}, SLOPE[] = {0.3, 0.5, 0.7};
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3; k++) {
+            const double coarse = rail_error(40, SLOPE[k], STIFFNESS[i], 0.3 * k),
+                         fine = rail_error(160, SLOPE[k], STIFFNESS[i], 0.3 * k);
+            /* order 2: a quarter of the element length has a sixteenth of the error */
+            CHECK_LESS(coarse, 1e-2);
+            CHECK_LESS(fine, coarse / 12);
+        }
+}
+
+/* Hold the end where the set has it: the same configuration and force. */
+static CpsConstraintReport is_as_held(const CpsLine *line, CpsLineReport *report) {
+    CpsEvolution *in_set = solve(line, CPS_OUTCOME_SOLVED);
+    const CpsConstraintReport on = cps_evolution_constraint_report(in_set, 0, CPS_END_B);
+    CpsLine other = *line;
+    *report = cps_evolution_line_report(in_set, 0);
+    other.constraint[CPS_END_B].kind = CPS_CONSTRAINT_KIND_NONE;
+    other.end[CPS_END_B].kind = CPS_END_KIND_HELD;
+    memcpy(other.end[CPS_END_B].value, report->end[CPS_END_B].position, 3 * sizeof(double));
+    CpsEvolution *held = solve(&other, CPS_OUTCOME_SOLVED);
+    const CpsLineReport as = cps_evolution_line_report(held, 0);
+    const CpsLineView view = cps_evolution_line_view(in_set, 0),
+                      seen = cps_evolution_line_view(held, 0);
+    CHECK_VECTOR(report->end[CPS_END_B].force, as.end[CPS_END_B].force,
+                 1e-6 * as.certificate.largest_force);
+    for (int j = 0; j < 3 * (line->element_count + 1); j++)
+        CHECK_NEAR(view.position[j], seen.position[j], 1e-8 * line->length);
+    CHECK_LESS(on.residual, 1e-14);
+    CHECK_LESS(on.gap, 1e-9);
+    cps_evolution_destroy(in_set);
+    cps_evolution_destroy(held);
+    return on;
+}
+
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void an_end_in_a_set_is_as_one_that_is_held(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        CpsLineReport report;
+        CpsLine line = hung(10, 60, i ? INFINITY : 5e3);
+        CpsConstraint *on = &line.constraint[CPS_END_B];
+        *on = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_BALL, .point = {5, 2, 1}, .radius = 1.5};
+        CpsConstraintReport found = is_as_held(&line, &report);
+        double size = sqrt(dot(found.reaction, found.reaction));
+        for (int a = 0; a < 3; a++) /* towards the centre, from the surface */
+            CHECK_NEAR(report.end[CPS_END_B].position[a] - on->point[a],
+                       -1.5 * found.reaction[a] / size, 1e-7);
+        *on = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_HALF_SPACE,
+                              .point = {0, 0, -4},
+                              .axis = {-1, 0, 2}};
+        found = is_as_held(&line, &report);
+        CHECK_NEAR(found.reaction[0] * 2 + found.reaction[2], 0,
+                   1e-12 * report.certificate.largest_force);
+        CHECK_GREATER(found.reaction[2], 1);
+        *on = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_DISC,
+                              .point = {5, 0, 0},
+                              .axis = {0, 0, 1},
+                              .radius = 1};
+        found =
+            is_as_held(&line, &report); /* at its rim, the normal cone of which is a half-plane */
+        CHECK_NEAR(report.end[CPS_END_B].position[0], 4, 1e-7);
+        CHECK_GREATER(found.reaction[0], 1);
+        /* an edge, a corner: outward parts along the axes whose faces are reached, none along
+         * others */
+        *on =
+            (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_BOX, .point = {5, 3, 1}, .size = {2, 2, 2}};
+        found = is_as_held(&line, &report);
+        CHECK_VECTOR(report.end[CPS_END_B].position, ((double[]){4, 2, 0}), INSIDE);
+        for (int a = 0; a < 3; a++) CHECK_GREATER(found.reaction[a], 1);
+        on->point[1] = 0;
+        found = is_as_held(&line, &report);
+        CHECK_NEAR(report.end[CPS_END_B].position[1], 0, 1e-9);
+        CHECK_NEAR(found.reaction[1], 0, 1e-9 * report.certificate.largest_force);
+        /* an end of a rail bears along it */
+        *on = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
+                              .point = {5, 0, 0},
+                              .axis = {1, 0, 0},
+                              .length = 2};
+        found = is_as_held(&line, &report);
+        CHECK_VECTOR(report.end[CPS_END_B].position, on->point, INSIDE);
+        CHECK_GREATER(found.reaction[0], 1);
+    }
+}
+
+static void a_set_that_does_not_bear_changes_nothing(void **state) {
+    (void)state;
+    static const CpsConstraint LOOSE[] = {
+        {.kind = CPS_CONSTRAINT_KIND_BALL, .radius = 40},
+        {.kind = CPS_CONSTRAINT_KIND_HALF_SPACE, .point = {0, 0, -40}, .axis = {0, 1, 3}},
+        {.kind = CPS_CONSTRAINT_KIND_BOX, .size = {50, 60, 70}, .rotation = {1, 0.3, 0.2, 0.1}}};
+    for (size_t k = 0; k < 2 * sizeof LOOSE / sizeof *LOOSE; k++) {
+        CpsLine line = hung(10, 50, k % 2 ? INFINITY : 3e3);
+        memcpy(line.end[CPS_END_B].value, (double[]){40, -20, 30}, 3 * sizeof(double));
+        CpsEvolution *is_free = solve(&line, CPS_OUTCOME_SOLVED);
+        line.constraint[CPS_END_B] = LOOSE[k / 2];
+        CpsEvolution *in_set = solve(&line, CPS_OUTCOME_SOLVED);
+        const CpsConstraintReport on = cps_evolution_constraint_report(in_set, 0, CPS_END_B);
+        const CpsLineView a = cps_evolution_line_view(is_free, 0),
+                          b = cps_evolution_line_view(in_set, 0);
+        for (int j = 0; j < 3 * 51; j++) CHECK_NEAR(a.position[j], b.position[j], 1e-9);
+        for (int e = 0; e < 50; e++) CHECK_NEAR(a.tension[e], b.tension[e], 1e-8 * 60);
+        assert_true(on.is_there && !on.is_active);
+        CHECK_LESS(sqrt(dot(on.reaction, on.reaction)), 1e-8);
+        cps_evolution_destroy(is_free);
+        cps_evolution_destroy(in_set);
+    }
+}
+
+/* A slack line whose end is loaded along a level rail: the load moves it, the reaction does
+ * nothing.
+ */
+static void a_reaction_does_no_work(void **state) {
+    (void)state;
+    enum { STEPS = 400 };
+    CpsLine line = hung(10, 40, 4e3);
+    line.constraint[CPS_END_B] = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
+                                                 .point = {4, 0, 0},
+                                                 .axis = {1, 0.2, -0.3},
+                                                 .length = INFINITY};
+    CpsEvolution *evolution = solve(&line, CPS_OUTCOME_SOLVED);
+    const CpsChange change = {.end = CPS_END_B, .to = {CPS_END_KIND_FREE, {150, 0, 20}}};
+    CpsStage move = cps_stage_default();
+    CpsError err;
+    double ends = 0, stored = 0, before[3], force[3] = {0, 0, 0}, by_hand = 0;
+    memcpy(before, cps_evolution_line_report(evolution, 0).end[CPS_END_B].position, sizeof before);
+    move.change_count = 1;
+    for (int k = 1; k <= STEPS; k++) {
+        CpsChange part = change;
+        for (int a = 0; a < 3; a++) part.to.value[a] *= (double)k / STEPS;
+        move.change = &part;
+        if (cps_evolution_move(evolution, &move, &err) != CPS_OK) fail_msg("%s", err.message);
+        const CpsLineReport report = cps_evolution_line_report(evolution, 0);
+        CHECK_INT((int)report.outcome, CPS_OUTCOME_SOLVED);
+        ends += report.ledger.ends;
+        stored += report.ledger.elastic + report.ledger.gravity;
+        for (int a = 0; a < 3; a++) {
+            by_hand += 0.5 * (force[a] + part.to.value[a]) *
+                       (report.end[CPS_END_B].position[a] - before[a]);
+            force[a] = part.to.value[a];
+            before[a] = report.end[CPS_END_B].position[a];
+        }
+    }
+    CHECK_GREATER(ends, 50);
+    CHECK_NEAR(ends, by_hand, 1e-9 * ends);
+    CHECK_NEAR(ends, stored, 1e-4 * ends); /* the trapezium rule, at order 2 of 400 steps */
+    cps_evolution_destroy(evolution);
+}
+
+static void no_equilibrium(void **state) {
+    (void)state;
+    CpsLine line = hung(10, 20, INFINITY);
+    line.constraint[CPS_END_B] =
+        (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_BALL, .point = {0, 14, 0}, .radius = 3};
+    CpsEvolution *evolution = solve(&line, CPS_OUTCOME_INFEASIBLE);
+    CpsLineReport report = cps_evolution_line_report(evolution, 0);
+    CHECK_VECTOR(report.proof, ((double[]){0, 1, 0}), 1e-15);
+    CHECK_NEAR(report.proof_length, 1, 1e-13);
+    cps_evolution_destroy(evolution);
+    /* elastic, it reaches the ball */
+    line.stiffness = 1e3;
+    evolution = solve(&line, CPS_OUTCOME_SOLVED);
+    cps_evolution_destroy(evolution);
+    /* both ends in sets: a rail and a half-space */
+    line.stiffness = INFINITY;
+    line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_KIND_FREE};
+    const double straight[6] = {0, 0, 0, 10, 0, 0};
+    line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = straight};
+    line.constraint[CPS_END_A] =
+        (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL, .axis = {0, 1, 0}, .length = INFINITY};
+    line.constraint[CPS_END_B] = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
+                                                 .point = {10, 0, 0},
+                                                 .axis = {0, 2, 0},
+                                                 .length = INFINITY};
+    memcpy(line.end[CPS_END_B].value, (double[]){0, 7, 0}, 3 * sizeof(double));
+    evolution = solve(&line, CPS_OUTCOME_UNBOUNDED);
+    report = cps_evolution_line_report(evolution, 0);
+    CHECK_VECTOR(report.proof, ((double[]){0, 1, 0}), 1e-15);
+    CHECK_NEAR(report.proof_force, 7, 1e-13);
+    cps_evolution_destroy(evolution);
+    /* one rail with ends is enough to stop it */
+    line.stiffness = 1e4;
+    line.constraint[CPS_END_A].length = 4;
+    evolution = solve(&line, CPS_OUTCOME_SOLVED);
+    report = cps_evolution_line_report(evolution, 0);
+    CHECK_NEAR(report.end[CPS_END_A].position[1], 4, INSIDE);
+    CHECK_NEAR(cps_evolution_constraint_report(evolution, 0, CPS_END_A).reaction[1], -7, 1e-9);
+    cps_evolution_destroy(evolution);
+}
+
+/* S90 remark 2.3.3: C = C1 and C2, r = r1 + r2: a line on a rough bed (C1) whose end is on a rail
+ * (C2). The rail bears what the bed does not, and both are in one certificate. */
+static void both_constraints_of_the_remark(void **state) {
+    (void)state;
+    CpsObstacle bed = cps_obstacle_default();
+    bed.name = "bed";
+    bed.friction = 0.2;
+    const double straight[6] = {0, 0, 0, 10, 0, 0};
+    CpsLine line = hung(10, 50, 2e3);
+    line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = straight};
+    line.end[CPS_END_A] = (CpsEnd){.kind = CPS_END_KIND_AT_START};
+    memcpy(line.end[CPS_END_B].value, (double[]){8, 60, 0}, 3 * sizeof(double));
+    line.constraint[CPS_END_B] = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
+                                                 .point = {10, 0, 0},
+                                                 .axis = {-1, 2, 1},
+                                                 .length = 1.5};
+    CpsScene scene = cps_scene_default();
+    scene.obstacle_count = scene.line_count = 1;
+    scene.obstacle = &bed;
+    scene.line = &line;
+    CpsEvolution *evolution = NULL;
+    CpsError err;
+    if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+    if (cps_evolution_step(evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+    const CpsLineReport report = cps_evolution_line_report(evolution, 0);
+    const CpsLineView view = cps_evolution_line_view(evolution, 0);
+    const CpsConstraintReport on = cps_evolution_constraint_report(evolution, 0, CPS_END_B);
+    CHECK_INT((int)report.outcome, CPS_OUTCOME_SOLVED);
+    double sum[3] = {0, 0, 0};
+    for (int j = 0; j <= 50; j++)
+        for (int a = 0; a < 3; a++)
+            sum[a] += view.load[3 * j + a] + view.friction_force[3 * j + a] +
+                      view.reaction[j] * view.normal[3 * j + a];
+    for (int a = 0; a < 3; a++)
+        sum[a] += on.reaction[a] + report.end[CPS_END_A].force[a] +
+                  report.end[CPS_END_A].friction_force[a];
+    CHECK_GREATER(report.end[CPS_END_B].position[1], 0.1);
+    CHECK_GREATER(sqrt(dot(on.reaction, on.reaction)), 1);
+    /* end A, which is held, bears the weight of its half element, through its own reaction */
+    CHECK_NEAR(sum[0], 0, 1e-9);
+    CHECK_NEAR(sum[1], 0, 1e-9);
+    cps_evolution_destroy(evolution);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_rail_is_normal_to_the_pull),
+        cmocka_unit_test(an_end_in_a_set_is_as_one_that_is_held),
+        cmocka_unit_test(a_set_that_does_not_bear_changes_nothing),
+        cmocka_unit_test(a_reaction_does_no_work),
+        cmocka_unit_test(no_equilibrium),
+        cmocka_unit_test(both_constraints_of_the_remark),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sets to which ends are held (sets.h). Of each kind the support function, sup of v.y over y in K,
+ * is written down from its definition; the rest follows from it. */
+#include "sets.h"
+
+#include <math.h>
+#include <netcdf.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "grasps.h"
+
+enum { NONE, RAIL, HALF_SPACE, BALL, DISC, BOX, KINDS };
+
+typedef struct Set {
+    int kind;
+    double point[3], axis[3], length, radius, size[3], turn[4], reaction[3];
+} Set;
+
+struct Sets {
+    Set end[2];
+};
+
+/* Rounding of a direction, of a unit vector; of a place, per reach of the coordinates. */
+static const Real DIRECTION = 1e-12L, PLACE = 1e-13L;
+
+static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static Real norm(const Real *a) { return sqrtl(dot(a, a)); }
+
+static int complain(FILE *log, const char *line, const char *what) {
+    fprintf(log, "sets of line %s: %s\n", line, what);
+    return -1;
+}
+
+static int read_one(const Source *source, const char *line, const char *what, size_t step, int e,
+                    size_t count, double *value) {
+    const size_t start[3] = {step, (size_t)e, 0}, counts[3] = {1, 1, count};
+    char name[300];
+    int id, dimensions;
+    snprintf(name, sizeof name, "%.200s_%s", line, what);
+    if (nc_inq_varid(source->nc, name, &id) || nc_inq_varndims(source->nc, id, &dimensions))
+        return -1;
+    const int skip = strcmp(what, "set_reaction") == 0 ? 0 : 1;
+    if (dimensions != (count > 1 ? 3 : 2) - skip) return -1;
+    return nc_get_vara_double(source->nc, id, &start[skip], &counts[skip], value);
+}
+
+static bool all_finite(const double *value, int count) {
+    bool finite = true;
+    for (int i = 0; i < count; i++) finite = finite && isfinite(value[i]);
+    return finite;
+}
+
+int sets_create(const Source *source, const char *line, Record *r, FILE *log) {
+    char name[300];
+    int id;
+    snprintf(name, sizeof name, "%.200s_set_kind", line);
+    if (nc_inq_varid(source->nc, name, &id)) return 0;
+    struct Sets *sets = r->sets = calloc(1, sizeof *sets);
+    if (!sets) return complain(log, line, "out of memory");
+    for (int e = 0; e < 2; e++) {
+        Set *set = &sets->end[e];
+        double kind;
+        if (read_one(source, line, "set_kind", 0, e, 1, &kind) ||
+            read_one(source, line, "set_point", 0, e, 3, set->point) ||
+            read_one(source, line, "set_axis", 0, e, 3, set->axis) ||
+            read_one(source, line, "set_length", 0, e, 1, &set->length) ||
+            read_one(source, line, "set_radius", 0, e, 1, &set->radius) ||
+            read_one(source, line, "set_size", 0, e, 3, set->size) ||
+            read_one(source, line, "set_rotation", 0, e, 4, set->turn))
+            return complain(log, line, "a variable is missing, or of another shape");
+        if (!(kind >= NONE && kind < KINDS)) return complain(log, line, "of no kind");
+        set->kind = (int)kind;
+        const double axis = hypot(hypot(set->axis[0], set->axis[1]), set->axis[2]);
+        const bool directed = kind == RAIL || kind == HALF_SPACE || kind == DISC;
+        if (!all_finite(set->point, 3) || !all_finite(set->axis, 3) || !all_finite(set->size, 3) ||
+            !all_finite(set->turn, 4) || (directed && !(axis > 0)) ||
+            (kind == RAIL && !(set->length > 0)) ||
+            ((kind == BALL || kind == DISC) && !(set->radius > 0 && isfinite(set->radius))) ||
+            (kind == BOX && !(set->size[0] > 0 && set->size[1] > 0 && set->size[2] > 0)))
+            return complain(log, line, "a value that cannot be");
+    }
+    return 0;
+}
+
+int sets_read(const Source *source, const char *line, size_t step, Record *r, FILE *log) {
+    if (!r->sets) return 0;
+    for (int e = 0; e < 2; e++)
+        if (read_one(source, line, "set_reaction", step, e, 3, r->sets->end[e].reaction) ||
+            !all_finite(r->sets->end[e].reaction, 3))
+            return complain(log, line, "a reaction is missing, or not finite");
+    return 0;
+}
+
+void sets_free(Record *r) {
+    free(r->sets);
+    r->sets = NULL;
+}
+
+/* The set of node j, or NULL. */
+static const Set *set_of(const Record *r, size_t j) {
+    if (!r->sets || (j != 0 && j != r->elements)) return NULL;
+    const Set *set = &r->sets->end[j == 0 ? 0 : 1];
+    return set->kind == NONE ? NULL : set;
+}
+
+static void unit_axis(const Set *set, Real *u) {
+    for (int a = 0; a < 3; a++) u[a] = set->axis[a];
+    const Real size = norm(u);
+    for (int a = 0; a < 3; a++) u[a] /= size;
+}
+
+/* Axis i of a box: the unit vector turned by the quaternion. */
+static void box_axis(const Set *set, int i, Real *u) {
+    Real q[4], size = 0;
+    for (int a = 0; a < 4; a++) size += (Real)set->turn[a] * set->turn[a];
+    for (int a = 0; a < 4; a++) q[a] = size > 0 ? set->turn[a] / sqrtl(size) : a == 0;
+    const Real w = q[0], x = q[1], y = q[2], z = q[3];
+    const Real m[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                          {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+                          {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+    for (int a = 0; a < 3; a++) u[a] = m[a][i];
+}
+
+/* sup of v.(y - point) over y in the set. What of v points along an endless direction by no more
+ * than its rounding counts as 0; INFINITY beyond that. */
+static Real support(const Set *set, const Real *v) {
+    Real u[3], sum = 0;
+    const Real size = norm(v), nothing = DIRECTION * size;
+    switch (set->kind) {
+    case RAIL: {
+        unit_axis(set, u);
+        const Real along = dot(u, v);
+        if (isinf(set->length)) return fabsl(along) <= nothing ? 0 : INFINITY;
+        return fmaxl(0, along * set->length);
+    }
+    case HALF_SPACE: {
+        unit_axis(set, u);
+        const Real along = dot(u, v);
+        Real across[3];
+        for (int a = 0; a < 3; a++) across[a] = v[a] - along * u[a];
+        return norm(across) <= nothing && along <= nothing ? 0 : INFINITY;
+    }
+    case BALL: return size * set->radius;
+    case DISC: {
+        unit_axis(set, u);
+        const Real along = dot(u, v);
+        Real across[3];
+        for (int a = 0; a < 3; a++) across[a] = v[a] - along * u[a];
+        return norm(across) * set->radius;
+    }
+    default:
+        for (int i = 0; i < 3; i++) {
+            box_axis(set, i, u);
+            sum += fabsl(dot(u, v)) * set->size[i] / 2;
+        }
+        return sum;
+    }
+}
+
+/* [m] from x to the set */
+static Real distance(const Set *set, const Real *x) {
+    Real y[3], u[3], off[3];
+    for (int a = 0; a < 3; a++) y[a] = x[a] - set->point[a];
+    if (set->kind == BALL) return fmaxl(0, norm(y) - set->radius);
+    if (set->kind == BOX) {
+        for (int i = 0; i < 3; i++) {
+            box_axis(set, i, u);
+            off[i] = fmaxl(0, fabsl(dot(u, y)) - set->size[i] / 2);
+        }
+        return norm(off);
+    }
+    unit_axis(set, u);
+    const Real along = dot(u, y);
+    if (set->kind == HALF_SPACE) return fmaxl(0, -along);
+    for (int a = 0; a < 3; a++) off[a] = y[a] - along * u[a];
+    if (set->kind == DISC) return hypotl(along, fmaxl(0, norm(off) - set->radius));
+    if (isinf(set->length)) return norm(off);
+    return hypotl(norm(off), fmaxl(fmaxl(0, -along), along - set->length));
+}
+
+Real sets_add(const Record *r, size_t j, Real *sum) {
+    const Set *set = set_of(r, j);
+    if (!set) return 0;
+    Real force[3];
+    for (int a = 0; a < 3; a++) force[a] = set->reaction[a];
+    for (int a = 0; a < 3; a++) sum[a] += force[a];
+    return norm(force);
+}
+
+Real sets_gap(const Record *r, size_t j) {
+    const Set *set = set_of(r, j);
+    if (!set) return 0;
+    Real outwards[3], y[3];
+    for (int a = 0; a < 3; a++) {
+        outwards[a] = -(Real)set->reaction[a];
+        y[a] = (Real)r->position[j][a] - set->point[a];
+    }
+    return support(set, outwards) - dot(outwards, y);
+}
+
+/* [m] the size of the coordinates, [N] of the largest force of the line on what holds it */
+static void sizes(const Record *r, double *reach, double *force) {
+    *reach = *force = 0;
+    for (size_t j = 0; j < r->nodes; j++)
+        for (int a = 0; a < 3; a++) *reach = fmax(*reach, fabs(r->position[j][a]));
+    for (size_t i = 0; i < r->elements; i++) {
+        *reach = fmax(*reach, r->element_length[i]);
+        *force = fmax(*force, r->tension[i]);
+    }
+    for (int e = 0; e < 2; e++)
+        for (int a = 0; a < 3; a++) {
+            *reach = fmax(*reach, fabs(r->sets->end[e].point[a]));
+            *force = fmax(*force, fabs(r->sets->end[e].reaction[a]));
+        }
+}
+
+void sets_check(const Record *r, SetFind *find, void *user) {
+    double reach, force;
+    if (!r->sets) return;
+    sizes(r, &reach, &force);
+    for (int e = 0; e < 2; e++) {
+        const size_t j = e ? r->elements : 0;
+        const Set *set = set_of(r, j);
+        if (!set) continue;
+        Real x[3];
+        for (int a = 0; a < 3; a++) x[a] = r->position[j][a];
+        const Real off = distance(set, x);
+        if (r->end_kind[e] == END_HELD) find(user, "an end in a set is held", 1, 0);
+        if (!(off <= PLACE * reach)) find(user, "distance of an end from its set", (double)off, 0);
+        /* what of the gap is rounding of places goes with the force and the coordinates */
+        const Real gap = sets_gap(r, j);
+        if (!(gap >= -1e-14L * force * reach && isfinite(gap)))
+            find(user, "reaction of a set outside its normal cone, gap", (double)gap, 0);
+    }
+}
+
+/* [m] By how much the sets, seen along the unit vector v, are farther from what else holds the line
+ * than it is long; -INFINITY: no set has an end there. */
+static Real excess_along(const Record *r, const Real *v) {
+    Real most = -INFINITY;
+    for (int e = 0; e < 2; e++) {
+        const size_t end = e ? r->elements : 0;
+        const Set *set = set_of(r, end), *other = set_of(r, r->elements - end);
+        if (!set) continue;
+        const Real back[3] = {-v[0], -v[1], -v[2]};
+        Real point[3], length = 0, from;
+        for (int a = 0; a < 3; a++) point[a] = set->point[a];
+        size_t j = end;
+        do {
+            length += r->element_length[e ? j - 1 : j];
+            j += e ? (size_t)-1 : 1;
+        } while (!node_is_held(r, j) && j > 0 && j < r->elements);
+        if (node_is_held(r, j)) {
+            const double *place = node_place(r, j);
+            from = v[0] * place[0] + v[1] * place[1] + v[2] * place[2];
+        } else if (other) {
+            Real at[3];
+            for (int a = 0; a < 3; a++) at[a] = other->point[a];
+            from = support(other, v) + dot(v, at);
+        } else {
+            continue;
+        }
+        most = fmaxl(most, dot(v, point) - support(set, back) - from - length);
+    }
+    return most;
+}
+
+void sets_check_infeasible(const Record *r, double reach, SetFind *find, void *user) {
+    const Real v[3] = {r->proof[0], r->proof[1], r->proof[2]}, excess = excess_along(r, v);
+    if (!(excess > 0))
+        find(user, "infeasible, but a set is within reach, excess", (double)excess, 0);
+    if (!(fabsl(excess - r->proof_length) <= 1e-12L * reach))
+        find(user, "proof_length", r->proof_length, (double)excess);
+    if (!(norm(v) <= 1 + 1e-12L)) find(user, "length of the proof", (double)norm(v), 1);
+}
+
+bool sets_let(const Record *r) {
+    const Real v[3] = {r->proof[0], r->proof[1], r->proof[2]};
+    for (int e = 0; e < 2; e++) {
+        const Set *set = set_of(r, e ? r->elements : 0);
+        if (!set) continue;
+        Real u[3], across = 0;
+        if (set->kind != HALF_SPACE && !(set->kind == RAIL && isinf(set->length))) return false;
+        unit_axis(set, u);
+        const Real along = dot(u, v);
+        for (int a = 0; a < 3; a++) across += (v[a] - along * u[a]) * (v[a] - along * u[a]);
+        if (set->kind == HALF_SPACE ? along < -DIRECTION : sqrtl(across) > DIRECTION) return false;
+    }
+    return true;
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sets to which ends of a line are held: rails, half-spaces, balls, discs and boxes. A set K does a
+ * force r on the end at x in K, and is perfect: r.(y - x) >= 0 for all y in K. */
+#ifndef CAPSTAN_CHECKER_SETS_H
+#define CAPSTAN_CHECKER_SETS_H
+
+#include "record.h"
+
+/* Memory for what a file has; none of a line without such ends. All return 0, or -1 and the reason
+ * in the log. */
+int sets_create(const Source *source, const char *line, Record *record, FILE *log);
+int sets_read(const Source *source, const char *line, size_t step, Record *record, FILE *log);
+void sets_free(Record *record);
+
+/* [N] Add the reaction on node j to `sum`; and its size. */
+Real sets_add(const Record *r, size_t j, Real *sum);
+/* [J] sup over y in K of -r.(y - x) at node j; 0 where there is none. */
+Real sets_gap(const Record *r, size_t j);
+
+/* What a step contradicts, one sentence each. */
+typedef void SetFind(void *user, const char *what, double said, double expected);
+void sets_check(const Record *r, SetFind *find, void *user);
+
+/* What the proof that a set is out of reach contradicts, coordinates being of the size `reach` [m].
+ */
+void sets_check_infeasible(const Record *r, double reach, SetFind *find, void *user);
+/* Do all sets let the line go along the proof for ever? */
+bool sets_let(const Record *r);
+
+#endif

@@ -1,0 +1,314 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""capstan run with ends of lines held to sets: what summary and history say, the checker finds nothing, copies with a number changed are
+refused, a run that is stopped and resumed has the same numbers, random histories, and mistakes are told with their place.
+
+usage: end_sets.py CAPSTAN CHECKER [FIRST LAST]      with numbers: these seeds of random histories only
+"""
+import csv
+import json
+import math
+import os
+import random
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "property"))
+sys.dont_write_bytecode = True  # nothing is left in the source folder
+from result_file import CODE, Results, SIZE  # noqa: E402
+
+CAPSTAN, CHECKER = (os.path.abspath(path) for path in sys.argv[1:3])
+SEEDS = 12  # of random histories in every run
+
+# a rope over a post to a rail, along which a force draws its end, to the rail's end and back
+POST = """
+capstan: 1
+obstacles:
+  post: {cylinder: {point: [0, 0, 0], axis: [0, 1, 0], radius: 0.5}, friction: 0.3}
+lines:
+  rope:
+    length: 10
+    elements: 60
+    mass: 1
+    stiffness: STIFFNESS
+    start: {polyline: [[-5, 0, 0.5], [5, 0, 0.5]]}
+    ends: {A: {force: [-60, 0, 0]}, B: {on: {rail: {from: [5, -1, 0.5], to: [5, 2, 0.5]}}}}
+history:
+  - {name: down, rope.A: {force: [0, 0, -60]}, steps: 6}
+  - {name: draw, rope.B: {force: [0, 90, 0]}, steps: 6}
+  - {name: back, rope.B: {force: [0, -20, 0]}, steps: 4}
+"""
+# (variable, step, index, change)
+FALSIFIED = (("rope_set_reaction", 3, 3, 1e-3), ("rope_set_reaction", 8, 4, 1e-2), ("rope_set_reaction", 12, 5, -1e-2),
+             ("rope_position", 7, 3*60, 1e-5), ("rope_position", 9, 3*60 + 2, 1e-5), ("rope_position", 11, 3*60 + 1, 1e-3),
+             ("rope_end_force", 8, 3, 1e-2), ("rope_ledger_ends", 9, 0, 1e-2), ("rope_end_applied_force", 10, 4, 1e-3))
+STATIC_FALSIFIED = (("rope_set_point", 3, 1e-6), ("rope_set_axis", 4, 0.1), ("rope_set_length", 1, -0.5), ("rope_set_kind", 1, 1),
+                    ("rope_set_kind", 0, 3), ("rope_set_radius", 1, 1))
+ON = "{rail: {from: [5, -1, 0.5], to: [5, 2, 0.5]}}"
+RAIL = "B: {on: " + ON + "}"
+DRAW = "rope.B: {force: [0, 90, 0]}"
+BAD = (  # (what is replaced, by what, what is said)
+    (RAIL, "B: {on: {}}", "12:41: 'on': nothing given, expected exactly one of 'rail', 'half_space', 'ball', 'disc', 'box'"),
+    (RAIL, "B: {on: rail}", "12:41: 'on': found 'rail', expected a mapping"),
+    (RAIL, "B: {on: [5, 0, 0]}", "12:41: 'on': found a list of 3, expected a mapping"),
+    (RAIL, "B: {on: {rod: {}}}", "12:46: 'on': unknown key 'rod'"),
+    (RAIL, "B: {on: {ball: {centre: [5, 0, 0], radius: 1}, disc: {centre: [5, 0, 0], radius: 1}}}", "12:41: 'on': too much given, expected exactly one of 'rail', 'half_space', 'ball', 'disc', 'box'"),
+    (RAIL, "B: {held: [5, 0, 0.5], on: " + ON + "}", "12:37: 'B': too much given, expected exactly one of 'held', 'force', 'point', 'on'"),
+    (RAIL, "B: {force: [5, 0, 0.5], on: " + ON + "}", "12:37: 'B': too much given, expected exactly one of 'held', 'force', 'point', 'on'"),
+    (ON, "{rail: {}}", "12:46: 'rail': 'from' is missing"),
+    (ON, "{rail: {from: [5, -1, 0.5]}}", "12:46: 'rail': nothing given, expected exactly one of 'to', 'along'"),
+    (ON, "{rail: {from: [5, -1, 0.5], to: [5, 2, 0.5], along: [0, 1, 0]}}", "12:46: 'rail': too much given, expected exactly one of 'to', 'along'"),
+    (ON, "{rail: {from: [5, -1, 0.5], to: [5, -1, 0.5]}}", "12:41: rail: it goes from (5, -1, 0.5) m to the same place: give it two places, or hold the end"),
+    (ON, "{rail: {from: [5, -1], to: [5, 2, 0.5]}}", "12:53: 'from': found a list of 2, expected three numbers"),
+    (ON, "{rail: {from: [5, -1, .nan], to: [5, 2, 0.5]}}", "12:67: 'from': found '.nan', expected a number"),
+    (ON, "{rail: {from: [5, -1, .inf], to: [5, 2, 0.5]}}", "12:67: 'from': found '.inf', expected a number"),
+    (ON, "{rail: {from: [5, 0, 0.5], along: [0, 0, 0]}}", "12:41: line 'rope': ends: the set of end B has an axis without a direction"),
+    (ON, "{rail: {from: [5, 0, 0.5], long: [0, 0, 1]}}", "12:72: 'rail': unknown key 'long'; did you mean 'along'?"),
+    (ON, "{rail: {from: [5, 1, 0.5], to: [5, 2, 0.5]}}", "12:41: line 'rope': ends: the set of end B is 1 m away from where the start puts the end, (5, 0, 0.5) m: let it begin in the set, as at (5, 1, 0.5) m"),
+    (ON, "{half_space: {point: [5, 0, 0.5]}}", "12:46: 'half_space': 'normal' is missing"),
+    (ON, "{half_space: {point: [5, 0, 0.5], normal: [0, 0, 0]}}", "12:41: line 'rope': ends: the set of end B has an axis without a direction"),
+    (ON, "{half_space: {point: [5, 0, 1], normal: [0, 0, 2]}}", "12:41: line 'rope': ends: the set of end B is 0.5 m away"),
+    (ON, "{ball: {centre: [5, 0, 0]}}", "12:46: 'ball': 'radius' is missing"),
+    (ON, "{ball: {centre: [5, 0, 0], radius: 0}}", "12:72: 'radius': found '0', expected a number in m, greater than 0"),
+    (ON, "{ball: {centre: [5, 0, 0], radius: -1}}", "12:72: 'radius': found '-1', expected a number in m, greater than 0"),
+    (ON, "{ball: {centre: [5, 0, 0], radius: .inf}}", "12:72: 'radius': found '.inf', expected a number in m"),
+    (ON, "{ball: {center: [5, 0, 0], radius: 1}}", "12:53: 'ball': unknown key 'center'; did you mean 'centre'?"),
+    (ON, "{ball: {centre: [5, 0, 0], radius: 0.4}}", "12:41: line 'rope': ends: the set of end B is 0.1 m away"),
+    (ON, "{disc: {centre: [5, 0, 0], radius: 1}}", "12:41: line 'rope': ends: the set of end B is 0.5 m away"),
+    (ON, "{disc: {centre: [5, 0, 0.5], radius: 1, normal: [0, 0, 0]}}", "12:41: line 'rope': ends: the set of end B has an axis without a direction"),
+    (ON, "{box: {centre: [5, 0, 0.5], size: [1, 0, 1]}}", "12:83: 'size': found '0', expected a number in m, greater than 0"),
+    (ON, "{box: {centre: [5, 0, 0.5], size: 1}}", "12:73: 'size': found '1', expected three numbers"),
+    (ON, "{box: {centre: [5, 0, 0.5], size: [1, 1, 1], rotation: {quaternion: [0, 0, 0, 0]}}}", "12:"),
+    (ON, "{ball: {centre: [5, 0, 0], radius: 1}, force: [1, 2]}", "12:84: 'force': found a list of 2, expected three numbers"),
+    (ON, "{ball: {centre: [5, 0, 0], radius: 1}, friction: 0.2}", "12:84: 'on': unknown key 'friction'"),
+    (DRAW, "rope.B: {position: [5, 1, 0.5]}", "15:18: stage 2: rope.B is moved, but it is held to a set, which stays where it is: give it a force"),
+    (DRAW, "rope.B: {move: [0, 1, 0]}", "15:27: 'rope.B': found a move, but the end's position before it is not known"),
+    (DRAW, "rope.B: {release: true}", "15:18: stage 2: rope.B is released, but it is held to a set"),
+    (RAIL, "B: {on: " + ON + ", stored: 1}", "12:"),
+    ("mass: 1", "mass: 1\n    break_at: 1e5", "13:41: line 'rope': ends: the set of end B does not go together with break_at"),
+)
+
+
+def command(*words):
+    done = subprocess.run(words, capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+def write(folder, name, text):
+    path = os.path.join(folder, name)
+    with open(path, "w") as file:
+        file.write(text)
+    return path
+
+
+def solve(folder, text, wanted=(0,)):
+    scene, out = write(folder, "scene.yaml", text), os.path.join(folder, "out")
+    code, said = command(CAPSTAN, "run", scene, "-o", out, "--force")
+    assert code in wanted, said
+    code, said = command(CHECKER, os.path.join(out, "result.nc"), scene, "-v")
+    assert code == 0, said + text
+    return scene, out, Results(os.path.join(out, "result.nc"))
+
+
+def falsify(results, folder, variable, step, index, change):
+    _, kind, is_record, begin = results.variables[variable]
+    data = bytearray(results.data)
+    at = begin + (step*results.record if step is not None else 0) + index*SIZE[kind]
+    value, = struct.unpack_from(">" + CODE[kind], data, at)
+    assert not math.isnan(value), variable
+    struct.pack_into(">" + CODE[kind], data, at, value + change)
+    with open(os.path.join(folder, "copy.nc"), "wb") as file:
+        file.write(data)
+
+
+def post(folder, stiffness):
+    scene, out, results = solve(folder, POST.replace("STIFFNESS", stiffness))
+    assert results.steps == 16
+    for step in range(16):
+        end, force = results.get("rope_position", step)[180:183], results.get("rope_set_reaction", step)
+        assert abs(end[0] - 5) < 1e-12 and abs(end[2] - 0.5) < 1e-12 and -1 - 1e-12 < end[1] < 2 + 1e-12, (step, end)
+        # between the ends of the rail there is no reaction along it
+        assert 1 - abs(end[1] - 0.5)/1.5 < 1e-6 or abs(force[4]) < 1e-5, (step, end, force)
+        assert force[:3] == [0, 0, 0] or tuple(force[:3]) == (0, 0, 0)
+    assert abs(results.get("rope_position", 11)[181] - 2) < 1e-9 and results.get("rope_set_reaction", 11)[4] < -1
+    assert results.get("rope_position", 15)[181] < 1.9
+    with open(os.path.join(out, "history.csv"), newline="") as file:
+        rows = list(csv.reader(file))
+    names, last = rows[0], rows[-1]
+    for axis, name in enumerate("xyz"):
+        column = names.index(f"rope.B.reaction_{name}")
+        assert rows[1][column] == "N" and last[names.index(f"rope.A.reaction_{name}")] == ""
+        assert float(last[column]) == results.get("rope_set_reaction", 15)[3 + axis]
+    with open(os.path.join(out, "summary.json")) as file:
+        end = json.load(file)["steps"][-1]["lines"]["rope"]["B"]
+    assert end["reaction_N"] == list(results.get("rope_set_reaction", 15)[3:]), end
+    for variable, step, index, change in FALSIFIED:
+        falsify(results, out, variable, step, index, change)
+        code, said = command(CHECKER, os.path.join(out, "copy.nc"), scene)
+        assert code != 0, (variable, step, said)
+    for variable, index, change in STATIC_FALSIFIED:
+        falsify(results, out, variable, None, index, change)
+        code, said = command(CHECKER, os.path.join(out, "copy.nc"), scene)
+        assert code != 0, (variable, said)
+    return len(FALSIFIED) + len(STATIC_FALSIFIED)
+
+
+def resumed(folder):
+    """Stopped after some steps and resumed: the same numbers."""
+    scene = write(folder, "long.yaml", POST.replace("STIFFNESS", "20000").replace("90, 0]}, steps: 6", "90, 0]}, steps: 150"))
+    whole, parts = os.path.join(folder, "whole"), os.path.join(folder, "parts")
+    code, said = command(CAPSTAN, "run", scene, "-o", whole)
+    assert code == 0, said
+    run = subprocess.Popen([CAPSTAN, "run", scene, "-q", "-o", parts], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    journal = os.path.join(parts, ".journal")
+    while run.poll() is None and not (os.path.exists(journal) and os.path.getsize(journal) > 400000):
+        time.sleep(0.001)
+    assert run.poll() is None, "the run was over before it could be killed"
+    run.kill()
+    run.wait()
+    code, said = command(CAPSTAN, "run", scene, "-o", parts, "--resume")
+    assert code == 0, said
+    one, other = Results(os.path.join(whole, "result.nc")), Results(os.path.join(parts, "result.nc"))
+    assert one.steps == other.steps == 160
+    for step in range(160):
+        for name in ("rope_position", "rope_tension", "rope_set_reaction", "rope_ledger_ends"):
+            assert one.get(name, step) == other.get(name, step), (name, step)
+
+
+def vector(numbers):
+    return "[" + ", ".join(repr(float(x)) for x in numbers) + "]"
+
+
+def random_set(rng, place, size, bounded):
+    """A set of any kind that has the place in it, and its keys."""
+    def some(scale):
+        return [rng.uniform(-1, 1)*scale for _ in range(3)]
+    kind, axis = rng.choice(["rail", "ball", "disc", "box"] if bounded else ["rail", "line", "half_space", "ball", "disc", "box"]), some(1)
+    length = math.hypot(*axis)
+    if kind == "line":
+        return f"rail: {{from: {vector(place)}, along: {vector(axis)}}}"
+    if kind == "rail":
+        back, on = rng.uniform(0, 1)*size/length, rng.uniform(0.1, 1)*size/length
+        return (f"rail: {{from: [{', '.join(repr(x - back*a) for x, a in zip(place, axis))}], "
+                f"to: [{', '.join(repr(x + on*a) for x, a in zip(place, axis))}]}}")
+    if kind == "half_space":
+        gap = rng.choice([0, rng.uniform(0, 1)*size])/length
+        return f"half_space: {{point: [{', '.join(repr(x - gap*a) for x, a in zip(place, axis))}], normal: [{', '.join(map(repr, axis))}]}}"
+    if kind == "ball":
+        off = some(0.5*size)
+        return f"ball: {{centre: {vector(x + d for x, d in zip(place, off))}, radius: {math.hypot(*off)*rng.uniform(1.0001, 2)!r}}}"
+    if kind == "disc":
+        return f"disc: {{centre: {vector(place)}, radius: {rng.uniform(0.05, 0.6)*size!r}, normal: {vector(axis)}}}"
+    off = some(0.2*size)
+    return (f"box: {{centre: {vector(x + d for x, d in zip(place, off))}, size: {vector([rng.uniform(0.8, 1.5)*size for _ in range(3)])}"
+            + (f", rotation: {{roll_pitch_yaw: {vector(some(90))}}}" if rng.random() < 0.5 else "") + "}")
+
+
+def random_scene(rng):
+    """One line with a set of any kind at either end or at both, of which one has bounds so that there is an equilibrium, the other end held or loaded; on nothing, a bed or a slope, or over a
+    post; inextensible or not, far from the origin or not, with a clump or a buoy; with forces on the ends that grow, turn and end, and moves
+    of what is held. Of 16 steps in all."""
+    elements, length = rng.choice([6, 17, 40]), rng.choice([2.0, 30.0, 400.0])
+    far = rng.choice([0, 0, 1e5])
+    ends = rng.choice(["A", "B", "B", "AB"])
+    stiffness = rng.choice([".inf", "%g" % (10**rng.uniform(2, 6)*length)])
+    kind = rng.choice(["hang", "hang", "bed", "post", "slope"])
+    span = length*rng.uniform(0.4, 0.8)
+    sag = math.sqrt(length**2 - span**2)/2
+    start = f"{{polyline: [[{far}, 0, 0], [{far + span/2!r}, 0, {-sag!r}], [{far + span!r}, 0, 0]]}}"
+    if kind in ("bed", "slope"):
+        start, span = f"{{straight: {{from: [{far}, 0, 0], to: [{far + length!r}, 0, 0]}}}}", length
+    if kind == "post":  # where it is inextensible, a set may come to be out of reach round the post, for which there is no proof
+        stiffness = "%g" % (10**rng.uniform(2, 4)*length)
+        start, span = f"{{straight: {{from: [{far}, 0, 0], to: [{far + length!r}, 0, 0]}}}}", length
+    obstacle = {"hang": "", "bed": f"bed: {{plane: {{point: [{far}, 0, 0]}}, friction: {rng.uniform(0, 1):.3f}}}",
+                "slope": f"bed: {{plane: {{point: [{far}, 0, 0], normal: [0, 0.2, 1]}}, friction: {{axial: 0.3, lateral: 0.7}}}}",
+                "post": f"post: {{cylinder: {{point: [{far + length/2!r}, 0, {-0.1*length!r}], radius: {0.1*length!r}}}, friction: 0.3}}"}[kind]
+    place = {"A": [far, 0, 0], "B": [far + span, 0, 0]}
+    words = []
+    for end in "AB":
+        force = [rng.uniform(-1, 1)*4*length for _ in range(3)]
+        if kind in ("bed", "slope"):
+            force[2] = abs(force[2])
+        if end in ends:
+            words.append(f"{end}: {{on: {{{random_set(rng, place[end], 0.3*length, end + ends == 'AAB')}, force: {vector(force) if rng.random() < 0.5 else [0, 0, 0]}}}}}")
+        else:
+            words.append(f"{end}: held")
+    hung = f"\n    point_weights: [{{at: {length/elements*(elements//2)!r}, weight: {rng.choice([-3, 6])*length}}}]" if rng.random() < 0.3 else ""
+    history = []
+    for steps in (5, 4, 7):
+        entry = [f"steps: {steps}"]
+        for end in "AB":
+            if end in ends:
+                push = [rng.uniform(-1, 1)*(3 if kind == "post" else 8)*length for _ in range(3)]
+                if kind in ("bed", "slope"):
+                    push[2] = abs(push[2])
+                entry.append(f"rope.{end}: {{force: {vector(push if rng.random() < 0.8 else [0, 0, 0])}}}")
+            elif rng.random() < 0.4:
+                move = [rng.uniform(-0.05, 0.05)*length for _ in range(3)]
+                if kind in ("bed", "slope", "post"):
+                    move[2] = abs(move[2]) + (0.3*abs(move[1]) if kind == "slope" else 0)
+                entry.append(f"rope.{end}: {{move: {vector(move)}}}")
+        history.append("  - {" + ", ".join(entry) + "}")
+    return (f"capstan: 1\nobstacles: {{{obstacle}}}\nlines:\n  rope:\n    length: {length!r}\n    elements: {elements}\n    weight: 10{hung}\n"
+            f"    stiffness: {stiffness}\n    start: {start}\n    ends: {{{', '.join(words)}}}\nhistory:\n" + "\n".join(history) + "\n")
+
+
+def histories(folder, first, last):
+    """At least 99 % of the steps are certified or proved to have no equilibrium, and the checker finds nothing in any."""
+    steps = certified = 0
+    refused = []
+    for seed in range(first, last):
+        text = random_scene(random.Random(seed))
+        scene, out = write(folder, "scene.yaml", text), os.path.join(folder, "out")
+        code, said = command(CAPSTAN, "run", scene, "-o", out, "--force")
+        if code == 3:
+            refused.append((seed, said))
+            continue
+        assert code in (0, 1, 5), f"seed {seed}: {code} {said}"
+        code, said = command(CHECKER, os.path.join(out, "result.nc"), scene, "-v")
+        assert "refuted 0" in said and "against the scene: 0" in said or code == 0, f"seed {seed}: {said}{text}"
+        with open(os.path.join(out, "summary.json")) as file:
+            outcomes = [step["outcome"] for step in json.load(file)["steps"]]
+        good = sum(outcome in ("solved", "taut", "unbounded", "infeasible", "slides") for outcome in outcomes)
+        if good < len(outcomes):
+            print(f"seed {seed}: {len(outcomes) - good} of {len(outcomes)} steps not certified", outcomes[-1])
+        steps, certified = steps + len(outcomes), certified + good
+    assert not refused, refused[0]
+    assert certified >= 0.99*steps, (certified, steps)
+    return last - first, certified, steps
+
+
+def mistakes(folder):
+    text = POST.replace("STIFFNESS", "20000")
+    for good, wrong, words in BAD:
+        assert good in text, good
+        scene = write(folder, "bad.yaml", text.replace(good, wrong))
+        code, said = command(CAPSTAN, "check", scene)
+        assert code == 3 and said.startswith(f"capstan: {scene}:{words}"), (wrong, said)
+    # the method of 1990 has no sets
+    scene = write(folder, "scene.yaml", text)
+    code, said = command(CAPSTAN, "run", scene, "--method", "regularized", "-o", os.path.join(folder, "no"))
+    assert code != 0 and not os.path.exists(os.path.join(folder, "no", "summary.json")), said
+    return len(BAD)
+
+
+def main():
+    numbers = [int(word) for word in sys.argv[3:5]]
+    with tempfile.TemporaryDirectory() as folder:
+        if numbers:
+            print("%d random histories, %d of %d steps certified or proved to have no equilibrium" % histories(folder, *numbers))
+            return 0
+        wrong = mistakes(folder)
+        copies = sum(post(folder, stiffness) for stiffness in ("20000", ".inf"))
+        resumed(folder)
+        ran = histories(folder, 0, SEEDS)
+    print(f"{ran[0]} random histories with {ran[1]} of {ran[2]} steps certified; {copies} falsified copies and {wrong} mistakes refused")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
