@@ -151,6 +151,12 @@ class LineState:
             return Record(lib.cps_evolution_winch_report(handle, self._index, "AB".index(end)), arrays={"length": (e,)})
         return self._evolution._ask(asked)
 
+    def constraint(self, end: str = "B") -> Record:
+        """The set that an end is in (CpsConstraintReport of constraint.h): its reaction; `is_there` says whether there is one."""
+        if end not in ("A", "B"):
+            raise ArgumentError(f"end: found {end!r}, expected 'A' or 'B'")
+        return self._evolution._ask(lambda handle: Record(lib.cps_evolution_constraint_report(handle, self._index, "AB".index(end))))
+
     @property
     def two_stiffnesses(self) -> Record:
         """Static and dynamic stiffness of the line (CpsTwoStiffnesses of two_stiffnesses.h)."""

@@ -121,7 +121,7 @@ def check_validation(schema, folder):
     validator = jsonschema.Draft202012Validator(schema)
     for name in EXAMPLES:
         with open(os.path.join(folder, name)) as f:
-            scene = yaml.safe_load(f)
+            scene = yaml.load(f, core_loader())
         scene = with_numbers(scene)
         errors = [e.message for e in validator.iter_errors(scene)]
         assert not errors, (name, errors)

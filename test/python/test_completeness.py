@@ -166,6 +166,18 @@ def test_moves_in_time():
     assert evolution["rope"].winch("B").length is None
 
 
+def test_the_reaction_of_a_rail(root):
+    evolution = capstan.Evolution(root / "examples/bollard-and-rail.yaml")
+    evolution.step()
+    (line,) = evolution.lines.values()
+    found = line.constraint("B")
+    assert found.is_there and found.is_active and not line.constraint("A").is_there
+    # the rail is along x, and has no friction: what it takes is across, and balances the line
+    assert abs(found.reaction[0]) < 1e-9 * np.linalg.norm(found.reaction)
+    with pytest.raises(capstan.ArgumentError, match="expected 'A' or 'B'"):
+        line.constraint("C")
+
+
 def test_winches_partings_and_two_stiffnesses(root):
     evolution = capstan.Evolution(root / "examples/winched-mooring.yaml")
     stored = []

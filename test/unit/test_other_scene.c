@@ -147,6 +147,22 @@ static const char MESH_SCENE[] =
     "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
 
 /* Shapes, below and round the line. */
+#define IN_A_SET(name, y, set)                                                            \
+    "  " name                                                                             \
+    ": {length: 6, elements: 4, mass: 1, stiffness: 1e4, start: {straight: {from: [0, " y \
+    ", 0], to: [6, " y ", 0]}}, ends: {A: held, B: {on: {" set "}}}}\n"
+static const char SETS_SCENE[] =
+    "capstan: 1\n"
+    "lines:\n" IN_A_SET("a", "0", "rail: {from: [6, 0, 0], to: [6, 3, 0]}, force: [1, 0, 0]")
+        IN_A_SET("b", "10", "rail: {from: [6, 10, 0], along: [0, 1, 0]}") IN_A_SET(
+            "c", "20", "half_space: {point: [6, 20, 0], normal: [-1, 0, 0]}, force: [9, 0, 0]")
+            IN_A_SET("d", "30", "ball: {centre: [6, 30, 0], radius: 1}")
+                IN_A_SET("e", "40", "disc: {centre: [6, 40, 0], radius: 1, normal: [0, 0, 2]}")
+                    IN_A_SET("f", "50",
+                             "box: {centre: [6, 50, 0], size: [1, 2, 3], rotation: {quaternion: "
+                             "[1, 0, 0, 0]}}") "history:\n"
+                                               "  - {name: pull, a.A: {move: [0, 0, 0.1]}}\n";
+
 static const char SHAPES_SCENE[] =
     "capstan: 1\n"
     "obstacles:\n"
@@ -399,6 +415,26 @@ static const struct Change MESH_CHANGE[] = {
     {"two_sided", "two_sided: false", "two_sided: true"},
 };
 
+static const struct Change SET_CHANGE[] = {
+    {"on", "{on: {rail: {from: [6, 0, 0], to: [6, 3, 0]}, force: [1, 0, 0]}}",
+     "{force: [1, 0, 0]}"},
+    {"rail", "rail: {from: [6, 0, 0], to: [6, 3, 0]}", "ball: {centre: [6, 0, 0], radius: 1}"},
+    {"from", "from: [6, 0, 0], to", "from: [6, -1, 0], to"},
+    {"to", "to: [6, 3, 0]", "to: [6, 4, 0]"},
+    {"force", "to: [6, 3, 0]}, force: [1, 0, 0]", "to: [6, 3, 0]}, force: [2, 0, 0]"},
+    {"along", "along: [0, 1, 0]", "along: [0, 1, 0.1]"},
+    {"half_space", "half_space: {point: [6, 20, 0], normal: [-1, 0, 0]}",
+     "ball: {centre: [6, 20, 0], radius: 1}"},
+    {"normal", "normal: [-1, 0, 0]", "normal: [-1, 0.1, 0]"},
+    {"point", "half_space: {point: [6, 20, 0]", "half_space: {point: [6.1, 20, 0]"},
+    {"ball", "ball: {centre: [6, 30, 0], radius: 1}", "disc: {centre: [6, 30, 0], radius: 1}"},
+    {"centre", "ball: {centre: [6, 30, 0]", "ball: {centre: [6, 30, 0.1]"},
+    {"radius", "ball: {centre: [6, 30, 0], radius: 1}", "ball: {centre: [6, 30, 0], radius: 2}"},
+    {"disc", "normal: [0, 0, 2]", "normal: [0, 1, 2]"},
+    {"box", "size: [1, 2, 3]", "size: [1, 2, 4]"},
+    {"rotation", "quaternion: [1, 0, 0, 0]", "quaternion: [1, 0.1, 0, 0]"},
+};
+
 static const struct Change SHAPE_CHANGE[] = {
     {"capsule",
      "capsule: {centre: [0, 0, -9], axis: [0, 1, 0], length: 3, radius: 1, inside: false}",
@@ -448,6 +484,7 @@ enum {
     GROUND_CHANGES = sizeof GROUND_CHANGE / sizeof *GROUND_CHANGE,
     MESH_CHANGES = sizeof MESH_CHANGE / sizeof *MESH_CHANGE,
     SHAPE_CHANGES = sizeof SHAPE_CHANGE / sizeof *SHAPE_CHANGE,
+    SET_CHANGES = sizeof SET_CHANGE / sizeof *SET_CHANGE,
     MOTION_CHANGES = sizeof MOTION_CHANGE / sizeof *MOTION_CHANGE,
     LEFT = sizeof LEFT_OUT / sizeof *LEFT_OUT
 };
@@ -465,6 +502,7 @@ static const Suite ALL = {SCENE, CHANGE, CHANGES},
                    GROUND = {GROUND_SCENE, GROUND_CHANGE, GROUND_CHANGES},
                    MESH = {MESH_SCENE, MESH_CHANGE, MESH_CHANGES},
                    SHAPES = {SHAPES_SCENE, SHAPE_CHANGE, SHAPE_CHANGES},
+                   SETS = {SETS_SCENE, SET_CHANGE, SET_CHANGES},
                    MOTION = {MOTION_SCENE, MOTION_CHANGE, MOTION_CHANGES};
 
 static CpsEvolution *evolution_of(const char *text) {
@@ -579,6 +617,12 @@ static void every_change_of_shapes_makes_another_scene(void **state) {
     expect_refused(&SHAPES, 1, sizeof SHAPES_SCENE);
 }
 
+static void every_change_of_sets_makes_another_scene(void **state) {
+    (void)state;
+    expect_refused(&SETS, 0, place_of(SETS_SCENE, "{name: pull"));
+    expect_refused(&SETS, 1, sizeof SETS_SCENE);
+}
+
 static void every_change_of_motions_makes_another_scene(void **state) {
     (void)state;
     expect_refused(&MOTION, 0, place_of(MOTION_SCENE, "{name: pull"));
@@ -595,6 +639,7 @@ static bool is_tried(const char *key, bool found[CHANGES]) {
     for (int i = 0; i < GROUND_CHANGES; i++)
         tried = tried || strcmp(GROUND_CHANGE[i].key, key) == 0;
     for (int i = 0; i < MESH_CHANGES; i++) tried = tried || strcmp(MESH_CHANGE[i].key, key) == 0;
+    for (int i = 0; i < SET_CHANGES; i++) tried = tried || strcmp(SET_CHANGE[i].key, key) == 0;
     for (int i = 0; i < SHAPE_CHANGES; i++) tried = tried || strcmp(SHAPE_CHANGE[i].key, key) == 0;
     for (int i = 0; i < MOTION_CHANGES; i++)
         tried = tried || strcmp(MOTION_CHANGE[i].key, key) == 0;
@@ -666,6 +711,7 @@ int main(void) {
                                        cmocka_unit_test(every_change_of_bodies_makes_another_scene),
                                        cmocka_unit_test(every_change_of_files_makes_another_scene),
                                        cmocka_unit_test(every_change_of_shapes_makes_another_scene),
+                                       cmocka_unit_test(every_change_of_sets_makes_another_scene),
                                        cmocka_unit_test(
                                            every_change_of_motions_makes_another_scene),
                                        cmocka_unit_test(flags_of_a_changed_state_are_flags),
