@@ -231,8 +231,8 @@ static void print_figures(int kind, double value, double of) {
     else if (kind == WARNING_EMERGED)
         fprintf(stderr,
                 "the buoy at %.6g m is %.4g m above the surface of the water, and lifts as if it "
-                "were below it: end the line there at a free point with its mass and volume, which "
-                "floats",
+                "were below it: give it 'floats: true', or end the line there at a free point with "
+                "its mass and volume",
                 of, value);
     else if (kind == WARNING_DRAGGED)
         fprintf(stderr, "the anchor drags: by %.4g m in this step, by %.4g m in all", of, value);

@@ -100,6 +100,8 @@ SENTENCES = [
     ("past a torus the least of at most {} parts is taken", number("geometry/shape_rounded.c", "MOST_PARTS")),
     ("it ends when the sum of the changes is below {} of the largest force", number("cable/flow.h", "CPSI_FOLLOWED")),
     ("are as forces, at most {}; within that", number("chain/active_set.c", "MOST_NOISE")),
+    ("it is held by a stiffness of {} that pulls it to where", number("chain/active_system.c", "PULLING")),
+    ("du + rho + e dz with e = {} in", number("chain/constraint.c", "YIELD")),
     ("an excess of less than {} of these releases nothing", number("chain/active_status.c", "SIGNIFICANT")),
     ("of all equations are rounding, {} eps (1 + |u|/l)", number("chain/active_set.c", "ROUNDINGS")),
     ("between nodes at rest is known to {} eps/l only", number("chain/active_set.c", "COORDINATE_ROUNDINGS")),
@@ -116,6 +118,6 @@ SENTENCES = [
     ("and {} eps of all terms are added", number("drive/certificate.c", "ROUNDING")),
 ]
 # data of the papers, exponents of formulas, and what double precision is
-GIVEN = ["The curvature of rounds (2.4)", "said of round obstacles in 2.7", "across the middle (2.7)", "the term R K of 2.4", "less (length/R)^2/24 of it", "up to 29 % shorter", "below (length/r)^2/18", "A value is a sum of 16 points", "is counted beside it (2.9)", "Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a path of 350 degrees is not taken for one of -10",
+GIVEN = ["The curvature of rounds (2.4)", "said of round obstacles in 2.7", "across the middle (2.7)", "**Contacts of elements** (2.7) are like", "the term R K of 2.4", "less (length/R)^2/24 of it", "up to 29 % shorter", "below (length/r)^2/18", "A value is a sum of 16 points", "is counted beside it (2.9)", "Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a path of 350 degrees is not taken for one of -10",
          "d^3/12 and more", "positions and reactions (1e-16)", "lie 1e-7 beside", "lemma 9.6 for 7.6", "\"A = 0.25 N\"",
          "slack on 0.6 of its length", "120 degrees apart, and three lines of 0.9 to one point", "and lack 0.3 m all the same"]

@@ -208,8 +208,9 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     const double size = vec3_norm(gravity);
     vec3_store(line->weight, vec3_scale(size > 0 ? cpsi_mean_weight(def) / size : 0, gravity));
     memcpy(line->weight_before, line->weight, sizeof line->weight);
+    /* both are one array but of a line with two stiffnesses */
     for (int e = 0; e < def->element_count; e++)
-        line->element_length[e] =
+        line->element_length[e] = line->natural_length[e] =
             def->element_length ? def->element_length[e] : def->length / def->element_count;
     cpsi_line_set_arc_length(line);
     fill_friction_factor(line, def);

@@ -405,8 +405,6 @@ void cpsi_sections_fill(CpsiLine *line, const CpsLine *def) {
     fill_elements(line, def, weight);
     if (!line->has_sections) return;
     if (line->two.exists) {
-        memcpy(line->natural_length, line->element_length,
-               ((size_t)line->n - 1) * sizeof *line->natural_length);
         fill_elasticity(line, def, false);
         fill_elasticity(line, def, true);
         cpsi_line_set_stiffness(line);

@@ -9,7 +9,7 @@ static const char SCENE[] =
     "capstan: 1\ngravity: [0, 0, -10]\n"
     "obstacles: {bed: {plane: {point: [0, 0, 0]}, friction: 0.4}}\n"
     "types:\n"
-    "  chain: {weight: 90, stiffness: 2e6}\n"
+    "  chain: {weight: 90, stiffness: 2e6, friction: 0.7}\n"
     "  rope: {weight: 5, stiffness: {strain: [0, 0.01, 0.03], tension: [0, 1000, 5000]},"
     " dynamic_stiffness: {strain: [0, 0.002, 0.01], tension: [0, 500, 4000]}}\n"
     "lines:\n"
@@ -62,7 +62,7 @@ static const OtherScene OTHER[] = {
     {"tension: [0, 500, 4000]", "tension: [0, 501, 4000]"},
     {", dynamic_stiffness: {strain: [0, 0.002, 0.01], tension: [0, 500, 4000]}}\n",
      ", dynamic_stiffness: 6e5}\n"},
-    {"stiffness: 2e6}", "stiffness: 2e6, dynamic_stiffness: 3e6}"},
+    {"stiffness: 2e6,", "stiffness: 2e6, dynamic_stiffness: 3e6,"},
     {"name: surge,", "name: surge, stiffness: static,"},
     {"name: slow, stiffness: static,", "name: slow,"},
 };

@@ -32,6 +32,8 @@ INPUT, IO, LIMIT = 3, 4, 6
 START = "{straight: {from: [0, 0, 0], to: [10, 0, 0]}}"
 ENDS = "{A: held, B: free}"
 
+SURFACE, FLOAT = "water_density: 1000\nwater_surface: 5\n", "    point_weights: [{at: 4, mass: 1, volume: 0.1, floats: true}]\n"
+
 # a line in one piece, and made of sections
 PLAIN = "lines:\n  cable:\n    length: 10\n    elements: 4\n    mass: 1\n    stiffness: 1e6\n"
 
@@ -198,6 +200,13 @@ CHANGES = [
     ("ground that gives under points", "obstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5}}",
      "points: {knot: {free: [0, 0, 1]}}\nobstacles: {bed: {plane: {normal: [0, 0, 1]}, friction: 0.5, stiffness: 1e4}}", INPUT,
      "3:62: obstacle 'bed': stiffness: it gives, but there are points or bodies, of which no bearing area is known"),
+    ("a float without volume", PLAIN, made(water=SURFACE, more="    point_weights: [{at: 4, mass: 1, floats: true}]\n"), INPUT, "11:38: 'floats': it goes with 'volume', which is not given"),
+    ("a float of no volume", PLAIN, made(water=SURFACE, more="    point_weights: [{at: 4, mass: 1, volume: 0, floats: true}]\n"), INPUT, "11:49: 'floats': it displaces no water: give a 'volume'"),
+    ("a float in words", PLAIN, made(water=SURFACE, more="    point_weights: [{at: 4, mass: 1, volume: 1, floats: high}]\n"), INPUT, "11:49: 'floats': found 'high', expected true or false"),
+    ("a float without a surface", PLAIN, made(water="water_density: 1000\n", more=FLOAT), INPUT, "10:51: 'floats': the scene has no 'water_surface': give the height of the surface at which it floats"),
+    ("a float between nodes", PLAIN, made(water=SURFACE, more=FLOAT.replace("at: 4", "at: 5")), INPUT, "11:21: line 'cable': point_weights: number 1 is at 5 m, expected a node between the ends"),
+    ("a float beside springs", PLAIN, made(water=SURFACE, more=FLOAT + "    springs: [{stiffness: [1, 1, 1]}]\n"), INPUT, "12:5: 'springs': found springs to the ground, which a line with floats cannot have"),
+    ("a float beside forces", PLAIN, made(water=SURFACE, more=FLOAT + "    loads: [{force: [1, 0, 0]}]\n"), INPUT, "12:5: 'loads': found given forces, which a line with floats cannot have"),
     # springs, loads, drag and current
     ("springs that are no list", "elements: 4", "springs: {stiffness: [1, 1, 1]}", INPUT, "6:5: 'springs': found a mapping, expected a list"),
     ("a spring without stiffness", "elements: 4", "springs: [{from: 0, to: 1}]", INPUT, "6:15: spring: 'stiffness' is missing"),

@@ -44,4 +44,12 @@ CpsStatus cpsi_history_build(const CpsiHistoryBuild *b, const CpsiList *history)
 CpsStatus cpsi_scene_find_lengths(const CpsiDocument *d, const CpsiSceneValues *values,
                                   CpsiPool *pool, CpsScene *scene);
 
+/* ---- floats: float_split.c ---- */
+
+/* Divide the lines with floats at them, after what is above: the parts of a line `leg` are `leg-1`,
+ * `leg-2`, .., the points at which they meet `leg-float-1`, .. . The first part is in the place of
+ * the line, the others follow after all lines. */
+CpsStatus cpsi_scene_split_floats(const CpsiDocument *d, const CpsiSceneValues *values,
+                                  CpsiPool *pool, CpsScene *scene);
+
 #endif

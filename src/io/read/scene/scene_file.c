@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Read a scene file: bytes -> tree (yaml.h) -> values by the table of keys (key_reader.h) ->
- * structs (scene_build.h) -> cps_scene_check. */
+ * structs (scene_build.h) -> cps_scene_check; then lengths for pretensions and floats. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -50,6 +50,7 @@ static CpsStatus build(const CpsiDocument *d, void *out) {
     if (status == CPS_OK) status = check(d, &file->scene);
     const CpsLine *as_written = file->scene.line;
     if (status == CPS_OK) status = cpsi_scene_find_lengths(d, &values, &file->pool, &file->scene);
+    if (status == CPS_OK) status = cpsi_scene_split_floats(d, &values, &file->pool, &file->scene);
     if (status != CPS_OK || file->scene.line == as_written) return status;
     return check(d, &file->scene);
 }

@@ -529,6 +529,9 @@ static const CpsiKey POINT_WEIGHT_KEYS[] = {
      .help = "mass that moves with the node in time; by default its mass, 0 of a weight"},
     {"volume", OPTIONAL, NUMBER(PointWeight, volume), NOT_NEGATIVE, .unit = "m3", .with = "mass",
      .fallback = "0", .help = "of the water it displaces"},
+    {"floats", OPTIONAL, FLAG(PointWeight, floats), .with = "volume",
+     .help = "a buoy that floats at the scene's water_surface where it reaches it: the line is "
+             "taken as lines that meet there at a free point"},
 };
 
 static void begin_point_weight(void *values) {

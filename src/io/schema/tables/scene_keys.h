@@ -152,6 +152,7 @@ typedef struct CpsiSectionValues {
 typedef struct CpsiPointWeightValues {
     const CpsiYaml *node;
     double at, mass, volume, weight, inertia; /* mass and inertia: NaN: not given */
+    bool floats;
 } CpsiPointWeightValues;
 
 typedef struct CpsiStraightValues {
