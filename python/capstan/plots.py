@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple, Un
 import numpy as np
 
 from ._errors import ArgumentError
+from ._native import lib
+from ._surfaces import surfaces
 from .evolution import Evolution
 from .results import Results
 from .sets import Set
@@ -95,10 +97,20 @@ def elevation(source: Source, step: int = -1, ax: Optional["Axes"] = None, tensi
     return ax
 
 
-def view_3d(source: Source, step: int = -1, ax: Optional["Axes"] = None) -> "Axes":
-    """The lines in space."""
+def view_3d(source: Source, step: int = -1, ax: Optional["Axes"] = None, obstacles: bool = True) -> "Axes":
+    """The lines in space, and the obstacles; what has no end ends a little beyond the lines."""
     ax = _axes(ax, projection="3d")
     _shape(source, (0, 1, 2), ax, step, False)
+    if obstacles:
+        places = np.concatenate([data["position"] for _, data in _lines(source, step)])
+        evolution = source._replay if isinstance(source, Results) else source
+        for _, surface in surfaces(evolution, places.min(0), places.max(0)):
+            look: Dict[str, Any] = {"color": "tan", "alpha": 0.35, "linewidth": 0}
+            x = np.moveaxis(surface.point, -1, 0)
+            if surface.triangle is None:
+                ax.plot_surface(*x, rstride=1, cstride=1, **look)  # type: ignore[attr-defined]
+            else:
+                ax.plot_trisurf(*x[:2], surface.triangle, x[2], **look)  # type: ignore[attr-defined]
     ax.set_aspect("equal")
     return ax
 
@@ -131,10 +143,20 @@ def friction_use(source: Source, step: int = -1, ax: Optional["Axes"] = None, li
     return ax
 
 
+def _start(results: Results, line: str, end: str, found: np.ndarray) -> np.ndarray:
+    """Where an end begins: before the first step, or, where statics finds the start, after it."""
+    evolution = results._replay.fresh()
+    state = evolution[line]
+    if evolution._c_scene.line[list(evolution.lines).index(line)].start.kind == lib.CPS_START_STATIC:
+        return found
+    return state.position[0 if end == "A" else -1] + state.origin
+
+
 def hysteresis(results: Results, line: str, end: str = "B", direction: Any = None, ax: Optional["Axes"] = None) -> "Axes":
-    """The force at an end over its displacement along a direction, by default that of its largest displacement."""
+    """The force at an end over its displacement from where it began along a direction, by default that of its largest
+    displacement."""
     x = results[line].end(end, "position")
-    x = x - x[0]
+    x = x - _start(results, line, end, x[0])
     if direction is None:
         far = x[np.argmax(np.linalg.norm(x, axis=1))]
         direction = far if np.linalg.norm(far) > 0 else [1.0, 0, 0]

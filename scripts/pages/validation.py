@@ -9,9 +9,11 @@ import spar
 
 
 def warm_steps(program):
-    """What the test prints of the two cases of sway and of the examples, but for those without a history or with points."""
-    bench = [os.path.join(program.root, "bench", name) for name in ("oc3-sway.yaml", "oc3-sway-set.yaml")]
-    scenes = [*bench, *sorted(glob.glob(os.path.join(program.root, "examples", "*.yaml")))]
+    """What the test prints of the cases of sway, a corner, elements round a post and the examples, but for those without a history or
+    with points."""
+    names = ("bench/oc3-sway.yaml", "bench/oc3-sway-set.yaml", "test/property/sway-on-cut-discs.yaml", "test/property/rope-in-a-groove.yaml",
+             "test/property/line-round-a-thin-post.yaml")
+    scenes = [*[os.path.join(program.root, *name.split("/")) for name in names], *sorted(glob.glob(os.path.join(program.root, "examples", "*.yaml")))]
     command = [os.path.join(program.build, "test", "property", "warm_steps"), "--table", *scenes]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
 

@@ -144,9 +144,7 @@ static void store(const BoundarySearch *search, const Arc *arc, CpsiShapePiece *
     memcpy(piece->centre, is_corner ? piece->at[0] : arc->centre, sizeof piece->centre);
 }
 
-/* The normals of arcs beside an edge are those of the edge, and the distance of the nearest piece
- * from 0. */
-static void finish(CpsiFrictionShape *shape) {
+void cpsi_friction_boundary_finish(CpsiFrictionShape *shape) {
     shape->inner = INFINITY;
     for (int i = 0; i < shape->count; i++) {
         CpsiShapePiece *here = &shape->piece[i], *next = &shape->piece[(i + 1) % shape->count];
@@ -182,5 +180,5 @@ void cpsi_friction_boundary_find(const CpsSet *closed, double reach, CpsiFrictio
     if (search.failed) return;
     for (int i = 0; i < search.count; i++) store(&search, &search.arc[i], &shape->piece[i]);
     shape->count = search.count;
-    finish(shape);
+    cpsi_friction_boundary_finish(shape);
 }

@@ -10,4 +10,8 @@
  * than `reach`. Its count is 0 where the boundary has other pieces, or too many, or no inside. */
 void cpsi_friction_boundary_find(const CpsSet *closed, double reach, CpsiFrictionShape *shape);
 
+/* The normals of arcs beside an edge become those of the edge, and `inner` the distance of the
+ * nearest piece from 0. */
+void cpsi_friction_boundary_finish(CpsiFrictionShape *shape);
+
 #endif

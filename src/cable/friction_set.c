@@ -7,16 +7,20 @@
  * conic program finds.
  *
  * The support function is a formula where the expression has one, and for polygons however they are
- * written. For the other sets, intersections with round parts, it is a small conic program; the
- * last answer is kept, since the certificate asks twice for the same slip. */
+ * written. The boundary of an intersection is put together of those of its parts
+ * (boundary_intersection.h), and gives its support function. For the other sets, intersections with
+ * ellipses and sums of intersections, it is a small conic program; the last answers are kept, since
+ * the slip of a node is asked for by the certificate, by the state of the node, and after them. */
 #include "cable/friction_set.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arena.h"
 #include "base/status.h"
+#include "cable/boundary_intersection.h"
 #include "cable/friction_boundary.h"
 #include "conic/dense_program.h"
 #include "ipm/cones.h"
@@ -31,6 +35,8 @@ static const double ACCEPT = 1e-9;
 static const double LEAST_MARGIN = 1e-9;
 /* Limit of the rows of the conic form: every touching node stores a matrix of them. */
 enum { MOST_ROWS = 128, MAX_CENTERING = 200 };
+/* Answers of small programs that are kept: about as many as a line has nodes in contact. */
+enum { KEPT = 1024 };
 /* The support function of a polygon and that of its corners differ by less, per reach: a few
  * roundings of the small program. */
 static const double SAME_POLYGON = 1e-14;
@@ -41,7 +47,7 @@ struct CpsiFrictionSet {
     CpsiArena arena;
     CpsSet *closed; /* the set, where its support function is a formula; else NULL */
     double *centre, *cost;
-    double *last; /* (3) u and phi(u) of the last small program */
+    double (*kept)[3]; /* (KEPT) u and phi(u) of small programs, by the bits of u */
     CpsiFrictionShape boundary;
     CpsiConicProgram *program;
 };
@@ -82,7 +88,7 @@ static void layout(CpsiFrictionSet *set) {
     const CpsiConicForm *form = set->form;
     CPSI_PLACE(&set->arena, set->centre, form->unknowns);
     CPSI_PLACE(&set->arena, set->cost, form->unknowns);
-    CPSI_PLACE(&set->arena, set->last, 3);
+    CPSI_PLACE(&set->arena, set->kept, KEPT);
     set->program =
         cpsi_conic_layout(&set->arena, form->unknowns, form->rows, form->cones, form->largest_cone);
 }
@@ -292,6 +298,116 @@ static CpsStatus find_closed(const CpsSet *of, CpsiFrictionSet *set, CpsError *e
     return cps_set_hull_of_points(2, count, corner, &set->closed, err);
 }
 
+/* The largest part of an intersection with flat sides, in a box of this many reaches. */
+static const double BOX = 2;
+/* Boundary and small program agree about the support function up to this, per reach. */
+static const double SAME_SUPPORT = 1e-9;
+
+/* The parts of an intersection: bounded ones with a support function in closed form, and flat ones.
+ */
+typedef struct Parts {
+    int round, flat;
+    const CpsSet *round_part[MOST_ROWS], *flat_part[MOST_ROWS + 1];
+} Parts;
+
+/* Is the set, in its conic form, one of half-lines alone? */
+static bool is_flat(const CpsSet *set) {
+    CpsiConicForm *form = NULL;
+    CpsError unused;
+    if (cpsi_conic_form_make(set, 1, &form, &unused)) return false;
+    bool flat = true;
+    for (int k = 0; k < form->cones; k++) flat = flat && form->dim[k] == 1;
+    cpsi_conic_form_free(form);
+    return flat;
+}
+
+/* Sort the parts of an intersection, and of intersections among them. False where there is another
+ * one. */
+static bool sort_parts(const CpsSet *of, Parts *parts) {
+    for (int k = 0; k < of->count; k++) {
+        const CpsSet *part = of->part[k];
+        double reach;
+        CpsError unused;
+        if (parts->round == MOST_ROWS || parts->flat == MOST_ROWS) return false;
+        if (part->kind == CPSI_SET_INTERSECTION) {
+            if (!sort_parts(part, parts)) return false;
+        } else if (is_flat(part)) {
+            parts->flat_part[parts->flat++] = part;
+        } else if (cpsi_support_is_closed(part) && !find_reach(part, &reach, &unused) &&
+                   isfinite(reach)) {
+            parts->round_part[parts->round++] = part;
+        } else {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The boundary of what flat parts have in common, in a box. */
+static bool find_flat(Parts *parts, double reach, CpsiFrictionShape *shape) {
+    const double far = BOX * reach, low[2] = {-far, -far}, high[2] = {far, far};
+    double corner[2 * MOST_ROWS];
+    int count = 0;
+    CpsSet *box = NULL, *all = NULL, *hull = NULL;
+    CpsSetAnswer answer;
+    CpsError unused;
+    shape->count = 0;
+    if (!cps_set_box(2, low, high, &box, &unused)) {
+        parts->flat_part[parts->flat] = box;
+        if (!cps_set_intersection(parts->flat + 1, parts->flat_part, &all, &unused) &&
+            !cps_set_vertices(all, 0, MOST_ROWS, corner, &count, &answer, &unused) &&
+            answer.outcome == CPS_SET_OUTCOME_ANSWERED && count <= MOST_ROWS &&
+            !cps_set_hull_of_points(2, count, corner, &hull, &unused))
+            cpsi_friction_boundary_find(hull, 2 * far, shape);
+    }
+    cps_set_release(box);
+    cps_set_release(all);
+    cps_set_release(hull);
+    return shape->count > 0;
+}
+
+/* Does the small program find the support function of the boundary, at its normals and between
+ * them? */
+static bool is_boundary(const CpsiFrictionSet *set, const CpsiFrictionShape *shape) {
+    for (int i = 0; i < shape->count; i++) {
+        const double(*n)[2] = shape->piece[i].normal;
+        for (int k = 0; k < 3; k++) {
+            const double at[2] = {n[0][0] * (2 - k) + n[1][0] * k, n[0][1] * (2 - k) + n[1][1] * k},
+                         against[2] = {-at[0], -at[1]}, size = hypot(at[0], at[1]);
+            const double off = cpsi_friction_shape_support(shape, at) - solve_phi(set, against);
+            if (!(fabs(off) <= SAME_SUPPORT * shape->reach * size)) return false;
+        }
+    }
+    return shape->count > 0;
+}
+
+/* The boundary of an intersection, where those of its parts are known. */
+static void find_common(const CpsSet *of, CpsiFrictionSet *set) {
+    const CpsiConicSet *form = &set->shape;
+    Parts parts = {.round = 0};
+    if (of->kind != CPSI_SET_INTERSECTION || !sort_parts(of, &parts)) return;
+    double inside[2];
+    for (int a = 0; a < 2; a++)
+        inside[a] =
+            form->origin[a] +
+            cpsi_dot(form->unknowns, &form->p[(size_t)a * (size_t)form->unknowns], form->centre);
+    CpsiFrictionShape *common = &set->boundary;
+    bool known = parts.flat == 0 || find_flat(&parts, form->reach, common);
+    for (int k = 0; k < parts.round && known; k++) {
+        CpsiFrictionShape part, before = *common;
+        double reach;
+        CpsError unused;
+        known = !find_reach(parts.round_part[k], &reach, &unused);
+        if (known) cpsi_friction_boundary_find(parts.round_part[k], reach, &part);
+        known = known && part.count > 0;
+        if (known && before.count > 0) cpsi_boundary_intersect(&before, &part, inside, common);
+        if (known && before.count == 0) *common = part;
+        known = known && common->count > 0;
+    }
+    common->reach = form->reach;
+    if (!known || !is_boundary(set, common)) common->count = 0;
+}
+
 static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, CpsError *err) {
     CpsStatus status = cpsi_conic_form_make(of, 1, &set->form, err);
     if (status) return status;
@@ -312,6 +428,7 @@ static CpsStatus make(const CpsSet *of, const char *name, CpsiFrictionSet *set, 
     describe(set, reach);
     status = find_closed(of, set, err);
     if (!status && set->closed) cpsi_friction_boundary_find(set->closed, reach, &set->boundary);
+    if (!status && !set->closed) find_common(of, set);
     return status;
 }
 
@@ -349,6 +466,16 @@ const CpsiFrictionShape *cpsi_friction_set_shape(const CpsiFrictionSet *set) {
     return set->boundary.count > 0 ? &set->boundary : NULL;
 }
 
+/* Where the answer for u is kept: the upper bits of a product with an odd number (Fibonacci
+ * hashing).
+ */
+static size_t place_of(const double u[2]) {
+    uint64_t bits[2];
+    memcpy(bits, u, sizeof bits);
+    const uint64_t mixed = (bits[0] ^ (bits[1] << 32 | bits[1] >> 32)) * 0x9E3779B97F4A7C15u;
+    return (size_t)(mixed >> 54) % KEPT;
+}
+
 double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]) {
     const double size = hypot(u[0], u[1]), against[2] = {-u[0], -u[1]};
     if (!(size > 0)) return size;
@@ -356,11 +483,12 @@ double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]) {
     if (set->closed && cpsi_support(set->closed, against, NULL, &answer, NULL) == CPS_OK &&
         answer.outcome == CPS_SET_OUTCOME_ANSWERED)
         return answer.value;
-    double *last = set->last;
-    if (last[0] != u[0] || last[1] != u[1]) {
-        last[2] = solve_phi(set, u);
-        last[0] = u[0];
-        last[1] = u[1];
+    if (set->boundary.count > 0) return cpsi_friction_shape_support(&set->boundary, against);
+    double *kept = set->kept[place_of(u)];
+    if (kept[0] != u[0] || kept[1] != u[1]) {
+        kept[2] = solve_phi(set, u);
+        kept[0] = u[0];
+        kept[1] = u[1];
     }
-    return last[2];
+    return kept[2];
 }

@@ -23,8 +23,9 @@ const CpsiConicSet *cpsi_friction_set_conic(const CpsiFrictionSet *set);
 /* Its boundary as edges, corners and arcs; NULL where it is not made of these. */
 const CpsiFrictionShape *cpsi_friction_set_shape(const CpsiFrictionSet *set);
 
-/* phi(u) = max -<u, F> over the set: by a formula for polygons and for what is made of points,
- * discs, ellipses and boxes by sums, hulls and linear maps; else to about 1e-13 of reach |u| by a
+/* phi(u) = max -<u, F> over the set: by a formula for polygons, for what is made of points, discs,
+ * ellipses and boxes by sums, hulls and linear maps, and for intersections of such sets whose
+ * boundaries are edges, corners and arcs; else to about 1e-13 of reach |u| by a
  * small conic program, NaN where that failed. Then it is not thread-safe: it writes to the set's
  * scratch memory. */
 double cpsi_friction_set_phi(const CpsiFrictionSet *set, const double u[2]);

@@ -357,13 +357,14 @@ static CpsiIpmReport polish(CpsiLine *line, CpsiChainProgram *program, const Cps
     return newton;
 }
 
-/* Does Newton's method treat what acts in the solution of the loop: tension everywhere, and no
- * contacts of elements? */
+/* Does Newton's method treat what acts in the solution of the loop: tension everywhere, no friction
+ * in the planes of the reference, and no contacts that it leaves out? */
 static bool can_polish(CpsiLine *line, const CpsiChainProgram *program) {
     const CpsiUnilateral *unilateral = &program->unilateral;
+    if (line->keeps_reference_axes && program->disc.count + program->conic.count > 0) return false;
     for (int k = 0; k < unilateral->count; k++)
-        if (unilateral->contact[k] >= cpsi_line_contacts(line) &&
-            unilateral->z[k] > unilateral->s[k])
+        if (unilateral->z[k] > unilateral->s[k] &&
+            !cpsi_warm_step_treats(line, unilateral->contact[k]))
             return false;
     cpsi_places_as_found(line, program);
     return line->report.places == CPS_PLACES_UNIQUE;

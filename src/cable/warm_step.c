@@ -87,20 +87,29 @@ static double ratio_of(const CpsiLine *line, const CpsiLoadChange *now) {
     return aside <= SAME_WAY * SAME_WAY * size ? ratio : 0;
 }
 
-/* How far the method treats the contacts that the line has now: not those of elements, and those
- * with boxes and sets whose boundary is not known; second ones from the solution of a round on,
- * since a line may rest in a corner, or slide along it, under the same forces. */
+/* ... of an element? */
+static bool treats_element(const CpsiLine *line, int c) {
+    for (int k = 0; k < line->obstacle_count; k++)
+        if (line->obstacle[k].has_set) return false;
+    return !line->keeps_reference_axes && !cpsi_line_is_third(line, c);
+}
+
+bool cpsi_warm_step_treats(const CpsiLine *line, int c) {
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    if (c >= cpsi_line_contacts(line) && !treats_element(line, c)) return false;
+    if (!obstacle->has_set) return obstacle->shape != CPS_FRICTION_SHAPE_BOX;
+    const CpsiFrictionSet *given = cpsi_line_friction_law(line, c).given;
+    return !given || cpsi_friction_set_shape(given);
+}
+
+/* How far the method treats the contacts that the line has now; second ones from the solution of a
+ * round on, since a line may rest in a corner, or slide along it, under the same forces. */
 static CpsiGuess treated_contacts(const CpsiLine *line) {
     CpsiGuess best = CPSI_GUESS_EXTRAPOLATED;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-        const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-        if (!obstacle || line->state[c] == CPS_NODE_STATE_FREE) continue;
-        if (c >= cpsi_line_contacts(line) ||
-            (!obstacle->has_set && obstacle->shape == CPS_FRICTION_SHAPE_BOX))
-            return CPSI_GUESS_NONE;
-        const CpsiFrictionSet *given = cpsi_line_friction_law(line, c).given;
-        if (given && !cpsi_friction_set_shape(given)) return CPSI_GUESS_NONE;
-        if (c >= line->n) best = CPSI_GUESS_LATER;
+        if (!cpsi_line_obstacle(line, c) || line->state[c] == CPS_NODE_STATE_FREE) continue;
+        if (!cpsi_warm_step_treats(line, c)) return CPSI_GUESS_NONE;
+        if (c >= line->n && c < cpsi_line_contacts(line)) best = CPSI_GUESS_LATER;
     }
     return best;
 }
@@ -257,7 +266,8 @@ static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const C
         const double over = line->friction_bound[c] > 0 ? 1 / line->friction_bound[c] : 0;
         disc->s[d][0] = slipped(line, c, guess);
         const bool shaped = disc->shape && disc->shape[d];
-        if (!shaped && line->contacts < 2) continue; /* it is in no corner */
+        /* it is in no corner, and not that of an element */
+        if (!shaped && line->contacts < 2 && c < cpsi_line_contacts(line)) continue;
         double f[3];
         cpsi_frame_to(f, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
         for (int a = 0; a < 2; a++)

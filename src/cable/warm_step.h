@@ -22,6 +22,11 @@ typedef enum CpsiGuess {
     CPSI_GUESS_SOLUTION      /* the loop's solution of the program itself, which the line holds */
 } CpsiGuess;
 
+/* Does the method treat contact c, which has an obstacle? Not with boxes, and sets whose boundary
+ * is not known; of elements not third contacts of nodes, those beside general sets, and those with
+ * friction in the planes of the reference. */
+bool cpsi_warm_step_treats(const CpsiLine *line, int c);
+
 /* Before the step, whose loads and reference are still those of the last one: extrapolate the last
  * move to the new loads. The guess is kept in scratch memory of the program until it is solved.
  * The reference is the guess where they do not go on as they went. */

@@ -73,6 +73,7 @@ static void measure(CpsiNewton *newton) {
             most = cpsi_max_nan(most, fabs(pull[a]));
         }
     }
+    if (newton->has_points) cpsi_newton_measure_points(newton);
     newton->force = most > 1 ? most : 1;
 }
 
@@ -200,8 +201,7 @@ static void finish(const CpsiNewton *newton) {
     for (int k = 0; k < unilateral->count; k++) {
         const int j = unilateral->node[k];
         if (cpsi_newton_is_corner(newton, j)) continue;
-        const bool closed =
-            !cpsi_newton_is_other(program, j, k) && (newton->status[j] & CPSI_CLOSED);
+        const bool closed = !cpsi_newton_is_other(program, k) && (newton->status[j] & CPSI_CLOSED);
         unilateral->s[k] = closed ? 0 : cpsi_newton_gap(program, k);
         if (!closed) unilateral->z[k] = 0;
     }
@@ -229,11 +229,14 @@ static CpsiIpmReport iterate(CpsiNewton *newton, int most) {
             break;
         }
         if (cpsi_interrupt_seen(program->base.interrupt)) break;
+        program->matrix.share = newton->has_points ? program->node_frames.share : NULL;
+        if (newton->has_points) cpsi_newton_give_points(newton);
         if (!program->ops->factor(program->linsys, &program->matrix)) break;
         program->ops->solve(program->linsys, &program->matrix, program->base.du, program->dt,
                             program->matrix.second ? program->node_frames.second_reaction_change
                                                    : NULL);
         report.iterations++;
+        if (newton->has_points) cpsi_newton_take_points(newton);
         cpsi_newton_advance(newton);
     }
     return report;
@@ -246,13 +249,13 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
     const double *share = matrix->share;
     unsigned char *bytes = (unsigned char *)program->segment.w; /* 32 n */
     CpsiNewton newton = {.program = program,
-                         .status = bytes,
-                         .held = bytes + n,
-                         .taut = bytes + 2 * n,
-                         .anchored = bytes + 3 * n,
-                         .piece = (int *)(bytes + 4 * n),
+                         .piece = (int *)bytes,
+                         .status = bytes + 4 * n,
+                         .held = bytes + 6 * n,
+                         .taut = bytes + 7 * n,
                          .corner = (CpsiCorner *)(bytes + 8 * n),
-                         .most_corners = (int)(24 * n / sizeof(CpsiCorner)),
+                         .most_corners = (int)(23 * n / sizeof(CpsiCorner)),
+                         .anchored = bytes + 31 * n,
                          .frame = program->disc.shape ? program->conic.frame : NULL};
     set_rounding(&newton);
     cpsi_newton_begin(&newton);
@@ -260,7 +263,6 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
     matrix->held = newton.held;
     matrix->frame = newton.frame ? newton.frame : program->frame;
     matrix->second = NULL;
-    matrix->share = NULL;
     CpsiIpmReport report =
         iterate(&newton, max_iterations < MOST_STEPS ? max_iterations : MOST_STEPS);
     matrix->held = program->held;

@@ -17,13 +17,14 @@
  *     unilateral.z[k]         reaction; 0: the contact is open
  *     disc.s[k][0]            0: friction sticks
  *     disc.z[k][1..2]         friction per bound, of a general set; at a node with two closed
- *                             contacts friction per weight
+ *                             contacts, and of an element, friction per weight
  *
  * Where it returns CPSI_IPM_SOLVED, u and all pairs (s, z) are the solution, with complementary
  * parts that are exactly 0, and forces that balance to rounding. Otherwise the program holds
  * nothing of use and has to be written again: the method has not converged within a few steps, or
- * the program has something that it does not treat (friction conics, drag, contacts of elements,
- * second contacts alone or of general sets, elements without tension that are free to move).
+ * the program has something that it does not treat (friction conics, drag, contacts of elements
+ * beside general sets or as third ones of nodes, second contacts alone or of general sets, elements
+ * without tension that are free to move).
  * Allocates nothing. */
 CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations);
 

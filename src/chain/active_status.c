@@ -55,9 +55,13 @@ static void close_contact(CpsiNewton *newton, int k) {
     cpsi_newton_move(newton, j, 0, 0, -unilateral->gap[k] - newton->program->base.u[3 * j + 2]);
 }
 
-/* Move the node of disc d back to where it has not slipped. */
+/* Move the node of disc d back to where it has not slipped; a point of an element is pulled. */
 static void stick(CpsiNewton *newton, int d) {
     const int j = newton->program->disc.node[d];
+    if (cpsi_newton_is_point(newton, j)) {
+        newton->status[j] |= CPSI_STICKS | CPSI_STOPS;
+        return;
+    }
     const CpsiNodeFriction now = cpsi_newton_friction(newton->program, d);
     newton->status[j] |= CPSI_STICKS;
     cpsi_newton_move(newton, j, -now.s[0] / now.b[0], -now.s[1] / now.b[1], 0);
@@ -150,12 +154,16 @@ static void begin_piece(CpsiNewton *newton, int d) {
 static bool begin_friction(CpsiNewton *newton, int d) {
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
-    if (cpsi_newton_is_other(program, disc->node[d], disc->unilateral[d]) ||
+    if (cpsi_newton_is_other(program, disc->unilateral[d]) ||
         cpsi_newton_is_corner(newton, disc->node[d]))
         return program->bounds_coupled;
-    if (!is_plain(program, d)) return false;
+    if (!is_plain(program, d)) {
+        newton->status[disc->node[d]] |= CPSI_BARRED;
+        return program->bounds_coupled && !(newton->status[disc->node[d]] & CPSI_CLOSED);
+    }
     newton->status[disc->node[d]] |= CPSI_HAS_FRICTION;
     if (!cpsi_newton_has_friction(newton, d)) return true;
+    if (cpsi_newton_is_point(newton, disc->node[d])) cpsi_newton_begin_point_friction(newton, d);
     if (!(disc->s[d][0] > 0))
         stick(newton, d);
     else if (cpsi_newton_shape(program, d))
@@ -170,14 +178,16 @@ void cpsi_newton_begin(CpsiNewton *newton) {
     newton->lost =
         program->conic.count > 0 || program->drag > 0 || (program->field && program->disc.shape);
     note_anchored(newton);
-    memset(newton->status, 0, (size_t)program->n);
+    memset(newton->status, 0, 2 * (size_t)program->n);
     memset(newton->piece, 0, (size_t)program->n * sizeof *newton->piece);
     memset(disc->w, 0, (size_t)disc->count * sizeof *disc->w);
     for (int i = 1; i < program->n; i++) newton->taut[i] = program->segment.z[i][0] > 0;
     for (int k = 0; k < unilateral->count && !newton->lost; k++) {
         if (!(unilateral->z[k] > 0)) continue;
-        if (cpsi_newton_is_other(program, unilateral->node[k], k))
+        if (cpsi_newton_is_other(program, k))
             newton->lost = !cpsi_corner_begin(newton, k - 1, k);
+        else if (cpsi_newton_is_point(newton, unilateral->node[k]))
+            newton->lost = !cpsi_newton_begin_point(newton, k);
         else
             close_contact(newton, k);
     }
@@ -197,13 +207,14 @@ static void decide_contacts(CpsiNewton *newton) {
         const int j = unilateral->node[k];
         if (cpsi_newton_is_corner(newton, j)) continue;
         const double gap = cpsi_newton_gap(program, k);
-        if (cpsi_newton_is_other(program, j, k)) {
+        if (cpsi_newton_is_other(program, k)) {
             newton->lost = newton->lost || gap < -newton->rounding;
             continue;
         }
         const double force = -program->base.residual[3 * j + 2];
         unsigned char *status = &newton->status[j];
-        if ((*status & CPSI_CLOSED) && (*status & CPSI_LANDS)) {
+        const bool is_point = cpsi_newton_is_point(newton, j);
+        if ((*status & CPSI_CLOSED) && (*status & CPSI_LANDS) && !is_point) {
             *status &= (unsigned char)~CPSI_LANDS;
             close_contact(newton, k);
             newton->changed = true;
@@ -214,6 +225,10 @@ static void decide_contacts(CpsiNewton *newton) {
             *status &= CPSI_HAS_FRICTION;
             newton->changed = true;
         } else if (gap < -newton->rounding) {
+            newton->lost |=
+                (*status & CPSI_BARRED) || (is_point && !cpsi_newton_may_close_point(newton, j));
+            if (newton->lost) continue;
+            if (is_point) cpsi_newton_close_point(newton, j);
             *status |= CPSI_CLOSED | CPSI_LANDS;
             unilateral->z[k] = force > 0 ? force / unilateral->weight[k] : 0;
             newton->changed = true;
@@ -393,7 +408,7 @@ static void decide_friction(CpsiNewton *newton) {
             continue;
         }
         const CpsiNodeFriction now = cpsi_newton_friction(program, d);
-        if (*status & CPSI_STOPS) {
+        if ((*status & CPSI_STOPS) && !cpsi_newton_is_point(newton, disc->node[d])) {
             *status &= (unsigned char)~CPSI_STOPS;
             stick(newton, d);
             newton->changed = true;

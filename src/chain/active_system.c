@@ -61,8 +61,13 @@ static Direction direction_of(const CpsiNewton *newton, int d, const CpsiNodeFri
     const CpsiChainProgram *program = newton->program;
     const double *stiffness = program->matrix.stiffness, *last = &program->disc.w[d][1];
     const int j = program->disc.node[d];
-    const double before = j > 0 ? stiffness[j] : 0,
-                 after = j + 1 < program->n ? stiffness[j + 1] : 0,
+    const bool is_point = cpsi_newton_is_point(newton, j);
+    const double before = is_point ? stiffness[j - program->n]
+                          : j > 0  ? stiffness[j]
+                                   : 0,
+                 after = is_point             ? before
+                         : j + 1 < program->n ? stiffness[j + 1]
+                                              : 0,
                  rho = SLIP_STIFFNESS * (before + after) / program->disc.weight[d];
     const double tau[2] = {now->f[0] - rho * now->s[0], now->f[1] - rho * now->s[1]};
     const double size = cpsi_newton_size(tau), slip = cpsi_newton_size(now->s),
@@ -154,30 +159,44 @@ static void load_slip(CpsiNewton *newton, int d) {
     }
 }
 
-/* The rows of all nodes without what friction adds; the errors of those where none acts. */
-static void load_nodes(CpsiNewton *newton) {
+/* The rows of place j, a node or a point, without what friction adds; their error where none acts.
+ */
+static double load_place(CpsiNewton *newton, int j) {
     CpsiChainProgram *program = newton->program;
-    double error = 0;
-    for (int j = 0; j < program->n; j++) {
-        double *diagonal = &program->matrix.diagonal[6 * j], *f = &program->base.du[3 * j];
-        const double *g = &program->base.residual[3 * j];
-        const int status = newton->status[j];
-        const bool has_friction =
-            (status & CPSI_HAS_FRICTION) && (!program->bounds_coupled || (status & CPSI_CLOSED));
-        for (int a = 0; a < 6; a++) diagonal[a] = program->field ? program->field[6 * j + a] : 0;
-        for (int a = 0; a < 2; a++) program->matrix.skew[2 * j + a] = 0;
-        for (int a = 0; a < 3; a++) f[a] = g[a];
-        if (newton->held[j]) continue;
-        if (status & CPSI_CLOSED) {
-            diagonal[5] = status & CPSI_LANDS ? PULLING : RIGID;
-            f[2] = 0;
-        }
-        if (status & CPSI_STICKS) diagonal[0] = diagonal[2] = status & CPSI_STOPS ? PULLING : RIGID;
-        if (has_friction) f[0] = f[1] = 0;
-        if (status & CPSI_CORNER) continue;
-        for (int a = 0; a < 3; a++) error = cpsi_max_nan(error, fabs(f[a]));
+    double *diagonal = &program->matrix.diagonal[6 * j], *f = &program->base.du[3 * j], error = 0;
+    const double *g = &program->base.residual[3 * j];
+    const double *field = program->field && j < program->n ? &program->field[6 * j] : NULL;
+    const int status = newton->status[j];
+    const bool has_friction =
+        (status & CPSI_HAS_FRICTION) && (!program->bounds_coupled || (status & CPSI_CLOSED));
+    for (int a = 0; a < 6; a++) diagonal[a] = field ? field[a] : 0;
+    for (int a = 0; a < 2; a++) program->matrix.skew[2 * j + a] = 0;
+    for (int a = 0; a < 3; a++) f[a] = g[a];
+    if (cpsi_newton_is_held(newton, j)) return 0;
+    if (status & CPSI_CLOSED) {
+        diagonal[5] = status & CPSI_LANDS ? PULLING : RIGID;
+        f[2] = 0;
     }
+    if (status & CPSI_STICKS) diagonal[0] = diagonal[2] = status & CPSI_STOPS ? PULLING : RIGID;
+    if (has_friction) f[0] = f[1] = 0;
+    for (int a = 0; a < 3; a++) error = cpsi_max_nan(error, fabs(f[a]));
+    return status & CPSI_CORNER ? 0 : error;
+}
+
+static void load_places(CpsiNewton *newton) {
+    const CpsiChainProgram *program = newton->program;
+    const int n = program->n;
+    double error = 0;
+    for (int j = 0; j < n; j++) error = cpsi_max_nan(error, load_place(newton, j));
+    for (int i = 1; i < n && newton->has_points; i++)
+        if (program->node_frames.share[i] > 0)
+            error = cpsi_max_nan(error, load_place(newton, n + i));
     newton->force_error = error;
+}
+
+/* How far a point is from where its status wants it is an error of the equations. */
+static void note_way(CpsiNewton *newton, double way) {
+    newton->strain_error = cpsi_max_nan(newton->strain_error, fabs(way));
 }
 
 /* What friction and landing nodes add to the rows of their nodes. */
@@ -188,7 +207,7 @@ static void load_contacts(CpsiNewton *newton) {
     double *f = program->base.du;
     for (int d = 0; d < disc->count; d++) {
         const int j = disc->node[d];
-        if (newton->held[j < program->n ? j : 0] || !cpsi_newton_has_friction(newton, d)) continue;
+        if (cpsi_newton_is_held(newton, j) || !cpsi_newton_has_friction(newton, d)) continue;
         const CpsiShapePiece *piece = cpsi_newton_piece(newton, d);
         if (!(newton->status[j] & CPSI_STICKS)) {
             if (piece && piece->is_edge)
@@ -198,14 +217,16 @@ static void load_contacts(CpsiNewton *newton) {
         } else if (newton->status[j] & CPSI_STOPS) {
             const CpsiNodeFriction now = cpsi_newton_friction(program, d);
             for (int a = 0; a < 2; a++) f[3 * j + a] = -PULLING * now.s[a] / now.b[a];
+            if (cpsi_newton_is_point(newton, j)) note_way(newton, cpsi_newton_size(now.s));
         }
     }
     for (int k = 0; k < unilateral->count; k++) {
         const int j = unilateral->node[k];
-        if (cpsi_newton_is_other(program, j, k) || !(newton->status[j] & CPSI_LANDS)) continue;
+        if (cpsi_newton_is_other(program, k) || !(newton->status[j] & CPSI_LANDS)) continue;
         const double to = -unilateral->gap[k] - program->base.u[3 * j + 2];
         f[3 * j + 2] = PULLING * to;
         for (int a = 0; a < 2; a++) f[3 * j + a] += program->matrix.skew[2 * j + a] * to;
+        if (cpsi_newton_is_point(newton, j)) note_way(newton, to);
     }
 }
 
@@ -215,7 +236,7 @@ void cpsi_newton_assemble(CpsiNewton *newton) {
     if (newton->frame)
         memcpy(newton->frame, program->frame, 9 * (size_t)program->n * sizeof *newton->frame);
     load_elements(newton);
-    load_nodes(newton);
+    load_places(newton);
     load_contacts(newton);
     cpsi_corner_load(newton);
 }

@@ -38,6 +38,17 @@ double cpsi_friction_shape_beyond(const CpsiFrictionShape *shape, const double x
     return most;
 }
 
+double cpsi_friction_shape_support(const CpsiFrictionShape *shape, const double n[2]) {
+    double most = -INFINITY;
+    for (int i = 0; i < shape->count; i++) {
+        const CpsiShapePiece *piece = &shape->piece[i];
+        most = fmax(most, dot(n, piece->at[0]));
+        if (!piece->is_edge && piece->radius > 0 && is_between(piece, n, 0))
+            most = fmax(most, dot(n, piece->centre) + piece->radius * sqrt(dot(n, n)));
+    }
+    return most;
+}
+
 int cpsi_friction_shape_turn(const CpsiFrictionShape *shape, int from, const double q[2],
                              double rounding) {
     const CpsiShapePiece *here = &shape->piece[from];

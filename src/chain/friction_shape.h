@@ -24,6 +24,9 @@ typedef struct CpsiFrictionShape {
     CpsiShapePiece piece[CPSI_MOST_PIECES];
 } CpsiFrictionShape;
 
+/* The support function of the set in the direction of n. */
+double cpsi_friction_shape_support(const CpsiFrictionShape *shape, const double n[2]);
+
 /* The distance of x from the set, and the piece of its nearest point; 0 and -1 inside. */
 double cpsi_friction_shape_beyond(const CpsiFrictionShape *shape, const double x[2], int *piece);
 

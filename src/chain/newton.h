@@ -12,10 +12,11 @@
 /* A slip shorter than this, per length of the line, has no direction (CPS_TOUCH). */
 #define CPSI_LEAST_SLIP 1e-9
 
-/* Bits of a node's status: its contact is closed; friction may act; friction sticks; the node has
- * just landed, or stopped (one that slips against an edge of its set: along that), and is not yet
- * where that wants it; it was released and has not yet slipped in the direction of its pull; both
- * its contacts are closed, for good. */
+/* Bits of the status of a node, or of the point of an element: its contact is closed; friction may
+ * act; friction sticks; the node has just landed, or stopped (one that slips against an edge of its
+ * set: along that), and is not yet where that wants it; it was released and has not yet slipped in
+ * the direction of its pull; both its contacts are closed, for good; its contact, which is open,
+ * has friction of a kind that is not treated. */
 enum {
     CPSI_CLOSED = 1,
     CPSI_HAS_FRICTION = 2,
@@ -23,7 +24,8 @@ enum {
     CPSI_LANDS = 8,
     CPSI_STOPS = 16,
     CPSI_RELEASED = 32,
-    CPSI_CORNER = 64
+    CPSI_CORNER = 64,
+    CPSI_BARRED = 128
 };
 
 /* A node whose two contacts are both closed: they, and the discs of their friction, -1: none; and
@@ -35,7 +37,7 @@ typedef struct CpsiCorner {
 /* Of one solution. The bytes lie in an array of the interior-point loop that is not used here. */
 typedef struct CpsiNewton {
     CpsiChainProgram *program;
-    unsigned char *status;   /* (n) */
+    unsigned char *status;   /* (2 n) of the nodes and of the points of their elements */
     unsigned char *held;     /* (n) the node cannot move in this set */
     unsigned char *taut;     /* (n) element i */
     unsigned char *anchored; /* (n) a field holds the node in all directions */
@@ -53,6 +55,7 @@ typedef struct CpsiNewton {
     double strain_error, force_error; /* of the equations, at most */
     bool changed;                     /* the active set has changed */
     bool lost;                        /* there is something that this method does not treat */
+    bool has_points;                  /* contacts of elements are closed, or have been */
 } CpsiNewton;
 
 static inline void cpsi_newton_to_common(const CpsiChainProgram *program, int j, double v[3]) {
@@ -138,10 +141,19 @@ static inline void cpsi_newton_tangent(const CpsiShapePiece *edge, double t[2]) 
     t[1] = edge->normal[0][0];
 }
 
-/* Is this the contact of an element, or the second one of its node? */
-static inline bool cpsi_newton_is_other(const CpsiChainProgram *program, int node, int k) {
-    return node >= program->n ||
-           (k >= 0 && program->unilateral.normal && program->unilateral.second[k]);
+/* Is this the second contact of its node? */
+static inline bool cpsi_newton_is_other(const CpsiChainProgram *program, int k) {
+    return k >= 0 && program->unilateral.normal && program->unilateral.second[k];
+}
+
+/* Cannot node j, or the point j of an element, move? */
+static inline bool cpsi_newton_is_held(const CpsiNewton *newton, int j) {
+    return j < newton->program->n && newton->held[j];
+}
+
+/* Is place j the point of an element? */
+static inline bool cpsi_newton_is_point(const CpsiNewton *newton, int j) {
+    return j >= newton->program->n;
 }
 
 /* Are both contacts of node j closed? */
@@ -153,7 +165,7 @@ static inline bool cpsi_newton_is_corner(const CpsiNewton *newton, int j) {
 static inline bool cpsi_newton_has_friction(const CpsiNewton *newton, int d) {
     const CpsiChainProgram *program = newton->program;
     const int j = program->disc.node[d];
-    if (cpsi_newton_is_other(program, j, program->disc.unilateral[d]) ||
+    if (cpsi_newton_is_other(program, program->disc.unilateral[d]) ||
         cpsi_newton_is_corner(newton, j))
         return false;
     return !program->bounds_coupled || (newton->status[j] & CPSI_CLOSED);
@@ -171,6 +183,29 @@ static inline double cpsi_newton_gap(const CpsiChainProgram *program, int k) {
 
 /* Move node j by (x, y, z) in its own axes. */
 void cpsi_newton_move(CpsiNewton *newton, int j, double x, double y, double z);
+
+/* active_point.c */
+
+/* May the contact of the point j of an element be closed? Not where a third obstacle is met at the
+ * end of the element, nor beside general sets. */
+bool cpsi_newton_may_close_point(const CpsiNewton *newton, int j);
+
+/* The contact of the point j is closed from here on; its force is what it was. */
+void cpsi_newton_close_point(CpsiNewton *newton, int j);
+
+/* Contact k, of a point, is closed in the guess. False where it may not. */
+bool cpsi_newton_begin_point(CpsiNewton *newton, int k);
+
+/* ... and has the friction of disc d. */
+void cpsi_newton_begin_point_friction(CpsiNewton *newton, int d);
+
+/* The points move with their elements, and their forces are added to those on the nodes. */
+void cpsi_newton_measure_points(CpsiNewton *newton);
+
+/* Before the linear system is solved, and after: the forces on the points change by what the
+ * right-hand side has at them, less D x. */
+void cpsi_newton_give_points(CpsiNewton *newton);
+void cpsi_newton_take_points(CpsiNewton *newton);
 
 /* active_corner.c */
 
