@@ -349,13 +349,14 @@ static CpsStatus check_time(const CpsEvolution *evolution, const CpsStage *move,
         free = free || evolution->points.point[i].kind != CPS_POINT_KIND_HELD;
     for (int i = 0; i < move->point_change_count; i++)
         free = free || move->point_change[i].kind == CPS_POINT_KIND_FREE;
-    for (int i = 0; i < evolution->line_count && free; i++)
+    if (!free) return CPS_OK;
+    for (int i = 0; i < evolution->line_count; i++)
         if (!(evolution->line[i].compliance > 0))
             return cpsi_fail(err, CPS_ERR_ARGUMENT,
                              "%s: it has a duration, but beside free points or bodies line '%s' "
                              "cannot stretch",
                              what, evolution->line[i].name);
-    return free && (move->turn_count > 0 || move->shift_count > 0)
+    return move->turn_count > 0 || move->shift_count > 0
                ? cpsi_fail(err, CPS_ERR_ARGUMENT,
                            "%s: it has a duration, but beside free points or bodies obstacles stay",
                            what)

@@ -9,18 +9,18 @@
 #include "evolve/points.h"
 
 /* The end of a line with inertia that is at a point. */
-typedef struct End {
+typedef struct LineEnd {
     CpsiInertia *inertia;
     int node;
     CpsiPoint *point;
-} End;
+} LineEnd;
 
-/* End number k = 0 .. 2 lines - 1; false: it is no such end. */
-static bool take_end(CpsEvolution *evolution, int k, End *out) {
+/* LineEnd number k = 0 .. 2 lines - 1; false: it is no such end. */
+static bool take_end(CpsEvolution *evolution, int k, LineEnd *out) {
     CpsiLine *line = &evolution->line[k / 2];
     const int point = evolution->points.tie[k];
     if (point == CPSI_NO_POINT || !line->has_inertia) return false;
-    *out = (End){&line->inertia, k % 2 == CPS_END_A ? 0 : line->n - 1,
+    *out = (LineEnd){&line->inertia, k % 2 == CPS_END_A ? 0 : line->n - 1,
                  &evolution->points.point[point]};
     return true;
 }
@@ -50,7 +50,7 @@ void cpsi_point_motion_start(CpsEvolution *evolution) {
         memcpy(inertia->before, point->position, sizeof inertia->before);
         inertia->kinetic = kinetic_energy(inertia->mass, inertia->velocity);
     }
-    End end;
+    LineEnd end;
     for (int k = 0; k < 2 * evolution->line_count; k++) {
         if (!take_end(evolution, k, &end)) continue;
         const double *v = end.point->inertia.velocity;
@@ -60,7 +60,7 @@ void cpsi_point_motion_start(CpsEvolution *evolution) {
 }
 
 void cpsi_point_motion_join(CpsEvolution *evolution) {
-    End end;
+    LineEnd end;
     for (int k = 0; k < 2 * evolution->line_count; k++)
         if (take_end(evolution, k, &end) && end.inertia->restarts[end.node])
             end.point->inertia.restarts = true;
@@ -141,7 +141,7 @@ static void add_turnover(const CpsPointReport *report, CpsMotionLedger *ledger) 
 
 /* The end of a line follows its point; where that bears, and has been stopped along the normal, the
  * line loses the energy. */
-static void follow(const End *end) {
+static void follow(const LineEnd *end) {
     const CpsiPointInertia *inertia = &end->point->inertia;
     CpsiInertia *of = end->inertia;
     const double mass = of->mass[end->node];
@@ -194,7 +194,7 @@ void cpsi_point_motion_advance(CpsEvolution *evolution) {
         inertia->bore = bears;
         inertia->restarts = inertia->landed;
     }
-    End end;
+    LineEnd end;
     for (int k = 0; k < 2 * evolution->line_count; k++)
         if (take_end(evolution, k, &end)) follow(&end);
 }

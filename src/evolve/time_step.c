@@ -257,7 +257,8 @@ bool cpsi_line_is_snatched_late(CpsiLine *line, double h) {
 }
 
 void cpsi_line_restart_snatched(CpsiLine *line) {
-    for (int j = 0; line->has_inertia && j < line->n; j++)
+    if (!line->has_inertia) return;
+    for (int j = 0; j < line->n; j++)
         line->inertia.restarts[j] = line->inertia.restarts[j] || line->inertia.late[j];
 }
 

@@ -459,9 +459,20 @@ void cpsi_netcdf_write_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodi
         for (int i = 0; i < CPSI_BODY_CONSTANTS; ++i)
             write_field(file, bodies->constant[i], &CONSTANT[i], at, 1, body,
                         CONSTANT[i].offset == offsetof(CpsBody, position) ? origin : NULL);
-        for (int i = 0; i < CPSI_BODY_MASSES && bodies->in_time; ++i)
-            write_field(file, bodies->mass[i], &MASS[i], at, 1, body, NULL);
+        if (bodies->in_time)
+            for (int i = 0; i < CPSI_BODY_MASSES; ++i)
+                write_field(file, bodies->mass[i], &MASS[i], at, 1, body, NULL);
     }
+}
+
+static void append_body_motion(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies,
+                               const size_t at[2], const CpsEvolution *evolution,
+                               const CpsBodyReport *report) {
+    const CpsBodyMotion motion = cps_evolution_body_motion(evolution, (int)at[1]);
+    for (int i = 0; i < CPSI_BODY_FORCES; ++i)
+        write_field(file, bodies->force[i], &FORCE[i], at, 2, report, NULL);
+    for (int i = 0; i < CPSI_BODY_MOTIONS; ++i)
+        write_field(file, bodies->motion[i], &BODY_MOTION[i], at, 2, &motion, NULL);
 }
 
 void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies, size_t step,
@@ -472,11 +483,7 @@ void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bod
         for (int i = 0; i < CPSI_BODY_FIELDS; ++i)
             write_field(file, bodies->field[i], &FIELD[i], at, 2, &report,
                         FIELD[i].offset == offsetof(CpsBodyReport, position) ? origin : NULL);
-        const CpsBodyMotion motion = cps_evolution_body_motion(evolution, k);
-        for (int i = 0; i < CPSI_BODY_FORCES && bodies->in_time; ++i)
-            write_field(file, bodies->force[i], &FORCE[i], at, 2, &report, NULL);
-        for (int i = 0; i < CPSI_BODY_MOTIONS && bodies->in_time; ++i)
-            write_field(file, bodies->motion[i], &BODY_MOTION[i], at, 2, &motion, NULL);
+        if (bodies->in_time) append_body_motion(file, bodies, at, evolution, &report);
         const int whole[CPSI_BODY_INTS] = {[BODY_STATE] = (int)report.kind,
                                            [BODY_TRIALS] = report.trial_count,
                                            [BODY_STABLE] = report.is_stable,
