@@ -1,172 +1,174 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The ropes of examples/notebooks/beside_mujoco.ipynb in MuJoCo: round a peg, pulled on a table, drawn aside.
+"""The ropes of examples/notebooks/beside_mujoco.ipynb in MuJoCo.   usage: compare_mujoco.py [FILE]
 
-    compare_mujoco.py [--case peg|creep|aside] [--setting NAME]       writes bench/results/compare-mujoco.csv
+Writes what MuJoCo finds, with its version, settings and processor times, to FILE, by default bench/results/mujoco.json, which the notebook
+reads. MuJoCo (package index) is installed into build/mujoco-venv at the first run. A few minutes.
 
-MuJoCo (package index, into build/bench-venv) has no rope without stiffness; its closest model is a chain of capsules with joints that
-turn freely, in coordinates of the joints, so that no length changes. The joints have a little damping and armature, and the integrator is
-`implicitfast`, since the chain with a load at its end is unstable otherwise. The hand is a body on slides, moved by stiff servos whose
-force is what it feels. `defaults` has every other setting as MuJoCo has it; the others change what its documentation advises against slip."""
+A rope is a chain of point masses with three slides each, which touch by small spheres and are joined by tendons of limited length:
+MuJoCo's own constraint solver carries tension and contact. The masses do not turn, so that they slide and do not roll.
+
+  euler  half a turn round a drum, mu = 0.3, no gravity, 2 N at one end; the hand at the other moves by 0.1 m within 2 s, smoothly, and
+         then stops for 5 s. The tension at the hand over 2 N is exp(mu pi) = 2.566 by Euler, and stays when the hand has stopped
+  aside  2 m on a table, mu = 0.4, 1 kg/m, one end in a hand that walks 1 m to the side within 10 s
+  creep  the same rope, pulled along itself by half of what friction holds, for 30 s; the truth is that its other end stays
+
+The settings: MuJoCo's defaults; then elliptic cones, impratio 100, a time step of 0.5 ms and stiff constraints, the best found without
+and with the no-slip iterations."""
 import argparse
-import csv
+import json
 import math
 import os
+import platform
 import subprocess
 import sys
 import time
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), ".."))
-VENV = os.path.join(ROOT, "build", "bench-venv")
-RESULTS = os.path.join(ROOT, "bench", "results", "compare-mujoco.csv")
-VERSION = "4.0.0"
-GRAVITY = 9.81  # m/s^2
-THICK = 0.005  # m, the radius of the rope
-JOINT = 'damping="1e-4" armature="1e-5"'  # N m s, kg m^2
-# time step [s], other settings
-SETTINGS = {
-    "defaults": (2e-3, ""),
-    "noslip": (2e-3, 'noslip_iterations="50"'),
-    "elliptic, noslip": (2e-3, 'cone="elliptic" noslip_iterations="50"'),
-    "elliptic, impratio 1000, 0.5 ms": (5e-4, 'cone="elliptic" impratio="1000"'),
-}
+VENV = os.path.join(ROOT, "build", "mujoco-venv")
+RADIUS = 0.004  # m of the spheres
+STIFF = {"solref": "0.002 1", "solimp": "0.99 0.9999 0.0001"}
+TUNED = {"timestep": 0.0005, "cone": "elliptic", "impratio": 100}
+SETTINGS = {"defaults": ({}, {}), "tuned": (TUNED, STIFF),
+            "tuned, no-slip": ({**TUNED, "noslip_iterations": 20, "noslip_tolerance": 1e-12}, STIFF)}
 
 
-def own_environment():
-    """Run again in an environment that has MuJoCo."""
+def with_packages():
+    """Go on in the virtual environment where the packages are."""
     python = os.path.join(VENV, "bin", "python")
-    if not os.path.exists(python):
-        subprocess.run([sys.executable, "-m", "venv", VENV], check=True)
-    if subprocess.run([python, "-c", f"import mujoco; assert mujoco.__version__ == '{VERSION}'"], capture_output=True).returncode:
-        subprocess.run([python, "-m", "pip", "install", "-q", f"mujoco=={VERSION}"], check=True)
-    os.execv(python, [python, *sys.argv])
+    if os.path.realpath(sys.prefix) != os.path.realpath(VENV):
+        if not os.path.exists(python):
+            subprocess.run([sys.executable, "-m", "venv", VENV], check=True)
+        subprocess.run([python, "-m", "pip", "install", "--quiet", "mujoco"], check=True)
+        os.execv(python, [python] + sys.argv)
 
 
-def chain(turns, link, mass, friction, axis, first="", last=""):
-    """Nested bodies, one capsule each; `turns` are the angles by which each is turned against the one before it [rad]."""
-    text = ""
-    for k, turn in enumerate(turns):
-        x, s = (0 if k == 0 else link), math.sin(turn / 2)
-        quaternion = f"{math.cos(turn / 2)} {axis[0] * s} {axis[1] * s} {axis[2] * s}"
-        joint = first if k == 0 and first else f'<joint type="hinge" axis="{axis[0]} {axis[1]} {axis[2]}" {JOINT}/>'
-        text += (f'<body pos="{x} 0 0" quat="{quaternion}">{joint}<geom type="capsule" size="{THICK}" fromto="0 0 0 {link} 0 0" '
-                 f'mass="{mass}" contype="2" conaffinity="1" friction="{friction} 0 0"/>')
-    return text + last + "</body>" * len(turns)
+class Rope:
+    """A chain of nodes beside an obstacle, which MuJoCo steps in time. Where `hand` is true, the last node is moved."""
+
+    def __init__(self, nodes, mass, friction, obstacle, gravity, settings, hand):
+        import mujoco
+
+        option, constraint = settings
+        self.mujoco, self.count = mujoco, len(nodes)
+        contact = " ".join(f'{key}="{value}"' for key, value in constraint.items())
+        limit = " ".join(f'{key}limit="{value}"' for key, value in constraint.items())
+        length = [math.dist(a, b) for a, b in zip(nodes, nodes[1:])]
+        slides = "".join(f'<joint type="slide" axis="{axis}"/>' for axis in ("1 0 0", "0 1 0", "0 0 1"))
+        bodies = "".join(
+            f'<body pos="{x} {y} {z}" {"mocap=%r" % "true" if hand and i + 1 == self.count else ""}>'
+            f'{slides if not hand or i + 1 < self.count else ""}<site name="s{i}"/>'
+            f'<geom type="sphere" size="{RADIUS}" mass="{mass}" contype="1" conaffinity="2" friction="{friction} 0 0" {contact}/></body>'
+            for i, (x, y, z) in enumerate(nodes))
+        tendons = "".join(f'<spatial limited="true" range="0 {length[i]}" {limit}><site site="s{i}"/><site site="s{i + 1}"/></spatial>'
+                          for i in range(self.count - 1))
+        options = " ".join(f'{key}="{value}"' for key, value in option.items())
+        self.model = mujoco.MjModel.from_xml_string(
+            f'<mujoco><option gravity="0 0 {-gravity}" {options}/><size memory="200M"/><worldbody>'
+            f'<geom {obstacle} contype="2" conaffinity="1" friction="{friction} 0 0" {contact}/>{bodies}</worldbody>'
+            f'<tendon>{tendons}</tendon></mujoco>')
+        self.data = mujoco.MjData(self.model)
+        self.step_length = self.model.opt.timestep
+
+    def tension(self):
+        """[N] at the hand: the force of the last tendon's limit."""
+        data, n = self.data, self.data.nefc
+        mine = (data.efc_type[:n] == self.mujoco.mjtConstraint.mjCNSTR_LIMIT_TENDON) & (data.efc_id[:n] == self.count - 2)
+        return float(data.efc_force[:n][mine].sum())
+
+    def go(self, seconds, each=lambda t: None):
+        """Step for so long; `each` is called before every step."""
+        for i in range(round(seconds / self.step_length)):
+            each(i * self.step_length)
+            self.mujoco.mj_step(self.model, self.data)
+
+    def place(self, i):
+        """[m] of a node."""
+        return self.data.xpos[i + 1].tolist()
 
 
-def model(step, options, ground, body, servos=""):
-    import mujoco
-
-    return mujoco.MjModel.from_xml_string(
-        f'<mujoco><option timestep="{step}" integrator="implicitfast" gravity="0 0 {-GRAVITY}" {options}/>'
-        f'<worldbody>{ground}{body}</worldbody><actuator>{servos}</actuator></mujoco>')
-
-
-def advance(m, d, until):
-    import mujoco
-
-    while d.time < until - m.opt.timestep / 2:
-        mujoco.mj_step(m, d)
+def smooth(u):
+    """A way from 0 to 1 that speeds up in its first quarter and slows down in its last."""
+    if u >= 1:
+        return 1.0
+    return u * u / 0.375 if u < 0.25 else (u - 0.125) / 0.75 if u < 0.75 else 1 - (1 - u) ** 2 / 0.375
 
 
-def peg(step, options):
-    """A rope of 0.1 kg/m over half a turn of a peg, a load of 1 kg; the hand draws it by 0.1 m at 0.02 m/s, and holds it for 10 s."""
-    import mujoco
-
-    radius, friction, link, hang, load, hand = 0.1, 0.3, 0.02, 0.3, 1.0, 0.1
-    one = 2 * math.asin(link / 2 / (radius + THICK))
-    arc = [one] * int(math.pi / one) + [math.pi % one]
-    turns = [0.0] * round(hang / link) + [arc[0] / 2] + [(a + b) / 2 for a, b in zip(arc, arc[1:])] + [arc[-1] / 2] + [0.0] * round(hang / link)
-    weight = (f'<body name="load" pos="{link} 0 0"><joint type="hinge" axis="0 1 0" damping="1e-3"/>'
-              f'<geom type="sphere" size="0.02" mass="{load}" contype="0" conaffinity="0"/></body>')
-    rope = chain(turns, link, 0.1 * link, friction, (0, -1, 0), last=weight)
-    ground = (f'<geom type="cylinder" size="{radius} 0.2" euler="90 0 0" contype="1" conaffinity="2" friction="{friction} 0 0"/>')
-    body = (f'<body pos="{radius + THICK} 0 {-hang}" gravcomp="1"><joint name="hand" type="slide" axis="0 0 -1"/><geom type="sphere" size="0.01" '
-            f'mass="{hand}" contype="0" conaffinity="0"/><body quat="{math.sqrt(0.5)} 0 {-math.sqrt(0.5)} 0">{rope}</body></body>')
-    m = model(step, options, ground, body, '<position joint="hand" kp="20000" kv="100"/>')
-    d = mujoco.MjData(m)
-    begun = time.process_time()
-    advance(m, d, 1)
-    drawn, count = 0.0, 0
-    while d.time < 6 - step / 2:
-        d.ctrl[0] = min((d.time - 1) * 0.02, 0.1)
-        mujoco.mj_step(m, d)
-        if d.time > 5:  # mean of the last second
-            drawn, count = drawn + d.actuator_force[0], count + 1
-    height = d.body("load").xpos[2]
-    advance(m, d, 16)
-    return {"force drawn [N]": drawn / count, "force 10 s later [N]": d.actuator_force[0],
-            "load rose [mm]": 1e3 * (d.body("load").xpos[2] - height), "processor [s]": time.process_time() - begun}
+def mean(values):
+    return sum(values) / max(len(values), 1)
 
 
-TABLE = '<geom type="plane" size="5 5 1" contype="1" conaffinity="2" friction="0.4 0 0"/>'
+def euler(settings):
+    drum, around, step = 0.1, 0.1 + RADIUS, 0.01
+    before, after = 0.3, 0.1
+    whole = before + math.pi * around + after
+    nodes = []
+    for i in range(round(whole / step) + 1):
+        s = i * whole / round(whole / step)
+        turn = min(max((s - before) / around, 0), math.pi)
+        down = max(before - s, 0) + max(s - before - math.pi * around, 0)
+        nodes.append((-around * math.cos(turn), 0, around * math.sin(turn) - down))
+    rope = Rope(nodes, 1.0 * step, 0.3, f'type="cylinder" size="{drum} 0.5" euler="90 0 0"', 0, settings, True)
+    rope.data.qfrc_applied[2] = -2.0
+    felt, hand = [], rope.data.mocap_pos[0].copy()
+
+    def each(t):
+        rope.data.mocap_pos[0] = hand - [0, 0, 0.1 * smooth((t - 0.5) / 2) if t > 0.5 else 0]
+        felt.append((t, rope.tension() / 2))
+    rope.go(7.5, each)
+
+    def between(a, b):
+        return mean([ratio for t, ratio in felt if a <= t < b])
+    return {"pulled": between(1.5, 2.0), "held 1 s": between(3.4, 3.6), "held 5 s": between(7.3, 7.5), "lifted": rope.place(0)[2] - nodes[0][2]}
 
 
-def slides(names):
-    return "".join(f'<joint name="{name}" type="slide" axis="{axis}"/>' for name, axis in zip(names, ("1 0 0", "0 1 0", "0 0 1")))
+TABLE = {"length": 2.0, "elements": 80, "friction": 0.4, "mass": 1.0, "gravity": 9.81}
 
 
-def creep(step, options):
-    """A rope of 2 m and 1 kg/m on a table, pulled along by half of what friction can hold, for 30 s."""
-    import mujoco
-
-    rope = chain([0.0] * 50, 0.04, 0.04, 0.4, (0, 0, 1), first=slides("xyz") + '<joint type="hinge" axis="0 0 1"/>')
-    m = model(step, options, TABLE, rope.replace("<body pos=", f'<body name="end" pos="0 0 {THICK}" alt=', 1).replace(' alt="0 0 0"', "", 1))
-    d = mujoco.MjData(m)
-    begun = time.process_time()
-    advance(m, d, 0.5)
-    body = m.body("end").id
-    start = d.xpos[body, 0]
-    d.xfrc_applied[body, 0] = -0.5 * 0.4 * 2 * GRAVITY
-    advance(m, d, 30.5)
-    return {"crept [mm]": 1e3 * (start - d.xpos[body, 0]), "processor [s]": time.process_time() - begun}
+def on_the_table(settings, hand):
+    n = TABLE["elements"]
+    nodes = [(TABLE["length"] * i / n, 0, RADIUS) for i in range(n + 1)]
+    return Rope(nodes, TABLE["mass"] * TABLE["length"] / n, TABLE["friction"], 'type="plane" size="10 10 1"', TABLE["gravity"], settings, hand)
 
 
-def aside(step, options, speed=0.02):
-    """The same rope, one end drawn 1 m aside at 0.02 m/s."""
-    import mujoco
+def aside(settings):
+    rope = on_the_table(settings, True)
+    felt, hand = [], rope.data.mocap_pos[0].copy()
 
-    rope = chain([0.0] * 50, 0.04, 0.04, 0.4, (0, 0, 1), last='<site name="tail" pos="0.04 0 0"/>')
-    body = (f'<body pos="2 0 {THICK}" quat="0 0 0 1" gravcomp="1">{slides("xyz")}<geom type="sphere" size="0.004" mass="0.1" contype="0" '
-            f'conaffinity="0"/>{rope}</body>')
-    servos = "".join(f'<position joint="{name}" kp="5000" kv="100"/>' for name in "xy")
-    m = model(step, options, TABLE, body, servos)
-    d = mujoco.MjData(m)
-    begun = time.process_time()
-    advance(m, d, 0.5)
-    force, count, end = 0.0, 0, 0.5 + 1 / speed
-    while d.time < end - step / 2:
-        d.ctrl[1] = -(d.time - 0.5) * speed  # the axes of the hand are turned by half a turn
-        mujoco.mj_step(m, d)
-        if d.time > end - 1:
-            force, count = force + math.hypot(*d.actuator_force[:2]), count + 1
-    x, y = d.site("tail").xpos[:2]
-    return {"tail x [m]": x, "tail y [m]": y, "force [N]": force / count, "processor [s]": time.process_time() - begun}
+    def each(t):
+        rope.data.mocap_pos[0] = hand + [0, smooth((t - 0.5) / 10) if t > 0.5 else 0, 0]
+        felt.append((t, rope.tension()))
+    rope.go(10.6, each)
+    return {"position": [[round(x, 6) for x in rope.place(i)[:2]] for i in range(rope.count)],
+            "force": mean([force for t, force in felt if 7.5 <= t < 8.0])}
 
 
-CASES = {"peg": peg, "creep": creep, "aside": aside}
+def creep(settings):
+    rope = on_the_table(settings, False)
+    rope.data.qfrc_applied[3 * rope.count - 3] = 0.5 * TABLE["friction"] * TABLE["mass"] * TABLE["gravity"] * TABLE["length"]
+    rope.go(1.0)
+    begun = rope.place(rope.count - 1)[0]
+    rope.go(29.0)
+    return {"crept": rope.place(rope.count - 1)[0] - begun}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--case", choices=CASES)
-    parser.add_argument("--setting", choices=SETTINGS)
+    parser.add_argument("file", nargs="?", default=os.path.join(ROOT, "bench", "results", "mujoco.json"))
     options = parser.parse_args()
-    if sys.prefix != VENV:
-        own_environment()
-    rows = []
-    for case, measure in CASES.items():
-        for setting, (step, text) in SETTINGS.items():
-            if options.case not in (None, case) or options.setting not in (None, setting):
-                continue
-            for what, value in measure(step, text).items():
-                rows.append([case, setting, what, f"{value:.4g}"])
-                print(*rows[-1], sep=", ", flush=True)
-    if options.case is None and options.setting is None:
-        with open(RESULTS + ".new", "w", newline="") as file:
-            file.write(f"# MuJoCo {VERSION}, written by bench/compare_mujoco.py\n")
-            csv.writer(file).writerows([["case", "setting", "what", "value"], *rows])
-        os.replace(RESULTS + ".new", RESULTS)
+    with_packages()
+    import mujoco
+
+    found = {"mujoco": mujoco.__version__, "python": platform.python_version(), "runs": {}}
+    for name, settings in SETTINGS.items():
+        row = found["runs"][name] = {"settings": {**settings[0], **settings[1]}}
+        for run in (euler, aside, creep):
+            begun = time.process_time()
+            row[run.__name__] = {**run(settings), "seconds": round(time.process_time() - begun, 2)}
+            print(name, run.__name__, {key: value for key, value in row[run.__name__].items() if key != "position"}, flush=True)
+    with open(options.file, "w", encoding="utf-8") as file:
+        json.dump(found, file, indent=1)
+        file.write("\n")
 
 
 if __name__ == "__main__":

@@ -18,14 +18,16 @@
 extern "C" {
 #endif
 
-/* Springs from a piece of a line to the ground: the energy (x - a)'K (x - a)/2 per metre of line, K
- * diagonal, a the place of the spring. */
+/* Springs from a piece of a line to the ground, or a quadratic field that it is in: the energy (x -
+ * a)'K (x - a)/2 per metre of line (S90 annexes, U), K symmetric and nowhere negative, a the place
+ * of the spring or the centre of the field. */
 typedef struct CpsSpring {
     double from, to;     /* [m] unstretched length from end A, 0 <= from <= to <= length */
     double stiffness[3]; /* [N/m2] >= 0, per metre of line, along x, y and z; where from = to [N/m]
                             of one spring at the node nearest to it */
     bool at_start;       /* a is where each node is at the start, which must be a shape; else */
     double place[3];     /* [m] a, the same for all: a field towards a place */
+    double coupling[3];  /* [N/m2] likewise, of x and y, x and z, y and z; default 0 */
 } CpsSpring;
 
 /* A force that does not depend on the place. */

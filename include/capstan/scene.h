@@ -40,8 +40,7 @@ typedef enum CpsObstacleKind {
 /* The set of friction forces F that two coefficients describe, at the reaction R. By M77 section 4
  * the slip is opposite to an outward normal of the set at F. */
 typedef enum CpsFrictionShape {
-    CPS_FRICTION_SHAPE_ELLIPSE, /* (F1/mu1)^2 + (F2/mu2)^2 <= R^2; the disc of Coulomb's law where
-                             mu1 = mu2 */
+    CPS_FRICTION_SHAPE_ELLIPSE, /* (F1/mu1)^2 + (F2/mu2)^2 <= R^2; a disc where mu1 = mu2 */
     CPS_FRICTION_SHAPE_BOX      /* |F1| <= mu1 R and |F2| <= mu2 R: two independent laws */
 } CpsFrictionShape;
 
@@ -74,6 +73,7 @@ typedef struct CpsObstacle {
     /* [-] the first direction is its part in the tangent plane, fixed in space but for shifts,
      * which turn it; default 0 0 0: the direction of the line, with which it turns */
     double grain[3];
+    double stiffness; /* [N/m3] >= 0, default 0: rigid; else it gives, by pressure over depth */
     /* it may be shifted, by stages and moves (CpsShift): needs Coulomb's law and contact that is
      * reached. A turn about its own axis needs no flag. Default false */
     bool moves;
@@ -148,18 +148,18 @@ typedef struct CpsLine {
     double length;                /* [m] natural length > 0 */
     int element_count;            /* >= 1 */
     const double *element_length; /* (element_count) [m], their sum is `length`; NULL: all equal */
-    double weight;      /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
-    double inertia;     /* [kg/m] >= 0, default 0: mass per natural length that moves (motion.h) */
-    double velocity[3]; /* [m/s] of the free nodes as the history begins; default 0 0 0 */
-    double stiffness;   /* [N] EA > 0; INFINITY: inextensible */
+    double weight;  /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double inertia; /* [kg/m] >= 0, default 0: mass per natural length that moves (motion.h) */
+    double bearing_width;    /* [m] >= 0, default 0: with which it bears on obstacles that give */
+    double velocity[3];      /* [m/s] of the free nodes as the history begins; default 0 0 0 */
+    double stiffness;        /* [N] EA > 0; INFINITY: inextensible */
     int stiffness_row_count; /* default 0; or of a table in place of `stiffness`, as of a section */
     const CpsStiffnessRow *stiffness_row;
     bool has_dynamic_stiffness; /* default false; as of a section */
     CpsDynamicStiffness dynamic_stiffness;
-    bool has_breaking_load; /* default false */
-    double breaking_load;   /* [N] > 0, with the flag: of what the report's utilisation is a part */
-    bool has_break_at;      /* default false */
-    double break_at;        /* [N] > 0, with the flag: above this tension it parts (failure.h) */
+    bool has_breaking_load, has_break_at; /* default false */
+    double breaking_load; /* [N] > 0, with the flag: of what the report's utilisation is a part */
+    double break_at;      /* [N] > 0, with the flag: above this tension it parts (failure.h) */
     /* (section_count) from A to B, each ending at a node; their lengths make up `length`. NULL, the
      * default: the line is of one make, with what is above, which is not read otherwise. */
     int section_count;

@@ -271,9 +271,9 @@ typedef struct CpsLineView {
      * lines where these lie more than 512 lengths away */
     double origin[3];
     bool has_springs, has_node_loads; /* (loads.h) of nodes; without, what follows is 0 */
-    /* (n, 3) [N/m] K, diagonal, [m] a, [m] y, small: their force -K (x + y - a) balances; [N] drag
-     * and given loads, a part of `load` */
-    const double *node_stiffness, *node_place, *node_beside, *node_load;
+    /* (n, 3) [N/m] K, its xx, yy, zz and xy, xz, yz, [m] a, [m] y, small: their force -K (x + y -
+     * a) balances; [N] drag and given loads, a part of `load` */
+    const double *node_stiffness, *node_coupling, *node_place, *node_beside, *node_load;
     /* Contact of element e with a round obstacle at the point (1 - beta) x_e + beta x_{e+1} nearest
      * to its axis or centre; its forces act on the nodes in these shares, its slip is that of the
      * point with this beta. With a plane it is the third contact of the node at the element's end,

@@ -39,17 +39,18 @@ CPS_API const char *cps_stiffness_text(CpsStiffnessKind kind); /* its sentence; 
 
 /* Whether there is such a matrix. There is none either where a node rests by a set of friction
  * forces that has 0 on its boundary, or a boundary not made of edges, corners and arcs. */
-#define CPS_STIFFNESS_OUTCOME_LIST(X)                                                   \
-    X(CPS_STIFFNESS_OUTCOME_FOUND, 0, "found", "found")                                 \
-    X(CPS_STIFFNESS_OUTCOME_NO_STEP, 1, "no_step",                                      \
-      "no certified load step, or a taut line that cannot stretch")                     \
-    X(CPS_STIFFNESS_OUTCOME_TOUCHES, 2, "touches",                                      \
-      "the end touches an obstacle, whose force on it may be any within a bound")       \
-    X(CPS_STIFFNESS_OUTCOME_LOOSE, 3, "loose",                                          \
-      "a loose part of the line has no one place, and no stiffness")                    \
-    X(CPS_STIFFNESS_OUTCOME_NOT_GIVEN, 4, "not_given",                                  \
-      "an element touches, a node slides in a corner, with a box or a set of friction " \
-      "forces, or by axes that change, or states are not resolved: not looked into")
+#define CPS_STIFFNESS_OUTCOME_LIST(X)                                                      \
+    X(CPS_STIFFNESS_OUTCOME_FOUND, 0, "found", "found")                                    \
+    X(CPS_STIFFNESS_OUTCOME_NO_STEP, 1, "no_step",                                         \
+      "no certified load step, or a taut line that cannot stretch")                        \
+    X(CPS_STIFFNESS_OUTCOME_TOUCHES, 2, "touches",                                         \
+      "the end touches an obstacle, whose force on it may be any within a bound")          \
+    X(CPS_STIFFNESS_OUTCOME_LOOSE, 3, "loose",                                             \
+      "a loose part of the line has no one place, and no stiffness")                       \
+    X(CPS_STIFFNESS_OUTCOME_NOT_GIVEN, 4, "not_given",                                     \
+      "an obstacle gives, an element touches, a node slides in a corner, with a box or a " \
+      "set of friction forces, or by axes that change, or states are not resolved: not "   \
+      "looked into")
 
 typedef enum CpsStiffnessOutcome {
 #define CPS_STIFFNESS_OUTCOME_ENUM(name, number, key, sentence) name = number,

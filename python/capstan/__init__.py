@@ -12,7 +12,7 @@ headers of the C library."""
 from ._errors import (ArgumentError, Error, FileError, InputError, LimitError, NoAnswer, OutOfMemory, Place, text as _text)
 from ._native import lib as _lib
 from ._record import Record
-from . import laws, plots, sets
+from . import _netcdf, laws, planar, plots, sets
 from .derivatives import Derivative, derivative
 from .evolution import ARRAYS, Evolution, LineState
 from .move import Move
@@ -21,11 +21,13 @@ from .laws import Law, Resistance
 from .scene import Body, Friction, Line, Obstacle, Point, Scene
 from .sets import Set
 from .sweeps import sweep
-from .systems import Motion, System
+from .systems import Motion, Solutions, System
+
+_netcdf.point_to_it()
 
 __version__ = _text(_lib.cps_version())
 
 __all__ = ["ARRAYS", "ArgumentError", "Body", "Derivative", "Error", "Evolution", "FileError", "Friction", "InputError", "Law",
            "LimitError", "Line", "LineHistory", "LineState", "Motion", "Move", "NoAnswer", "Obstacle",
            "OutOfMemory", "Place", "Point", "Record", "Resistance", "Results", "SavedResults", "Scene",
-           "Set", "Step", "System", "__version__", "derivative", "laws", "open", "plots", "run", "sets", "sweep"]
+           "Set", "Solutions", "Step", "System", "__version__", "derivative", "laws", "open", "planar", "plots", "run", "sets", "sweep"]

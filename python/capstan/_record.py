@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import os
-from typing import Any, Dict, Iterator, List, Tuple
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
 
 import numpy as np
 
@@ -31,7 +31,7 @@ def enum_value(kind: str, word: str) -> int:
     """The constant of a word; ValueError names the words that there are."""
     words = enum_words(ffi.typeof(kind))
     for value, name in words.items():
-        if name == word:
+        if isinstance(word, str) and name == word:
             return value
     raise ValueError(f"found {word!r}, expected one of {', '.join(words.values())}")
 
@@ -60,14 +60,18 @@ class Record:
 
     It is a copy and does not change."""
 
-    __slots__ = ("_c", "_keep", "_texts")
+    __slots__ = ("_c", "_keep", "_texts", "_arrays")
 
-    def __init__(self, c: Any, keep: Any = None) -> None:
+    def __init__(self, c: Any, keep: Any = None, arrays: Optional[Mapping[str, Tuple[int, ...]]] = None) -> None:
         # texts belong to the library and may change with the next step: they are taken now
         self._c, self._keep = c, keep
         self._texts = {name: text(getattr(c, name)) for name in _fields(_struct(c))[1]}
+        # so do arrays of which the caller knows the shapes
+        self._arrays = {name: _copied(getattr(c, name), shape) for name, shape in (arrays or {}).items()}
 
     def __getattr__(self, name: str) -> Any:
+        if name in self._arrays:
+            return self._arrays[name]
         kind = _fields(_struct(self._c))[0].get(name)
         if kind is None:
             raise AttributeError(f"{_named(self._c)} has no {name!r}: it has {', '.join(dir(self))}")
@@ -96,7 +100,7 @@ class Record:
 
     def __dir__(self) -> List[str]:
         fields = _fields(_struct(self._c))[0]
-        return [name for name in fields if not (name.startswith("has_") and name[4:] in fields)]
+        return [name for name in fields if not (name.startswith("has_") and name[4:] in fields)] + list(self._arrays)
 
     def __iter__(self) -> Iterator[Tuple[str, Any]]:
         return ((name, getattr(self, name)) for name in dir(self))
@@ -116,6 +120,14 @@ class Record:
 
     def __reduce__(self) -> Any:
         raise TypeError("a report cannot be pickled or copied: take to_dict()")
+
+
+def _copied(pointer: Any, shape: Tuple[int, ...]) -> Optional[np.ndarray]:
+    if pointer == ffi.NULL:
+        return None
+    made: np.ndarray = np.frombuffer(ffi.buffer(pointer, 8 * int(np.prod(shape))), np.float64).reshape(shape).copy()
+    made.flags.writeable = False
+    return made
 
 
 def _struct(c: Any) -> Any:

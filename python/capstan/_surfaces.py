@@ -2,7 +2,7 @@
 """Surfaces of obstacles, sampled for pictures in space."""
 from __future__ import annotations
 
-from typing import Any, Iterator, NamedTuple, Optional, Tuple
+from typing import Any, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -20,6 +20,14 @@ class Surface(NamedTuple):
 
     point: np.ndarray
     triangle: Optional[np.ndarray] = None
+    normal: Optional[np.ndarray] = None  # of a plane or ground: away from it
+
+    def polygons(self, axes: Sequence[int]) -> List[np.ndarray]:
+        """What is seen of it in these axes: its faces, and its first and last row, as of a cylinder that is cut off."""
+        x = self.point[..., axes]
+        if self.triangle is not None:
+            return list(x[self.triangle])
+        return [*np.stack([x[:-1, :-1], x[1:, :-1], x[1:, 1:], x[:-1, 1:]], 2).reshape(-1, 4, len(axes)), x[0], x[-1]]
 
 
 def surfaces(evolution: Any, low: np.ndarray, high: np.ndarray) -> Iterator[Tuple[str, Surface]]:
@@ -36,7 +44,7 @@ def _surface(obstacle: Any, now: Record, low: np.ndarray, high: np.ndarray) -> O
     if kind == lib.CPS_OBSTACLE_SURFACE:
         return None
     if kind == lib.CPS_OBSTACLE_GROUND:
-        return Surface(now.point + _ground(lib.cps_ground_grid(obstacle.ground)))
+        return Surface(now.point + _ground(lib.cps_ground_grid(obstacle.ground)), normal=np.array([0.0, 0, 1]))
     axes = np.stack([now.side, np.cross(now.axis, now.side), now.axis])  # rows
     if kind == lib.CPS_OBSTACLE_MESH:
         return _mesh(lib.cps_mesh_triangles(obstacle.mesh), now.point, axes)
@@ -48,7 +56,7 @@ def _surface(obstacle: Any, now: Record, low: np.ndarray, high: np.ndarray) -> O
     begin, end = reach.min(0) - margin, reach.max(0) + margin
     if kind == lib.CPS_OBSTACLE_PLANE:
         a, b = np.meshgrid([begin[0], end[0]], [begin[1], end[1]])
-        return Surface(now.point + np.stack([a, b, 0 * a], -1) @ axes)
+        return Surface(now.point + np.stack([a, b, 0 * a], -1) @ axes, normal=now.axis)
     away, along = _profile(obstacle, begin[2], end[2])
     angle = np.linspace(0, 2 * np.pi, AROUND + 1)
     local = np.stack([np.outer(away, np.cos(angle)), np.outer(away, np.sin(angle)), np.outer(along, np.ones_like(angle))], -1)

@@ -34,6 +34,7 @@ ARRAYS: Dict[str, Tuple[np.dtype, str, str]] = {
     "load": (_DOUBLE, "n3", "[N] weight, given loads, drag, and the force on a free end"),
     "node_load": (_DOUBLE, "n3", "[N] of that, given loads and drag; 0 where there are none"),
     "node_stiffness": (_DOUBLE, "n3", "[N/m] of the springs of the nodes; 0 without"),
+    "node_coupling": (_DOUBLE, "n3", "[N/m] the same, of x and y, x and z, y and z"),
     "node_place": (_DOUBLE, "n3", "[m] where they are without force"),
     "node_beside": (_DOUBLE, "n3", "[m] beside the position at which they are taken, small"),
     "obstacle": (_INT, "cn", "index of the obstacle of a contact, -1: none"),
@@ -132,6 +133,32 @@ class LineState:
         """Whether the line has parted, or an end was let go (CpsLineFailure of failure.h)."""
         return self._evolution._ask(lambda handle: Record(lib.cps_evolution_line_failure(handle, self._index)))
 
+    @property
+    def in_time(self) -> Record:
+        """Velocity and energy of a line in time (CpsLineMotion of motion.h); its arrays are copies, None where there are none."""
+        def asked(handle: Any) -> Record:
+            found, n = lib.cps_evolution_line_motion(handle, self._index), lib.cps_evolution_line_view(handle, self._index).element_count + 1
+            return Record(found, arrays={"mass": (n,), "velocity": (n, 3), "before": (n, 3), "rest_velocity": (n, 3), "span": (n,)})
+        return self._evolution._ask(asked)
+
+    def winch(self, end: str = "B") -> Record:
+        """The winch at an end (CpsWinchReport of winch.h): length stored, pull; `is_there` says whether there is one."""
+        if end not in ("A", "B"):
+            raise ArgumentError(f"end: found {end!r}, expected 'A' or 'B'")
+
+        def asked(handle: Any) -> Record:
+            e = lib.cps_evolution_line_view(handle, self._index).element_count
+            return Record(lib.cps_evolution_winch_report(handle, self._index, "AB".index(end)), arrays={"length": (e,)})
+        return self._evolution._ask(asked)
+
+    @property
+    def two_stiffnesses(self) -> Record:
+        """Static and dynamic stiffness of the line (CpsTwoStiffnesses of two_stiffnesses.h)."""
+        def asked(handle: Any) -> Record:
+            e = lib.cps_evolution_line_view(handle, self._index).element_count
+            return Record(lib.cps_evolution_two_stiffnesses(handle, self._index), arrays={"element_length": (e,), "rest_strain": (e,)})
+        return self._evolution._ask(asked)
+
     def stiffness(self, end: str = "B", kind: str = "step", smooth: bool = False) -> np.ndarray:
         """[N/m] (3, 3) the derivative of the force at an end by the place of that end (stiffness.h).
 
@@ -172,20 +199,25 @@ class Evolution:
     threads:        threads that share the lines of a step (with several lines); None: as the scene says
     path_tolerance: as the key of the scene; None: as the scene says
     moving:         names of obstacles that moves will shift, beside those that the history moves
+    in_time:        moves may have a duration; None: where entries of the history have one
     """
 
     def __init__(self, scene: SceneLike, *, threads: Optional[int] = None, path_tolerance: Optional[float] = None,
-                 moving: Sequence[str] = ()) -> None:
+                 moving: Sequence[str] = (), in_time: Optional[bool] = None) -> None:
         self._lock = threading.Lock()
         self._handle: Any = None
         self.scene = Scene.of(scene).copy()
-        self._settings: Dict[str, Any] = {"threads": threads, "path_tolerance": path_tolerance, "moving": tuple(moving)}
+        self._settings: Dict[str, Any] = {"threads": threads, "path_tolerance": path_tolerance, "moving": tuple(moving), "in_time": in_time}
         self._file = self.scene._file()
         self._c_scene = ffi.new("CpsScene *", lib.cps_scene_file_scene(self._file)[0])
         if threads is not None:
             self._c_scene.solver.thread_count = _numbers.count(threads, "threads", 1)
         if path_tolerance is not None:
             self._c_scene.solver.path_tolerance = _numbers.number(path_tolerance, "path_tolerance")
+        if in_time is not None:
+            if not isinstance(in_time, (bool, np.bool_)):
+                raise ArgumentError(f"in_time: found {in_time!r}, expected True or False")
+            self._c_scene.in_time = bool(in_time)
         self._names = names_of(self._c_scene)
         if moving:
             c = self._c_scene
@@ -288,6 +320,21 @@ class Evolution:
     def obstacles(self) -> Dict[str, Record]:
         """Reports on the obstacles by name: where they are now (CpsObstacleReport of shift.h)."""
         return self._reports("obstacles", lib.cps_evolution_obstacle_report)
+
+    @property
+    def time(self) -> float:
+        """[s] the time that steps with a duration have taken since the start."""
+        return self._ask(lib.cps_evolution_time)
+
+    @property
+    def parting(self) -> Record:
+        """The break that the last step was (CpsBreak of failure.h); `is_break` says whether it was one."""
+        return self._ask(lambda handle: Record(lib.cps_evolution_break(handle)))
+
+    @property
+    def parts_next(self) -> bool:
+        """Whether the next step is a break: a line is above its break_at."""
+        return self._ask(lib.cps_evolution_breaks)
 
     def body_stiffness(self, body: str, kind: str = "step", smooth: bool = False) -> np.ndarray:
         """[N/m, N, N m] (6, 6) of a body in its pose: the derivative of force and moment by position and rotation."""

@@ -15,24 +15,37 @@ from ._native import ffi, lib
 if TYPE_CHECKING:
     from .evolution import Evolution
 
-_HELD, _FREE = "position", "force"
+_SWAY = ("sine", "cosine", "period")
+
+
+def _quaternion(key: str, value: Any) -> np.ndarray:
+    """A rotation as of a scene file: a quaternion, or yaw about z, then pitch about the y so turned, then roll [degrees]."""
+    if isinstance(value, Mapping) and set(value) == {"quaternion"}:
+        return _numbers.array(value["quaternion"], (4,), f"'{key}' quaternion")
+    if not isinstance(value, Mapping) or set(value) != {"roll_pitch_yaw"}:
+        raise ArgumentError(f"'{key}': expected rotation as a dictionary with 'quaternion' or 'roll_pitch_yaw'")
+    roll, pitch, yaw = np.radians(_numbers.array(value["roll_pitch_yaw"], (3,), f"'{key}' roll_pitch_yaw")) / 2
+    (a, x), (b, y), (c, z) = ((math.cos(half), math.sin(half)) for half in (roll, pitch, yaw))
+    return np.array([a * b * c + x * y * z, x * b * c - a * y * z, a * y * c + x * b * z, a * b * z - x * y * c])
 
 
 class Move:
     """A target of moves, made by `Evolution.target` of a dictionary with the keys of an entry of a scene's history:
 
         "LINE.A", "LINE.B"   {"position": [x, y, z]}, {"move": [x, y, z]} from where it is, {"force": [x, y, z]}, or
-                             {"release": True}
+                             {"release": True}; in time beside it "sine" or "cosine" with "period"
         "LINE.node"          with "at", the natural length from end A: {"position": ..}, {"hold": True}, {"force": ..} or
                              {"release": True}; further nodes as "LINE.node2" to "LINE.node4"
         "POINT.point"        as an end
-        "BODY.body"          {"position": .., "rotation": {"quaternion": [w, x, y, z]}} or {"force": .., "moment": ..}
+        "BODY.body"          {"position": .., "rotation": {"quaternion": [w, x, y, z]}}, "move" in place of "position",
+                             "roll_pitch_yaw" [degrees] in place of "quaternion"; or {"force": .., "moment": .., "arm": ..}
         "LINE.pay_out_A", "LINE.pay_out_B"   length that the winch there pays out, negative: it hauls in
         "OBSTACLE.turn"      degrees
         "OBSTACLE.obstacle"  {"move": [x, y, z]}, {"turn": degrees, "axis": .., "about": ..} or both, of one that the history
                              moves or that is named in `moving` of the evolution
         "gravity"            [x, y, z]
         "stiffness"          "static" or "dynamic", of lines with a dynamic stiffness
+        "duration"           seconds that the move takes: in time, with inertia; needs an evolution `in_time`
         "name"               name of the step
 
     The values of vectors can be changed between moves, without a new target:
@@ -59,7 +72,7 @@ class Move:
                                  (("shift"), "CpsShift", self._shift), (("point_change"), "CpsPointChange", self._point),
                                  (("body_change"), "CpsBodyChange", self._body),
                                  (("grasp_change"), "CpsGraspChange", self._grasp),
-                                 (("pay_out"), "CpsPayOut", self._pay_out)):
+                                 (("pay_out"), "CpsPayOut", self._pay_out), (("sway"), "CpsSway", self._sway)):
             self._fill(evolution, rows, kind, fill)
 
     def __getitem__(self, key: str) -> np.ndarray:
@@ -82,6 +95,11 @@ class Move:
                 raise ArgumentError(f"stiffness: found {value!r}, expected 'static' or 'dynamic'")
             self._stage.static_stiffness = value == "static"
             return
+        if key == "duration":
+            self._stage.duration = _numbers.number(value, "'duration'")
+            if not self._stage.duration > 0:
+                raise ArgumentError(f"'duration': found {value!r}, expected seconds > 0")
+            return
         if key == "gravity":
             self._stage.gravity_changes = True
             self._vector(key, self._stage.gravity, value)
@@ -91,9 +109,11 @@ class Move:
                  "obstacle": "shift", "node": "grasp_change", "node2": "grasp_change", "node3": "grasp_change",
                  "node4": "grasp_change", "pay_out_A": "pay_out", "pay_out_B": "pay_out"}
         if not isinstance(key, str) or not dot or what not in kinds:
-            raise ArgumentError(f"target: found the key {key!r}, expected 'gravity', 'stiffness', 'name', or a name with "
+            raise ArgumentError(f"target: found the key {key!r}, expected 'gravity', 'duration', 'stiffness', 'name', or a name with "
                                 ".A, .B, .node, .pay_out_A, .pay_out_B, .point, .body, .turn or .obstacle")
         self._rows.setdefault(kinds[what], []).append((key, value))
+        if what in ("A", "B") and isinstance(value, Mapping) and any(word in value for word in _SWAY):
+            self._rows.setdefault("sway", []).append((key, value))
 
     def _fill(self, evolution: "Evolution", rows: str, kind: str, fill: Any) -> None:
         wanted = self._rows.get(rows, [])
@@ -141,7 +161,7 @@ class Move:
 
     def _end(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         name, _, end = key.rpartition(".")
-        word = self._only(key, value, ("position", "move", "force", "release"))
+        word = self._only(key, value, ("position", "move", "force", "release"), _SWAY)
         row.line, row.end = evolution._index("lines", name), "AB".index(end)
         if word == "release":
             self._true(key, word, value[word])
@@ -176,24 +196,34 @@ class Move:
         else:
             self._vector(key, row.value, value[word])
 
+    def _sway(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
+        name, _, end = key.rpartition(".")
+        if "period" not in value or not ("sine" in value or "cosine" in value) or "release" in value:
+            raise ArgumentError(f"'{key}': expected 'sine' or 'cosine' or both with 'period', beside position, move or force")
+        row.line, row.end = evolution._index("lines", name), "AB".index(end)
+        row.period = _numbers.number(value["period"], f"'{key}' period")
+        self._vector(key + ".sine", row.sine, value.get("sine", [0, 0, 0]))
+        self._vector(key + ".cosine", row.cosine, value.get("cosine", [0, 0, 0]))
+
     def _body(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         name = key.rpartition(".")[0]
-        pose, load = ("position", "rotation"), ("force", "moment")
-        known = isinstance(value, Mapping) and value and (set(value) <= set(pose) or set(value) <= set(load))
-        if not known:
-            raise ArgumentError(f"'{key}': expected a dictionary with position and rotation, or with force and moment")
+        held, free = {"position", "move", "rotation"}, {"force", "moment", "arm"}
+        known = isinstance(value, Mapping) and value and (set(value) <= held or set(value) <= free)
+        if not known or {"position", "move"} <= set(value) or ("arm" in value and "force" not in value):
+            raise ArgumentError(f"'{key}': expected a dictionary with position or move and rotation, or with force, moment and arm")
         row.body = evolution._index("bodies", name)
-        if set(value) <= set(load):
+        if set(value) <= free:
             row.kind = lib.CPS_BODY_KIND_FREE
-            self._vector(key + ".moment", row.moment, value.get("moment", [0, 0, 0]))
-            self._vector(key, row.force, value.get("force", [0, 0, 0]))
+            force = _numbers.array(value.get("force", [0, 0, 0]), (3,), f"'{key}' force")
+            arm = _numbers.array(value.get("arm", [0, 0, 0]), (3,), f"'{key}' arm")
+            moment = _numbers.array(value.get("moment", [0, 0, 0]), (3,), f"'{key}' moment")
+            self._vector(key + ".moment", row.moment, moment + np.cross(arm, force))
+            self._vector(key, row.force, force)
             return
         row.kind, now = lib.CPS_BODY_KIND_HELD, evolution.bodies[name]
-        rotation = value.get("rotation", {"quaternion": now.rotation})
-        if not isinstance(rotation, Mapping) or set(rotation) != {"quaternion"}:
-            raise ArgumentError(f"'{key}': expected rotation as a dictionary with 'quaternion'")
-        self._vector(key + ".rotation", row.rotation, rotation["quaternion"])
-        self._vector(key, row.position, value.get("position", now.position))
+        self._vector(key + ".rotation", row.rotation, _quaternion(key, value["rotation"]) if "rotation" in value else now.rotation)
+        word = "move" if "move" in value else "position"
+        self._vector(key, row.position, self._place(key, word, value.get(word, now.position), now.position))
 
     def _turn(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         row.obstacle = evolution._index("obstacles", key.rpartition(".")[0])

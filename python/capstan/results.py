@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Optional,
 
 import numpy as np
 
+from . import _netcdf
 from ._errors import ArgumentError, Error, FileError, Place, check, text
 from ._native import ffi, lib
 from ._record import Record, enum_word
@@ -244,6 +245,7 @@ class Results(_Files):
         stiffness: write stiffness.csv
         fields:    arrays of result.nc, as for `capstan run --fields`; None: all
         """
+        _netcdf.load_with_its_own()
         path, err = os.fsencode(directory), ffi.new("CpsError *")
         options = ffi.new("CpsResultsOptions *", lib.cps_results_options_default())
         named = ffi.new("char[]", fields.encode()) if fields is not None else ffi.NULL

@@ -9,9 +9,10 @@ import os
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, Mapping, Optional, Union
 
-from . import _yaml
+from . import _netcdf, _yaml
 from ._errors import ArgumentError, FileError, Place, check, text
 from ._native import ffi, lib
+from ._schema import documented
 
 _TEXT = "<scene>"
 
@@ -50,6 +51,7 @@ class _Keys:
         return _yaml.plain(self._keys, type(self).__name__)
 
 
+@documented("line")
 class Line(_Keys):
     """A line from its end A to its end B.
 
@@ -59,26 +61,31 @@ class Line(_Keys):
     """
 
 
+@documented("point")
 class Point(_Keys):
     """A point where lines meet: `held`, or `free`, or on a `body`, with its `weight`, `force` and so on."""
 
 
+@documented("body")
 class Body(_Keys):
     """A rigid body that lines hold: `held` or `free`, with `mass`, `buoyancy`, `hydrostatics` and so on."""
 
 
+@documented("obstacle")
 class Obstacle(_Keys):
-    """A `plane`, `cylinder` or `sphere`, with its `friction`: a number, or a `Friction`.
+    """A surface (`plane`, `cylinder`, `sphere`, `box`, `mesh`, ..) with its `friction`: a number, or a `Friction`.
 
     >>> Obstacle(plane={}, friction=Friction(axial=0.6, lateral=0.8)).to_tree()
     {'plane': {}, 'friction': {'axial': 0.6, 'lateral': 0.8}}
     """
 
 
+@documented("friction")
 class Friction(_Keys):
     """Friction that depends on direction: `axial`, `lateral`, `shape` and `grain`; or `set`, which may be a `Set`."""
 
 
+@documented("scene")
 class Scene:
     """Lines, obstacles and loads, and the history of their changes.
 
@@ -197,6 +204,8 @@ class Scene:
     def _file(self) -> Any:
         """The scene as the library reads it: a CpsSceneFile that is freed with this object."""
         out, err, source = ffi.new("CpsSceneFile **"), ffi.new("CpsError *"), self._source()
+        if b"netcdf" in source:  # of a ground
+            _netcdf.load_with_its_own()
         if b"\0" in source:
             raise ArgumentError("the scene's text contains a zero byte")
         check(lib.cps_scene_read_text(source, os.fsencode(self._name), ffi.NULL, out, err), err)

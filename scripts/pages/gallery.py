@@ -59,6 +59,7 @@ PICTURES = {
     "run-barge": of_example("barge", "step-00006-plan.svg"),
     "run-winch": of_example("winched-mooring", "tension.svg"),
     "run-riser": of_example("riser-in-a-current", "elevation.svg"),
+    "run-soft-clay": of_example("soft-clay", "elevation.svg"),
     "run-dropped-chain": of_example("dropped-chain", "elevation.svg"),
     "run-parting-lines": of_example("parting-lines", "step-00008-plan.svg"),
     "run-net": net,

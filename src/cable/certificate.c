@@ -12,6 +12,8 @@
  *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s); a given
  *                set's phi is its support
  *     contact    R (n.u + gap)
+ *                where the obstacle gives, with k the stiffness of the node and d = -(n.u + gap),
+ *                (d^+ - R/k)^2 k/2 + R d^-
  *     field      y'K y/2, its force being taken at x + y (field.h)
  *
  * where u and s of a contact of an element are those of its point, (1 - beta) u_j + beta u_{j+1},
@@ -28,6 +30,7 @@
 #include "cable/flow.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
+#include "cable/soft.h"
 #include "chain/frame.h"
 #include "linalg/dense.h"
 
@@ -241,6 +244,20 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
     }
 }
 
+/* Add what contact c adds with an obstacle that gives, beside the terms of a rigid one: the energy
+ * E of its spring, its conjugate R^2/(2 k), and the local gap E + E* + R (n.u + gap). */
+static void add_soft(const CpsiLine *line, int c, double gives, CpsCertificate *out) {
+    if (!isfinite(line->gap[c])) return;
+    const Vec3 u = vec3_sub(cpsi_line_place(line, line->position, c),
+                            cpsi_line_place(line, line->reference, c));
+    const double depth = -(vec3_dot(vec3_at(line->normal, c), u) + line->gap[c]),
+                 reaction = line->reaction[c], sunk = fmax(0, depth), off = sunk - reaction / gives;
+    out->primal += 0.5 * gives * sunk * sunk;
+    out->dual -= 0.5 * reaction * (reaction / gives);
+    out->scale += 0.5 * gives * sunk * sunk;
+    out->contact_residual += 0.5 * gives * off * off + reaction * fmax(0, -depth);
+}
+
 /* Add the terms of friction and reaction of contact c; returns the force on the node. */
 static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     const Vec3 x = cpsi_line_place(line, line->position, c),
@@ -248,6 +265,7 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     const Vec3 n = vec3_load(&line->normal[3 * c]), f = vec3_load(&line->friction_force[3 * c]);
     const double w = line->friction_bound[c], reaction = line->reaction[c];
     const CpsiFrictionLaw *law = &line->friction_law[c];
+    const double gives = cpsi_soft_stiffness(line, c);
     double force[3], slip[3];
     cpsi_line_local_slip(line, c, slip);
     cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
@@ -263,11 +281,13 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     if (reaction > 0) {
         /* the rounds move nodes onto the surface; an element may be on either side of it */
         const double distance = vec3_dot(n, vec3_sub(x, reference)) + line->gap[c];
-        out->contact_residual +=
-            reaction * (cpsi_line_element(line, c) >= 0 ? fabs(distance) : fmax(0, distance));
+        if (!(gives > 0))
+            out->contact_residual +=
+                reaction * (cpsi_line_element(line, c) >= 0 ? fabs(distance) : fmax(0, distance));
         out->dual += reaction * (vec3_dot(n, reference) - line->gap[c]);
         raise_to(&out->largest_force, reaction);
     }
+    if (gives > 0) add_soft(line, c, gives, out);
     return vec3_axpy(reaction, n, f);
 }
 
@@ -275,13 +295,20 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
  * floor; never more than the moments |b_j| |x_j - x_A|. */
 static double load_scale(const CpsiLine *line, double largest_force, double tolerance) {
     const Vec3 anchor = vec3_load(&line->position[0]);
+    const bool has_field = cpsi_line_has_field(line);
     double work = 0, moment = 0, loads = 0;
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3 * j]), b = vec3_load(&line->load[3 * j]);
-        const Vec3 field = cpsi_line_field_force(line, j, x), from = vec3_at(line->reference, j);
-        work += fabs(vec3_dot(b, vec3_sub(x, from))) + fabs(vec3_dot(field, vec3_sub(x, from)));
-        moment += (vec3_norm(b) + vec3_norm(field)) * vec3_norm(vec3_sub(x, anchor));
-        loads += vec3_norm(b) + vec3_norm(field);
+        const Vec3 moved = vec3_sub(x, vec3_at(line->reference, j));
+        double load = vec3_norm(b);
+        work += fabs(vec3_dot(b, moved));
+        if (has_field) {
+            const Vec3 field = cpsi_line_field_force(line, j, x);
+            work += fabs(vec3_dot(field, moved));
+            load += vec3_norm(field);
+        }
+        moment += load * vec3_norm(vec3_sub(x, anchor));
+        loads += load;
     }
     work += GAP_FLOOR * fmax(loads, largest_force) * line->length / tolerance;
     return work <= moment ? work : moment;
@@ -311,7 +338,8 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         if (j > 0) balance = vec3_sub(balance, segment_force(line, j - 1));
         if (j + 1 < line->n) balance = vec3_add(balance, segment_force(line, j));
         double distance;
-        if (cpsi_line_nearest(line, x, &distance) >= 0) raise_to(&out->penetration, -distance);
+        if (cpsi_line_nearest_rigid(line, x, &distance) >= 0)
+            raise_to(&out->penetration, -distance);
         balance = cpsi_add_element_contacts(line, j, balance);
         if (cpsi_line_is_held(line, j)) {
             /* the held node's term of D: the force of its support times its position */

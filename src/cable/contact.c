@@ -20,6 +20,7 @@
 
 #include "cable/contact_detection.h"
 #include "cable/obstacle_side.h"
+#include "cable/soft.h"
 #include "cable/winch.h"
 #include "chain/frame.h"
 
@@ -110,7 +111,9 @@ static double allowance(const CpsiLine *line, int c) {
 Vec3 cpsi_contact_slip_between(const CpsiLine *line, int c, Vec3 from, Vec3 to) {
     const CpsiObstacle *obstacle = &line->obstacle[line->obstacle_index[c]];
     if (obstacle->kind == CPS_OBSTACLE_PLANE) return cpsi_obstacle_slip(obstacle, from, to);
-    const CpsiObstacle touched = cpsi_obstacle_within(obstacle, allowance(line, c));
+    const double depth =
+        obstacle->stiffness > 0 ? cpsi_soft_way_depth(obstacle, to) : allowance(line, c);
+    const CpsiObstacle touched = cpsi_obstacle_within(obstacle, depth);
     return cpsi_obstacle_slip(&touched, from, to);
 }
 
@@ -212,7 +215,7 @@ static void set_reference(CpsiLine *line, int c, bool frictionless) {
     line->friction_bound[c] = has_friction ? line->friction_law[c].friction * line->reaction[c] : 0;
     line->gap[c] = !held && near ? 0 : INFINITY;
     if (cpsi_contact_is_watched(line, c, gap))
-        line->gap[c] = gap > 0 || line->inertia.is_moving ? gap : 0;
+        line->gap[c] = gap > 0 || line->inertia.is_moving || obstacle->stiffness > 0 ? gap : 0;
     line->gap[c] -= nearer;
     /* a free contact has no reaction; remove what the loop left of it */
     if (!held && (!cpsi_contact_is_watched(line, c, gap) || line->state[c] == CPS_NODE_STATE_FREE))
@@ -291,7 +294,11 @@ void cpsi_contact_clear_undetermined_slip(CpsiLine *line) {
 bool cpsi_contact_turns_too_far(const CpsiLine *line) {
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
-            if (line->obstacle_index[c] < 0 || !(line->friction_bound[c] > 0)) continue;
+            const int k = line->obstacle_index[c];
+            /* what gives may also be gone through */
+            if (k < 0 || !(line->friction_bound[c] > 0 ||
+                           (line->obstacle[k].stiffness > 0 && line->reaction[c] > 0)))
+                continue;
             /* it has left the surface, and its slip is that in the plane of the reference */
             if (line->keeps_reference_axes && !(line->reaction[c] > 0)) continue;
             if (!(fabs(line->winding[c]) <= CPSI_QUARTER + QUARTER_ROUNDING) ||
@@ -325,7 +332,7 @@ static void move_along_surface(CpsiLine *line, int j) {
     const int c =
         line->contacts > 1 && line->reaction[j + line->n] > line->reaction[j] ? j + line->n : j;
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-    if (!obstacle || !line->active[c]) return;
+    if (!obstacle || !line->active[c] || obstacle->stiffness > 0) return;
     vec3_store(&line->position[3 * j], cpsi_obstacle_move(obstacle, from, vec3_sub(to, from)));
 }
 
@@ -338,7 +345,10 @@ static double held_depth(const CpsiLine *line) { return 2 * CPSI_TOUCH * line->l
 static double node_clearance(const CpsiLine *line, int j) {
     const Vec3 to = vec3_at(line->position, j);
     double least = INFINITY;
-    if (line->contact_everywhere) cpsi_line_nearest(line, to, &least);
+    if (line->contact_everywhere) {
+        cpsi_line_nearest_rigid(line, to, &least);
+        least = fmin(least, cpsi_soft_missed(line, j));
+    }
     for (int c = j; c < cpsi_line_contacts(line) && !line->contact_everywhere; c += line->n)
         if (isfinite(line->gap[c]))
             least = fmin(least, cpsi_obstacle_gap(cpsi_line_obstacle(line, c), to));

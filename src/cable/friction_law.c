@@ -7,10 +7,9 @@
 
 #include "base/vec3.h"
 
-/* |f||u| + f.u in the plane, without cancellation. */
-static double defect(const double f[2], const double u[2]) {
-    return vec3_angle_defect(vec3(-f[0], -f[1], 0), vec3(u[0], u[1], 0), hypot(f[0], f[1]),
-                             hypot(u[0], u[1]));
+/* |f||u| + f.u in the plane, without cancellation; their sizes are given. */
+static double defect(const double f[2], const double u[2], double size_f, double size_u) {
+    return vec3_angle_defect(vec3(-f[0], -f[1], 0), vec3(u[0], u[1], 0), size_f, size_u);
 }
 
 /* f with F = B f; 0 where the set has no width. */
@@ -26,10 +25,13 @@ double cpsi_friction_law_gap(const CpsiFrictionLaw *law, double bound, const dou
     double f[2], u[2], gap = 0;
     unmap(law, force, f);
     for (int a = 0; a < 2; a++) u[a] = law->ratio[a] * slip[a];
-    if (!law->box) return (bound - hypot(f[0], f[1])) * hypot(u[0], u[1]) + defect(f, u);
+    if (!law->box) {
+        const double size_f = hypot(f[0], f[1]), size_u = hypot(u[0], u[1]);
+        return (bound - size_f) * size_u + defect(f, u, size_f, size_u);
+    }
     for (int a = 0; a < 2; a++) {
         const double f1[2] = {f[a], 0}, u1[2] = {u[a], 0};
-        gap += (bound - fabs(f[a])) * fabs(u[a]) + defect(f1, u1);
+        gap += (bound - fabs(f[a])) * fabs(u[a]) + defect(f1, u1, fabs(f[a]), fabs(u[a]));
     }
     return gap;
 }

@@ -59,6 +59,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->field.own_stiffness, 6 * n);
         CPSI_PLACE(arena, line->field.own_place, 3 * n);
         CPSI_PLACE(arena, line->field.diagonal, 3 * n);
+        CPSI_PLACE(arena, line->field.coupling, 3 * n);
     }
     CPSI_PLACE(arena, line->normal, 3 * contacts);
     CPSI_PLACE(arena, line->gap, contacts);
@@ -147,10 +148,11 @@ double cpsi_line_largest_displacement(const CpsiLine *line, const double *from) 
     return longest;
 }
 
-int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap) {
+static int nearest_of(const CpsiLine *line, Vec3 x, bool rigid, double *gap) {
     int nearest = CPS_NO_OBSTACLE;
     *gap = INFINITY;
     for (int k = 0; k < line->obstacle_count; k++) {
+        if (rigid && line->obstacle[k].stiffness > 0) continue;
         const double distance = cpsi_obstacle_gap(&line->obstacle[k], x);
         if (!(distance < *gap)) continue;
         *gap = distance;
@@ -159,10 +161,19 @@ int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap) {
     return nearest;
 }
 
+int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap) {
+    return nearest_of(line, x, false, gap);
+}
+
+int cpsi_line_nearest_rigid(const CpsiLine *line, Vec3 x, double *gap) {
+    return nearest_of(line, x, true, gap);
+}
+
 double cpsi_line_pierces(const CpsiLine *line, int *obstacle) {
     double worst = 0;
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *o = &line->obstacle[k];
+        if (!cpsi_obstacle_is_round(o) && !cpsi_obstacle_is_rounded(o)) continue;
         for (int e = 0; e + 1 < line->n; e++) {
             const Vec3 a = vec3_at(line->position, e), b = vec3_at(line->position, e + 1);
             double share;
@@ -215,6 +226,13 @@ void cpsi_line_start_reaction(CpsiLine *line, double touch) {
         double gap;
         const int on = cpsi_line_nearest(line, x, &gap);
         if (!(gap <= touch)) continue;
+        if (line->obstacle[on].stiffness > 0) {
+            line->reaction[j] = line->obstacle[on].stiffness * line->bearing_width *
+                                cpsi_line_share(line, j) * fmax(0, -gap);
+            line->state[j] = CPS_NODE_STATE_STICK;
+            if (line->has_local_axes) line->obstacle_index[j] = on;
+            continue;
+        }
         Vec3 sum = vec3_scale(cpsi_line_weight_length(line, j), vec3_load(line->weight));
         sum = vec3_add(sum, cpsi_node_field_at(&line->field, j, x));
         if (j > 0) sum = vec3_sub(sum, start_force(line, j - 1));

@@ -5,8 +5,7 @@
  * n): contact c < n is the first contact of node c, contact n <= c < 2 n is the second contact of
  * node c - n. Where there are round obstacles, or more than two, and contact is not that of the
  * reference, elements touch as well: the contact of element e has the number `contacts` * n + e, at
- * the point of the element nearest to the axis or centre. With a plane it is the third contact of
- * node e + 1. */
+ * the point of it nearest to the axis or centre; with a plane it is the third of node e + 1. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_H
 #define CAPSTAN_SRC_CABLE_LINE_H
 
@@ -36,8 +35,8 @@ typedef struct CpsiLine {
     const CpsiFrictionSet *const
         *friction_set;  /* (obstacle_count) general friction sets; an entry NULL: a set that is {0},
                            or none; NULL: no obstacle has one */
-    const double *turn; /* (obstacle_count) [rad] by which each turns in this substep */
-    CpsiShift *shift;   /* (obstacle_count) how each has been shifted in it */
+    const double *turn; /* (obstacle_count) [rad] by which each turns in this substep, and */
+    CpsiShift *shift;   /* how each has been shifted in it */
     bool has_zones, has_inertia;    /* friction differs along it; it may move in time */
     bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
     bool has_sections;              /* weight and compliance may, and there may be point masses */
@@ -45,6 +44,7 @@ typedef struct CpsiLine {
     bool has_local_axes;    /* each contact has its own axes: not on one plane with a disc */
     int contacts;           /* of a node: 2 where there is more than one obstacle, else 1 */
     int element_contacts;   /* of an element, 0 or 1: so many more rows have arrays (contacts, n) */
+    double bearing_width;   /* [m] on what gives */
     double common_axes[9];  /* axes of the whole line: those of the one plane, or of the world */
     CpsEnd end[2];          /* imposed now */
     CpsiDrums drums;        /* what is on winches at the ends */
@@ -273,8 +273,10 @@ void cpsi_line_local_slip(const CpsiLine *line, int c, double slip[3]);
 /* [m] The largest displacement of a node from the positions `from` (n, 3). */
 double cpsi_line_largest_displacement(const CpsiLine *line, const double *from);
 
-/* The obstacle nearest to a point (CPS_NO_OBSTACLE: none) and the distance to it (INFINITY). */
+/* The obstacle nearest to a point (CPS_NO_OBSTACLE: none) and the distance to it (INFINITY); among
+ * all, or among those that are rigid. */
 int cpsi_line_nearest(const CpsiLine *line, Vec3 x, double *gap);
+int cpsi_line_nearest_rigid(const CpsiLine *line, Vec3 x, double *gap);
 
 /* [m] The largest penetration of an element into a round obstacle at `position`, beyond the
  * allowance of its chord (cpsi_obstacle_allowance), and that obstacle; 0, and *obstacle as it

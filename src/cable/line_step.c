@@ -40,9 +40,11 @@
 #include "cable/report.h"
 #include "cable/rounds.h"
 #include "cable/shortfall.h"
+#include "cable/soft.h"
 #include "cable/standstill.h"
 #include "cable/strategy.h"
 #include "cable/tension_field.h"
+#include "cable/winch.h"
 #include "ipm/ipm.h"
 
 /* strategies ----------------------------------------------------------------------------------- */
@@ -296,6 +298,7 @@ static void take_joined(CpsiLine *line, const CpsiStepOptions *options) {
     if (joined->scale.longer > 1) cpsi_line_straighten(line, joined->scale.longer - 1);
     for (int e = 0; e + 1 < line->n; e++)
         for (int a = 0; a < 3; a++) line->segment_force[3 * e + a] += joined->shift[a];
+    cpsi_winch_unload(line);
     line->report.iteration_count = joined->ipm.iterations;
     cpsi_places_as_found(line, program);
     cpsi_contact_plane_slip(line);
@@ -351,10 +354,12 @@ static void classify(CpsiLine *line, const CpsiChainProgram *program) {
 }
 
 /* Where the position of an inextensible line does not determine its forces: choose those nearest to
- * the forces before the step, if they can be certified. */
+ * the forces before the step, if they can be certified. On what gives the reactions follow from the
+ * position, and the forces found are kept. */
 static void choose_forces(CpsiLine *line, const CpsiChainProgram *program,
                           const CpsiStepOptions *options) {
-    if (!line->forces || line->inertia.is_moving || !cps_outcome_is_certified(line->report.outcome))
+    if (!line->forces || line->inertia.is_moving || cpsi_line_has_soft(line) ||
+        !cps_outcome_is_certified(line->report.outcome))
         return;
     const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
     const CpsCertificate before = line->report.certificate;

@@ -15,13 +15,15 @@
  * At a touchdown on a plane the curve begins between nodes, where the force's normal part is 0:
  * with v = p.n/|q.n| for the element there this adds (|q.n|/2H) (l/2 - v)^2 along the normal. Bends
  * over curved obstacles add the difference between the friction of a polygonal line and exp(mu
- * turn). The force in a span with a free end is given. */
+ * turn). The force in a span with a free end is given. There is no estimate where a line bears on
+ * what gives, which is no support of its spans. */
 #include "cable/mesh_error.h"
 #include "cable/winch.h"
 
 #include <math.h>
 
 #include "cable/field.h"
+#include "cable/soft.h"
 #include "linalg/dense.h"
 
 typedef struct Span {
@@ -156,7 +158,9 @@ static double bend_error(const CpsiLine *line, int j) {
 bool cpsi_mesh_error(const CpsiLine *line, double *error) {
     *error = 0;
     for (int c = 0; c < cpsi_line_contacts(line); c++)
-        if (line->state[c] == CPS_NODE_STATE_UNRESOLVED) return false;
+        if (line->state[c] == CPS_NODE_STATE_UNRESOLVED ||
+            (line->state[c] != CPS_NODE_STATE_FREE && cpsi_soft_stiffness(line, c) > 0))
+            return false;
     double worst = 0, bends = 0, largest = 0;
     for (int e = 0; e + 1 < line->n; e++) largest = fmax(largest, vec3_norm(force_of(line, e)));
     for (int j = 0; j < line->n; j++) bends += bend_error(line, j);

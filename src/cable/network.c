@@ -100,6 +100,7 @@ static void fill_joint(const CpsiJoint *joint, bool own_axes, const double axes[
     unilateral->second[0] = false;
     unilateral->weight[0] = share;
     unilateral->gap[0] = fmax(0, joint->gap) / scale->length;
+    unilateral->compliance[0] = 0;
     if (chain->frame) {
         memset(unilateral->normal[0], 0, sizeof unilateral->normal[0]);
         unilateral->normal[0][2] = 1;
@@ -195,9 +196,11 @@ static void update_base(CpsiLine *line) {
 /* The ends of a line with axes of its own are where the joints are. */
 static void move_ends(CpsiLine *line, const CpsiNetworkPart *part, int item) {
     for (int end = 0; end < 2 && line->has_local_axes; end++) {
-        const int k = part->at[item][end], node = end == CPS_END_A ? 0 : line->n - 1;
-        if (k != CPSI_NO_JOINT && k < part->own)
-            vec3_store(&line->base[3 * node], part->joint[k].position);
+        const int k = part->at[item][end], beyond = line->drums.nodes[end],
+                  first = end == CPS_END_A ? 0 : line->n - 1 - beyond;
+        if (k == CPSI_NO_JOINT || k >= part->own) continue;
+        for (int j = first; j <= first + beyond; j++)
+            vec3_store(&line->base[3 * j], part->joint[k].position);
     }
 }
 
@@ -261,6 +264,7 @@ static double fill(CpsiNetwork *network, const CpsiLine *line, const CpsiNetwork
         cpsi_step_program_fill(&line[part->number[k]], chain, scale);
         for (int i = 0; i < 3 * chain->n; i++) loads += fabs(chain->base.load[i]);
         memcpy(program->joint[k], part->at[k], sizeof program->joint[k]);
+        memcpy(program->beyond[k], line[part->number[k]].drums.nodes, sizeof program->beyond[k]);
     }
     for (int k = 0; k < part->joints; k++) {
         fill_map(part, k, axes, scale, &program->map[k]);
@@ -270,6 +274,7 @@ static double fill(CpsiNetwork *network, const CpsiLine *line, const CpsiNetwork
         fill_joint(&part->joint[k], first->has_local_axes, axes, chain, scale);
         program->joint[program->count][CPSI_FIRST_NODE] = k;
         program->joint[program->count][CPSI_LAST_NODE] = CPSI_NO_JOINT;
+        memset(program->beyond[program->count], 0, sizeof program->beyond[0]);
         program->count++;
         loads += fill_load(part->joint[k].load, scale->force, axes, &load[3 * k]);
         add_bounded_forces(&part->joint[k], k,
@@ -331,7 +336,8 @@ static bool solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *p
     for (int k = 0; k < part->lines; k++)
         for (int end = 0; end < 2; end++) {
             const CpsiChainProgram *chain = &network->program.chain[k];
-            const double *z = chain->segment.z[end == CPS_END_A ? 1 : chain->n - 1],
+            const int node = cpsi_line_end_node(&line[part->number[k]], end);
+            const double *z = chain->segment.z[end == CPS_END_A ? node + 1 : node],
                          by = end == CPS_END_A ? -scale.force : scale.force;
             double *pull = &out->pull[6 * k + 3 * end];
             cpsi_frame_from(pull, axes, &z[1]);

@@ -35,11 +35,11 @@ typedef struct CpsiNodeField {
     double *program; /* (n, 6) K in the axes and units of a program */
     /* what the scene gives, to which cpsi_line_field_clear sets load, K and a; NULL as these */
     double *own_load, *own_stiffness, *own_place;
-    double *diagonal;     /* (n, 3) [N/m] of own_stiffness */
-    const CpsiFlow *flow; /* NULL: none */
-    double *all;          /* (n, 3) [N] load and drag together; NULL as load */
-    CpsiAnderson rounds;  /* of the drag */
-    double *drag;         /* (n, 3) [N] of the flow, where the line was last seen; NULL: none */
+    double *diagonal, *coupling; /* (n, 3) [N/m] of own_stiffness: xx, yy, zz; xy, xz, yz */
+    const CpsiFlow *flow;        /* NULL: none */
+    double *all;                 /* (n, 3) [N] load and drag together; NULL as load */
+    CpsiAnderson rounds;         /* of the drag */
+    double *drag; /* (n, 3) [N] of the flow, where the line was last seen; NULL: none */
 } CpsiNodeField;
 
 /* K v for K (6). */

@@ -113,7 +113,7 @@ static Vec3 rest_on_obstacle(CpsiLine *line, int end, Vec3 force) {
     const int j = cpsi_line_end_node(line, end);
     const Vec3 x = vec3_at(line->position, j);
     double gap;
-    const int on = cpsi_line_nearest(line, x, &gap);
+    const int on = cpsi_line_nearest_rigid(line, x, &gap);
     const Vec3 n = on < 0 ? vec3(0, 0, 0) : cpsi_obstacle_normal(&line->obstacle[on], x);
     const double up = vec3_dot(force, n);
     if (!(up > 0) || !(gap <= CPSI_TOUCH * line->length)) return force;

@@ -94,6 +94,7 @@ static void fill(CpsiNetwork *network, const CpsiLine *line, const CpsiNetworkPa
         const Vec3 span =
             vec3_sub(start_of(line, part, k, CPS_END_B), start_of(line, part, k, CPS_END_A));
         fill_chain(chain, span, one->length, unit, compliance);
+        memset(program->beyond[program->count], 0, sizeof program->beyond[0]);
         memcpy(program->joint[program->count++], part->at[k], sizeof program->joint[0]);
     }
     program->base.size = unknowns;

@@ -12,6 +12,8 @@
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
+#include "cable/soft.h"
+#include "cable/winch.h"
 #include "chain/frame.h"
 
 /* Friction bounds below this share of the force scale count as zero: they cannot be distinguished
@@ -178,8 +180,10 @@ static void fill_discs(const CpsiLine *line, CpsiChainProgram *program, int c,
     const int j = node_of(line, c), count = line->has_local_axes && law->box ? 2 : 1;
     const double share = cpsi_line_contact_share(line, c) / scale->length;
     double slip[3] = {0}, axes[9];
-    if (line->has_local_axes) cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slip[3 * c]);
-    friction_axes(line, program, c, axes);
+    if (line->has_local_axes) {
+        cpsi_frame_to(slip, cpsi_line_axes(line, c), &line->slip[3 * c]);
+        friction_axes(line, program, c, axes);
+    }
     for (int i = 0; i < count; i++) {
         const int k = disc->count++;
         disc->node[k] = j;
@@ -224,6 +228,8 @@ static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int
     unilateral->second[k] = is_second(line, c);
     unilateral->weight[k] = share;
     unilateral->gap[k] = open_gap(line, c) / scale->length;
+    const double gives = cpsi_soft_stiffness(line, c) * scale->length;
+    unilateral->compliance[k] = gives > 0 ? share * scale->force / gives : 0;
     if (!line->has_local_axes) return;
     double axes[9];
     contact_axes(line, program, c, axes);
@@ -439,4 +445,5 @@ void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program,
         cpsi_frame_from(&line->segment_force[3 * (i - 1)], line->common_axes, force);
         line->tension[i - 1] = scale->force * z[0];
     }
+    cpsi_winch_unload(line);
 }

@@ -22,6 +22,7 @@
 #include <string.h>
 
 #include "cable/field.h"
+#include "cable/soft.h"
 #include "chain/frame.h"
 
 /* The stiffness of a direction in which a node is held, beside which those of the line vanish. The
@@ -430,7 +431,7 @@ CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program
     out.outcome = CPS_STIFFNESS_OUTCOME_TOUCHES;
     if (contact_of(&t, t.end_node, &both) >= 0) return out;
     out.outcome = CPS_STIFFNESS_OUTCOME_NOT_GIVEN;
-    if (!all_are_treated(&t)) return out;
+    if (cpsi_line_has_soft(line) || !all_are_treated(&t)) return out;
     cpsi_chain_program_resize(program, line->n, line->has_local_axes);
     t.matrix->held = program->held;
     t.matrix->frame = program->frame;

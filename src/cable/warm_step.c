@@ -7,6 +7,7 @@
 
 #include "cable/friction_law.h"
 #include "cable/held.h"
+#include "cable/soft.h"
 #include "chain/active_set.h"
 #include "chain/frame.h"
 
@@ -102,10 +103,12 @@ bool cpsi_warm_step_treats(const CpsiLine *line, int c) {
     return !given || cpsi_friction_set_shape(given);
 }
 
-/* How far the method treats the contacts that the line has now; second ones from the solution of a
- * round on, since a line may rest in a corner, or slide along it, under the same forces. */
+/* How far the method treats the contacts that the line has now, not those with what gives; second
+ * ones from the solution of a round on, since a line may rest in a corner, or slide along it, under
+ * the same forces. */
 static CpsiGuess treated_contacts(const CpsiLine *line) {
     CpsiGuess best = CPSI_GUESS_EXTRAPOLATED;
+    if (cpsi_line_has_soft(line)) return CPSI_GUESS_NONE;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!cpsi_line_obstacle(line, c) || line->state[c] == CPS_NODE_STATE_FREE) continue;
         if (!cpsi_warm_step_treats(line, c)) return CPSI_GUESS_NONE;

@@ -91,6 +91,14 @@ void cpsi_winch_wind(CpsiLine *line) {
     if (drums->moved) cpsi_winch_set(line, drums->due);
 }
 
+void cpsi_winch_unload(CpsiLine *line) {
+    for (int e = 0; e + 1 < line->n; e++) {
+        if (!cpsi_line_is_on_drum(line, e)) continue;
+        memset(&line->segment_force[3 * e], 0, 3 * sizeof *line->segment_force);
+        line->tension[e] = 0;
+    }
+}
+
 double cpsi_winch_pull(const CpsiLine *line, int end, const double weight[3]) {
     const int j = cpsi_line_end_node(line, end), e = end == CPS_END_A ? j : j - 1;
     const Vec3 x = vec3_at(line->position, j),

@@ -30,6 +30,10 @@ void cpsi_winch_set(CpsiLine *line, const double stored[2]);
 /* Wind what is due in this substep. */
 void cpsi_winch_wind(CpsiLine *line);
 
+/* Elements on drums carry nothing: their forces become 0. A program of several lines leaves in them
+ * what is rounding beside the largest force of all. */
+void cpsi_winch_unload(CpsiLine *line);
+
 /* [N] What the winch at an end gains in energy per length that it pays out: T + W*(T), less half of
  * what raises an end element, of the weight per length [N/m]. That is the pull on the drum of a
  * line that does not stretch. */

@@ -159,38 +159,33 @@ static void load_slip(CpsiNewton *newton, int d) {
     }
 }
 
-/* The rows of place j, a node or a point, without what friction adds; their error where none acts.
+/* The rows of all nodes and points without what friction adds; the errors of those where none acts.
  */
-static double load_place(CpsiNewton *newton, int j) {
-    CpsiChainProgram *program = newton->program;
-    double *diagonal = &program->matrix.diagonal[6 * j], *f = &program->base.du[3 * j], error = 0;
-    const double *g = &program->base.residual[3 * j];
-    const double *field = program->field && j < program->n ? &program->field[6 * j] : NULL;
-    const int status = newton->status[j];
-    const bool has_friction =
-        (status & CPSI_HAS_FRICTION) && (!program->bounds_coupled || (status & CPSI_CLOSED));
-    for (int a = 0; a < 6; a++) diagonal[a] = field ? field[a] : 0;
-    for (int a = 0; a < 2; a++) program->matrix.skew[2 * j + a] = 0;
-    for (int a = 0; a < 3; a++) f[a] = g[a];
-    if (cpsi_newton_is_held(newton, j)) return 0;
-    if (status & CPSI_CLOSED) {
-        diagonal[5] = status & CPSI_LANDS ? PULLING : RIGID;
-        f[2] = 0;
-    }
-    if (status & CPSI_STICKS) diagonal[0] = diagonal[2] = status & CPSI_STOPS ? PULLING : RIGID;
-    if (has_friction) f[0] = f[1] = 0;
-    for (int a = 0; a < 3; a++) error = cpsi_max_nan(error, fabs(f[a]));
-    return status & CPSI_CORNER ? 0 : error;
-}
-
 static void load_places(CpsiNewton *newton) {
-    const CpsiChainProgram *program = newton->program;
-    const int n = program->n;
+    CpsiChainProgram *program = newton->program;
+    const int n = program->n, last = newton->has_points ? 2 * n : n;
     double error = 0;
-    for (int j = 0; j < n; j++) error = cpsi_max_nan(error, load_place(newton, j));
-    for (int i = 1; i < n && newton->has_points; i++)
-        if (program->node_frames.share[i] > 0)
-            error = cpsi_max_nan(error, load_place(newton, n + i));
+    for (int j = 0; j < last; j++) {
+        if (j >= n && !(j > n && program->node_frames.share[j - n] > 0)) continue;
+        double *diagonal = &program->matrix.diagonal[6 * j], *f = &program->base.du[3 * j];
+        const double *g = &program->base.residual[3 * j];
+        const double *field = program->field && j < n ? &program->field[6 * j] : NULL;
+        const int status = newton->status[j];
+        const bool has_friction =
+            (status & CPSI_HAS_FRICTION) && (!program->bounds_coupled || (status & CPSI_CLOSED));
+        for (int a = 0; a < 6; a++) diagonal[a] = field ? field[a] : 0;
+        for (int a = 0; a < 2; a++) program->matrix.skew[2 * j + a] = 0;
+        for (int a = 0; a < 3; a++) f[a] = g[a];
+        if (cpsi_newton_is_held(newton, j)) continue;
+        if (status & CPSI_CLOSED) {
+            diagonal[5] = status & CPSI_LANDS ? PULLING : RIGID;
+            f[2] = 0;
+        }
+        if (status & CPSI_STICKS) diagonal[0] = diagonal[2] = status & CPSI_STOPS ? PULLING : RIGID;
+        if (has_friction) f[0] = f[1] = 0;
+        if (status & CPSI_CORNER) continue;
+        for (int a = 0; a < 3; a++) error = cpsi_max_nan(error, fabs(f[a]));
+    }
     newton->force_error = error;
 }
 

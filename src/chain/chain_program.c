@@ -37,6 +37,7 @@ static void layout_unilateral(CpsiUnilateral *unilateral, CpsiArena *arena, int 
     CPSI_PLACE(arena, unilateral->second, n);
     CPSI_PLACE(arena, unilateral->weight, n);
     CPSI_PLACE(arena, unilateral->gap, n);
+    CPSI_PLACE(arena, unilateral->compliance, n);
     CPSI_PLACE(arena, unilateral->s, n);
     CPSI_PLACE(arena, unilateral->z, n);
     CPSI_PLACE(arena, unilateral->ds, n);

@@ -11,8 +11,8 @@
  *           friction conic, at node k: forces in any planar set, energy per bound A_k
  *               A_k's_k = P_k'(o_k + u_xy), s_k in K_k,  phi = s_k.b_k - <o_k + u_xy, origin_k>
  *           unilateral contact, at node k: a half-line
- *               g_k + n_k.u >= 0
- *           u_j = given at held nodes
+ *               g_k + n_k.u >= 0;  where the obstacle gives, energy w_k min(0, g_k + n_k.u)^2/(2
+ * c_k) u_j = given at held nodes
  *
  * Where the nodes have axes of their own (`frame`), u_j and the loads are in them: x, y tangent to
  * the obstacle there, z its normal; e_i is in the common axes. A node may have two unilateral

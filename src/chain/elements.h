@@ -88,10 +88,11 @@ typedef struct CpsiFrictionDisc {
 typedef struct CpsiUnilateral {
     int count;
     int *node;
-    int *contact;   /* (count) the caller's number */
-    double *weight; /* (count) w_k > 0 */
-    double *gap;    /* (count) g_k >= 0 */
-    bool *second;   /* (count) its normal is not z: the second contact of its node */
+    int *contact;       /* (count) the caller's number */
+    double *weight;     /* (count) w_k > 0 */
+    double *gap;        /* (count) g_k >= 0, any where it gives */
+    double *compliance; /* (count) c_k >= 0: the distance is g_k + n_k.u + c_k R_k */
+    bool *second;       /* (count) its normal is not z: the second contact of its node */
     double (
         *normal)[3]; /* (count) n_k; of a first contact z. NULL: all are z, and none is second */
     double (*curvature)[6]; /* (count) R0 times the curvature of the surface, xx, xy, yy, xz, yz,
@@ -184,6 +185,11 @@ static inline double cpsi_unilateral_rise(const CpsiUnilateral *unilateral, int 
     return n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
 }
 
+/* s + c z of unilateral contact k, which over w z is the compliance of the node along n. */
+static inline double cpsi_unilateral_give(const CpsiUnilateral *unilateral, int k) {
+    return unilateral->s[k] + unilateral->compliance[k] * unilateral->z[k];
+}
+
 /* K_j u_j of the field, which is there. */
 static inline void cpsi_field_pull(const CpsiChainProgram *program, int j, double pull[3]) {
     const double *k = &program->field[6 * j], *u = &program->base.u[3 * j];
@@ -208,7 +214,7 @@ static inline void cpsi_unilateral_couple_bound(CpsiChainProgram *program, int k
                                                 double friction, const double c[3]) {
     const CpsiUnilateral *unilateral = &program->unilateral;
     const int node = unilateral->node[k];
-    if (unilateral->normal && unilateral->second[k]) { /* compliance s/(w z): friction c over it */
+    if (unilateral->normal && unilateral->second[k]) { /* compliance (s + c z)/(w z) */
         for (int a = 0; a < 3; a++)
             program->node_frames.second.column[3 * node + a] +=
                 weight / unilateral->weight[k] * friction * c[a];
@@ -216,7 +222,7 @@ static inline void cpsi_unilateral_couple_bound(CpsiChainProgram *program, int k
     }
     for (int a = 0; a < 2; a++)
         program->matrix.skew[2 * node + a] +=
-            weight * friction * unilateral->z[k] / unilateral->s[k] * c[a];
+            weight * friction * unilateral->z[k] / cpsi_unilateral_give(unilateral, k) * c[a];
 }
 
 /* ---- springs (springs.c) ---- */

@@ -13,18 +13,21 @@ static CpsiNetworkProgram *network_of(CpsiProgram *program) {
     return (CpsiNetworkProgram *)program;
 }
 
-/* A node at a joint, the one next to it, the element between, and the sign of its direction. */
+/* A node at a joint, the one next to it, the element between, and the sign of its direction; the
+ * nodes that move with the joint. */
 typedef struct Tie {
     int joint, node, next, element;
     double sign;
+    int first, last;
 } Tie;
 
 /* The tie of an end node of chain k; false where there is none. */
 static bool tie_of(const CpsiNetworkProgram *network, int k, int end, Tie *out) {
     const int n = network->chain[k].n;
     if (network->joint[k][end] == CPSI_NO_JOINT || (n == 1 && end == CPSI_LAST_NODE)) return false;
-    *out = end == CPSI_FIRST_NODE ? (Tie){network->joint[k][end], 0, 1, 1, -1}
-                                  : (Tie){network->joint[k][end], n - 1, n - 2, n - 1, 1};
+    const int joint = network->joint[k][end], beyond = network->beyond[k][end], m = n - 1 - beyond;
+    *out = end == CPSI_FIRST_NODE ? (Tie){joint, beyond, beyond + 1, beyond + 1, -1, 0, beyond}
+                                  : (Tie){joint, m, m - 1, m, 1, m, n - 1};
     return true;
 }
 
@@ -67,10 +70,12 @@ static void gather(const CpsiNetworkProgram *network, int k, double *from, doubl
     Tie tie;
     for (int end = 0; end < CPSI_END_NODES; end++) {
         if (!tie_of(network, k, end, &tie)) continue;
-        double own[3];
-        from_node(&network->chain[k], tie.node, &from[3 * tie.node], own);
-        add_to_joint(network, tie.joint, 1, own, joints);
-        for (int a = 0; a < 3; a++) from[3 * tie.node + a] = 0;
+        for (int j = tie.first; j <= tie.last; j++) {
+            double own[3];
+            from_node(&network->chain[k], j, &from[3 * j], own);
+            add_to_joint(network, tie.joint, 1, own, joints);
+            for (int a = 0; a < 3; a++) from[3 * j + a] = 0;
+        }
     }
 }
 
@@ -81,7 +86,7 @@ static void scatter(const CpsiNetworkProgram *network, int k, const double *join
         if (!tie_of(network, k, end, &tie)) continue;
         double own[3];
         at_joint(network, tie.joint, joints, own);
-        to_node(&network->chain[k], tie.node, own, &to[3 * tie.node]);
+        for (int j = tie.first; j <= tie.last; j++) to_node(&network->chain[k], j, own, &to[3 * j]);
     }
 }
 
@@ -380,6 +385,7 @@ void cpsi_network_layout(CpsiNetworkProgram *network, CpsiArena *arena, int chai
     CPSI_PLACE(arena, network->base.residual, unknowns);
     CPSI_PLACE(arena, network->chain, chains);
     CPSI_PLACE(arena, network->joint, chains);
+    CPSI_PLACE(arena, network->beyond, chains);
     CPSI_PLACE(arena, network->map, joints);
     CPSI_PLACE(arena, network->body_first, bodies);
     CPSI_PLACE(arena, network->stiffness, bodies);

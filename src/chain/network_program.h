@@ -6,7 +6,8 @@
  * where a node of a chain that is at joint J moves by x_J in the common axes of all chains. These
  * are three unknowns, or follow from the six of a body that the joint is on, which has a quadratic
  * energy of its own. Such a node is `held` in its chain: the equations of these unknowns have its
- * forces. What else acts on a joint, contact and friction, is a chain of one node.
+ * forces. Nodes at an end may be at the joint together; the elements between them do not stretch.
+ * What else acts on a joint, contact and friction, is a chain of one node.
  *
  * The linear system of each chain is eliminated towards its joints, by three solutions for each of
  * its ends there; the joints are left with a matrix of their own (linalg/graph_matrix.h). Chains
@@ -38,6 +39,9 @@ typedef struct CpsiNetworkProgram {
     CpsiChainProgram *chain;      /* (count) each filled by the caller, of the same units */
     int (*joint)[CPSI_END_NODES]; /* (count) of its end nodes, or CPSI_NO_JOINT; of a chain of one
                                      node the first */
+    /* (count) so many nodes beyond the one that is at the joint move with it, as those on a drum:
+     * before it, or after it */
+    int (*beyond)[CPSI_END_NODES];
     int joints;
     CpsiJointMap *map; /* (joints) */
     int bodies;

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Unilateral contact along the normal n: s = gap + n.u >= 0 with reaction z >= 0, s z = 0.
+/* Unilateral contact along the normal n: s = gap + n.u + c z >= 0 with reaction z >= 0, s z = 0.
+ * With a compliance c > 0 the obstacle gives: z = max(0, -(gap + n.u)/c).
  *
  * On a curved obstacle the reaction turns with the normal as the node moves along it (`curvature`,
  * see chain_program.h).
  *
- * Linearised: dz = q - (z/s) ds, ds = n.du + rho, rho = gap + n.u - s. So the node's block gains w
- * (z/s) n n^T: for a first contact in its entry zz, for a second contact as a second direction
- * (chain_system.h), or in all its entries where the matrix has no second directions. */
+ * Linearised: dz = q - (z/s) ds, ds = n.du + c dz + rho, rho = gap + n.u + c z - s. So dz = f (q -
+ * (z/s) (n.du + rho)) with f = s/(s + c z), and the node's block gains w f (z/s) n n^T: for a first
+ * contact in its entry zz, for a second contact as a second direction (chain_system.h), or in all
+ * its entries where the matrix has no second directions. */
 #include <math.h>
 #include <string.h>
 
@@ -44,7 +46,8 @@ static void scale(CpsiProgram *base) {
             for (int a = 0; a < 6; a++)
                 program->matrix.diagonal[6 * node + a] -=
                     unilateral->weight[k] * unilateral->curvature[k][a];
-        const double by = unilateral->weight[k] * unilateral->z[k] / unilateral->s[k];
+        const double s = cpsi_unilateral_give(unilateral, k),
+                     by = unilateral->weight[k] * unilateral->z[k] / s;
         double *diagonal = &program->matrix.diagonal[6 * node];
         const double *n = unilateral->normal ? unilateral->normal[k] : NULL;
         const CpsiMatrixSecond *second = program->matrix.second;
@@ -53,8 +56,7 @@ static void scale(CpsiProgram *base) {
         } else if (second) {
             for (int a = 0; a < 3; a++)
                 second->row[3 * node + a] = second->column[3 * node + a] = n[a];
-            second->compliance[node] =
-                unilateral->s[k] / (unilateral->weight[k] * unilateral->z[k]);
+            second->compliance[node] = s / (unilateral->weight[k] * unilateral->z[k]);
         } else {
             const double outer[6] = {n[0] * n[0], n[0] * n[1], n[1] * n[1],
                                      n[0] * n[2], n[1] * n[2], n[2] * n[2]};
@@ -67,7 +69,8 @@ static void scale(CpsiProgram *base) {
 typedef struct UnilateralLanes {
     CpsiLane s, z, q, ds, dz, weight;
     CpsiLane gap, rise, d_rise; /* g; n.u; n.du */
-    CpsiLane second, change;    /* 1 for a second contact, else 0; w (z/s) n.du */
+    CpsiLane compliance;
+    CpsiLane second, change; /* 1 for a second contact, else 0; w f (z/s) n.du */
 } UnilateralLanes;
 
 /* n.u of `count` contacts from `first` on. */
@@ -86,17 +89,19 @@ static inline void load_contacts(const CpsiUnilateral *unilateral, int k, int co
     cpsi_lanes_load(1, &x->s, &unilateral->s[k], count);
     cpsi_lanes_load(1, &x->z, &unilateral->z[k], count);
     cpsi_lanes_load(1, &x->gap, &unilateral->gap[k], count);
+    cpsi_lanes_load(1, &x->compliance, &unilateral->compliance[k], count);
     cpsi_lanes_load(1, &x->rise, rise, count);
 }
 
 CPSI_LANES_FUNCTION void measure_lanes(const UnilateralLanes *restrict x,
                                        CpsiLaneSums *restrict sums) {
     CPSI_FOR_LANES(l) {
-        const double s = x->s[l], z = x->z[l], weight = x->weight[l],
-                     rho = x->gap[l] + x->rise[l] - s;
+        const double s = x->s[l], z = x->z[l], weight = x->weight[l], own = x->compliance[l] * z,
+                     rho = x->gap[l] + x->rise[l] + own - s;
         sums->weight[l] += weight;
         sums->sz[l] += weight * s * z;
-        sums->ray[l] -= weight * z * (s + rho);
+        sums->ray[l] -= weight * z * (s + rho - own);
+        sums->ray_cost[l] += weight * z * own;
         sums->residual[l] = cpsi_max_nan(sums->residual[l], fabs(rho));
         sums->largest[l] = z > sums->largest[l] ? z : sums->largest[l];
     }
@@ -143,11 +148,12 @@ static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
 CPSI_LANES_PART void load_lanes(UnilateralLanes *restrict x, const CpsiIpmAimKind kind,
                                 double target, double keep) {
     CPSI_FOR_LANES(l) {
-        const double s = x->s[l], z = x->z[l], rho = x->gap[l] + x->rise[l] - s;
+        const double s = x->s[l], z = x->z[l], c = x->compliance[l],
+                     rho = x->gap[l] + x->rise[l] + c * z - s;
         if (kind == CPSI_IPM_AIM_PREDICT) x->q[l] = -z;
         if (kind == CPSI_IPM_AIM_CORRECT) x->q[l] = -z + target / s - x->q[l];
         if (kind == CPSI_IPM_AIM_CENTRE) x->q[l] = -z + target / s;
-        x->dz[l] = x->q[l] - z / s * keep * rho;
+        x->dz[l] = (x->q[l] - z / s * keep * rho) / (1 + c * z / s);
     }
 }
 
@@ -201,11 +207,12 @@ static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
 CPSI_LANES_PART void direct_lanes(UnilateralLanes *restrict x, const bool seconds, double keep,
                                   double *restrict inverse) {
     CPSI_FOR_LANES(l) {
-        const double s = x->s[l], z = x->z[l], q = x->q[l], stiffness = z / s,
-                     rho = keep * (x->gap[l] + x->rise[l] - s);
-        double ds = x->d_rise[l] + rho, dz = q - stiffness * ds;
+        const double s = x->s[l], z = x->z[l], q = x->q[l], c = x->compliance[l], stiffness = z / s,
+                     whole = 1 + c * stiffness, rho = keep * (x->gap[l] + x->rise[l] + c * z - s);
+        double ds = x->d_rise[l] + rho, dz = (q - stiffness * ds) / whole;
+        ds += c * dz;
         if (seconds) {
-            const double other_dz = q - x->change[l] / x->weight[l] - stiffness * rho,
+            const double other_dz = (q - stiffness * rho) / whole - x->change[l] / x->weight[l],
                          other_ds = (q - other_dz) * (s / z);
             const double other = z > s ? x->second[l] : 0;
             ds = other > 0 ? other_ds : ds;

@@ -439,17 +439,15 @@ static void find_places(CpsiBalance *balance, int group) {
         cpsi_begin_again(balance);
     }
     /* their tension is no function of the places */
-    const bool winds = cpsi_group_has_winch(balance);
-    if (!winds && cpsi_has_inextensible(balance) && cpsi_take_joint_answer(balance)) {
+    if (cpsi_has_inextensible(balance) && cpsi_take_joint_answer(balance)) {
         cpsi_report_found(balance);
         return;
     }
-    const bool guessed = !winds && cpsi_guess_places(balance, false);
-    if (!guessed && !winds && cpsi_group_is_too_short(balance)) return;
+    const bool guessed = cpsi_guess_places(balance, false);
+    if (!guessed && cpsi_group_is_too_short(balance)) return;
     if (!guessed) cpsi_extrapolate_places(balance);
     bool found = search(balance, MOST_TRIALS);
-    if (!found && !winds && !is_over(balance) && balance->body_count == 0)
-        found = search_again(balance);
+    if (!found && !is_over(balance) && balance->body_count == 0) found = search_again(balance);
     if (!found && !is_over(balance) && balance->body_count == 0)
         found = search_with(balance, MOST_TRIALS, PATIENCE_AT_LAST);
     if (!found && is_static && balance->body_count > 0) {
@@ -458,11 +456,9 @@ static void find_places(CpsiBalance *balance, int group) {
         found = cpsi_is_answer(balance);
     }
     if (found) cpsi_take_nearest_places(balance);
-    if (!found && !winds && !cpsi_has_inextensible(balance))
-        found = cpsi_take_joint_answer(balance);
+    if (!found && !cpsi_has_inextensible(balance)) found = cpsi_take_joint_answer(balance);
     if (!found && !is_interrupted(evolution)) found = stays(balance);
-    if (!found &&
-        ((!winds && cpsi_group_is_too_short(balance)) || (frozen && cpsi_group_falls(balance))))
+    if (!found && (cpsi_group_is_too_short(balance) || (frozen && cpsi_group_falls(balance))))
         return;
     cpsi_report_found(balance);
 }

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "cable/soft.h"
 #include "cable/two_stiffnesses.h"
 #include "cable/winch.h"
 #include "evolve/failure.h"
@@ -441,6 +442,7 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
         hash_numbers(hash, 6 * (size_t)line->n, line->field.own_stiffness);
         hash_numbers(hash, 3 * (size_t)line->n, line->field.own_place);
     }
+    if (cpsi_line_has_soft(line)) hash_numbers(hash, 1, &line->bearing_width);
     if (line->has_node_loads) hash_numbers(hash, 3 * (size_t)line->n, line->field.own_load);
     if (line->field.flow) hash_flow(hash, line->field.flow);
     if (line->spring_count > 0) {
@@ -569,6 +571,7 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
                      (const double[10]){shape->inside, shape->length, shape->main_radius,
                                         shape->angle, shape->size[0], shape->size[1],
                                         shape->size[2], side.x, side.y, side.z});
+    if (obstacle->stiffness > 0) hash_numbers(hash, 1, &obstacle->stiffness);
     hash_ground(hash, obstacle);
     hash_mesh(hash, obstacle->mesh);
     if (!set) return;

@@ -4,6 +4,7 @@
  * Lines act on each other only at points (balance.h), so a step is one program per line and the
  * report adds them up. */
 #define _POSIX_C_SOURCE 200809L
+#include "cable/soft.h"
 #include "capstan/evolve.h"
 
 #include <math.h>
@@ -40,7 +41,7 @@ int cps_evolution_remaining_count(const CpsEvolution *evolution) {
 /* The ranges of the tensions at the ends, after the last step of a stage and after statics. */
 static void find_range(CpsiLine *line, const CpsiStepOptions *options) {
     if (!cps_outcome_is_certified(line->report.outcome)) return;
-    if (line->forces)
+    if (line->forces && !cpsi_line_has_soft(line))
         cpsi_line_tension_range(line, line->forces, options);
     else
         for (int end = 0; end < 2; end++)

@@ -203,6 +203,7 @@ static void move_to_free_side(CpsiLine *line) {
 static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsScene *scene,
                       const CpsLine *def) {
     line->length = def->length;
+    line->bearing_width = def->bearing_width;
     fill_obstacles(line, evolution);
     const Vec3 gravity = vec3_load(scene->gravity);
     const double size = vec3_norm(gravity);

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/winch.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/newton_step.h"
@@ -42,11 +43,13 @@ void cpsi_impose_plan(CpsiBalance *balance, int item) {
                   joint = point == CPSI_NO_POINT ? CPSI_NO_JOINT : balance->joint_of[point];
         balance->ends[item][end] = joint;
         line->end_before[end] = evolution->move[i].from[end];
+        line->drums.due[end] = evolution->move[i].stored_to[end];
         if (joint == CPSI_NO_JOINT)
             line->end[end] = evolution->move[i].to[end];
         else
             vec3_store(line->end[end].value, balance->joint[joint].position);
     }
+    cpsi_winch_wind(line);
 }
 
 int cpsi_place_joints(CpsiBalance *balance, bool first) {

@@ -22,6 +22,7 @@
 #include <string.h>
 
 #include "cable/line_solve.h"
+#include "cable/winch.h"
 #include "evolve/first_guess.h"
 #include "evolve/points.h"
 
@@ -114,7 +115,8 @@ static void try_joined(CpsiBalance *balance) {
 static double weakest_force(const CpsiLine *line) {
     double least = INFINITY;
     for (int e = 0; e + 1 < line->n; e++)
-        least = fmin(least, vec3_norm(vec3_at(line->segment_force, e)));
+        if (!cpsi_line_is_on_drum(line, e))
+            least = fmin(least, vec3_norm(vec3_at(line->segment_force, e)));
     return least;
 }
 

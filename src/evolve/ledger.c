@@ -4,7 +4,7 @@
  *     ends + obstacles + winches + loads = elastic + gravity + dissipated + imbalance
  *
  * Stored energies are differences of states, elastic = sum l (|e| - 1)^2/(2c) where stretched (of a
- * table of strain and tension sum l W(|e| - 1)),
+ * table of strain and tension sum l W(|e| - 1)), with that of obstacles that give,
  * gravity = - sum (weight of the node) . x, with the mean of the weights before and after where
  * gravity changes. The work of loads of nodes is what the energy of their field falls by, and a
  * given load, or the mean of a drag before and after, times the displacement. The work of an end is
@@ -25,14 +25,16 @@
 #include "cable/field.h"
 #include "cable/flow.h"
 #include "cable/report.h"
+#include "cable/soft.h"
 #include "cable/winch.h"
 
-static void potentials(const CpsiLine *line, double *elastic, double *gravity) {
+static void potentials(const CpsiLine *line, bool before, double *elastic, double *gravity) {
     const Vec3 origin = vec3_load(line->position);
     const Vec3 weight =
         vec3_scale(0.5, vec3_add(vec3_load(line->weight_before), vec3_load(line->weight)));
     double carried = 0; /* [m] */
-    *elastic = *gravity = 0;
+    *elastic = cpsi_soft_energy(line, before);
+    *gravity = 0;
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_at(line->position, j);
         /* relative to the line's own end, so that a distant origin loses no digits; the term of the
@@ -67,7 +69,7 @@ static double push_work(const CpsiLine *line, bool from_here) {
 
 CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], bool known) {
     CpsiLedgerStart start = {0};
-    potentials(line, &start.elastic, &start.gravity);
+    potentials(line, true, &start.elastic, &start.gravity);
     for (int i = 0; i < 2; i++) {
         const bool is_free = end[i].kind == CPS_END_KIND_FREE;
         const int j = i == CPS_END_A ? 0 : line->n - 1;
@@ -190,7 +192,7 @@ CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
     double elastic, gravity;
     const double pushed = push_work(line, false);
     ledger.obstacles += start->all_known ? 0.5 * (start->pushed + pushed) : pushed;
-    potentials(line, &elastic, &gravity);
+    potentials(line, false, &elastic, &gravity);
     ledger.elastic = elastic - start->elastic;
     ledger.gravity = gravity - start->gravity;
     ledger.winches = wind_work(line, start, &ledger);

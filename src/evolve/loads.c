@@ -20,6 +20,17 @@ bool cpsi_has_drag(const CpsScene *scene, const CpsLine *line) {
 
 /* check ---------------------------------------------------------------------------------------- */
 
+/* Is x'K x nowhere negative? So no minor of K about its diagonal may be, but for rounding. */
+static bool is_nowhere_negative(const CpsSpring *spring) {
+    const double *k = spring->stiffness, *c = spring->coupling, noise = 1e-14;
+    const double xy = k[0] * k[1], xz = k[0] * k[2], yz = k[1] * k[2], all = xy * k[2];
+    return xy * (1 + noise) >= c[0] * c[0] && xz * (1 + noise) >= c[1] * c[1] &&
+           yz * (1 + noise) >= c[2] * c[2] &&
+           all + 2 * c[0] * c[1] * c[2] - k[0] * c[2] * c[2] - k[1] * c[1] * c[1] -
+                   k[2] * c[0] * c[0] >=
+               -4 * noise * all;
+}
+
 static CpsStatus check_spring(const CpsLine *line, int k, CpsError *err) {
     const CpsSpring *spring = &line->loads->spring[k];
     char place[32];
@@ -35,6 +46,13 @@ static CpsStatus check_spring(const CpsLine *line, int k, CpsError *err) {
                                 "line '%s': springs: number %d has the stiffness %g along %c, "
                                 "expected a finite number >= 0",
                                 line->name, k + 1, spring->stiffness[a], "xyz"[a]);
+    if (!cpsi_are_usable(spring->coupling) || !is_nowhere_negative(spring))
+        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
+                            "line '%s': springs: number %d pushes away along some direction: with "
+                            "the coupling (%g, %g, %g) its energy is negative there, expected "
+                            "numbers with which it is nowhere",
+                            line->name, k + 1, spring->coupling[0], spring->coupling[1],
+                            spring->coupling[2]);
     if (!spring->at_start && !cpsi_are_usable(spring->place))
         return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                             "line '%s': springs: number %d is at (%g, %g, %g) m, expected finite "
@@ -153,8 +171,9 @@ static void add_spring(CpsiLine *line, const CpsSpring *spring, const double ori
     const int only = single ? nearest_node(line, spring->from) : -1;
     for (int j = 0; j < line->n; j++) {
         const double by = !single ? part_of(line, j, spring->from, spring->to) : j == only ? 1 : 0;
-        const double *k = spring->stiffness,
-                     stiffness[6] = {by * k[0], 0, by * k[1], 0, 0, by * k[2]};
+        const double *k = spring->stiffness, *c = spring->coupling,
+                     stiffness[6] = {by * k[0], by * c[0], by * k[1],
+                                     by * c[1], by * c[2], by * k[2]};
         const Vec3 place = vec3_sub(vec3_load(spring->place), vec3_load(origin));
         if (by > 0)
             cpsi_line_field_add(line, j, stiffness,
@@ -179,9 +198,11 @@ void cpsi_line_loads_fill(CpsiLine *line, const CpsScene *scene, const CpsLine *
         memcpy(field->own_stiffness, field->stiffness, 6 * n * sizeof *field->stiffness);
         memcpy(field->own_place, field->place, 3 * n * sizeof *field->place);
         for (int j = 0; j < line->n; j++) {
-            field->diagonal[3 * j] = field->stiffness[6 * j];
-            field->diagonal[3 * j + 1] = field->stiffness[6 * j + 2];
-            field->diagonal[3 * j + 2] = field->stiffness[6 * j + 5];
+            static const int DIAGONAL[3] = {0, 2, 5}, BESIDE[3] = {1, 3, 4};
+            for (int a = 0; a < 3; a++) {
+                field->diagonal[3 * j + a] = field->stiffness[6 * j + DIAGONAL[a]];
+                field->coupling[3 * j + a] = field->stiffness[6 * j + BESIDE[a]];
+            }
         }
     }
     if (line->has_node_loads) memcpy(field->own_load, field->load, 3 * n * sizeof *field->load);

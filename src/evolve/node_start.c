@@ -172,10 +172,14 @@ void cpsi_node_start(CpsiLine *line, const CpsLine *def) {
         const int on = cpsi_line_nearest(line, x, &gap);
         line->reaction[j] = 0;
         line->state[j] = CPS_NODE_STATE_FREE;
-        if (!(fabs(gap) <= TOUCH * line->length)) continue;
+        const bool soft = on >= 0 && line->obstacle[on].stiffness > 0;
+        if (!(fabs(gap) <= TOUCH * line->length || (soft && gap < 0))) continue;
         line->state[j] = CPS_NODE_STATE_STICK;
         if (line->has_local_axes) line->obstacle_index[j] = on;
-        if (start->reaction) {
+        if (soft) {
+            line->reaction[j] = line->obstacle[on].stiffness * line->bearing_width *
+                                cpsi_line_share(line, j) * fmax(0, -gap);
+        } else if (start->reaction) {
             line->reaction[j] = start->reaction[j];
         } else if (start->friction_bound) {
             const double friction = cpsi_line_friction_law(line, j).friction;

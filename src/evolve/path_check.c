@@ -26,6 +26,7 @@ typedef struct Places {
 /* [m] Depth of the straight path in the obstacle, if it exceeds `touch` and the depth of its first
  * point; else 0. */
 static double path_depth(const CpsiObstacle *obstacle, Vec3 from, Vec3 to, double touch) {
+    if (obstacle->stiffness > 0) return 0;
     const double depth = cpsi_obstacle_depth(obstacle, from, to);
     return depth > fmax(touch, -cpsi_obstacle_gap(obstacle, from)) ? depth : 0;
 }

@@ -13,7 +13,7 @@ static const double PLACE_TOLERANCE = 1e-9;
 double cpsi_scene_height(const CpsScene *scene, Vec3 x, bool at_start, const char **name) {
     double least = INFINITY;
     for (int k = 0; k < scene->obstacle_count; k++) {
-        if (scene->obstacle[k].moves && !at_start) continue;
+        if ((scene->obstacle[k].moves && !at_start) || scene->obstacle[k].stiffness > 0) continue;
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
         const double gap = cpsi_obstacle_gap(&obstacle, x);
         if (gap < least) {

@@ -21,7 +21,7 @@ static bool take_end(CpsEvolution *evolution, int k, LineEnd *out) {
     const int point = evolution->points.tie[k];
     if (point == CPSI_NO_POINT || !line->has_inertia) return false;
     *out = (LineEnd){&line->inertia, k % 2 == CPS_END_A ? 0 : line->n - 1,
-                 &evolution->points.point[point]};
+                     &evolution->points.point[point]};
     return true;
 }
 

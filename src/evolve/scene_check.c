@@ -21,6 +21,7 @@
 #include "evolve/ranges.h"
 #include "evolve/sections.h"
 #include "evolve/shape_check.h"
+#include "evolve/soft_check.h"
 #include "evolve/stage_check.h"
 #include "evolve/start.h"
 #include "evolve/time_check.h"
@@ -214,6 +215,7 @@ static CpsStatus check_obstacles(const CpsScene *scene, CpsError *err) {
         if (status == CPS_OK) status = check_surface(o, err);
         if (status == CPS_OK) status = check_friction_keys(o, err);
         if (status == CPS_OK) status = check_moves(scene, o, err);
+        if (status == CPS_OK) status = cpsi_soft_obstacle_check(scene, o, err);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "obstacles.%s", o->name);
     }
     return CPS_OK;
@@ -361,6 +363,7 @@ static int first_below(const CpsScene *scene, const CpsLine *line, int count, co
     for (int i = 0; i < count; i++) least[i] = -cpsi_place_tolerance(line, x[i]);
     for (int k = 0; k < scene->obstacle_count; k++) {
         const CpsiObstacle obstacle = cpsi_obstacle(&scene->obstacle[k]);
+        if (obstacle.stiffness > 0) continue;
         for (int i = 0; i < first; i++)
             if (!(cpsi_obstacle_gap(&obstacle, x[i]) >= least[i])) first = i;
     }
@@ -483,6 +486,7 @@ static CpsStatus check_line(const CpsScene *scene, int index, CpsError *err) {
                           line->name, i + 1, index + 1);
     if (status == CPS_OK) status = check_numbers(scene, line, err);
     if (status == CPS_OK) status = cpsi_winches_check(line, err);
+    if (status == CPS_OK) status = cpsi_soft_line_check(scene, line, err);
     if (status == CPS_OK) status = check_start_data(line, err);
     if (status == CPS_OK && line->start.kind == CPS_START_NODES)
         status = cpsi_fail_inside(err, cpsi_node_start_check(scene, line, err), "start");

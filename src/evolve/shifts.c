@@ -108,7 +108,7 @@ static CpsStatus check_held(const CpsEvolution *evolution, const CpsiEvolutionSt
     const Vec3 from = held->from, to = held->to;
     for (int k = 0; k < evolution->obstacle_count; k++) {
         const CpsiObstacle *obstacle = &evolution->obstacle[k];
-        if (!obstacle->moves) continue;
+        if (!obstacle->moves || obstacle->stiffness > 0) continue;
         CpsiShift shift = {.by = vec3(0, 0, 0)};
         for (int i = 0; i < stage->shift_count; i++)
             if (stage->shift[i].obstacle == k)

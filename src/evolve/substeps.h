@@ -22,6 +22,7 @@ typedef struct CpsiMove {
 /* Scratch memory for the state at the start of a part, and for the result of a part taken whole. */
 typedef struct CpsiSubsteps {
     double *reaction;     /* (contacts, n) */
+    double *normal;       /* (contacts, n, 3) with which shifted obstacles push as a part begins */
     double *tension;      /* (n) */
     unsigned char *state; /* (contacts, n) */
     int *obstacle_index;  /* (contacts, n) */

@@ -479,12 +479,6 @@ bool cpsi_is_answer(const CpsiBalance *balance) {
     return balance->certified && cpsi_is_balanced(balance, cpsi_left_now(balance));
 }
 
-bool cpsi_group_has_winch(const CpsiBalance *balance) {
-    for (int item = 0; item < balance->line_count; item++)
-        if (cpsi_line_has_winch(&balance->evolution->line[balance->line[item]])) return true;
-    return false;
-}
-
 bool cpsi_has_inextensible(const CpsiBalance *balance) {
     for (int item = 0; item < balance->line_count; item++)
         if (balance->evolution->line[balance->line[item]].compliance == 0) return true;

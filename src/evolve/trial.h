@@ -121,9 +121,6 @@ double cpsi_largest_left(const CpsiBalance *balance, const CpsiFree *at, const C
 double cpsi_left_now(const CpsiBalance *balance);
 /* Is so much left within the tolerance? */
 bool cpsi_is_balanced(const CpsiBalance *balance, double left);
-/* Has a line of the group a winch? Its nodes on a drum go where its end does, which is no step of
- * the lines as one program. */
-bool cpsi_group_has_winch(const CpsiBalance *balance);
 /* Is a line of the group inextensible? */
 bool cpsi_has_inextensible(const CpsiBalance *balance);
 /* Is a point at rest, or its friction at its bound and against the slip, to the same tolerance?

@@ -98,6 +98,7 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
     };
     view.has_springs = from->field.diagonal && !from->has_inertia;
     view.node_stiffness = view.has_springs ? from->field.diagonal : fill->zero;
+    view.node_coupling = view.has_springs ? from->field.coupling : fill->zero;
     view.node_place = view.has_springs ? from->field.own_place : fill->zero;
     view.node_beside = view.has_springs ? from->field.beside : fill->zero;
     view.has_node_loads = from->has_node_loads;

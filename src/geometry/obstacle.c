@@ -37,6 +37,7 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
     CpsiObstacle out = {.kind = def->kind,
                         .radius = radius_of(def),
                         .form = def->shape,
+                        .stiffness = def->stiffness,
                         .shape = def->friction_shape,
                         .moves = def->moves,
                         .has_set = def->friction_set};
@@ -60,7 +61,7 @@ bool cpsi_obstacle_is_isotropic(const CpsiObstacle *o) {
 }
 
 bool cpsi_obstacle_needs_local_axes(const CpsiObstacle *o) {
-    return o->kind != CPS_OBSTACLE_PLANE || !cpsi_obstacle_is_isotropic(o);
+    return o->kind != CPS_OBSTACLE_PLANE || !cpsi_obstacle_is_isotropic(o) || o->stiffness > 0;
 }
 
 bool cpsi_obstacle_is_round(const CpsiObstacle *o) {
@@ -75,6 +76,7 @@ bool cpsi_obstacle_is_convex(const CpsiObstacle *o) {
 }
 
 bool cpsi_obstacle_faces_lines(const CpsiObstacle *o) {
+    if (o->stiffness > 0) return false;
     return cpsi_obstacle_is_round(o) ||
            (cpsi_obstacle_is_rounded(o) && (!o->form.inside || o->kind == CPS_OBSTACLE_TORUS));
 }
@@ -141,6 +143,7 @@ static Vec3 turned(Vec3 v, Vec3 axis, double angle) {
 }
 
 bool cpsi_obstacle_faces(const CpsiObstacle *o, Vec3 a, Vec3 b, double *share) {
+    if (o->stiffness > 0) return false;
     if (cpsi_obstacle_is_rounded(o)) return cpsi_rounded_faces(o, a, b, share);
     if (!cpsi_obstacle_is_round(o)) return false;
     const Vec3 from = cpsi_obstacle_spoke(o, a), along = vec3_sub(cpsi_obstacle_spoke(o, b), from);

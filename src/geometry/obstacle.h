@@ -14,8 +14,8 @@
 
 CpsiObstacle cpsi_obstacle(const CpsObstacle *def);
 
-/* Does the step problem change as nodes move on the obstacle: is its surface curved, or does its
- * friction depend on the line's direction? */
+/* Does the step problem change as nodes move on the obstacle: is its surface curved, does it give,
+ * or does its friction depend on the line's direction? */
 bool cpsi_obstacle_needs_local_axes(const CpsiObstacle *obstacle);
 
 /* Has an obstacle of this kind an axis of rotation? */
@@ -76,7 +76,8 @@ double cpsi_obstacle_range(const CpsiObstacle *obstacle, Vec3 x);
 
 /* The point (1 - share) a + share b of the straight element from a to b that is nearest to the axis
  * of a cylinder or the centre of a sphere, or that has the least gap to another shape. False where
- * that is one of its ends, and of planes, ground and surfaces. */
+ * that is one of its ends, and of planes, ground, surfaces and what gives, into which elements go
+ * as their nodes do. */
 bool cpsi_obstacle_faces(const CpsiObstacle *obstacle, Vec3 a, Vec3 b, double *share);
 
 /* Is friction on the obstacle a disc, the same in all directions? */

@@ -122,6 +122,7 @@ struct CpsResults {
     bool lets_go;       /* cpsi_lets_go */
     bool in_time;       /* a step may have a duration */
     bool winds;         /* a line has a winch */
+    bool has_loads;     /* a line has springs, given loads or drag */
     bool begins_static; /* the first step places lines by statics */
 
     int row_count, row_capacity;

@@ -92,7 +92,7 @@ CpsStatus cpsi_step_copy(const CpsLineView *view, CpsiStep *step, CpsError *err)
                          view->name);
     if (!view->one_plane)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "line '%s': more than one obstacle, or one that is curved or has "
+                         "line '%s': more than one obstacle, or one that is curved, gives or has "
                          "directions, a node that is grasped, a winch, springs, loads or drag; the "
                          "paper's step slides in one tangent plane with one coefficient: use plane "
                          "obstacles with friction alone",

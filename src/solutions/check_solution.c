@@ -151,8 +151,9 @@ CpsStatus cps_solution_judge(const CpsLineView *step, const double *position, do
     if (!step->one_plane)
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
-            "line '%s': more than one obstacle, or one that is curved or has directions, a node "
-            "that is grasped, a winch, springs, loads or drag; only planes with isotropic friction "
+            "line '%s': more than one obstacle, or one that is curved, gives or has directions, a "
+            "node that is grasped, a winch, springs, loads or drag; only planes with isotropic "
+            "friction "
             "are judged",
             step->name);
     for (int j = 0; j <= step->element_count; ++j)

@@ -232,8 +232,9 @@ CpsStatus cps_solution_complete(const CpsLineView *step, CpsCompletion how, doub
     if (!step->one_plane)
         return cpsi_fail(
             err, CPS_ERR_ARGUMENT,
-            "line '%s': more than one obstacle, or one that is curved or has directions, a node "
-            "that is grasped, a winch, springs, loads or drag; only planes with isotropic friction "
+            "line '%s': more than one obstacle, or one that is curved, gives or has directions, a "
+            "node that is grasped, a winch, springs, loads or drag; only planes with isotropic "
+            "friction "
             "are completed",
             step->name);
     memcpy(position, step->position, 3 * ((size_t)step->element_count + 1) * sizeof *position);

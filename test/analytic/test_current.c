@@ -237,7 +237,7 @@ static void line_on_springs(void **state) {
         const int n = 40 << i;
         CpsScene scene = cps_scene_default();
         CpsLine line = cps_line_default();
-        const CpsSpring spring = {0, length, {0, 0, k}, false, {0, 0, 0}};
+        const CpsSpring spring = {0, length, {0, 0, k}, false, {0, 0, 0}, {0, 0, 0}};
         const CpsLineLoads loads = {.spring_count = 1, .spring = &spring};
         const double point[6] = {0, 0, 0, length * (1 + pull / ea), 0, 0};
         line.name = "line";

@@ -23,6 +23,7 @@
 #include "points.h"
 #include "ranges.h"
 #include "reach.h"
+#include "rounding.h"
 #include "winches.h"
 
 /* A balance is accepted when no node is off by more than this part of the largest force: rounding
@@ -104,16 +105,6 @@ static double claimed_residual(const Record *r, const Measures *m) {
     for (size_t c = 0; c < r->contacts * r->nodes + r->elements; c++)
         if (r->friction_bound[c] > 0) return m->bound_residual;
     return r->claim[CLAIM_FRICTION_RESIDUAL] == 0 ? 0 : m->bound_residual;
-}
-
-/* [J] A line on which no force acts at all has no scale, and what rounding makes of its strain, a
- * part of 1e-12 and of its coordinates, would be energy. */
-static double strain_energy_of_rounding(const Record *r, const Measures *m) {
-    if (m->largest_force > 0 || !(r->compliance > 0)) return 0;
-    double shortest = r->element_length[0];
-    for (size_t i = 1; i < r->elements; i++) shortest = fmin(shortest, r->element_length[i]);
-    double strain = 1e-12 + 4 * 2.3e-16 * 2 * m->reach / shortest;
-    return m->length * strain * strain / (2 * r->least_compliance);
 }
 
 /* A step in one part that makes energy, more than 5 % of what it dissipates and of the positive
@@ -216,7 +207,8 @@ static void check_claims(Findings *findings, const Record *r, const Measures *m,
     same(findings, "scale", claim[CLAIM_SCALE], m->scale, 0);
     same(findings, "force_residual", claim[CLAIM_FORCE_RESIDUAL], m->force, force);
     same(findings, "largest_force", claim[CLAIM_LARGEST_FORCE], m->largest_force, force);
-    same(findings, "tension_estimate", claim[CLAIM_TENSION_ESTIMATE], m->tension_estimate, force);
+    same(findings, "tension_estimate", claim[CLAIM_TENSION_ESTIMATE], m->tension_estimate,
+         force + tension_of_rounding(r, m));
     // the sum of phi(slip); by -F.slip it would differ by the law residual
     if (r->substeps == 1 && !in_time(r)) // in time on another way (inertia.c)
         same(findings, "dissipated", r->dissipated, m->slid + ends, energy + m->law);
@@ -705,7 +697,8 @@ static void check_winches(const Record *r, const Record *before, const Source *s
                  FORCE_TOLERANCE * m.largest_force + NOTHING);
     if (!before || r->substeps > 1 || before->outcome > OUTCOME_TAUT) return;
     const WinchLedger own = winches_ledger(r, before);
-    double floor = ENERGY_FLOOR * m.scale + 1e-13 * (m.largest_force * m.reach + (double)own.size);
+    double floor = ENERGY_FLOOR * m.scale + strain_energy_of_rounding(r, &m) +
+                   1e-13 * (m.largest_force * m.reach + (double)own.size);
     same(findings, "ledger_winches", r->winch_work, (double)own.winches, r->winds ? floor : 0);
     if (!r->winds) return;
     same(findings, "ledger_elastic", r->ledger[LEDGER_ELASTIC], (double)own.elastic, floor);

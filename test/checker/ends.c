@@ -127,12 +127,16 @@ End end_measure(const Source *source, const Record *r, int e) {
     Triple x;
     widen(r->position[j], x);
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
+    // what gives bears nothing at a held end: the support has all of it
     for (size_t k = 0; k < source->surfaces; k++)
-        nearest = fminl(nearest, surface_distance(&source->surface[k], x));
+        if (!(source->surface[k].gives > 0))
+            nearest = fminl(nearest, surface_distance(&source->surface[k], x));
     End best = on_obstacle(source, r, e, 0, true);
     bool found = !(nearest <= TOUCH / 2 * length);
     for (size_t k = 0; k < source->surfaces; k++) {
-        if (!(surface_distance(&source->surface[k], x) <= 2 * TOUCH * length)) continue;
+        if (source->surface[k].gives > 0 ||
+            !(surface_distance(&source->surface[k], x) <= 2 * TOUCH * length))
+            continue;
         const End end = on_obstacle(source, r, e, k, false);
         if (!found || apart(r, e, &end) < apart(r, e, &best)) best = end;
         found = true;

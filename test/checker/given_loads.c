@@ -20,21 +20,34 @@ static bool is_nearest(const Record *r, size_t j, double at, double s) {
     return s >= at - before / 2 && s < at + after / 2;
 }
 
+/* The six numbers of K as a matrix. */
+static void fill(const double *k, const double *c, double by, double m[3][3]) {
+    const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
+    for (int a = 0; a < 3; a++) {
+        m[a][a] += by * k[a];
+        m[row[a]][column[a]] += by * c[a];
+        m[column[a]][row[a]] += by * c[a];
+    }
+}
+
 /* Springs of node j: the sum of their stiffness, and of their K a. False: a is where the node
  * starts for some of them, which the file alone knows. */
 static bool sum_springs(const CpsLine *line, const Record *r, size_t j, double at,
-                        const double *origin, double *k, double *ka) {
+                        const double *origin, double k[3][3], double *ka) {
     bool known = true;
     for (int i = 0; i < line->loads->spring_count; i++) {
         const CpsSpring *spring = &line->loads->spring[i];
         const double by = spring->from == spring->to
                               ? (is_nearest(r, j, at, spring->from) ? 1 : 0)
                               : common_length(r, j, at, spring->from, spring->to);
+        double own[3][3] = {{0}};
         known = known && (by == 0 || !spring->at_start);
-        for (int a = 0; a < 3; a++) {
-            k[a] += by * spring->stiffness[a];
-            ka[a] += by * spring->stiffness[a] * (spring->place[a] - origin[a]);
-        }
+        fill(spring->stiffness, spring->coupling, by, own);
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++) {
+                k[a][b] += own[a][b];
+                ka[a] += own[a][b] * (spring->place[b] - origin[b]);
+            }
     }
     return known;
 }
@@ -42,27 +55,54 @@ static bool sum_springs(const CpsLine *line, const Record *r, size_t j, double a
 static bool compare_springs(Compare *compare, const CpsLine *line, const Record *r, size_t j,
                             double at) {
     static const double NEAR = 1e-9;
-    double k[3] = {0}, ka[3] = {0}, most = 0, far = line->length;
+    double k[3][3] = {{0}}, found[3][3] = {{0}}, ka[3] = {0}, most = 0, far = line->length;
     const bool known = sum_springs(line, r, j, at, compare->source.origin, k, ka);
     for (int i = 0; i < line->loads->spring_count; i++)
         for (int a = 0; a < 3; a++) {
             most = fmax(most, line->loads->spring[i].stiffness[a] * fmax(1, line->length));
             far = fmax(far, fabs(line->loads->spring[i].place[a]));
         }
+    fill(r->loads->stiffness[j], r->loads->coupling[j], 1, found);
     for (int a = 0; a < 3; a++) {
-        const double found = r->loads->stiffness[j][a];
-        const double pull = found * r->loads->place[j][a];
-        if (fabs(found - k[a]) <= NEAR * most &&
-            (!known || fabs(pull - ka[a]) <= NEAR * most * far))
-            continue;
+        double pull = 0;
+        for (int b = 0; b < 3; b++) pull += found[a][b] * r->loads->place[j][b];
+        bool same = !known || fabs(pull - ka[a]) <= NEAR * most * far;
+        for (int b = 0; b < 3; b++) same = same && fabs(found[a][b] - k[a][b]) <= NEAR * most;
+        if (same) continue;
         find(compare, "springs of %s at node %zu: %.17g N/m, in the scene %.17g N/m", line->name, j,
-             found, k[a]);
+             found[a][a], k[a][a]);
         return false;
     }
     return true;
 }
 
+static void compare_drag(Compare *compare, const CpsLine *line, const Loads *loads) {
+    const CpsDrag *drag = &line->loads->drag;
+    const CpsCurrent *current = compare->scene->current;
+    same_number(compare, "diameter in the current", line->name, loads->drag[0], drag->diameter);
+    same_number(compare, "drag across", line->name, loads->drag[1], drag->normal);
+    same_number(compare, "drag along", line->name, loads->drag[2], drag->tangential);
+    same_number(compare, "density about", line->name, loads->density, current->density);
+    if (loads->rows != (size_t)current->row_count) {
+        find(compare, "current: %zu rows, in the scene %d", loads->rows, current->row_count);
+        return;
+    }
+    for (size_t k = 0; k < loads->rows; k++) {
+        const CpsCurrentRow *row = &current->row[k];
+        same_number(compare, "height of a row of the current", line->name, loads->row[4 * k],
+                    row->z - compare->source.origin[2]);
+        for (int a = 0; a < 3; a++)
+            same_number(compare, "velocity in a row of the current", line->name,
+                        loads->row[4 * k + 1 + (size_t)a], row->velocity[a]);
+    }
+}
+
 void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, size_t step) {
+    bool soft = false;
+    for (int k = 0; k < compare->scene->obstacle_count; k++)
+        soft = soft || compare->scene->obstacle[k].stiffness > 0;
+    if (soft && step == 0)
+        same_number(compare, "bearing width", line->name, r->bearing_width, line->bearing_width);
     const CpsLineLoads *given = line->loads;
     const bool springs = given && given->spring_count > 0,
                drag = given && given->drag.diameter > 0 && compare->scene->current,
@@ -73,6 +113,7 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
         return;
     }
     if (drag != (loads && loads->has_drag)) find(compare, "drag of %s", line->name);
+    if (drag && loads && loads->has_drag && step == 0) compare_drag(compare, line, loads);
     double at = 0, off = 0, sizes = 0;
     if (!loads) return;
     for (size_t j = 0; j < r->nodes; j++) {
@@ -92,6 +133,11 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
     }
     /* what certified steps have used differs from what is there by no more than they say */
     const bool certified = r->outcome == OUTCOME_SOLVED || r->outcome == OUTCOME_TAUT;
+    if (certified && drag &&
+        !(loads->residual <=
+          1.001 * compare->scene->solver.tolerance * r->claim[CLAIM_LARGEST_FORCE]))
+        find(compare, "drag of %s, step %zu: certified, but said to be off by %.17g N", line->name,
+             step, loads->residual);
     if (certified && forces && !(off <= 1.001 * loads->residual + 1e-10 * sizes))
         find(compare, "loads of %s, step %zu, are off by %.17g N where they are, said %.17g N",
              line->name, step, off, loads->residual);

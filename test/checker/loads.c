@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Springs, given loads and drag (loads.h). A spring with the diagonal K pulls its node towards a
+/* Springs, given loads and drag (loads.h). A spring with the stiffness K pulls its node towards a
  * with K (a - x), and is taken at x + y, y so small that (K y).y/2 is nothing beside energies. */
 #include "loads.h"
 
@@ -55,6 +55,21 @@ static int read_current(const Source *source, Loads *loads, FILE *log) {
     return 0;
 }
 
+/* Can the energy v'K v be negative nowhere? By the pivots of Gauss' elimination, in long double. */
+static bool is_convex(const double *k, const double *c) {
+    Real m[3][3] = {{k[0], c[0], c[1]}, {c[0], k[1], c[2]}, {c[1], c[2], k[2]}};
+    const Real noise = 1e-12L * (fabsl(m[0][0]) + fabsl(m[1][1]) + fabsl(m[2][2]));
+    for (int i = 0; i < 3; i++) {
+        if (!(m[i][i] >= -noise)) return false;
+        for (int a = i + 1; a < 3; a++) {
+            if (m[i][i] <= noise && fabsl(m[i][a]) > 1e3L * noise) return false;
+            for (int b = i + 1; b < 3 && m[i][i] > noise; b++)
+                m[a][b] -= m[a][i] * m[i][b] / m[i][i];
+        }
+    }
+    return true;
+}
+
 int loads_create(const Source *source, const char *line, Record *record, FILE *log) {
     int id;
     char name[400];
@@ -63,19 +78,22 @@ int loads_create(const Source *source, const char *line, Record *record, FILE *l
     if (!springs && !given) return 0;
     Loads *loads = record->loads = calloc(1, sizeof *loads);
     if (!loads) return complain(log, "out of memory", "loads");
-    Vector **array[] = {&loads->stiffness, &loads->place, &loads->beside, &loads->given};
-    for (int k = 0; k < 4; k++) {
-        if (!(k < 3 ? springs : given)) continue;
+    Vector **array[] = {&loads->stiffness, &loads->coupling, &loads->place, &loads->beside,
+                        &loads->given};
+    for (int k = 0; k < 5; k++) {
+        if (!(k < 4 ? springs : given)) continue;
         *array[k] = calloc(record->nodes, sizeof(Vector));
         if (!*array[k]) return complain(log, "out of memory", "loads");
     }
     if (springs &&
         (read_vectors(source, line, "node_stiffness", -1, record->nodes, loads->stiffness, log) ||
+         read_vectors(source, line, "node_coupling", -1, record->nodes, loads->coupling, log) ||
          read_vectors(source, line, "node_place", -1, record->nodes, loads->place, log)))
         return -1;
-    const size_t numbers = springs ? 3 * record->nodes : 0;
-    for (size_t i = 0; i < numbers; i++)
-        if (loads->stiffness[i / 3][i % 3] < 0) return complain(log, "negative", "node_stiffness");
+    const size_t on_springs = springs ? record->nodes : 0;
+    for (size_t j = 0; j < on_springs; j++)
+        if (!is_convex(loads->stiffness[j], loads->coupling[j]))
+            return complain(log, "negative energy", "node_stiffness");
     snprintf(name, sizeof name, "%s_drag", line);
     loads->has_drag = nc_get_att_double(source->nc, NC_GLOBAL, name, loads->drag) == NC_NOERR &&
                       nc_inq_attlen(source->nc, NC_GLOBAL, "current", &(size_t){0}) == NC_NOERR;
@@ -101,6 +119,7 @@ void loads_free(Record *record) {
     Loads *loads = record->loads;
     if (!loads) return;
     free(loads->stiffness);
+    free(loads->coupling);
     free(loads->place);
     free(loads->beside);
     free(loads->given);
@@ -109,19 +128,36 @@ void loads_free(Record *record) {
     record->loads = NULL;
 }
 
+/* K v of node j. */
+static void stiffness_times(const Loads *loads, size_t j, const Real *v, Real *out) {
+    const double *k = loads->stiffness[j], *c = loads->coupling[j];
+    out[0] = k[0] * v[0] + c[0] * v[1] + c[1] * v[2];
+    out[1] = c[0] * v[0] + k[1] * v[1] + c[2] * v[2];
+    out[2] = c[1] * v[0] + c[2] * v[1] + k[2] * v[2];
+}
+
 Spring loads_spring(const Record *record, size_t j) {
     const Loads *loads = record->loads;
     Spring out = {.gap = 0};
     if (!loads || !loads->stiffness) return out;
+    Real off[3], middle[3], y[3], pull[3], rest[3], mean[3];
     for (int a = 0; a < 3; a++) {
-        const Real k = loads->stiffness[j][a], x = record->position[j][a],
-                   from = record->reference[j][a], at = loads->place[j][a], y = loads->beside[j][a];
-        const Real off = x - at, before = from - at;
-        out.force[a] = -k * (off + y);
-        out.energy += k * off * off / 2;
-        out.gap += k * y * y / 2;
+        const Real x = record->position[j][a], from = record->reference[j][a],
+                   at = loads->place[j][a];
+        off[a] = x - at;
+        y[a] = loads->beside[j][a];
+        middle[a] = (off[a] + (from - at)) / 2;
+    }
+    stiffness_times(loads, j, off, pull);
+    stiffness_times(loads, j, y, rest);
+    stiffness_times(loads, j, middle, mean);
+    for (int a = 0; a < 3; a++) {
+        const Real x = record->position[j][a];
+        out.force[a] = -(pull[a] + rest[a]);
+        out.energy += off[a] * pull[a] / 2;
+        out.gap += y[a] * rest[a] / 2;
         out.dual += out.force[a] * x;
-        out.fall -= k * (x - from) * (off + before) / 2;
+        out.fall -= mean[a] * (x - record->reference[j][a]);
     }
     out.dual += out.energy - out.gap;
     return out;

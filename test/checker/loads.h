@@ -8,9 +8,10 @@
 
 /* Of one line and step; arrays are NULL where the file has none. */
 typedef struct Loads {
-    Vector *stiffness, *place, *beside; /* (nodes) of springs, K diagonal */
-    Vector *given;                      /* (nodes) [N] given loads and drag */
-    double ledger, residual;            /* as claimed */
+    /* (nodes) of springs: K, its xx, yy, zz and xy, xz, yz; a; y */
+    Vector *stiffness, *coupling, *place, *beside;
+    Vector *given;           /* (nodes) [N] given loads and drag */
+    double ledger, residual; /* as claimed */
     bool has_drag;
     double drag[3]; /* diameter, coefficients across and along */
     double density;

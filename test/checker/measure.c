@@ -19,10 +19,12 @@
 #include "elongation.h"
 #include "grasps.h"
 #include "loads.h"
+#include "missing.h"
 #include "shape.h"
 
 #include "fall.h"
 #include "inertia.h"
+#include "soft.h"
 
 #include <math.h>
 
@@ -72,73 +74,6 @@ static Real misalignment(const Real *a, const Real *b) {
     Triple difference;
     for (int k = 0; k < 3; k++) difference[k] = a[k] / la - b[k] / lb;
     return la * lb * dot(difference, difference) / 2;
-}
-
-static bool all_within(const double *value, size_t count, double low, double high) {
-    for (size_t i = 0; i < count; i++) {
-        if (!(value[i] >= low && value[i] <= high)) return false;
-    }
-    return true;
-}
-
-/* The first variable with a value that cannot be. Infinite may be: the gap to an obstacle that is
- * not looked for; NaN must be what is not imposed on an end, and may be the rms bound. */
-static const char *missing_variable(const Record *r) {
-    const double most = 1.7976931348623157e308, tiny = 4.9e-324;
-    const bool place[2] = {r->end_kind[0] == END_HELD, r->end_kind[1] == END_HELD}; /* is imposed */
-    size_t n = r->nodes, m = r->elements, all = r->contacts * n + (r->has_elements ? m : 0);
-    const struct {
-        const char *name;
-        const double *value;
-        size_t count;
-        double low, high;
-    } table[] = {
-        {"element_length", r->element_length, m, tiny, most},
-        {"compliance", &r->compliance, 1, 0, most},
-        {"reference", r->reference[0], 3 * n, -most, most},
-        {"position", r->position[0], 3 * n, -most, most},
-        {"load", r->load[0], 3 * n, -most, most},
-        {"normal", r->normal[0], 3 * all, -most, most},
-        {"friction_force", r->friction[0], 3 * all, -most, most},
-        {"slip", r->slip[0], 3 * all, -most, most},
-        {"segment_force", r->segment_force[0], 3 * m, -most, most},
-        {"tension", r->tension, m, -most, most},
-        {"friction_bound", r->friction_bound, all, 0, most},
-        {"reaction", r->reaction, all, -most, most},
-        {"contact_gap", r->gap, all, -most, INFINITY},
-        {"end_held_position", r->held_position[0], place[0] ? 3 : 0, -most, most},
-        {"end_held_position", r->held_position[1], place[1] ? 3 : 0, -most, most},
-        {"end_applied_force", r->applied_force[0], place[0] ? 0 : 3, -most, most},
-        {"end_applied_force", r->applied_force[1], place[1] ? 0 : 3, -most, most},
-        {"end_force", r->end_force[0], 6, -most, most},
-        {"end_friction_force", r->end_friction_force[0], 6, -most, most},
-        {"end_tension", r->end_tension, 2, 0, most},
-        {"element_share", r->share_of, r->has_elements ? m : 0, 0, 1},
-        {"proof", r->proof, 3, -most, most},
-        {"motion", r->motion ? r->motion[0] : NULL, r->motion ? 3 * n : 0, -most, most},
-        {"proof_length", &r->proof_length, 1, 0, most},
-        {"proof_force", &r->proof_force, 1, 0, most},
-        {"dissipated", &r->dissipated, 1, -most, most},
-        {"unaccounted", &r->unaccounted, 1, 0, most},
-        {"bend_turn", &r->bend_turn, 1, 0, most},
-        {"bend_friction", &r->bend_friction, 1, 0, most},
-        {"bend_at", &r->bend_at, 1, 0, most},
-        {"ledger", r->ledger, LEDGER_ENTRIES, -most, most},
-    };
-    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
-        if (!all_within(table[k].value, table[k].count, table[k].low, table[k].high))
-            return table[k].name;
-    }
-    for (int k = 0; k < 6; k++) {
-        const int e = k / 3;
-        if (!isnan(place[e] ? r->applied_force[e][k % 3] : r->held_position[e][k % 3]))
-            return place[e] ? "end_applied_force" : "end_held_position";
-    }
-    for (int k = 0; k < CLAIMS; k++) {
-        bool may_miss = k == CLAIM_TENSION_BOUND && isnan(r->claim[k]);
-        if (!isfinite(r->claim[k]) && !may_miss) return CLAIM_NAME[k];
-    }
-    return NULL;
 }
 
 /* running sums of a record */
@@ -283,11 +218,12 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     const Real turn = (Real)r->turn[seat.surface - where->source->surface];
     const bool moves = turn != 0 || surface_moves(seat.surface);
     surface_carry(seat.surface, reference, r->share, turn, carried);
-    if (moves) surface_own(seat.surface, x, reference, r->share, seat.own);
+    const Surface at = soft_level(seat.surface, x);
+    if (moves) surface_own(&at, x, reference, r->share, seat.own);
     if (where->reached && !where->frozen) {
         /* half round no way is shorter than all others; where no friction acts none is asked for */
         const bool half = surface_angle(seat.surface, carried, x) > 2 * QUARTER - HALF_ROUND;
-        if (!half || r->friction_bound[c] > 0) surface_slip(seat.surface, carried, x, seat.slip);
+        if (!half || r->friction_bound[c] > 0) surface_slip(&at, carried, x, seat.slip);
     } else {
         Triple displacement = {x[0] - carried[0], x[1] - carried[1], x[2] - carried[2]};
         Real rise = dot(displacement, seat.plane);
@@ -296,7 +232,7 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     seat.gap = where->reached ? surface_distance(seat.surface, x) - dot(seat.normal, u)
                               : surface_distance(seat.surface, reference);
     /* the reference of a step in time may lie below, no other does but for rounding */
-    if (!where->reached && !in_time(r)) seat.gap = fmaxl(0, seat.gap);
+    if (!where->reached && !in_time(r) && !(seat.surface->gives > 0)) seat.gap = fmaxl(0, seat.gap);
     if (!moves)
         for (int k = 0; k < 3; k++) seat.own[k] = seat.slip[k];
     subtract(nodes[j < r->elements ? j + 1 : j], nodes[j > 0 ? j - 1 : j], along);
@@ -304,11 +240,23 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     return seat;
 }
 
+/* [m] Of a node at x that hangs inside of a sphere, cylinder, capsule or cone: how far from its
+ * middle, where no wall is nearest. Infinite of others. */
+static Real off_middle(const Surface *on, const Real *x) {
+    if (!on || !on->inside || on->kind == SURFACE_TORUS || on->kind == SURFACE_BOX) return INFINITY;
+    Triple arm;
+    for (int k = 0; k < 3; k++) arm[k] = x[k] - on->point[k];
+    const Real along = on->kind == SURFACE_SPHERE ? 0 : dot(arm, on->axis);
+    for (int k = 0; k < 3; k++) arm[k] -= along * on->axis[k];
+    return size(arm);
+}
+
 /* By how much more than places normals are off by rounding: on ground slopes may change within a
  * cell. */
-static Real turning(const Where *where, const Surface *on) {
+static Real turning(const Where *where, const Surface *on, const Real *x) {
     if (!on || on->kind == SURFACE_PLANE) return 0;
-    return where->reach / (on->ground ? ground_spacing(on->ground) : on->radius);
+    return where->reach /
+           (on->ground ? ground_spacing(on->ground) : fminl(on->radius, off_middle(on, x)));
 }
 
 /* normal, slip and gap on file against those recomputed, and depth below whatever obstacle */
@@ -327,11 +275,20 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
         slip[k] -= seat->slip[k];
     }
     bool round = seat->surface && surface_is_round(seat->surface);
-    raise_to(&m->normal_error, size(n) / (1 + turning(where, seat->surface)));
-    raise_to(&m->slip_error, size(slip));
+    raise_to(&m->normal_error, size(n) / (1 + turning(where, seat->surface, x)));
+    // the slip of what hangs is that of its foot
+    const Real hangs =
+        seat->surface && seat->surface->inside
+            ? fmaxl(0, surface_distance(seat->surface, x)) / off_middle(seat->surface, x)
+            : 0;
+    raise_to(&m->slip_error, size(slip) / (1 + hangs));
     if (c == j)
         for (size_t k = 0; k < where->source->surfaces; k++) {
             Real depth = -surface_distance(&where->source->surface[k], x);
+            if (where->source->surface[k].gives > 0) {
+                if (depth > margin && !soft_bears(r, j, k)) m->misplaced++;
+                continue;
+            }
             raise_to(&m->depth, depth);
             if (surface_ends(&where->source->surface[k], x, PLACE_MARGIN * where->reach))
                 m->misplaced++;
@@ -432,12 +389,23 @@ static void measure_contact(const Where *where, const Record *r, size_t j, size_
         return;
     }
     Real distance = dot(n, u) + gap;
+    add(&s->dual, -R * gap);
+    add(&s->magnitude, fabsl(R * gap));
+    if (seat.surface && seat.surface->gives > 0) {
+        const Soft soft = soft_spring(r, seat.surface, j, distance, R);
+        add(&s->primal, soft.energy);
+        add(&s->scale, soft.energy);
+        add(&s->dual, -soft.conjugate);
+        add(&s->signed_gap, soft.gap);
+        add(&s->gap, soft.gap);
+        add(&s->contact, soft.gap);
+        add(&s->magnitude, soft.energy + soft.conjugate);
+        return;
+    }
     raise_to(&m->penetration, -distance);
     add(&s->signed_gap, R * distance);
     add(&s->gap, fabsl(R * distance));
     add(&s->contact, fabsl(R * distance));
-    add(&s->dual, -R * gap);
-    add(&s->magnitude, fabsl(R * gap));
 }
 
 /* the point of element i at the share t of its way */
@@ -624,6 +592,7 @@ static void measure_spring(const Spring *spring, const Real *arm, const Real *u,
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
+    if (!held(r, j)) add(&s->elastic, soft_growth(where->source, r, j));
     widen(r->load[j], b);
     widen(r->load[j], pull);
     widen(r->position[j], x);
@@ -727,8 +696,9 @@ static void measure_pierced(const Source *source, const Record *r, Measures *m) 
         widen(r->position[i], a);
         widen(r->position[i + 1], b);
         for (size_t k = 0; k < source->surfaces; k++)
-            raise_to(&m->pierced,
-                     surface_pierced(&source->surface[k], a, b, (Real)r->element_length[i]));
+            if (!(source->surface[k].gives > 0))
+                raise_to(&m->pierced,
+                         surface_pierced(&source->surface[k], a, b, (Real)r->element_length[i]));
     }
 }
 

@@ -274,7 +274,8 @@ static void check_friction(const Points *p, const Junction *at) {
         at_most(p, "dissipated energy against the work of friction",
                 fabs(at->dissipated - fmax(0, slid)), SUMS * p->largest * size(at->slip));
     if (at->state == POINT_STICK) at_most(p, "slip of a point at rest", size(at->slip), 2 * way);
-    if (isfinite(bound) && at->has_place)
+    /* a slip no longer than places are known to has no direction */
+    if (isfinite(bound) && at->has_place && size(at->slip) > 2 * way)
         at_most(p, "what the law of friction lacks", bound * size(at->slip) - slid,
                 (BALANCED * p->source->tolerance * p->largest + force) * (size(at->slip) + way));
     if (p->step == 0) return; /* where it began is not in the file */

@@ -70,6 +70,28 @@ static bool value_is_wrong(const RestLine *line, size_t element, int sign, doubl
     return !(sign * (claimed - rest_tension_about(line, element, sign)) <= close);
 }
 
+/* [N] To what the places tell the tension: the forces are along the elements to no better than the
+ * root of twice the gap over the scale, an angle, and it takes what turns the line to tell them. */
+static double told_by_places(const Record *r, double force) {
+    const double angle = sqrt(2 * fmax(0, r->claim[CLAIM_GAP]) / r->claim[CLAIM_SCALE]);
+    double turn = 0;
+    for (size_t i = 0; i + 1 < r->elements; i++) {
+        Real first[3], second[3], sine = 0;
+        for (int k = 0; k < 3; k++) {
+            first[k] = ((Real)r->position[i + 1][k] - r->position[i][k]) / r->element_length[i];
+            second[k] =
+                ((Real)r->position[i + 2][k] - r->position[i + 1][k]) / r->element_length[i + 1];
+        }
+        for (int k = 0; k < 3; k++) {
+            const int a = (k + 1) % 3, b = (k + 2) % 3;
+            const Real cross = first[a] * second[b] - first[b] * second[a];
+            sine += cross * cross;
+        }
+        turn += (double)sqrtl(sine);
+    }
+    return angle < turn ? force * angle / turn : force;
+}
+
 /* Do the values by rest.c say otherwise?  False where they are not asked or not found. */
 static bool is_other(const Source *source, const Record *r, size_t element, double force,
                      const double claimed[2], double found[2]) {
@@ -95,8 +117,9 @@ static bool is_other(const Source *source, const Record *r, size_t element, doub
                                .frozen = !source->consistent,
                                .held = held,
                                .force = force};
-        const bool low = value_is_wrong(&line, element, -1, claimed[0], FOUND * force, &found[0]);
-        wrong = value_is_wrong(&line, element, 1, claimed[1], FOUND * force, &found[1]) || low;
+        const double close = FOUND * force + told_by_places(r, force);
+        const bool low = value_is_wrong(&line, element, -1, claimed[0], close, &found[0]);
+        wrong = value_is_wrong(&line, element, 1, claimed[1], close, &found[1]) || low;
     }
     free(held);
     free(contact);

@@ -10,6 +10,7 @@
 #include "loads.h"
 #include "places.h"
 #include "shape.h"
+#include "soft.h"
 #include "winches.h"
 
 #include <math.h>
@@ -232,7 +233,7 @@ static int read_surface(const Source *source, size_t k, Surface *out, FILE *log)
         out->axis[i] = axis[i] / length;
         out->grain[i] = grain[i];
     }
-    if (shape_read(source->nc, k, out, log)) return -1;
+    if (shape_read(source->nc, k, out, log) || soft_read(source, k, out, log)) return -1;
     out->grained = grain[0] != 0 || grain[1] != 0 || grain[2] != 0;
     if (kind == SURFACE_MESH) out->side[0] = 1; /* until it is shifted */
     if (kind == SURFACE_MESH && !(out->mesh = mesh_read(source->nc, k, log))) return -1;
@@ -530,7 +531,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     static int (*const CREATE[])(const Source *, const char *, Record *,
                                  FILE *) = {read_sections,  elongation_read, read_end_points,
                                             failure_create, inertia_create,  loads_create,
-                                            read_zones,     winches_create};
+                                            read_zones,     winches_create,  soft_create};
     for (size_t k = 0; k < sizeof CREATE / sizeof *CREATE; k++)
         if (CREATE[k](source, line, record, log)) return -1;
     return 0;

@@ -139,7 +139,8 @@ typedef struct Record {
     int proof_obstacle, proof_plane; /* -1: none, or the file does not say */
     double proof_length, proof_force, claim[CLAIMS], dissipated, ledger[LEDGER_ENTRIES],
         unaccounted;
-    struct Loads *loads; /* (loads.h) beside the weight; NULL: there are none */
+    double bearing_width; /* [m] on what gives (soft.h) */
+    struct Loads *loads;  /* (loads.h) beside the weight; NULL: there are none */
 } Record;
 
 /* A point where lines meet, after a step; forces are on the point. */

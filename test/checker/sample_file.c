@@ -207,6 +207,19 @@ int sample_poke(const char *path, const char *variable, size_t index, double val
     if (status) return status;
     size_t at[4] = {0}, length[4] = {1, 1, 1, 1};
     status = nc_inq_varid(nc, variable, &id);
+    if (status == NC_ENOTVAR) { /* a global attribute of numbers */
+        size_t count = 0;
+        double all[64];
+        status = nc_inq_attlen(nc, NC_GLOBAL, variable, &count);
+        if (!status && (count > 64 || index >= count)) status = NC_EINVAL;
+        if (!status) status = nc_get_att_double(nc, NC_GLOBAL, variable, all);
+        if (!status) {
+            all[index] = value;
+            status = nc_put_att_double(nc, NC_GLOBAL, variable, NC_DOUBLE, count, all);
+        }
+        const int shut = nc_close(nc);
+        return status ? status : shut;
+    }
     if (!status) status = nc_inq_varndims(nc, id, &rank);
     if (!status) status = nc_inq_vardimid(nc, id, dimension);
     for (int k = 0; k < rank && !status; k++) status = nc_inq_dimlen(nc, dimension[k], &length[k]);

@@ -35,6 +35,7 @@ bool surface_is_round(const Surface *s) {
 }
 
 bool surface_is_cut(const Surface *s) {
+    if (s->gives > 0) return false;
     return surface_is_round(s) || (shape_is(s) && (!s->inside || s->kind == SURFACE_TORUS));
 }
 

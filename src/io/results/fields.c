@@ -58,6 +58,8 @@ const CpsiField cpsi_field[CPSI_FIELDS] = {
      true, false, false, VIEW(node_load)},
     {"node_stiffness", "stiffness of the springs of a node along x, y and z", "N m-1",
      CPSI_PLACE_SPRING, true, true, false, VIEW(node_stiffness)},
+    {"node_coupling", "the same, of x and y, x and z, y and z", "N m-1", CPSI_PLACE_SPRING, true,
+     true, false, VIEW(node_coupling)},
     {"node_place", "place at which they are without force", "m", CPSI_PLACE_SPRING, true, true,
      false, VIEW(node_place)},
     {"node_beside", "how far beside the node its springs are taken in the balance of forces", "m",

@@ -23,7 +23,7 @@ typedef struct CpsiField {
     size_t offset; /* offset of a const double * in CpsLineView */
 } CpsiField;
 
-enum { CPSI_FIELDS = 25 };
+enum { CPSI_FIELDS = 26 };
 extern const CpsiField cpsi_field[CPSI_FIELDS];
 
 /* The selected fields: a bit for each field, and these two for arrays that do not contain

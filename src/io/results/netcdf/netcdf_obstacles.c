@@ -406,6 +406,24 @@ void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles
     if (obstacles->ground) write_ground(file, obstacles->ground, scene);
 }
 
+void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene) {
+    const size_t count = (size_t)scene->obstacle_count;
+    double *stiffness = calloc(count + 1, sizeof *stiffness), most = 0;
+    if (!stiffness) cpsi_netcdf_keep(file, NC_ENOMEM);
+    for (size_t k = 0; stiffness && k < count; ++k) {
+        stiffness[k] = scene->obstacle[k].stiffness;
+        if (stiffness[k] > most) most = stiffness[k];
+    }
+    if (most > 0) cpsi_netcdf_numbers(file, "obstacle_stiffness", count, stiffness);
+    free(stiffness);
+    const int lines = most > 0 ? scene->line_count : 0;
+    for (int i = 0; i < lines; ++i) {
+        char name[NC_MAX_NAME + 1];
+        snprintf(name, sizeof name, "%.200s_bearing_width", scene->line[i].name);
+        cpsi_netcdf_numbers(file, name, 1, &scene->line[i].bearing_width);
+    }
+}
+
 void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, double origin_z) {
     const CpsCurrent *current = scene->current;
     if (!current) return;

@@ -173,6 +173,8 @@ void cpsi_netcdf_define_winches(CpsiNetcdfFile *file, CpsiNetcdfWinches *ids, co
 void cpsi_netcdf_append_winches(CpsiNetcdfFile *file, const CpsiNetcdfWinches *ids, size_t step,
                                 const CpsEvolution *evolution, int line);
 
+/* How obstacles give, and the widths with which lines bear on them; nothing where none gives. */
+void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene);
 /* The current as attributes: the density, z and velocity of row after row; and the drag of lines.
  */
 void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, double origin_z);

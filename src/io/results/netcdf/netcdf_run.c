@@ -599,6 +599,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
     const CpsLineView first = cps_evolution_line_view(evolution, 0);
     if (nc->open) define_run(nc, scene, first.origin, names);
     if (nc->open) cpsi_netcdf_define_current(&nc->file, scene, first.origin[2]);
+    if (nc->open) cpsi_netcdf_define_soft(&nc->file, scene);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = constant_view(evolution, i);
         const CpsTwoStiffnesses two = cps_evolution_two_stiffnesses(evolution, i);

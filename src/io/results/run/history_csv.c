@@ -75,6 +75,9 @@ static const CpsiColumn FAILURE_COLUMN[] = {
 /* Where lines have winches. */
 static const CpsiColumn WINCH_STEP_COLUMN[] = {{"winches", "J", STEP(ledger.winches)}};
 
+/* Where lines have loads beside their weight. */
+static const CpsiColumn LOADS_COLUMN[] = {{"loads", "J", STEP(ledger.loads)}};
+
 #define WINCH(member) CPSI_MEMBER_IF(CpsWinchReport, is_there, member)
 
 static const CpsiColumn WINCH_COLUMN[] = {{"stored", "m", WINCH(stored)},
@@ -152,6 +155,7 @@ static void write_heads(FILE *out, const CpsResults *results) {
         write_winch_heads(out, results->line_name[l], false);
     for (int i = 0; i < results->body_count; ++i)
         cpsi_csv_names(out, BODY_COLUMN, BODY_COLUMNS, results->body[i].name);
+    if (results->has_loads) cpsi_csv_names(out, LOADS_COLUMN, 1, NULL);
     if (results->in_time) cpsi_csv_names(out, MOTION_COLUMN, MOTION_COLUMNS, NULL);
     fputs("\n1,,,1,1,1,1", out);
     cpsi_csv_units(out, STEP_COLUMN, STEP_COLUMNS);
@@ -165,6 +169,7 @@ static void write_heads(FILE *out, const CpsResults *results) {
     for (int l = 0; l < cpsi_listed_lines(results) && results->winds; ++l)
         write_winch_heads(out, results->line_name[l], true);
     for (int i = 0; i < results->body_count; ++i) cpsi_csv_units(out, BODY_COLUMN, BODY_COLUMNS);
+    if (results->has_loads) cpsi_csv_units(out, LOADS_COLUMN, 1);
     if (results->in_time) cpsi_csv_units(out, MOTION_COLUMN, MOTION_COLUMNS);
     fputs("\n", out);
 }
@@ -189,6 +194,7 @@ void cpsi_history_write(const CpsResults *results, FILE *out) {
                 cpsi_csv_values(out, WINCH_COLUMN, WINCH_COLUMNS, &row->line[l].winch[end]);
         for (int i = 0; i < results->body_count; ++i)
             cpsi_csv_values(out, BODY_COLUMN, BODY_COLUMNS, &row->body[i]);
+        if (results->has_loads) cpsi_csv_values(out, LOADS_COLUMN, 1, &row->report);
         if (results->in_time) cpsi_csv_values(out, MOTION_COLUMN, MOTION_COLUMNS, &row->motion);
         fputs("\n", out);
     }

@@ -99,8 +99,10 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->planned_steps = cps_evolution_step_count(evolution);
     results->lets_go = cpsi_lets_go(scene);
     results->in_time = cpsi_has_duration(scene);
-    for (int i = 0; i < scene->line_count; ++i)
+    for (int i = 0; i < scene->line_count; ++i) {
         results->winds = results->winds || cpsi_has_winch(&scene->line[i]);
+        results->has_loads = results->has_loads || scene->line[i].loads;
+    }
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
     results->has_water_surface = scene->has_water_surface;

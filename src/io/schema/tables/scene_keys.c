@@ -176,6 +176,10 @@ static const CpsiKey OBSTACLE_KEYS[] = {
      .other = &(const CpsiKey){.type = CPSI_MAPPING, .inside = &FRICTION}, .fallback = "0",
      .help = "Coulomb friction coefficient; or one along the line or the grain and another "
              "across it, or a set of forces"},
+    {"stiffness", OPTIONAL, NUMBER(Obstacle, obstacle.stiffness), NOT_NEGATIVE, .unit = "N/m3",
+     .fallback = "0",
+     .help = "pressure over depth of an obstacle that gives; 0: it is rigid. Lines need a "
+             "bearing_width"},
 };
 
 static void begin_obstacle(void *values) {
@@ -424,6 +428,9 @@ static const CpsiMapping ZONE = {"zone", KEYS(ZONE_KEYS), INTO(Zone)};
 static const CpsiKey SPRING_KEYS[] = {
     {"stiffness", REQUIRED, POINT(Spring, stiffness, 3), NOT_NEGATIVE,
      .help = "along x, y and z: N/m per metre of unstretched line; of a single spring N/m"},
+    {"coupling", OPTIONAL, POINT(Spring, coupling, 3), ANY, .fallback = "[0, 0, 0]",
+     .help = "of x and y, x and z, y and z, in the same unit: a quadratic field whose axes are "
+             "others"},
     {"at", OPTIONAL, NUMBER(Spring, at), NOT_NEGATIVE, .unit = "m",
      .help = "unstretched length from end A of a single spring, at the nearest node"},
     {"from", OPTIONAL, NUMBER(Spring, from), NOT_NEGATIVE, .unless = "at", .unit = "m",
@@ -613,6 +620,8 @@ static const CpsiKey LINE_KEYS[] = {
      .help = "stretches of different types, in order from A to B"},
     {"diameter", OPTIONAL, NUMBER(Line, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",
      .fallback = "0", .help = "of the circle whose area displaces water (volume-equivalent)"},
+    {"bearing_width", OPTIONAL, NUMBER(Line, line.bearing_width), NOT_NEGATIVE, .unit = "m",
+     .fallback = "0", .help = "width with which it bears on obstacles that give (stiffness)"},
     {"stiffness", REQUIRED, NUMBER(Line, line.stiffness), 0, INFINITY, true, .unless = "sections",
      .other = &(const CpsiKey){.type = MAPPING(Line, table), .inside = &STIFFNESS}, .unit = "N",
      .help = "axial stiffness EA; .inf for an inextensible line; or a table of strain and tension"},

@@ -88,7 +88,7 @@ typedef struct CpsiZoneValues {
 typedef struct CpsiSpringValues {
     const CpsiYaml *node;
     double at, from, to; /* NaN: not given */
-    double stiffness[3];
+    double stiffness[3], coupling[3];
     double place[3]; /* NaN: not given */
 } CpsiSpringValues;
 

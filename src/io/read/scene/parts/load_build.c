@@ -11,6 +11,7 @@ static CpsSpring spring_of(const CpsiSpringValues *values, const CpsLine *line) 
                      .at_start = isnan(values->place[0])};
     if (!isnan(values->at)) out.from = out.to = values->at;
     memcpy(out.stiffness, values->stiffness, sizeof out.stiffness);
+    memcpy(out.coupling, values->coupling, sizeof out.coupling);
     if (!out.at_start) memcpy(out.place, values->place, sizeof out.place);
     return out;
 }

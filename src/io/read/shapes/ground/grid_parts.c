@@ -19,7 +19,9 @@ static const double SAME = 1e-9;
 
 enum { LONGEST = 60 }; /* letters of a number, and of a word in a message */
 
-static bool separates(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == ';'; }
+static bool separates(const CpsiGridText *text, char c) {
+    return c == ' ' || c == '\t' || c == '\r' || (!text->blanks_only && (c == ',' || c == ';'));
+}
 
 bool cpsi_grid_word(CpsiGridText *text) {
     const char *at = text->at, *end = text->bytes + text->size;
@@ -30,13 +32,13 @@ bool cpsi_grid_word(CpsiGridText *text) {
         if (*at == '\n') {
             text->line++;
             text->line_start = at + 1;
-        } else if (!separates(*at)) {
+        } else if (!separates(text, *at)) {
             break;
         }
     }
     text->word = at;
     text->column = (int)(at - text->line_start) + 1;
-    while (at < end && *at != '\n' && *at != '#' && !separates(*at)) at++;
+    while (at < end && *at != '\n' && *at != '#' && !separates(text, *at)) at++;
     text->length = (size_t)(at - text->word);
     text->at = at;
     return text->length > 0;

@@ -23,6 +23,7 @@ typedef struct CpsiGridText {
     size_t size;
     CpsiPool *pool;
     CpsError *err;
+    bool blanks_only; /* commas and semicolons do not separate words */
     /* of text: the word found, and where it begins */
     const char *at, *line_start;
     const char *word;
@@ -30,8 +31,8 @@ typedef struct CpsiGridText {
     int line, column; /* from 1 */
 } CpsiGridText;
 
-/* The next word, between blanks, commas, semicolons and ends of lines; what follows # in a line is
- * a comment. False: there is none. */
+/* The next word, between blanks, commas, semicolons and ends of lines, or between blanks and ends
+ * of lines only; what follows # in a line is a comment. False: there is none. */
 bool cpsi_grid_word(CpsiGridText *text);
 /* Does the word differ from this one in capitals at most? */
 bool cpsi_grid_is_word(const CpsiGridText *text, const char *word);

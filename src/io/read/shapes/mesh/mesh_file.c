@@ -19,6 +19,7 @@ CpsStatus cpsi_mesh_file_read(const char *path, CpsiMeshForm form, size_t max_by
                          .size = size,
                          .pool = pool,
                          .err = err,
+                         .blanks_only = true, /* a decimal comma must not become two numbers */
                          .at = bytes,
                          .line_start = bytes,
                          .line = 1,

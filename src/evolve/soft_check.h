@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The check of obstacles that give (CpsObstacle.stiffness). */
+#ifndef CAPSTAN_SRC_EVOLVE_SOFT_CHECK_H
+#define CAPSTAN_SRC_EVOLVE_SOFT_CHECK_H
+
+#include "capstan/scene.h"
+
+/* Can obstacle `o` give as the scene says, beside all else that the scene has? */
+CpsStatus cpsi_soft_obstacle_check(const CpsScene *scene, const CpsObstacle *o, CpsError *err);
+/* Has line i the width that it needs, and a start that says nothing of its reactions? */
+CpsStatus cpsi_soft_line_check(const CpsScene *scene, const CpsLine *line, CpsError *err);
+
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Obstacles that give: a node at the depth d bears k d, k = pressure over depth x bearing width x
+ * half of the elements beside the node; at no depth it bears nothing. */
+#ifndef CAPSTAN_CHECKER_SOFT_H
+#define CAPSTAN_CHECKER_SOFT_H
+
+#include "record.h"
+
+/* What the file has of obstacle k, and of a line. 0, or -1 after one sentence on log. */
+int soft_read(const Source *source, size_t k, Surface *surface, FILE *log);
+int soft_create(const Source *source, const char *line, Record *record, FILE *log);
+
+/* The spring below node j, `distance` above it, with the force R: its energy, the conjugate of that
+ * at R, and their sum plus R x distance, each >= 0. */
+typedef struct Soft {
+    Real energy, conjugate, gap;
+} Soft;
+Soft soft_spring(const Record *r, const Surface *surface, size_t j, Real distance, Real R);
+
+/* The surface along which a node at x slips: in what is round and gives its parallel there, as long
+ * as the depth is less than half of the radius. */
+Surface soft_level(const Surface *surface, const Real *x);
+
+/* Is obstacle k that of a contact of node j? */
+bool soft_bears(const Record *r, size_t j, size_t k);
+
+/* [J] By how much what gives has stored more below node j since the reference, before which it
+ * moved. */
+Real soft_growth(const Source *source, const Record *r, size_t j);
+
+#endif

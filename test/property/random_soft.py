@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Random histories on obstacles that give, each checked by the independent checker.
+
+usage: random_soft.py CAPSTAN CHECKER [--count N] [--seed S] [--only CLASS] [--keep FOLDER]
+
+Of each class N scenes. The shapes and grounds are those of random_shapes.py and random_grounds.py, given a stiffness; `beds` are planes, level
+or sloping, one or two of which one may be rigid, with a drum or a boulder now and then, on which lines lie or hang and are pulled, moved, let
+go, grasped and shifted. By its weight a line sinks by 1e-4 to 0.03 of its size. Of each class at least 99 of 100 steps must be certified, and
+the checker must refute none.
+"""
+import argparse
+import os
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+import random_grounds
+import random_shapes
+
+STEPS = 16
+CERTIFIED = 0.99
+SECONDS = 300
+CLASSES = ["beds", "grounds"] + random_shapes.CLASSES
+
+
+def vector(values):
+    return "[" + ", ".join(repr(float(v)) for v in values) + "]"
+
+
+def sinks(dice):
+    """[-] by which a line sinks under its weight, per its size"""
+    return 10 ** dice.uniform(-4, -1.5)
+
+
+def beds(dice, folder):
+    size, weight, width = 10 ** dice.uniform(-1, 2), 10 ** dice.uniform(0, 3), 10 ** dice.uniform(-3, 0)
+    far = [dice.uniform(-1, 1) * 1e4 * size * (dice.random() < 0.15) for _ in range(3)]
+    at = lambda x: vector([far[k] + size * x[k] for k in range(3)])  # noqa: E731
+    friction = lambda: dice.choice([repr(dice.uniform(0, 1)), "0", f"{{axial: {dice.uniform(0, 1)!r}, lateral: {dice.uniform(0, 1)!r}}}"])  # noqa: E731
+    gives = lambda: repr(weight / (size * width * sinks(dice)))  # noqa: E731
+    slope = [dice.uniform(-0.2, 0.2), dice.uniform(-0.2, 0.2), 1] if dice.random() < 0.5 else [0, 0, 1]
+    obstacles = {"bed": f"plane: {{point: {at([0, 0, 0])}, normal: {vector(slope)}}}, friction: {friction()}, stiffness: {gives()}"}
+    if dice.random() < 0.3:
+        stiff = f", stiffness: {gives()}" if dice.random() < 0.5 else ""
+        obstacles["bank"] = f"plane: {{point: {at([-0.2, 0, 0])}, normal: [1, 0, {dice.uniform(0.5, 1)!r}]}}, friction: {friction()}{stiff}"
+    if dice.random() < 0.3:
+        round_one = dice.choice([f"sphere: {{centre: {at([0.5, 0.05, 0])}, radius: {0.12 * size!r}}}",
+                                 f"cylinder: {{point: {at([0.5, 0, -0.02])}, axis: [{dice.uniform(-0.3, 0.3)!r}, 1, 0], radius: {0.1 * size!r}}}"])
+        obstacles["lump"] = f"{round_one}, friction: {friction()}, stiffness: {gives()}"
+    shifted = dice.random() < 0.2
+    lies = dice.random() < 0.6 and len(obstacles) == 1
+    elements = dice.randint(10, 80)
+    stiffness = ".inf" if dice.random() < 0.3 else repr(weight * size * 10 ** dice.uniform(1.5, 5))
+    normal = [s / sum(c * c for c in slope) ** 0.5 for s in slope]
+    along = [normal[2], 0, -normal[0]]
+    long = sum(c * c for c in along) ** 0.5
+    end = [c / long for c in along]
+    if lies:
+        start, ends = f"{{straight: {{from: {at([0, 0, 0])}, to: {at(end)}}}}}", f"A: {{held: {at([0, 0, 0])}}}, B: {{force: [0, 0, 0]}}"
+    else:
+        ends = f"A: {{held: {at([0, 0, 0.1])}}}, B: {{held: {at([0.85, dice.uniform(-0.1, 0.1), 0.3])}}}"
+        start = "static"
+    entries = []
+    grasped = dice.random() < 0.2
+    for k in range(4):
+        what = dice.random()
+        if lies and what < 0.6:
+            pull = [dice.uniform(-1, 2), dice.uniform(-0.5, 0.5), dice.uniform(-0.1, 0.8)]
+            change = f"line.B: {{force: {vector([weight * size * p for p in pull])}}}" if what < 0.45 else "line.B: {force: [0, 0, 0]}"
+        else:
+            change = f"line.B: {{position: {at([dice.uniform(0.7, 0.9), dice.uniform(-0.3, 0.3), dice.uniform(0.02, 0.3)])}}}"
+        if grasped and k == 1:
+            change += f", line.node: {{at: {size / 2!r}, force: {vector([0, 0, 0.3 * weight * size])}}}"
+        if grasped and k == 2:
+            change += f", line.node: {{at: {size / 2!r}, release: true}}"
+        if shifted:
+            change += f", bed.obstacle: {{move: {vector([dice.uniform(-0.02, 0.02) * size for _ in range(3)])}}}"
+        if "lump" in obstacles and dice.random() < 0.4:
+            change += f", lump.turn: {dice.uniform(-40, 40)!r}"
+        entries.append(f"  - {{name: stage{k}, steps: {STEPS // 4}, {change}}}\n")
+    text = "capstan: 1\nobstacles:\n" + "".join(f"  {name}: {{{o}}}\n" for name, o in obstacles.items())
+    text += f"lines:\n  line:\n    length: {size!r}\n    elements: {elements}\n    weight: {weight!r}\n    bearing_width: {width!r}\n    stiffness: {stiffness}\n"
+    text += f"    start: {start}\n    ends: {{{ends}}}\nhistory:\n{''.join(entries)}"
+    return write(folder, text)
+
+
+def write(folder, text):
+    path = os.path.join(folder, "scene.yaml")
+    with open(path, "w", encoding="ascii") as out:
+        out.write(text)
+    return path
+
+
+def softened(dice, folder, text):
+    """a scene of rigid obstacles, which give; a boulder may stay rigid"""
+    weight, size = (float(re.search(rf"^    {key}: (\S+)$", text, re.M).group(1)) for key in ("weight", "length"))
+    width = 10 ** dice.uniform(-3, 0)
+    text = text.replace("friction_policy: frozen\n", "")
+    text = re.sub(r"^(    friction: .*)$", lambda m: f"{m.group(1)}\n    stiffness: {weight / (size * width * sinks(dice))!r}", text, flags=re.M)
+    text = re.sub(r"^(    weight: .*)$", rf"\1\n    bearing_width: {width!r}", text, flags=re.M)
+    return write(folder, text)
+
+
+def write_scene(dice, folder, kind):
+    if kind == "beds":
+        return beds(dice, folder)
+    path = random_grounds.write_scene(dice, folder) if kind == "grounds" else random_shapes.write_scene(dice, folder, kind)
+    with open(path, encoding="ascii") as scene:
+        return softened(dice, folder, scene.read())
+
+
+def run(command):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=SECONDS, check=False)
+
+
+def one_class(given, kind):
+    steps = certified = refuted = refused = 0
+    for seed in range(given.seed, given.seed + given.count):
+        folder = os.path.join(given.keep, f"{kind}-{seed}") if given.keep else tempfile.mkdtemp()
+        os.makedirs(folder, exist_ok=True)
+        scene = write_scene(random.Random(f"soft {kind} {seed}"), folder, kind)
+        out = os.path.join(folder, "out")
+        found = run([given.capstan, "run", scene, "-o", out, "--force", "--no-paraview"])
+        if not os.path.exists(os.path.join(out, "result.nc")) or found.returncode not in (0, 1, 5):
+            refused += 1
+            print(f"{kind} {seed}: {found.stderr.strip()[-300:]}")
+            continue
+        told = run([given.checker, os.path.join(out, "result.nc"), scene, "-v"])
+        counts = re.match(r"records (\d+), certified (\d+), not certified (\d+), refuted (\d+), not finite (\d+)", told.stdout)
+        scene_ok = "against the scene: 0 findings" in told.stdout
+        found = [int(n) for n in counts.groups()] if counts else [0, 0, 0, 1, 0]
+        steps += found[0]
+        certified += found[1]
+        refuted += found[3] + found[4] + (not scene_ok)
+        if found[1] < found[0] or found[3] or not scene_ok:
+            print(f"{kind} {seed}: {told.stdout.strip().splitlines()[0] if told.stdout else ''} {told.stderr.strip()[:400]}")
+    print(f"{kind}: {given.count} scenes from seed {given.seed}, {steps} steps, {certified} certified, {refuted} refuted, {refused} refused", flush=True)
+    return steps > 0 and certified >= CERTIFIED * steps and refuted == 0 and refused == 0
+
+
+def main():
+    options = argparse.ArgumentParser()
+    options.add_argument("capstan")
+    options.add_argument("checker")
+    options.add_argument("--count", type=int, default=2)
+    options.add_argument("--seed", type=int, default=1)
+    options.add_argument("--only", choices=CLASSES)
+    options.add_argument("--keep", help="folder for the scenes")
+    given = options.parse_args()
+    good = [one_class(given, kind) for kind in ([given.only] if given.only else CLASSES)]
+    sys.exit(0 if all(good) else 1)
+
+
+if __name__ == "__main__":
+    main()

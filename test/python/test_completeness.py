@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Nothing of the library is forgotten: keys of scenes, entries of histories as targets, and functions of the headers."""
+import inspect
+import json
+import re
+import subprocess
+
+import numpy as np
+import pytest
+import yaml
+
+import capstan
+
+OBJECTS = {"scene": capstan.Scene, "line": capstan.Line, "point": capstan.Point, "body": capstan.Body, "obstacle": capstan.Obstacle,
+           "friction": capstan.Friction}
+
+
+@pytest.fixture(scope="module")
+def schema():
+    import os
+    return json.loads(subprocess.run([os.environ["CAPSTAN_COMMAND"], "schema", "scene"], capture_output=True, check=True).stdout)["$defs"]
+
+
+@pytest.mark.parametrize("kind", OBJECTS)
+def test_objects_take_every_key_of_the_schema(schema, kind):
+    keys = list(schema[kind]["properties"])
+    assert list(inspect.signature(OBJECTS[kind]).parameters) == keys and len(keys) > 4
+    for key in keys:
+        assert f"\n    {key + ':':18} " in OBJECTS[kind].__doc__
+        made = OBJECTS[kind](**{key: 1})
+        assert (made.tree if kind == "scene" else made.to_tree())[key] == 1
+
+
+def test_the_reader_knows_what_the_objects_write(rope):
+    """A wrong value of a key is refused as a value; only a word that is none is refused as a key."""
+    def said(**more):
+        scene = capstan.Scene.from_yaml(rope)
+        scene["lines"]["rope"] = capstan.Line(**{**scene["lines"]["rope"], **more})
+        with pytest.raises(capstan.InputError) as found:
+            scene.check()
+        return str(found.value)
+    for key in inspect.signature(capstan.Line).parameters:
+        if key not in ("elements", "element_length"):
+            assert "unknown" not in said(**{key: [[{"no": "value"}]]}), key
+    assert "unknown key 'lenght'" in said(lenght=1)
+
+
+def objects_of(tree):
+    """The same scene of objects."""
+    made = dict(tree)
+    for name, kind in (("lines", capstan.Line), ("points", capstan.Point), ("bodies", capstan.Body), ("obstacles", capstan.Obstacle)):
+        if name in made:
+            made[name] = {key: kind(**value) for key, value in made[name].items()}
+    for obstacle in made.get("obstacles", {}).values():
+        if "friction" in obstacle._keys and isinstance(obstacle.friction, dict):
+            obstacle.friction = capstan.Friction(**obstacle.friction)
+    return capstan.Scene(**made)
+
+
+def test_every_example_can_be_made_of_objects(root, monkeypatch):
+    monkeypatch.chdir(root / "examples")
+    used = set()
+    for path in sorted((root / "examples").glob("*.yaml")):
+        read = capstan.Scene.read(path)
+        made = objects_of(read.tree)
+        made._name = str(path)  # beside which the files that it names lie
+        made.check()
+        assert made.to_dict() == read.to_dict()
+        used |= {key for part in ("lines", "obstacles") for one in read.to_dict().get(part, {}).values() for key in one}
+        used |= {key for entry in read.to_dict().get("history", []) for key in entry if "." not in key}
+        used |= {end for line in read.to_dict()["lines"].values() for value in (line.get("ends") or {}).values()
+                 if isinstance(value, dict) for end in value}
+    for key in ("duration", "drag", "mesh", "ground", "box"):
+        assert key in used, key
+
+
+# ---- targets: what an entry of the history can say, but steps ----
+
+# a value of each key of each kind of change, with what it cannot be without
+SAMPLES = {
+    "change": {"position": {}, "move": {}, "force": {}, "release": {}, "sine": {"position": [2, 0, 0], "period": 1},
+               "cosine": {"position": [2, 0, 0], "period": 1}, "period": {"position": [2, 0, 0], "sine": [0, 0, 0.01]}},
+    "grasp": {"at": {"hold": True}, "position": {"at": 1}, "hold": {"at": 1}, "force": {"at": 1}, "release": {"at": 1}},
+    "point_change": {"position": {}, "move": {}, "force": {}},
+    "body_change": {"position": {}, "move": {}, "rotation": {}, "force": {}, "moment": {}, "arm": {"force": [0, 0, 1]}},
+    "obstacle_change": {"move": {}, "turn": {"axis": [0, 0, 1]}, "axis": {"turn": 1}, "about": {"turn": 1, "axis": [0, 0, 1]}}}
+VALUES = {"release": True, "hold": True, "period": 1.0, "at": 1.0, "turn": 1.0, "rotation": {"quaternion": [1, 0, 0, 0]}, "axis": [0, 0, 1]}
+
+SCENE = """\
+capstan: 1
+gravity: [0, 0, -9.81]
+obstacles: {floor: {plane: {point: [0, 0, -5]}, friction: 0.5}, drum: {cylinder: {point: [0, 0, -9], radius: 1}, friction: 0.3}}
+bodies: {spar: {held: [5, 0, 0], mass: 100}}
+points: {eye: {body: spar, at: [0, 0, 0]}, knot: {held: [1, 2, 0]}}
+lines:
+  rope: {length: 2, elements: 10, mass: 1, inertia: 1, stiffness: 1e4, start: static, ends: {A: {held: [0, 0, 0]}, B: {held: [1.5, 0, 0]}}}
+  other: {length: 4, elements: 10, mass: 1, stiffness: 1e4, start: static, ends: {A: {point: knot}, B: {point: eye}}}
+"""
+
+
+def test_targets_take_every_key_of_an_entry(schema):
+    evolution = capstan.Evolution(SCENE, moving=["floor"])
+    evolution.step()
+    names = {"A": "rope", "B": "rope", "node": "rope", "node2": "rope", "node3": "rope", "node4": "rope", "pay_out_A": "rope",
+             "pay_out_B": "rope", "turn": "drum", "point": "knot", "body": "spar", "obstacle": "floor"}
+    taken = 0
+    for pattern, what in schema["entry"]["patternProperties"].items():
+        for word in re.search(r"\((.*)\)\$$", pattern).group(1).split("|"):
+            key = f"{names[word]}.{word}"
+            if "$ref" not in what:
+                evolution.target({key: 0.1})
+                taken += 1
+                continue
+            kind = what["$ref"].rpartition("/")[2]
+            for name in schema[kind]["properties"]:
+                assert name in SAMPLES[kind], f"a target does not know the new key {name} of {kind}"
+                evolution.target({key: {name: VALUES.get(name, [0.1, 0.2, 0.3]), **SAMPLES[kind][name]}})
+                taken += 1
+    assert taken > 40
+    values = {"name": "a step", "gravity": [0, 0, -9], "stiffness": "static", "duration": 0.1}
+    # a move is one step, as long as it says
+    for name in set(schema["entry"]["properties"]) - {"steps", "time_step"}:
+        evolution.target({name: values[name]})
+
+
+def test_targets_do_what_the_history_does():
+    """The same changes as entries of a history, and as moves: the same bits."""
+    entries = [{"name": "body", "spar.body": {"move": [0.1, 0, 0.2], "rotation": {"roll_pitch_yaw": [10, -20, 30]}}},
+               {"name": "point", "knot.point": {"move": [0, 0.1, 0]}},
+               {"name": "let go", "spar.body": {"force": [0, 0, 1200], "moment": [0, 1, 0], "arm": [0.1, 0.2, 0]}}]
+    scene = yaml.safe_load(SCENE)
+    # 1e4 and the like are numbers for the reader of scenes, and texts for this one
+    for line in scene["lines"].values():
+        line["stiffness"] = 1e4
+    whole = capstan.Evolution({**scene, "history": entries})
+    for _ in whole:
+        pass
+    moves = capstan.Evolution(scene)
+    moves.step()
+    for entry in entries:
+        moves.move(entry)
+    for line in ("rope", "other"):
+        assert np.array_equal(whole[line].position, moves[line].position)
+    assert np.array_equal(whole.bodies["spar"].rotation, moves.bodies["spar"].rotation)
+    assert whole.bodies["spar"].position[0] != 5.1  # it has been let go
+
+
+def test_moves_in_time():
+    scene = yaml.safe_load(SCENE)
+    del scene["points"], scene["bodies"], scene["lines"]["other"]
+    scene["lines"]["rope"]["stiffness"] = 1e4
+    with pytest.raises(capstan.ArgumentError, match="in_time"):
+        still = capstan.Evolution(scene)
+        still.step()
+        still.move({"duration": 0.1})
+    evolution = capstan.Evolution(scene, in_time=True)
+    evolution.step()
+    evolution.move({"duration": 0.05, "rope.B": {"position": [1.5, 0, 0], "sine": [0, 0, 0.2], "period": 0.2}})
+    motion = evolution["rope"].in_time
+    assert evolution.time == 0.05 and motion.is_moving and motion.kinetic > 0 and motion.velocity.shape == (11, 3)
+    # a quarter of the period: the end has come to the top of its way
+    assert np.allclose(evolution["rope"].B.position, [1.5, 0, 0.2], atol=1e-12)
+    # the kinetic energy is that of the nodes
+    assert 0.5 * (motion.mass * (motion.velocity ** 2).sum(1)).sum() == pytest.approx(motion.kinetic, rel=1e-9)
+    assert evolution["rope"].winch("B").is_there is False and evolution["rope"].two_stiffnesses.exists is False
+    assert evolution["rope"].winch("B").length is None
+
+
+def test_winches_partings_and_two_stiffnesses(root):
+    evolution = capstan.Evolution(root / "examples/winched-mooring.yaml")
+    stored = []
+    for _ in evolution:
+        line = next(line for line in evolution.lines.values() if any(line.winch(end).is_there for end in "AB"))
+        found = next(line.winch(end) for end in "AB" if line.winch(end).is_there)
+        assert found.length.shape == line.tension.shape and found.pull > 0
+        stored.append(found.stored + found.paid)
+    assert np.allclose(stored, stored[0], rtol=1e-12)  # no length is lost
+    parting = capstan.Evolution(root / "examples/parting-lines.yaml")
+    broken = []
+    for _ in parting:
+        if parting.parting.is_break:
+            broken.append(parting.parting)
+    assert broken and all(one.tension > one.break_at for one in broken)
+    assert not parting.parts_next
+
+
+# ---- functions ----
+
+# what Python does not call, and why
+NOT_CALLED = {
+    r"cps_\w+_(retain|release|destroy)|cps_solution_set_clear": "objects of Python own what they hold",
+    r"cps_(\w+_)?(default|check)": "structs that scenes fill; Scene.check",
+    r"cps_\w+_(name|text)": "enumerations are their words",
+    r"cps_evolution_(body|line|obstacle|point)_count|cps_law_file_(space|title)|cps_loaded_law_\w+|cps_extremes_add": "lists of Python",
+    r"cps_set_(support|contains|gauge|dissipation)|cps_evolution_interrupt": "called by native.c, in loops and for signals",
+    r"cps_set_conic\w*|cps_set_user": "for programs in C that extend the library",
+    r"cps_(ground|mesh)_(create|report|distance|height)": "scenes read grounds and meshes from files",
+    r"cps_(json_\w+|write_file|row_read|suggest|read_limits_default|(law|drive)_write_schema|drive_walk)": "of the command",
+    r"cps_drive_(read\w*|draw_\w+)|cps_(law|resistance)_draw|cps_law_picture_default": "files of driven systems: `python -m capstan drive`",
+    r"cps_(journal|study|methods|completed|regularized|first_order|offsets)_\w+|cps_completed_\w+|cps_results_write_summary":
+        "studies and journals: `python -m capstan study`, `offset`, `run`",
+    r"cps_solution_(complete|judge|slack)": "all solutions of a step: `python -m capstan study`",
+    r"cps_(line_resize|scene_length_for)": "the key `pretension`, and scipy (examples/python/line_length.py)",
+    r"cps_law_load|cps_resistance_(conjugate|function|is_dry|residual)|cps_outcome_is_final|cps_body_angles|cps_set_project": "can be had otherwise",
+}
+
+
+def test_every_function_is_called_or_has_a_reason(root):
+    declared = {name for header in (root / "include/capstan").glob("*.h")
+                for name in re.findall(r"^CPS_API[^;{]*?\b(cps_\w+)\(", header.read_text(), re.M)}
+    assert len(declared) > 250
+    package = "".join(path.read_text() for path in (root / "python/capstan").glob("*.py"))
+    missing = {name for name in declared if not re.search(rf"\blib\.{name}\b", package)}
+    unexplained = {name for name in missing if not any(re.fullmatch(pattern, name) for pattern in NOT_CALLED)}
+    assert not unexplained, f"Python cannot call {sorted(unexplained)}: add them, or say why not"
