@@ -44,6 +44,16 @@ typedef struct CpsBody {
      * is given above. Default 0 */
     double hydrostatics[36];
     double force[3], moment[3]; /* [N], [N m] on a free body, beside all that; default 0 */
+    /* Of steps in time (motion.h), all 0 by default, in the axes of the body: [kg] its mass, and
+     * [kg m2] its inertia matrix about the centre of gravity, entries xx, yy, zz, xy, xz, yz */
+    double mass, inertia[CPS_BODY_DIRECTIONS];
+    /* (6, 6) [kg, kg m, kg m2] about the reference point, symmetric and >= 0: of the water that
+     * moves with it; and [N s/m, N s, N m s] symmetric part >= 0: damping, force and moment -D u, u
+     * the velocity of the reference point and the rate of rotation in the axes of the body */
+    double added_mass[36], damping[36];
+    double quadratic_damping[CPS_BODY_DIRECTIONS]; /* D_i >= 0, -D_i |u_i| u_i; [N s2/m2, N m s2] */
+    double velocity[CPS_BODY_DIRECTIONS]; /* [m/s, rad/s] as the history begins, of a free body, in
+                                             the axes of the scene */
 } CpsBody;
 
 CPS_API CpsBody cps_body_default(void);
@@ -67,6 +77,8 @@ typedef struct CpsBodyReport {
     double lines[CPS_BODY_DIRECTIONS];    /* of all lines at its points */
     double load[CPS_BODY_DIRECTIONS];     /* weight, buoyancy, hydrostatics and the given load */
     double support[CPS_BODY_DIRECTIONS];  /* of what holds it, or its fixed directions */
+    double inertia[CPS_BODY_DIRECTIONS];  /* of its mass and added mass, in a step in time */
+    double damping[CPS_BODY_DIRECTIONS];  /* likewise */
     double residual[CPS_BODY_DIRECTIONS]; /* sum of all these: what nothing balances */
     /* (6, 6) derivative of `residual` by the pose, without support, with the sign of a stiffness,
      * in the axes of the scene: of the step (stiffness.h), where its nodes have such a derivative.

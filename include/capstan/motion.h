@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/motion.h: lines that move with inertia.
+/* capstan/motion.h: lines, points and bodies that move with inertia.
  *
  * A stage or a move (scene.h, evolve.h) with a `duration` is taken in time: each of its steps is of
- * length h = duration / step_count, and the nodes of its lines have mass. A stage without one is
+ * length h = duration / step_count, and nodes of lines, points and bodies have mass. Lines that are
+ * `quasi_static` have none: they follow what moves them (S90, figure 1). A stage without one is
  * quasi-static, and leaves the lines at rest.
  *
  *     line.inertia = 7.5;
@@ -14,8 +15,9 @@
  * (docs/theory.md 8): friction stays a set, and the step has a certificate. The scheme is the
  * backward difference formula of second order, or the implicit Euler method; the first step in
  * time, and those at which an element is snatched taut, are Euler steps. A node that lands does not
- * rebound. It needs Coulomb's law, contact that is reached, and a scene without points, bodies and
- * lines that part; the path tolerance has no effect. */
+ * rebound. It needs Coulomb's law, contact that is reached, and a scene without lines that part,
+ * winches and anchors that drag. Beside free points and bodies lines are elastic, obstacles stay,
+ * and points do not float. The path tolerance has no effect on lines with inertia. */
 #ifndef CAPSTAN_MOTION_H
 #define CAPSTAN_MOTION_H
 
@@ -78,6 +80,44 @@ typedef struct CpsLineMotion {
                                     and x* is the reference of the view */
     const double *span;          /* (n) [s] k */
 } CpsLineMotion;
+
+/* The motion of a point in the last step, in the axes of the scene: v = (x - x*)/k, and the force
+ * of its inertia is -m (v - v*)/k. Of a free point with the ledger
+ *
+ *     work of load and lines = dissipated + kinetic + impact + scheme,
+ *
+ * dissipated that of its report, up to the work of what nothing balances there. */
+typedef struct CpsPointMotion {
+    bool is_moving;          /* the last step had a duration; otherwise the next ones are 0 */
+    double mass;             /* [kg] its own */
+    double velocity[3];      /* [m/s] after the step, and after the landing */
+    double reference[3];     /* [m] x*, in the coordinates of the scene */
+    double rest_velocity[3]; /* [m/s] v* */
+    double span;             /* [s] k */
+    double kinetic;          /* [J] */
+    CpsMotionLedger ledger;
+    bool landed;
+} CpsPointMotion;
+
+/* The motion of a body in the last step, in the axes of the scene. With the places x* and rotation
+ * vectors t* of the scheme (docs/theory.md 9), u its velocity and w its rate of rotation, the
+ * momentum of the mass is m times the velocity of its centre of gravity, its angular momentum about
+ * that L = J w; those of the added mass are about the reference point. */
+typedef struct CpsBodyMotion {
+    bool is_moving;             /* the last step had a duration; otherwise the next ones are 0 */
+    double velocity[3];         /* [m/s] of the reference point */
+    double turn_rate[3];        /* [rad/s] w */
+    double centre_velocity[3];  /* [m/s] of the centre of gravity */
+    double angular_momentum[3]; /* [kg m2/s] about it, without added mass */
+    double span;                /* [s] k */
+    double kinetic;             /* [J] with that of the added mass */
+    double dissipated;          /* [J] by damping */
+    CpsMotionLedger ledger;     /* kinetic, scheme and turnover; no body lands */
+} CpsBodyMotion;
+
+/* The motion of a point, or of a body; of what is none one of zeros. */
+CPS_API CpsPointMotion cps_evolution_point_motion(const struct CpsEvolution *evolution, int point);
+CPS_API CpsBodyMotion cps_evolution_body_motion(const struct CpsEvolution *evolution, int body);
 
 /* The motion of a line; of what is no line one of zeros. Arrays belong to the evolution, until its
  * next step. */

@@ -46,6 +46,10 @@ typedef struct CpsPoint {
      * weight above is that in the water; what leaves it is heavier by this much, and at the surface
      * the buoyancy is whatever between 0 and this keeps it there. Without a surface not read. */
     double displaced_weight;
+    /* of steps in time (motion.h): [kg] >= 0, default 0, its mass and added mass, beside those of
+     * the lines that end there; [m/s] its velocity as the history begins, of a free point, default
+     * 0 0 0 */
+    double inertia, velocity[3];
     /* Of a held point that is an anchor: the force along the plane on which it lies that it can
      * bear, level where it lies on none, and the one across it, upwards. What is exceeded is said
      * in the report; with `drags` the anchor bears no more than its capacity along the plane, and
@@ -105,7 +109,8 @@ typedef struct CpsPointReport {
     double reaction;    /* [N] R >= 0 of the obstacle that it touches, along `normal` */
     double normal[3];   /* [-] 0 0 0 where it touches none */
     double friction[3]; /* [N] |F| <= mu R */
-    double slip[3];     /* [m] on the obstacle in this step */
+    double slip[3];     /* [m] on the obstacle in this step, in time from x* (motion.h) */
+    double inertia[3];  /* [N] of its own mass in a step in time: minus mass times acceleration */
     double residual[3]; /* [N] sum of all forces: what nothing balances */
     double dissipated;  /* [J] by its friction in this step, or by its drag */
     double buoyancy;  /* [N] upwards; where `water` is none it is part of the weight, and 0 here */

@@ -165,9 +165,9 @@ typedef struct CpsLine {
      * default: the line is of one make, with what is above, which is not read otherwise. */
     int section_count;
     const CpsSection *section;
-    int point_weight_count;             /* >= 0, default 0 */
+    bool quasi_static; /* in steps in time too (motion.h): it needs no inertia; default false */
+    int point_weight_count, zone_count; /* >= 0, default 0 */
     const CpsPointWeight *point_weight; /* in order from A to B; several may be at one node */
-    int zone_count;                     /* >= 0, default 0 */
     /* (zone_count) in order, without overlap; elsewhere the factor is 1, at a node it is a mean */
     const CpsFrictionZone *zone;
     CpsStart start;

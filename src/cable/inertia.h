@@ -23,6 +23,7 @@ typedef struct CpsiInertia {
     double *before;         /* (n, 3) [m] x_{n-1}, of the next step x_n; changed where nodes bear */
     double *before_velocity; /* (n, 3) [m/s] v_{n-1}, likewise */
     bool *restarts;          /* (n) the next step of the node is an Euler step */
+    bool *late;              /* (n) scratch: this step was to be one */
     double kinetic;          /* [J] */
     double position_bound;   /* [m] */
     CpsMotionLedger ledger;

@@ -15,6 +15,7 @@ static void layout_inertia(CpsiInertia *inertia, CpsiArena *arena, size_t n) {
     CPSI_PLACE(arena, inertia->before, 3 * n);
     CPSI_PLACE(arena, inertia->before_velocity, 3 * n);
     CPSI_PLACE(arena, inertia->restarts, n);
+    CPSI_PLACE(arena, inertia->late, n);
 }
 
 /* The arrays of both stiffnesses of a line of n nodes; spring_count of both is set. */

@@ -517,6 +517,14 @@ static void solve_ends(const Tangent *t, int end, int a, double column[6]) {
     }
 }
 
+/* Add the field of the end itself, in the axes of the scene. */
+static void add_field_of_end(const CpsiLine *line, int end, double tangent[36]) {
+    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5};
+    if (!cpsi_line_has_field(line)) return;
+    const double *own = &line->field.stiffness[6 * cpsi_line_end_node(line, end)];
+    for (int i = 0; i < 9; i++) tangent[6 * (3 * end + i / 3) + 3 * end + i % 3] += own[AT[i]];
+}
+
 void cpsi_line_tangent(const CpsiLine *line, CpsiChainProgram *program,
                        const CpsiStepOptions *options, double tangent[36]) {
     Tangent t = {.line = line,
@@ -529,6 +537,8 @@ void cpsi_line_tangent(const CpsiLine *line, CpsiChainProgram *program,
                  .landed = -1,
                  .force = line->report.certificate.largest_force};
     memset(tangent, 0, 36 * sizeof *tangent);
+    for (int end = 0; end < 2; end++)
+        if (line->end[end].kind == CPS_END_KIND_HELD) add_field_of_end(line, end, tangent);
     if (!(t.force > 0)) return;
     cpsi_chain_program_resize(program, line->n, line->has_local_axes);
     t.matrix->held = program->held;
@@ -553,7 +563,7 @@ void cpsi_line_tangent(const CpsiLine *line, CpsiChainProgram *program,
             for (int b = 0; b < 3; b++)
                 for (int a = 0; a < 3; a++) {
                     const double k = block[3 * b + a] * t.force / line->length;
-                    tangent[6 * (3 * to + b) + 3 * end + a] = isfinite(k) ? k : 0;
+                    tangent[6 * (3 * to + b) + 3 * end + a] += isfinite(k) ? k : 0;
                 }
         }
     }

@@ -19,6 +19,7 @@
 #include "evolve/anchors.h"
 #include "evolve/balance_report.h"
 #include "evolve/bodies.h"
+#include "evolve/body_motion.h"
 #include "evolve/checkpoint.h"
 #include "evolve/first_guess.h"
 #include "evolve/graph_existence.h"
@@ -26,7 +27,9 @@
 #include "evolve/lone.h"
 #include "evolve/nearest_places.h"
 #include "evolve/newton_step.h"
+#include "evolve/point_motion.h"
 #include "evolve/points.h"
+#include "evolve/time_step.h"
 #include "evolve/trial.h"
 
 /* The search is for forces that balance to this share of the largest one, which is that to which
@@ -347,11 +350,76 @@ static bool stays(CpsiBalance *balance) {
     return false;
 }
 
+/* The lines of a group with elements that are snatched taut, whose nodes are to be taken by Euler
+ * steps: those lines are again as they were, and so is the next step of their nodes. Returns
+ * whether there are any. */
+static bool restart_snatched(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    bool any = false;
+    for (int item = 0; item < balance->line_count; item++)
+        any = cpsi_line_is_snatched_late(&evolution->line[balance->line[item]],
+                                         evolution->interval) ||
+              any;
+    if (!any) return false;
+    for (int item = 0; item < balance->line_count; item++) {
+        const int i = balance->line[item];
+        cpsi_trial_restore_line(balance, i);
+        cpsi_line_restart_snatched(&evolution->line[i]);
+    }
+    cpsi_point_motion_join(evolution);
+    cpsi_point_motion_predict(evolution);
+    for (int item = 0; item < balance->line_count; item++) {
+        const int i = balance->line[item];
+        cpsi_line_keep(&evolution->line[i], &balance->state[balance->offset[i]]);
+    }
+    return true;
+}
+
+/* Points and bodies where they are after the step if nothing acts on them. */
+static void guess_motion(CpsiBalance *balance) {
+    const CpsEvolution *evolution = balance->evolution;
+    for (int k = 0; k < balance->count; k++) {
+        CpsiFree *at = &balance->at[k];
+        const CpsiPointInertia *inertia = &evolution->points.point[at->point].inertia;
+        at->place = vec3_axpy(inertia->span, vec3_load(inertia->rest_velocity),
+                              vec3_load(inertia->reference));
+        for (int o = 0; o < evolution->obstacle_count; o++) {
+            const double gap = cpsi_obstacle_gap(&evolution->obstacle[o], at->place);
+            if (gap < 0)
+                at->place =
+                    vec3_axpy(-gap, cpsi_obstacle_normal(&evolution->obstacle[o], at->place),
+                              at->place);
+        }
+    }
+    for (int k = 0; k < balance->body_count; k++)
+        balance->rigid[k].pose =
+            cpsi_body_motion_guess(&evolution->bodies.body[balance->rigid[k].body]);
+}
+
+/* Find the places of a group after a step in time; where an element is snatched taut in it, once
+ * more. Where there are none its lines are not certified. */
+static void find_motion(CpsiBalance *balance, int group) {
+    begin(balance, group);
+    for (int i = 0; i < 2; i++) {
+        guess_motion(balance);
+        if (!search(balance, MOST_TRIALS) && !is_over(balance)) {
+            cpsi_begin_again(balance);
+            (void)search_with(balance, MOST_TRIALS, PATIENCE_AT_LAST);
+        }
+        if (i > 0 || is_over(balance) || !restart_snatched(balance)) break;
+    }
+    cpsi_report_found(balance);
+}
+
 /* Find the places of a group. In a history a body hardly moves in a step, and a few trials from
  * where it is take less time than the rounds of a first guess. */
 static void find_places(CpsiBalance *balance, int group) {
     CpsEvolution *evolution = balance->evolution;
     const bool is_static = evolution->has_static && evolution->done == 0;
+    if (evolution->interval > 0) {
+        find_motion(balance, group);
+        return;
+    }
     /* frozen bounds may grow while lines take their step in parts: these are tried first */
     const bool frozen =
         evolution->options.friction_policy == CPS_FRICTION_POLICY_FROZEN && !is_static;
@@ -406,6 +474,11 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     }
     for (int i = 0; i < evolution->bodies.count; i++)
         any = any || evolution->bodies.body[i].kind == CPS_BODY_KIND_FREE;
+    if (evolution->interval > 0) {
+        cpsi_point_motion_join(evolution);
+        cpsi_point_motion_predict(evolution);
+        cpsi_body_motion_predict(evolution);
+    }
     if (any) {
         balance->evolution = evolution;
         balance->task = step;
@@ -414,7 +487,15 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
         for (int i = 0; i < points->count && !is_interrupted(evolution); i++)
             if (points->group[i] == i) find_places(balance, i);
     } else {
+        for (int i = 0; i < points->count; i++) points->group[i] = CPSI_NO_POINT;
         cpsi_workers_run(evolution->workers, step, evolution, evolution->line_count);
     }
     cpsi_report_held(evolution);
+    if (evolution->interval > 0) {
+        cpsi_body_motion_advance(evolution);
+        cpsi_point_motion_advance(evolution);
+    } else {
+        cpsi_body_motion_stop(evolution);
+        cpsi_point_motion_stop(evolution);
+    }
 }

@@ -8,7 +8,9 @@
 #include "cable/certificate.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
+#include "evolve/body_motion.h"
 #include "evolve/newton_step.h"
+#include "evolve/point_motion.h"
 #include "evolve/points.h"
 
 static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
@@ -29,7 +31,9 @@ static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
     report->buoyancy = at->water.buoyancy;
     report->displaced = at->water.displaced;
     vec3_store(report->position, at->place);
-    vec3_store(report->lines, vec3_sub(cpsi_rest_with(at, 0), vec3_load(report->load)));
+    if (evolution->interval > 0) vec3_store(report->inertia, cpsi_point_inertia(point, at->place));
+    vec3_store(report->lines, vec3_sub(vec3_sub(cpsi_rest_with(at, 0), vec3_load(report->load)),
+                                       vec3_load(report->inertia)));
     vec3_store(report->friction, at->force);
     vec3_store(report->residual, at->left);
     if (touches) vec3_store(report->normal, at->normal);
@@ -100,6 +104,8 @@ static void report_body(CpsiBalance *balance, int k) {
     rotation_store(report->rotation, rigid->pose.turn);
     store(report->lines, &rigid->lines);
     store(report->load, &load);
+    store(report->inertia, &rigid->inertia);
+    store(report->damping, &rigid->damping);
     store(report->residual, &rigid->left);
     double rest[6];
     store(rest, &rigid->rest);
@@ -144,7 +150,15 @@ static void report_held_body(CpsEvolution *evolution, int index) {
     rotation_store(report->rotation, body->pose.turn);
     store(report->lines, &lines);
     store(report->load, &load);
-    for (int i = 0; i < 6; i++) report->support[i] = -report->lines[i] - report->load[i];
+    if (evolution->interval > 0) {
+        const CpsiWrench inertia = cpsi_body_inertia(body, &body->pose),
+                         damping = cpsi_body_damping(body, &body->pose);
+        store(report->inertia, &inertia);
+        store(report->damping, &damping);
+    }
+    for (int i = 0; i < 6; i++)
+        report->support[i] =
+            -report->lines[i] - report->load[i] - report->inertia[i] - report->damping[i];
 }
 
 /* What holds a held point; of it, what the obstacle on which it lies bears is its reaction. */
@@ -179,7 +193,9 @@ static void report_held(CpsEvolution *evolution, int index) {
                          .has_place = true};
     memcpy(report->position, point->position, sizeof report->position);
     vec3_store(report->lines, lines);
-    const Vec3 support = vec3_scale(-1, lines);
+    if (evolution->interval > 0)
+        vec3_store(report->inertia, cpsi_point_inertia(point, vec3_load(point->position)));
+    const Vec3 support = vec3_scale(-1, vec3_add(lines, vec3_load(report->inertia)));
     report_support(evolution, index, vec3_load(point->position), support, report);
     if (point->kind == CPS_POINT_KIND_HELD) cpsi_anchor_use(evolution, index, support, report);
 }

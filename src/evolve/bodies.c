@@ -261,13 +261,26 @@ static Vec3 transposed_rate(Vec3 v, Vec3 w) {
     return vec3_axpy(c, twice, vec3_axpy(0.5, once, w));
 }
 
-/* Hydrostatics: what the energy q' C q/2 loses in a motion. */
-static CpsiWrench hydrostatics(const CpsiBody *body, const CpsiPose *pose) {
+/* The displacement of a body from the pose in which it begins; returns its rotation vector. */
+static Vec3 displacement(const CpsiBody *body, const CpsiPose *pose, double q[6]) {
     const Vec3 turn =
         rotation_vector(rotation_after(pose->turn, rotation_inverse(body->begin.turn)));
-    double q[6], f[6] = {0};
     vec3_store(q, vec3_sub(pose->place, body->begin.place));
     vec3_store(&q[3], turn);
+    return turn;
+}
+
+double cpsi_body_water_energy(const CpsiBody *body, const CpsiPose *pose) {
+    double q[6], sum = 0;
+    (void)displacement(body, pose, q);
+    for (int i = 0; i < 36; i++) sum += 0.5 * q[i / 6] * body->given.hydrostatics[i] * q[i % 6];
+    return sum;
+}
+
+/* Hydrostatics: what the energy q' C q/2 loses in a motion. */
+CpsiWrench cpsi_body_water(const CpsiBody *body, const CpsiPose *pose) {
+    double q[6], f[6] = {0};
+    const Vec3 turn = displacement(body, pose, q);
     for (int i = 0; i < 6; i++)
         for (int k = 0; k < 6; k++) f[i] -= body->given.hydrostatics[6 * i + k] * q[k];
     return (CpsiWrench){vec3_load(f), transposed_rate(turn, vec3_load(&f[3]))};
@@ -284,7 +297,7 @@ static void add_hydrostatics(const CpsiBody *body, const CpsiPose *pose, double 
             move[k] = side ? size : -size;
             const CpsiPose at = {vec3_add(pose->place, vec3_load(move)),
                                  rotation_after(rotation_of(vec3_load(&move[3])), pose->turn)};
-            const CpsiWrench force = hydrostatics(body, &at);
+            const CpsiWrench force = cpsi_body_water(body, &at);
             vec3_store(by[side], force.force);
             vec3_store(&by[side][3], force.moment);
         }
@@ -299,7 +312,7 @@ CpsiWrench cpsi_body_load(const CpsiBody *body, const CpsiPose *pose, const doub
               rotation_apply(pose->turn, vec3_load(body->given.centre_of_gravity)));
     add_force(&out, vec3_scale(-body->lift, g),
               rotation_apply(pose->turn, vec3_load(body->given.centre_of_buoyancy)));
-    const CpsiWrench water = hydrostatics(body, pose);
+    const CpsiWrench water = cpsi_body_water(body, pose);
     out.force = vec3_add(out.force, water.force);
     out.moment = vec3_add(out.moment, water.moment);
     return out;

@@ -7,6 +7,7 @@
 #include "base/arena.h"
 #include "base/rotation.h"
 #include "capstan/evolve.h"
+#include "evolve/joint_inertia.h"
 
 typedef struct CpsiPose {
     Vec3 place; /* [m] relative to the origin of the evolution */
@@ -31,6 +32,7 @@ typedef struct CpsiBody {
     double length;        /* [m] of the longest line at its points */
     double arm;           /* [m] of its farthest point */
     CpsBodyReport report; /* its position relative to the origin */
+    CpsiBodyInertia inertia;
 } CpsiBody;
 
 typedef struct CpsiBodies {
@@ -56,6 +58,10 @@ void cpsi_bodies_fill(CpsiBodies *bodies, const CpsScene *scene, const CpsScene 
 
 /* What acts on a body in a pose beside its lines and supports. */
 CpsiWrench cpsi_body_load(const CpsiBody *body, const CpsiPose *pose, const double gravity[3]);
+
+/* ... of that the water, by the energy of the hydrostatics; and this energy [J]. */
+CpsiWrench cpsi_body_water(const CpsiBody *body, const CpsiPose *pose);
+double cpsi_body_water_energy(const CpsiBody *body, const CpsiPose *pose);
 
 /* Add its derivative by the pose, as a stiffness (6, 6): `lines` are the lines' part of what turns
  * with the fairleads, summed by the caller. */

@@ -28,7 +28,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '7'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '8'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -64,8 +64,8 @@ _Static_assert(sizeof(CpsLineReport) == 26 * 8 + sizeof(CpsCertificate) + sizeof
                "add the new field to pass_line_report, then its size here");
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
                "add the new field to pass_step_report, then its size here");
-_Static_assert(sizeof(CpsBodyReport) == 69 * 8, "add the new field to pass_body, then its size");
-_Static_assert(sizeof(CpsPointReport) == 37 * 8,
+_Static_assert(sizeof(CpsBodyReport) == 81 * 8, "add the new field to pass_body, then its size");
+_Static_assert(sizeof(CpsPointReport) == 40 * 8,
                "add the new field to pass_point, then its size here");
 _Static_assert(sizeof(CpsBreak) == 5 * 8, "add the new field to pass_break, then its size here");
 _Static_assert(sizeof(CpsEnd) == 4 * 8, "add the new field to pass_end, then its size here");
@@ -252,6 +252,22 @@ static void pass_two_stiffnesses(Tape *tape, CpsiLine *line) {
     if (tape->in) cpsi_line_set_stiffness(line);
 }
 
+/* all but the mass, which is constant */
+static void pass_point_inertia(Tape *tape, CpsiPointInertia *inertia) {
+    pass_flag(tape, &inertia->is_moving);
+    pass_flag(tape, &inertia->restarts);
+    pass_flag(tape, &inertia->bore);
+    pass_flag(tape, &inertia->landed);
+    PASS(tape, inertia->span);
+    PASS(tape, inertia->reference);
+    PASS(tape, inertia->rest_velocity);
+    PASS(tape, inertia->velocity);
+    PASS(tape, inertia->before);
+    PASS(tape, inertia->before_velocity);
+    PASS(tape, inertia->kinetic);
+    PASS(tape, inertia->ledger);
+}
+
 static void pass_point(Tape *tape, CpsiPoint *point) {
     CpsPointReport *report = &point->report;
     PASS(tape, point->kind);
@@ -277,16 +293,33 @@ static void pass_point(Tape *tape, CpsiPoint *point) {
     PASS(tape, report->normal);
     PASS(tape, report->friction);
     PASS(tape, report->slip);
+    PASS(tape, report->inertia);
     PASS(tape, report->residual);
     PASS(tape, report->dissipated);
     PASS(tape, report->obstacle);
     PASS(tape, report->trial_count);
     pass_flag(tape, &report->has_place);
+    pass_point_inertia(tape, &point->inertia);
 }
 
 static void pass_pose(Tape *tape, CpsiPose *pose) {
     PASS(tape, pose->place);
     PASS(tape, pose->turn);
+}
+
+/* Vectors and a quaternion, all of them numbers. */
+_Static_assert(sizeof(CpsiBodyPhase) == 28 * sizeof(double), "a phase has numbers only");
+
+static void pass_body_inertia(Tape *tape, CpsiBodyInertia *inertia) {
+    pass_flag(tape, &inertia->is_moving);
+    pass_flag(tape, &inertia->restarts);
+    PASS(tape, inertia->span);
+    PASS(tape, inertia->now);
+    PASS(tape, inertia->before);
+    PASS(tape, inertia->rest);
+    PASS(tape, inertia->kinetic);
+    PASS(tape, inertia->dissipated);
+    PASS(tape, inertia->ledger);
 }
 
 static void pass_body(Tape *tape, CpsiBody *body) {
@@ -302,11 +335,14 @@ static void pass_body(Tape *tape, CpsiBody *body) {
     PASS(tape, report->lines);
     PASS(tape, report->load);
     PASS(tape, report->support);
+    PASS(tape, report->inertia);
+    PASS(tape, report->damping);
     PASS(tape, report->residual);
     PASS(tape, report->stiffness);
     pass_flag(tape, &report->is_stable);
     pass_flag(tape, &report->has_place);
     PASS(tape, report->trial_count);
+    pass_body_inertia(tape, &body->inertia);
 }
 
 size_t cpsi_line_state_size(const CpsiLine *line) {
@@ -581,6 +617,8 @@ static void hash_points(uint64_t *hash, const CpsEvolution *evolution) {
         hash_numbers(hash, 3, point->force);
         hash_numbers(hash, 1, &point->mass);
         hash_numbers(hash, 1, &point->displaced_mass);
+        hash_numbers(hash, 1, &points->given[i].inertia);
+        hash_numbers(hash, 3, points->given[i].velocity);
         hash_anchor(hash, &points->given[i]);
     }
     const int surface = points->has_surface;
@@ -602,6 +640,12 @@ static void hash_body(uint64_t *hash, const CpsiBody *body) {
     hash_numbers(hash, 36, given->hydrostatics);
     hash_numbers(hash, 3, given->force);
     hash_numbers(hash, 3, given->moment);
+    hash_numbers(hash, 1, &given->mass);
+    hash_numbers(hash, 6, given->inertia);
+    hash_numbers(hash, 36, given->added_mass);
+    hash_numbers(hash, 36, given->damping);
+    hash_numbers(hash, 6, given->quadratic_damping);
+    hash_numbers(hash, 6, given->velocity);
 }
 
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {

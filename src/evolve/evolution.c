@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "base/larger.h"
@@ -50,7 +51,9 @@ static void find_range(CpsiLine *line, const CpsiStepOptions *options) {
 /* Take a step in time of a line. Its places are unique, for its nodes have mass. */
 static void move_line(const CpsEvolution *evolution, CpsiWorkspace *workspace, CpsiLine *line,
                       const CpsiMove *move) {
-    const CpsiTimeStep step = {evolution->interval, evolution->time_scheme, evolution->restarts};
+    const int index = (int)(line - evolution->line);
+    const CpsiTimeStep step = {evolution->interval, evolution->time_scheme, evolution->restarts,
+                               cpsi_group_of_line(&evolution->points, index) != CPSI_NO_POINT};
     CpsiStepOptions options = evolution->options;
     options.least = NULL;
     cpsi_line_time_step(line, &workspace->program, &options, move, &workspace->scratch, &step);
@@ -73,7 +76,7 @@ static void step_line(void *data, int workspace_index, int i) {
     } else {
         if (evolution->move[i].shift) line->obstacle = workspace->scratch.obstacle;
         if (line->has_inertia && !(evolution->interval > 0)) cpsi_line_stop(line);
-        if (evolution->interval > 0)
+        if (line->has_inertia && evolution->interval > 0)
             move_line(evolution, workspace, line, &evolution->move[i]);
         else
             cpsi_line_substeps(line, &workspace->program, &options, &evolution->move[i],
@@ -143,6 +146,22 @@ static void add_friction_of_points(CpsStepReport *step, const CpsEvolution *evol
         step->ledger.dissipated += report->dissipated;
         step->ledger.ends += report->dissipated - work;
         step->ledger.obstacles += work;
+    }
+}
+
+/* Add what points and bodies get from outside in a step in time: that is what they gain, beside
+ * what the lines get of them; and what their damping dissipates. */
+static void add_motion(CpsStepReport *step, const CpsEvolution *evolution) {
+    if (!(evolution->interval > 0)) return;
+    for (int i = 0; i < evolution->points.count; i++) {
+        const CpsMotionLedger *of = &evolution->points.point[i].inertia.ledger;
+        step->ledger.ends += of->kinetic + of->impact + of->scheme;
+    }
+    for (int i = 0; i < evolution->bodies.count; i++) {
+        const CpsiBodyInertia *inertia = &evolution->bodies.body[i].inertia;
+        step->dissipated += inertia->dissipated;
+        step->ledger.dissipated += inertia->dissipated;
+        step->ledger.ends += inertia->dissipated + inertia->ledger.kinetic + inertia->ledger.scheme;
     }
 }
 
@@ -266,6 +285,7 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);
     add_friction_of_points(&evolution->report, evolution);
+    add_motion(&evolution->report, evolution);
     for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i]);
     evolution->ended = !is_move && cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;
@@ -319,17 +339,28 @@ static CpsStatus prepare_move(CpsEvolution *evolution, CpsError *err) {
 }
 
 /* May a move have a duration? */
-static CpsStatus check_time(const CpsEvolution *evolution, const char *what, CpsError *err) {
-    bool free = evolution->bodies.count > 0;
-    for (int i = 0; i < evolution->points.count; i++)
-        free = free || evolution->points.point[i].kind != CPS_POINT_KIND_HELD;
-    if (!evolution->line[0].has_inertia)
+static CpsStatus check_time(const CpsEvolution *evolution, const CpsStage *move, const char *what,
+                            CpsError *err) {
+    if (!evolution->in_time)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "%s: it has a duration, but the scene is not in time: set its in_time",
                          what);
-    return free
+    bool free = evolution->bodies.count > 0;
+    for (int i = 0; i < evolution->points.count; i++)
+        free = free || evolution->points.point[i].kind != CPS_POINT_KIND_HELD;
+    for (int i = 0; i < move->point_change_count; i++)
+        free = free || move->point_change[i].kind == CPS_POINT_KIND_FREE;
+    if (!free) return CPS_OK;
+    for (int i = 0; i < evolution->line_count; i++)
+        if (!(evolution->line[i].compliance > 0))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%s: it has a duration, but beside free points or bodies line '%s' "
+                             "cannot stretch",
+                             what, evolution->line[i].name);
+    return move->turn_count > 0 || move->shift_count > 0
                ? cpsi_fail(err, CPS_ERR_ARGUMENT,
-                           "%s: it has a duration, but a point is free, and moves in no time", what)
+                           "%s: it has a duration, but beside free points or bodies obstacles stay",
+                           what)
                : CPS_OK;
 }
 
@@ -343,7 +374,7 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
     if (status == CPS_OK && move->step_count != 1)
         status = cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: steps is %d: a move is one step", what,
                            move->step_count);
-    if (status == CPS_OK && move->duration > 0) status = check_time(evolution, what, err);
+    if (status == CPS_OK && move->duration > 0) status = check_time(evolution, move, what, err);
     if (status == CPS_OK) status = prepare_move(evolution, err);
     if (status != CPS_OK) return status;
     for (int i = 0; i < move->body_change_count; i++)
@@ -415,6 +446,37 @@ CpsLineMotion cps_evolution_line_motion(const CpsEvolution *evolution, int line)
                            .before = inertia->start,
                            .rest_velocity = inertia->rest_velocity,
                            .span = inertia->span};
+}
+
+CpsPointMotion cps_evolution_point_motion(const CpsEvolution *evolution, int point) {
+    if (point < 0 || point >= cps_evolution_point_count(evolution)) return (CpsPointMotion){0};
+    const CpsiPointInertia *inertia = &evolution->points.point[point].inertia;
+    CpsPointMotion out = {.is_moving = inertia->is_moving,
+                          .mass = inertia->mass,
+                          .span = inertia->span,
+                          .kinetic = inertia->kinetic,
+                          .ledger = inertia->ledger,
+                          .landed = inertia->landed};
+    memcpy(out.velocity, inertia->velocity, sizeof out.velocity);
+    memcpy(out.rest_velocity, inertia->rest_velocity, sizeof out.rest_velocity);
+    if (!inertia->is_moving) return out;
+    for (int a = 0; a < 3; a++) out.reference[a] = inertia->reference[a] + evolution->origin[a];
+    return out;
+}
+
+CpsBodyMotion cps_evolution_body_motion(const CpsEvolution *evolution, int body) {
+    if (body < 0 || body >= cps_evolution_body_count(evolution)) return (CpsBodyMotion){0};
+    const CpsiBodyInertia *inertia = &evolution->bodies.body[body].inertia;
+    CpsBodyMotion out = {.is_moving = inertia->is_moving,
+                         .span = inertia->span,
+                         .kinetic = inertia->kinetic,
+                         .dissipated = inertia->dissipated,
+                         .ledger = inertia->ledger};
+    vec3_store(out.velocity, inertia->now.velocity);
+    vec3_store(out.turn_rate, inertia->now.rate);
+    vec3_store(out.centre_velocity, inertia->now.centre_velocity);
+    vec3_store(out.angular_momentum, inertia->now.angular);
+    return out;
 }
 
 double cps_evolution_time(const CpsEvolution *evolution) { return evolution ? evolution->time : 0; }

@@ -10,6 +10,7 @@
 #include "cable/winch.h"
 #include "capstan/evolve.h"
 #include "evolve/balance.h"
+#include "evolve/body_motion.h"
 #include "evolve/checkpoint.h"
 #include "evolve/constraints.h"
 #include "evolve/failure.h"
@@ -17,6 +18,7 @@
 #include "evolve/loads.h"
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
+#include "evolve/point_motion.h"
 #include "evolve/sections.h"
 #include "evolve/stages.h"
 #include "evolve/start.h"
@@ -116,7 +118,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
             cpsi_has_forces(&scene->line[i]) || cpsi_has_drag(scene, &scene->line[i]);
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
         line->has_break_at = cpsi_has_break_at(&scene->line[i]);
-        line->has_inertia = cpsi_is_in_time(scene);
+        line->has_inertia = cpsi_is_in_time(scene) && !scene->line[i].quasi_static;
         line->has_field = line->has_field || line->has_inertia;
         line->compliance = line->spring_compliance = cpsi_mean_compliance(&scene->line[i]);
         line->spring_count = cpsi_spring_count(&scene->line[i], false);
@@ -254,6 +256,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
         (void)cps_ground_retain(evolution->obstacle[k].ground);
         (void)cps_mesh_retain(evolution->obstacle[k].mesh);
     }
+    evolution->in_time = cpsi_is_in_time(scene);
     evolution->time_scheme = scene->time_scheme;
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
@@ -315,6 +318,8 @@ static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, con
     cpsi_bodies_fill(&evolution->bodies, scene, local);
     for (int i = 0; i < scene->body_count; i++)
         evolution->given_body[i] = evolution->bodies.body[i].given;
+    cpsi_body_motion_start(evolution);
+    cpsi_point_motion_start(evolution);
     cpsi_follow_releases(evolution);
     bool isotropic = true;
     for (int k = 0; k < evolution->obstacle_count; k++)

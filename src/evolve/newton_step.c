@@ -7,6 +7,8 @@
 
 #include "cable/stiffness.h"
 #include "evolve/bodies.h"
+#include "evolve/body_motion.h"
+#include "evolve/point_motion.h"
 #include "evolve/points.h"
 #include "linalg/dense.h"
 
@@ -96,6 +98,22 @@ static double *body_diagonal(CpsiBalance *balance, int k, int a) {
 /* [N/m] What is added to the stiffness of a point or body; of any size where no force acts. */
 static double added_stiffness(const CpsiBalance *balance, double length) {
     return CPSI_REGULAR * (balance->force > 0 ? balance->force : 1) / length;
+}
+
+/* Add the inertia of points and bodies, in a step in time. */
+static void add_inertia(CpsiBalance *balance) {
+    const CpsEvolution *evolution = balance->evolution;
+    if (!(evolution->interval > 0)) return;
+    for (int k = 0; k < balance->count; k++) {
+        const CpsiPoint *point = &evolution->points.point[balance->at[k].point];
+        for (int a = 0; a < 3; a++) *diagonal(balance, k, a) += cpsi_point_inertia_stiffness(point);
+    }
+    for (int k = 0; k < balance->body_count; k++) {
+        const CpsiRigid *rigid = &balance->rigid[k];
+        double own[36] = {0};
+        cpsi_body_motion_stiffness(&evolution->bodies.body[rigid->body], &rigid->pose, own);
+        cpsi_graph_matrix_add_body(balance->matrix, 3 * balance->count + 6 * k, own);
+    }
 }
 
 /* The size of the points' stiffnesses, and what is added to them where they have none. */
@@ -394,6 +412,7 @@ static bool set_matrix(CpsiBalance *balance, bool turns) {
     for (int k = 0; k < evolution->obstacle_count; k++)
         any = any || evolution->obstacle[k].kind != CPS_OBSTACLE_PLANE;
     cpsi_fill_matrix(balance);
+    add_inertia(balance);
     find_stiffness(balance);
     set_points(balance, turns && any);
     set_bodies(balance);

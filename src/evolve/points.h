@@ -8,6 +8,7 @@
 #include "base/vec3.h"
 #include "capstan/evolve.h"
 #include "evolve/bodies.h"
+#include "evolve/joint_inertia.h"
 #include "evolve/ties.h"
 
 /* A point; positions are relative to the origin of the evolution. */
@@ -26,6 +27,7 @@ typedef struct CpsiPoint {
     double displaced_mass;  /* [kg] of water; 0 where it cannot leave the water */
     double length;          /* [m] of the longest line that ends here */
     CpsPointReport report;  /* its position relative to the origin */
+    CpsiPointInertia inertia;
 } CpsiPoint;
 
 /* Memory of the search for the places of free points. */

@@ -16,6 +16,9 @@
 #include "evolve/water.h"
 #include "evolve/winches.h"
 
+/* Steps whose lengths differ by no more than this share are of one length: rounding. */
+static const double SAME_STEP = 1e-12;
+
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
                        int bodies, int turns, int grasps, int shifts, int sways, int pay_outs) {
     CPSI_PLACE(arena, stage->pay_out, pay_outs);
@@ -281,8 +284,11 @@ static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage
 /* The time that the step takes. Obstacles go on at the rate of the step before within a stage. */
 static void plan_time(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
     const bool moves = stage->turn_count > 0 || stage->shift_count > 0;
+    const double before = evolution->interval;
     evolution->interval = stage->duration / stage->steps;
-    evolution->restarts = part == 0 && (moves || evolution->ground_moved);
+    /* the scheme is one of equal steps */
+    const bool other = fabs(evolution->interval - before) > SAME_STEP * before;
+    evolution->restarts = part == 0 && (moves || evolution->ground_moved || other);
     evolution->ground_moved = moves;
 }
 

@@ -71,6 +71,7 @@ struct CpsEvolution {
     CpsOutcome lone;     /* of the points and bodies in the step at which no line ends any more */
     double gravity[3], gravity_from[3]; /* [m/s2] now, and when the stage under way began */
     double gravity_given[3];            /* [m/s2] that of the scene */
+    bool in_time;                       /* a step may have a duration */
     CpsTimeScheme time_scheme;
     double time, interval; /* [s] now, and of the last step, 0: quasi-static */
     bool ground_moved;     /* an obstacle turned or moved in it */

@@ -161,6 +161,36 @@ static bool is_motion(const CpsiLine *line) {
            isfinite(inertia->kinetic);
 }
 
+static bool is_point_motion(const CpsiPointInertia *inertia) {
+    return (!inertia->is_moving || inertia->span > 0) && isfinite(inertia->span) &&
+           all_finite(inertia->reference, 3) && all_finite(inertia->rest_velocity, 3) &&
+           all_finite(inertia->velocity, 3) && all_finite(inertia->before, 3) &&
+           all_finite(inertia->before_velocity, 3) && isfinite(inertia->kinetic);
+}
+
+/* Its turns are rotations, or 0 before there is such a step. */
+static bool is_body_motion(const CpsiBodyInertia *inertia) {
+    const CpsiBodyPhase *all[] = {&inertia->now, &inertia->before, &inertia->rest};
+    bool sound = (!inertia->is_moving || inertia->span > 0) && isfinite(inertia->span) &&
+                 isfinite(inertia->kinetic);
+    for (int i = 0; i < 3; i++) {
+        const Vec3 vector[] = {all[i]->place,
+                               all[i]->centre,
+                               all[i]->velocity,
+                               all[i]->rate,
+                               all[i]->angular,
+                               all[i]->centre_velocity,
+                               all[i]->water,
+                               all[i]->water_angular,
+                               vec3(all[i]->turn.x, all[i]->turn.y, all[i]->turn.z),
+                               vec3(all[i]->turn.w, 0, 0)};
+        for (size_t k = 0; k < sizeof vector / sizeof *vector; k++)
+            sound =
+                sound && isfinite(vector[k].x) && isfinite(vector[k].y) && isfinite(vector[k].z);
+    }
+    return sound;
+}
+
 static bool is_point(const CpsiPoint *point, int obstacles) {
     const CpsPointReport *report = &point->report;
     return within(point->kind, CPS_POINT_KIND_HELD, CPS_POINT_KIND_ON_BODY) &&
@@ -173,7 +203,8 @@ static bool is_point(const CpsiPoint *point, int obstacles) {
            all_finite(&report->reaction, 1) && all_finite(&report->buoyancy, 1) &&
            all_finite(&report->displaced, 1) && all_finite(&report->capacity_used, 1) &&
            all_finite(&report->uplift_used, 1) && all_finite(report->drag, 3) &&
-           all_finite(&report->dragged, 1) && all_finite(&point->dragged, 1);
+           all_finite(&report->dragged, 1) && all_finite(&point->dragged, 1) &&
+           is_point_motion(&point->inertia);
 }
 
 static bool is_body(const CpsiBody *body) {
@@ -186,7 +217,7 @@ static bool is_body(const CpsiBody *body) {
                           body->load_from.moment};
     bool sound = within(body->kind, CPS_BODY_KIND_HELD, CPS_BODY_KIND_FREE) &&
                  body->report.trial_count >= 0 && all_finite(body->report.support, 6) &&
-                 all_finite(pose, sizeof pose / sizeof *pose);
+                 all_finite(pose, sizeof pose / sizeof *pose) && is_body_motion(&body->inertia);
     for (int i = 0; i < 4; i++)
         sound = sound && isfinite(loads[i].x) && isfinite(loads[i].y) && isfinite(loads[i].z);
     return sound;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "evolve/body_motion_check.h"
 #include "evolve/ranges.h"
 
 bool cpsi_is_in_time(const CpsScene *scene) {
@@ -32,10 +33,11 @@ static CpsStatus check_line(const CpsLine *line, bool in_time, CpsError *err) {
             return CPSI_FAIL_AT("inertia", err, CPS_ERR_ARGUMENT,
                                 "line '%s': inertia is %g kg/m, expected a finite number >= 0",
                                 line->name, inertia);
-        if (in_time && !(inertia > 0))
+        if (in_time && !line->quasi_static && !(inertia > 0))
             return CPSI_FAIL_AT("inertia", err, CPS_ERR_ARGUMENT,
                                 "line '%s': inertia: a step of the history has a duration, but "
-                                "the line has no mass to move: give its mass",
+                                "the line has no mass to move: give its mass, or let it be "
+                                "quasi_static",
                                 line->name);
     }
     for (int k = 0; k < line->point_weight_count; k++)
@@ -64,23 +66,111 @@ static CpsStatus check_line(const CpsLine *line, bool in_time, CpsError *err) {
     return CPS_OK;
 }
 
-/* Points are held, and there are no bodies. */
-static CpsStatus check_points(const CpsScene *scene, CpsError *err) {
-    bool free = false;
+/* Can points or bodies be free in the history? */
+static bool may_be_free(const CpsScene *scene) {
+    bool free = scene->body_count > 0;
     for (int i = 0; i < scene->point_count; i++)
-        free = free || scene->point[i].kind != CPS_POINT_KIND_HELD || scene->point[i].drags;
+        free = free || scene->point[i].kind != CPS_POINT_KIND_HELD;
     for (int k = 0; k < scene->stage_count; k++)
         for (int i = 0; i < scene->stage[k].point_change_count; i++)
             free = free || scene->stage[k].point_change[i].kind != CPS_POINT_KIND_HELD;
-    if (free)
-        return CPSI_FAIL_AT("points", err, CPS_ERR_ARGUMENT,
-                            "points: a step of the history has a duration, and in time all points "
-                            "are held: neither free, on a body, nor anchors that drag");
-    if (scene->body_count > 0)
-        return CPSI_FAIL_AT("bodies", err, CPS_ERR_ARGUMENT,
-                            "bodies: a step of the history has a duration, and bodies do not move "
-                            "in time: hold the ends of the lines instead");
+    return free;
+}
+
+/* A point that begins with a velocity moves from the first step on. */
+static CpsStatus check_first_step(const CpsScene *scene, const char *what, const char *name,
+                                  CpsError *err) {
+    bool is_static = false;
+    for (int i = 0; i < scene->line_count; i++)
+        is_static = is_static || scene->line[i].start.kind == CPS_START_STATIC;
+    if (!is_static) return CPS_OK;
+    return CPSI_FAIL_AT("velocity", err, CPS_ERR_ARGUMENT,
+                        "%s '%s': velocity: lines that start static are at rest after the first "
+                        "step: leave it out, or start them otherwise",
+                        what, name);
+}
+
+static bool moves(const double *v, int count) {
+    bool any = false;
+    for (int i = 0; i < count; i++) any = any || v[i] != 0;
+    return any;
+}
+
+static CpsStatus check_point(const CpsScene *scene, int index, bool in_time, CpsError *err) {
+    const CpsPoint *point = &scene->point[index];
+    const double *v = point->velocity;
+    if (!cpsi_is_not_negative(point->inertia))
+        return CPSI_FAIL_AT("inertia", err, CPS_ERR_ARGUMENT,
+                            "point '%s': inertia is %g kg, expected a finite number >= 0",
+                            point->name, point->inertia);
+    if (!cpsi_are_usable(v))
+        return CPSI_FAIL_AT("velocity", err, CPS_ERR_ARGUMENT,
+                            "point '%s': velocity is (%g, %g, %g) m/s, expected finite numbers",
+                            point->name, v[0], v[1], v[2]);
+    if (moves(v, 3) && point->kind != CPS_POINT_KIND_FREE)
+        return CPSI_FAIL_AT("velocity", err, CPS_ERR_ARGUMENT,
+                            "point '%s': velocity: only a free point begins with one", point->name);
+    if (!in_time) return CPS_OK;
+    if (point->drags)
+        return CPSI_FAIL_AT("drags", err, CPS_ERR_ARGUMENT,
+                            "point '%s': drags: a step of the history has a duration, in which "
+                            "anchors do not drag: leave it out",
+                            point->name);
+    if (scene->has_water_surface && point->displaced_weight > 0)
+        return CPSI_FAIL_AT("volume", err, CPS_ERR_ARGUMENT,
+                            "point '%s': volume: a step of the history has a duration, in which "
+                            "points do not float at a water surface: leave 'water_surface' out, "
+                            "and the point is always under water",
+                            point->name);
+    return moves(v, 3) ? check_first_step(scene, "point", point->name, err) : CPS_OK;
+}
+
+/* What a step in time cannot have beside free points and bodies. */
+static CpsStatus check_beside_free(const CpsScene *scene, CpsError *err) {
+    for (int i = 0; i < scene->line_count; i++) {
+        const CpsLine *line = &scene->line[i];
+        bool stiff =
+            line->section_count == 0 && line->stiffness_row_count == 0 && isinf(line->stiffness);
+        for (int k = 0; k < line->section_count; k++)
+            stiff = stiff || (line->section[k].stiffness_row_count == 0 &&
+                              isinf(line->section[k].stiffness));
+        if (stiff)
+            return cpsi_fail_inside(
+                err,
+                CPSI_FAIL_AT("stiffness", err, CPS_ERR_ARGUMENT,
+                             "line '%s': stiffness: a step of the history has a duration, and "
+                             "beside free points or bodies lines stretch: give its stiffness",
+                             line->name),
+                "lines.%s", line->name);
+    }
+    for (int k = 0; k < scene->stage_count; k++) {
+        const CpsStage *stage = &scene->stage[k];
+        if (stage->duration > 0 && (stage->turn_count > 0 || stage->shift_count > 0))
+            return cpsi_fail_inside(
+                err,
+                CPSI_FAIL_AT("duration", err, CPS_ERR_ARGUMENT,
+                             "stage %d: it has a duration, and beside free points or bodies "
+                             "obstacles neither turn nor move in time",
+                             k + 1),
+                "history[%d]", k + 1);
+    }
     return CPS_OK;
+}
+
+static CpsStatus check_points(const CpsScene *scene, bool in_time, CpsError *err) {
+    for (int i = 0; i < scene->point_count; i++) {
+        const CpsStatus status = check_point(scene, i, in_time, err);
+        if (status != CPS_OK)
+            return cpsi_fail_inside(err, status, "points.%s", scene->point[i].name);
+    }
+    for (int i = 0; i < scene->body_count; i++) {
+        const CpsBody *body = &scene->body[i];
+        CpsStatus status = cpsi_body_motion_check(body, in_time, err);
+        if (status == CPS_OK && in_time && moves(body->velocity, CPS_BODY_DIRECTIONS))
+            status = check_first_step(scene, "body", body->name, err);
+        if (status != CPS_OK) return cpsi_fail_inside(err, status, "bodies.%s", body->name);
+    }
+    return in_time && may_be_free(scene) ? check_beside_free(scene, err) : CPS_OK;
 }
 
 CpsStatus cpsi_time_check(const CpsScene *scene, CpsError *err) {
@@ -92,7 +182,8 @@ CpsStatus cpsi_time_check(const CpsScene *scene, CpsError *err) {
         const CpsStatus status = check_line(&scene->line[i], in_time, err);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "lines.%s", scene->line[i].name);
     }
-    if (!in_time) return CPS_OK;
+    const CpsStatus status = check_points(scene, in_time, err);
+    if (status != CPS_OK || !in_time) return status;
     if (scene->friction_policy != CPS_FRICTION_POLICY_CONSISTENT)
         return CPSI_FAIL_AT("friction_policy", err, CPS_ERR_ARGUMENT,
                             "friction_policy: a step of the history has a duration, which needs "
@@ -101,7 +192,7 @@ CpsStatus cpsi_time_check(const CpsScene *scene, CpsError *err) {
         return CPSI_FAIL_AT("contact_policy", err, CPS_ERR_ARGUMENT,
                             "contact_policy: a step of the history has a duration, which needs "
                             "contact that is reached");
-    return check_points(scene, err);
+    return CPS_OK;
 }
 
 /* The change that an oscillation goes with. */

@@ -225,7 +225,7 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     double share = attempt(line, program, options, move, scratch, step);
     int iterations = line->report.iteration_count;
     if (cps_outcome_is_certified(line->report.outcome) && step->scheme != CPS_TIME_SCHEME_EULER &&
-        !step->restarts && find_snatched(line)) {
+        !step->restarts && !step->once && find_snatched(line)) {
         cpsi_substeps_restore(line, scratch);
         share = attempt(line, program, options, move, scratch, step);
         iterations += line->report.iteration_count;
@@ -239,6 +239,27 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
         stay(line);
     else
         advance(line, step, scratch->state);
+}
+
+bool cpsi_line_is_snatched_late(CpsiLine *line, double h) {
+    CpsiInertia *inertia = &line->inertia;
+    bool late = false;
+    if (!line->has_inertia) return false;
+    memset(inertia->late, 0, (size_t)line->n * sizeof *inertia->late);
+    for (int e = 0; e + 1 < line->n; e++) {
+        if (!is_slack(line, inertia->start, e) || is_slack(line, line->position, e)) continue;
+        for (int j = e; j <= e + 1; j++) {
+            inertia->late[j] = true;
+            late = late || inertia->span[j] < h;
+        }
+    }
+    return late;
+}
+
+void cpsi_line_restart_snatched(CpsiLine *line) {
+    if (!line->has_inertia) return;
+    for (int j = 0; j < line->n; j++)
+        line->inertia.restarts[j] = line->inertia.restarts[j] || line->inertia.late[j];
 }
 
 void cpsi_line_stop(CpsiLine *line) {

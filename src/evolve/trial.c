@@ -11,8 +11,10 @@
 #include "cable/winch.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
+#include "evolve/body_motion.h"
 #include "evolve/checkpoint.h"
 #include "evolve/joint_system.h"
+#include "evolve/point_motion.h"
 #include "evolve/points.h"
 
 /* What is left counts as balanced up to so many tolerances of the largest force. */
@@ -158,9 +160,10 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     at->friction = evolution->has_static && evolution->done == 0
                        ? 0
                        : on->friction[0] * cpsi_obstacle_friction_factor(on, at->place);
+    const bool in_time = evolution->interval > 0;
     const Vec3 before =
-        cpsi_obstacle_carry(on, vec3_load(point->before), &evolution->shift[at->obstacle],
-                            evolution->angle[at->obstacle]);
+        cpsi_obstacle_carry(on, vec3_load(in_time ? point->inertia.reference : point->before),
+                            &evolution->shift[at->obstacle], evolution->angle[at->obstacle]);
     at->slip = cpsi_obstacle_slip(on, before, at->place);
     at->start = vec3_axpy(-cpsi_obstacle_gap(on, before), cpsi_obstacle_normal(on, before), before);
 }
@@ -282,12 +285,50 @@ static void count_line(CpsiBalance *balance, const CpsiLine *line) {
     balance->rounding = cpsi_max_nan(balance->rounding, strain / cpsi_line_least_compliance(line));
 }
 
+/* Count what moves a mass, where `inertia` [N] acts on it at a place, by mass/k^2 `stiffness`; its
+ * rounding is that of the place, up to `far` from the origin. */
+static void count_inertia(CpsiBalance *balance, double inertia, double stiffness, double far) {
+    count_force(balance, inertia);
+    balance->rounding = cpsi_max_nan(balance->rounding, ROUNDINGS * DBL_EPSILON * stiffness * far);
+}
+
+/* Add the inertia of a free point, in a step in time. */
+static void add_point_inertia(CpsiBalance *balance, CpsiFree *at) {
+    const CpsiPoint *point = &balance->evolution->points.point[at->point];
+    const Vec3 inertia = cpsi_point_inertia(point, at->place);
+    at->rest = vec3_add(at->rest, inertia);
+    if (point->inertia.mass > 0)
+        count_inertia(balance, vec3_norm(inertia), cpsi_point_inertia_stiffness(point),
+                      vec3_norm(at->place));
+}
+
+/* ... and of a free body, with its damping. */
+static void add_body_motion(CpsiBalance *balance, CpsiRigid *rigid) {
+    const CpsiBody *body = &balance->evolution->bodies.body[rigid->body];
+    const double span = body->inertia.span, mass = body->given.mass + body->given.added_mass[0];
+    rigid->inertia = cpsi_body_inertia(body, &rigid->pose);
+    rigid->damping = cpsi_body_damping(body, &rigid->pose);
+    rigid->rest.force =
+        vec3_add(rigid->rest.force, vec3_add(rigid->inertia.force, rigid->damping.force));
+    rigid->rest.moment =
+        vec3_add(rigid->rest.moment, vec3_add(rigid->inertia.moment, rigid->damping.moment));
+    const double spin =
+        fmax(body->given.inertia[0], fmax(body->given.inertia[1], body->given.inertia[2])) +
+        body->given.added_mass[21] + body->given.added_mass[28] + body->given.added_mass[35];
+    count_inertia(balance, vec3_norm(rigid->inertia.force), mass / (span * span),
+                  vec3_norm(rigid->pose.place) + vec3_norm(body->inertia.now.centre));
+    count_inertia(balance, vec3_norm(rigid->inertia.moment) / body->arm,
+                  spin / (span * span * body->arm), 1);
+}
+
 /* What nothing balances on a free body: nothing in its fixed directions. */
 static void find_rest(CpsiBalance *balance, CpsiRigid *rigid) {
     const CpsiBody *body = &balance->evolution->bodies.body[rigid->body];
     const CpsiWrench load = cpsi_body_load(body, &rigid->pose, balance->evolution->gravity);
     rigid->rest = (CpsiWrench){vec3_add(rigid->lines.force, load.force),
                                vec3_add(rigid->lines.moment, load.moment)};
+    rigid->inertia = rigid->damping = (CpsiWrench){vec3(0, 0, 0), vec3(0, 0, 0)};
+    if (balance->evolution->interval > 0) add_body_motion(balance, rigid);
     double left[6];
     vec3_store(left, rigid->rest.force);
     vec3_store(&left[3], rigid->rest.moment);
@@ -371,6 +412,7 @@ void cpsi_try_places(CpsiBalance *balance) {
         at->water = cpsi_water_at(&evolution->points, at->point, evolution->gravity, at->place.z);
         count_force(balance, vec3_norm(at->rest));
         balance->acting = fmax(balance->acting, at->water.displaced);
+        if (evolution->interval > 0) add_point_inertia(balance, at);
     }
     for (int k = 0; k < balance->body_count; k++)
         balance->rigid[k].lines = (CpsiWrench){vec3(0, 0, 0), vec3(0, 0, 0)};

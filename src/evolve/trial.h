@@ -38,7 +38,8 @@ static inline Vec3 cpsi_rest_with(const CpsiFree *at, double buoyancy) {
 typedef struct CpsiRigid {
     int body;
     CpsiPose pose;
-    CpsiWrench lines, rest, left; /* rest: lines and loads; left: of that in its free directions */
+    CpsiWrench inertia, damping;  /* of a step in time */
+    CpsiWrench lines, rest, left; /* rest: all but supports; left: of that in its free directions */
 } CpsiRigid;
 
 struct CpsiBalance {

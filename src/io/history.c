@@ -35,21 +35,34 @@ bool cpsi_has_duration(const CpsScene *scene) {
     return any;
 }
 
+static void add_motion(const CpsMotionLedger *ledger, double kinetic, CpsiMotionRow *sum) {
+    sum->kinetic += kinetic;
+    sum->ledger.kinetic += ledger->kinetic;
+    sum->ledger.impact += ledger->impact;
+    sum->ledger.scheme += ledger->scheme;
+    sum->ledger.turnover += ledger->turnover;
+}
+
 CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution) {
     CpsiMotionRow sum = {.time = cps_evolution_time(evolution)};
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineMotion motion = cps_evolution_line_motion(evolution, i);
         if (!motion.is_moving) continue;
-        sum.kinetic += motion.kinetic;
-        sum.ledger.kinetic += motion.ledger.kinetic;
-        sum.ledger.impact += motion.ledger.impact;
-        sum.ledger.scheme += motion.ledger.scheme;
-        sum.ledger.turnover += motion.ledger.turnover;
+        add_motion(&motion.ledger, motion.kinetic, &sum);
         sum.landed += motion.landed;
         sum.changed += motion.changed;
         sum.snatched += motion.snatched;
         if (!(motion.position_bound <= sum.position_bound))
             sum.position_bound = motion.position_bound;
+    }
+    for (int i = 0; i < cps_evolution_point_count(evolution); ++i) {
+        const CpsPointMotion motion = cps_evolution_point_motion(evolution, i);
+        if (motion.is_moving) add_motion(&motion.ledger, motion.kinetic, &sum);
+        sum.landed += motion.landed;
+    }
+    for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {
+        const CpsBodyMotion motion = cps_evolution_body_motion(evolution, i);
+        if (motion.is_moving) add_motion(&motion.ledger, motion.kinetic, &sum);
     }
     return sum;
 }
@@ -155,7 +168,8 @@ const char *cpsi_body_kind(CpsBodyKind kind) {
 static double size(const double x[3]) { return hypot(hypot(x[0], x[1]), x[2]); }
 
 void cpsi_body_row(const CpsEvolution *evolution, int body, bool stiffness, CpsiBodyRow *out) {
-    *out = (CpsiBodyRow){.report = cps_evolution_body_report(evolution, body)};
+    *out = (CpsiBodyRow){.report = cps_evolution_body_report(evolution, body),
+                         .motion = cps_evolution_body_motion(evolution, body)};
     cps_body_angles(&out->report, out->angle, &out->heel);
     for (int i = 0; i < 3; ++i) out->angle[i] /= CPSI_DEGREE;
     out->heel /= CPSI_DEGREE;

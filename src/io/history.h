@@ -28,6 +28,7 @@ typedef struct CpsiLineRow {
 
 typedef struct CpsiBodyRow {
     CpsBodyReport report;
+    CpsBodyMotion motion;
     double angle[3], heel;         /* [degrees] roll, pitch and yaw; heel (cps_body_angles) */
     double residual[2];            /* [N], [N m] sizes of what nothing balances */
     CpsBodyStiffness stiffness[2]; /* by kind; where that was asked for */
@@ -41,7 +42,7 @@ typedef struct CpsiObstacleRow {
     bool moved;               /* in the step */
 } CpsiObstacleRow;
 
-/* The motion in time of all lines together; 0 in quasi-static steps. */
+/* The motion in time of all lines, points and bodies together; 0 in quasi-static steps. */
 typedef struct CpsiMotionRow {
     double time, kinetic; /* [s] since the history began, [J] */
     CpsMotionLedger ledger;

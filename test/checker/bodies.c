@@ -13,6 +13,7 @@
 #include "bodies.h"
 
 #include "groups.h"
+#include "joint_motion.h"
 #include "points.h"
 
 #include <math.h>
@@ -333,11 +334,12 @@ void body_load(const BodyData *data, const Vector position, const double rotatio
 typedef struct Check {
     const Source *source;
     const Bodies *bodies;
-    Record *line;            /* (lines) of the step */
-    Junction *point;         /* (points) of the step */
-    BodyState *now, *before; /* (count) */
-    double *arm;             /* (count) [m] of its farthest point; else its longest line */
-    double largest;          /* [N] of the step */
+    Record *line;                                      /* (lines) of the step */
+    Junction *point;                                   /* (points) of the step */
+    BodyState *now, *before, *older;                   /* (count) */
+    BodyMotion *motion, *motion_before, *motion_older; /* (count) */
+    double *arm;    /* (count) [m] of its farthest point; else its longest line */
+    double largest; /* [N] of the step */
     size_t step, body;
     BodyFinding *find;
     void *user;
@@ -420,7 +422,12 @@ static void check_balance(const Check *c, const BodyState *at, bool certified) {
     Real sum[SIX];
     double noise[2];
     sizes_of_load(c, at, noise);
-    for (int i = 0; i < SIX; i++) sum[i] = (Real)at->lines[i] + at->load[i] + at->support[i];
+    const BodyMotion *motion = &c->motion[c->body];
+    for (int i = 0; i < SIX; i++)
+        sum[i] = (Real)at->lines[i] + at->load[i] + at->support[i] + motion->inertia[i] +
+                 motion->damped[i];
+    noise[0] += size(motion->inertia) + size(motion->damped);
+    noise[1] += size(&motion->inertia[3]) + size(&motion->damped[3]);
     at_most(c, "residual force against the sum", apart(at->residual, sum), SUMS * noise[0]);
     at_most(c, "residual moment against the sum", apart(&at->residual[3], &sum[3]),
             SUMS * noise[1]);
@@ -510,6 +517,25 @@ static bool is_claimed(const Check *c, bool (*certified)(int outcome)) {
     return false;
 }
 
+static void find_in_time(void *user, const char *what, double said, double expected) {
+    find(user, "%s: %.9g, expected %.9g", what, said, expected);
+}
+
+static void check_motion(Check *c) {
+    const size_t k = c->body;
+    const BodySteps steps = {.data = &c->bodies->data[k],
+                             .now = &c->now[k],
+                             .before = c->step > 0 ? &c->before[k] : NULL,
+                             .older = c->step > 1 ? &c->older[k] : NULL,
+                             .motion = &c->motion[k],
+                             .motion_before = &c->motion_before[k],
+                             .motion_older = &c->motion_older[k],
+                             .h = time_of(c->source, c->step) -
+                                  (c->step > 0 ? time_of(c->source, c->step - 1) : 0),
+                             .reach = size(c->now[k].position) + c->arm[k]};
+    body_motion_check(&steps, find_in_time, c);
+}
+
 /* [N] The largest force in elastic lines and of loads. */
 static void find_largest(Check *c) {
     c->largest = 0;
@@ -520,6 +546,9 @@ static void find_largest(Check *c) {
     for (size_t k = 0; k < c->bodies->count; k++)
         c->largest =
             fmax(c->largest, fmax(size(c->now[k].load), size(&c->now[k].load[3]) / c->arm[k]));
+    for (size_t k = 0; k < c->bodies->count; k++)
+        c->largest = fmax(c->largest, fmax(size(c->motion[k].inertia),
+                                           size(&c->motion[k].inertia[3]) / c->arm[k]));
 }
 
 static int check_steps(Check *c, bool (*certified)(int outcome), FILE *log) {
@@ -527,6 +556,7 @@ static int check_steps(Check *c, bool (*certified)(int outcome), FILE *log) {
     for (c->step = 0; c->step < source->steps; c->step++) {
         int bad = bodies_read(source, c->bodies, c->step, c->now, log);
         if (!bad) bad = junctions_read(source, c->step, c->point, log);
+        if (!bad) bad = body_motions_read(source, c->bodies->count, c->step, c->motion, log);
         for (size_t i = 0; i < source->lines && !bad; i++)
             bad = record_read(source, source->line_name[i], c->step, &c->line[i], log);
         if (bad) return -1;
@@ -538,10 +568,16 @@ static int check_steps(Check *c, bool (*certified)(int outcome), FILE *log) {
             check_balance(c, at, is_claimed(c, certified));
             check_stable(c, at);
             check_fixed(c, at);
+            check_motion(c);
         }
-        BodyState *swap = c->before;
+        BodyState *swap = c->older;
+        BodyMotion *swap_motion = c->motion_older;
+        c->older = c->before;
         c->before = c->now;
         c->now = swap;
+        c->motion_older = c->motion_before;
+        c->motion_before = c->motion;
+        c->motion = swap_motion;
     }
     return 0;
 }
@@ -576,8 +612,15 @@ int bodies_check(const Source *source, bool (*certified)(int outcome), BodyFindi
         c.point = calloc(source->points + 1, sizeof *c.point);
         c.now = calloc(bodies.count, sizeof *c.now);
         c.before = calloc(bodies.count, sizeof *c.before);
+        c.older = calloc(bodies.count, sizeof *c.older);
+        c.motion = calloc(bodies.count, sizeof *c.motion);
+        c.motion_before = calloc(bodies.count, sizeof *c.motion_before);
+        c.motion_older = calloc(bodies.count, sizeof *c.motion_older);
         c.arm = calloc(bodies.count, sizeof *c.arm);
-        bad = !c.line || !c.point || !c.now || !c.before || !c.arm ? -1 : open_lines(&c, log);
+        bad = !c.line || !c.point || !c.now || !c.before || !c.older || !c.motion ||
+                      !c.motion_before || !c.motion_older || !c.arm
+                  ? -1
+                  : open_lines(&c, log);
         if (!bad) bad = check_steps(&c, certified, log);
     }
     for (size_t i = 0; i < source->lines && c.line; i++) record_destroy(&c.line[i]);
@@ -585,6 +628,10 @@ int bodies_check(const Source *source, bool (*certified)(int outcome), BodyFindi
     free(c.point);
     free(c.now);
     free(c.before);
+    free(c.older);
+    free(c.motion);
+    free(c.motion_before);
+    free(c.motion_older);
     free(c.arm);
     bodies_close(&bodies);
     return bad;

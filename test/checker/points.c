@@ -17,6 +17,7 @@
 
 #include "anchors.h"
 #include "groups.h"
+#include "joint_motion.h"
 #include "water.h"
 
 /* Sums of a few numbers of the file, per largest force; a balance, in tolerances of the step: what
@@ -27,11 +28,12 @@ static const double FORCES = 1e-9, NORMALS = 1e-9;
 
 typedef struct Points {
     const Source *source;
-    Record *line;           /* (lines) of the step */
-    Junction *now, *before; /* (points) */
-    Water *water;           /* (points) of the step */
-    Anchor *anchor;         /* (points) */
-    bool *gives;            /* (points) of the step: it floats, or is an anchor that drags */
+    Record *line;                                       /* (lines) of the step */
+    Junction *now, *before, *older;                     /* (points) */
+    PointMotion *motion, *motion_before, *motion_older; /* (points) */
+    Water *water;                                       /* (points) of the step */
+    Anchor *anchor;                                     /* (points) */
+    bool *gives; /* (points) of the step: it floats, or is an anchor that drags */
     Bodies bodies;
     BodyState *body; /* (bodies) of the step */
     double *dragged; /* (points) [m] before the step */
@@ -105,7 +107,7 @@ static void check_balance(const Points *p, const Junction *at) {
     const Real up[3] = {0, 0, p->water[p->point].buoyancy};
     for (int k = 0; k < 3; k++)
         sum[k] = (Real)at->lines[k] + at->load[k] + at->support[k] + at->friction[k] +
-                 (Real)at->reaction * at->normal[k] + up[k];
+                 (Real)at->reaction * at->normal[k] + up[k] + p->motion[p->point].inertia[k];
     at_most(p, "residual against the sum of the forces", apart(at->residual, sum),
             SUMS * p->largest);
     at_most(p, is_held(at) ? "load of a held point" : "support of a free point",
@@ -261,8 +263,16 @@ static void check_friction(const Points *p, const Junction *at) {
     const double bound = is_known ? bound_of(p, at) : INFINITY;
     at_most(p, "friction above its bound", size(at->friction) - bound, force);
     const double slid = -dot(at->friction, at->slip);
-    at_most(p, "dissipated energy against the work of friction",
-            fabs(at->dissipated - fmax(0, slid)), SUMS * p->largest * size(at->slip));
+    const PointMotion *motion = &p->motion[p->point];
+    if (motion->span > 0 && p->step > 0) { /* the slip is from x*, the work on the whole way */
+        double whole[3];
+        for (int a = 0; a < 3; a++) whole[a] = at->position[a] - p->before[p->point].position[a];
+        at_most(p, "dissipated energy against the work of friction in time",
+                fabs(at->dissipated + dot(at->friction, whole)), SUMS * p->largest * size(whole));
+    }
+    if (!(motion->span > 0))
+        at_most(p, "dissipated energy against the work of friction",
+                fabs(at->dissipated - fmax(0, slid)), SUMS * p->largest * size(at->slip));
     if (at->state == POINT_STICK) at_most(p, "slip of a point at rest", size(at->slip), 2 * way);
     /* a slip no longer than places are known to has no direction */
     if (isfinite(bound) && at->has_place && size(at->slip) > 2 * way)
@@ -270,7 +280,7 @@ static void check_friction(const Points *p, const Junction *at) {
                 (BALANCED * p->source->tolerance * p->largest + force) * (size(at->slip) + way));
     if (p->step == 0) return; /* where it began is not in the file */
     Real from[3], to[3], carried[3], slip[3];
-    widen(p->before[p->point].position, from);
+    widen(motion->span > 0 ? motion->reference : p->before[p->point].position, from);
     widen(at->position, to);
     surface_carry(surface, from, 1, p->line[0].turn[at->obstacle], carried);
     surface_slip(surface, carried, to, slip);
@@ -298,6 +308,45 @@ static void find_acting(Points *p) {
     p->acting = p->bodies.count > 0 ? p->largest : fmin(p->acting, p->largest);
 }
 
+static void find_in_time(void *user, const char *what, double said, double expected) {
+    find(user, "%s: %.9g, expected %.9g", what, said, expected);
+}
+
+/* The motion of a point, and that the ends of lines there move with it. */
+static void check_motion(Points *p) {
+    const PointMotion *motion = &p->motion[p->point];
+    const Junction *at = &p->now[p->point];
+    const double reach = size(at->position) + p->length[p->point];
+    const double h = p->step > 0 ? time_of(p->source, p->step) - time_of(p->source, p->step - 1)
+                                 : time_of(p->source, 0);
+    const PointSteps steps = {.now = at,
+                              .before = p->step > 0 ? &p->before[p->point] : NULL,
+                              .older = p->step > 1 ? &p->older[p->point] : NULL,
+                              .motion = motion,
+                              .motion_before = &p->motion_before[p->point],
+                              .motion_older = &p->motion_older[p->point],
+                              .h = h,
+                              .reach = reach,
+                              .is_free = !is_held(at)};
+    point_motion_check(&steps, find_in_time, p);
+    for (size_t i = 0; i < 2 * p->source->lines; i++) {
+        const Record *r = &p->line[i / 2];
+        const size_t j = i % 2 ? r->elements : 0;
+        if (r->end_point[i % 2] != (int)p->point || !r->mass || !(motion->span > 0)) continue;
+        /* beside what is held a line may take a step of its own */
+        if (is_held(at) && r->span[j] != motion->span) continue;
+        Real velocity[3], reference[3];
+        widen(r->velocity[j], velocity);
+        widen(r->reference[j], reference);
+        at_most(p, "velocity of the end of a line off that of the point, times k",
+                apart(motion->velocity, velocity) * motion->span, 1e-13 * reach);
+        at_most(p, "reference of the end of a line off that of the point",
+                apart(motion->reference, reference), 1e-13 * reach);
+        at_most(p, "span of the end of a line off that of the point",
+                fabs(r->span[j] - motion->span), 0);
+    }
+}
+
 static void check_step(Points *p) {
     const Source *source = p->source;
     p->largest = p->acting = 0;
@@ -314,6 +363,7 @@ static void check_step(Points *p) {
         check_contact(p, at);
         check_friction(p, at);
         check_anchor(p, at);
+        check_motion(p);
     }
 }
 
@@ -334,6 +384,7 @@ static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
     const Source *source = p->source;
     for (p->step = 0; p->step < source->steps; p->step++) {
         int bad = junctions_read(source, p->step, p->now, log) ||
+                  point_motions_read(source, p->step, p->motion, log) ||
                   water_read(source, p->step, p->water, log) ||
                   anchors_read(source, p->step, p->anchor, log);
         for (size_t i = 0; i < source->lines && !bad; i++)
@@ -353,9 +404,14 @@ static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
                               p->gives, &p->bodies, p->body, p->step,
                               p->find,  p->user};
         if (groups_check(&at, log)) return -1;
-        Junction *swap = p->before;
+        Junction *swap = p->older;
+        PointMotion *swap_motion = p->motion_older;
+        p->older = p->before;
         p->before = p->now;
         p->now = swap;
+        p->motion_older = p->motion_before;
+        p->motion_before = p->motion;
+        p->motion = swap_motion;
     }
     return 0;
 }
@@ -390,12 +446,19 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     p.line = calloc(source->lines, sizeof *p.line);
     p.now = calloc(source->points, sizeof *p.now);
     p.before = calloc(source->points, sizeof *p.before);
+    p.older = calloc(source->points, sizeof *p.older);
+    p.motion = calloc(source->points, sizeof *p.motion);
+    p.motion_before = calloc(source->points, sizeof *p.motion_before);
+    p.motion_older = calloc(source->points, sizeof *p.motion_older);
     p.length = calloc(source->points, sizeof *p.length);
     p.water = calloc(source->points, sizeof *p.water);
     p.anchor = calloc(source->points, sizeof *p.anchor);
     p.dragged = calloc(source->points, sizeof *p.dragged);
     p.has_surface = water_surface(source, &p.surface);
-    int bad = !p.line || !p.water || !p.now || !p.before || !p.length ? -1 : open_lines(&p, log);
+    int bad = !p.line || !p.water || !p.now || !p.before || !p.older || !p.motion ||
+                      !p.motion_before || !p.motion_older || !p.length
+                  ? -1
+                  : open_lines(&p, log);
     if (!bad) bad = !p.anchor || !p.dragged ? -1 : anchors_open(source, p.anchor, log);
     p.gives = calloc(source->points, sizeof *p.gives);
     if (!bad) bad = p.gives ? open_bodies(source, &p.bodies) : -1;
@@ -408,6 +471,10 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     free(p.line);
     free(p.now);
     free(p.before);
+    free(p.older);
+    free(p.motion);
+    free(p.motion_before);
+    free(p.motion_older);
     free(p.length);
     free(p.water);
     free(p.anchor);

@@ -70,8 +70,6 @@ CHANGES = [
     ("an unknown scheme", "capstan: 1\n", "capstan: 1\ntime_scheme: newmark\n", INPUT, "2:1: 'time_scheme': found 'newmark', expected one of: bdf2 euler"),
     ("a line that parts", "mass: 1", "mass: 1\n    break_at: 1e5", INPUT, "8:5: line 'cable': break_at: lines do not part in a history of which a step has a duration"),
     ("a winch", "B: held}", "B: {held: [10, 0, 1], stored: 0}}", INPUT, "10:5: line 'cable': stored: winches do not wind in a history of which a step has a duration: leave it out"),
-    ("a free point", "lines:\n", "points: {knot: {free: [0, 5, 5]}}\nlines:\n  leg: {length: 5, mass: 1, stiffness: 1e6, start: {straight: {from: [0, 5, 5], to: [5, 5, 5]}}, ends: {A: {point: knot}, B: held}}\n", INPUT, "3:1: points: a step of the history has a duration, and in time all points are held"),
-    ("an anchor that drags", "lines:\n", "points: {knot: {held: [0, 5, 5], holding_capacity: 10, drags: true}}\nlines:\n  leg: {length: 5, mass: 1, stiffness: 1e6, start: {straight: {from: [0, 5, 5], to: [5, 5, 5]}}, ends: {A: {point: knot}, B: held}}\n", INPUT, "3:1: points: a step of the history has a duration, and in time all points are held"),
 ]
 
 

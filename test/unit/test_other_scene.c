@@ -147,6 +147,15 @@ static const char MESH_SCENE[] =
     "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
 
 /* Shapes, below and round the line. */
+static const char FLOAT_SCENE[] =
+    "capstan: 1\nwater_density: 1000\nwater_surface: 0\n"
+    "lines:\n"
+    "  cable: {length: 4, elements: 4, mass: 2, diameter: 0.02, stiffness: 1e4, start: static,"
+    " point_weights: [{at: 2, mass: 5, volume: 0.1, floats: true}],"
+    " ends: {A: {held: [0, 0, -1]}, B: {held: [3, 0, -1]}}}\n"
+    "history:\n"
+    "  - {name: pull, cable.B: {move: [0, 0, 0.1]}}\n";
+
 #define IN_A_SET(name, y, set)                                                            \
     "  " name                                                                             \
     ": {length: 6, elements: 4, mass: 1, stiffness: 1e4, start: {straight: {from: [0, " y \
@@ -415,6 +424,12 @@ static const struct Change MESH_CHANGE[] = {
     {"two_sided", "two_sided: false", "two_sided: true"},
 };
 
+static const struct Change FLOAT_CHANGE[] = {
+    {"floats", ", floats: true", ""},
+    {"floats", "at: 2", "at: 3"},
+    {"floats", "volume: 0.1, floats", "volume: 0.2, floats"},
+};
+
 static const struct Change SET_CHANGE[] = {
     {"on", "{on: {rail: {from: [6, 0, 0], to: [6, 3, 0]}, force: [1, 0, 0]}}",
      "{force: [1, 0, 0]}"},
@@ -484,6 +499,7 @@ enum {
     GROUND_CHANGES = sizeof GROUND_CHANGE / sizeof *GROUND_CHANGE,
     MESH_CHANGES = sizeof MESH_CHANGE / sizeof *MESH_CHANGE,
     SHAPE_CHANGES = sizeof SHAPE_CHANGE / sizeof *SHAPE_CHANGE,
+    FLOAT_CHANGES = sizeof FLOAT_CHANGE / sizeof *FLOAT_CHANGE,
     SET_CHANGES = sizeof SET_CHANGE / sizeof *SET_CHANGE,
     MOTION_CHANGES = sizeof MOTION_CHANGE / sizeof *MOTION_CHANGE,
     LEFT = sizeof LEFT_OUT / sizeof *LEFT_OUT
@@ -502,6 +518,7 @@ static const Suite ALL = {SCENE, CHANGE, CHANGES},
                    GROUND = {GROUND_SCENE, GROUND_CHANGE, GROUND_CHANGES},
                    MESH = {MESH_SCENE, MESH_CHANGE, MESH_CHANGES},
                    SHAPES = {SHAPES_SCENE, SHAPE_CHANGE, SHAPE_CHANGES},
+                   FLOATS = {FLOAT_SCENE, FLOAT_CHANGE, FLOAT_CHANGES},
                    SETS = {SETS_SCENE, SET_CHANGE, SET_CHANGES},
                    MOTION = {MOTION_SCENE, MOTION_CHANGE, MOTION_CHANGES};
 
@@ -617,8 +634,10 @@ static void every_change_of_shapes_makes_another_scene(void **state) {
     expect_refused(&SHAPES, 1, sizeof SHAPES_SCENE);
 }
 
-static void every_change_of_sets_makes_another_scene(void **state) {
+static void every_change_of_floats_and_sets_makes_another_scene(void **state) {
     (void)state;
+    expect_refused(&FLOATS, 1, place_of(FLOAT_SCENE, "{name: pull"));
+    expect_refused(&FLOATS, 2, sizeof FLOAT_SCENE);
     expect_refused(&SETS, 0, place_of(SETS_SCENE, "{name: pull"));
     expect_refused(&SETS, 1, sizeof SETS_SCENE);
 }
@@ -639,6 +658,7 @@ static bool is_tried(const char *key, bool found[CHANGES]) {
     for (int i = 0; i < GROUND_CHANGES; i++)
         tried = tried || strcmp(GROUND_CHANGE[i].key, key) == 0;
     for (int i = 0; i < MESH_CHANGES; i++) tried = tried || strcmp(MESH_CHANGE[i].key, key) == 0;
+    for (int i = 0; i < FLOAT_CHANGES; i++) tried = tried || strcmp(FLOAT_CHANGE[i].key, key) == 0;
     for (int i = 0; i < SET_CHANGES; i++) tried = tried || strcmp(SET_CHANGE[i].key, key) == 0;
     for (int i = 0; i < SHAPE_CHANGES; i++) tried = tried || strcmp(SHAPE_CHANGE[i].key, key) == 0;
     for (int i = 0; i < MOTION_CHANGES; i++)
@@ -706,15 +726,15 @@ static void flags_of_a_changed_state_are_flags(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_change_makes_another_scene),
-                                       cmocka_unit_test(every_change_of_points_makes_another_scene),
-                                       cmocka_unit_test(every_change_of_bodies_makes_another_scene),
-                                       cmocka_unit_test(every_change_of_files_makes_another_scene),
-                                       cmocka_unit_test(every_change_of_shapes_makes_another_scene),
-                                       cmocka_unit_test(every_change_of_sets_makes_another_scene),
-                                       cmocka_unit_test(
-                                           every_change_of_motions_makes_another_scene),
-                                       cmocka_unit_test(flags_of_a_changed_state_are_flags),
-                                       cmocka_unit_test(every_key_is_changed)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_change_makes_another_scene),
+        cmocka_unit_test(every_change_of_points_makes_another_scene),
+        cmocka_unit_test(every_change_of_bodies_makes_another_scene),
+        cmocka_unit_test(every_change_of_files_makes_another_scene),
+        cmocka_unit_test(every_change_of_shapes_makes_another_scene),
+        cmocka_unit_test(every_change_of_floats_and_sets_makes_another_scene),
+        cmocka_unit_test(every_change_of_motions_makes_another_scene),
+        cmocka_unit_test(flags_of_a_changed_state_are_flags),
+        cmocka_unit_test(every_key_is_changed)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

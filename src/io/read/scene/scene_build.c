@@ -204,6 +204,7 @@ static CpsStatus build_points(Build *b, const CpsiList *points) {
         point[k] = values[k].point;
         point[k].weight = cpsi_weight_in_water(&b->materials, values[k].mass, values[k].volume,
                                                values[k].point.weight);
+        point[k].inertia = cpsi_moving_mass(values[k].inertia, values[k].mass);
         point[k].has_holding_capacity = !isnan(point[k].holding_capacity);
         if (!point[k].has_holding_capacity) point[k].holding_capacity = 0;
         point[k].has_uplift_limit = !isnan(point[k].uplift_limit);

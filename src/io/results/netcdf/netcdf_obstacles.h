@@ -51,12 +51,16 @@ void cpsi_netcdf_append_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacle
 void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
 
 enum { CPSI_POINT_VECTORS = 9, CPSI_POINT_NUMBERS = 7, CPSI_POINT_INTS = 5 };
+/* in time */
+enum { CPSI_POINT_MOTIONS = 3, CPSI_POINT_MOTION_NUMBERS = 5 };
 
 typedef struct CpsiNetcdfPoints {
     int count;
     int dimension, kind, weight; /* these and the next ones are unused without points */
     int capacity, limit, drags;
     int vector[CPSI_POINT_VECTORS], number[CPSI_POINT_NUMBERS], whole[CPSI_POINT_INTS];
+    bool in_time; /* unused without: */
+    int mass, inertia, motion[CPSI_POINT_MOTIONS], motion_number[CPSI_POINT_MOTION_NUMBERS];
 } CpsiNetcdfPoints;
 
 /* Define the variables; write what does not change; and what the last step has found, as step
@@ -69,12 +73,16 @@ void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poi
                                const CpsEvolution *evolution, const double origin[3]);
 
 enum { CPSI_BODY_CONSTANTS = 10, CPSI_BODY_FIELDS = 14, CPSI_BODY_INTS = 4 };
+/* in time: constants, fields of the report, fields of the motion */
+enum { CPSI_BODY_MASSES = 13, CPSI_BODY_FORCES = 4, CPSI_BODY_MOTIONS = 8 };
 
 typedef struct CpsiNetcdfBodies {
     int count;
     /* these and the next ones are unused without bodies */
     int kind, fixed, of_point, place_of_point;
     int constant[CPSI_BODY_CONSTANTS], field[CPSI_BODY_FIELDS], whole[CPSI_BODY_INTS];
+    bool in_time; /* unused without: */
+    int mass[CPSI_BODY_MASSES], force[CPSI_BODY_FORCES], motion[CPSI_BODY_MOTIONS];
 } CpsiNetcdfBodies;
 
 /* The same of the bodies, and of which points are on them. */
@@ -132,6 +140,7 @@ typedef struct CpsiNetcdfTime {
 } CpsiNetcdfTime;
 
 typedef struct CpsiNetcdfMotion {
+    bool is_there; /* the line has inertia */
     int mass, velocity, rest_velocity, span, number[CPSI_MOTION_NUMBERS];
 } CpsiNetcdfMotion;
 
@@ -143,11 +152,11 @@ void cpsi_netcdf_append_time(CpsiNetcdfFile *file, const CpsiNetcdfTime *ids, si
 
 /* The same of a line, and what does not change; the dimensions are step, node and xyz. */
 void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
-                               CpsiNetcdfMotion *ids, const char *line, const int dimension[3]);
-void cpsi_netcdf_write_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
-                              const CpsiNetcdfMotion *ids, const CpsEvolution *evolution, int line);
-void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
-                               const CpsiNetcdfMotion *ids, size_t step,
+                               CpsiNetcdfMotion *ids, const char *line, bool has_inertia,
+                               const int dimension[3]);
+void cpsi_netcdf_write_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids,
+                              const CpsEvolution *evolution, int line);
+void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids, size_t step,
                                const CpsEvolution *evolution, int line);
 
 /* The winches of a line, and what is off their drums. */

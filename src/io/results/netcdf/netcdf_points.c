@@ -54,6 +54,34 @@ static const struct {
      CPSI_MEMBER(CpsPointReport, dragged)},
 };
 
+/* Where steps have a duration. */
+static const struct {
+    const char *name, *long_name, *units;
+    size_t offset;
+} MOTION[CPSI_POINT_MOTIONS] = {
+    {"velocity_of_point", "velocity after the step", "m s-1", offsetof(CpsPointMotion, velocity)},
+    {"reference_of_point", "x* of the scheme: the velocity is (position - reference)/k", "m",
+     offsetof(CpsPointMotion, reference)},
+    {"rest_velocity_of_point", "v* of the scheme: the acceleration is (v - v*)/k", "m s-1",
+     offsetof(CpsPointMotion, rest_velocity)},
+};
+
+static const struct {
+    const char *name, *long_name, *units;
+    CpsiMember member;
+} MOTION_NUMBER[CPSI_POINT_MOTION_NUMBERS] = {
+    {"span_of_point", "k of the scheme, 0: a quasi-static step", "s",
+     CPSI_MEMBER(CpsPointMotion, span)},
+    {"kinetic_of_point", "kinetic energy of its own mass", "J",
+     CPSI_MEMBER(CpsPointMotion, kinetic)},
+    {"ledger_kinetic_of_point", "growth of that energy", "J",
+     CPSI_MEMBER(CpsPointMotion, ledger.kinetic)},
+    {"ledger_impact_of_point", "energy lost where it lands", "J",
+     CPSI_MEMBER(CpsPointMotion, ledger.impact)},
+    {"ledger_scheme_of_point", "energy lost by the scheme in time", "J",
+     CPSI_MEMBER(CpsPointMotion, ledger.scheme)},
+};
+
 typedef enum PointInt {
     POINT_STATE,
     POINT_OBSTACLE,
@@ -134,6 +162,19 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
     cpsi_netcdf_flags(file, points->whole[POINT_HAS_PLACE], NC_INT, 2, NULL, "no yes");
     cpsi_netcdf_flags(file, points->whole[POINT_WATER], NC_INT, 4, NULL,
                       "none submerged floating above");
+    points->in_time = cpsi_has_duration(scene);
+    if (!points->in_time) return;
+    points->mass = cpsi_netcdf_variable(file, "", "mass_of_point", NC_DOUBLE, 1, &points->dimension,
+                                        "mass that moves with it, beside those of the lines", "kg");
+    points->inertia = cpsi_netcdf_variable(file, "", "inertia_of_point", NC_DOUBLE, 3, shape,
+                                           "minus that mass times the acceleration", "N");
+    for (int i = 0; i < CPSI_POINT_MOTIONS; ++i)
+        points->motion[i] = cpsi_netcdf_variable(file, "", MOTION[i].name, NC_DOUBLE, 3, shape,
+                                                 MOTION[i].long_name, MOTION[i].units);
+    for (int i = 0; i < CPSI_POINT_MOTION_NUMBERS; ++i)
+        points->motion_number[i] =
+            cpsi_netcdf_variable(file, "", MOTION_NUMBER[i].name, NC_DOUBLE, 2, shape,
+                                 MOTION_NUMBER[i].long_name, MOTION_NUMBER[i].units);
 }
 
 void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points,
@@ -148,6 +189,7 @@ void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poin
         cpsi_netcdf_doubles(file, points->capacity, &k, ONE, &capacity);
         cpsi_netcdf_doubles(file, points->limit, &k, ONE, &limit);
         cpsi_netcdf_int(file, points->drags, &k, point->drags);
+        if (points->in_time) cpsi_netcdf_doubles(file, points->mass, &k, ONE, &point->inertia);
     }
 }
 
@@ -174,11 +216,32 @@ static void append_point(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, s
         cpsi_netcdf_int(file, points->whole[i], start, whole[i]);
 }
 
+static void append_motion(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
+                          size_t k, const CpsPointMotion *motion, const double inertia[XYZ],
+                          const double origin[XYZ]) {
+    const size_t start[] = {step, k, 0}, count[] = {1, 1, XYZ};
+    cpsi_netcdf_doubles(file, points->inertia, start, count, inertia);
+    for (int i = 0; i < CPSI_POINT_MOTIONS; ++i) {
+        double value[XYZ];
+        memcpy(value, (const char *)motion + MOTION[i].offset, sizeof value);
+        if (MOTION[i].offset == offsetof(CpsPointMotion, reference) && motion->is_moving)
+            for (int a = 0; a < XYZ; ++a) value[a] -= origin[a];
+        cpsi_netcdf_doubles(file, points->motion[i], start, count, value);
+    }
+    for (int i = 0; i < CPSI_POINT_MOTION_NUMBERS; ++i) {
+        const double value = cpsi_member(motion, MOTION_NUMBER[i].member);
+        cpsi_netcdf_doubles(file, points->motion_number[i], start, count, &value);
+    }
+}
+
 void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
                                const CpsEvolution *evolution, const double origin[XYZ]) {
     for (int k = 0; k < points->count && file->status == NC_NOERR; ++k) {
         const CpsPointReport report = cps_evolution_point_report(evolution, k);
         append_point(file, points, step, (size_t)k, &report, origin);
+        const CpsPointMotion motion = cps_evolution_point_motion(evolution, k);
+        if (points->in_time)
+            append_motion(file, points, step, (size_t)k, &motion, report.inertia, origin);
     }
 }
 
@@ -245,6 +308,46 @@ static const BodyField FIELD[CPSI_BODY_FIELDS] = {
     BLOCKS_OF("stiffness", "stiffness in the pose, 0 of a held body", CpsBodyReport, stiffness),
 };
 
+/* Where steps have a duration. */
+static const BodyField MASS[CPSI_BODY_MASSES] = {
+    {"mass_of_body", "mass", "kg", offsetof(CpsBody, mass), NUMBER_OF},
+    {"moments_of_inertia_of_body",
+     "entries xx, yy, zz of the inertia matrix about the centre of gravity", "kg m2",
+     ENTRY(CpsBody, inertia, 0), VECTOR_OF},
+    {"products_of_inertia_of_body", "entries xy, xz, yz of that matrix", "kg m2",
+     ENTRY(CpsBody, inertia, 3), VECTOR_OF},
+    BLOCKS_OF("added_mass", "mass of the water that moves with it", CpsBody, added_mass),
+    BLOCKS_OF("damping_matrix", "linear damping", CpsBody, damping),
+    {"quadratic_damping_of_body", "quadratic damping of displacements", "N s2 m-2",
+     ENTRY(CpsBody, quadratic_damping, 0), VECTOR_OF},
+    {"quadratic_moment_of_body", "quadratic damping of rotations", "N m s2",
+     ENTRY(CpsBody, quadratic_damping, 3), VECTOR_OF},
+};
+
+static const BodyField FORCE[CPSI_BODY_FORCES] = {
+    WRENCH("inertia", "its mass and added mass", inertia),
+    WRENCH("damping", "damping", damping),
+};
+
+static const BodyField BODY_MOTION[CPSI_BODY_MOTIONS] = {
+    {"velocity_of_body", "velocity of the reference point", "m s-1",
+     offsetof(CpsBodyMotion, velocity), VECTOR_OF},
+    {"turn_rate_of_body", "rate of rotation", "rad s-1", offsetof(CpsBodyMotion, turn_rate),
+     VECTOR_OF},
+    {"centre_velocity_of_body", "velocity of the centre of gravity", "m s-1",
+     offsetof(CpsBodyMotion, centre_velocity), VECTOR_OF},
+    {"span_of_body", "k of the scheme, 0: a quasi-static step", "s", offsetof(CpsBodyMotion, span),
+     NUMBER_OF},
+    {"kinetic_of_body", "kinetic energy with that of the added mass", "J",
+     offsetof(CpsBodyMotion, kinetic), NUMBER_OF},
+    {"damped_of_body", "energy dissipated by damping in the step", "J",
+     offsetof(CpsBodyMotion, dissipated), NUMBER_OF},
+    {"ledger_kinetic_of_body", "growth of the kinetic energy", "J",
+     offsetof(CpsBodyMotion, ledger.kinetic), NUMBER_OF},
+    {"ledger_scheme_of_body", "energy lost by the scheme in time", "J",
+     offsetof(CpsBodyMotion, ledger.scheme), NUMBER_OF},
+};
+
 typedef enum BodyInt { BODY_STATE, BODY_TRIALS, BODY_STABLE, BODY_HAS_PLACE } BodyInt;
 
 static const struct {
@@ -306,6 +409,14 @@ void cpsi_netcdf_define_bodies(CpsiNetcdfFile *file, CpsiNetcdfBodies *out,
             cpsi_netcdf_flags(file, out->whole[i], NC_INT, 2, NULL,
                               i == BODY_STATE ? "held free" : "no yes");
     }
+    out->in_time = cpsi_has_duration(scene);
+    if (!out->in_time) return;
+    for (int i = 0; i < CPSI_BODY_MASSES; ++i)
+        out->mass[i] = define_field(file, &MASS[i], constant, xyz, quaternion);
+    for (int i = 0; i < CPSI_BODY_FORCES; ++i)
+        out->force[i] = define_field(file, &FORCE[i], field, xyz, quaternion);
+    for (int i = 0; i < CPSI_BODY_MOTIONS; ++i)
+        out->motion[i] = define_field(file, &BODY_MOTION[i], field, xyz, quaternion);
 }
 
 /* A quantity of `of` at an index; `from` is subtracted from a place, NULL: nothing is. */
@@ -348,7 +459,20 @@ void cpsi_netcdf_write_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodi
         for (int i = 0; i < CPSI_BODY_CONSTANTS; ++i)
             write_field(file, bodies->constant[i], &CONSTANT[i], at, 1, body,
                         CONSTANT[i].offset == offsetof(CpsBody, position) ? origin : NULL);
+        if (bodies->in_time)
+            for (int i = 0; i < CPSI_BODY_MASSES; ++i)
+                write_field(file, bodies->mass[i], &MASS[i], at, 1, body, NULL);
     }
+}
+
+static void append_body_motion(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies,
+                               const size_t at[2], const CpsEvolution *evolution,
+                               const CpsBodyReport *report) {
+    const CpsBodyMotion motion = cps_evolution_body_motion(evolution, (int)at[1]);
+    for (int i = 0; i < CPSI_BODY_FORCES; ++i)
+        write_field(file, bodies->force[i], &FORCE[i], at, 2, report, NULL);
+    for (int i = 0; i < CPSI_BODY_MOTIONS; ++i)
+        write_field(file, bodies->motion[i], &BODY_MOTION[i], at, 2, &motion, NULL);
 }
 
 void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies, size_t step,
@@ -359,6 +483,7 @@ void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bod
         for (int i = 0; i < CPSI_BODY_FIELDS; ++i)
             write_field(file, bodies->field[i], &FIELD[i], at, 2, &report,
                         FIELD[i].offset == offsetof(CpsBodyReport, position) ? origin : NULL);
+        if (bodies->in_time) append_body_motion(file, bodies, at, evolution, &report);
         const int whole[CPSI_BODY_INTS] = {[BODY_STATE] = (int)report.kind,
                                            [BODY_TRIALS] = report.trial_count,
                                            [BODY_STABLE] = report.is_stable,
@@ -556,7 +681,8 @@ void cpsi_netcdf_append_time(CpsiNetcdfFile *file, const CpsiNetcdfTime *ids, si
 }
 
 void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
-                               CpsiNetcdfMotion *ids, const char *line, const int dimension[3]) {
+                               CpsiNetcdfMotion *ids, const char *line, bool has_inertia,
+                               const int dimension[3]) {
     static const struct {
         const char *name, *long_name, *units;
     } ENTRY[CPSI_MOTION_NUMBERS] = {
@@ -569,7 +695,8 @@ void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
         {"landed", "contacts of nodes that began to bear", "1"},
         {"changed", "contacts that went from rest to sliding or back", "1"},
         {"snatched", "elements that went from slack to taut", "1"}};
-    if (!time->is_there) return;
+    ids->is_there = time->is_there && has_inertia;
+    if (!ids->is_there) return;
     const int nodes[] = {dimension[0], dimension[1], dimension[2]};
     ids->mass = cpsi_netcdf_variable(file, line, "node_mass", NC_DOUBLE, 1, &dimension[1],
                                      "mass that moves with the node", "kg");
@@ -586,20 +713,18 @@ void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
                                               ENTRY[i].long_name, ENTRY[i].units);
 }
 
-void cpsi_netcdf_write_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
-                              const CpsiNetcdfMotion *ids, const CpsEvolution *evolution,
-                              int line) {
+void cpsi_netcdf_write_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids,
+                              const CpsEvolution *evolution, int line) {
     const size_t first = 0,
                  nodes = (size_t)cps_evolution_line_view(evolution, line).element_count + 1;
-    if (time->is_there)
+    if (ids->is_there)
         cpsi_netcdf_doubles(file, ids->mass, &first, &nodes,
                             cps_evolution_line_motion(evolution, line).mass);
 }
 
-void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
-                               const CpsiNetcdfMotion *ids, size_t step,
+void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids, size_t step,
                                const CpsEvolution *evolution, int line) {
-    if (!time->is_there) return;
+    if (!ids->is_there) return;
     const CpsLineMotion motion = cps_evolution_line_motion(evolution, line);
     const size_t nodes = (size_t)cps_evolution_line_view(evolution, line).element_count + 1;
     const size_t start[] = {step, 0, 0}, count[] = {1, nodes, XYZ};

@@ -620,6 +620,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
         cpsi_netcdf_define_motion(&nc->file, &nc->time, &nc->line[i].motion, view.name,
+                                  !scene->line[i].quasi_static,
                                   (const int[]){nc->step, nc->line[i].node, nc->xyz});
     }
     if (nc->file.status == NC_NOERR)
@@ -642,7 +643,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         write_sections(nc, &nc->line[i], &view);
         cpsi_netcdf_write_sets(&nc->file, &nc->line[i].sets, &scene->line[i], first.origin);
         cpsi_netcdf_write_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i);
-        cpsi_netcdf_write_motion(&nc->file, &nc->time, &nc->line[i].motion, evolution, i);
+        cpsi_netcdf_write_motion(&nc->file, &nc->line[i].motion, evolution, i);
         if (nc->file.status == NC_NOERR)
             cpsi_netcdf_keep(&nc->file,
                              nc->file.library.put_var_double(nc->file.id, nc->line[i].compliance,
@@ -743,8 +744,7 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
                                        (size_t)view.element_count, &two);
         cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,
                                    evolution, i);
-        cpsi_netcdf_append_motion(&nc->file, &nc->time, &nc->line[i].motion, nc->steps, evolution,
-                                  i);
+        cpsi_netcdf_append_motion(&nc->file, &nc->line[i].motion, nc->steps, evolution, i);
     }
     if (nc->file.status == NC_NOERR && nc->sync)
         cpsi_netcdf_keep(&nc->file, nc->file.library.sync(nc->file.id));

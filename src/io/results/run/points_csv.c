@@ -60,7 +60,24 @@ static const CpsiColumn BODY_COLUMN[] = {
     WRENCH("residual", residual),
 };
 
+#define TURNING(name, unit, member)                                                         \
+    {name "_x", unit, BODY(motion.member[0])}, {name "_y", unit, BODY(motion.member[1])}, { \
+        name "_z", unit, BODY(motion.member[2])                                             \
+    }
+
+/* Where steps have a duration. */
+static const CpsiColumn BODY_MOTION_COLUMN[] = {
+    TURNING("velocity", "m/s", velocity),
+    TURNING("turn_rate", "rad/s", turn_rate),
+    WRENCH("inertia", inertia),
+    WRENCH("damping", damping),
+    {"kinetic", "J", BODY(motion.kinetic)},
+    {"damped", "J", BODY(motion.dissipated)},
+    {"scheme", "J", BODY(motion.ledger.scheme)},
+};
+
 enum {
+    BODY_MOTION_COLUMNS = sizeof BODY_MOTION_COLUMN / sizeof *BODY_MOTION_COLUMN,
     COLUMNS = sizeof COLUMN / sizeof *COLUMN,
     BODY_COLUMNS = sizeof BODY_COLUMN / sizeof *BODY_COLUMN
 };
@@ -98,6 +115,7 @@ static void write_body(FILE *out, const CpsResults *results, const CpsiRow *row,
     cpsi_write_csv(out, results->body[body].name);
     fprintf(out, ",%s", cpsi_body_kind(of->report.kind));
     cpsi_csv_values(out, BODY_COLUMN, BODY_COLUMNS, of);
+    if (results->in_time) cpsi_csv_values(out, BODY_MOTION_COLUMN, BODY_MOTION_COLUMNS, of);
     fprintf(out, ",%d,%d,%d\n", of->report.trial_count, (int)of->report.is_stable,
             (int)of->report.has_place);
 }
@@ -105,8 +123,10 @@ static void write_body(FILE *out, const CpsResults *results, const CpsiRow *row,
 void cpsi_bodies_write(const CpsResults *results, FILE *out) {
     fputs("step,name,body,kind", out);
     cpsi_csv_names(out, BODY_COLUMN, BODY_COLUMNS, NULL);
+    if (results->in_time) cpsi_csv_names(out, BODY_MOTION_COLUMN, BODY_MOTION_COLUMNS, NULL);
     fputs(",trials,stable,has_place\n1,,,", out);
     cpsi_csv_units(out, BODY_COLUMN, BODY_COLUMNS);
+    if (results->in_time) cpsi_csv_units(out, BODY_MOTION_COLUMN, BODY_MOTION_COLUMNS);
     fputs(",1,1,1\n", out);
     for (int r = 0; r < results->row_count; ++r)
         for (int i = 0; i < results->body_count; ++i) write_body(out, results, &results->row[r], i);

@@ -211,6 +211,30 @@ static const CpsiKey DIAGONAL_KEYS[] = {
 };
 static const CpsiMapping DIAGONAL = {"hydrostatics", KEYS(DIAGONAL_KEYS), INTO(Diagonal)};
 
+/* a matrix of a body without coupling, for motion: entries in `force` per `motion`, and of moments
+ */
+#define DIAGONAL_OF(name, KEYS_NAME, unit_x, unit_r, what)                                      \
+    static const CpsiKey KEYS_NAME[] = {                                                        \
+        {"x", OPTIONAL, NUMBER(Diagonal, k[0]), NOT_NEGATIVE, .unit = unit_x, .fallback = "0",  \
+         .help = what "along its x axis"},                                                      \
+        {"y", OPTIONAL, NUMBER(Diagonal, k[1]), NOT_NEGATIVE, .unit = unit_x, .fallback = "0",  \
+         .help = what "along its y axis"},                                                      \
+        {"z", OPTIONAL, NUMBER(Diagonal, k[2]), NOT_NEGATIVE, .unit = unit_x, .fallback = "0",  \
+         .help = what "along its z axis"},                                                      \
+        {"rx", OPTIONAL, NUMBER(Diagonal, k[3]), NOT_NEGATIVE, .unit = unit_r, .fallback = "0", \
+         .help = what "about its x axis"},                                                      \
+        {"ry", OPTIONAL, NUMBER(Diagonal, k[4]), NOT_NEGATIVE, .unit = unit_r, .fallback = "0", \
+         .help = what "about its y axis"},                                                      \
+        {"rz", OPTIONAL, NUMBER(Diagonal, k[5]), NOT_NEGATIVE, .unit = unit_r, .fallback = "0", \
+         .help = what "about its z axis"},                                                      \
+    };                                                                                          \
+    static const CpsiMapping name = {#name, KEYS(KEYS_NAME), INTO(Diagonal)}
+
+DIAGONAL_OF(added_mass, ADDED_KEYS, "kg", "kg m2", "for an acceleration ");
+DIAGONAL_OF(damping, DAMPING_KEYS, "N s/m", "N m s", "against a velocity ");
+DIAGONAL_OF(quadratic_damping, QUADRATIC_KEYS, "N s2/m2", "N m s2",
+            "against the square of a velocity ");
+
 /* directions of a body, in the order of CpsBody */
 #define DIRECTIONS "x y z rx ry rz"
 
@@ -254,6 +278,31 @@ static const CpsiKey SCENE_BODY_KEYS[] = {
      .fallback = "[0, 0, 0]",
      .help = "from its reference point to where the force acts, in the scene's axes, whatever its "
              "rotation: the moment gains arm x force"},
+    {"moments_of_inertia", OPTIONAL, POINT(SceneBody, moments, 3), NOT_NEGATIVE, .unit = "kg m2",
+     .fallback = "[0, 0, 0]",
+     .help = "of its mass about axes through its centre of gravity along its own, for steps in "
+             "time: entries xx, yy, zz of the inertia matrix"},
+    {"products_of_inertia", OPTIONAL, POINT(SceneBody, products, 3), ANY, .unit = "kg m2",
+     .with = "moments_of_inertia", .fallback = "[0, 0, 0]",
+     .help = "entries xy, xz, yz of the same matrix: of masses m at (x, y, z) the sums of -m x y, "
+             "-m x z and -m y z"},
+    {"added_mass", OPTIONAL, ROWS(SceneBody, added_mass, 6), 6, 6, false,
+     .other = &(const CpsiKey){.type = MAPPING(SceneBody, added_diagonal), .inside = &added_mass},
+     .fallback = "{}",
+     .help = "[kg, kg m, kg m2] of the water that moves with it, about the reference point in its "
+             "own axes: 6 symmetric rows, or the diagonal by direction"},
+    {"damping", OPTIONAL, ROWS(SceneBody, damping, 6), 6, 6, false,
+     .other = &(const CpsiKey){.type = MAPPING(SceneBody, damping_diagonal), .inside = &damping},
+     .fallback = "{}",
+     .help = "[N s/m, N s, N m s] force and moment per velocity of the reference point and rate of "
+             "rotation in its own axes, against them: 6 rows, or the diagonal by direction"},
+    {"quadratic_damping", OPTIONAL, MAPPING(SceneBody, quadratic), .inside = &quadratic_damping,
+     .fallback = "{}", .help = "the same per square of each velocity, by direction"},
+    {"velocity", OPTIONAL, POINT(SceneBody, velocity, 3), ANY, .unit = "m/s", .with = "free",
+     .fallback = "[0, 0, 0]", .help = "of its reference point as the history begins"},
+    {"turn_rate", OPTIONAL, POINT(SceneBody, turn_rate, 3), ANY, .unit = "rad/s", .with = "free",
+     .fallback = "[0, 0, 0]",
+     .help = "its rate of rotation as the history begins, in the axes of the scene"},
 };
 
 static void begin_scene_body(void *values) {
@@ -293,12 +342,17 @@ static const CpsiKey SCENE_POINT_KEYS[] = {
     {"drags", OPTIONAL, FLAG(ScenePoint, point.drags), .with = "holding_capacity",
      .help = "the anchor gives way along the ground to a force above its capacity; false unless "
              "given"},
+    {"inertia", OPTIONAL, NUMBER(ScenePoint, inertia), NOT_NEGATIVE, .unit = "kg",
+     .help = "mass that moves in time, with the water that goes along; by default its mass, 0 of a "
+             "weight"},
+    {"velocity", OPTIONAL, POINT(ScenePoint, point.velocity, 3), ANY, .unit = "m/s", .with = "free",
+     .fallback = "[0, 0, 0]", .help = "of a free point as the history begins"},
 };
 
 static void begin_scene_point(void *values) {
     CpsiScenePointValues *point = values;
     point->point = cps_point_default();
-    point->mass = point->point.holding_capacity = point->point.uplift_limit = NAN;
+    point->mass = point->inertia = point->point.holding_capacity = point->point.uplift_limit = NAN;
 }
 
 static const CpsiMapping SCENE_POINT = {"point", KEYS(SCENE_POINT_KEYS), INTO(ScenePoint),
@@ -625,6 +679,8 @@ static const CpsiKey LINE_KEYS[] = {
              "default its mass, 0 of a weight"},
     {"velocity", OPTIONAL, POINT(Line, line.velocity, 3), ANY, .unit = "m/s",
      .fallback = "[0, 0, 0]", .help = "of its free nodes as the history begins"},
+    {"quasi_static", OPTIONAL, FLAG(Line, line.quasi_static), .fallback = "false",
+     .help = "in time it follows what moves it, without inertia"},
     {"sections", ONE_OF, LIST(Line, sections, 1), .inside = &SECTION,
      .help = "stretches of different types, in order from A to B"},
     {"diameter", OPTIONAL, NUMBER(Line, diameter), NOT_NEGATIVE, .unit = "m", .with = "mass",

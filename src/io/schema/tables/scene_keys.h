@@ -54,6 +54,7 @@ typedef struct CpsiScenePointValues {
     const CpsiYaml *node; /* the key is the name */
     CpsPoint point;
     double mass, volume; /* mass: NaN: not given */
+    double inertia;      /* NaN: not given */
     const char *body;    /* name of the body that it is on */
     double at[3];        /* [m] in its axes */
 } CpsiScenePointValues;
@@ -70,9 +71,13 @@ typedef struct CpsiSceneBodyValues {
     CpsBody body;
     double mass, volume; /* NaN: not given */
     CpsiRotationValues rotation;
-    CpsiNumberRows hydrostatics; /* (6, 6) */
-    CpsiDiagonalValues diagonal; /* .. or these */
-    double arm[3];               /* [m] of the force */
+    CpsiNumberRows hydrostatics;        /* (6, 6) */
+    CpsiDiagonalValues diagonal;        /* .. or these */
+    CpsiNumberRows added_mass, damping; /* (6, 6) .. or these */
+    CpsiDiagonalValues added_diagonal, damping_diagonal, quadratic;
+    double moments[3], products[3];   /* [kg m2] */
+    double velocity[3], turn_rate[3]; /* [m/s], [rad/s] */
+    double arm[3];                    /* [m] of the force */
 } CpsiSceneBodyValues;
 
 typedef struct CpsiZoneValues {

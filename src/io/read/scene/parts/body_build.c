@@ -67,6 +67,30 @@ static CpsStatus check_body(const CpsiMaterials *m, const CpsiSceneBodyValues *v
     return status;
 }
 
+/* A matrix given as rows or as its diagonal. */
+static void build_matrix(const CpsiNumberRows *rows, const CpsiDiagonalValues *diagonal,
+                         double out[36]) {
+    if (rows->node) memcpy(out, rows->x, 36 * sizeof *out);
+    if (diagonal->node)
+        for (int i = 0; i < CPS_BODY_DIRECTIONS; i++)
+            out[(CPS_BODY_DIRECTIONS + 1) * i] = diagonal->k[i];
+}
+
+/* Of steps in time; what is given by its weight has the mass that weighs it. */
+static void build_motion(const CpsiMaterials *m, const CpsiSceneBodyValues *values, CpsBody *body) {
+    body->mass = !isnan(values->mass) ? values->mass
+                 : m->gravity > 0     ? body->weight / m->gravity
+                                      : 0;
+    copy_vector(body->inertia, values->moments);
+    copy_vector(&body->inertia[3], values->products);
+    copy_vector(body->velocity, values->velocity);
+    copy_vector(&body->velocity[3], values->turn_rate);
+    build_matrix(&values->added_mass, &values->added_diagonal, body->added_mass);
+    build_matrix(&values->damping, &values->damping_diagonal, body->damping);
+    if (values->quadratic.node)
+        memcpy(body->quadratic_damping, values->quadratic.k, sizeof body->quadratic_damping);
+}
+
 static CpsStatus build_body(const CpsiMaterials *m, const CpsiSceneBodyValues *values,
                             CpsBody *body) {
     const CpsiYaml *name = values->node;
@@ -78,12 +102,9 @@ static CpsStatus build_body(const CpsiMaterials *m, const CpsiSceneBodyValues *v
     if (values->rotation.node) cpsi_rotation_build(&values->rotation, body->rotation);
     if (!isnan(values->mass)) body->weight = values->mass * m->gravity;
     if (!isnan(values->volume)) body->buoyancy = m->water * values->volume * m->gravity;
-    if (values->hydrostatics.node)
-        memcpy(body->hydrostatics, values->hydrostatics.x, sizeof body->hydrostatics);
-    if (values->diagonal.node)
-        for (int i = 0; i < CPS_BODY_DIRECTIONS; i++)
-            body->hydrostatics[(CPS_BODY_DIRECTIONS + 1) * i] = values->diagonal.k[i];
+    build_matrix(&values->hydrostatics, &values->diagonal, body->hydrostatics);
     add_arm(values->arm, body->force, body->moment);
+    build_motion(m, values, body);
     return CPS_OK;
 }
 

@@ -20,15 +20,14 @@ static CpsStatus submerged(const CpsiMaterials *m, const CpsiYaml *place, double
                               diameter, mass, *weight);
 }
 
-/* The mass that moves: as given, else the mass of what is given by that. */
-static double inertia_of(double inertia, double mass) {
+double cpsi_moving_mass(double inertia, double mass) {
     if (!isnan(inertia)) return inertia;
     return isnan(mass) ? 0 : mass;
 }
 
 CpsStatus cpsi_line_weight_build(const CpsiMaterials *m, const CpsiLineValues *values,
                                  CpsLine *line) {
-    line->inertia = inertia_of(values->inertia, values->mass);
+    line->inertia = cpsi_moving_mass(values->inertia, values->mass);
     if (isnan(values->mass)) return CPS_OK;
     return submerged(m, values->node, values->mass, values->diameter, &line->weight);
 }
@@ -161,7 +160,7 @@ static CpsStatus build_section(const CpsiMaterials *m, const CpsiSectionValues *
     *section = (CpsSection){.type = cpsi_pool_text(m->pool, values->type, strlen(values->type)),
                             .length = values->length,
                             .weight = (*type)->weight,
-                            .inertia = inertia_of((*type)->inertia, (*type)->mass),
+                            .inertia = cpsi_moving_mass((*type)->inertia, (*type)->mass),
                             .stiffness = (*type)->stiffness,
                             .has_breaking_load = !isnan((*type)->breaking_load),
                             .has_break_at = !isnan((*type)->break_at)};
@@ -238,7 +237,7 @@ CpsStatus cpsi_point_weights_build(const CpsiMaterials *m, const CpsiList *point
             (CpsPointWeight){.arc_length = values[k].at,
                              .weight = cpsi_weight_in_water(m, values[k].mass, values[k].volume,
                                                             values[k].weight),
-                             .inertia = inertia_of(values[k].inertia, values[k].mass)};
+                             .inertia = cpsi_moving_mass(values[k].inertia, values[k].mass)};
     line->point_weight = point;
     line->point_weight_count = points->count;
     return CPS_OK;

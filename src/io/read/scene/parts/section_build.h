@@ -49,6 +49,10 @@ CpsStatus cpsi_sections_build(const CpsiMaterials *materials, const CpsiLineValu
 
 /* [N] The weight of a clump or a buoy of this mass [kg], NaN: not given, and volume [m3]; else
  * `weight`. */
+/* [kg, kg/m] The mass that moves: as given, else the mass of what is given by that; NaN: not given.
+ */
+double cpsi_moving_mass(double inertia, double mass);
+
 double cpsi_weight_in_water(const CpsiMaterials *materials, double mass, double volume,
                             double weight);
 

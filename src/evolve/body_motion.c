@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bodies in time (body_motion.h). */
+#include "evolve/body_motion.h"
+
+#include <math.h>
+
+#include "evolve/bodies.h"
+#include "evolve/points.h"
+
+/* [rad] Below this angle the series of the rate of rotation is used: its error is the fourth
+ * power. */
+static const double SMALL = 1e-3;
+/* Derivatives are central differences: the error of the square of this is rounding. */
+static const double DIFFERENCE = 1e-5;
+
+/* w of the rotation vector t and its rate. */
+static Vec3 rate_of(Vec3 t, Vec3 rate) {
+    const double square = vec3_dot(t, t), size = sqrt(square);
+    const double once = size > SMALL ? (1 - cos(size)) / square : 0.5 - square / 24,
+                 twice =
+                     size > SMALL ? (size - sin(size)) / (size * square) : 1.0 / 6 - square / 120;
+    const Vec3 turned = vec3_cross(t, rate);
+    return vec3_axpy(twice, vec3_cross(t, turned), vec3_axpy(once, turned, rate));
+}
+
+/* J w about the centre of gravity, J in the axes of the body. */
+static Vec3 angular_momentum(const CpsBody *given, Rotation turn, Vec3 rate) {
+    const double *j = given->inertia;
+    const Vec3 w = rotation_apply(rotation_inverse(turn), rate);
+    const Vec3 l = vec3(j[0] * w.x + j[3] * w.y + j[4] * w.z, j[3] * w.x + j[1] * w.y + j[5] * w.z,
+                        j[4] * w.x + j[5] * w.y + j[2] * w.z);
+    return rotation_apply(turn, l);
+}
+
+/* u in the axes of the body: velocity of the reference point and rate of rotation. */
+static void to_body(const CpsiBodyPhase *at, double u[6]) {
+    const Rotation back = rotation_inverse(at->turn);
+    vec3_store(u, rotation_apply(back, at->velocity));
+    vec3_store(&u[3], rotation_apply(back, at->rate));
+}
+
+/* Find the momenta of velocities. */
+static void find_momenta(const CpsBody *given, CpsiBodyPhase *at) {
+    double u[6], p[6] = {0};
+    to_body(at, u);
+    for (int i = 0; i < 6; i++)
+        for (int k = 0; k < 6; k++) p[i] += given->added_mass[6 * i + k] * u[k];
+    at->angular = angular_momentum(given, at->turn, at->rate);
+    at->water = rotation_apply(at->turn, vec3_load(p));
+    at->water_angular = rotation_apply(at->turn, vec3_load(&p[3]));
+}
+
+static double kinetic_energy(const CpsBody *given, const CpsiBodyPhase *at) {
+    return 0.5 * (given->mass * vec3_dot(at->centre_velocity, at->centre_velocity) +
+                  vec3_dot(at->angular, at->rate) + vec3_dot(at->water, at->velocity) +
+                  vec3_dot(at->water_angular, at->rate));
+}
+
+static Vec3 centre_of(const CpsBody *given, const CpsiPose *pose) {
+    return cpsi_pose_place(pose, given->centre_of_gravity);
+}
+
+/* A body at rest in its pose. */
+static CpsiBodyPhase at_rest(const CpsiBody *body) {
+    return (CpsiBodyPhase){.place = body->pose.place,
+                           .centre = centre_of(&body->given, &body->pose),
+                           .turn = body->pose.turn};
+}
+
+void cpsi_body_motion_start(CpsEvolution *evolution) {
+    for (int i = 0; i < evolution->bodies.count; i++) {
+        CpsiBody *body = &evolution->bodies.body[i];
+        const double *v = body->given.velocity;
+        CpsiBodyPhase *now = &body->inertia.now;
+        *now = at_rest(body);
+        body->inertia.restarts = true;
+        if (body->kind == CPS_BODY_KIND_FREE) {
+            now->velocity = vec3_load(v);
+            now->rate = vec3_load(&v[3]);
+        }
+        now->centre_velocity =
+            vec3_add(now->velocity, vec3_cross(now->rate, vec3_sub(now->centre, now->place)));
+        find_momenta(&body->given, now);
+        body->inertia.kinetic = kinetic_energy(&body->given, now);
+    }
+}
+
+/* a, or (4 a - b)/3 */
+static Vec3 star(bool euler, Vec3 a, Vec3 b) {
+    return euler ? a : vec3_axpy(1.0 / 3, vec3_sub(a, b), a);
+}
+
+void cpsi_body_motion_predict(CpsEvolution *evolution) {
+    for (int i = 0; i < evolution->bodies.count; i++) {
+        CpsiBodyInertia *inertia = &evolution->bodies.body[i].inertia;
+        const CpsiBodyPhase *a = &inertia->now, *b = &inertia->before;
+        const bool euler = evolution->time_scheme == CPS_TIME_SCHEME_EULER || evolution->restarts ||
+                           inertia->restarts;
+        const Vec3 back = euler
+                              ? vec3(0, 0, 0)
+                              : rotation_vector(rotation_after(b->turn, rotation_inverse(a->turn)));
+        inertia->is_moving = true;
+        inertia->span = euler ? evolution->interval : 2 * evolution->interval / 3;
+        inertia->rest =
+            (CpsiBodyPhase){.place = star(euler, a->place, b->place),
+                            .centre = star(euler, a->centre, b->centre),
+                            .turn = a->turn,
+                            .velocity = star(euler, a->velocity, b->velocity),
+                            .centre_velocity = star(euler, a->centre_velocity, b->centre_velocity),
+                            .rate = vec3_scale(-1.0 / 3, back),
+                            .angular = star(euler, a->angular, b->angular),
+                            .water = star(euler, a->water, b->water),
+                            .water_angular = star(euler, a->water_angular, b->water_angular)};
+    }
+}
+
+/* The phase after the step in a pose. */
+static CpsiBodyPhase phase_in(const CpsiBody *body, const CpsiPose *pose) {
+    const CpsiBodyInertia *inertia = &body->inertia;
+    const CpsiBodyPhase *rest = &inertia->rest;
+    const double by = 1 / inertia->span;
+    const Vec3 t = rotation_vector(rotation_after(pose->turn, rotation_inverse(rest->turn)));
+    CpsiBodyPhase out = {.place = pose->place,
+                         .centre = centre_of(&body->given, pose),
+                         .turn = pose->turn,
+                         .rate = rate_of(t, vec3_scale(by, vec3_sub(t, rest->rate)))};
+    out.velocity = vec3_scale(by, vec3_sub(out.place, rest->place));
+    out.centre_velocity = vec3_scale(by, vec3_sub(out.centre, rest->centre));
+    find_momenta(&body->given, &out);
+    return out;
+}
+
+CpsiPose cpsi_body_motion_guess(const CpsiBody *body) {
+    const CpsiBodyInertia *inertia = &body->inertia;
+    const CpsiBodyPhase *now = &inertia->now, *rest = &inertia->rest;
+    return (CpsiPose){vec3_axpy(inertia->span, rest->velocity, rest->place),
+                      rotation_after(rotation_of(vec3_axpy(inertia->span, now->rate, rest->rate)),
+                                     now->turn)};
+}
+
+/* Of the momenta of a phase and of the scheme, minus their rates. */
+static CpsiWrench inertia_of(const CpsiBody *body, const CpsiBodyPhase *at) {
+    const CpsiBodyPhase *rest = &body->inertia.rest;
+    const double by = -1 / body->inertia.span;
+    const Vec3 mass = vec3_scale(by * body->given.mass,
+                                 vec3_sub(at->centre_velocity, rest->centre_velocity)),
+               water = vec3_scale(by, vec3_sub(at->water, rest->water)),
+               spin = vec3_scale(by, vec3_sub(at->angular, rest->angular)),
+               water_spin = vec3_scale(by, vec3_sub(at->water_angular, rest->water_angular));
+    const Vec3 arm = vec3_sub(at->centre, at->place);
+    Vec3 moment = vec3_add(vec3_add(spin, water_spin), vec3_cross(arm, mass));
+    moment = vec3_sub(moment, vec3_cross(at->velocity, at->water));
+    return (CpsiWrench){vec3_add(mass, water), moment};
+}
+
+static CpsiWrench damping_of(const CpsiBody *body, const CpsiBodyPhase *at) {
+    const CpsBody *given = &body->given;
+    double u[6], f[6];
+    to_body(at, u);
+    for (int i = 0; i < 6; i++) {
+        f[i] = -given->quadratic_damping[i] * fabs(u[i]) * u[i];
+        for (int k = 0; k < 6; k++) f[i] -= given->damping[6 * i + k] * u[k];
+    }
+    return (CpsiWrench){rotation_apply(at->turn, vec3_load(f)),
+                        rotation_apply(at->turn, vec3_load(&f[3]))};
+}
+
+CpsiWrench cpsi_body_inertia(const CpsiBody *body, const CpsiPose *pose) {
+    const CpsiBodyPhase at = phase_in(body, pose);
+    return inertia_of(body, &at);
+}
+
+CpsiWrench cpsi_body_damping(const CpsiBody *body, const CpsiPose *pose) {
+    const CpsiBodyPhase at = phase_in(body, pose);
+    return damping_of(body, &at);
+}
+
+void cpsi_body_motion_stiffness(const CpsiBody *body, const CpsiPose *pose, double stiffness[36]) {
+    for (int k = 0; k < 6; k++) {
+        double by[2][6];
+        const double size = k < 3 ? DIFFERENCE * body->arm : DIFFERENCE;
+        for (int side = 0; side < 2; side++) {
+            double move[6] = {0};
+            move[k] = side ? size : -size;
+            const CpsiPose to = {vec3_add(pose->place, vec3_load(move)),
+                                 rotation_after(rotation_of(vec3_load(&move[3])), pose->turn)};
+            const CpsiBodyPhase at = phase_in(body, &to);
+            const CpsiWrench inertia = inertia_of(body, &at), damping = damping_of(body, &at);
+            vec3_store(by[side], vec3_add(inertia.force, damping.force));
+            vec3_store(&by[side][3], vec3_add(inertia.moment, damping.moment));
+        }
+        for (int i = 0; i < 6; i++) stiffness[6 * i + k] -= (by[1][i] - by[0][i]) / (2 * size);
+    }
+}
+
+/* ledger --------------------------------------------------------------------------------------- */
+
+/* What forces do in the step by their values after it on the motion d and t, beyond what they do on
+ * the way of the place at which they act: that place turns on a circle. */
+static double beyond(Vec3 force, Vec3 arm, Rotation step) {
+    const Vec3 t = rotation_vector(step), before = rotation_apply(rotation_inverse(step), arm);
+    return vec3_dot(force, vec3_sub(vec3_cross(t, arm), vec3_sub(arm, before)));
+}
+
+/* Beyond: lines, weight and buoyancy, and the water's stiffness, of which the energy is stored. */
+static double beyond_all(const CpsEvolution *evolution, const CpsiBody *body, Rotation step,
+                         const double motion[6]) {
+    const CpsiPoints *points = &evolution->points;
+    const Vec3 g = vec3_load(evolution->gravity);
+    const CpsiPose from = {body->inertia.now.place, body->inertia.now.turn};
+    double sum =
+        beyond(vec3_scale(body->mass, g),
+               rotation_apply(body->pose.turn, vec3_load(body->given.centre_of_gravity)), step) +
+        beyond(vec3_scale(-body->lift, g),
+               rotation_apply(body->pose.turn, vec3_load(body->given.centre_of_buoyancy)), step);
+    for (int i = 0; i < 2 * evolution->line_count; i++) {
+        const int point = points->tie[i];
+        if (point == CPSI_NO_POINT) continue;
+        const CpsPoint *given = &points->given[point];
+        if (given->kind != CPS_POINT_KIND_ON_BODY || &evolution->bodies.body[given->body] != body)
+            continue;
+        const Vec3 pull = vec3_scale(-1, vec3_load(evolution->line[i / 2].report.end[i % 2].force));
+        sum += beyond(pull, rotation_apply(body->pose.turn, vec3_load(given->position)), step);
+    }
+    const CpsiWrench water = cpsi_body_water(body, &body->pose);
+    sum += vec3_dot(water.force, vec3_load(motion)) + vec3_dot(water.moment, vec3_load(&motion[3]));
+    return sum + cpsi_body_water_energy(body, &body->pose) - cpsi_body_water_energy(body, &from);
+}
+
+static void advance(const CpsEvolution *evolution, CpsiBody *body) {
+    CpsiBodyInertia *inertia = &body->inertia;
+    const CpsiBodyPhase at = phase_in(body, &body->pose);
+    const Rotation step = rotation_after(body->pose.turn, rotation_inverse(inertia->now.turn));
+    const double kinetic = kinetic_energy(&body->given, &at);
+    double motion[6], work[2] = {0, 0};
+    vec3_store(motion, vec3_sub(at.place, inertia->now.place));
+    vec3_store(&motion[3], rotation_vector(step));
+    for (int i = 0; i < 6; i++) {
+        work[0] -= body->report.inertia[i] * motion[i];
+        work[1] -= body->report.damping[i] * motion[i];
+    }
+    CpsMotionLedger *ledger = &inertia->ledger;
+    *ledger = (CpsMotionLedger){.kinetic = kinetic - inertia->kinetic};
+    ledger->scheme = work[0] - ledger->kinetic + beyond_all(evolution, body, step, motion);
+    inertia->dissipated = work[1];
+    ledger->turnover = fabs(ledger->kinetic) + fabs(ledger->scheme) + fabs(work[1]);
+    inertia->kinetic = kinetic;
+    inertia->before = inertia->now;
+    inertia->now = at;
+    inertia->restarts = false;
+}
+
+void cpsi_body_motion_advance(CpsEvolution *evolution) {
+    for (int i = 0; i < evolution->bodies.count; i++)
+        advance(evolution, &evolution->bodies.body[i]);
+}
+
+void cpsi_body_motion_stop(CpsEvolution *evolution) {
+    for (int i = 0; i < evolution->bodies.count; i++) {
+        CpsiBody *body = &evolution->bodies.body[i];
+        body->inertia = (CpsiBodyInertia){.restarts = true, .now = at_rest(body)};
+    }
+}

@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Points in time (point_motion.h). */
+#include "evolve/point_motion.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "evolve/bodies.h"
+#include "evolve/points.h"
+
+/* The end of a line with inertia that is at a point. */
+typedef struct LineEnd {
+    CpsiInertia *inertia;
+    int node;
+    CpsiPoint *point;
+} LineEnd;
+
+/* LineEnd number k = 0 .. 2 lines - 1; false: it is no such end. */
+static bool take_end(CpsEvolution *evolution, int k, LineEnd *out) {
+    CpsiLine *line = &evolution->line[k / 2];
+    const int point = evolution->points.tie[k];
+    if (point == CPSI_NO_POINT || !line->has_inertia) return false;
+    *out = (LineEnd){&line->inertia, k % 2 == CPS_END_A ? 0 : line->n - 1,
+                     &evolution->points.point[point]};
+    return true;
+}
+
+/* The velocity with which a point begins. */
+static Vec3 first_velocity(const CpsEvolution *evolution, int index) {
+    const CpsPoint *given = &evolution->points.given[index];
+    if (given->kind == CPS_POINT_KIND_FREE) return vec3_load(given->velocity);
+    if (given->kind != CPS_POINT_KIND_ON_BODY) return vec3(0, 0, 0);
+    const CpsiBody *body = &evolution->bodies.body[given->body];
+    const CpsiBodyPhase *now = &body->inertia.now;
+    const Vec3 arm = rotation_apply(body->pose.turn, vec3_load(given->position));
+    return vec3_add(now->velocity, vec3_cross(now->rate, arm));
+}
+
+static double kinetic_energy(double mass, const double v[3]) {
+    return 0.5 * mass * vec3_dot(vec3_load(v), vec3_load(v));
+}
+
+void cpsi_point_motion_start(CpsEvolution *evolution) {
+    for (int i = 0; i < evolution->points.count; i++) {
+        CpsiPoint *point = &evolution->points.point[i];
+        CpsiPointInertia *inertia = &point->inertia;
+        inertia->mass = evolution->points.given[i].inertia;
+        inertia->restarts = true;
+        vec3_store(inertia->velocity, first_velocity(evolution, i));
+        memcpy(inertia->before, point->position, sizeof inertia->before);
+        inertia->kinetic = kinetic_energy(inertia->mass, inertia->velocity);
+    }
+    LineEnd end;
+    for (int k = 0; k < 2 * evolution->line_count; k++) {
+        if (!take_end(evolution, k, &end)) continue;
+        const double *v = end.point->inertia.velocity;
+        memcpy(&end.inertia->velocity[3 * end.node], v, 3 * sizeof *v);
+        end.inertia->kinetic += kinetic_energy(end.inertia->mass[end.node], v);
+    }
+}
+
+void cpsi_point_motion_join(CpsEvolution *evolution) {
+    LineEnd end;
+    for (int k = 0; k < 2 * evolution->line_count; k++)
+        if (take_end(evolution, k, &end) && end.inertia->restarts[end.node])
+            end.point->inertia.restarts = true;
+    for (int k = 0; k < 2 * evolution->line_count; k++)
+        if (take_end(evolution, k, &end))
+            end.inertia->restarts[end.node] = end.point->inertia.restarts;
+}
+
+void cpsi_point_motion_predict(CpsEvolution *evolution) {
+    const double h = evolution->interval;
+    for (int i = 0; i < evolution->points.count; i++) {
+        CpsiPoint *point = &evolution->points.point[i];
+        CpsiPointInertia *inertia = &point->inertia;
+        const bool euler = evolution->time_scheme == CPS_TIME_SCHEME_EULER || evolution->restarts ||
+                           inertia->restarts;
+        inertia->is_moving = true;
+        inertia->span = euler ? h : 2 * h / 3;
+        for (int a = 0; a < 3; a++) {
+            const double x = point->before[a], v = inertia->velocity[a];
+            inertia->reference[a] = euler ? x : x + (x - inertia->before[a]) / 3;
+            inertia->rest_velocity[a] = euler ? v : v + (v - inertia->before_velocity[a]) / 3;
+        }
+    }
+}
+
+Vec3 cpsi_point_inertia(const CpsiPoint *point, Vec3 place) {
+    const CpsiPointInertia *inertia = &point->inertia;
+    if (!(inertia->mass > 0)) return vec3(0, 0, 0);
+    const Vec3 velocity =
+        vec3_scale(1 / inertia->span, vec3_sub(place, vec3_load(inertia->reference)));
+    return vec3_scale(-inertia->mass / inertia->span,
+                      vec3_sub(velocity, vec3_load(inertia->rest_velocity)));
+}
+
+double cpsi_point_inertia_stiffness(const CpsiPoint *point) {
+    return point->inertia.mass / (point->inertia.span * point->inertia.span);
+}
+
+static bool bears_now(const CpsiPoint *point) {
+    return point->kind == CPS_POINT_KIND_FREE && point->report.reaction > 0;
+}
+
+/* Take the part along the unit vector n out of v. */
+static void stop_along(double v[3], Vec3 n) {
+    vec3_store(v, vec3_axpy(-vec3_dot(vec3_load(v), n), n, vec3_load(v)));
+}
+
+/* The energy of the part of v along n, where it goes against n. */
+static double energy_of_landing(double mass, const double v[3], Vec3 n) {
+    const double rate = fmin(0, vec3_dot(vec3_load(v), n));
+    return 0.5 * mass * rate * rate;
+}
+
+/* The ledger of the step, by the values after it, before what bears is stopped. */
+static void close_ledger(CpsiPoint *point, const double velocity[3]) {
+    CpsiPointInertia *inertia = &point->inertia;
+    CpsPointReport *report = &point->report;
+    const Vec3 way = vec3_sub(vec3_load(point->position), vec3_load(point->before)),
+               n = vec3_load(report->normal);
+    const double gained = kinetic_energy(inertia->mass, velocity) - inertia->kinetic;
+    CpsMotionLedger *ledger = &inertia->ledger;
+    *ledger = (CpsMotionLedger){.kinetic = gained};
+    ledger->scheme = -vec3_dot(vec3_load(report->inertia), way) - gained;
+    report->dissipated = 0;
+    if (bears_now(point)) {
+        report->dissipated = -vec3_dot(vec3_load(report->friction), way);
+        ledger->scheme -= report->reaction * vec3_dot(n, way);
+        ledger->impact =
+            inertia->landed ? energy_of_landing(inertia->mass, inertia->velocity, n) : 0;
+        ledger->scheme -= ledger->impact;
+    }
+}
+
+static void add_turnover(const CpsPointReport *report, CpsMotionLedger *ledger) {
+    ledger->turnover = fabs(report->dissipated) + fabs(ledger->kinetic) + fabs(ledger->impact) +
+                       fabs(ledger->scheme);
+}
+
+/* The end of a line follows its point; where that bears, and has been stopped along the normal, the
+ * line loses the energy. */
+static void follow(const LineEnd *end) {
+    const CpsiPointInertia *inertia = &end->point->inertia;
+    CpsiInertia *of = end->inertia;
+    const double mass = of->mass[end->node];
+    /* a line at a held point may have taken this step as another one than the point */
+    if (of->span[end->node] != inertia->span) return;
+    const Vec3 n = vec3_load(end->point->report.normal);
+    double *v = &of->velocity[3 * end->node], *v0 = &of->before_velocity[3 * end->node];
+    if (bears_now(end->point)) {
+        const double impact = inertia->landed ? energy_of_landing(mass, v0, n) : 0,
+                     lost = kinetic_energy(mass, v) - kinetic_energy(mass, inertia->velocity);
+        of->kinetic -= lost;
+        of->ledger.kinetic -= lost;
+        of->ledger.scheme += lost - impact;
+        of->ledger.impact += impact;
+    }
+    memcpy(v, inertia->velocity, sizeof inertia->velocity);
+    memcpy(v0, inertia->before_velocity, sizeof inertia->before_velocity);
+    memcpy(&of->before[3 * end->node], inertia->before, sizeof inertia->before);
+    of->restarts[end->node] = of->restarts[end->node] || inertia->restarts;
+}
+
+void cpsi_point_motion_advance(CpsEvolution *evolution) {
+    for (int i = 0; i < evolution->points.count; i++) {
+        CpsiPoint *point = &evolution->points.point[i];
+        CpsiPointInertia *inertia = &point->inertia;
+        const CpsPointReport *report = &point->report;
+        const bool bears = bears_now(point);
+        const Vec3 n = vec3_load(report->normal);
+        double velocity[3];
+        for (int a = 0; a < 3; a++)
+            velocity[a] = (point->position[a] - inertia->reference[a]) / inertia->span;
+        inertia->landed = bears && !inertia->bore;
+        close_ledger(point, velocity);
+        memcpy(inertia->before, point->before, sizeof inertia->before);
+        memcpy(inertia->before_velocity, inertia->velocity, sizeof inertia->before_velocity);
+        memcpy(inertia->velocity, velocity, sizeof velocity);
+        inertia->kinetic = kinetic_energy(inertia->mass, velocity);
+        if (bears) {
+            const Vec3 way = vec3_sub(vec3_load(point->position), vec3_load(point->before));
+            vec3_store(inertia->before, vec3_axpy(vec3_dot(way, n), n, vec3_load(point->before)));
+            stop_along(inertia->velocity, n);
+            stop_along(inertia->before_velocity, n);
+            const double now = kinetic_energy(inertia->mass, inertia->velocity),
+                         lost = inertia->kinetic - now;
+            inertia->kinetic = now;
+            inertia->ledger.kinetic -= lost;
+            inertia->ledger.scheme += lost;
+        }
+        add_turnover(report, &inertia->ledger);
+        inertia->bore = bears;
+        inertia->restarts = inertia->landed;
+    }
+    LineEnd end;
+    for (int k = 0; k < 2 * evolution->line_count; k++)
+        if (take_end(evolution, k, &end)) follow(&end);
+}
+
+void cpsi_point_motion_stop(CpsEvolution *evolution) {
+    for (int i = 0; i < evolution->points.count; i++) {
+        CpsiPoint *point = &evolution->points.point[i];
+        const double mass = point->inertia.mass;
+        point->inertia =
+            (CpsiPointInertia){.mass = mass, .restarts = true, .bore = bears_now(point)};
+        memcpy(point->inertia.before, point->position, sizeof point->inertia.before);
+    }
+}

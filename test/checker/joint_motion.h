@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Points and bodies in steps in time: their inertia and damping, derived anew from places,
+ * velocities and the time of the file, its scheme, and their kinetic energies. */
+#ifndef CAPSTAN_CHECKER_JOINT_MOTION_H
+#define CAPSTAN_CHECKER_JOINT_MOTION_H
+
+#include "bodies.h"
+
+/* A point after a step; all 0 in a file without steps in time. */
+typedef struct PointMotion {
+    Vector inertia, velocity, reference, rest_velocity;
+    double mass, span, kinetic, growth, impact, scheme;
+} PointMotion;
+
+/* A body likewise; matrices row by row. */
+typedef struct BodyMotion {
+    double mass, moments[3], products[3], added[SIX * SIX], damping[SIX * SIX], quadratic[SIX];
+    double inertia[SIX], damped[SIX];
+    Vector velocity, rate, centre_velocity;
+    double span, kinetic, lost, growth, scheme;
+} BodyMotion;
+
+/* Read the points, or the bodies, of a step. Return 0, or -1 after a sentence on log. */
+int point_motions_read(const Source *source, size_t step, PointMotion *all, FILE *log);
+int body_motions_read(const Source *source, size_t count, size_t step, BodyMotion *all, FILE *log);
+
+/* [s] The time after a step; 0 in a file without. */
+double time_of(const Source *source, size_t step);
+
+typedef void MotionFind(void *user, const char *what, double said, double expected);
+
+/* Three steps of a point, the last first; `older` or both NULL where there are none. */
+typedef struct PointSteps {
+    const Junction *now, *before, *older;
+    const PointMotion *motion, *motion_before, *motion_older;
+    double h, reach; /* [s] length of the step; [m] of the largest coordinate */
+    bool is_free;
+} PointSteps;
+void point_motion_check(const PointSteps *steps, MotionFind *find, void *user);
+
+/* ... and of a body. */
+typedef struct BodySteps {
+    const BodyData *data;
+    const BodyState *now, *before, *older;
+    const BodyMotion *motion, *motion_before, *motion_older;
+    double h, reach;
+} BodySteps;
+void body_motion_check(const BodySteps *steps, MotionFind *find, void *user);
+
+#endif
