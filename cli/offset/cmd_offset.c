@@ -98,6 +98,20 @@ static int find_body(Offsets *offsets) {
     return usage("--body", name, "the name of a body of the scene");
 }
 
+/* Offsets are those of lines at rest: a history that ends in motion has no place to begin from. */
+static int check_history(const CpsScene *scene) {
+    for (int k = 0; k < scene->stage_count; ++k)
+        if (scene->stage[k].duration > 0) {
+            fputs("capstan offset: ", stderr);
+            cli_printf(stderr,
+                       "step '%.80s' of the history has a duration, and offsets are those "
+                       "of lines at rest: leave its duration out\n",
+                       scene->stage[k].name);
+            return EXIT_INPUT;
+        }
+    return EXIT_OK;
+}
+
 static int out_of_memory(void) {
     fprintf(stderr, "capstan: out of memory\n");
     return EXIT_LIMIT;
@@ -280,6 +294,7 @@ int cmd_offset(int argc, char **argv) {
     offsets.scene = cps_scene_file_scene(file);
     char *directory = NULL;
     code = find_body(&offsets);
+    if (code == EXIT_OK) code = check_history(offsets.scene);
     if (code == EXIT_OK) code = prepare(&offsets);
     if (code == EXIT_OK) directory = cli_destination(&options, CPS_RESULTS_KIND_OFFSET, 0, &code);
     if (directory) {

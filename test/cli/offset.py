@@ -151,6 +151,11 @@ def wrong_calls(folder):
     no_body = "capstan: 1\nlines: {rope: {length: 1, mass: 1, stiffness: 1e3, start: {straight: {from: [0, 0, 0], to: [1, 0, 0]}}, ends: {A: held, B: held}}}\n"
     done = run(folder, no_body, code=3)
     check("says body", "no body" in done.stderr, done.stderr)
+    in_time = scene(history="history:\n  - {name: rest}\n  - {name: swing, duration: 1, steps: 10}\n").replace("weight: 200", "mass: 20")
+    done = run(folder, in_time, "-o", "in time", code=3)
+    check("says duration", done.stderr == "capstan offset: step 'swing' of the history has a duration, and offsets are those of lines at rest: "
+          "leave its duration out\n", done.stderr)
+    check("writes nothing", not os.path.exists(os.path.join(folder, "in time")), os.listdir(folder))
 
 
 with tempfile.TemporaryDirectory() as directory:
