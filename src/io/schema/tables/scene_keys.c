@@ -26,8 +26,7 @@ static const CpsiKey CYLINDER_KEYS[] = {
     {"point", OPTIONAL, POINT(Obstacle, obstacle.point, 3), ANY, .unit = "m",
      .fallback = "[0, 0, 0]", .help = "a point of the axis"},
     {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
-     .help = "direction of the axis, of any length but zero; a turn follows it by the "
-             "right-hand rule"},
+     .help = "direction of the axis, of any length but zero; turns follow the right-hand rule"},
     {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
      .help = "radius of the cylinder"},
     INSIDE,
@@ -60,8 +59,7 @@ static const CpsiKey GROUND_KEYS[] = {
     {"extend", OPTIONAL, FLAG(Obstacle, extends), .fallback = "false",
      .help = "beyond its edges it goes on with their slopes; else lines that leave it are refused"},
     {"friction_factor", OPTIONAL, TEXT(Obstacle, factors, 255), ANY,
-     .help = "a second file of the same form and points: factors of the friction, bilinear between "
-             "the points"},
+     .help = "a second file of the same form and points: factors of the friction, bilinear"},
 };
 static const CpsiMapping GROUND = {"ground", KEYS(GROUND_KEYS)};
 
@@ -74,8 +72,7 @@ static const CpsiMapping GROUND = {"ground", KEYS(GROUND_KEYS)};
 static const CpsiKey CAPSULE_KEYS[] = {
     CENTRE,
     {"axis", OPTIONAL, POINT(Obstacle, obstacle.axis, 3), ANY, .fallback = "[0, 1, 0]",
-     .help = "direction of the axis, of any length but zero; a turn follows it by the right-hand "
-             "rule"},
+     .help = "direction of the axis, of any length but zero; turns follow the right-hand rule"},
     {"length", REQUIRED, NUMBER(Obstacle, obstacle.shape.length), NOT_NEGATIVE, .unit = "m",
      .help = "between the centres of its round ends: of the cylinder alone"},
     {"radius", REQUIRED, NUMBER(Obstacle, obstacle.radius), POSITIVE, .unit = "m",
@@ -178,8 +175,7 @@ static const CpsiKey OBSTACLE_KEYS[] = {
              "across it, or a set of forces"},
     {"stiffness", OPTIONAL, NUMBER(Obstacle, obstacle.stiffness), NOT_NEGATIVE, .unit = "N/m3",
      .fallback = "0",
-     .help = "pressure over depth of an obstacle that gives; 0: it is rigid. Lines need a "
-             "bearing_width"},
+     .help = "pressure over depth of an obstacle that gives; 0: rigid; lines need bearing_width"},
 };
 
 static void begin_obstacle(void *values) {
@@ -248,8 +244,7 @@ static const CpsiKey SCENE_BODY_KEYS[] = {
      .fallback = "{\"quaternion\": [1, 0, 0, 0]}",
      .help = "turns its own axes, which begin as those of the scene"},
     {"fixed", OPTIONAL, WORDS(SceneBody, body.fixed, 6), .words = DIRECTIONS, .fallback = "[]",
-     .help = "directions of the scene in which it does not move while it is free: along x, y, z, "
-             "and about them"},
+     .help = "directions in which it does not move while it is free: x, y, z, and about them"},
     {"mass", OPTIONAL, NUMBER(SceneBody, mass), NOT_NEGATIVE, .unit = "kg", .unless = "weight",
      .help = "its weight is mass times gravity; buoyancy is given apart"},
     {"weight", OPTIONAL, NUMBER(SceneBody, body.weight), NOT_NEGATIVE, .unit = "N", .fallback = "0",
@@ -258,8 +253,7 @@ static const CpsiKey SCENE_BODY_KEYS[] = {
      .fallback = "[0, 0, 0]", .help = "in its own axes"},
     {"volume", OPTIONAL, NUMBER(SceneBody, volume), NOT_NEGATIVE, .unit = "m3",
      .unless = "buoyancy",
-     .help = "of the water that it displaces: the buoyancy is water_density times gravity times "
-             "volume"},
+     .help = "of the displaced water: buoyancy is water_density times gravity times volume"},
     {"buoyancy", OPTIONAL, NUMBER(SceneBody, body.buoyancy), NOT_NEGATIVE, .unit = "N",
      .fallback = "0", .help = "against gravity, instead of volume"},
     {"centre_of_buoyancy", OPTIONAL, POINT(SceneBody, body.centre_of_buoyancy, 3), ANY, .unit = "m",
@@ -340,11 +334,9 @@ static const CpsiKey SCENE_POINT_KEYS[] = {
     {"uplift_limit", OPTIONAL, NUMBER(ScenePoint, point.uplift_limit), POSITIVE, .unit = "N",
      .with = "held", .help = "of an anchor: the force up from the ground that it can bear"},
     {"drags", OPTIONAL, FLAG(ScenePoint, point.drags), .with = "holding_capacity",
-     .help = "the anchor gives way along the ground to a force above its capacity; false unless "
-             "given"},
+     .help = "the anchor gives way along the ground to a force above its capacity"},
     {"inertia", OPTIONAL, NUMBER(ScenePoint, inertia), NOT_NEGATIVE, .unit = "kg",
-     .help = "mass that moves in time, with the water that goes along; by default its mass, 0 of a "
-             "weight"},
+     .help = "mass that moves in time, with water that goes along; default: mass, of a weight 0"},
     {"velocity", OPTIONAL, POINT(ScenePoint, point.velocity, 3), ANY, .unit = "m/s", .with = "free",
      .fallback = "[0, 0, 0]", .help = "of a free point as the history begins"},
 };
@@ -394,8 +386,7 @@ static const CpsiKey RAIL_KEYS[] = {
     {"from", REQUIRED, POINT(On, on.point, 3), ANY, .unit = "m", .help = "one end of the rail"},
     {"to", ONE_OF, POINT(On, to, 3), ANY, .unit = "m", .help = "its other end"},
     {"along", ONE_OF, POINT(On, on.axis, 3), ANY,
-     .help = "in place of `to`: it has no ends and goes through `from` in this direction, of any "
-             "length but zero"},
+     .help = "in place of `to`: without ends, through `from` in this direction, not zero"},
 };
 static const CpsiMapping RAIL = {"rail", KEYS(RAIL_KEYS), WHICH(On, rail)};
 
@@ -491,8 +482,7 @@ static const CpsiKey SPRING_KEYS[] = {
     {"stiffness", REQUIRED, POINT(Spring, stiffness, 3), NOT_NEGATIVE,
      .help = "along x, y and z: N/m per metre of unstretched line; of a single spring N/m"},
     {"coupling", OPTIONAL, POINT(Spring, coupling, 3), ANY, .fallback = "[0, 0, 0]",
-     .help = "of x and y, x and z, y and z, in the same unit: a quadratic field whose axes are "
-             "others"},
+     .help = "of xy, xz, yz, in the same unit: a quadratic field whose axes are others"},
     {"at", OPTIONAL, NUMBER(Spring, at), NOT_NEGATIVE, .unit = "m",
      .help = "unstretched length from end A of a single spring, at the nearest node"},
     {"from", OPTIONAL, NUMBER(Spring, from), NOT_NEGATIVE, .unless = "at", .unit = "m",
@@ -697,15 +687,13 @@ static const CpsiKey LINE_KEYS[] = {
              "nowhere softer than it"},
     {"breaking_load", OPTIONAL, NUMBER(Line, breaking_load), POSITIVE, .unless = "sections",
      .unit = "N",
-     .help = "tension at which it breaks: results then give the largest tension over "
-             "it"},
+     .help = "tension at which it breaks: results then give the largest tension over it"},
     {"break_at", OPTIONAL, NUMBER(Line, break_at), POSITIVE, .unless = "sections", .unit = "N",
      .help = "tension above which it parts: it is let go at the nearest end"},
     {"point_weights", OPTIONAL, LIST(Line, point_weights, 0), .inside = &POINT_WEIGHT,
      .fallback = "[]", .help = "clumps and buoys between the ends, in order from A to B"},
     {"friction_zones", OPTIONAL, LIST(Line, zones, 0), .inside = &ZONE, .fallback = "[]",
-     .help = "intervals of arc length with another friction, in order from A to B, without "
-             "overlap"},
+     .help = "intervals of arc length with another friction, from A to B, without overlap"},
     {"springs", OPTIONAL, LIST(Line, springs, 0), .inside = &SPRING, .unless = "pretension",
      .fallback = "[]", .help = "springs from pieces of the line to the ground; they add up"},
     {"loads", OPTIONAL, LIST(Line, loads, 0), .inside = &FORCE, .unless = "pretension",

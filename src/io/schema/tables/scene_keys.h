@@ -185,9 +185,8 @@ typedef struct CpsiOnValues {
     int kind;             /* as the CpsConstraintKind after NONE */
     CpsConstraint on;     /* without its kind */
     int rail;             /* 0: to a place, 1: without ends */
-    double to[3];
+    double to[3], force[3];
     CpsiRotationValues rotation;
-    double force[3];
 } CpsiOnValues;
 
 /* An end of a line: `held` or `free` as a word, or with its position or force; or at a point. */
