@@ -199,6 +199,19 @@ static const char MOTION_SCENE[] =
     "  - {name: pull, duration: 2, time_step: 0.5,"
     " one.B: {move: [0, 0, 0.1], sine: [0, 0, 0.2], cosine: [0, 0, 0.3], period: 4}}\n";
 
+static const char ADRIFT_SCENE[] =
+    "capstan: 1\n"
+    "bodies: {raft: {free: [0, 0, 0], mass: 50, moments_of_inertia: [20, 25, 30],"
+    " products_of_inertia: [1, 2, 3], added_mass: {x: 5}, damping: {y: 6},"
+    " quadratic_damping: {z: 7}, velocity: [0.1, 0, 0], turn_rate: [0, 0, 0.2]}}\n"
+    "points: {eye: {body: raft, at: [0, 0, 0.5]}}\n"
+    "lines:\n"
+    "  one: {length: 3, elements: 4, mass: 2, stiffness: 10000, quasi_static: true,"
+    " start: {straight: {from: [0, 0, 3.5], to: [0, 0, 0.5]}},"
+    " ends: {A: {held: [0, 0, 3.5]}, B: {point: eye}}}\n"
+    "history:\n"
+    "  - {name: pull, duration: 0.2, time_step: 0.1, one.A: {move: [0, 0, 0.1]}}\n";
+
 static const struct GroundFile {
     const char *name, *text;
 } GROUND_FILE[] = {
@@ -424,6 +437,17 @@ static const struct Change MESH_CHANGE[] = {
     {"two_sided", "two_sided: false", "two_sided: true"},
 };
 
+static const struct Change ADRIFT_CHANGE[] = {
+    {"quasi_static", ", quasi_static: true", ""},
+    {"moments_of_inertia", "[20, 25, 30]", "[20, 25, 31]"},
+    {"products_of_inertia", "[1, 2, 3]", "[1, 2, 4]"},
+    {"added_mass", "added_mass: {x: 5}", "added_mass: {x: 5, rz: 1}"},
+    {"damping", ", damping: {y: 6}", ", damping: {y: 7}"},
+    {"quadratic_damping", "quadratic_damping: {z: 7}", "quadratic_damping: {z: 8}"},
+    {"velocity", "velocity: [0.1, 0, 0]", "velocity: [0.2, 0, 0]"},
+    {"turn_rate", "turn_rate: [0, 0, 0.2]", "turn_rate: [0, 0, 0.3]"},
+};
+
 static const struct Change FLOAT_CHANGE[] = {
     {"floats", ", floats: true", ""},
     {"floats", "at: 2", "at: 3"},
@@ -499,6 +523,7 @@ enum {
     GROUND_CHANGES = sizeof GROUND_CHANGE / sizeof *GROUND_CHANGE,
     MESH_CHANGES = sizeof MESH_CHANGE / sizeof *MESH_CHANGE,
     SHAPE_CHANGES = sizeof SHAPE_CHANGE / sizeof *SHAPE_CHANGE,
+    ADRIFT_CHANGES = sizeof ADRIFT_CHANGE / sizeof *ADRIFT_CHANGE,
     FLOAT_CHANGES = sizeof FLOAT_CHANGE / sizeof *FLOAT_CHANGE,
     SET_CHANGES = sizeof SET_CHANGE / sizeof *SET_CHANGE,
     MOTION_CHANGES = sizeof MOTION_CHANGE / sizeof *MOTION_CHANGE,
@@ -518,6 +543,7 @@ static const Suite ALL = {SCENE, CHANGE, CHANGES},
                    GROUND = {GROUND_SCENE, GROUND_CHANGE, GROUND_CHANGES},
                    MESH = {MESH_SCENE, MESH_CHANGE, MESH_CHANGES},
                    SHAPES = {SHAPES_SCENE, SHAPE_CHANGE, SHAPE_CHANGES},
+                   ADRIFT = {ADRIFT_SCENE, ADRIFT_CHANGE, ADRIFT_CHANGES},
                    FLOATS = {FLOAT_SCENE, FLOAT_CHANGE, FLOAT_CHANGES},
                    SETS = {SETS_SCENE, SET_CHANGE, SET_CHANGES},
                    MOTION = {MOTION_SCENE, MOTION_CHANGE, MOTION_CHANGES};
@@ -646,6 +672,8 @@ static void every_change_of_motions_makes_another_scene(void **state) {
     (void)state;
     expect_refused(&MOTION, 0, place_of(MOTION_SCENE, "{name: pull"));
     expect_refused(&MOTION, 1, sizeof MOTION_SCENE);
+    expect_refused(&ADRIFT, 0, place_of(ADRIFT_SCENE, "{name: pull"));
+    expect_refused(&ADRIFT, 1, sizeof ADRIFT_SCENE);
 }
 
 /* Whether a key is changed above or left out; found: the changes of keys that there are. */
@@ -658,6 +686,8 @@ static bool is_tried(const char *key, bool found[CHANGES]) {
     for (int i = 0; i < GROUND_CHANGES; i++)
         tried = tried || strcmp(GROUND_CHANGE[i].key, key) == 0;
     for (int i = 0; i < MESH_CHANGES; i++) tried = tried || strcmp(MESH_CHANGE[i].key, key) == 0;
+    for (int i = 0; i < ADRIFT_CHANGES; i++)
+        tried = tried || strcmp(ADRIFT_CHANGE[i].key, key) == 0;
     for (int i = 0; i < FLOAT_CHANGES; i++) tried = tried || strcmp(FLOAT_CHANGE[i].key, key) == 0;
     for (int i = 0; i < SET_CHANGES; i++) tried = tried || strcmp(SET_CHANGE[i].key, key) == 0;
     for (int i = 0; i < SHAPE_CHANGES; i++) tried = tried || strcmp(SHAPE_CHANGE[i].key, key) == 0;
