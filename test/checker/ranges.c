@@ -89,7 +89,7 @@ static double told_by_places(const Record *r, double force) {
         }
         turn += (double)sqrtl(sine);
     }
-    return angle < turn ? force * angle / turn : force;
+    return angle < turn ? force * angle / turn : 0; /* a straight line tells nothing so */
 }
 
 /* Do the values by rest.c say otherwise?  False where they are not asked or not found. */
