@@ -328,6 +328,16 @@ class Evolution:
         return self._reports("obstacles", lib.cps_evolution_obstacle_report)
 
     @property
+    def points_in_time(self) -> Dict[str, Record]:
+        """How the points moved in the last step, by name (CpsPointMotion of motion.h)."""
+        return self._reports("points", lib.cps_evolution_point_motion)
+
+    @property
+    def bodies_in_time(self) -> Dict[str, Record]:
+        """How the bodies moved in the last step, by name (CpsBodyMotion of motion.h)."""
+        return self._reports("bodies", lib.cps_evolution_body_motion)
+
+    @property
     def time(self) -> float:
         """[s] the time that steps with a duration have taken since the start."""
         return self._ask(lib.cps_evolution_time)

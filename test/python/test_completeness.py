@@ -166,6 +166,25 @@ def test_moves_in_time():
     assert evolution["rope"].winch("B").length is None
 
 
+def test_points_and_bodies_in_time():
+    # a clump on a stiff spring of a line, and a body that turns freely beside it
+    evolution = capstan.Evolution({
+        "bodies": {"top": {"free": [0, 0, 0], "mass": 4, "moments_of_inertia": [2, 2, 3], "turn_rate": [0, 0, 0.5]}},
+        "points": {"eye": {"body": "top"}, "clump": {"free": [5, 0, 0], "mass": 2, "velocity": [0, 0, -1]}},
+        "lines": {"one": {"length": 1, "elements": 2, "mass": 0.1, "stiffness": 1e5, "start": {"straight": {"from": [0, 0, 1], "to": [0, 0, 0]}},
+                          "ends": {"A": {"held": [0, 0, 1]}, "B": {"point": "eye"}}},
+                  "two": {"length": 1, "elements": 2, "mass": 0.1, "stiffness": 1e5, "start": {"straight": {"from": [5, 0, 1], "to": [5, 0, 0]}},
+                          "ends": {"A": {"held": [5, 0, 1]}, "B": {"point": "clump"}}}},
+        "history": [{"name": "swing", "duration": 0.01, "time_step": 0.001}]})
+    for _ in evolution:
+        pass
+    top, clump = evolution.bodies_in_time["top"], evolution.points_in_time["clump"]
+    assert top.is_moving and clump.is_moving and not evolution.points_in_time["eye"].landed
+    assert clump.kinetic == pytest.approx(0.5 * clump.mass * (clump.velocity ** 2).sum(), rel=1e-9)
+    # about its axis nothing turns the body: its angular momentum stays
+    assert top.turn_rate[2] == pytest.approx(0.5, rel=1e-6) and top.angular_momentum[2] == pytest.approx(1.5, rel=1e-6)
+
+
 def test_the_reaction_of_a_rail(root):
     evolution = capstan.Evolution(root / "examples/bollard-and-rail.yaml")
     evolution.step()
