@@ -163,7 +163,6 @@ static void add_half_space(CpsiLeastMotion *least, int j, double weight, Vec3 a,
     half->second[k] = true;
     half->weight[k] = weight;
     half->gap[k] = gap > 0 ? gap : 0;
-    half->compliance[k] = 0;
     vec3_store(half->normal[k], a);
 }
 

@@ -100,7 +100,6 @@ static void fill_joint(const CpsiJoint *joint, bool own_axes, const double axes[
     unilateral->second[0] = false;
     unilateral->weight[0] = share;
     unilateral->gap[0] = fmax(0, joint->gap) / scale->length;
-    unilateral->compliance[0] = 0;
     if (chain->frame) {
         memset(unilateral->normal[0], 0, sizeof unilateral->normal[0]);
         unilateral->normal[0][2] = 1;

@@ -230,7 +230,8 @@ static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int
     unilateral->weight[k] = share;
     unilateral->gap[k] = open_gap(line, c) / scale->length;
     const double gives = cpsi_soft_stiffness(line, c) * scale->length;
-    unilateral->compliance[k] = gives > 0 ? share * scale->force / gives : 0;
+    if (unilateral->compliance)
+        unilateral->compliance[k] = gives > 0 ? share * scale->force / gives : 0;
     if (!line->has_local_axes) return;
     double axes[9];
     contact_axes(line, program, c, axes);

@@ -37,7 +37,6 @@ static void layout_unilateral(CpsiUnilateral *unilateral, CpsiArena *arena, int 
     CPSI_PLACE(arena, unilateral->second, n);
     CPSI_PLACE(arena, unilateral->weight, n);
     CPSI_PLACE(arena, unilateral->gap, n);
-    CPSI_PLACE(arena, unilateral->compliance, n);
     CPSI_PLACE(arena, unilateral->s, n);
     CPSI_PLACE(arena, unilateral->z, n);
     CPSI_PLACE(arena, unilateral->ds, n);
@@ -254,11 +253,19 @@ void cpsi_chain_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int s
     layout_factor(program, arena, n, discs, second, points);
 }
 
+static int stops_of(int n, int contacts, bool points) {
+    return (contacts > 1 ? contacts * n : n) + (points ? n : 0);
+}
+
+void cpsi_chain_program_layout_compliance(CpsiChainProgram *program, CpsiArena *arena, int n,
+                                          int contacts, bool points) {
+    CPSI_PLACE(arena, program->unilateral.compliance, stops_of(n, contacts, points));
+}
+
 void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int n, int contacts,
                                bool points, int springs, const CpsiConicSet *largest,
                                const CpsiLinsysOps *ops) {
-    const int places = points ? 2 * n : n,
-              stops = (contacts > 1 ? contacts * n : n) + (points ? n : 0);
+    const int places = points ? 2 * n : n, stops = stops_of(n, contacts, points);
     *program = (CpsiChainProgram){
         .base = {.kind = cpsi_chain_kinds(),
                  .kind_count = largest ? CPSI_CHAIN_KINDS : CPSI_KIND_FRICTION_CONIC}};

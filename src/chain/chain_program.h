@@ -54,6 +54,10 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
                                bool points, int springs, const CpsiConicSet *largest,
                                const CpsiLinsysOps *ops);
 
+/* After it: place the compliances of contacts, which without them do not give. */
+void cpsi_chain_program_layout_compliance(CpsiChainProgram *program, CpsiArena *arena, int n,
+                                          int contacts, bool points);
+
 /* Use n of the nodes it was laid out for, with axes of their own or without. */
 void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes);
 

@@ -91,7 +91,7 @@ typedef struct CpsiUnilateral {
     int *contact;       /* (count) the caller's number */
     double *weight;     /* (count) w_k > 0 */
     double *gap;        /* (count) g_k >= 0, any where it gives */
-    double *compliance; /* (count) c_k >= 0: the distance is g_k + n_k.u + c_k R_k */
+    double *compliance; /* (count) c_k >= 0: the distance is g_k + n_k.u + c_k R_k; NULL: all 0 */
     bool *second;       /* (count) its normal is not z: the second contact of its node */
     double (
         *normal)[3]; /* (count) n_k; of a first contact z. NULL: all are z, and none is second */
@@ -204,7 +204,8 @@ static inline double cpsi_unilateral_rise(const CpsiUnilateral *unilateral, int 
 
 /* s + c z of unilateral contact k, which over w z is the compliance of the node along n. */
 static inline double cpsi_unilateral_give(const CpsiUnilateral *unilateral, int k) {
-    return unilateral->s[k] + unilateral->compliance[k] * unilateral->z[k];
+    const double c = unilateral->compliance ? unilateral->compliance[k] : 0;
+    return unilateral->s[k] + c * unilateral->z[k];
 }
 
 /* K_j u_j of the field, which is there. */

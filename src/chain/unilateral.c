@@ -89,7 +89,10 @@ static inline void load_contacts(const CpsiUnilateral *unilateral, int k, int co
     cpsi_lanes_load(1, &x->s, &unilateral->s[k], count);
     cpsi_lanes_load(1, &x->z, &unilateral->z[k], count);
     cpsi_lanes_load(1, &x->gap, &unilateral->gap[k], count);
-    cpsi_lanes_load(1, &x->compliance, &unilateral->compliance[k], count);
+    if (unilateral->compliance)
+        cpsi_lanes_load(1, &x->compliance, &unilateral->compliance[k], count);
+    else
+        memset(&x->compliance, 0, sizeof x->compliance);
     cpsi_lanes_load(1, &x->rise, rise, count);
 }
 

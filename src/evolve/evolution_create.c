@@ -40,6 +40,12 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
     return cpsi_obstacle_needs_local_axes(&only);
 }
 
+static bool scene_has_soft(const CpsScene *scene) {
+    for (int k = 0; k < scene->obstacle_count; k++)
+        if (scene->obstacle[k].stiffness > 0) return true;
+    return false;
+}
+
 /* Do elements have contacts, beside the nodes? With what is convex somewhere they do, and where a
  * node may need a third contact; contact of the reference is that of S90, where only nodes touch.
  */
@@ -99,6 +105,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
                               .element_contacts = scene_has_element_contacts(scene) ? 1 : 0,
                               .has_local_axes = scene_needs_local_axes(scene),
                               .has_path_tolerance = scene->solver.path_tolerance > 0,
+                              .has_soft = scene_has_soft(scene),
                               .largest = largest,
                               .ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE
                                          ? &cpsi_linsys_dense

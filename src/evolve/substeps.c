@@ -87,13 +87,13 @@ static const double MOST_PORTIONS = 1e6;
 static const double ROUNDING = 1e-9;
 
 void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int contacts,
-                          bool path_tolerance) {
+                          bool own_axes, bool path_tolerance) {
     const size_t all = (size_t)contacts * (size_t)n;
     CPSI_PLACE(arena, scratch->reaction, all);
     CPSI_PLACE(arena, scratch->tension, n);
     CPSI_PLACE(arena, scratch->state, all);
     CPSI_PLACE(arena, scratch->obstacle_index, all);
-    CPSI_PLACE(arena, scratch->normal, 3 * all);
+    if (own_axes) CPSI_PLACE(arena, scratch->normal, 3 * all); /* else they do not change */
     CPSI_PLACE(arena, scratch->position, 3 * (size_t)n);
     if (path_tolerance) CPSI_PLACE(arena, scratch->trial, 4 * (size_t)n);
 }
@@ -101,7 +101,8 @@ void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int co
 void cpsi_substeps_save(const CpsiLine *line, CpsiSubsteps *scratch) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(scratch->reaction, line->reaction, contacts * sizeof *line->reaction);
-    memcpy(scratch->normal, line->normal, 3 * contacts * sizeof *line->normal);
+    if (line->has_local_axes)
+        memcpy(scratch->normal, line->normal, 3 * contacts * sizeof *line->normal);
     memcpy(scratch->tension, line->tension, (n - 1) * sizeof *line->tension);
     memcpy(scratch->state, line->state, contacts * sizeof *line->state);
     if (line->has_local_axes)
@@ -116,7 +117,8 @@ void cpsi_substeps_save(const CpsiLine *line, CpsiSubsteps *scratch) {
 void cpsi_substeps_restore(CpsiLine *line, const CpsiSubsteps *scratch) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
     memcpy(line->reaction, scratch->reaction, contacts * sizeof *line->reaction);
-    memcpy(line->normal, scratch->normal, 3 * contacts * sizeof *line->normal);
+    if (line->has_local_axes)
+        memcpy(line->normal, scratch->normal, 3 * contacts * sizeof *line->normal);
     memcpy(line->tension, scratch->tension, (n - 1) * sizeof *line->tension);
     memcpy(line->state, scratch->state, contacts * sizeof *line->state);
     if (line->has_local_axes)

@@ -37,7 +37,7 @@ typedef struct CpsiSubsteps {
 } CpsiSubsteps;
 
 void cpsi_substeps_layout(CpsiSubsteps *scratch, CpsiArena *arena, int n, int contacts,
-                          bool path_tolerance);
+                          bool own_axes, bool path_tolerance);
 
 /* Take the step. The line's report is that of the whole step: sums of additive quantities, the
  * worst outcome, else the values of the last part; the fields are those of the last part.

@@ -49,13 +49,17 @@ void cpsi_workspace_layout(CpsiWorkspace *workspace, CpsiArena *arena,
     CPSI_PLACE(arena, workspace->scratch.turn, size->obstacles + 1);
     CPSI_PLACE(arena, workspace->scratch.shift, size->obstacles + 1);
     CPSI_PLACE(arena, workspace->scratch.obstacle, size->obstacles + 1);
-    cpsi_substeps_layout(&workspace->scratch, arena, size->nodes, contacts,
+    cpsi_substeps_layout(&workspace->scratch, arena, size->nodes, contacts, size->has_local_axes,
                          size->has_path_tolerance);
     if (size->inextensible_nodes > 0)
         cpsi_force_set_layout(&workspace->forces, arena, size->inextensible_nodes, contacts);
     cpsi_chain_program_layout(&workspace->program, arena, size->nodes,
                               size->has_local_axes ? size->contacts : 0, size->element_contacts > 0,
                               size->springs, size->largest, size->ops);
+    if (size->has_soft)
+        cpsi_chain_program_layout_compliance(&workspace->program, arena, size->nodes,
+                                             size->has_local_axes ? size->contacts : 0,
+                                             size->element_contacts > 0);
     cpsi_least_motion_layout(&workspace->least, arena, size->nodes, size->contacts,
                              &workspace->program);
 }

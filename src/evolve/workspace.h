@@ -25,8 +25,8 @@ void cpsi_friction_sets_free(CpsiFrictionSets *sets);
 /* The largest sizes of the lines that are solved in a workspace. */
 typedef struct CpsiWorkspaceSize {
     int nodes, inextensible_nodes, springs, obstacles;
-    int contacts, element_contacts; /* of a node, of an element */
-    bool has_local_axes, has_path_tolerance;
+    int contacts, element_contacts;                    /* of a node, of an element */
+    bool has_local_axes, has_path_tolerance, has_soft; /* soft: an obstacle gives */
     const CpsiConicSet *largest; /* of the friction sets, NULL: there are none */
     const CpsiLinsysOps *ops;
 } CpsiWorkspaceSize;
