@@ -187,7 +187,7 @@ enum { PROJECTIONS = 200 };
 
 Vec3 cpsi_line_sets_let(const CpsiLine *line, Vec3 v) {
     const double size = vec3_norm(v);
-    for (int i = 0; i < PROJECTIONS; i++)
+    for (int i = 0; i < PROJECTIONS && cpsi_line_has_sets(line); i++)
         for (int end = 0; end < 2; end++)
             if (line->on[end].is_there) v = cpsi_place_set_recedes(&line->on[end].set, v);
     return vec3_norm(v) > ROUNDING * size ? v : vec3(0, 0, 0);

@@ -297,9 +297,10 @@ static void take_joined(CpsiLine *line, const CpsiStepOptions *options) {
     const CpsiChainProgram *program = joined->program;
     cpsi_step_program_unpack(line, program, &joined->scale);
     if (joined->scale.longer > 1) cpsi_line_straighten(line, joined->scale.longer - 1);
-    for (int e = 0; e + 1 < line->n; e++)
+    for (int e = 0; e + 1 < line->n; e++) {
+        if (cpsi_line_is_on_drum(line, e)) continue;
         for (int a = 0; a < 3; a++) line->segment_force[3 * e + a] += joined->shift[a];
-    cpsi_winch_unload(line);
+    }
     line->report.iteration_count = joined->ipm.iterations;
     cpsi_places_as_found(line, program);
     cpsi_contact_plane_slip(line);

@@ -286,9 +286,11 @@ CpsiWrench cpsi_body_water(const CpsiBody *body, const CpsiPose *pose) {
     return (CpsiWrench){vec3_load(f), transposed_rate(turn, vec3_load(&f[3]))};
 }
 
-/* Add their stiffness, by central differences: the error of the square of this is rounding. */
+/* Derivatives are central differences: the error of the square of this is rounding. */
 static const double DIFFERENCE = 1e-5;
-static void add_hydrostatics(const CpsiBody *body, const CpsiPose *pose, double stiffness[36]) {
+
+void cpsi_body_add_stiffness_of(CpsiWrenchAt *force, const CpsiBody *body, const CpsiPose *pose,
+                                double stiffness[36]) {
     for (int k = 0; k < 6; k++) {
         double by[2][6];
         const double size = k < 3 ? DIFFERENCE * body->arm : DIFFERENCE;
@@ -297,9 +299,9 @@ static void add_hydrostatics(const CpsiBody *body, const CpsiPose *pose, double 
             move[k] = side ? size : -size;
             const CpsiPose at = {vec3_add(pose->place, vec3_load(move)),
                                  rotation_after(rotation_of(vec3_load(&move[3])), pose->turn)};
-            const CpsiWrench force = cpsi_body_water(body, &at);
-            vec3_store(by[side], force.force);
-            vec3_store(&by[side][3], force.moment);
+            const CpsiWrench there = force(body, &at);
+            vec3_store(by[side], there.force);
+            vec3_store(&by[side][3], there.moment);
         }
         for (int i = 0; i < 6; i++) stiffness[6 * i + k] -= (by[1][i] - by[0][i]) / (2 * size);
     }
@@ -329,7 +331,7 @@ void cpsi_add_turning_force(Vec3 force, Vec3 arm, double stiffness[36]) {
 void cpsi_body_stiffness(const CpsiBody *body, const CpsiPose *pose, const double gravity[3],
                          double stiffness[36]) {
     const Vec3 g = vec3_load(gravity);
-    add_hydrostatics(body, pose, stiffness);
+    cpsi_body_add_stiffness_of(cpsi_body_water, body, pose, stiffness);
     cpsi_add_turning_force(vec3_scale(body->mass, g),
                            rotation_apply(pose->turn, vec3_load(body->given.centre_of_gravity)),
                            stiffness);

@@ -63,6 +63,11 @@ CpsiWrench cpsi_body_load(const CpsiBody *body, const CpsiPose *pose, const doub
 CpsiWrench cpsi_body_water(const CpsiBody *body, const CpsiPose *pose);
 double cpsi_body_water_energy(const CpsiBody *body, const CpsiPose *pose);
 
+/* Add to a stiffness (6, 6) that of a force which depends on the pose, by central differences. */
+typedef CpsiWrench CpsiWrenchAt(const CpsiBody *body, const CpsiPose *pose);
+void cpsi_body_add_stiffness_of(CpsiWrenchAt *force, const CpsiBody *body, const CpsiPose *pose,
+                                double stiffness[36]);
+
 /* Add its derivative by the pose, as a stiffness (6, 6): `lines` are the lines' part of what turns
  * with the fairleads, summed by the caller. */
 void cpsi_body_stiffness(const CpsiBody *body, const CpsiPose *pose, const double gravity[3],

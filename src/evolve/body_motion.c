@@ -10,8 +10,6 @@
 /* [rad] Below this angle the series of the rate of rotation is used: its error is the fourth
  * power. */
 static const double SMALL = 1e-3;
-/* Derivatives are central differences: the error of the square of this is rounding. */
-static const double DIFFERENCE = 1e-5;
 
 /* w of the rotation vector t and its rate. */
 static Vec3 rate_of(Vec3 t, Vec3 rate) {
@@ -175,22 +173,16 @@ CpsiWrench cpsi_body_damping(const CpsiBody *body, const CpsiPose *pose) {
     return damping_of(body, &at);
 }
 
+/* Inertia and damping together. */
+static CpsiWrench resistance_in(const CpsiBody *body, const CpsiPose *pose) {
+    const CpsiBodyPhase at = phase_in(body, pose);
+    const CpsiWrench inertia = inertia_of(body, &at), damping = damping_of(body, &at);
+    return (CpsiWrench){vec3_add(inertia.force, damping.force),
+                        vec3_add(inertia.moment, damping.moment)};
+}
+
 void cpsi_body_motion_stiffness(const CpsiBody *body, const CpsiPose *pose, double stiffness[36]) {
-    for (int k = 0; k < 6; k++) {
-        double by[2][6];
-        const double size = k < 3 ? DIFFERENCE * body->arm : DIFFERENCE;
-        for (int side = 0; side < 2; side++) {
-            double move[6] = {0};
-            move[k] = side ? size : -size;
-            const CpsiPose to = {vec3_add(pose->place, vec3_load(move)),
-                                 rotation_after(rotation_of(vec3_load(&move[3])), pose->turn)};
-            const CpsiBodyPhase at = phase_in(body, &to);
-            const CpsiWrench inertia = inertia_of(body, &at), damping = damping_of(body, &at);
-            vec3_store(by[side], vec3_add(inertia.force, damping.force));
-            vec3_store(&by[side][3], vec3_add(inertia.moment, damping.moment));
-        }
-        for (int i = 0; i < 6; i++) stiffness[6 * i + k] -= (by[1][i] - by[0][i]) / (2 * size);
-    }
+    cpsi_body_add_stiffness_of(resistance_in, body, pose, stiffness);
 }
 
 /* ledger --------------------------------------------------------------------------------------- */

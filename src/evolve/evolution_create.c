@@ -20,6 +20,7 @@
 #include "evolve/origin.h"
 #include "evolve/point_motion.h"
 #include "evolve/sections.h"
+#include "evolve/soft_check.h"
 #include "evolve/stages.h"
 #include "evolve/start.h"
 #include "evolve/time_check.h"
@@ -38,12 +39,6 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
     if (scene->obstacle_count != 1 || scene->obstacle[0].moves) return scene->obstacle_count > 0;
     const CpsiObstacle only = cpsi_obstacle(scene->obstacle);
     return cpsi_obstacle_needs_local_axes(&only);
-}
-
-static bool scene_has_soft(const CpsScene *scene) {
-    for (int k = 0; k < scene->obstacle_count; k++)
-        if (scene->obstacle[k].stiffness > 0) return true;
-    return false;
 }
 
 /* Do elements have contacts, beside the nodes? With what is convex somewhere they do, and where a
@@ -105,7 +100,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
                               .element_contacts = scene_has_element_contacts(scene) ? 1 : 0,
                               .has_local_axes = scene_needs_local_axes(scene),
                               .has_path_tolerance = scene->solver.path_tolerance > 0,
-                              .has_soft = scene_has_soft(scene),
+                              .has_soft = cpsi_soft_obstacle(scene) != NULL,
                               .largest = largest,
                               .ops = scene->solver.linear_system == CPS_LINEAR_SYSTEM_DENSE
                                          ? &cpsi_linsys_dense

@@ -27,14 +27,18 @@ CpsStatus cpsi_soft_obstacle_check(const CpsScene *scene, const CpsObstacle *o, 
                         o->name, why);
 }
 
+const CpsObstacle *cpsi_soft_obstacle(const CpsScene *scene) {
+    for (int k = 0; k < scene->obstacle_count; k++)
+        if (scene->obstacle[k].stiffness > 0) return &scene->obstacle[k];
+    return NULL;
+}
+
 CpsStatus cpsi_soft_line_check(const CpsScene *scene, const CpsLine *line, CpsError *err) {
-    const CpsObstacle *soft = NULL;
+    const CpsObstacle *soft = cpsi_soft_obstacle(scene);
     if (!cpsi_is_not_negative(line->bearing_width))
         return CPSI_FAIL_AT("bearing_width", err, CPS_ERR_ARGUMENT,
                             "line '%s': bearing_width is %g m, expected a finite number >= 0",
                             line->name, line->bearing_width);
-    for (int k = 0; k < scene->obstacle_count && !soft; k++)
-        if (scene->obstacle[k].stiffness > 0) soft = &scene->obstacle[k];
     if (!soft) return CPS_OK;
     if (!(line->bearing_width > 0))
         return CPSI_FAIL_AT(

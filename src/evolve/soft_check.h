@@ -5,6 +5,8 @@
 
 #include "capstan/scene.h"
 
+/* An obstacle that gives, the first one; NULL: there is none. */
+const CpsObstacle *cpsi_soft_obstacle(const CpsScene *scene);
 /* Can obstacle `o` give as the scene says, beside all else that the scene has? */
 CpsStatus cpsi_soft_obstacle_check(const CpsScene *scene, const CpsObstacle *o, CpsError *err);
 /* Has line i the width that it needs, and a start that says nothing of its reactions? */

@@ -8,7 +8,6 @@
 
 #include "base/larger.h"
 #include "cable/field.h"
-#include "cable/winch.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/body_motion.h"

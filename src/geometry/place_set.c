@@ -131,8 +131,8 @@ Vec3 cpsi_place_set_recedes(const CpsiPlaceSet *set, Vec3 v) {
     return cpsi_place_set_from(set, own);
 }
 
-/* Alternating projections come to the nearest places of two convex sets; nearest to the last digits
- * where one is polyhedral or round, and near enough elsewhere. */
+/* Alternating projections approach the nearest places of two convex sets. Who proves by them takes
+ * the sets' support functions along the vector between, which hold wherever they have come to. */
 enum { PROJECTIONS = 1000 };
 
 void cpsi_place_sets_nearest(const CpsiPlaceSet *first, const CpsiPlaceSet *second, Vec3 *a,

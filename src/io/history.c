@@ -317,3 +317,16 @@ int cpsi_set_outline(const CpsConstraint *on, Vec3 about, double reach, int piec
                           vec3_axpy(reach * X[i], first, vec3_scale(reach * Y[i], second)));
     return 5;
 }
+
+bool cpsi_next_outline(const CpsResults *results, CpsiOutlineWalk *walk) {
+    for (; walk->line < results->line_count; walk->line++, walk->end = 0)
+        for (; walk->end < 2; walk->end++, walk->piece = 0) {
+            const CpsEndReport *end = &results->row[0].line[walk->line].report.end[walk->end];
+            const double reach = walk->reach > 0 ? walk->reach : results->line_length[walk->line];
+            walk->count = cpsi_set_outline(&results->line_constraint[walk->line][walk->end],
+                                           vec3_load(end->position), reach, walk->piece, walk->x);
+            walk->piece++;
+            if (walk->count > 0) return true;
+        }
+    return false;
+}

@@ -155,6 +155,14 @@ bool cpsi_has_set(const CpsLine *line);
 enum { CPSI_OUTLINE_POINTS = 49 };
 int cpsi_set_outline(const CpsConstraint *on, Vec3 about, double reach, int piece,
                      Vec3 out[CPSI_OUTLINE_POINTS]);
+/* All of them in turn: begin with {.reach = ..}, end at false; `line` is whose end is in the set.
+ */
+typedef struct CpsiOutlineWalk {
+    double reach;                /* [m] 0: for each line its length */
+    int line, end, piece, count; /* count: points of x */
+    Vec3 x[CPSI_OUTLINE_POINTS];
+} CpsiOutlineWalk;
+bool cpsi_next_outline(const CpsResults *results, CpsiOutlineWalk *walk);
 /* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
 int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
 

@@ -10,15 +10,12 @@ import json
 import math
 import os
 import random
-import struct
-import subprocess
 import sys
 import tempfile
-import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "property"))
 sys.dont_write_bytecode = True  # nothing is left in the source folder
-from result_file import CODE, Results, SIZE  # noqa: E402
+import runs  # noqa: E402
+from runs import command, falsify, resumed, write  # noqa: E402
 
 CAPSTAN, CHECKER = (os.path.abspath(path) for path in sys.argv[1:3])
 SEEDS = 12  # of random histories in every run
@@ -92,36 +89,8 @@ BAD = (  # (what is replaced, by what, what is said)
 )
 
 
-def command(*words):
-    done = subprocess.run(words, capture_output=True, text=True)
-    return done.returncode, done.stdout + done.stderr
-
-
-def write(folder, name, text):
-    path = os.path.join(folder, name)
-    with open(path, "w") as file:
-        file.write(text)
-    return path
-
-
 def solve(folder, text, wanted=(0,)):
-    scene, out = write(folder, "scene.yaml", text), os.path.join(folder, "out")
-    code, said = command(CAPSTAN, "run", scene, "-o", out, "--force")
-    assert code in wanted, said
-    code, said = command(CHECKER, os.path.join(out, "result.nc"), scene, "-v")
-    assert code == 0, said + text
-    return scene, out, Results(os.path.join(out, "result.nc"))
-
-
-def falsify(results, folder, variable, step, index, change):
-    _, kind, is_record, begin = results.variables[variable]
-    data = bytearray(results.data)
-    at = begin + (step*results.record if step is not None else 0) + index*SIZE[kind]
-    value, = struct.unpack_from(">" + CODE[kind], data, at)
-    assert not math.isnan(value), variable
-    struct.pack_into(">" + CODE[kind], data, at, value + change)
-    with open(os.path.join(folder, "copy.nc"), "wb") as file:
-        file.write(data)
+    return runs.solve(CAPSTAN, CHECKER, folder, text, wanted)
 
 
 def post(folder, stiffness):
@@ -154,28 +123,6 @@ def post(folder, stiffness):
         code, said = command(CHECKER, os.path.join(out, "copy.nc"), scene)
         assert code != 0, (variable, said)
     return len(FALSIFIED) + len(STATIC_FALSIFIED)
-
-
-def resumed(folder):
-    """Stopped after some steps and resumed: the same numbers."""
-    scene = write(folder, "long.yaml", POST.replace("STIFFNESS", "20000").replace("90, 0]}, steps: 6", "90, 0]}, steps: 150"))
-    whole, parts = os.path.join(folder, "whole"), os.path.join(folder, "parts")
-    code, said = command(CAPSTAN, "run", scene, "-o", whole)
-    assert code == 0, said
-    run = subprocess.Popen([CAPSTAN, "run", scene, "-q", "-o", parts], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    journal = os.path.join(parts, ".journal")
-    while run.poll() is None and not (os.path.exists(journal) and os.path.getsize(journal) > 400000):
-        time.sleep(0.001)
-    assert run.poll() is None, "the run was over before it could be killed"
-    run.kill()
-    run.wait()
-    code, said = command(CAPSTAN, "run", scene, "-o", parts, "--resume")
-    assert code == 0, said
-    one, other = Results(os.path.join(whole, "result.nc")), Results(os.path.join(parts, "result.nc"))
-    assert one.steps == other.steps == 160
-    for step in range(160):
-        for name in ("rope_position", "rope_tension", "rope_set_reaction", "rope_ledger_ends"):
-            assert one.get(name, step) == other.get(name, step), (name, step)
 
 
 def vector(numbers):
@@ -304,7 +251,9 @@ def main():
             return 0
         wrong = mistakes(folder)
         copies = sum(post(folder, stiffness) for stiffness in ("20000", ".inf"))
-        resumed(folder)
+        resumed(CAPSTAN, folder, POST.replace("STIFFNESS", "20000").replace("90, 0]}, steps: 6", "90, 0]}, steps: 150"),
+            400000, 160, range(160),
+            ("rope_position", "rope_tension", "rope_set_reaction", "rope_ledger_ends"))
         ran = histories(folder, 0, SEEDS)
     print(f"{ran[0]} random histories with {ran[1]} of {ran[2]} steps certified; {copies} falsified copies and {wrong} mistakes refused")
     return 0

@@ -7,15 +7,12 @@ Written by nothing but the layout of classic netCDF files (../property/result_fi
 """
 import math
 import os
-import struct
-import subprocess
 import sys
 import tempfile
-import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "property"))
 sys.dont_write_bytecode = True  # nothing is left in the source folder
-from result_file import CODE, Results, SIZE  # noqa: E402
+import runs  # noqa: E402
+from runs import command, falsify, resumed, write  # noqa: E402
 
 CAPSTAN, CHECKER = (os.path.abspath(path) for path in sys.argv[1:3])
 
@@ -77,25 +74,8 @@ BAD = (
 )
 
 
-def command(*words):
-    done = subprocess.run(words, capture_output=True, text=True)
-    return done.returncode, done.stdout + done.stderr
-
-
-def write(folder, name, text):
-    path = os.path.join(folder, name)
-    with open(path, "w") as file:
-        file.write(text)
-    return path
-
-
 def solve(folder, text, stiffness, wanted):
-    scene, out = write(folder, "scene.yaml", text.replace("STIFFNESS", stiffness)), os.path.join(folder, "out")
-    code, said = command(CAPSTAN, "run", scene, "-o", out, "--force")
-    assert code == wanted, said
-    code, said = command(CHECKER, os.path.join(out, "result.nc"), scene)
-    assert code == 0, said
-    return scene, out, Results(os.path.join(out, "result.nc"))
+    return runs.solve(CAPSTAN, CHECKER, folder, text.replace("STIFFNESS", stiffness), (wanted,))
 
 
 def tilt(folder, stiffness):
@@ -113,17 +93,6 @@ def tilt(folder, stiffness):
     assert results.get("outcome", 5)[0] != results.get("outcome", 4)[0]
 
 
-def falsify(results, folder, variable, step, index, change):
-    _, kind, _, begin = results.variables[variable]
-    data = bytearray(results.data)
-    at = begin + step*results.record + index*SIZE[kind]
-    value, = struct.unpack_from(">" + CODE[kind], data, at)
-    assert not math.isnan(value), variable
-    struct.pack_into(">" + CODE[kind], data, at, value + change)
-    with open(os.path.join(folder, "copy.nc"), "wb") as file:
-        file.write(data)
-
-
 def bollard(folder, stiffness):
     scene, out, results = solve(folder, BOLLARD, stiffness, 0)
     place = results.get("obstacle_place", 5)
@@ -139,28 +108,6 @@ def bollard(folder, stiffness):
     for name in ("step-00003-obstacles.vtp", "step-00021-obstacles.vtp", "plan.svg"):
         assert os.path.exists(os.path.join(out, name)), name
     return len(FALSIFIED)
-
-
-def resumed(folder):
-    """Stopped after some steps and resumed: the same numbers."""
-    scene = write(folder, "long.yaml", BOLLARD.replace("STIFFNESS", "20000").replace("steps: 8", "steps: 200"))
-    whole, parts = os.path.join(folder, "whole"), os.path.join(folder, "parts")
-    code, said = command(CAPSTAN, "run", scene, "-o", whole)
-    assert code == 0, said
-    run = subprocess.Popen([CAPSTAN, "run", scene, "-q", "-o", parts], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    journal = os.path.join(parts, ".journal")
-    while run.poll() is None and not (os.path.exists(journal) and os.path.getsize(journal) > 300000):
-        time.sleep(0.001)
-    assert run.poll() is None, "the run was over before it could be killed"
-    run.kill()
-    run.wait()
-    code, said = command(CAPSTAN, "run", scene, "-o", parts, "--resume")
-    assert code == 0, said
-    one, other = Results(os.path.join(whole, "result.nc")), Results(os.path.join(parts, "result.nc"))
-    assert one.steps == other.steps == 214
-    for step in (10, 30, 100, 213):
-        for name in ("rope_position", "rope_tension", "obstacle_place", "obstacle_direction", "obstacle_shift_about"):
-            assert one.get(name, step) == other.get(name, step), (name, step)
 
 
 def mistakes(folder):
@@ -184,7 +131,9 @@ def main():
         for stiffness in ("20000", ".inf"):
             tilt(folder, stiffness)
         copies = sum(bollard(folder, stiffness) for stiffness in ("20000", ".inf"))
-        resumed(folder)
+        resumed(CAPSTAN, folder, BOLLARD.replace("STIFFNESS", "20000").replace("steps: 8", "steps: 200"),
+            300000, 214, (10, 30, 100, 213),
+            ("rope_position", "rope_tension", "obstacle_place", "obstacle_direction", "obstacle_shift_about"))
         wrong = mistakes(folder)
     print(f"{copies} falsified copies and {wrong} mistakes refused")
     return 0

@@ -11,22 +11,19 @@ not, those refused with a proof counted apart, and the checker must refute none.
 drums hold whole elements when the history ends: place and forces there are those of the mooring without winches, to 1e-7 of its size and of
 its largest force.
 """
-import argparse
 import math
 import os
 import random
-import re
-import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.dont_write_bytecode = True  # nothing is left in the source folder
+import checked  # noqa: E402
 from result_file import Results  # noqa: E402
+
 
 CERTIFIED = {"point": 0.995, "body": 0.97, "whole": 0.995}  # of some bodies the static start is not certified
 EQUAL = 1e-7  # forces at a point balance to 1e-10 of the largest, and sideways a mooring may be a thousand times softer than along its lines
-SECONDS = 300
 CLASSES = ["point", "body", "whole"]
 
 
@@ -121,23 +118,15 @@ class Mooring:
         return out
 
 
-def run(command):
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=SECONDS, check=False)
-
-
 def solve(given, text, folder, name):
     """The command's exit code, the counts of the checker, and its words."""
     scene, out = os.path.join(folder, name + ".yaml"), os.path.join(folder, name)
     with open(scene, "w", encoding="ascii") as file:
         file.write(text)
-    done = run([given.capstan, "run", "-q", scene, "-o", out, "--force"])
+    done = checked.run(given.capstan, "run", "-q", scene, "-o", out, "--force")
     if done.returncode not in (0, 1):
         return done.returncode, [0] * 5, done.stderr.strip()
-    told = run([given.checker, os.path.join(out, "result.nc"), scene, "-v"])
-    counts = re.match(r"records (\d+), certified (\d+), not certified (\d+), refuted (\d+), not finite (\d+)", told.stdout)
-    found = [int(n) for n in counts.groups()] if counts else [0, 0, 0, 1, 0]
-    found[3] += "against the scene: 0 findings" not in told.stdout
-    return done.returncode, found, told.stderr.strip()[:400]
+    return done.returncode, *checked.check(given.checker, out, scene)
 
 
 def difference(mooring, folder):
@@ -179,18 +168,5 @@ def one_class(given, kind):
     return steps > 0 and certified >= CERTIFIED[kind] * steps and refuted == 0 and wrong == 0 and worst <= EQUAL
 
 
-def main():
-    options = argparse.ArgumentParser()
-    options.add_argument("capstan")
-    options.add_argument("checker")
-    options.add_argument("--count", type=int, default=20)
-    options.add_argument("--seed", type=int, default=1)
-    options.add_argument("--only", choices=CLASSES)
-    options.add_argument("--keep", help="folder for the scenes")
-    given = options.parse_args()
-    good = [one_class(given, kind) for kind in ([given.only] if given.only else CLASSES)]
-    sys.exit(0 if all(good) else 1)
-
-
 if __name__ == "__main__":
-    main()
+    checked.main(CLASSES, one_class, 20)

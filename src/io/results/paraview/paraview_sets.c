@@ -15,23 +15,15 @@ static void write_corners(CellData what, const Vec3 *x, int count, int first, FI
 /* Write one kind of numbers of all outlines; returns the number of points, and of polylines. */
 static void write_all(const CpsResults *results, CellData what, FILE *out, int *points,
                       int *lines) {
+    CpsiOutlineWalk walk = {.reach = 0};
     *points = *lines = 0;
-    for (int l = 0; l < results->line_count; ++l)
-        for (int end = 0; end < 2; ++end) {
-            const CpsConstraint *on = &results->line_constraint[l][end];
-            const double *about = results->row[0].line[l].report.end[end].position;
-            Vec3 x[CPSI_OUTLINE_POINTS];
-            int count;
-            for (int piece = 0; (count = cpsi_set_outline(on, vec3_load(about),
-                                                          results->line_length[l], piece, x)) > 0;
-                 ++piece) {
-                if (out) write_corners(what, x, count, *points, out);
-                *points += count;
-                ++*lines;
-                if (out && what == OFFSETS) fprintf(out, "%d\n", *points);
-                if (out && what == LINE_ID) fprintf(out, "%d\n", l);
-            }
-        }
+    while (cpsi_next_outline(results, &walk)) {
+        if (out) write_corners(what, walk.x, walk.count, *points, out);
+        *points += walk.count;
+        ++*lines;
+        if (out && what == OFFSETS) fprintf(out, "%d\n", *points);
+        if (out && what == LINE_ID) fprintf(out, "%d\n", walk.line);
+    }
 }
 
 CpsStatus cpsi_paraview_sets(CpsResults *results, CpsError *err) {
