@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/loads.h: what acts on a line beside its weight and what it touches: springs to the
- * ground, given forces, and the drag of a current on a line at rest.
+ * ground, given forces, the drag of a current on a line at rest, and a potential that a program
+ * gives as a function.
  *
  *     CpsSpring bed = {.from = 0, .to = 40, .stiffness = {200, 200, 0}, .at_start = true};
  *     CpsLineLoads loads = {.spring_count = 1, .spring = &bed};
@@ -46,6 +47,20 @@ typedef struct CpsDrag {
     double normal, tangential; /* [-] >= 0 */
 } CpsDrag;
 
+/* A potential U(x) of a program's own (S90 annexes, U): energy [J/m] per metre of unstretched line
+ * at x [m] in the axes of the scene, its gradient [N/m] and its second derivatives [N/m2] xx, xy,
+ * yy, xz, yz, zz. The force on the line is minus the gradient. U is convex and twice
+ * differentiable, and depends on x alone. Several threads may call it at once where the scene has
+ * threads. */
+typedef double CpsPotentialFunction(void *user, const double x[3], double gradient[3],
+                                    double second[6]);
+
+typedef struct CpsPotential {
+    CpsPotentialFunction *function; /* default NULL: none */
+    void *user;                     /* argument of the function */
+    double from, to;                /* [m] as of a spring, from < to */
+} CpsPotential;
+
 /* Of a line; all is 0 in a struct that is initialised so. */
 typedef struct CpsLineLoads {
     int spring_count;
@@ -53,6 +68,9 @@ typedef struct CpsLineLoads {
     int force_count;
     const CpsLineForce *force; /* (force_count) the same */
     CpsDrag drag;
+    /* of a line whose ends are not at points; the elements add up U at their nodes by half of their
+     * lengths */
+    CpsPotential potential;
 } CpsLineLoads;
 
 typedef struct CpsCurrentRow {
@@ -67,6 +85,18 @@ typedef struct CpsCurrent {
     int row_count;            /* >= 1 */
     const CpsCurrentRow *row; /* (row_count) with z that rises from row to row */
 } CpsCurrent;
+
+/* The potential of a line after the last step. The arrays are valid until the evolution changes. */
+typedef struct CpsPotentialView {
+    bool is_there; /* otherwise all else is 0 */
+    int node_count;
+    const double *energy; /* (node_count) [J] of each node */
+    const double *force;  /* (node_count, 3) [N] on it; part of node_load (step.h) */
+    double total;         /* [J] */
+} CpsPotentialView;
+
+struct CpsEvolution;
+CPS_API CpsPotentialView cps_evolution_potential(const struct CpsEvolution *evolution, int line);
 
 #ifdef __cplusplus
 }

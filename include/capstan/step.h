@@ -63,7 +63,7 @@ typedef struct CpsCertificate {
     double law_residual;        /* [J] sum of phi(u) + <u, F> over the contacts */
     double contact_residual;    /* [J] sum of R (n.u + gap) over the contacts */
     double friction_residual;   /* [N] sum of |w - mu R|: error of frozen bounds, else rounding */
-    double load_residual;       /* [N] sum over the nodes of drag used less drag where they are */
+    double load_residual;       /* [N] of drag and potential used less those where they are */
     double element_push;        /* [N] largest compressive part of an element's force */
     double elongation_residual; /* [-] largest |x'| - (1 + c |p|) of an elastic element */
     double stretch_residual;    /* [-] largest |x'| - 1 of an inextensible element */

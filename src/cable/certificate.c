@@ -32,6 +32,7 @@
 #include "cable/flow.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
+#include "cable/potential.h"
 #include "cable/soft.h"
 #include "chain/frame.h"
 #include "linalg/dense.h"
@@ -394,7 +395,7 @@ CpsCertificate cpsi_certificate(const CpsiLine *line, double tolerance) {
     add_segments(line, &out);
     add_nodes(line, &out);
     out.scale += load_scale(line, out.largest_force, tolerance);
-    out.load_residual = cpsi_line_flow_change(line);
+    out.load_residual = cpsi_line_flow_change(line) + cpsi_potential_change(line);
     out.element_penetration = cpsi_line_pierces(line, &(int){0});
     /* P - D >= sum (l c/2) (T - T*)^2, so rms(T - T*) <= sqrt(2 gap/(c L)) with the least c; it
      * says nothing beyond the tension itself */

@@ -49,7 +49,7 @@ static bool misses_set(CpsiLine *line) {
 static bool slides_off(CpsiLine *line) {
     Vec3 sum = vec3(0, 0, 0);
     double loads = 0;
-    if (!cpsi_line_is_loose(line) || line->field.flow) return false;
+    if (!cpsi_line_is_loose(line) || cpsi_line_loads_follow(line)) return false;
     for (int j = 0; j < line->n; j++) {
         sum = vec3_add(sum, vec3_at(line->load, j));
         loads += vec3_norm(vec3_at(line->load, j));
@@ -74,7 +74,8 @@ static bool slides_off(CpsiLine *line) {
  * holds on one plane with isotropic friction, or without obstacles; for several planes see
  * slips_off. */
 static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
-    if (!cpsi_line_is_loose(line) || line->has_local_axes || line->field.flow) return false;
+    if (!cpsi_line_is_loose(line) || line->has_local_axes || cpsi_line_loads_follow(line))
+        return false;
     Vec3 sum = vec3(0, 0, 0);
     double bound = 0, steepest = 0, least = INFINITY, loads = 0;
     bool stopped = false;
@@ -119,7 +120,8 @@ static bool runs_away(CpsiLine *line, const CpsiStepOptions *options) {
  * is enough that v leads into no plane, and the fall is B.v less the sum of w |v_T|. */
 static bool slips_off(CpsiLine *line, bool frozen) {
     CpsiSlopes slopes;
-    if (!cpsi_line_is_loose(line) || !line->has_local_axes || line->field.flow) return false;
+    if (!cpsi_line_is_loose(line) || !line->has_local_axes || cpsi_line_loads_follow(line))
+        return false;
     if (cpsi_line_has_sets(line)) return false;
     if (!cpsi_slopes_fill(line, cpsi_largest_friction_factor(line), frozen, &slopes)) return false;
     if (frozen) cpsi_slopes_add_bounds(line, &slopes);
@@ -172,7 +174,8 @@ bool cpsi_line_moves_away(const CpsiLine *line, Vec3 v) {
 }
 
 bool cpsi_line_falls_away(const CpsiLine *line, double direction[3], double *load) {
-    if (!cpsi_line_is_loose(line) || line->field.flow || cpsi_line_has_sets(line)) return false;
+    if (!cpsi_line_is_loose(line) || cpsi_line_loads_follow(line) || cpsi_line_has_sets(line))
+        return false;
     Vec3 sum = vec3(0, 0, 0);
     double loads = 0;
     for (int j = 0; j < line->n; j++) {

@@ -8,6 +8,11 @@
 
 static inline bool cpsi_line_has_field(const CpsiLine *line) { return line->field.stiffness; }
 
+/* Do loads depend on where the line comes to be? */
+static inline bool cpsi_line_loads_follow(const CpsiLine *line) {
+    return line->field.flow || line->has_potential;
+}
+
 /* K v of node j, and the force -K (x - a) of the field on it at x; 0 without a field. */
 Vec3 cpsi_line_field_pull(const CpsiLine *line, int j, Vec3 v);
 Vec3 cpsi_line_field_force(const CpsiLine *line, int j, Vec3 x);

@@ -49,6 +49,11 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->field.own_load, 3 * n);
         CPSI_PLACE(arena, line->field.drag, 3 * n);
         CPSI_PLACE(arena, line->field.all, 3 * n);
+        if (line->has_potential) {
+            CPSI_PLACE(arena, line->field.share, n);
+            CPSI_PLACE(arena, line->field.pull, 3 * n);
+            CPSI_PLACE(arena, line->field.energy, n);
+        }
         cpsi_anderson_layout(&line->field.rounds, arena, line->n);
     }
     if (line->has_field) {

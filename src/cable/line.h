@@ -37,9 +37,9 @@ typedef struct CpsiLine {
                            or none; NULL: no obstacle has one */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep, and */
     CpsiShift *shift;   /* how each has been shifted in it */
-    bool has_zones, has_inertia;    /* friction differs along it; it may move in time */
-    bool has_field, has_node_loads; /* the arrays of `field` and its loads are there */
-    bool has_sections;              /* weight and compliance may, and there may be point masses */
+    bool has_zones, has_inertia; /* friction differs along it; it may move in time */
+    bool has_field, has_node_loads, has_potential; /* the arrays of `field` are there */
+    bool has_sections; /* weight and compliance may, and there may be point masses */
     bool has_breaking_load, has_break_at; /* an element has one */
     bool has_local_axes;   /* each contact has its own axes: not on one plane with a disc */
     int contacts;          /* of a node: 2 where there is more than one obstacle, else 1 */

@@ -13,6 +13,7 @@
 #include "cable/flow.h"
 #include "cable/held.h"
 #include "cable/obstacle_side.h"
+#include "cable/potential.h"
 #include "chain/frame.h"
 
 /* A solution with a node farther away than this many line lengths is treated as unbounded. */
@@ -38,6 +39,7 @@ void cpsi_line_set_loads(CpsiLine *line) {
     if (line->has_node_loads)
         for (int i = 0; i < 3 * line->n; i++) {
             line->field.all[i] = line->field.load[i] + line->field.drag[i];
+            if (line->has_potential) line->field.all[i] += line->field.pull[i];
             line->load[i] += line->field.all[i];
         }
     for (int end = 0; end < 2; end++)
@@ -54,6 +56,7 @@ void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
     cpsi_contact_set_reference(line, options->contact_policy, options->friction_policy,
                                options->frictionless);
     if (line->has_node_loads) cpsi_line_follow_flow(line, line->position);
+    cpsi_potential_model(line, line->position);
     cpsi_line_set_loads(line);
 }
 

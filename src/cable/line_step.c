@@ -35,9 +35,11 @@
 #include "cable/end_set.h"
 #include "cable/endless_slide.h"
 #include "cable/existence.h"
+#include "cable/field.h"
 #include "cable/flow.h"
 #include "cable/line_solve.h"
 #include "cable/mesh_error.h"
+#include "cable/potential.h"
 #include "cable/report.h"
 #include "cable/rounds.h"
 #include "cable/shortfall.h"
@@ -265,26 +267,33 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
     }
 }
 
-/* The drag follows the line to where it comes to be: the step is solved again with the drag there,
- * until that hardly changes. */
-static void follow_flow(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+/* Drag and potential follow the line to where it comes to be: the step is solved again with what
+ * they are there, until that hardly changes. */
+static void follow_loads(CpsiLine *line, CpsiChainProgram *program,
+                         const CpsiStepOptions *options) {
     enum { MOST = 60 };
     const size_t contacts = (size_t)cpsi_line_all_contacts(line);
     for (int round = 0; round < MOST; round++) {
         const CpsCertificate *found = &line->report.certificate;
         if (!cps_outcome_is_certified(line->report.outcome) ||
             !(found->load_residual > CPSI_FOLLOWED * found->largest_force))
-            return;
-        cpsi_line_approach_flow(line, round == 0);
+            break;
+        if (line->field.flow) cpsi_line_approach_flow(line, round == 0);
+        cpsi_potential_model(line, line->position);
         cpsi_line_set_loads(line);
         memset(line->reaction, 0, contacts * sizeof *line->reaction);
         if (line->has_local_axes) cpsi_contact_reset(line);
         solve_with_fallbacks(line, program, options, CPSI_GUESS_NONE);
     }
+    if (!line->has_potential) return;
+    const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
+    cpsi_potential_settle(line);
+    cpsi_line_set_loads(line);
+    if (cps_outcome_is_certified(line->report.outcome)) cpsi_line_certify(line, options, &done);
 }
 
 /* Loads that are not those of the place are no answer. */
-static void judge_flow(CpsiLine *line, const CpsiStepOptions *options) {
+static void judge_loads(CpsiLine *line, const CpsiStepOptions *options) {
     const CpsCertificate *found = &line->report.certificate;
     if (cps_outcome_is_certified(line->report.outcome) &&
         !(found->load_residual <= options->solver.tolerance * found->largest_force))
@@ -329,6 +338,9 @@ static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     memset(line->reaction, 0, contacts * sizeof *line->reaction);
     memset(line->tension, 0, n * sizeof *line->tension);
     cpsi_line_clear_set_reactions(line);
+    cpsi_potential_model(line, line->position);
+    cpsi_potential_settle(line);
+    cpsi_line_set_loads(line);
     if (line->has_local_axes) {
         cpsi_contact_reset(line);
         cpsi_contact_update_geometry(line);
@@ -478,6 +490,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     store_forces_before(line);
     cpsi_line_set_reference(line, options);
     if (!line->joined && cpsi_line_stands_still(line, options, &before)) {
+        cpsi_potential_settle(line);
         report_piercing(line);
         cpsi_line_report_ends(line);
         cpsi_line_report_lengths(line);
@@ -494,8 +507,8 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
         solve_across(line, program, options);
     else
         solve_with_fallbacks(line, program, options, guess);
-    if (line->field.flow && !line->joined) follow_flow(line, program, options);
-    judge_flow(line, options);
+    if (cpsi_line_loads_follow(line) && !line->joined) follow_loads(line, program, options);
+    judge_loads(line, options);
     if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
     report_piercing(line);

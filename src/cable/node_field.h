@@ -21,6 +21,12 @@ typedef struct CpsiFlow {
     const CpsCurrentRow *row;
 } CpsiFlow;
 
+/* A potential of a program's own (potential.h). */
+typedef struct CpsiPotential {
+    CpsPotential given;
+    double origin[3]; /* [m] of line->position, in the axes of the scene */
+} CpsiPotential;
+
 typedef struct CpsiNodeField {
     double *load; /* (n, 3) [N] a load of each node; NULL: none */
     /* (n, 6) [N/m] K as xx, xy, yy, xz, yz, zz; NULL: there is none, and the rest is not read */
@@ -37,9 +43,13 @@ typedef struct CpsiNodeField {
     double *own_load, *own_stiffness, *own_place;
     double *diagonal, *coupling; /* (n, 3) [N/m] of own_stiffness: xx, yy, zz; xy, xz, yz */
     const CpsiFlow *flow;        /* NULL: none */
-    double *all;                 /* (n, 3) [N] load and drag together; NULL as load */
-    CpsiAnderson rounds;         /* of the drag */
-    double *drag; /* (n, 3) [N] of the flow, where the line was last seen; NULL: none */
+    double *all;                 /* (n, 3) [N] load, drag and pull together; NULL as load */
+    CpsiPotential potential;     /* without a function: none, and the next arrays are not there */
+    double *share;       /* (n) [m] length of the line at each node that has the potential */
+    double *pull;        /* (n, 3) [N] its force where the line was last seen */
+    double *energy;      /* (n) [J] its energy there */
+    CpsiAnderson rounds; /* of the drag */
+    double *drag;        /* (n, 3) [N] of the flow, where the line was last seen; NULL: none */
 } CpsiNodeField;
 
 /* K v for K (6). */

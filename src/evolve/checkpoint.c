@@ -211,6 +211,10 @@ static void pass_line(Tape *tape, CpsiLine *line) {
         pass(tape, line->field.drag, 3 * n * sizeof(double));
         pass(tape, line->field.all, 3 * n * sizeof(double));
     }
+    if (line->has_potential) {
+        pass(tape, line->field.pull, 3 * n * sizeof(double));
+        pass(tape, line->field.energy, n * sizeof(double));
+    }
     if (line->has_field) {
         pass(tape, line->field.stiffness, 6 * n * sizeof(double));
         pass(tape, line->field.place, 3 * n * sizeof(double));
@@ -458,6 +462,11 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
     if (cpsi_line_has_soft(line)) hash_numbers(hash, 1, &line->bearing_width);
     if (line->has_node_loads) hash_numbers(hash, 3 * (size_t)line->n, line->field.own_load);
     if (line->field.flow) hash_flow(hash, line->field.flow);
+    if (line->has_potential) { /* a function is known by what it gives */
+        hash_numbers(hash, (size_t)line->n, line->field.share);
+        hash_numbers(hash, (size_t)line->n, line->field.energy);
+        hash_numbers(hash, 3 * (size_t)line->n, line->field.pull);
+    }
     if (line->spring_count > 0) {
         hash_bytes(hash, line->spring_at, (size_t)line->n * sizeof *line->spring_at);
         hash_numbers(hash, (size_t)line->spring_count, line->spring_start);

@@ -115,9 +115,10 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->has_zones = scene->line[i].zone_count > 0;
         line->has_sections = cpsi_has_sections(&scene->line[i]);
         for (int end = 0; end < 2; end++) line->drums.on[end] = scene->line[i].winch[end].is_there;
-        line->has_field = cpsi_has_springs(&scene->line[i]);
-        line->has_node_loads =
-            cpsi_has_forces(&scene->line[i]) || cpsi_has_drag(scene, &scene->line[i]);
+        line->has_potential = cpsi_has_potential(&scene->line[i]);
+        line->has_field = cpsi_has_springs(&scene->line[i]) || line->has_potential;
+        line->has_node_loads = cpsi_has_forces(&scene->line[i]) ||
+                               cpsi_has_drag(scene, &scene->line[i]) || line->has_potential;
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
         line->has_break_at = cpsi_has_break_at(&scene->line[i]);
         line->has_inertia = cpsi_is_in_time(scene) && !scene->line[i].quasi_static;

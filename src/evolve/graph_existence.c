@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cable/existence.h"
+#include "cable/field.h"
 #include "cable/line_solve.h"
 #include "cable/line_step.h"
 #include "cable/report.h"
@@ -96,7 +97,8 @@ static Loads loads_of(CpsiBalance *balance) {
         cpsi_line_set_reference(line, &options);
         for (int j = 0; j < line->n; j++) add_load(&loads, vec3_at(line->load, j));
         if (line->has_field) note_stiffness(line, loads.stopped);
-        if (line->field.flow) loads.stopped[0] = loads.stopped[1] = loads.stopped[2] = true;
+        if (cpsi_line_loads_follow(line))
+            loads.stopped[0] = loads.stopped[1] = loads.stopped[2] = true;
     }
     for (int k = 0; k < balance->count; k++) {
         double load[3];

@@ -24,6 +24,7 @@
 #include "cable/contact.h"
 #include "cable/field.h"
 #include "cable/flow.h"
+#include "cable/potential.h"
 #include "cable/report.h"
 #include "cable/soft.h"
 #include "cable/winch.h"
@@ -184,7 +185,9 @@ static double load_work(const CpsiLine *line) {
         work += vec3_dot(cpsi_node_field_at(&line->field, j, mean), vec3_sub(x, from));
         if (line->field.flow) work += vec3_dot(cpsi_line_mean_drag(line, j), vec3_sub(x, from));
     }
-    return work;
+    /* a potential has the work by which it falls */
+    return work + cpsi_potential_energy(line, line->reference) -
+           cpsi_potential_energy(line, line->position);
 }
 
 /* The work of the load of an end that is held to a set, whose reaction does none. */

@@ -10,10 +10,14 @@
 #include "base/status.h"
 #include "cable/field.h"
 #include "cable/flow.h"
+#include "cable/potential.h"
 #include "evolve/ranges.h"
 
 bool cpsi_has_springs(const CpsLine *line) { return line->loads && line->loads->spring_count > 0; }
 bool cpsi_has_forces(const CpsLine *line) { return line->loads && line->loads->force_count > 0; }
+bool cpsi_has_potential(const CpsLine *line) {
+    return line->loads && line->loads->potential.function;
+}
 bool cpsi_has_drag(const CpsScene *scene, const CpsLine *line) {
     return scene->current && line->loads && line->loads->drag.diameter > 0;
 }
@@ -84,18 +88,36 @@ static CpsStatus check_force(const CpsLine *line, int k, CpsError *err) {
     return CPS_OK;
 }
 
+static CpsStatus check_potential(const CpsLine *line, CpsError *err) {
+    const CpsPotential *potential = &line->loads->potential;
+    if (!potential->function) return CPS_OK;
+    if (!(potential->from >= 0 && potential->from < potential->to && potential->to <= line->length))
+        return CPSI_FAIL_AT("potential", err, CPS_ERR_ARGUMENT,
+                            "line '%s': potential: it goes from %g m to %g m, expected a piece of "
+                            "the line's length %g m",
+                            line->name, potential->from, potential->to, line->length);
+    for (int end = 0; end < 2; end++)
+        if (line->end[end].kind == CPS_END_KIND_POINT)
+            return CPSI_FAIL_AT("potential", err, CPS_ERR_ARGUMENT,
+                                "line '%s': potential: end %c is at a point, expected ends that "
+                                "are held or free: hold the end, or leave the potential out",
+                                line->name, "AB"[end]);
+    return CPS_OK;
+}
+
 CpsStatus cpsi_line_loads_check(const CpsLine *line, bool in_time, CpsError *err) {
     const CpsLineLoads *loads = line->loads;
     CpsStatus status = CPS_OK;
     if (!loads) return CPS_OK;
     if (in_time)
-        return CPSI_FAIL_AT(loads->spring_count > 0  ? "springs"
-                            : loads->force_count > 0 ? "loads"
-                                                     : "drag",
-                            err, CPS_ERR_ARGUMENT,
-                            "line '%s': springs, loads and drag are those of lines at rest: leave "
-                            "them out, or the motion in time",
-                            line->name);
+        return CPSI_FAIL_AT(
+            loads->spring_count > 0  ? "springs"
+            : loads->force_count > 0 ? "loads"
+                                     : "drag",
+            err, CPS_ERR_ARGUMENT,
+            "line '%s': springs, loads, drag and a potential are those of lines at rest: leave "
+            "them out, or the motion in time",
+            line->name);
     if (loads->spring_count < 0 || (loads->spring_count > 0 && !loads->spring))
         return CPSI_FAIL_AT("springs", err, CPS_ERR_ARGUMENT,
                             "line '%s': springs: found %d, expected 0 or more", line->name,
@@ -108,6 +130,7 @@ CpsStatus cpsi_line_loads_check(const CpsLine *line, bool in_time, CpsError *err
         status = check_spring(line, k, err);
     for (int k = 0; k < loads->force_count && status == CPS_OK; k++)
         status = check_force(line, k, err);
+    if (status == CPS_OK) status = check_potential(line, err);
     const CpsDrag *drag = &loads->drag;
     if (status == CPS_OK &&
         !(cpsi_is_not_negative(drag->diameter) && cpsi_is_not_negative(drag->normal) &&
@@ -181,6 +204,17 @@ static void add_spring(CpsiLine *line, const CpsSpring *spring, const double ori
     }
 }
 
+static void fill_potential(CpsiLine *line, const CpsLine *def, const double origin[3]) {
+    CpsiNodeField *field = &line->field;
+    if (!line->has_potential) return;
+    field->potential.given = def->loads->potential;
+    memcpy(field->potential.origin, origin, sizeof field->potential.origin);
+    for (int j = 0; j < line->n; j++)
+        field->share[j] = part_of(line, j, def->loads->potential.from, def->loads->potential.to);
+    cpsi_potential_model(line, line->position);
+    cpsi_potential_settle(line);
+}
+
 void cpsi_line_loads_fill(CpsiLine *line, const CpsScene *scene, const CpsLine *def,
                           const double origin[3], CpsCurrentRow *row, CpsiFlow *flow) {
     CpsiNodeField *field = &line->field;
@@ -206,6 +240,7 @@ void cpsi_line_loads_fill(CpsiLine *line, const CpsScene *scene, const CpsLine *
         }
     }
     if (line->has_node_loads) memcpy(field->own_load, field->load, 3 * n * sizeof *field->load);
+    fill_potential(line, def, origin);
     if (!cpsi_has_drag(scene, def)) return;
     const CpsCurrent *current = scene->current;
     for (int k = 0; k < current->row_count; k++) {

@@ -10,8 +10,9 @@
 CpsStatus cpsi_line_loads_check(const CpsLine *line, bool in_time, CpsError *err);
 CpsStatus cpsi_current_check(const CpsScene *scene, CpsError *err);
 
-/* Has the line springs; given forces; drag in the scene's current? */
+/* Has the line springs; given forces; a potential; drag in the scene's current? */
 bool cpsi_has_springs(const CpsLine *line);
+bool cpsi_has_potential(const CpsLine *line);
 bool cpsi_has_forces(const CpsLine *line);
 bool cpsi_has_drag(const CpsScene *scene, const CpsLine *line);
 

@@ -125,3 +125,17 @@ CpsTwoStiffnesses cps_evolution_two_stiffnesses(const CpsEvolution *evolution, i
                                .at_static = elasticity(&from->two.elasticity[CPSI_STATIC]),
                                .at_dynamic = elasticity(&from->two.elasticity[CPSI_DYNAMIC])};
 }
+
+CpsPotentialView cps_evolution_potential(const CpsEvolution *evolution, int line) {
+    CpsPotentialView out = {.is_there = false};
+    if (!evolution || line < 0 || line >= evolution->line_count ||
+        !evolution->line[line].has_potential)
+        return out;
+    const CpsiLine *from = &evolution->line[line];
+    out = (CpsPotentialView){.is_there = true,
+                             .node_count = from->n,
+                             .energy = from->field.energy,
+                             .force = from->field.pull};
+    for (int j = 0; j < from->n; j++) out.total += from->field.energy[j];
+    return out;
+}

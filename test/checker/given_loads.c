@@ -97,6 +97,20 @@ static void compare_drag(Compare *compare, const CpsLine *line, const Loads *loa
     }
 }
 
+/* Add what the scene's function gives at a node. */
+static void add_potential(Compare *compare, const CpsLine *line, const Record *r, size_t j,
+                          double at, Real *sum) {
+    const CpsPotential *given = &line->loads->potential;
+    const double share = common_length(r, j, at, given->from, given->to);
+    double x[3], gradient[3], second[6];
+    for (int a = 0; a < 3; a++) x[a] = r->position[j][a] + compare->source.origin[a];
+    const double energy = share * given->function(given->user, x, gradient, second);
+    for (int a = 0; a < 3; a++) sum[a] -= (Real)share * gradient[a];
+    if (!(fabs(energy - r->loads->energy[j]) <= 1e-9 * fabs(energy)))
+        find(compare, "potential of %s: %.17g J at node %zu, by the scene %.17g J", line->name,
+             r->loads->energy[j], j, energy);
+}
+
 void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, size_t step) {
     bool soft = false;
     for (int k = 0; k < compare->scene->obstacle_count; k++)
@@ -104,14 +118,16 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
     if (soft && step == 0)
         same_number(compare, "bearing width", line->name, r->bearing_width, line->bearing_width);
     const CpsLineLoads *given = line->loads;
-    const bool springs = given && given->spring_count > 0,
+    const bool potential = given && given->potential.function,
+               springs = given && (given->spring_count > 0 || potential),
                drag = given && given->drag.diameter > 0 && compare->scene->current,
-               forces = given && (given->force_count > 0 || drag);
+               forces = given && (given->force_count > 0 || drag || potential);
     const Loads *loads = r->loads;
     if (springs != (loads && loads->stiffness) || forces != (loads && loads->given)) {
         find(compare, "springs or loads of %s", line->name);
         return;
     }
+    if (potential != (loads && loads->pull)) find(compare, "potential of %s", line->name);
     if (drag != (loads && loads->has_drag)) find(compare, "drag of %s", line->name);
     if (drag && loads && loads->has_drag && step == 0) compare_drag(compare, line, loads);
     double at = 0, off = 0, sizes = 0;
@@ -122,6 +138,7 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
         if (!forces) continue;
         Real left[3];
         loads_drag(r, r->position, j, left);
+        if (potential && loads->pull) add_potential(compare, line, r, j, at, left);
         for (int a = 0; a < 3; a++) {
             left[a] -= loads->given[j][a];
             for (int i = 0; i < given->force_count; i++)
@@ -133,11 +150,11 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
     }
     /* what certified steps have used differs from what is there by no more than they say */
     const bool certified = r->outcome == OUTCOME_SOLVED || r->outcome == OUTCOME_TAUT;
-    if (certified && drag &&
+    if (certified && (drag || potential) &&
         !(loads->residual <=
           1.001 * compare->scene->solver.tolerance * r->claim[CLAIM_LARGEST_FORCE]))
-        find(compare, "drag of %s, step %zu: certified, but said to be off by %.17g N", line->name,
-             step, loads->residual);
+        find(compare, "drag or potential of %s, step %zu: certified, but said to be off by %.17g N",
+             line->name, step, loads->residual);
     if (certified && forces && !(off <= 1.001 * loads->residual + 1e-10 * sizes))
         find(compare, "loads of %s, step %zu, are off by %.17g N where they are, said %.17g N",
              line->name, step, off, loads->residual);

@@ -70,6 +70,34 @@ static bool is_convex(const double *k, const double *c) {
     return true;
 }
 
+/* A potential of a program: nobody else knows the function. */
+static int create_potential(const Source *source, const char *line, Record *record, FILE *log) {
+    Loads *loads = record->loads;
+    int id;
+    if (!loads->given || !find(source, line, "potential_force", &id)) return 0;
+    loads->pull = calloc(record->nodes, sizeof(Vector));
+    loads->pull_before = calloc(record->nodes, sizeof(Vector));
+    loads->energy = calloc(record->nodes, sizeof(double));
+    loads->energy_before = calloc(record->nodes, sizeof(double));
+    return loads->pull && loads->pull_before && loads->energy && loads->energy_before
+               ? 0
+               : complain(log, "out of memory", "loads");
+}
+
+static int read_potential(const Source *source, const char *line, size_t step, size_t nodes,
+                          Vector *pull, double *energy, FILE *log) {
+    int id;
+    const size_t start[] = {step, 0}, count[] = {1, nodes};
+    if (read_vectors(source, line, "potential_force", (long)step, nodes, pull, log)) return -1;
+    if (!find(source, line, "potential_energy", &id) ||
+        nc_get_vara_double(source->nc, id, start, count, energy) != NC_NOERR)
+        return complain(log, "cannot read", "potential_energy");
+    for (size_t j = 0; j < nodes; j++)
+        if (!isfinite(energy[j]))
+            return complain(log, "a value that cannot be", "potential_energy");
+    return 0;
+}
+
 int loads_create(const Source *source, const char *line, Record *record, FILE *log) {
     int id;
     char name[400];
@@ -94,6 +122,7 @@ int loads_create(const Source *source, const char *line, Record *record, FILE *l
     for (size_t j = 0; j < on_springs; j++)
         if (!is_convex(loads->stiffness[j], loads->coupling[j]))
             return complain(log, "negative energy", "node_stiffness");
+    if (create_potential(source, line, record, log)) return -1;
     snprintf(name, sizeof name, "%s_drag", line);
     loads->has_drag = nc_get_att_double(source->nc, NC_GLOBAL, name, loads->drag) == NC_NOERR &&
                       nc_inq_attlen(source->nc, NC_GLOBAL, "current", &(size_t){0}) == NC_NOERR;
@@ -112,7 +141,14 @@ int loads_read(const Source *source, const char *line, size_t step, Record *reco
     if (loads->beside)
         bad |= read_vectors(source, line, "node_beside", (long)step, record->nodes, loads->beside,
                             log);
-    return bad ? -1 : 0;
+    if (!loads->pull || bad) return bad ? -1 : 0;
+    loads->has_before = step > 0;
+    if (loads->has_before)
+        bad = read_potential(source, line, step - 1, record->nodes, loads->pull_before,
+                             loads->energy_before, log);
+    return bad || read_potential(source, line, step, record->nodes, loads->pull, loads->energy, log)
+               ? -1
+               : 0;
 }
 
 void loads_free(Record *record) {
@@ -123,6 +159,10 @@ void loads_free(Record *record) {
     free(loads->place);
     free(loads->beside);
     free(loads->given);
+    free(loads->pull);
+    free(loads->pull_before);
+    free(loads->energy);
+    free(loads->energy_before);
     free(loads->row);
     free(loads);
     record->loads = NULL;
@@ -223,10 +263,35 @@ Real loads_work(const Record *record) {
         loads_drag(record, record->reference, j, before);
         loads_drag(record, record->position, j, after);
         for (int a = 0; a < 3; a++)
-            work += (loads->given[j][a] + (before[a] - after[a]) / 2) *
+            work += (loads->given[j][a] - (loads->pull ? (Real)loads->pull[j][a] : 0) +
+                     (before[a] - after[a]) / 2) *
                     ((Real)record->position[j][a] - record->reference[j][a]);
+        if (loads->energy) work += (Real)loads->energy_before[j] - loads->energy[j];
     }
-    return work;
+    /* where the line began its potential is not on file */
+    return loads->energy && !loads->has_before ? loads->ledger : work;
+}
+
+/* U(y) >= U(x) - F(x).(y - x), but for rounding */
+static bool rises(double at_y, double at_x, const double *F, const double *y, const double *x) {
+    Real by = 0, sizes = fabsl((Real)at_y) + fabsl((Real)at_x);
+    for (int a = 0; a < 3; a++) {
+        by -= (Real)F[a] * ((Real)y[a] - x[a]);
+        sizes += fabsl((Real)F[a]) * (fabsl((Real)y[a]) + fabsl((Real)x[a]));
+    }
+    return at_y - at_x - by >= -1e-9L * sizes;
+}
+
+bool loads_are_convex(const Record *r) {
+    const Loads *loads = r->loads;
+    if (!loads || !loads->energy || !loads->has_before) return true;
+    for (size_t j = 0; j < r->nodes; j++)
+        if (!rises(loads->energy[j], loads->energy_before[j], loads->pull_before[j], r->position[j],
+                   r->reference[j]) ||
+            !rises(loads->energy_before[j], loads->energy[j], loads->pull[j], r->reference[j],
+                   r->position[j]))
+            return false;
+    return true;
 }
 
 void loads_add_others(const Record *r, size_t j, Real *sum) {

@@ -10,7 +10,12 @@
 typedef struct Loads {
     /* (nodes) of springs: K, its xx, yy, zz and xy, xz, yz; a; y */
     Vector *stiffness, *coupling, *place, *beside;
-    Vector *given;           /* (nodes) [N] given loads and drag */
+    Vector *given; /* (nodes) [N] given loads and drag */
+    /* (nodes) of a potential that the program gives: its force, part of `given`, and its energy
+     * [J], with those of the step before, where there is one; NULL without */
+    Vector *pull, *pull_before;
+    double *energy, *energy_before;
+    bool has_before;
     double ledger, residual; /* as claimed */
     bool has_drag;
     double drag[3]; /* diameter, coefficients across and along */
@@ -39,6 +44,11 @@ void loads_add_others(const Record *record, size_t j, Real *sum);
 /* [J] The work of springs, given loads and drag in the step: of drag the mean of before and after.
  */
 Real loads_work(const Record *record);
+
+/* Does the potential rise faster between the places of this step and of the one before than its
+ * forces there say? No convex function does: U(y) >= U(x) - F(x).(y - x), of each node, both ways.
+ * Of a step in one part. */
+bool loads_are_convex(const Record *record);
 
 /* [N] The drag on node j at the places x. */
 void loads_drag(const Record *record, Vector *x, size_t j, Real *out);

@@ -514,3 +514,22 @@ void cpsi_netcdf_append_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, si
     }
     cpsi_netcdf_doubles(file, ids->reaction, start, count, reaction[0]);
 }
+
+void cpsi_netcdf_define_potential(CpsiNetcdfFile *file, CpsiNetcdfPotential *ids,
+                                  const CpsLine *line, const int dimension[3]) {
+    ids->is_there = line->loads && line->loads->potential.function;
+    if (!ids->is_there) return;
+    ids->energy = cpsi_netcdf_variable(file, line->name, "potential_energy", NC_DOUBLE, 2,
+                                       dimension, "energy in the potential of the program", "J");
+    ids->force = cpsi_netcdf_variable(file, line->name, "potential_force", NC_DOUBLE, 3, dimension,
+                                      "its force, part of node_load", "N");
+}
+
+void cpsi_netcdf_append_potential(CpsiNetcdfFile *file, const CpsiNetcdfPotential *ids, size_t step,
+                                  const CpsEvolution *evolution, int line) {
+    if (!ids->is_there) return;
+    const CpsPotentialView view = cps_evolution_potential(evolution, line);
+    const size_t start[] = {step, 0, 0}, count[] = {1, (size_t)view.node_count, 3};
+    cpsi_netcdf_doubles(file, ids->energy, start, count, view.energy);
+    cpsi_netcdf_doubles(file, ids->force, start, count, view.force);
+}

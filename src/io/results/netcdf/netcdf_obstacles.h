@@ -188,6 +188,18 @@ void cpsi_netcdf_write_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, con
 void cpsi_netcdf_append_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size_t step,
                              const CpsEvolution *evolution, int line);
 
+/* The potential of a program on a line (capstan/loads.h); nothing of other lines. The dimensions
+ * are step, node, xyz. */
+typedef struct CpsiNetcdfPotential {
+    bool is_there;
+    int energy, force;
+} CpsiNetcdfPotential;
+
+void cpsi_netcdf_define_potential(CpsiNetcdfFile *file, CpsiNetcdfPotential *ids,
+                                  const CpsLine *line, const int dimension[3]);
+void cpsi_netcdf_append_potential(CpsiNetcdfFile *file, const CpsiNetcdfPotential *ids, size_t step,
+                                  const CpsEvolution *evolution, int line);
+
 /* How obstacles give, and the widths with which lines bear on them; nothing where none gives. */
 void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene);
 /* The current as attributes: the density, z and velocity of row after row; and the drag of lines.

@@ -108,9 +108,10 @@ static const Number ZONE[] = {
 
 /* Of lines with springs or loads. */
 static const Number LOAD[] = {
-    {"ledger_loads", "work of springs, given loads and drag", "J", REPORT(ledger.loads)},
-    {"load_residual", "sum over the nodes of the drag used less the drag where they are, in size",
-     "N", CERTIFICATE(load_residual)},
+    {"ledger_loads", "work of springs, loads, drag and potential", "J", REPORT(ledger.loads)},
+    {"load_residual",
+     "sum over the nodes of drag and potential used less those where they are, in size", "N",
+     CERTIFICATE(load_residual)},
 };
 
 /* Numbers of CpsTensionRange, of each end. */
@@ -153,6 +154,7 @@ typedef struct LineIds {
     CpsiNetcdfGrasps grasps;
     CpsiNetcdfWinches winches;
     CpsiNetcdfSets sets;
+    CpsiNetcdfPotential potential;
     CpsiNetcdfFailure failure;
     CpsiNetcdfMotion motion;
 } LineIds;
@@ -617,6 +619,8 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
                                                  nc->line[i].element});
         cpsi_netcdf_define_sets(&nc->file, &nc->line[i].sets, &scene->line[i],
                                 (const int[]){nc->step, nc->end, nc->xyz});
+        cpsi_netcdf_define_potential(&nc->file, &nc->line[i].potential, &scene->line[i],
+                                     (const int[]){nc->step, nc->line[i].node, nc->xyz});
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
         cpsi_netcdf_define_motion(&nc->file, &nc->time, &nc->line[i].motion, view.name,
@@ -740,6 +744,7 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
         write_line(nc, &nc->line[i], &view, &line);
         cpsi_netcdf_append_winches(&nc->file, &nc->line[i].winches, nc->steps, evolution, i);
         cpsi_netcdf_append_sets(&nc->file, &nc->line[i].sets, nc->steps, evolution, i);
+        cpsi_netcdf_append_potential(&nc->file, &nc->line[i].potential, nc->steps, evolution, i);
         cpsi_netcdf_append_stiffnesses(&nc->file, &nc->line[i].stiffnesses, nc->steps,
                                        (size_t)view.element_count, &two);
         cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,
