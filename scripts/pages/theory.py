@@ -91,6 +91,7 @@ SENTENCES = [
     ("the forces are those of lines longer by one part in {}, as for a single line", lambda p: f"{1 / float(number('cable/held.h', 'CPSI_TAUT_SLACK')(p)):.0e}".replace("+0", "")),
     ("a point that is as near as {} of its longest line", lambda p: f"{float(number('cable/held.h', 'CPSI_TAUT_SLACK')(p))**0.5:.0e}".replace("e-0", "e-")),
     ("To this comes what {} roundings of coordinates", number("evolve/trial.c", "ROUNDINGS")),
+    ("nor turns by more than {} rad: a displacement", number("evolve/newton_step.c", "FARTHEST_TURN")),
     ("at places at most {} rad apart where it turns", number("evolve/shifts.c", "PATH_ANGLE")),
     ("P_k must exceed {} of the sum", number("evolve/substeps.c", "SLIDES_LEAST")),
     ("farther than {} lengths from where the step began", number("cable/line_solve.c", "MAX_DISPLACEMENT")),
