@@ -472,6 +472,11 @@ static void check_stable(const Check *c, const BodyState *at) {
     if (at->kind == BODY_HELD) {
         if (!at->is_stable || !at->has_place)
             find(c, "it is held, but not stable or without a place");
+        for (int i = 0; i < SIX * SIX; i++)
+            if (at->stiffness[i] != 0) {
+                find(c, "it is held, but has a stiffness");
+                break;
+            }
         return;
     }
     const int sign = sign_of(&c->bodies->data[c->body], at->stiffness, c->arm[c->body]);
