@@ -38,6 +38,7 @@
 #include "cable/flow.h"
 #include "cable/line_solve.h"
 #include "cable/mesh_error.h"
+#include "cable/moving_flow.h"
 #include "cable/report.h"
 #include "cable/rounds.h"
 #include "cable/shortfall.h"
@@ -294,6 +295,34 @@ static void follow_flow(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
     }
 }
 
+/* In time the forces of the flow are linear in each program, and follow the line and its velocity
+ * from one to the next. In the end they are given loads. */
+static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+    enum { MOST = 60 };
+    static const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
+    const size_t contacts = (size_t)cpsi_line_all_contacts(line);
+    for (int round = 0; round < MOST; round++) {
+        const CpsCertificate *found = &line->report.certificate;
+        if (!cps_outcome_is_certified(line->report.outcome)) break;
+        double largest;
+        const double left = cpsi_line_swim_change(line, &largest);
+        if (left <= CPSI_FOLLOWED * fmax(found->largest_force, largest)) break;
+        cpsi_line_classify(line, program);
+        cpsi_line_approach_swim(line);
+        cpsi_line_set_loads(line);
+        const CpsiGuess guess = cpsi_warm_step_go_on(line, program, options);
+        if (guess == CPSI_GUESS_NONE) memset(line->reaction, 0, contacts * sizeof *line->reaction);
+        if (line->has_local_axes) cpsi_contact_reset(line);
+        solve_with_fallbacks(line, program, options, guess);
+    }
+    const CpsOutcome outcome = line->report.outcome;
+    line->field.left = cpsi_line_swim_change(line, NULL);
+    cpsi_line_settle_swim(line, line->position);
+    cpsi_line_set_loads(line);
+    cpsi_line_certify(line, options, &done);
+    if (!cps_outcome_is_certified(outcome)) line->report.outcome = outcome;
+}
+
 /* Loads that are not those of the place are no answer. */
 static void judge_flow(CpsiLine *line, const CpsiStepOptions *options) {
     const CpsCertificate *found = &line->report.certificate;
@@ -340,6 +369,10 @@ static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     memset(line->reaction, 0, contacts * sizeof *line->reaction);
     memset(line->tension, 0, n * sizeof *line->tension);
     cpsi_line_clear_set_reactions(line);
+    if (cpsi_line_swims(line)) {
+        cpsi_line_settle_swim(line, line->position);
+        cpsi_line_set_loads(line);
+    }
     if (line->has_local_axes) {
         cpsi_contact_reset(line);
         cpsi_contact_update_geometry(line);
@@ -499,13 +532,21 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     line->report.certificate = (CpsCertificate){0};
     line->report.outcome = CPS_OUTCOME_SOLVED;
     if (!line->joined && cpsi_line_has_no_equilibrium(line, options)) return;
+    const bool swims = cpsi_line_swims(line);
+    if (swims) {
+        cpsi_line_begin_swim(line);
+        cpsi_line_set_loads(line);
+    }
     if (line->joined)
         take_joined(line, options);
     else if (options->across)
         solve_across(line, program, options);
     else
         solve_with_fallbacks(line, program, options, guess);
-    if (line->field.flow && !line->joined) follow_flow(line, program, options);
+    if (swims)
+        follow_swim(line, program, options);
+    else if (line->field.flow && !line->joined)
+        follow_flow(line, program, options);
     judge_flow(line, options);
     if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);

@@ -159,6 +159,16 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
     return CPSI_GUESS_EXTRAPOLATED;
 }
 
+CpsiGuess cpsi_warm_step_go_on(const CpsiLine *line, CpsiChainProgram *program,
+                               const CpsiStepOptions *options) {
+    if (options->frictionless || options->solver.cold || cpsi_line_has_sets(line))
+        return CPSI_GUESS_NONE;
+    for (int i = 0; i < 3 * line->n; i++)
+        program->base.residual[i] = line->position[i] - line->reference[i];
+    for (int i = 1; i < line->n; i++) program->dt[i] = line->tension[i - 1];
+    return treated_contacts(line);
+}
+
 void cpsi_warm_step_predict(CpsiLine *line, const CpsiChainProgram *program) {
     const double *shift = program->base.residual;
     for (int i = 0; i < 3 * line->n; i++) line->position[i] = line->reference[i] + shift[i];
