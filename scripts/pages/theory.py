@@ -100,6 +100,7 @@ SENTENCES = [
     ("no direction is held more stiffly than that of a slip of {} of the length", number("chain/active_system.c", "NO_SLIP")),
     ("past a torus the least of at most {} parts is taken", number("geometry/shape_rounded.c", "MOST_PARTS")),
     ("it ends when the sum of the changes is below {} of the largest force", number("cable/flow.h", "CPSI_FOLLOWED")),
+    ("It ends when the sum of the changes is below {} of the largest force", number("cable/flow.h", "CPSI_FOLLOWED")),
     ("are as forces, at most {}; within that", number("chain/active_set.c", "MOST_NOISE")),
     ("it is held by a stiffness of {} that pulls it to where", number("chain/active_system.c", "PULLING")),
     ("du + rho + e dz with e = {} in", number("chain/constraint.c", "YIELD")),
