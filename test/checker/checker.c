@@ -603,25 +603,14 @@ static void check_weight(const Record *r, const Record *before, Findings *findin
         }
 }
 
-/* The reaction of an obstacle on node j: it may have been another contact of the node, of which
- * the third is that of the element before it, at its end. */
-static double reaction_on(const Record *r, size_t j, double obstacle) {
-    for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
-        if (r->obstacle[c] == obstacle) return r->reaction[c];
-    if (r->has_elements && j > 0 && r->share_of[j - 1] == 1) {
-        const size_t third = r->contacts * r->nodes + j - 1;
-        if (r->obstacle[third] == obstacle) return r->reaction[third];
-    }
-    return 0;
-}
-
 /* The same of an element's contact, which has no other place where its reaction may have been,
  * unless it is the third contact of a node. */
 static void check_element_bound(const Record *r, const Record *before, size_t c, double largest,
                                 double shared, bool all, Findings *findings) {
     const bool third = r->share_of[c - r->contacts * r->nodes] == 1;
     const double w = r->friction_bound[c],
-                 R = third ? reaction_on(before, c - r->contacts * r->nodes + 1, r->obstacle[c])
+                 R = third ? places_reaction_on(before, c - r->contacts * r->nodes + 1,
+                                                r->obstacle[c])
                      : before->obstacle[c] == r->obstacle[c] ? before->reaction[c]
                                                              : 0;
     // with the zone's factor at the point where that reaction was
@@ -638,6 +627,19 @@ static void check_element_bound(const Record *r, const Record *before, size_t c,
     if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared))
         find(findings, "friction bound %.9g on element %zu, expected %.9g times the reaction %.9g",
              w, i, before->mu[c], R);
+}
+
+/* Rounding in the factor of ground by which friction is multiplied; and the coefficient where the
+ * reaction was, with frozen friction at the reference. */
+static double ground_coefficient(const Source *source, const Record *r, size_t c, double *noise) {
+    const size_t j = c % r->nodes;
+    const bool known = r->obstacle[c] >= 0 && r->obstacle[c] < (double)source->surfaces;
+    const Surface *on = known ? &source->surface[(size_t)r->obstacle[c]] : NULL;
+    if (!on || !on->ground || !on->ground->factor) return r->mu[c];
+    const double factor = (r->factor ? r->factor[j] : 1) * (double)surface_friction(on);
+    const double *at = source->consistent ? r->position[j] : r->reference[j];
+    *noise += factor * ground_factor_noise(on->ground, at, on->point);
+    return factor * (double)surface_factor(on, (Real[]){at[0], at[1], at[2]});
 }
 
 /* Friction bounds are reactions times the coefficient of the obstacle: the reactions of the step
@@ -674,23 +676,17 @@ static void check_bounds(const Source *source, const Record *r, const Record *be
         }
         size_t j = c % r->nodes;
         bool held = node_is_held(r, j), was_held = node_is_held(before, j);
-        double w = r->friction_bound[c], R = reaction_on(before, j, r->obstacle[c]),
-               expected = r->mu[c] * R;
+        // rounding of a mean over zones; a coefficient above 1 goes with both
+        double noise = r->factor_noise ? r->factor_noise[j] * fmax(1, r->mu[c]) : 0;
+        double w = r->friction_bound[c], R = places_reaction_on(before, j, r->obstacle[c]),
+               mu = ground_coefficient(source, r, c, &noise), expected = mu * R;
         bool free = was_held || !known || R <= 1e-3 * largest + NOTHING;
         if (held || (w == 0 && isinf(r->gap[c]))) continue;
         if (w == 0 && free && !(source->consistent && solved)) continue;
-        // one product and its rounding, and that of a mean over zones; a coefficient above 1 goes
-        // with both
-        double noise = r->factor_noise ? r->factor_noise[j] * R * fmax(1, r->mu[c]) : 0;
-        const bool known_obstacle =
-            r->obstacle[c] >= 0 && r->obstacle[c] < (double)source->surfaces;
-        const Surface *on = known_obstacle ? &source->surface[(size_t)r->obstacle[c]] : NULL;
-        if (on && on->ground && on->ground->factor)
-            noise += (r->factor ? r->factor[j] : 1) * (double)surface_friction(on) * R *
-                     ground_factor_noise(on->ground, r->position[j], on->point);
-        if (!(fabs(w - expected) <= 1e-14 * expected + noise + shared)) {
+        // one product and its rounding
+        if (!(fabs(w - expected) <= 1e-14 * expected + noise * R + shared)) {
             find(findings, "friction bound %.9g at node %zu, expected %.9g times the reaction %.9g",
-                 w, j, r->mu[c], R);
+                 w, j, mu, R);
             return;
         }
     }

@@ -19,15 +19,29 @@ static const char *text_of_scene;
 static char copy[80];
 static CpsSceneFile *scene;
 
-static void write_scene(const char *text) {
-    FILE *out = fopen(scene_path, "w");
+static void write_text(const char *path, const char *text) {
+    FILE *out = fopen(path, "w");
     assert_true(out && fputs(text, out) >= 0 && fclose(out) == 0);
 }
 
+static void write_scene(const char *text) { write_text(scene_path, text); }
+
+static void write_beside(const DataFile *file) {
+    char path[160];
+    const int folder = (int)(strrchr(scene_path, '/') - scene_path);
+    snprintf(path, sizeof path, "%.*s/%s", folder, scene_path, file->name);
+    write_text(path, file->text);
+}
+
 int falsified_begin(const char *text, void **state) {
+    return falsified_begin_beside(text, NULL, 0, state);
+}
+
+int falsified_begin_beside(const char *text, const DataFile *file, size_t count, void **state) {
     CpsError err;
     if (strlen(text) + 1 > MOST_TEXT || make_scene_directory(state) != 0) return -1;
     text_of_scene = text;
+    for (size_t i = 0; i < count; i++) write_beside(&file[i]);
     write_scene(text);
     run_scene();
     snprintf(copy, sizeof copy, "%s-copy", scene_result);

@@ -21,8 +21,14 @@ typedef struct OtherScene {
     const char *from, *to;
 } OtherScene;
 
-/* The text of the scene, which stays the caller's. */
+/* A file beside the scene. */
+typedef struct DataFile {
+    const char *name, *text;
+} DataFile;
+
+/* The text of the scene, which stays the caller's, and perhaps files that it names. */
 int falsified_begin(const char *scene, void **state);
+int falsified_begin_beside(const char *scene, const DataFile *file, size_t count, void **state);
 int falsified_end(void **state);
 
 /* The checker finds nothing and certifies so many records. */

@@ -13,10 +13,14 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "body_stiffness.h"
 
 /* Numbers that are copied; poses on their way; loads: sums of a few products, and the turning
  * moment of the water by differences. */
 static const double COPIED = 1e-14, POSES = 1e-12, LOADS = 1e-11;
+/* A stiffness, lengths in arms of the body, per its largest entry: rounding of places up to 1e4
+ * lengths from the origin, which strains of stiff lines magnify, makes 1e-8 of it. */
+static const double STIFFNESS = 1e-6;
 
 /* What the scene imposes on a body. */
 typedef struct Imposed {
@@ -29,6 +33,7 @@ typedef struct Compare {
     const Source *source;
     const CpsScene *scene;
     Bodies bodies;
+    Record *line; /* (lines) of the step */
     GivenFinding *find;
     void *user;
     bool found;
@@ -215,6 +220,33 @@ static void compare_state(Compare *c, size_t k, const Imposed *body, const doubl
     same(c, "moment of load_of_body", of, &at->load[3], &wanted[3], 3, LOADS * noise[1]);
 }
 
+/* [m] How far the farthest point of body k is from its reference point; else 1. */
+static double arm_of(const Compare *c, size_t k) {
+    double arm = 0;
+    for (size_t i = 0; i < c->source->points; i++)
+        if (c->bodies.of_point[i] == (int)k) arm = fmax(arm, size(c->bodies.place[i]));
+    return arm > 0 ? arm : 1;
+}
+
+/* The stiffness of a free body against that of its lines, weight and water, where that is known. */
+static void compare_stiffness(Compare *c, size_t k, const double g[3], size_t step,
+                              const BodyState *at) {
+    const double pull = size(c->scene->gravity), arm = arm_of(c, k);
+    double per[3], most = 0, worst = 0;
+    Real own[SIX * SIX];
+    for (int i = 0; i < 3; i++) per[i] = pull > 0 ? g[i] / pull : 0;
+    const StiffnessStep of = {c->source, &c->bodies, c->line, per, false};
+    if (at->kind != BODY_FREE || !at->has_place || !body_stiffness(&of, k, at, arm, own)) return;
+    for (int i = 0; i < SIX * SIX; i++) {
+        const double unit = (i / SIX < 3 ? 1 : arm) * (i % SIX < 3 ? 1 : arm);
+        most = fmax(most, fabs((double)own[i]) / unit);
+        worst = fmax(worst, fabs((double)own[i] - at->stiffness[i]) / unit);
+    }
+    if (!(worst <= STIFFNESS * most))
+        find(c, "stiffness of body %s, step %zu: off by %.3g N/m, the largest entry is %.3g N/m",
+             c->bodies.data[k].name, step, worst, most);
+}
+
 static void compare_step(Compare *c, const GivenStep *given, size_t step, Imposed *imposed,
                          const BodyState *before, const BodyState *now) {
     const int changes = given->stage ? given->stage->body_change_count : 0;
@@ -223,8 +255,10 @@ static void compare_step(Compare *c, const GivenStep *given, size_t step, Impose
         impose(c, &imposed[change->body], change, given->part, given->stage->step_count,
                step > 0 ? &before[change->body] : NULL);
     }
-    for (size_t k = 0; k < c->bodies.count; k++)
+    for (size_t k = 0; k < c->bodies.count; k++) {
         compare_state(c, k, &imposed[k], given->gravity, step, &now[k]);
+        compare_stiffness(c, k, given->gravity, step, &now[k]);
+    }
 }
 
 static int compare_steps(Compare *c, GivenStep (*step_of)(const void *user, size_t step),
@@ -232,17 +266,24 @@ static int compare_steps(Compare *c, GivenStep (*step_of)(const void *user, size
     const size_t n = c->bodies.count;
     Imposed *imposed = calloc(n, sizeof *imposed);
     BodyState *now = calloc(n, sizeof *now), *before = calloc(n, sizeof *before);
-    int bad = imposed && now && before ? 0 : -1;
+    c->line = calloc(c->source->lines, sizeof *c->line);
+    int bad = imposed && now && before && c->line ? 0 : -1;
+    for (size_t i = 0; i < c->source->lines && !bad; i++)
+        bad = record_create(c->source, c->source->line_name[i], &c->line[i], log);
     if (!bad)
         for (size_t k = 0; k < n; k++) imposed[k] = first(c, k);
     for (size_t step = 0; step < c->source->steps && !bad && !c->found; step++) {
         const GivenStep given = step_of(c->user, step);
         bad = bodies_read(c->source, &c->bodies, step, now, log);
+        for (size_t i = 0; i < c->source->lines && !bad; i++)
+            bad = record_read(c->source, c->source->line_name[i], step, &c->line[i], log);
         if (!bad) compare_step(c, &given, step, imposed, before, now);
         BodyState *swap = before;
         before = now;
         now = swap;
     }
+    for (size_t i = 0; i < c->source->lines && c->line; i++) record_destroy(&c->line[i]);
+    free(c->line);
     free(imposed);
     free(now);
     free(before);

@@ -11,7 +11,7 @@
 #include "inertia.h"
 
 static int complain(FILE *log, const char *line, const char *what) {
-    fprintf(log, "grasps of line %s: %s\n", line, what);
+    if (log) fprintf(log, "grasps of line %s: %s\n", line, what);
     return -1;
 }
 

@@ -17,7 +17,7 @@ struct Places {
 };
 
 static int complain(FILE *log, const char *what, size_t step) {
-    fprintf(log, "obstacles, step %zu: %s\n", step, what);
+    if (log) fprintf(log, "obstacles, step %zu: %s\n", step, what);
     return -1;
 }
 
@@ -144,4 +144,14 @@ static Real push(const Source *source, const Record *r, bool from_here) {
 Real places_work(const Source *source, const Record *r, const Record *before) {
     const Real after = push(source, r, false);
     return before ? (after + push(source, before, true)) / 2 : after;
+}
+
+double places_reaction_on(const Record *r, size_t j, double obstacle) {
+    for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
+        if (r->obstacle[c] == obstacle) return r->reaction[c];
+    if (r->has_elements && j > 0 && r->share_of[j - 1] == 1) {
+        const size_t third = r->contacts * r->nodes + j - 1;
+        if (r->obstacle[third] == obstacle) return r->reaction[third];
+    }
+    return 0;
 }

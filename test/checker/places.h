@@ -17,4 +17,8 @@ void places_close(Source *source);
  * NULL: on what the shifts move where the nodes are then, the mean of before and after. */
 Real places_work(const Source *source, const Record *r, const Record *before);
 
+/* The reaction of an obstacle on node j: it may have been another contact of the node, of which
+ * the third is that of the element before it, at its end. */
+double places_reaction_on(const Record *r, size_t j, double obstacle);
+
 #endif

@@ -28,7 +28,7 @@ static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1]
 static Real norm(const Real *a) { return sqrtl(dot(a, a)); }
 
 static int complain(FILE *log, const char *line, const char *what) {
-    fprintf(log, "sets of line %s: %s\n", line, what);
+    if (log) fprintf(log, "sets of line %s: %s\n", line, what);
     return -1;
 }
 

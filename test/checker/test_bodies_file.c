@@ -80,6 +80,12 @@ static const FalseNumber FALSE[] = {
     {"has_place_of_body", NUMBER(3, BARGE), 0, "body barge: it is held, but not stable"},
     {"stable_of_body", NUMBER(1, SPAR), 0, "body spar: it is said to be not stable"},
     {"stiffness_xx_of_body", OF(1, SPAR, 9, 8), -1e4, "body spar: it is said to be stable"},
+    {"stiffness_xx_of_body", OF(1, SPAR, 9, 8), 1294.43, NULL}, /* 1294.424 and so on: of 1e-5 */
+    {"stiffness_xr_of_body", OF(1, SPAR, 9, 0), -296.4, NULL},
+    {"stiffness_rx_of_body", OF(1, SPAR, 9, 0), -296.4, NULL},
+    {"stiffness_rr_of_body", OF(1, SPAR, 9, 4), 6709.1, NULL},
+    {"stiffness_rr_of_body", OF(5, BARGE, 9, 0), 1e3, NULL},
+    {"stiffness_xr_of_body", OF(3, BARGE, 9, 1), 1, "body barge: it is held, but has a stiffness"},
     {"state_of_body", NUMBER(1, SPAR), 0, NULL},
     {"state_of_body", NUMBER(1, SPAR), 2, "unknown state of body spar"},
     {"kind_of_body", BARGE, 1, NULL},

@@ -22,7 +22,7 @@ typedef struct Drums {
 } Drums;
 
 static int complain(FILE *log, const char *line, const char *what) {
-    fprintf(log, "winches of line %s: %s\n", line, what);
+    if (log) fprintf(log, "winches of line %s: %s\n", line, what);
     return -1;
 }
 

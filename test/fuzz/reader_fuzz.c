@@ -4,8 +4,8 @@
  *
  *     scene law drive     a file of that kind
  *     curve               the file that a planimeter names
- *     ground              a file of ground, read in each of its forms
- *     mesh                a file of triangles, read in each of its forms
+ *     esri xyz netcdf moordyn_c moordyn_f    a file of ground in that form
+ *     stl obj             a file of triangles in that form
  *     judge rows          a table to judge; rows that are asked of a law on standard input
  *     state journal       edits (place, 4 bytes) of a saved state and of a journal, whose checksums
  *                         are mended: what a checksum finds is no test; the states are those of
@@ -36,7 +36,23 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-typedef enum Reader { scene, law, drive, curve, ground, mesh, judge, rows, state, journal } Reader;
+typedef enum Reader {
+    scene,
+    law,
+    drive,
+    curve,
+    esri,
+    xyz,
+    netcdf,
+    moordyn_c,
+    moordyn_f,
+    stl,
+    obj,
+    judge,
+    rows,
+    state,
+    journal
+} Reader;
 
 static void must(bool holds) {
     if (!holds) abort();
@@ -65,11 +81,8 @@ static const char *file_of(const uint8_t *data, size_t size) {
 static char own_folder[64];
 
 static void clear(void) {
-    static const char *const NAME[] = {"drive.yaml",  "curve.csv",      "law.yaml",
-                                       ".journal",    "esri.yaml",      "xyz.yaml",
-                                       "netcdf.yaml", "moordyn_c.yaml", "moordyn_f.yaml",
-                                       "ground",      "stl.yaml",       "obj.yaml",
-                                       "mesh"};
+    static const char *const NAME[] = {"drive.yaml",  "curve.csv", "law.yaml",  ".journal",
+                                       "ground.yaml", "ground",    "mesh.yaml", "mesh"};
     char path[128];
     for (size_t i = 0; i < sizeof NAME / sizeof *NAME; ++i) {
         snprintf(path, sizeof path, "%s/%s", own_folder, NAME[i]);
@@ -154,65 +167,56 @@ static void ask_ground(const CpsGround *of) {
     }
 }
 
-static void read_ground(const uint8_t *data, size_t size) {
-    static const char *const FORM[] = {"esri", "xyz", "netcdf", "moordyn_c", "moordyn_f"};
-    put_file("ground", data, size);
-    for (size_t i = 0; i < sizeof FORM / sizeof *FORM; ++i) {
-        char name[32], path[128], text[512];
-        CpsSceneFile *file = NULL;
-        snprintf(name, sizeof name, "%s.yaml", FORM[i]);
-        const int length = snprintf(
-            text, sizeof text,
-            "capstan: 1\nobstacles: {bed: {ground: {file: ground, form: %s, extend: "
-            "true}}}\nlines: "
-            "{a: {length: 1, elements: 1, mass: 1, stiffness: 1, start: {straight: {from: [0, 0, "
-            "1e99], to: [1, 0, 1e99]}}, ends: {A: held, B: held}}}\nhistory: []\n",
-            FORM[i]);
-        put_file(name, text, (size_t)length);
-        snprintf(path, sizeof path, "%s/%s", folder(), name);
-        CpsError err = {0};
-        if (cps_scene_read(path, NULL, &file, &err) == CPS_OK)
-            ask_ground(cps_scene_file_scene(file)->obstacle[0].ground);
-        else
-            must(file == NULL && err.message[0]);
-        cps_scene_file_destroy(file);
-    }
+/* The scene whose obstacle is such a mapping, in a file of such a name; NULL where it is refused.
+ */
+static CpsSceneFile *read_obstacle(const char *name, const char *obstacle) {
+    char path[128], text[512];
+    CpsSceneFile *file = NULL;
+    CpsError err = {0};
+    const int length = snprintf(text, sizeof text,
+                                "capstan: 1\nobstacles: {bed: {%s}}\nlines: {a: {length: 1, "
+                                "elements: 1, mass: 1, stiffness: 1, "
+                                "start: {straight: {from: [0, 0, 1e99], to: [1, 0, 1e99]}}, ends: "
+                                "{A: held, B: held}}}\nhistory: []\n",
+                                obstacle);
+    put_file(name, text, (size_t)length);
+    snprintf(path, sizeof path, "%s/%s", folder(), name);
+    const CpsStatus status = cps_scene_read(path, NULL, &file, &err);
+    expect(status, file, &err);
+    return file;
 }
 
-/* A mesh that is read has a distance everywhere, which is no more than that of a corner. */
+static void read_ground(const char *form, const uint8_t *data, size_t size) {
+    char obstacle[128];
+    put_file("ground", data, size);
+    snprintf(obstacle, sizeof obstacle, "ground: {file: ground, form: %s, extend: true}", form);
+    CpsSceneFile *file = read_obstacle("ground.yaml", obstacle);
+    if (file) ask_ground(cps_scene_file_scene(file)->obstacle[0].ground);
+    cps_scene_file_destroy(file);
+}
+
+/* A mesh that is read has a distance everywhere, which at a corner is rounding of its extent. */
 static void ask_mesh(const CpsMesh *of) {
     const CpsMeshTriangles triangles = cps_mesh_triangles(of);
+    const CpsMeshReport report = cps_mesh_report(of);
+    double extent = 0;
+    for (int k = 0; k < 3; ++k)
+        extent = fmax(extent, fmax(fabs(report.low[k]), fabs(report.high[k])));
     for (int i = 0; i < 3 * triangles.triangle_count && i < 24; ++i) {
         const double *at = &triangles.vertex[3 * (size_t)triangles.triangle[i]];
-        must(fabs(cps_mesh_distance(of, at, NULL)) <=
-             1e-12 * (fabs(at[0]) + fabs(at[1]) + fabs(at[2])));
+        must(fabs(cps_mesh_distance(of, at, NULL)) <= 1e-12 * extent);
         must(isfinite(cps_mesh_distance(of, (double[]){at[0] + 1, at[1], at[2]}, NULL)));
     }
 }
 
-static void read_mesh(const uint8_t *data, size_t size) {
-    static const char *const FORM[] = {"stl", "obj"};
+static void read_mesh(const char *form, const uint8_t *data, size_t size) {
+    char obstacle[128];
     put_file("mesh", data, size);
-    for (size_t i = 0; i < sizeof FORM / sizeof *FORM; ++i) {
-        char name[32], path[128], text[512];
-        CpsSceneFile *file = NULL;
-        snprintf(name, sizeof name, "%s.yaml", FORM[i]);
-        const int length = snprintf(
-            text, sizeof text,
-            "capstan: 1\nobstacles: {rock: {mesh: {file: mesh, form: %s, radius: 1e40, two_sided: "
-            "true}}}\nlines: "
-            "{a: {length: 1, elements: 1, mass: 1, stiffness: 1, start: {straight: {from: [0, 0, "
-            "1e99], to: [1, 0, 1e99]}}, ends: {A: held, B: held}}}\nhistory: []\n",
-            FORM[i]);
-        put_file(name, text, (size_t)length);
-        snprintf(path, sizeof path, "%s/%s", folder(), name);
-        CpsError err = {0};
-        if (cps_scene_read(path, NULL, &file, &err) == CPS_OK)
-            ask_mesh(cps_scene_file_scene(file)->obstacle[0].mesh);
-        else
-            must(file == NULL && err.message[0]);
-        cps_scene_file_destroy(file);
-    }
+    snprintf(obstacle, sizeof obstacle,
+             "mesh: {file: mesh, form: %s, radius: 1e40, two_sided: true}", form);
+    CpsSceneFile *file = read_obstacle("mesh.yaml", obstacle);
+    if (file) ask_mesh(cps_scene_file_scene(file)->obstacle[0].mesh);
+    cps_scene_file_destroy(file);
 }
 
 /* tables --------------------------------------------------------------------------------------- */
@@ -433,8 +437,13 @@ static void run_reader(Reader reader, const uint8_t *data, size_t size) {
     case law: read_law(data, size); break;
     case drive: read_drive(file_of(data, size)); break;
     case curve: read_curve(data, size); break;
-    case ground: read_ground(data, size); break;
-    case mesh: read_mesh(data, size); break;
+    case esri: read_ground("esri", data, size); break;
+    case xyz: read_ground("xyz", data, size); break;
+    case netcdf: read_ground("netcdf", data, size); break;
+    case moordyn_c: read_ground("moordyn_c", data, size); break;
+    case moordyn_f: read_ground("moordyn_f", data, size); break;
+    case stl: read_mesh("stl", data, size); break;
+    case obj: read_mesh("obj", data, size); break;
     case judge: read_judge(data, size); break;
     case rows: read_rows(data, size); break;
     case state: read_state(data, size); break;

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The stiffness of a free body in its pose, recomputed from places, forces and lengths. */
+#ifndef CAPSTAN_CHECKER_BODY_STIFFNESS_H
+#define CAPSTAN_CHECKER_BODY_STIFFNESS_H
+
+#include "bodies.h"
+
+/* The lines of a step, and what pulls the weights: gravity per that of the scene. */
+typedef struct StiffnessStep {
+    const Source *source;
+    const Bodies *bodies;
+    const Record *line; /* (lines) */
+    const double *gravity;
+    bool sticks; /* what friction can hold stays: the stiffness against a small cycle */
+} StiffnessStep;
+
+/* [N/m, N, N m] (6, 6) What force and moment on body k lose by its displacement and rotation from
+ * the pose that it has. False where that is not known here: a line is slack in part, touches what
+ * is no plane with one coefficient, is between two states, or moves in time; or no memory. `arm`
+ * [m]: a length of the body. */
+bool body_stiffness(const StiffnessStep *step, size_t k, const BodyState *at, double arm,
+                    Real stiffness[SIX * SIX]);
+
+#endif
