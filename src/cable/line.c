@@ -54,6 +54,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
             CPSI_PLACE(arena, line->field.pull, 3 * n);
             CPSI_PLACE(arena, line->field.energy, n);
         }
+        if (line->has_inertia) CPSI_PLACE(arena, line->field.added, 3 * n);
         cpsi_anderson_layout(&line->field.rounds, arena, line->n);
     }
     if (line->has_field) {

@@ -43,13 +43,16 @@ typedef struct CpsiNodeField {
     double *own_load, *own_stiffness, *own_place;
     double *diagonal, *coupling; /* (n, 3) [N/m] of own_stiffness: xx, yy, zz; xy, xz, yz */
     const CpsiFlow *flow;        /* NULL: none */
-    double *all;                 /* (n, 3) [N] load, drag and pull together; NULL as load */
+    double *all;                 /* (n, 3) [N] load, drag, pull and added together; NULL as load */
+    CpsiAnderson rounds;         /* of the drag */
     CpsiPotential potential;     /* without a function: none, and the next arrays are not there */
-    double *share;       /* (n) [m] length of the line at each node that has the potential */
-    double *pull;        /* (n, 3) [N] its force where the line was last seen */
-    double *energy;      /* (n) [J] its energy there */
-    CpsiAnderson rounds; /* of the drag */
-    double *drag;        /* (n, 3) [N] of the flow, where the line was last seen; NULL: none */
+    double *share;               /* (n) [m] length of the line at each node that has it */
+    double *pull;                /* (n, 3) [N] its force where the line was last seen */
+    double *energy;              /* (n) [J] its energy there */
+    double *drag; /* (n, 3) [N] of the flow, where the line was last seen; NULL: none */
+    /* of a step in time (moving_flow.h): */
+    double *added; /* (n, 3) [N] of the water that is moved along; NULL without inertia or loads */
+    double left;   /* [N] sum over the nodes of what the last program lacked of the flow's forces */
 } CpsiNodeField;
 
 /* K v for K (6). */

@@ -6,9 +6,10 @@
 #include "cable/line.h"
 #include "capstan/scene.h"
 
-/* in_time: the scene moves in time, where these loads are refused. */
-CpsStatus cpsi_line_loads_check(const CpsLine *line, bool in_time, CpsError *err);
+CpsStatus cpsi_line_loads_check(const CpsScene *scene, const CpsLine *line, CpsError *err);
 CpsStatus cpsi_current_check(const CpsScene *scene, CpsError *err);
+/* No line with a potential ends at a point. */
+CpsStatus cpsi_potential_ends_check(const CpsScene *scene, CpsError *err);
 
 /* Has the line springs; given forces; a potential; drag in the scene's current? */
 bool cpsi_has_springs(const CpsLine *line);

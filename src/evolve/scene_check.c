@@ -283,7 +283,7 @@ static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsEr
                             line->name, line->length);
     CpsStatus status = check_elements(line, err);
     if (status == CPS_OK) status = cpsi_sections_check(scene, line, err);
-    if (status == CPS_OK) status = cpsi_line_loads_check(line, cpsi_is_in_time(scene), err);
+    if (status == CPS_OK) status = cpsi_line_loads_check(scene, line, err);
     return status ? status : check_zones(line, err);
 }
 
@@ -593,6 +593,7 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
     status = cpsi_current_check(scene, err);
     if (status == CPS_OK) status = cpsi_bodies_check(scene, err);
     if (status == CPS_OK) status = cpsi_points_check(scene, err);
+    if (status == CPS_OK) status = cpsi_potential_ends_check(scene, err);
     if (status != CPS_OK) return status;
     CpsiHeldScene held;
     status = cpsi_held_scene(scene, &held, err);

@@ -400,6 +400,22 @@ static void misplaced_ones_are_refused(void **state) {
         assert_int_equal(cps_evolution_create(&c.scene, &evolution, &err), CPS_ERR_ARGUMENT);
         assert_non_null(strstr(err.message, "line 'line': potential: it goes from"));
     }
+    c.loads.potential.from = 0;
+    c.loads.potential.to = 10;
+    stage(&c, 8, 0, 1);
+    c.stage[0].duration = 1;
+    assert_int_equal(cps_evolution_create(&c.scene, &evolution, &err), CPS_ERR_ARGUMENT);
+    assert_non_null(strstr(err.message, "a potential is that of lines at rest"));
+    CpsPoint knot = cps_point_default();
+    knot.name = "knot";
+    knot.kind = CPS_POINT_KIND_FREE;
+    knot.position[0] = 9;
+    c.scene.stage_count = 0;
+    c.scene.point = &knot;
+    c.scene.point_count = 1;
+    c.line.end[CPS_END_B].kind = CPS_END_KIND_POINT;
+    assert_int_equal(cps_evolution_create(&c.scene, &evolution, &err), CPS_ERR_ARGUMENT);
+    if (!strstr(err.message, "potential: end B is at a point")) fail_msg("%s", err.message);
 }
 
 int main(void) {
