@@ -201,19 +201,31 @@ static int next_strategy(unsigned found, bool urged, int first, const bool tried
     return urged && for_scattered < STRATEGIES ? for_scattered : next;
 }
 
-/* Try the first strategy with Newton's method. False where its answer is not certified, or, if the
- * method alone has found it, less accurate than that of the loop has to be. */
-static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+/* Try the first strategy, its first program from a guess. */
+static void solve_from(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                        CpsiGuess guess) {
     CpsiStrategy first = STRATEGY[0];
     first.guess = guess;
     if (options->least) options->least->chose = false;
     if (line->has_local_axes) cpsi_contact_reset(line);
     line->report.warm_count = 1;
+    line->newton.failed = 0;
     (void)solve_once(line, program, options, &first, conditions(line, options) & ROUNDS, 0);
+}
+
+/* Try the first strategy with Newton's method. False where its answer is not certified, or, if the
+ * method alone has found it, less accurate than that of the loop has to be. A line that bends over
+ * a node and an element beside it has two equilibria, with the element before or behind; which of
+ * them is on the way does not show where the last move leads, but in rounds from the reference. */
+static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                       CpsiGuess guess) {
+    solve_from(line, program, options, guess);
+    if (guess == CPSI_GUESS_EXTRAPOLATED && !line->inertia.is_moving &&
+        cpsi_contact_holds_element(line))
+        solve_from(line, program, options, CPSI_GUESS_REFERENCE);
     const CpsCertificate *found = &line->report.certificate;
-    const bool good = cps_outcome_is_certified(line->report.outcome) &&
-                      (!line->report.warm_count || found->gap <= CPSI_TARGET * found->scale);
+    const bool good =
+        cps_outcome_is_certified(line->report.outcome) && found->gap <= CPSI_TARGET * found->scale;
     cpsi_warm_step_note(line, good);
     return good;
 }
@@ -238,10 +250,9 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
         if (solve_warm(line, program, options, guess)) return;
         line->newton.guessed = false;
         again = true;
-        /* where Newton's method has solved no program, and moved no base, this was the first
-         * strategy */
-        if (line->newton.solved == 0 && (guess == CPSI_GUESS_REFERENCE || !line->has_local_axes))
-            first = 1;
+        /* where Newton's method has solved no program, and there are no rounds that it would have
+         * ended early, this was the first strategy */
+        if (line->newton.solved == 0 && !line->has_local_axes) first = 1;
         line->report.warm_count = 0;
         guess = CPSI_GUESS_NONE;
     }

@@ -73,7 +73,7 @@ CHANGES = [
     ("an endless damping", "mass: 1", "mass: 1\n    damping: .inf", INPUT, "8:5: 'damping': found '.inf', expected a number in N s"),
     ("a damping in words", "mass: 1", "mass: 1\n    damping: much", INPUT, "8:5: 'damping': found 'much', expected a number in N s"),
     ("damping of an inextensible line", "stiffness: 1e6", "stiffness: .inf\n    damping: 3", INPUT, "9:5: line 'cable': damping: it goes with a stiffness that is one number, not with an inextensible line: leave either out"),
-    ("damping beside a table", "stiffness: 1e6", "stiffness: {strain: [0.01, 0.02], tension: [1e4, 3e4]}\n    damping: 3", INPUT, "9:5: line 'cable': damping: it goes with a stiffness that is one number, not with a table of strains and tensions: leave either out"),
+    ("damping beside a table", "stiffness: 1e6", "stiffness: {strain: [0, 0.01, 0.02], tension: [0, 1e4, 3e4]}\n    damping: 3", INPUT, "9:5: line 'cable': damping: it goes with a stiffness that is one number, not with a table of strains and tensions: leave either out"),
     ("damping beside a dynamic stiffness", "stiffness: 1e6", "stiffness: 1e6\n    dynamic_stiffness: 2e6\n    damping: 3", INPUT, "10:5: line 'cable': damping: it goes with a stiffness that is one number, not with a dynamic stiffness: leave either out"),
     ("springs", "mass: 1", "mass: 1\n    springs: [{stiffness: [1, 1, 1], place: [0, 0, 0]}]", INPUT, "8:5: line 'cable': springs are those of lines at rest: leave them out, or the motion in time"),
     ("drag of a quasi-static line", "mass: 1", "mass: 1\n    quasi_static: true\n    loads: [{force: [1, 0, 0]}]", INPUT, "8:5: line 'cable': quasi_static: in time a line with loads or drag has its inertia: leave out either"),
