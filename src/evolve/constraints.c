@@ -67,11 +67,6 @@ static CpsStatus check_one(const CpsLine *line, int end, CpsError *err) {
                       "needs a free end, which a force may act on: leave the set out, "
                       "or let the end be free",
                       err);
-    if (line->end[!end].kind == CPS_END_KIND_POINT)
-        return refuse(line, end, "",
-                      "does not go together with a point at the other end: hold the "
-                      "other end, or let it be free",
-                      err);
     if (line->winch[0].is_there || line->winch[1].is_there)
         return refuse(line, end, "", "does not go together with a winch: leave one of them out",
                       err);
@@ -94,6 +89,18 @@ static CpsStatus check_one(const CpsLine *line, int end, CpsError *err) {
         "the set, as at (%.6g, %.6g, %.6g) m",
         off, x.x, x.y, x.z, near.x, near.y, near.z);
     return refuse(line, end, "", what, err);
+}
+
+CpsStatus cpsi_constraints_check_points(const CpsScene *scene, CpsError *err) {
+    for (int i = 0; i < scene->line_count; i++)
+        for (int end = 0; end < 2; end++)
+            if (scene->line[i].constraint[end].kind != CPS_CONSTRAINT_KIND_NONE &&
+                scene->line[i].end[!end].kind == CPS_END_KIND_POINT)
+                return refuse(&scene->line[i], end, "",
+                              "does not go together with a point at the other end: hold the "
+                              "other end, or let it be free",
+                              err);
+    return CPS_OK;
 }
 
 CpsStatus cpsi_constraints_check(const CpsLine *line, CpsError *err) {

@@ -7,6 +7,8 @@
 
 /* Check the constraints of a line whose start and ends have been checked. */
 CpsStatus cpsi_constraints_check(const CpsLine *line, CpsError *err);
+/* No line with a set ends at a point. */
+CpsStatus cpsi_constraints_check_points(const CpsScene *scene, CpsError *err);
 
 /* Check what a stage does to such ends. */
 CpsStatus cpsi_constraints_check_stage(const CpsScene *scene, const CpsStage *stage,

@@ -594,6 +594,7 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
     if (status == CPS_OK) status = cpsi_bodies_check(scene, err);
     if (status == CPS_OK) status = cpsi_points_check(scene, err);
     if (status == CPS_OK) status = cpsi_potential_ends_check(scene, err);
+    if (status == CPS_OK) status = cpsi_constraints_check_points(scene, err);
     if (status != CPS_OK) return status;
     CpsiHeldScene held;
     status = cpsi_held_scene(scene, &held, err);

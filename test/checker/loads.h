@@ -50,6 +50,8 @@ Real loads_work(const Record *record);
  * forces there say? No convex function does: U(y) >= U(x) - F(x).(y - x), of each node, both ways.
  * Of a step in one part. */
 bool loads_are_convex(const Record *record);
+/* [J] What the drag used and that of where the nodes are may differ by in it. */
+double loads_open_work(const Record *record);
 
 /* [N] The drag on node j at the places x, at rest. */
 void loads_drag(const Record *record, Vector *x, size_t j, Real *out);

@@ -236,11 +236,16 @@ def mistakes(folder):
         scene = write(folder, "bad.yaml", text.replace(good, wrong))
         code, said = command(CAPSTAN, "check", scene)
         assert code == 3 and said.startswith(f"capstan: {scene}:{words}"), (wrong, said)
+    # a line with a set does not end at a point
+    for kind in ("held", "free"):
+        knot = text.replace("lines:", f"points: {{k: {{{kind}: [-5, 0, 0.5]}}}}\nlines:").replace("A: {force: [-60, 0, 0]}", "A: {point: k}")
+        code, said = command(CAPSTAN, "check", write(folder, "bad.yaml", knot))
+        assert code == 3 and "the set of end B does not go together with a point at the other end" in said, said
     # the method of 1990 has no sets
     scene = write(folder, "scene.yaml", text)
     code, said = command(CAPSTAN, "run", scene, "--method", "regularized", "-o", os.path.join(folder, "no"))
     assert code != 0 and not os.path.exists(os.path.join(folder, "no", "summary.json")), said
-    return len(BAD)
+    return len(BAD) + 2
 
 
 def main():
