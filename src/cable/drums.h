@@ -9,7 +9,6 @@ typedef struct CpsiDrums {
     bool on[2];       /* there is a winch at end A, B */
     double stored[2]; /* [m] natural length on its drum */
     double due[2];    /* [m] what is to be there at the end of this substep */
-    double told[2];   /* [m] ... of this step, also where that is not reached */
     int nodes[2];     /* nodes on it, without the one at which the line leaves it */
     double weight[2]; /* [m] natural length of the line's weight on it, with that of point masses */
     bool moved;       /* it winds in this substep */

@@ -28,7 +28,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '0'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '9'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -240,7 +240,6 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     if (cpsi_line_has_winch(line)) {
         double stored[2] = {line->drums.stored[CPS_END_A], line->drums.stored[CPS_END_B]};
         PASS(tape, stored);
-        PASS(tape, line->drums.told);
         if (tape->in) cpsi_winch_set(line, stored);
     }
     for (int end = 0; end < 2; end++)

@@ -222,8 +222,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         line->spring_count > 0)
         cpsi_sections_fill(line, def);
     cpsi_winch_keep(line);
-    for (int end = 0; end < 2; end++) line->drums.told[end] = def->winch[end].stored;
-    cpsi_winch_set(line, line->drums.told);
+    cpsi_winch_set(line, (const double[2]){def->winch[0].stored, def->winch[1].stored});
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++)
             line->obstacle_index[c] = CPS_NO_OBSTACLE;

@@ -216,24 +216,22 @@ CpsStatus cpsi_pay_outs_check_now(const CpsEvolution *evolution, const CpsiEvolu
         const int i = stage->pay_out[k].line;
         const double pays[2] = {paid_by(stage->pay_out_count, stage->pay_out, i, CPS_END_A),
                                 paid_by(stage->pay_out_count, stage->pay_out, i, CPS_END_B)};
-        status =
-            check_stock(&evolution->given_line[i], evolution->line[i].drums.told, pays, what, err);
+        status = check_stock(&evolution->given_line[i], evolution->line[i].drums.stored, pays, what,
+                             err);
     }
     return status;
 }
 
 void cpsi_pay_outs_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage) {
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++)
+            evolution->move[i].stored_from[end] = evolution->move[i].stored_to[end] =
+                evolution->line[i].drums.stored[end];
     for (int k = 0; k < stage->pay_out_count; k++) {
         const CpsPayOut *pay = &stage->pay_out[k];
-        double *told = &evolution->line[pay->line].drums.told[pay->end];
-        *told = fmax(0, *told - pay->length / stage->steps);
+        double *to = &evolution->move[pay->line].stored_to[pay->end];
+        *to = fmax(0, *to - pay->length / stage->steps);
     }
-    for (int i = 0; i < evolution->line_count; i++)
-        for (int end = 0; end < 2; end++) {
-            const CpsiDrums *drums = &evolution->line[i].drums;
-            evolution->move[i].stored_from[end] = drums->stored[end];
-            evolution->move[i].stored_to[end] = drums->told[end];
-        }
 }
 
 bool cpsi_drums_are_sound(const CpsiLine *line, const double stored[2]) {
