@@ -197,7 +197,8 @@ static const char MOTION_SCENE[] =
     " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held}}\n"
     "history:\n"
     "  - {name: pull, duration: 2, time_step: 0.5,"
-    " one.B: {move: [0, 0, 0.1], sine: [0, 0, 0.2], cosine: [0, 0, 0.3], period: 4}}\n";
+    " one.B: {move: [0, 0, 0.1], sine: [0, 0, 0.2], cosine: [0, 0, 0.3], period: 4,"
+    " oscillations: [{sine: [0.1, 0, 0], period: 7}]}}\n";
 
 static const char ADRIFT_SCENE[] =
     "capstan: 1\n"
@@ -510,6 +511,8 @@ static const struct Change MOTION_CHANGE[] = {
     {"sine", "sine: [0, 0, 0.2]", "sine: [0, 0, 0.21]"},
     {"cosine", "cosine: [0, 0, 0.3]", "cosine: [0, 0.1, 0.3]"},
     {"period", "period: 4", "period: 5"},
+    {"oscillations", "{sine: [0.1, 0, 0], period: 7}", "{sine: [0.1, 0, 0], period: 8}"},
+    {"oscillations", "sine: [0.1, 0, 0]", "sine: [0.2, 0, 0]"},
 };
 
 /* Keys that change no answer, and how the file of a ground is to be read; and a file of places,
