@@ -34,7 +34,7 @@ import time
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), ".."))
 VENV = os.path.join(ROOT, "build", "bench-venv")
-PACKAGES = ["numpy", "scipy", "clarabel", "ecos", "qoco", "scs"]
+PACKAGES = ["numpy", "scipy", "clarabel==0.11.1", "ecos==2.0.14", "qoco==0.3.2", "scs==3.3.1"]
 ACCURACY = 1e-8
 TOLERANCES = [10.0**-k for k in range(4, 15)]
 AS_WRITTEN = [("1", "1")]  # rows, cost: the step as it stands above
@@ -45,14 +45,16 @@ ALL_SOLVES = 3    # all solves of one solver and size together may take so many 
 
 
 def enter_environment():
-    """Run again inside the virtual environment, made at the first run; packages that are not to be had are skipped."""
+    """Run again inside the virtual environment, made at the first run; packages that are not to be had, in these versions, are skipped."""
     python = os.path.join(VENV, "bin", "python")
     if os.path.realpath(sys.prefix) == os.path.realpath(VENV):
         return
     if not os.path.exists(python):
         print(f"compare: making {os.path.relpath(VENV)}", file=sys.stderr)
         subprocess.run([sys.executable, "-m", "venv", VENV], check=True)
-        for name in PACKAGES:
+    present = subprocess.run([python, "-m", "pip", "freeze"], capture_output=True, text=True, check=True).stdout.lower().split()
+    for name in PACKAGES:
+        if name not in present and not any(line.startswith(name + "==") for line in present):
             if subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", name]).returncode:
                 print(f"compare: {name} cannot be installed: left out", file=sys.stderr)
     os.execv(python, [python, os.path.abspath(sys.argv[0])] + sys.argv[1:])

@@ -64,7 +64,7 @@ def with_packages():
     if os.path.realpath(sys.prefix) != os.path.realpath(VENV):
         if not os.path.exists(python):
             subprocess.run([sys.executable, "-m", "venv", VENV], check=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "moordyn"], check=True)
+        subprocess.run([python, "-m", "pip", "install", "--quiet", "moordyn==2.7.2"], check=True)
         os.execv(python, [python] + sys.argv)
 
 

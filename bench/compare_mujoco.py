@@ -39,7 +39,7 @@ def with_packages():
     if os.path.realpath(sys.prefix) != os.path.realpath(VENV):
         if not os.path.exists(python):
             subprocess.run([sys.executable, "-m", "venv", VENV], check=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "mujoco"], check=True)
+        subprocess.run([python, "-m", "pip", "install", "--quiet", "mujoco==4.0.0"], check=True)
         os.execv(python, [python] + sys.argv)
 
 

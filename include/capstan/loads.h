@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/loads.h: what acts on a line beside its weight and what it touches: springs to the
- * ground, given forces, and the drag of a current on a line at rest.
+ * ground, given forces, and the drag of the water.
  *
  *     CpsSpring bed = {.from = 0, .to = 40, .stiffness = {200, 200, 0}, .at_start = true};
  *     CpsLineLoads loads = {.spring_count = 1, .spring = &bed};
@@ -36,14 +36,20 @@ typedef struct CpsLineForce {
     double force[3]; /* [N/m] per metre of unstretched line */
 } CpsLineForce;
 
-/* The drag of a current on a line at rest, per metre of unstretched line (Morison):
+/* The force of the water of a current on a line, per metre of unstretched line (Morison):
  *
  *     (rho/2) d (normal |u_n| u_n + pi tangential |u_t| u_t),
  *
- * u_n and u_t the velocity of the water across and along the line where the line comes to be. */
+ * u_n and u_t the velocity of the water across and along the line where the line comes to be. In
+ * time (motion.h) they are those relative to the line, and with a its acceleration
+ *
+ *     -rho (pi/4) d^2 (added_normal a_n + added_tangential a_t)
+ *
+ * acts beside it: water that is moved along. This is not to be counted in `inertia` as well. */
 typedef struct CpsDrag {
-    double diameter;           /* [m] >= 0, default 0: no drag */
-    double normal, tangential; /* [-] >= 0 */
+    double diameter;                       /* [m] >= 0, default 0: no drag */
+    double normal, tangential;             /* [-] >= 0 */
+    double added_normal, added_tangential; /* [-] >= 0, default 0; in time only */
 } CpsDrag;
 
 /* Of a line; all is 0 in a struct that is initialised so. */
@@ -60,8 +66,8 @@ typedef struct CpsCurrentRow {
     double velocity[3]; /* [m/s] of the water there */
 } CpsCurrentRow;
 
-/* A steady current. Between rows it is interpolated, below the first and above the last one it is
- * as there. */
+/* A steady current; in still water one row of velocity 0. Between rows it is interpolated, below
+ * the first and above the last one it is as there. */
 typedef struct CpsCurrent {
     double density;           /* [kg/m3] > 0 of the water */
     int row_count;            /* >= 1 */

@@ -60,8 +60,8 @@ CPS_API void cps_sway_at(const CpsSway *sway, double time, double out[6]);
 
 /* Energy of a step in time [J]. With the ledger of the line (step.h):
  *
- *     ends + obstacles
- *         = elastic + gravity + dissipated + kinetic + impact + scheme + imbalance
+ *     ends + obstacles + loads
+ *         = elastic + gravity + dissipated + kinetic + impact + scheme + drag + added + imbalance
  *
  * where each but the last has a formula of its own (docs/theory.md 8), and forces do their work at
  * their values after the step. So the imbalance is rounding. */
@@ -69,6 +69,8 @@ typedef struct CpsMotionLedger {
     double kinetic;  /* increase of the kinetic energy */
     double impact;   /* lost where nodes land */
     double scheme;   /* lost by the scheme: what a shorter step does not lose */
+    double drag;     /* work done on the water against its drag; of a current also negative */
+    double added;    /* work done on the water that is moved along (CpsDrag), which gives it back */
     double turnover; /* sum of the sizes of all entries */
 } CpsMotionLedger;
 

@@ -32,6 +32,7 @@
 #include "cable/flow.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
+#include "cable/moving_flow.h"
 #include "cable/soft.h"
 #include "chain/frame.h"
 #include "linalg/dense.h"
@@ -159,7 +160,9 @@ static void balance_field(CpsiLine *line) {
         Vec3 rest = node_force(line, j);
         if (j > 0) rest = vec3_sub(rest, segment_force(line, j - 1));
         if (j + 1 < line->n) rest = vec3_add(rest, segment_force(line, j));
-        cpsi_line_field_take(line, j, rest, cpsi_line_is_held(line, j) ? 0 : most / line->length);
+        if (cpsi_line_is_held(line, j)) continue;
+        /* inertia takes all of it */
+        cpsi_line_field_take(line, j, rest, line->inertia.is_moving ? 0 : most / line->length);
     }
 }
 
@@ -298,13 +301,19 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
  * floor; never more than the moments |b_j| |x_j - x_A|. */
 static double load_scale(const CpsiLine *line, double largest_force, double tolerance) {
     const Vec3 anchor = vec3_load(&line->position[0]);
-    const bool has_field = cpsi_line_has_field(line);
+    const bool has_field = cpsi_line_has_field(line), swims = cpsi_line_swims(line);
     double work = 0, moment = 0, loads = 0;
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_load(&line->position[3 * j]), b = vec3_load(&line->load[3 * j]);
         const Vec3 moved = vec3_sub(x, vec3_at(line->reference, j));
         double load = vec3_norm(b);
-        work += fabs(vec3_dot(b, moved));
+        if (swims) { /* where drag and weight are opposite, each by itself */
+            const Vec3 flow = vec3_at(line->field.all, j);
+            work += fabs(vec3_dot(flow, moved)) + fabs(vec3_dot(vec3_sub(b, flow), moved));
+            load = vec3_norm(flow) + vec3_norm(vec3_sub(b, flow));
+        } else {
+            work += fabs(vec3_dot(b, moved));
+        }
         if (has_field) {
             const Vec3 field = cpsi_line_field_force(line, j, x);
             work += fabs(vec3_dot(field, moved));
@@ -348,6 +357,9 @@ static void add_nodes(const CpsiLine *line, CpsCertificate *out) {
         const Vec3 x = vec3_load(&line->position[3 * j]), b = vec3_load(&line->load[3 * j]);
         out->primal -= vec3_dot(b, x);
         raise_to(&out->largest_force, vec3_norm(b));
+        /* in motion drag and weight may be equal and opposite */
+        if (cpsi_line_swims(line))
+            raise_to(&out->largest_force, vec3_norm(vec3_at(line->field.all, j)));
         Vec3 balance = cpsi_line_has_field(line) ? vec3_add(b, add_field_energy(line, j, out)) : b;
         if (j > 0) balance = vec3_sub(balance, segment_force(line, j - 1));
         if (j + 1 < line->n) balance = vec3_add(balance, segment_force(line, j));

@@ -126,6 +126,12 @@ static Vec3 slip_to(const CpsiLine *line, int c, Vec3 x) {
                : cpsi_contact_slip_between(line, c, carried_along(line, c), x);
 }
 
+bool cpsi_contact_holds_element(const CpsiLine *line) {
+    for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
+        if (line->reaction[c] > 0) return true;
+    return false;
+}
+
 void cpsi_contact_clear(CpsiLine *line, int c) {
     line->reaction[c] = line->friction_bound[c] = 0;
     for (int a = 0; a < 3; a++) line->friction_force[3 * c + a] = 0;

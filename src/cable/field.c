@@ -150,7 +150,7 @@ void cpsi_line_field_take(CpsiLine *line, int j, Vec3 left, double unit) {
     double m[9] = {k[0] + unit, k[1], k[3], k[1], k[2] + unit, k[4], k[3], k[4], k[5] + unit};
     double by[3] = {left.x, left.y, left.z};
     int pivot[3];
-    if (!(unit > 0) || !cpsi_lu_factor(3, m, pivot)) return;
+    if (!cpsi_lu_factor(3, m, pivot)) return;
     cpsi_lu_solve(3, m, pivot, by);
     memcpy(&line->field.beside[3 * j], by, sizeof by);
 }

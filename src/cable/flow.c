@@ -67,6 +67,7 @@ void cpsi_line_approach_flow(CpsiLine *line, bool first) {
 double cpsi_line_flow_change(const CpsiLine *line) {
     double changed = 0;
     if (!line->field.flow) return 0;
+    if (line->inertia.is_moving) return line->field.left;
     for (int j = 0; j < line->n; j++)
         changed +=
             vec3_norm(vec3_sub(drag_at(line, line->position, j), vec3_at(line->field.drag, j)));

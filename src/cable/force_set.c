@@ -345,17 +345,10 @@ static void add_node(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw
     for (int i = 0; i < node.contacts; i++) add_contact(set, law, &node, i, gain, one);
 }
 
-/* Is there a reaction between an obstacle and an element? Such forces stay as they are. */
-static bool has_element_contacts(const CpsiLine *line) {
-    for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++)
-        if (line->reaction[c] > 0) return true;
-    return false;
-}
-
 bool cpsi_force_set_build(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law) {
     set->force = line->report.certificate.largest_force;
     for (int e = 0; e + 1 < line->n; e++) set->force = fmax(set->force, line->tension_before[e]);
-    set->partial = has_element_contacts(line);
+    set->partial = cpsi_contact_holds_element(line); /* such forces stay as they are */
     if (!isfinite(set->force)) return false;
     if (!(set->force > 0)) set->force = 1; /* no forces: any unit will do */
     measure_elements(set, line, law);

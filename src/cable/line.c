@@ -49,6 +49,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->field.own_load, 3 * n);
         CPSI_PLACE(arena, line->field.drag, 3 * n);
         CPSI_PLACE(arena, line->field.all, 3 * n);
+        if (line->has_inertia) CPSI_PLACE(arena, line->field.added, 3 * n);
         cpsi_anderson_layout(&line->field.rounds, arena, line->n);
     }
     if (line->has_field) {

@@ -12,6 +12,7 @@
 #include "cable/field.h"
 #include "cable/flow.h"
 #include "cable/held.h"
+#include "cable/moving_flow.h"
 #include "cable/obstacle_side.h"
 #include "chain/frame.h"
 
@@ -38,6 +39,7 @@ void cpsi_line_set_loads(CpsiLine *line) {
     if (line->has_node_loads)
         for (int i = 0; i < 3 * line->n; i++) {
             line->field.all[i] = line->field.load[i] + line->field.drag[i];
+            if (line->has_inertia) line->field.all[i] += line->field.added[i];
             line->load[i] += line->field.all[i];
         }
     for (int end = 0; end < 2; end++)
@@ -53,7 +55,10 @@ void cpsi_line_set_loads(CpsiLine *line) {
 void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
     cpsi_contact_set_reference(line, options->contact_policy, options->friction_policy,
                                options->frictionless);
-    if (line->has_node_loads) cpsi_line_follow_flow(line, line->position);
+    if (cpsi_line_swims(line))
+        cpsi_line_settle_swim(line, line->reference);
+    else if (line->has_node_loads)
+        cpsi_line_follow_flow(line, line->position);
     cpsi_line_set_loads(line);
 }
 

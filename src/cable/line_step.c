@@ -38,6 +38,7 @@
 #include "cable/flow.h"
 #include "cable/line_solve.h"
 #include "cable/mesh_error.h"
+#include "cable/moving_flow.h"
 #include "cable/report.h"
 #include "cable/rounds.h"
 #include "cable/shortfall.h"
@@ -200,19 +201,31 @@ static int next_strategy(unsigned found, bool urged, int first, const bool tried
     return urged && for_scattered < STRATEGIES ? for_scattered : next;
 }
 
-/* Try the first strategy with Newton's method. False where its answer is not certified, or, if the
- * method alone has found it, less accurate than that of the loop has to be. */
-static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+/* Try the first strategy, its first program from a guess. */
+static void solve_from(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                        CpsiGuess guess) {
     CpsiStrategy first = STRATEGY[0];
     first.guess = guess;
     if (options->least) options->least->chose = false;
     if (line->has_local_axes) cpsi_contact_reset(line);
     line->report.warm_count = 1;
+    line->newton.failed = 0;
     (void)solve_once(line, program, options, &first, conditions(line, options) & ROUNDS, 0);
+}
+
+/* Try the first strategy with Newton's method. False where its answer is not certified, or, if the
+ * method alone has found it, less accurate than that of the loop has to be. A line that bends over
+ * a node and an element beside it has two equilibria, with the element before or behind; which of
+ * them is on the way does not show where the last move leads, but in rounds from the reference. */
+static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                       CpsiGuess guess) {
+    solve_from(line, program, options, guess);
+    if (guess == CPSI_GUESS_EXTRAPOLATED && !line->inertia.is_moving &&
+        cpsi_contact_holds_element(line))
+        solve_from(line, program, options, CPSI_GUESS_REFERENCE);
     const CpsCertificate *found = &line->report.certificate;
-    const bool good = cps_outcome_is_certified(line->report.outcome) &&
-                      (!line->report.warm_count || found->gap <= CPSI_TARGET * found->scale);
+    const bool good =
+        cps_outcome_is_certified(line->report.outcome) && found->gap <= CPSI_TARGET * found->scale;
     cpsi_warm_step_note(line, good);
     return good;
 }
@@ -237,10 +250,9 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
         if (solve_warm(line, program, options, guess)) return;
         line->newton.guessed = false;
         again = true;
-        /* where Newton's method has solved no program, and moved no base, this was the first
-         * strategy */
-        if (line->newton.solved == 0 && (guess == CPSI_GUESS_REFERENCE || !line->has_local_axes))
-            first = 1;
+        /* where Newton's method has solved no program, and there are no rounds that it would have
+         * ended early, this was the first strategy */
+        if (line->newton.solved == 0 && !line->has_local_axes) first = 1;
         line->report.warm_count = 0;
         guess = CPSI_GUESS_NONE;
     }
@@ -281,6 +293,34 @@ static void follow_flow(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
         if (line->has_local_axes) cpsi_contact_reset(line);
         solve_with_fallbacks(line, program, options, CPSI_GUESS_NONE);
     }
+}
+
+/* In time the forces of the flow are linear in each program, and follow the line and its velocity
+ * from one to the next. In the end they are given loads. */
+static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+    enum { MOST = 60 };
+    static const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
+    const size_t contacts = (size_t)cpsi_line_all_contacts(line);
+    for (int round = 0; round < MOST; round++) {
+        const CpsCertificate *found = &line->report.certificate;
+        if (!cps_outcome_is_certified(line->report.outcome)) break;
+        double largest;
+        const double left = cpsi_line_swim_change(line, &largest);
+        if (left <= CPSI_FOLLOWED * fmax(found->largest_force, largest)) break;
+        cpsi_line_classify(line, program);
+        cpsi_line_approach_swim(line);
+        cpsi_line_set_loads(line);
+        const CpsiGuess guess = cpsi_warm_step_go_on(line, program, options);
+        if (guess == CPSI_GUESS_NONE) memset(line->reaction, 0, contacts * sizeof *line->reaction);
+        if (line->has_local_axes) cpsi_contact_reset(line);
+        solve_with_fallbacks(line, program, options, guess);
+    }
+    const CpsOutcome outcome = line->report.outcome;
+    line->field.left = cpsi_line_swim_change(line, NULL);
+    cpsi_line_settle_swim(line, line->position);
+    cpsi_line_set_loads(line);
+    cpsi_line_certify(line, options, &done);
+    if (!cps_outcome_is_certified(outcome)) line->report.outcome = outcome;
 }
 
 /* Loads that are not those of the place are no answer. */
@@ -329,6 +369,10 @@ static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     memset(line->reaction, 0, contacts * sizeof *line->reaction);
     memset(line->tension, 0, n * sizeof *line->tension);
     cpsi_line_clear_set_reactions(line);
+    if (cpsi_line_swims(line)) {
+        cpsi_line_settle_swim(line, line->position);
+        cpsi_line_set_loads(line);
+    }
     if (line->has_local_axes) {
         cpsi_contact_reset(line);
         cpsi_contact_update_geometry(line);
@@ -488,13 +532,21 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     line->report.certificate = (CpsCertificate){0};
     line->report.outcome = CPS_OUTCOME_SOLVED;
     if (!line->joined && cpsi_line_has_no_equilibrium(line, options)) return;
+    const bool swims = cpsi_line_swims(line);
+    if (swims) {
+        cpsi_line_begin_swim(line);
+        cpsi_line_set_loads(line);
+    }
     if (line->joined)
         take_joined(line, options);
     else if (options->across)
         solve_across(line, program, options);
     else
         solve_with_fallbacks(line, program, options, guess);
-    if (line->field.flow && !line->joined) follow_flow(line, program, options);
+    if (swims)
+        follow_swim(line, program, options);
+    else if (line->field.flow && !line->joined)
+        follow_flow(line, program, options);
     judge_flow(line, options);
     if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);

@@ -37,9 +37,12 @@ typedef struct CpsiNodeField {
     double *own_load, *own_stiffness, *own_place;
     double *diagonal, *coupling; /* (n, 3) [N/m] of own_stiffness: xx, yy, zz; xy, xz, yz */
     const CpsiFlow *flow;        /* NULL: none */
-    double *all;                 /* (n, 3) [N] load and drag together; NULL as load */
+    double *all;                 /* (n, 3) [N] load, drag and added together; NULL as load */
     CpsiAnderson rounds;         /* of the drag */
     double *drag; /* (n, 3) [N] of the flow, where the line was last seen; NULL: none */
+    /* of a step in time (moving_flow.h): */
+    double *added; /* (n, 3) [N] of the water that is moved along; NULL without inertia or loads */
+    double left;   /* [N] sum over the nodes of what the last program lacked of the flow's forces */
 } CpsiNodeField;
 
 /* K v for K (6). */

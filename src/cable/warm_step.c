@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/contact.h"
 #include "cable/end_set.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
@@ -142,7 +143,7 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
         for (int i = 1; i < line->n; i++) program->dt[i] = line->tension[i - 1];
         return CPSI_GUESS_EXTRAPOLATED;
     }
-    if (!(ratio > 0)) return CPSI_GUESS_REFERENCE;
+    if (!(ratio > 0) || cpsi_contact_holds_element(line)) return CPSI_GUESS_REFERENCE;
     double *shift = program->base.residual, *tension = program->dt;
     for (int i = 0; i < 3 * line->n; i++)
         shift[i] = ratio * (line->position[i] - line->reference[i]);
@@ -156,6 +157,16 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
         tension[i] = fmax(t + ratio * (t - before), LEAST_TENSION * t);
     }
     return CPSI_GUESS_EXTRAPOLATED;
+}
+
+CpsiGuess cpsi_warm_step_go_on(const CpsiLine *line, CpsiChainProgram *program,
+                               const CpsiStepOptions *options) {
+    if (options->frictionless || options->solver.cold || cpsi_line_has_sets(line))
+        return CPSI_GUESS_NONE;
+    for (int i = 0; i < 3 * line->n; i++)
+        program->base.residual[i] = line->position[i] - line->reference[i];
+    for (int i = 1; i < line->n; i++) program->dt[i] = line->tension[i - 1];
+    return treated_contacts(line);
 }
 
 void cpsi_warm_step_predict(CpsiLine *line, const CpsiChainProgram *program) {

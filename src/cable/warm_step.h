@@ -33,6 +33,11 @@ bool cpsi_warm_step_treats(const CpsiLine *line, int c);
 CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options);
 
+/* Within a step, whose last program the line holds: the next one from where the line is, with the
+ * tensions that it has. The guess is kept likewise. */
+CpsiGuess cpsi_warm_step_go_on(const CpsiLine *line, CpsiChainProgram *program,
+                               const CpsiStepOptions *options);
+
 /* Move the line to its extrapolated configuration, as if a round had ended there: the next one is
  * posed on the tangent planes at this place. */
 void cpsi_warm_step_predict(CpsiLine *line, const CpsiChainProgram *program);

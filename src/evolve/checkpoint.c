@@ -28,7 +28,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '8'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '9'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -210,6 +210,8 @@ static void pass_line(Tape *tape, CpsiLine *line) {
         pass(tape, line->field.load, 3 * n * sizeof(double));
         pass(tape, line->field.drag, 3 * n * sizeof(double));
         pass(tape, line->field.all, 3 * n * sizeof(double));
+        if (line->has_inertia) pass(tape, line->field.added, 3 * n * sizeof(double));
+        PASS(tape, line->field.left);
     }
     if (line->has_field) {
         pass(tape, line->field.stiffness, 6 * n * sizeof(double));
@@ -408,8 +410,9 @@ static void hash_numbers(uint64_t *hash, size_t count, const double *number) {
 }
 
 static void hash_flow(uint64_t *hash, const CpsiFlow *flow) {
-    const double given[] = {flow->density, flow->drag.diameter, flow->drag.normal,
-                            flow->drag.tangential};
+    const double given[] = {flow->density,           flow->drag.diameter,
+                            flow->drag.normal,       flow->drag.tangential,
+                            flow->drag.added_normal, flow->drag.added_tangential};
     hash_numbers(hash, sizeof given / sizeof *given, given);
     for (int k = 0; k < flow->row_count; k++) {
         hash_numbers(hash, 1, &flow->row[k].z);

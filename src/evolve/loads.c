@@ -11,6 +11,7 @@
 #include "cable/field.h"
 #include "cable/flow.h"
 #include "evolve/ranges.h"
+#include "evolve/time_check.h"
 
 bool cpsi_has_springs(const CpsLine *line) { return line->loads && line->loads->spring_count > 0; }
 bool cpsi_has_forces(const CpsLine *line) { return line->loads && line->loads->force_count > 0; }
@@ -84,18 +85,33 @@ static CpsStatus check_force(const CpsLine *line, int k, CpsError *err) {
     return CPS_OK;
 }
 
-CpsStatus cpsi_line_loads_check(const CpsLine *line, bool in_time, CpsError *err) {
+/* What a line cannot have in a history of which a step has a duration. */
+static CpsStatus check_in_time(const CpsScene *scene, const CpsLine *line, CpsError *err) {
+    const CpsLineLoads *loads = line->loads;
+    if (loads->spring_count > 0)
+        return CPSI_FAIL_AT("springs", err, CPS_ERR_ARGUMENT,
+                            "line '%s': springs are those of lines at rest: leave them out, or the "
+                            "motion in time",
+                            line->name);
+    if (line->quasi_static)
+        return CPSI_FAIL_AT("quasi_static", err, CPS_ERR_ARGUMENT,
+                            "line '%s': quasi_static: in time a line with loads or drag has its "
+                            "inertia: leave out either",
+                            line->name);
+    if (loads->drag.diameter > 0 && !scene->current)
+        return CPSI_FAIL_AT("drag", err, CPS_ERR_ARGUMENT,
+                            "line '%s': drag: a step of the history has a duration, and there is "
+                            "no water that the line could move in: give water_density",
+                            line->name);
+    return CPS_OK;
+}
+
+CpsStatus cpsi_line_loads_check(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     const CpsLineLoads *loads = line->loads;
     CpsStatus status = CPS_OK;
     if (!loads) return CPS_OK;
-    if (in_time)
-        return CPSI_FAIL_AT(loads->spring_count > 0  ? "springs"
-                            : loads->force_count > 0 ? "loads"
-                                                     : "drag",
-                            err, CPS_ERR_ARGUMENT,
-                            "line '%s': springs, loads and drag are those of lines at rest: leave "
-                            "them out, or the motion in time",
-                            line->name);
+    if (cpsi_is_in_time(scene)) status = check_in_time(scene, line, err);
+    if (status != CPS_OK) return status;
     if (loads->spring_count < 0 || (loads->spring_count > 0 && !loads->spring))
         return CPSI_FAIL_AT("springs", err, CPS_ERR_ARGUMENT,
                             "line '%s': springs: found %d, expected 0 or more", line->name,
@@ -111,11 +127,13 @@ CpsStatus cpsi_line_loads_check(const CpsLine *line, bool in_time, CpsError *err
     const CpsDrag *drag = &loads->drag;
     if (status == CPS_OK &&
         !(cpsi_is_not_negative(drag->diameter) && cpsi_is_not_negative(drag->normal) &&
-          cpsi_is_not_negative(drag->tangential)))
+          cpsi_is_not_negative(drag->tangential) && cpsi_is_not_negative(drag->added_normal) &&
+          cpsi_is_not_negative(drag->added_tangential)))
         return CPSI_FAIL_AT("drag", err, CPS_ERR_ARGUMENT,
-                            "line '%s': drag: diameter %g m, normal %g, tangential %g, expected "
-                            "finite numbers >= 0",
-                            line->name, drag->diameter, drag->normal, drag->tangential);
+                            "line '%s': drag: diameter %g m, normal %g, tangential %g, "
+                            "added_normal %g, added_tangential %g, expected finite numbers >= 0",
+                            line->name, drag->diameter, drag->normal, drag->tangential,
+                            drag->added_normal, drag->added_tangential);
     return status;
 }
 

@@ -6,8 +6,7 @@
 #include "cable/line.h"
 #include "capstan/scene.h"
 
-/* in_time: the scene moves in time, where these loads are refused. */
-CpsStatus cpsi_line_loads_check(const CpsLine *line, bool in_time, CpsError *err);
+CpsStatus cpsi_line_loads_check(const CpsScene *scene, const CpsLine *line, CpsError *err);
 CpsStatus cpsi_current_check(const CpsScene *scene, CpsError *err);
 
 /* Has the line springs; given forces; drag in the scene's current? */

@@ -479,16 +479,39 @@ void cpsi_limit(double step[3], double most) {
         for (int a = 0; a < 3; a++) step[a] *= most / size;
 }
 
-void cpsi_limit_step(CpsiBalance *balance) {
-    const CpsEvolution *evolution = balance->evolution;
+/* The share of a displacement or rotation that is no longer than `most`. */
+static double share_within(const double step[3], double most) {
+    const double size = vec3_norm(vec3_load(step));
+    return size > most ? most / size : 1;
+}
+
+/* Without bodies each point by itself. */
+static void limit_points(CpsiBalance *balance) {
     for (int k = 0; k < balance->count; k++)
         cpsi_limit(&balance->step[3 * k],
-                   FARTHEST * evolution->points.point[balance->at[k].point].length);
-    for (int k = 0; k < balance->body_count; k++) {
-        double *step = &balance->step[3 * balance->count + 6 * k];
-        cpsi_limit(step, FARTHEST * evolution->bodies.body[balance->rigid[k].body].length);
-        cpsi_limit(&step[3], FARTHEST_TURN);
+                   FARTHEST * balance->evolution->points.point[balance->at[k].point].length);
+}
+
+/* With bodies all by the same share: a displacement without the rotation that belongs to it may
+ * lead up the energy. */
+void cpsi_limit_step(CpsiBalance *balance) {
+    const CpsEvolution *evolution = balance->evolution;
+    double share = 1;
+    if (balance->body_count == 0) {
+        limit_points(balance);
+        return;
     }
+    for (int k = 0; k < balance->count; k++)
+        share = fmin(share,
+                     share_within(&balance->step[3 * k],
+                                  FARTHEST * evolution->points.point[balance->at[k].point].length));
+    for (int k = 0; k < balance->body_count; k++) {
+        const double *step = &balance->step[3 * balance->count + 6 * k];
+        const double most = FARTHEST * evolution->bodies.body[balance->rigid[k].body].length;
+        share = fmin(share, share_within(step, most));
+        share = fmin(share, share_within(&step[3], FARTHEST_TURN));
+    }
+    for (int i = 0; i < balance->unknowns; i++) balance->step[i] *= share;
 }
 
 /* Where an obstacle meets the surface of the water, near x. */

@@ -283,7 +283,7 @@ static CpsStatus check_numbers(const CpsScene *scene, const CpsLine *line, CpsEr
                             line->name, line->length);
     CpsStatus status = check_elements(line, err);
     if (status == CPS_OK) status = cpsi_sections_check(scene, line, err);
-    if (status == CPS_OK) status = cpsi_line_loads_check(line, cpsi_is_in_time(scene), err);
+    if (status == CPS_OK) status = cpsi_line_loads_check(scene, line, err);
     return status ? status : check_zones(line, err);
 }
 

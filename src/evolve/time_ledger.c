@@ -11,7 +11,7 @@ typedef struct Sums {
     const CpsiLine *line;
     double length; /* [s] of the step */
     CpsLedger ledger;
-    double impact, scheme;
+    double impact, scheme, drag, added;
 } Sums;
 
 /* The displacement of node j in the step. */
@@ -37,6 +37,19 @@ static double energy_of(const CpsiLine *line, const double *x, int e) {
     if (!(strain > 0)) return 0;
     return law.count > 0 ? l * cpsi_law_energy(&law, strain)
                          : l * strain * (strain / (2 * law.compliance));
+}
+
+/* Given loads and the water. */
+static void add_loads(Sums *sums) {
+    const CpsiLine *line = sums->line;
+    const CpsiNodeField *field = &line->field;
+    if (!line->has_node_loads) return;
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 way = way_of(line, j);
+        sums->ledger.loads += vec3_dot(vec3_at(field->load, j), way);
+        sums->drag -= vec3_dot(vec3_at(field->drag, j), way);
+        sums->added -= vec3_dot(vec3_at(field->added, j), way);
+    }
 }
 
 /* Inertia, gravity and the elements. */
@@ -129,11 +142,15 @@ static void add_ends(Sums *sums, CpsLineReport *report) {
 void cpsi_time_ledger(CpsiLine *line, double length, const unsigned char *state) {
     Sums sums = {.line = line, .length = length};
     add_bodies(&sums);
+    add_loads(&sums);
     add_contacts(&sums, state);
     add_ends(&sums, &line->report);
     line->report.dissipated = sums.ledger.dissipated;
     line->report.ledger = sums.ledger;
-    line->inertia.ledger = (CpsMotionLedger){.impact = sums.impact, .scheme = sums.scheme};
+    line->inertia.ledger = (CpsMotionLedger){.impact = sums.impact,
+                                             .scheme = sums.scheme,
+                                             .drag = sums.drag,
+                                             .added = sums.added};
 }
 
 void cpsi_time_ledger_close(CpsiLine *line, double stopped) {
@@ -144,10 +161,10 @@ void cpsi_time_ledger_close(CpsiLine *line, double stopped) {
     inertia->kinetic = cpsi_kinetic_energy(line);
     motion->kinetic = inertia->kinetic - before;
     motion->scheme += stopped;
-    const double out[] = {ledger->elastic, ledger->gravity, ledger->dissipated,
-                          motion->kinetic, motion->impact,  motion->scheme};
-    ledger->imbalance = ledger->ends + ledger->obstacles;
-    motion->turnover = fabs(ledger->ends) + fabs(ledger->obstacles);
+    const double out[] = {ledger->elastic, ledger->gravity, ledger->dissipated, motion->kinetic,
+                          motion->impact,  motion->scheme,  motion->drag,       motion->added};
+    ledger->imbalance = ledger->ends + ledger->obstacles + ledger->loads;
+    motion->turnover = fabs(ledger->ends) + fabs(ledger->obstacles) + fabs(ledger->loads);
     for (size_t i = 0; i < sizeof out / sizeof *out; i++) {
         ledger->imbalance -= out[i];
         motion->turnover += fabs(out[i]);

@@ -21,6 +21,7 @@
 #include <string.h>
 
 #include "cable/field.h"
+#include "cable/inertia_field.h"
 #include "cable/line_step.h"
 #include "evolve/time_ledger.h"
 
@@ -34,8 +35,7 @@ static bool is_slack(const CpsiLine *line, const double *x, int e) {
     return size < (1 - SLACK) * line->element_length[e];
 }
 
-/* The reference of node j, v* and k, and its inertia. A node that goes on has no force by it: its
- * size is told by how its velocity changes. */
+/* The reference of node j, v* and k, and its inertia. */
 static void predict(CpsiLine *line, int j, const CpsiTimeStep *step, bool euler) {
     CpsiInertia *inertia = &line->inertia;
     inertia->span[j] = euler ? step->length : 2 * step->length / 3;
@@ -45,14 +45,8 @@ static void predict(CpsiLine *line, int j, const CpsiTimeStep *step, bool euler)
                      velocity = euler ? v : v + (v - inertia->before_velocity[i]) / 3;
         line->position[i] = place;
         inertia->rest_velocity[i] = velocity;
-        line->field.place[i] = place + inertia->span[j] * velocity;
     }
-    const double span = inertia->span[j], stiffness = inertia->mass[j] / (span * span);
-    const double pace = vec3_norm(
-        vec3_sub(vec3_at(inertia->rest_velocity, j), vec3_at(inertia->start_velocity, j)));
-    double *k = &line->field.stiffness[6 * j];
-    k[0] = k[2] = k[5] = stiffness;
-    line->field.size += inertia->mass[j] * pace / span;
+    line->field.size += cpsi_line_set_inertia(line, j, vec3_at(line->position, j));
 }
 
 /* Does an obstacle turn or move in the step? */
@@ -270,6 +264,7 @@ void cpsi_line_stop(CpsiLine *line) {
     inertia->kinetic = inertia->position_bound = 0;
     inertia->ledger = (CpsMotionLedger){0};
     inertia->landed = inertia->changed = inertia->snatched = 0;
+    if (line->has_node_loads) memset(line->field.added, 0, 3 * n * sizeof *line->field.added);
     memset(inertia->velocity, 0, 3 * n * sizeof *inertia->velocity);
     memset(inertia->rest_velocity, 0, 3 * n * sizeof *inertia->rest_velocity);
     memset(inertia->span, 0, n * sizeof *inertia->span);

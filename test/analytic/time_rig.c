@@ -36,6 +36,14 @@ void time_node(TimeRig *rig, int j, double x, double y, double z) {
     memcpy(&rig->point[3 * j], at, sizeof at);
 }
 
+void time_water(TimeRig *rig, double density, const double velocity[3], CpsDrag drag) {
+    memcpy(rig->row.velocity, velocity, sizeof rig->row.velocity);
+    rig->current = (CpsCurrent){.density = density, .row_count = 1, .row = &rig->row};
+    rig->loads.drag = drag;
+    rig->scene.current = &rig->current;
+    rig->line.loads = &rig->loads;
+}
+
 CpsStage *time_stage(TimeRig *rig, double duration, int steps) {
     CpsStage *stage = &rig->stage[rig->scene.stage_count++];
     *stage = cps_stage_default();
@@ -138,6 +146,8 @@ void time_step(TimeRun *run) {
     run->kinetic += ledger->kinetic;
     run->impact += ledger->impact;
     run->scheme += ledger->scheme;
+    run->drag += ledger->drag;
+    run->added += ledger->added;
     run->lost += run->report.ledger.dissipated;
     run->landed += run->motion.landed;
     run->changed += run->motion.changed;

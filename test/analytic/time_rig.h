@@ -21,6 +21,9 @@ typedef struct TimeRig {
     CpsChange change[TIME_STAGES];
     CpsSway sway[TIME_STAGES];
     CpsPointWeight clump;
+    CpsLineLoads loads;
+    CpsCurrentRow row;
+    CpsCurrent current;
     double point[3 * TIME_POINTS];
     double gravity; /* [m/s2] */
 } TimeRig;
@@ -29,6 +32,8 @@ typedef struct TimeRig {
 void time_begin(TimeRig *rig, double length, int elements, double mass, double stiffness);
 void time_plane(TimeRig *rig, double height, double friction);
 void time_node(TimeRig *rig, int j, double x, double y, double z);
+/* Water of this density that flows with `velocity` everywhere, and the line's drag in it. */
+void time_water(TimeRig *rig, double density, const double velocity[3], CpsDrag drag);
 /* A stage of a duration in steps; it changes nothing yet. Duration 0: quasi-static. */
 CpsStage *time_stage(TimeRig *rig, double duration, int steps);
 /* ... changes end B in it; and lets it oscillate. */
@@ -49,6 +54,7 @@ typedef struct TimeRun {
     double remainder; /* what the ledger does not close by, over the sum of its turnover */
     double imbalance, turnover;           /* [J] sums */
     double kinetic, impact, scheme, lost; /* [J] sums; of friction */
+    double drag, added;                   /* [J] sums of the works on the water */
     int landed, changed, snatched, steps, certified;
 } TimeRun;
 

@@ -338,8 +338,9 @@ typedef struct Check {
     Junction *point;                                   /* (points) of the step */
     BodyState *now, *before, *older;                   /* (count) */
     BodyMotion *motion, *motion_before, *motion_older; /* (count) */
-    double *arm;    /* (count) [m] of its farthest point; else its longest line */
-    double largest; /* [N] of the step */
+    double *arm;     /* (count) [m] of its farthest point; else its longest line */
+    double largest;  /* [N] of the step */
+    double rounding; /* [N] of the tensions by that of places */
     size_t step, body;
     BodyFinding *find;
     void *user;
@@ -439,7 +440,8 @@ static void check_balance(const Check *c, const BodyState *at, bool certified) {
             at_most(c, "residual where it is held", fabs(at->residual[i]), SUMS * noise[i / 3]);
     }
     const double left = fmax(size(at->residual), size(&at->residual[3]) / c->arm[c->body]);
-    const bool is_balanced = left <= BALANCED * c->source->tolerance * c->largest + SUMS * noise[0];
+    const bool is_balanced =
+        left <= BALANCED * c->source->tolerance * c->largest + SUMS * noise[0] + c->rounding;
     if (at->has_place && !is_balanced)
         find(c, "it is said to have a place, but %.6g N are left, of %.6g N", left, c->largest);
     if (!at->has_place && certified)
@@ -543,9 +545,11 @@ static void check_motion(Check *c) {
 
 /* [N] The largest force in elastic lines and of loads. */
 static void find_largest(Check *c) {
-    c->largest = 0;
-    for (size_t i = 0; i < c->source->lines; i++)
+    c->largest = c->rounding = 0;
+    for (size_t i = 0; i < c->source->lines; i++) {
         c->largest = fmax(c->largest, acts_in_line(&c->line[i]));
+        c->rounding = fmax(c->rounding, rounding_in_line(&c->line[i]));
+    }
     for (size_t k = 0; k < c->source->points; k++)
         c->largest = fmax(c->largest, size(c->point[k].load));
     for (size_t k = 0; k < c->bodies->count; k++)

@@ -23,6 +23,7 @@
 #include <string.h>
 
 #include "elongation.h"
+#include "points.h"
 #include "sets.h"
 
 typedef Real Matrix[3][3];
@@ -31,10 +32,10 @@ typedef Real Triple[3];
 enum { ROWS = 4, COLUMNS = SIX + ROWS };
 
 /* A state is known where a reaction is more than CLOSED of the node's weight or less than NOTHING
- * of it, a tension more than NOTHING of the largest, and a slip more than MOVED of the line's
- * length, at the bound, or less, clearly below it. What has not moved at all, RESTS, counts as at
- * rest also at its bound. */
-static const Real CLOSED = 1e-3L, NOTHING = 1e-7L, MOVED = 1e-9L, RESTS = 1e-13L;
+ * of it, a tension more than NOTHING of the largest and KNOWN times what rounding leaves of it, and
+ * a slip more than MOVED of the line's length, at the bound, or less, clearly below it. What has
+ * not moved at all, RESTS, counts as at rest also at its bound. */
+static const Real KNOWN = 100, CLOSED = 1e-3L, NOTHING = 1e-7L, MOVED = 1e-9L, RESTS = 1e-13L;
 /* The slope of a law by differences of the strain; both sides agree but in a corner. */
 static const Real STRAIN = 1e-7L, SAME_SLOPE = 1e-6L;
 /* Between nodes at rest an element that cannot be stretched may have any tension: there it is so
@@ -134,7 +135,8 @@ static bool compliance_of(const Record *r, size_t i, Real strain, Real most, Rea
 static bool set_element(const Record *r, size_t i, Real most, Element *out) {
     for (int k = 0; k < 3; k++) out->e[k] = (Real)r->position[i + 1][k] - r->position[i][k];
     const Real length = sqrtl(dot(out->e, out->e)), strain = length / r->element_length[i] - 1;
-    if (!(r->tension[i] > NOTHING * most) || !compliance_of(r, i, strain, most, &out->compliance))
+    if (!(r->tension[i] > NOTHING * most + KNOWN * rounding_in_line(r)) ||
+        !compliance_of(r, i, strain, most, &out->compliance))
         return false;
     for (int k = 0; k < 3; k++) out->e[k] /= length;
     out->across = r->tension[i] / length;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "compare.h"
+#include "inertia.h"
 #include "loads.h"
 
 /* [m] What of the length of node j lies between two arc lengths. */
@@ -82,6 +83,10 @@ static void compare_drag(Compare *compare, const CpsLine *line, const Loads *loa
     same_number(compare, "diameter in the current", line->name, loads->drag[0], drag->diameter);
     same_number(compare, "drag across", line->name, loads->drag[1], drag->normal);
     same_number(compare, "drag along", line->name, loads->drag[2], drag->tangential);
+    same_number(compare, "water moved along across", line->name, loads->added[0],
+                drag->added_normal);
+    same_number(compare, "water moved along along", line->name, loads->added[1],
+                drag->added_tangential);
     same_number(compare, "density about", line->name, loads->density, current->density);
     if (loads->rows != (size_t)current->row_count) {
         find(compare, "current: %zu rows, in the scene %d", loads->rows, current->row_count);
@@ -120,10 +125,13 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
         at += j > 0 ? r->element_length[j - 1] : 0;
         if (springs && !compare_springs(compare, line, r, j, at)) return;
         if (!forces) continue;
-        Real left[3];
-        loads_drag(r, r->position, j, left);
+        Real left[3], added[3] = {0, 0, 0};
+        if (in_time(r))
+            loads_flow(r, j, left, added);
+        else
+            loads_drag(r, r->position, j, left);
         for (int a = 0; a < 3; a++) {
-            left[a] -= loads->given[j][a];
+            left[a] += added[a] - loads->given[j][a];
             for (int i = 0; i < given->force_count; i++)
                 left[a] += common_length(r, j, at, given->force[i].from, given->force[i].to) *
                            given->force[i].force[a];

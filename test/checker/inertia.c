@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "elongation.h"
+#include "loads.h"
 
 /* Rounding of places, per largest coordinate; of energies, per their sizes. */
 static const double PLACES = 1e-13, ENERGIES = 1e-9;
@@ -46,8 +47,9 @@ int inertia_create(const Source *source, const char *line, Record *record, FILE 
 }
 
 int inertia_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
-    static const char *const NUMBER[TIME_ENTRIES] = {"kinetic", "ledger_kinetic", "ledger_impact",
-                                                     "ledger_scheme"};
+    static const char *const NUMBER[TIME_ENTRIES] = {"kinetic",       "ledger_kinetic",
+                                                     "ledger_impact", "ledger_scheme",
+                                                     "ledger_drag",   "ledger_added"};
     if (!record->mass) return 0;
     const size_t start[] = {step, 0, 0}, count[] = {1, record->nodes, 3};
     int time;
@@ -104,13 +106,32 @@ bool inertia_terms(const Record *r, size_t j, bool held, Real *pull, Inertia *ou
     return true;
 }
 
-/* The part of the vector across the normals of the contacts at which node j bore. */
+/* Take the part along the unit vector n off v; returns the size of what is left. */
+static Real take_off(const Real *n, Real *v) {
+    Real along = 0, left = 0;
+    for (int a = 0; a < 3; a++) along += v[a] * n[a];
+    for (int a = 0; a < 3; a++) {
+        v[a] -= along * n[a];
+        left += v[a] * v[a];
+    }
+    return sqrtl(left);
+}
+
+/* The part of the vector across the normals of the contacts at which node j bore, up to two, which
+ * may have any angle. */
 static void across(const Record *r, size_t j, Real *v) {
+    Real first[3];
+    bool any = false;
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) {
         if (!(r->reaction[c] > 0)) continue;
-        Real along = 0;
-        for (int a = 0; a < 3; a++) along += v[a] * r->normal[c][a];
-        for (int a = 0; a < 3; a++) v[a] -= along * r->normal[c][a];
+        Real n[3] = {r->normal[c][0], r->normal[c][1], r->normal[c][2]};
+        const Real sine = any ? take_off(first, n) : 1;
+        for (int a = 0; a < 3; a++) {
+            n[a] = sine > 1e-6L ? n[a] / sine : 0;
+            if (!any) first[a] = n[a];
+        }
+        take_off(n, v);
+        any = true;
     }
 }
 
@@ -180,7 +201,7 @@ static double kinetic_energy(const Record *r, double reach, InertiaFind *find, v
 
 /* [J] What the forces on the nodes do on their way, and the energies that are stored. */
 typedef struct Works {
-    double elastic, gravity, ends, sizes;
+    double elastic, gravity, ends, drag, added, loads, sizes;
 } Works;
 
 static double stored(const Record *r, const Vector *x, size_t i) {
@@ -198,7 +219,9 @@ static Works works_of(const Record *r, const Record *before) {
     for (size_t i = 0; i < r->elements; i++)
         w.elastic += stored(r, (const Vector *)r->position, i) -
                      stored(r, (const Vector *)before->position, i);
-    for (size_t j = 0; j < r->nodes; j++)
+    for (size_t j = 0; j < r->nodes; j++) {
+        Real drag[3], added[3];
+        loads_flow(r, j, drag, added);
         for (int a = 0; a < 3; a++) {
             double load = r->load[j][a];
             const double way = r->position[j][a] - before->position[j][a];
@@ -207,9 +230,18 @@ static Works works_of(const Record *r, const Record *before) {
                 if (r->end_kind[e] == END_FREE) load -= r->applied_force[e][a];
                 w.ends += r->end_force[e][a] * way;
             }
+            if (r->loads && r->loads->given) {
+                const double given = r->loads->given[j][a];
+                load -= given;
+                w.drag -= (double)drag[a] * way;
+                w.added -= (double)added[a] * way;
+                w.loads += (given - (double)(drag[a] + added[a])) * way;
+                w.sizes += fabs(given * way) + fabs((double)drag[a] * way);
+            }
             w.gravity -= load * way;
             w.sizes += fabs(load * way);
         }
+    }
     return w;
 }
 
@@ -220,7 +252,8 @@ static void compare(const char *what, double said, double expected, double noise
 
 void inertia_check(const Source *source, const Record *r, const Record *before, const Record *older,
                    InertiaFind *find, void *user) {
-    double reach = 0, sizes = r->dissipated;
+    const double given = r->loads ? r->loads->ledger : 0;
+    double reach = 0, sizes = r->dissipated + fabs(given);
     (void)source;
     if (!in_time(r) || !before || r->outcome > OUTCOME_TAUT) return;
     for (size_t j = 0; j < r->nodes; j++)
@@ -237,10 +270,11 @@ void inertia_check(const Source *source, const Record *r, const Record *before, 
                 kinetic - before->time_entry[TIME_KINETIC], noise, find, user);
     const double spent = r->ledger[LEDGER_ELASTIC] + r->ledger[LEDGER_GRAVITY] + r->dissipated +
                          r->time_entry[TIME_GROWTH] + r->time_entry[TIME_IMPACT] +
-                         r->time_entry[TIME_SCHEME] + r->ledger[LEDGER_IMBALANCE];
-    compare("ledger in time, ends + obstacles",
-            r->ledger[LEDGER_ENDS] + r->ledger[LEDGER_OBSTACLES], spent, 1e-12 * sizes + 1e-300,
-            find, user);
+                         r->time_entry[TIME_SCHEME] + r->time_entry[TIME_DRAG] +
+                         r->time_entry[TIME_ADDED] + r->ledger[LEDGER_IMBALANCE];
+    compare("ledger in time, ends + obstacles + loads",
+            r->ledger[LEDGER_ENDS] + r->ledger[LEDGER_OBSTACLES] + given, spent,
+            1e-12 * sizes + 1e-300, find, user);
     compare("imbalance of the ledger in time", r->ledger[LEDGER_IMBALANCE], 0, noise, find, user);
     if (!(r->time_entry[TIME_IMPACT] >= 0))
         find(user, "energy lost by impact", r->time_entry[TIME_IMPACT], 0);
@@ -250,4 +284,8 @@ void inertia_check(const Source *source, const Record *r, const Record *before, 
     compare("ledger_gravity in time", r->ledger[LEDGER_GRAVITY], w.gravity,
             noise + ENERGIES * w.sizes, find, user);
     compare("ledger_ends in time", r->ledger[LEDGER_ENDS], w.ends, noise, find, user);
+    const double water = noise + ENERGIES * w.sizes;
+    compare("ledger_drag", r->time_entry[TIME_DRAG], w.drag, water, find, user);
+    compare("ledger_added", r->time_entry[TIME_ADDED], w.added, water, find, user);
+    compare("ledger_loads in time", given, w.loads, water, find, user);
 }

@@ -97,6 +97,12 @@ int loads_create(const Source *source, const char *line, Record *record, FILE *l
     snprintf(name, sizeof name, "%s_drag", line);
     loads->has_drag = nc_get_att_double(source->nc, NC_GLOBAL, name, loads->drag) == NC_NOERR &&
                       nc_inq_attlen(source->nc, NC_GLOBAL, "current", &(size_t){0}) == NC_NOERR;
+    snprintf(name, sizeof name, "%s_added_mass", line);
+    const size_t numbers = sizeof loads->added / sizeof *loads->added;
+    size_t found;
+    if (nc_inq_attlen(source->nc, NC_GLOBAL, name, &found) == NC_NOERR &&
+        (found != numbers || nc_get_att_double(source->nc, NC_GLOBAL, name, loads->added)))
+        return complain(log, "cannot read", name);
     return loads->has_drag ? read_current(source, loads, log) : 0;
 }
 
@@ -179,17 +185,25 @@ static void velocity(const Loads *loads, Real z, Real *u) {
     for (int a = 0; a < 3; a++) u[a] = (1 - share) * low[1 + a] + share * high[1 + a];
 }
 
-/* Half of the drag on element i at the places x: Morison's law across and along it. */
-static void add_half(const Record *record, Vector *x, size_t i, Real *out) {
-    const Loads *loads = record->loads;
-    const double diameter = loads->drag[0], across_by = loads->drag[1], along_by = loads->drag[2];
-    Real u[3], t[3], size = 0, along = 0, across[3], speed = 0;
-    velocity(loads, ((Real)x[i][2] + x[i + 1][2]) / 2, u);
+/* The direction of element i at the places x, and its size. */
+static Real direction(Vector *x, size_t i, Real *t) {
+    Real size = 0;
     for (int a = 0; a < 3; a++) {
         t[a] = (Real)x[i + 1][a] - x[i][a];
         size += t[a] * t[a];
     }
-    size = sqrtl(size);
+    return sqrtl(size);
+}
+
+/* Half of the drag on element i at the places x, whose end there has the velocity v: Morison's law
+ * across and along it. */
+static void add_half(const Record *record, Vector *x, size_t i, const Real *v, Real *out) {
+    const Loads *loads = record->loads;
+    const double diameter = loads->drag[0], across_by = loads->drag[1], along_by = loads->drag[2];
+    Real u[3], t[3], along = 0, across[3], speed = 0;
+    velocity(loads, ((Real)x[i][2] + x[i + 1][2]) / 2, u);
+    for (int a = 0; a < 3; a++) u[a] -= v[a];
+    const Real size = direction(x, i, t);
     for (int a = 0; a < 3; a++) along += size > 0 ? u[a] * t[a] / size : 0;
     for (int a = 0; a < 3; a++) {
         across[a] = u[a] - (size > 0 ? along * t[a] / size : 0);
@@ -208,8 +222,37 @@ static void add_half(const Record *record, Vector *x, size_t i, Real *out) {
 void loads_drag(const Record *record, Vector *x, size_t j, Real *out) {
     out[0] = out[1] = out[2] = 0;
     if (!record->loads || !record->loads->has_drag) return;
-    if (j > 0) add_half(record, x, j - 1, out);
-    if (j < record->elements) add_half(record, x, j, out);
+    const Real rest[3] = {0, 0, 0};
+    if (j > 0) add_half(record, x, j - 1, rest, out);
+    if (j < record->elements) add_half(record, x, j, rest, out);
+}
+
+/* Half of the mass of water that element i moves along, times minus the acceleration. */
+static void add_inertia(const Record *record, size_t i, const Real *acceleration, Real *out) {
+    const Loads *loads = record->loads;
+    Real t[3], along = 0;
+    const Real size = direction(record->position, i, t), radius = (Real)loads->drag[0] / 2;
+    const Real displaced =
+        3.14159265358979323846L * radius * radius * loads->density * record->element_length[i] / 2;
+    for (int a = 0; a < 3; a++) along += size > 0 ? acceleration[a] * t[a] / size : 0;
+    for (int a = 0; a < 3; a++) {
+        const Real part = size > 0 ? along * t[a] / size : 0;
+        out[a] -= displaced * (loads->added[0] * (acceleration[a] - part) + loads->added[1] * part);
+    }
+}
+
+void loads_flow(const Record *record, size_t j, Real *drag, Real *added) {
+    Real v[3], acceleration[3];
+    for (int a = 0; a < 3; a++) drag[a] = added[a] = 0;
+    if (!record->loads || !record->loads->has_drag) return;
+    for (int a = 0; a < 3; a++) {
+        v[a] = ((Real)record->position[j][a] - record->reference[j][a]) / record->span[j];
+        acceleration[a] = (v[a] - record->rest_velocity[j][a]) / record->span[j];
+    }
+    for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < record->elements; i++) {
+        add_half(record, record->position, i, v, drag);
+        add_inertia(record, i, acceleration, added);
+    }
 }
 
 Real loads_work(const Record *record) {

@@ -13,7 +13,8 @@ typedef struct Loads {
     Vector *given;           /* (nodes) [N] given loads and drag */
     double ledger, residual; /* as claimed */
     bool has_drag;
-    double drag[3]; /* diameter, coefficients across and along */
+    double drag[3];  /* diameter, coefficients across and along */
+    double added[2]; /* coefficients of the water that is moved along, across and along */
     double density;
     size_t rows;
     double *row; /* (rows, 4) z and velocity */
@@ -40,7 +41,10 @@ void loads_add_others(const Record *record, size_t j, Real *sum);
  */
 Real loads_work(const Record *record);
 
-/* [N] The drag on node j at the places x. */
+/* [N] The drag on node j at the places x, at rest. */
 void loads_drag(const Record *record, Vector *x, size_t j, Real *out);
+/* [N] ... of a step in time, where the line has come to be: drag in the water relative to the node,
+ * and what the water that is moved along opposes to its acceleration. */
+void loads_flow(const Record *record, size_t j, Real *drag, Real *added);
 
 #endif

@@ -602,6 +602,23 @@ static void measure_set(const Record *r, size_t j, const Real *x, Real *p, Measu
     raise_to(&m->largest_force, force);
 }
 
+/* What the loads b of a node add to sizes. In motion its weight and the water's forces, which may
+ * be equal and opposite, count by themselves. */
+static void measure_load(const Record *r, size_t j, const Real *b, const Real *u, const Real *arm,
+                         Measures *m, Sums *s) {
+    Triple part[2] = {{b[0], b[1], b[2]}, {0, 0, 0}};
+    const bool swims = in_time(r) && r->loads && r->loads->has_drag;
+    if (swims) widen(r->loads->given[j], part[1]);
+    for (int k = 0; k < 3; k++) part[0][k] -= part[1][k];
+    for (int i = 0; i < 2; i++) {
+        add(&s->work, fabsl(dot(part[i], u)));
+        add(&s->moment, size(part[i]) * size(arm));
+        add(&s->loads, size(part[i]));
+    }
+    raise_to(&m->largest_force, size(b));
+    raise_to(&m->largest_force, size(part[1]));
+}
+
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
@@ -617,11 +634,8 @@ static void measure_node(const Where *where, const Record *r, size_t j, Measures
         raise_to(&m->extent, fabsl(x[k]));
     }
     add(&s->primal, -dot(b, x));
-    add(&s->work, fabsl(dot(b, u)));
-    add(&s->moment, size(b) * size(arm));
-    add(&s->loads, size(b));
+    measure_load(r, j, b, u, arm, m, s);
     add(&s->magnitude, size(b) * size(x) + size(pull) * size(x));
-    raise_to(&m->largest_force, size(b));
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
         measure_contact(where, r, j, c, pull, m, s);
     loads_add_others(r, j, pull);

@@ -11,6 +11,7 @@
  * vanishes. */
 #include "points.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -25,6 +26,9 @@
 static const double SUMS = 1e-12, BALANCED = 100, PLACES = 1e-9, COPIED = 1e-12;
 /* Friction above its bound per largest force, and normals. */
 static const double FORCES = 1e-9, NORMALS = 1e-9;
+/* A strain is known to so many roundings of places: those of two nodes in three coordinates, of the
+ * two elements beside a point, and as much again. */
+static const double ROUNDINGS = 16;
 
 typedef struct Points {
     const Source *source;
@@ -39,9 +43,10 @@ typedef struct Points {
     double *dragged; /* (points) [m] before the step */
     double surface;  /* [m] z of the water's surface */
     bool has_surface;
-    double *length; /* (points) [m] of the longest line that ends there */
-    double largest; /* [N] of the step */
-    double acting;  /* [N] of it what no tension without a bound may have made */
+    double *length;  /* (points) [m] of the longest line that ends there */
+    double largest;  /* [N] of the step */
+    double acting;   /* [N] of it what no tension without a bound may have made */
+    double rounding; /* [N] of the tensions by that of places */
     bool certified, has_friction;
     size_t step, point;
     PointFinding *find;
@@ -116,7 +121,7 @@ static void check_balance(const Points *p, const Junction *at) {
     if ((at->state == POINT_ON_BODY) != (kind == POINT_KIND_ON_BODY))
         find(p, "its state and its kind differ in whether it is on a body");
     const double left = size(at->residual);
-    const bool is_balanced = left <= BALANCED * p->source->tolerance * p->acting;
+    const bool is_balanced = left <= BALANCED * p->source->tolerance * p->acting + p->rounding;
     if (at->has_place && !is_balanced)
         find(p, "it is said to have a place, but %.6g N are left, of %.6g N", left, p->acting);
     if (!at->has_place && p->certified)
@@ -294,6 +299,14 @@ double acts_in_line(const Record *line) {
     return sum;
 }
 
+double rounding_in_line(const Record *line) {
+    if (!(line->compliance > 0)) return 0;
+    double shortest = INFINITY, far = 0;
+    for (size_t i = 0; i < line->elements; i++) shortest = fmin(shortest, line->element_length[i]);
+    for (size_t j = 0; j < line->nodes; j++) far = fmax(far, size(line->position[j]));
+    return ROUNDINGS * DBL_EPSILON * (1 + far / shortest) / line->least_compliance;
+}
+
 /* What is left is compared with loads, and with tensions that strains have: an inextensible line
  * that is pulled straight may claim any. */
 static void find_acting(Points *p) {
@@ -302,8 +315,10 @@ static void find_acting(Points *p) {
         p->acting = fmax(p->acting, fmax(size(p->now[i].load), p->water[i].displaced));
         if (anchor->drags) p->acting = fmax(p->acting, anchor->capacity);
     }
-    for (size_t i = 0; i < p->source->lines; i++)
+    for (size_t i = 0; i < p->source->lines; i++) {
         p->acting = fmax(p->acting, acts_in_line(&p->line[i]));
+        p->rounding = fmax(p->rounding, rounding_in_line(&p->line[i]));
+    }
     /* beside bodies, whose loads bodies.c counts, inextensible lines are never pulled straight */
     p->acting = p->bodies.count > 0 ? p->largest : fmin(p->acting, p->largest);
 }
@@ -349,7 +364,7 @@ static void check_motion(Points *p) {
 
 static void check_step(Points *p) {
     const Source *source = p->source;
-    p->largest = p->acting = 0;
+    p->largest = p->acting = p->rounding = 0;
     p->certified = false;
     for (size_t i = 0; i < source->points; i++)
         p->largest = fmax(p->largest, fmax(size(p->now[i].load), p->water[i].buoyancy));

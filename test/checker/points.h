@@ -17,5 +17,7 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
 /* [N] With what a balance at the ends of a line may be compared: the largest force in an elastic
  * line, the loads of an inextensible one, whose tension may have no bound. */
 double acts_in_line(const Record *line);
+/* [N] What rounding of the places of nodes leaves of its tensions. */
+double rounding_in_line(const Record *line);
 
 #endif

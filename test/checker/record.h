@@ -64,7 +64,7 @@ enum {
 };
 
 /* energies of a step in time, by the file */
-enum { TIME_KINETIC, TIME_GROWTH, TIME_IMPACT, TIME_SCHEME, TIME_ENTRIES };
+enum { TIME_KINETIC, TIME_GROWTH, TIME_IMPACT, TIME_SCHEME, TIME_DRAG, TIME_ADDED, TIME_ENTRIES };
 
 typedef double Vector[3];
 enum { GRASPS = 8 };

@@ -69,6 +69,13 @@ CHANGES = [
     ("contact of the reference", "capstan: 1\n", "capstan: 1\ncontact_policy: reference\n", INPUT, "2:1: contact_policy: a step of the history has a duration, which needs contact that is reached"),
     ("an unknown scheme", "capstan: 1\n", "capstan: 1\ntime_scheme: newmark\n", INPUT, "2:1: 'time_scheme': found 'newmark', expected one of: bdf2 euler"),
     ("a line that parts", "mass: 1", "mass: 1\n    break_at: 1e5", INPUT, "8:5: line 'cable': break_at: lines do not part in a history of which a step has a duration"),
+    ("springs", "mass: 1", "mass: 1\n    springs: [{stiffness: [1, 1, 1], place: [0, 0, 0]}]", INPUT, "8:5: line 'cable': springs are those of lines at rest: leave them out, or the motion in time"),
+    ("drag of a quasi-static line", "mass: 1", "mass: 1\n    quasi_static: true\n    loads: [{force: [1, 0, 0]}]", INPUT, "8:5: line 'cable': quasi_static: in time a line with loads or drag has its inertia: leave out either"),
+    ("drag without water", "mass: 1", "mass: 1\n    drag: {diameter: 0.1, normal: 1}", INPUT, "8:5: line 'cable': drag: a step of the history has a duration, and there is no water that the line could move in: give water_density"),
+    ("a negative added mass", "mass: 1", "mass: 1\n    drag: {diameter: 0.1, normal: 1, added_normal: -1}", INPUT, "8:38: 'added_normal': found '-1', expected a number, at least 0"),
+    ("NaN in an added mass", "mass: 1", "mass: 1\n    drag: {diameter: 0.1, normal: 1, added_tangential: .nan}", INPUT, "8:38: 'added_tangential': found '.nan', expected a number"),
+    ("an added mass in words", "mass: 1", "mass: 1\n    drag: {diameter: 0.1, normal: 1, added_normal: all}", INPUT, "8:38: 'added_normal': found 'all', expected a number"),
+    ("a misspelt added mass", "mass: 1", "mass: 1\n    drag: {diameter: 0.1, normal: 1, added_norml: 1}", INPUT, "8:38: 'drag': unknown key 'added_norml'; did you mean 'added_normal'?"),
     ("a winch", "B: held}", "B: {held: [10, 0, 1], stored: 0}}", INPUT, "10:5: line 'cable': stored: winches do not wind in a history of which a step has a duration: leave it out"),
 ]
 

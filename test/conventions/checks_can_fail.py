@@ -58,7 +58,7 @@ FAULTS = [
     ("include/capstan/base.h", '#include "capstan/scene.h"\n', "check-layers", "only lower ones"),
     ("src/base/one.h", '#include "base/other.h"\n', "check-layers", "include cycle"),
     ("src/io/draw/up.c", '#include "io/results/writers.h"\n', "check-layers", "io/base/yaml, io/draw\n"),
-    ("src/io/read/side.c", '#include "io/history.h"\n', "check-layers", "io/base/yaml, io/read, io/schema, io/schema/tables\n"),
+    ("src/io/read/side.c", '#include "io/history.h"\n', "check-layers", "io/base/yaml, io/read, io/schema, io/schema/loads, io/schema/tables\n"),
     ("src/io/base/yaml/up.c", '#include "io/base/directory/list.h"\n', "check-layers", "may use base, io/base/text, io/base/yaml\n"),
     ("src/io/draw/svg.h", '#include "io/draw/run/one.h"\n', "check-layers", "svg.h:3: includes io/draw/run/one.h: io/draw/ may use"),
     ("src/io/draw/deep/one.h", "#include <math.h>\n", "check-layers", "no known layer"),

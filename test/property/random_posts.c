@@ -27,8 +27,7 @@
 #include "capstan/results.h"
 #include "checker.h"
 #include "given.h"
-#include "rig.h"
-#include "splitmix.h"
+#include "posts_scene.h"
 
 enum { SCENES = 200 };
 /* Rounds end where nothing is deeper than 1e-10 of the length; beside it the rounding of a
@@ -42,153 +41,6 @@ static const double CERTIFIED = 0.995;
 static const double LATE = 10;
 
 static const double PI = 3.14159265358979323846;
-
-/* random numbers */
-static uint64_t state;
-
-static double uniform(double low, double high) { return splitmix(&state, low, high); }
-
-static double decades(double low, double high) { return pow(10, uniform(low, high)); }
-static bool chance(double probability) { return uniform(0, 1) < probability; }
-
-/* the scene ------------------------------------------------------------------------------------ */
-
-typedef struct Scene {
-    Rig rig;
-    double thickest;            /* h/R of the thinnest obstacle */
-    bool flat;                  /* all stays in the plane z = 0 */
-    bool sets;                  /* friction by sets of forces */
-    CpsSet *set[RIG_OBSTACLES]; /* the friction of an obstacle; NULL: coefficients */
-} Scene;
-
-/* A set of friction forces with 0 in it: a polygon about a point beside it, a segment, or a disc
- * beside it. */
-static CpsSet *friction_set(void) {
-    const double size = uniform(0.1, 0.5), angle = uniform(0, 2 * PI), x = size * cos(angle),
-                 y = size * sin(angle), aside = uniform(-0.5, 0.5);
-    const double what = uniform(0, 1);
-    CpsSet *set = NULL;
-    CpsError err;
-    CpsStatus status;
-    if (what < 0.2) {
-        status = cps_set_segment(2, (double[]){-x, -y}, (double[]){aside * x + x, aside * y + y},
-                                 &set, &err);
-    } else if (what < 0.4) {
-        status = cps_set_ball(2, (double[]){aside * x, aside * y}, size, &set, &err);
-    } else {
-        double points[12];
-        const int count = 3 + (int)uniform(0, 4);
-        for (int k = 0; k < count; k++) { /* 0 is inside: no two neighbours are half a turn apart */
-            const double at = angle + 2 * PI * (k + uniform(-0.2, 0.2)) / count,
-                         far = size * uniform(0.6, 1.4);
-            points[2 * k] = far * cos(at);
-            points[2 * k + 1] = far * sin(at);
-        }
-        status = cps_set_hull_of_points(2, count, points, &set, &err);
-    }
-    if (status != CPS_OK) {
-        print_error("%s\n", err.message);
-        abort();
-    }
-    return set;
-}
-
-static void add_friction(Scene *s, CpsObstacle *o) {
-    if (chance(0.15)) return;
-    if (s->sets) {
-        o->friction_set = s->set[s->rig.scene.obstacle_count - 1] = friction_set();
-        return;
-    }
-    o->friction = uniform(0.05, 0.6);
-    if (chance(0.2)) rig_lateral(o, uniform(0.05, 0.6));
-    if (chance(0.1)) o->friction_shape = CPS_FRICTION_SHAPE_BOX;
-    if (chance(0.1)) {
-        o->grain[0] = uniform(-1, 1);
-        o->grain[2] = 1;
-    }
-}
-
-/* Is there space for a post of this radius at x, y? */
-static bool fits(const Scene *s, double x, double y, double radius) {
-    for (int k = 0; k < s->rig.scene.obstacle_count; k++) {
-        const CpsObstacle *o = &s->rig.obstacle[k];
-        if (hypot(x - o->point[0], y - o->point[1]) < 1.15 * (radius + o->radius)) return false;
-    }
-    return true;
-}
-
-static void stand(Scene *s, double length, double radius) {
-    double x = 0, y = 0;
-    for (int i = 0;; i++) {
-        if (i == 100) return;
-        const double clearance = 0.48 * length - radius; /* clear of the paths of the ends */
-        x = uniform(-0.75, 0.75) * clearance;
-        y = uniform(0, 0.3) * length;
-        if (fits(s, x, y, radius)) break;
-    }
-    const bool post = chance(0.6);
-    CpsObstacle *o = rig_obstacle(&s->rig, post ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE, 0);
-    add_friction(s, o);
-    o->radius = radius;
-    o->point[0] = x;
-    o->point[1] = y;
-    o->axis[1] = 0;
-    o->axis[2] = 1;
-    if (s->flat) return;
-    if (post && chance(0.4)) {
-        o->axis[0] = uniform(-0.3, 0.3);
-        o->axis[1] = uniform(-0.3, 0.3);
-    }
-    if (!post) o->point[2] = uniform(-0.3, 0.3) * radius;
-}
-
-static void make(Scene *s, int number) {
-    state = 7919u * (uint64_t)(number + 1);
-    const double unit = chance(0.3) ? decades(-2, 2) : 1, ratio = decades(log10(0.05), 1);
-    const int fewest = (int)ceil(3 / ratio),
-              elements = (fewest > 4 ? fewest : 4) + (int)uniform(0, 20);
-    const double length = elements * unit, radius = fmin(unit / ratio, length / 3);
-    const bool pulled = chance(0.4), rigid = pulled && chance(0.3), heavy = chance(0.5);
-    const double stiffness = decades(2, 4) * unit, force = 0.01 * stiffness;
-    Rig *rig = &s->rig;
-    rig_begin(rig, elements, heavy ? decades(-3, -1) : 0, rigid ? INFINITY : stiffness);
-    rig_length(rig, length);
-    s->flat = !heavy && chance(0.3);
-    s->sets = number % 5 == 4;
-    memset(s->set, 0, sizeof s->set);
-    s->thickest = 0;
-    double low = INFINITY, high = -INFINITY;
-    const int wanted = 1 + (int)uniform(0, 3);
-    for (int k = 0; k < wanted; k++)
-        stand(s, length, radius * (wanted > 1 ? uniform(0.7, 1.3) : 1));
-    for (int k = 0; k < rig->scene.obstacle_count; k++) {
-        const CpsObstacle *o = &rig->obstacle[k];
-        low = fmin(low, o->point[1] - 1.3 * o->radius);
-        high = fmax(high, o->point[1] + o->radius);
-        s->thickest = fmax(s->thickest, unit / o->radius);
-    }
-    const double half = (rigid ? 0.5 : 0.505) * length, y = low - uniform(0.3, 0.8) * unit,
-                 up = high + uniform(0, 0.15) * length;
-    rig_point(rig, -half, y, 0);
-    rig_point(rig, half, y, 0);
-    rig_end(rig, CPS_END_A, CPS_END_KIND_HELD, -half, y, 0);
-    if (pulled)
-        rig_end(rig, CPS_END_B, CPS_END_KIND_FREE, force, 0, 0);
-    else
-        rig_end(rig, CPS_END_B, CPS_END_KIND_HELD, half, y, 0);
-    const int steps = 1 + (int)uniform(0, 30);
-    rig_stage(rig, steps);
-    rig_change(rig, CPS_END_A, CPS_END_KIND_HELD, -half, up,
-               s->flat ? 0 : uniform(-0.05, 0.05) * length);
-    if (pulled)
-        rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, force, 0.4 * force, 0);
-    else
-        rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, half, up * uniform(0.5, 1), 0);
-    rig_stage(rig, 1 + steps / 2);
-    rig_change(rig, CPS_END_A, CPS_END_KIND_HELD, -0.98 * half, 0.8 * up, 0);
-    rig->scene.friction_policy =
-        chance(0.15) ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
-}
 
 /* what is looked at ---------------------------------------------------------------------------- */
 
@@ -226,7 +78,7 @@ static double apart(const double *a, const double *b) {
 }
 
 /* How far elements and nodes are deeper than they may be, over the length of the line. */
-static double depth(const Scene *s, const CpsLineView *view) {
+static double depth(const PostsScene *s, const CpsLineView *view) {
     double worst = -INFINITY;
     for (int k = 0; k < s->rig.scene.obstacle_count; k++) {
         const CpsObstacle *o = &s->rig.obstacle[k];
@@ -261,7 +113,7 @@ static double winding(const CpsObstacle *o, const double *x, int elements) {
 
 /* Turns by which the line has come round an obstacle beyond what its ends went, from place `from`
  * to place `to`. A free end's path is straight as long as it is short. */
-static double passed(const Scene *s, const double *from, const double *to) {
+static double passed(const PostsScene *s, const double *from, const double *to) {
     const int elements = s->rig.line.element_count;
     double worst = 0;
     for (int k = 0; k < s->rig.scene.obstacle_count; k++) {
@@ -293,7 +145,7 @@ static bool right(const Audit *a, const CpsCertificate *c) {
            a->law <= c->gap + 1e-12 * a->scale && c->gap <= 1e-8 * c->scale;
 }
 
-static void check_step(const Scene *s, const char *name, const CpsEvolution *evolution,
+static void check_step(const PostsScene *s, const char *name, const CpsEvolution *evolution,
                        const double *before, Tally *tally) {
     static const double still[RIG_OBSTACLES] = {0};
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
@@ -330,7 +182,7 @@ static void check_step(const Scene *s, const char *name, const CpsEvolution *evo
 }
 
 /* The file of results by the checker. */
-static void check_file(const Scene *s, const char *name, const char *directory, Tally *tally) {
+static void check_file(const PostsScene *s, const char *name, const char *directory, Tally *tally) {
     char path[512];
     CheckerReport report;
     snprintf(path, sizeof path, "%s/result.nc", directory);
@@ -349,8 +201,8 @@ static void check_file(const Scene *s, const char *name, const char *directory, 
 
 /* All steps of an evolution, or as many as there is time for; [s] of processor time that they
  * took. */
-static double go(const Scene *s, const char *name, CpsEvolution *evolution, CpsResults *results,
-                 Tally *tally) {
+static double go(const PostsScene *s, const char *name, CpsEvolution *evolution,
+                 CpsResults *results, Tally *tally) {
     const size_t size = 3 * (size_t)(s->rig.line.element_count + 1) * sizeof(double);
     double *before = malloc(size), spent = 0;
     CpsError err;
@@ -373,14 +225,14 @@ static double go(const Scene *s, const char *name, CpsEvolution *evolution, CpsR
 }
 
 static void run(int number, const char *directory, Tally tallies[2]) {
-    static Scene s;
+    static PostsScene s;
     CpsResultsOptions terse = cps_results_options_default();
     terse.no_paraview = terse.sync_at_end = true;
     CpsEvolution *evolution;
     CpsResults *results;
     CpsError err;
     char name[160];
-    make(&s, number);
+    posts_scene_make(&s, number);
     Tally *tally = &tallies[s.rig.scene.friction_policy];
     snprintf(name, sizeof name, "scene %d, %d obstacles%s, %d elements, h/R %.2f, %s%s", number,
              s.rig.scene.obstacle_count, s.sets ? " with friction sets" : "",
@@ -401,7 +253,7 @@ static void run(int number, const char *directory, Tally tallies[2]) {
     cps_results_destroy(results);
     cps_evolution_destroy(evolution);
     check_file(&s, name, directory, tally);
-    for (int k = 0; k < RIG_OBSTACLES; k++) cps_set_release(s.set[k]);
+    posts_scene_release(&s);
     tally->scenes++;
     tally->slowest = fmax(tally->slowest, spent);
     if (spent <= LATE) return;

@@ -194,7 +194,10 @@ static const char MOTION_SCENE[] =
     "lines:\n"
     "  one: {length: 3, elements: 4, mass: 2, inertia: 3, velocity: [0, 0, 1], stiffness: 1000,"
     " point_weights: [{at: 1.5, mass: 1, inertia: 1.2}],"
-    " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held}}\n"
+    " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held},"
+    " drag: {diameter: 0.1, normal: 1, tangential: 0.1, added_normal: 0.8, added_tangential:"
+    " 0.3}}\n"
+    "water_density: 10\n"
     "history:\n"
     "  - {name: pull, duration: 2, time_step: 0.5,"
     " one.B: {move: [0, 0, 0.1], sine: [0, 0, 0.2], cosine: [0, 0, 0.3], period: 4,"
@@ -513,6 +516,11 @@ static const struct Change MOTION_CHANGE[] = {
     {"period", "period: 4", "period: 5"},
     {"oscillations", "{sine: [0.1, 0, 0], period: 7}", "{sine: [0.1, 0, 0], period: 8}"},
     {"oscillations", "sine: [0.1, 0, 0]", "sine: [0.2, 0, 0]"},
+    {"diameter", "diameter: 0.1", "diameter: 0.11"},
+    {"normal", ", normal: 1", ", normal: 1.1"},
+    {"tangential", ", tangential: 0.1", ", tangential: 0.2"},
+    {"added_normal", "added_normal: 0.8", "added_normal: 0.9"},
+    {"added_tangential", "added_tangential: 0.3", "added_tangential: 0.4"},
 };
 
 /* Keys that change no answer, and how the file of a ground is to be read; and a file of places,

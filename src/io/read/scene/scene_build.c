@@ -466,5 +466,6 @@ CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values,
     if (status == CPS_OK) status = build_points(&b, &values->points);
     if (status == CPS_OK) status = build_lines(&b, &values->lines);
     const CpsiHistoryBuild history = {d, pool, scene, b.obstacle, b.held};
-    return status ? status : cpsi_history_build(&history, &values->history);
+    if (status == CPS_OK) status = cpsi_history_build(&history, &values->history);
+    return status ? status : cpsi_still_water_build(&b.materials, scene);
 }

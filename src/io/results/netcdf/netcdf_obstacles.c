@@ -444,6 +444,9 @@ void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, dou
         char name[NC_MAX_NAME + 1];
         snprintf(name, sizeof name, "%.200s_drag", scene->line[i].name);
         cpsi_netcdf_numbers(file, name, 3, given);
+        const double added[] = {loads->drag.added_normal, loads->drag.added_tangential};
+        snprintf(name, sizeof name, "%.200s_added_mass", scene->line[i].name);
+        if (added[0] > 0 || added[1] > 0) cpsi_netcdf_numbers(file, name, 2, added);
     }
 }
 

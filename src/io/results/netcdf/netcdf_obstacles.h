@@ -132,7 +132,7 @@ void cpsi_netcdf_append_grasps(CpsiNetcdfFile *file, const CpsiNetcdfGrasps *ids
 
 /* The motion in time of a scene; nothing of one without steps in time. Of quasi-static steps among
  * them velocities and spans are 0. */
-enum { CPSI_MOTION_NUMBERS = 9 };
+enum { CPSI_MOTION_NUMBERS = 11 };
 
 typedef struct CpsiNetcdfTime {
     bool is_there; /* otherwise all other variables are unused */

@@ -690,6 +690,8 @@ void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
         {"ledger_kinetic", "growth of the kinetic energy", "J"},
         {"ledger_impact", "energy lost where nodes land", "J"},
         {"ledger_scheme", "energy lost by the scheme in time", "J"},
+        {"ledger_drag", "work done on the water against its drag", "J"},
+        {"ledger_added", "work done on the water that is moved along", "J"},
         {"ledger_turnover", "sum of the sizes of all entries of the ledger", "J"},
         {"position_bound", "guaranteed rms error of the positions, by mass", "m"},
         {"landed", "contacts of nodes that began to bear", "1"},
@@ -730,6 +732,7 @@ void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids
     const size_t start[] = {step, 0, 0}, count[] = {1, nodes, XYZ};
     const double number[CPSI_MOTION_NUMBERS] = {motion.kinetic,         motion.ledger.kinetic,
                                                 motion.ledger.impact,   motion.ledger.scheme,
+                                                motion.ledger.drag,     motion.ledger.added,
                                                 motion.ledger.turnover, motion.position_bound,
                                                 (double)motion.landed,  (double)motion.changed,
                                                 (double)motion.snatched};

@@ -113,6 +113,8 @@ static const CpsiColumn MOTION_COLUMN[] = {
     {"kinetic_growth", "J", MOTION(ledger.kinetic)},
     {"impact", "J", MOTION(ledger.impact)},
     {"scheme", "J", MOTION(ledger.scheme)},
+    {"drag", "J", MOTION(ledger.drag)},
+    {"added", "J", MOTION(ledger.added)},
     {"turnover", "J", MOTION(ledger.turnover)},
     {"position_bound", "m", MOTION(position_bound)},
     {"landed", "1", MOTION(landed)},

@@ -2,6 +2,7 @@
 /* The table of a scene file's keys (see scene_keys.h). */
 #include "io/schema/tables/scene_keys.h"
 
+#include "io/schema/loads/load_keys.h"
 #include "io/schema/rows.h"
 #include "io/schema/tables/set_keys.h"
 
@@ -478,62 +479,6 @@ static const CpsiKey ZONE_KEYS[] = {
 };
 static const CpsiMapping ZONE = {"zone", KEYS(ZONE_KEYS), INTO(Zone)};
 
-static const CpsiKey SPRING_KEYS[] = {
-    {"stiffness", REQUIRED, POINT(Spring, stiffness, 3), NOT_NEGATIVE,
-     .help = "along x, y and z: N/m per metre of unstretched line; of a single spring N/m"},
-    {"coupling", OPTIONAL, POINT(Spring, coupling, 3), ANY, .fallback = "[0, 0, 0]",
-     .help = "of xy, xz, yz, in the same unit: a quadratic field whose axes are others"},
-    {"at", OPTIONAL, NUMBER(Spring, at), NOT_NEGATIVE, .unit = "m",
-     .help = "unstretched length from end A of a single spring, at the nearest node"},
-    {"from", OPTIONAL, NUMBER(Spring, from), NOT_NEGATIVE, .unless = "at", .unit = "m",
-     .fallback = "0", .help = "unstretched length from end A at which the springs begin"},
-    {"to", OPTIONAL, NUMBER(Spring, to), POSITIVE, .unless = "at", .unit = "m",
-     .help = "where they end; without it at end B"},
-    {"place", OPTIONAL, POINT(Spring, place, 3), ANY, .unit = "m",
-     .help = "where the springs are without force; without it where each node starts"},
-};
-
-static void begin_spring(void *values) {
-    CpsiSpringValues *spring = values;
-    spring->at = spring->from = spring->to = spring->place[0] = NAN;
-}
-
-static const CpsiMapping SPRING = {"spring", KEYS(SPRING_KEYS), INTO(Spring),
-                                   .begin = begin_spring};
-
-static const CpsiKey FORCE_KEYS[] = {
-    {"force", REQUIRED, POINT(Force, force, 3), ANY, .unit = "N/m",
-     .help = "force per metre of unstretched line"},
-    {"from", OPTIONAL, NUMBER(Force, from), NOT_NEGATIVE, .unit = "m", .fallback = "0",
-     .help = "unstretched length from end A at which it begins"},
-    {"to", OPTIONAL, NUMBER(Force, to), POSITIVE, .unit = "m",
-     .help = "where it ends; without it at end B"},
-};
-
-static void begin_force(void *values) {
-    CpsiForceValues *force = values;
-    force->from = force->to = NAN;
-}
-
-static const CpsiMapping FORCE = {"load", KEYS(FORCE_KEYS), INTO(Force), .begin = begin_force};
-
-static const CpsiKey DRAG_KEYS[] = {
-    {"diameter", REQUIRED, NUMBER(Drag, drag.diameter), POSITIVE, .unit = "m",
-     .help = "that both coefficients are for"},
-    {"normal", REQUIRED, NUMBER(Drag, drag.normal), NOT_NEGATIVE,
-     .help = "coefficient across the line, on its diameter"},
-    {"tangential", OPTIONAL, NUMBER(Drag, drag.tangential), NOT_NEGATIVE, .fallback = "0",
-     .help = "along the line, on its circumference"},
-};
-static const CpsiMapping DRAG = {"drag", KEYS(DRAG_KEYS), INTO(Drag)};
-
-static const CpsiKey CURRENT_KEYS[] = {
-    {"z", REQUIRED, NUMBER(Current, row.z), ANY, .unit = "m", .help = "height"},
-    {"velocity", REQUIRED, POINT(Current, row.velocity, 3), ANY, .unit = "m/s",
-     .help = "of the water there"},
-};
-static const CpsiMapping CURRENT = {"row of the current", KEYS(CURRENT_KEYS), INTO(Current)};
-
 static const CpsiKey GRADE_KEYS[] = {
     {"towards", REQUIRED, WORD(Grade, towards), .words = "A B both",
      .help = "end at which the elements are shortest; both: at the ends, longest in the middle"},
@@ -694,13 +639,14 @@ static const CpsiKey LINE_KEYS[] = {
      .fallback = "[]", .help = "clumps and buoys between the ends, in order from A to B"},
     {"friction_zones", OPTIONAL, LIST(Line, zones, 0), .inside = &ZONE, .fallback = "[]",
      .help = "intervals of arc length with another friction, from A to B, without overlap"},
-    {"springs", OPTIONAL, LIST(Line, springs, 0), .inside = &SPRING, .unless = "pretension",
-     .fallback = "[]", .help = "springs from pieces of the line to the ground; they add up"},
-    {"loads", OPTIONAL, LIST(Line, loads, 0), .inside = &FORCE, .unless = "pretension",
+    {"springs", OPTIONAL, LIST(Line, springs, 0), .inside = &cpsi_spring_keys,
+     .unless = "pretension", .fallback = "[]",
+     .help = "springs from pieces of the line to the ground; they add up"},
+    {"loads", OPTIONAL, LIST(Line, loads, 0), .inside = &cpsi_force_keys, .unless = "pretension",
      .fallback = "[]",
      .help = "given forces on pieces of the line, besides its weight; they add up"},
-    {"drag", OPTIONAL, MAPPING(Line, drag), .inside = &DRAG,
-     .help = "coefficients of the drag in the scene's current"},
+    {"drag", OPTIONAL, MAPPING(Line, drag), .inside = &cpsi_drag_keys,
+     .help = "coefficients of the drag in the scene's current, or in time in still water"},
     {"pretension", OPTIONAL, MAPPING(Line, pretension), .inside = &PRETENSION,
      .help = "the tension of the static start, for which the length is found; the one written "
              "then says how many elements there are"},
@@ -757,7 +703,8 @@ static const CpsiKey SCENE_KEYS[] = {
      .with = "water_density",
      .help = "height z of the surface of the still water, at which free points with a volume "
              "float; without it all is under water"},
-    {"current", OPTIONAL, LIST(Scene, current, 1), .inside = &CURRENT, .with = "water_density",
+    {"current", OPTIONAL, LIST(Scene, current, 1), .inside = &cpsi_current_keys,
+     .with = "water_density",
      .help = "velocity of the water over the height, from the lowest row to the highest; linear "
              "between, constant beyond"},
     {"types", OPTIONAL, NAMED(Scene, types), .inside = &TYPE, .fallback = "{}",

@@ -6,6 +6,7 @@
 
 #include "capstan/scene.h"
 #include "io/schema/history_values.h"
+#include "io/schema/loads/load_keys.h"
 
 typedef struct CpsiSceneValues {
     const CpsiYaml *node;
@@ -74,29 +75,6 @@ typedef struct CpsiZoneValues {
     const CpsiYaml *node;
     CpsFrictionZone zone;
 } CpsiZoneValues;
-
-typedef struct CpsiSpringValues {
-    const CpsiYaml *node;
-    double at, from, to; /* NaN: not given */
-    double stiffness[3], coupling[3];
-    double place[3]; /* NaN: not given */
-} CpsiSpringValues;
-
-typedef struct CpsiForceValues {
-    const CpsiYaml *node;
-    double from, to; /* NaN: not given */
-    double force[3];
-} CpsiForceValues;
-
-typedef struct CpsiDragValues {
-    const CpsiYaml *node; /* NULL: none */
-    CpsDrag drag;
-} CpsiDragValues;
-
-typedef struct CpsiCurrentValues {
-    const CpsiYaml *node;
-    CpsCurrentRow row;
-} CpsiCurrentValues;
 
 /* A table of strains and tensions. */
 typedef struct CpsiStiffnessValues {

@@ -53,3 +53,18 @@ CpsStatus cpsi_current_build(const CpsiMaterials *m, const CpsiList *rows, CpsSc
     scene->current = current;
     return CPS_OK;
 }
+
+CpsStatus cpsi_still_water_build(const CpsiMaterials *m, CpsScene *scene) {
+    bool in_time = false, drag = false;
+    for (int k = 0; k < scene->stage_count; k++) in_time = in_time || scene->stage[k].duration > 0;
+    for (int i = 0; i < scene->line_count; i++)
+        drag = drag || (scene->line[i].loads && scene->line[i].loads->drag.diameter > 0);
+    if (scene->current || !in_time || !drag || !(m->water > 0)) return CPS_OK;
+    CpsCurrent *current = CPSI_POOL_TAKE(m->pool, 1, CpsCurrent);
+    CpsCurrentRow *row = CPSI_POOL_TAKE(m->pool, 1, CpsCurrentRow);
+    if (!current || !row) return cpsi_document_no_memory(m->d);
+    *row = (CpsCurrentRow){.z = 0};
+    *current = (CpsCurrent){.density = m->water, .row_count = 1, .row = row};
+    scene->current = current;
+    return CPS_OK;
+}

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The inertia of a line as its field in a step in time (inertia.h, field.h). */
+#ifndef CAPSTAN_SRC_CABLE_INERTIA_FIELD_H
+#define CAPSTAN_SRC_CABLE_INERTIA_FIELD_H
+
+#include "cable/line.h"
+
+/* [m] x* + k v* of node j, where its inertia alone would take it from the reference x*. */
+Vec3 cpsi_line_free_place(const CpsiLine *line, int j, Vec3 reference);
+
+/* Let the field of node j be that of its inertia, from the reference given. Returns [N] the size of
+ * the force that it causes: a node that goes on has none, so by how its velocity changes. */
+double cpsi_line_set_inertia(CpsiLine *line, int j, Vec3 reference);
+
+#endif

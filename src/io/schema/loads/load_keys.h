@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What acts on lines beside their weight, and the water: the structs into which its keys of a scene
+ * file are read, and their tables. */
+#ifndef CAPSTAN_SRC_IO_SCHEMA_LOADS_LOAD_KEYS_H
+#define CAPSTAN_SRC_IO_SCHEMA_LOADS_LOAD_KEYS_H
+
+#include "capstan/scene.h"
+#include "io/schema/keys.h"
+
+typedef struct CpsiSpringValues {
+    const CpsiYaml *node;
+    double at, from, to; /* NaN: not given */
+    double stiffness[3], coupling[3];
+    double place[3]; /* NaN: not given */
+} CpsiSpringValues;
+
+typedef struct CpsiForceValues {
+    const CpsiYaml *node;
+    double from, to; /* NaN: not given */
+    double force[3];
+} CpsiForceValues;
+
+typedef struct CpsiDragValues {
+    const CpsiYaml *node; /* NULL: none */
+    CpsDrag drag;
+} CpsiDragValues;
+
+typedef struct CpsiCurrentValues {
+    const CpsiYaml *node;
+    CpsCurrentRow row;
+} CpsiCurrentValues;
+
+extern const CpsiMapping cpsi_spring_keys, cpsi_force_keys, cpsi_drag_keys, cpsi_current_keys;
+
+#endif
