@@ -62,6 +62,7 @@ PICTURES = {
     "run-riser": of_example("riser-in-a-current", "elevation.svg"),
     "run-soft-clay": of_example("soft-clay", "elevation.svg"),
     "run-dropped-chain": of_example("dropped-chain", "elevation.svg"),
+    "run-oc3-decay": of_example("oc3-hywind-decay", "history.svg"),
     "run-parting-lines": of_example("parting-lines", "step-00008-plan.svg"),
     "run-net": net,
     "run-moored-buoy": of_example("catenary-moored-buoy", "elevation.svg"),

@@ -22,7 +22,7 @@ import bad_laws  # noqa: E402
 # definitions that scenes share with laws
 OF_SETS = {"set", "contact"}
 EXAMPLES = ["barge.yaml", "moved-bollard.yaml", "bridle.yaml", "buoy.yaml", "catenary-moored-buoy.yaml", "bollard-and-rail.yaml", "souza-de-cursi-1990-c2.yaml", "chain-wire-chain.yaml", "taut-leg.yaml", "parting-lines.yaml", "dropped-chain.yaml", "souza-de-cursi-1990.yaml", "souza-de-cursi-1990-half-circle.yaml",
-            "souza-de-cursi-1990-circle.yaml", "oc3-hywind.yaml", "oc3-hywind-line.yaml", "grooved-slope.yaml", "rough-end.yaml"]
+            "souza-de-cursi-1990-circle.yaml", "oc3-hywind.yaml", "oc3-hywind-decay.yaml", "oc3-hywind-line.yaml", "grooved-slope.yaml", "rough-end.yaml"]
 
 
 def output(*command):
