@@ -55,7 +55,8 @@ typedef struct CpsSway {
     double period; /* [s] > 0 */
 } CpsSway;
 
-/* What an oscillation adds `time` [s] after its stage began, in the units of its amplitudes. */
+/* What an oscillation adds `time` [s] after its stage began, in the units of its amplitudes; 0 of
+ * none, and of one without a period. */
 CPS_API void cps_sway_at(const CpsSway *sway, double time, double out[6]);
 
 /* Energy of a step in time [J]. With the ledger of the line (step.h):

@@ -109,6 +109,8 @@ CpsStatus cpsi_sways_check(const CpsScene *scene, const CpsStage *stage, const c
 }
 
 void cps_sway_at(const CpsSway *sway, double time, double out[6]) {
+    for (int a = 0; a < 6; a++) out[a] = 0;
+    if (!sway || !(sway->period > 0)) return;
     const double angle = 2 * CPSI_PI * (time / sway->period);
     for (int a = 0; a < 6; a++)
         out[a] = sway->sine[a] * sin(angle) + sway->cosine[a] * (1 - cos(angle));

@@ -50,7 +50,7 @@ def column(out, name, table="history.csv"):
 
 def heave(capstan, checker, folder):
     errors = []
-    for h in (0.04, 0.02, 0.01):
+    for h in (0.08, 0.04, 0.02):
         _, _, found = solve(capstan, checker, folder, BODY.format(buoyancy=2000*9.81, h=h))
         steps = round(12/h)
         worst = 0
@@ -61,7 +61,7 @@ def heave(capstan, checker, folder):
         errors.append(worst)
     order = math.log2(errors[1]/errors[2])
     print("oscillations: heave under two harmonics: errors %.2e %.2e %.2e m of %.2g m, order %.2f" % (*errors, 0.12, order))
-    assert abs(order - 2) < 0.1 and errors[2] < 1e-3, errors
+    assert abs(order - 2) < 0.1 and errors[2] < 4e-3, errors
 
 
 HELD = """capstan: 1

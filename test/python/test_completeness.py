@@ -170,7 +170,7 @@ def test_oscillations_of_points_and_bodies():
     with pytest.raises(capstan.ArgumentError, match="release"):
         evolution.target({"rope.B": {"release": True, "oscillations": [{"sine": [0, 0, 1], "period": 1}]}})
     many = [{"sine": [0, 0, 0.01], "period": 3.0}] * 100
-    with pytest.raises(capstan.Error, match="at most 64 in a move"):
+    with pytest.raises(capstan.Error, match="at most 56 in a move"):
         evolution.move({"duration": 1, "spar.body": {"move": [0, 0, 0], "oscillations": many}})
 
 

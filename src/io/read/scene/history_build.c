@@ -225,6 +225,22 @@ static CpsStatus build_change_sways(const CpsiHistoryBuild *b, const CpsiChangeV
     return CPS_OK;
 }
 
+/* The oscillations of a body, which is then held in another pose. */
+static CpsStatus build_body_sways(const CpsiHistoryBuild *b, const CpsiBodyChangeValues *values,
+                                  const CpsBodyChange *change, CpsStage *stage, CpsSway *sway) {
+    const CpsiSwayValues *sways = values->oscillations.item;
+    const bool held = change->kind == CPS_BODY_KIND_HELD;
+    const CpsStatus status = check_body_sways(b, values, change);
+    double after[6] = {0};
+    if (status != CPS_OK) return status;
+    for (int i = 0; i < values->oscillations.count; i++) {
+        sway[stage->sway_count] = (CpsSway){.of = CPS_SWAY_OF_BODY, .owner = change->body};
+        add_sway(stage, &sway[stage->sway_count], &sways[i], held, after);
+    }
+    cpsi_held_pose_sway(&b->held.body[change->body], after);
+    return CPS_OK;
+}
+
 static int count_sways(const CpsiStageValues *values) {
     const CpsiChangeValues *end = values->changes.item, *point = values->point_changes.item;
     const CpsiBodyChangeValues *body = values->body_changes.item;
@@ -254,18 +270,8 @@ static CpsStatus build_sways(const CpsiHistoryBuild *b, const CpsiStageValues *v
         const CpsSway like = {.of = CPS_SWAY_OF_POINT, .owner = stage->point_change[k].point};
         status = build_change_sways(b, &point[k], like, b->held.point[like.owner], stage, sway);
     }
-    for (int k = 0; k < stage->body_change_count && status == CPS_OK; k++) {
-        const CpsBodyChange *change = &stage->body_change[k];
-        const CpsiSwayValues *sways = body[k].oscillations.item;
-        double after[6] = {0};
-        status = check_body_sways(b, &body[k], change);
-        for (int i = 0; i < body[k].oscillations.count && status == CPS_OK; i++) {
-            sway[stage->sway_count] = (CpsSway){.of = CPS_SWAY_OF_BODY, .owner = change->body};
-            add_sway(stage, &sway[stage->sway_count], &sways[i], change->kind == CPS_BODY_KIND_HELD,
-                     after);
-        }
-        cpsi_held_pose_sway(&b->held.body[change->body], after);
-    }
+    for (int k = 0; k < stage->body_change_count && status == CPS_OK; k++)
+        status = build_body_sways(b, &body[k], &stage->body_change[k], stage, sway);
     return status;
 }
 
