@@ -136,4 +136,5 @@ def main():
                   f"force across at +20 m {out:.1f} N, back at 0 m {half:.1f} N and {home:.1f} N", flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

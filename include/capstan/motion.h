@@ -11,6 +11,9 @@
  *     swing.duration = 10;
  *     swing.step_count = 200;
  *
+ * A line with the `damping` BA has the tension EA d + BA d', d its elongation per natural length,
+ * but never a negative one; where it is slack its elongation goes back to 0 as if alone.
+ *
  * A time step is the same convex program as a quasi-static one, with a quadratic term for each node
  * (docs/theory.md 8): friction stays a set, and the step has a certificate. The scheme is the
  * backward difference formula of second order, or the implicit Euler method; the first step in
@@ -62,7 +65,8 @@ CPS_API void cps_sway_at(const CpsSway *sway, double time, double out[6]);
 /* Energy of a step in time [J]. With the ledger of the line (step.h):
  *
  *     ends + obstacles + loads
- *         = elastic + gravity + dissipated + kinetic + impact + scheme + drag + added + imbalance
+ *         = elastic + gravity + dissipated + kinetic + impact + scheme + damping + drag + added
+ *           + imbalance
  *
  * where each but the last has a formula of its own (docs/theory.md 8), and forces do their work at
  * their values after the step. So the imbalance is rounding. */
@@ -70,6 +74,7 @@ typedef struct CpsMotionLedger {
     double kinetic;  /* increase of the kinetic energy */
     double impact;   /* lost where nodes land */
     double scheme;   /* lost by the scheme: what a shorter step does not lose */
+    double damping;  /* lost by internal damping */
     double drag;     /* work done on the water against its drag; of a current also negative */
     double added;    /* work done on the water that is moved along (CpsDrag), which gives it back */
     double turnover; /* sum of the sizes of all entries */
@@ -93,6 +98,9 @@ typedef struct CpsLineMotion {
     const double *rest_velocity; /* (n, 3) [m/s] v*: the acceleration is (v - v*)/k, v = (x - x*)/k,
                                     and x* is the reference of the view */
     const double *span;          /* (n) [s] k */
+    double damping;              /* [N s] BA; 0: the next ones are NULL */
+    const double *elongation;    /* (n - 1) [-] d of the elements, at least the strain and 0 */
+    const double *rest;          /* (n - 1) [-] at which the tension of the step begins */
 } CpsLineMotion;
 
 /* The motion of a point in the last step, in the axes of the scene: v = (x - x*)/k, and the force

@@ -149,8 +149,8 @@ typedef struct CpsLine {
     double length;                /* [m] natural length > 0 */
     int element_count;            /* >= 1 */
     const double *element_length; /* (element_count) [m], their sum is `length`; NULL: all equal */
-    double weight;  /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
-    double inertia; /* [kg/m] >= 0, default 0: mass per natural length that moves (motion.h) */
+    double weight;           /* [N/m] >= 0 per natural length, along gravity (submerged weight) */
+    double inertia, damping; /* [kg/m], [N s] >= 0, default 0: mass, and damping (motion.h) */
     double bearing_width;    /* [m] >= 0, default 0: with which it bears on obstacles that give */
     double velocity[3];      /* [m/s] of the free nodes as the history begins; default 0 0 0 */
     double stiffness;        /* [N] EA > 0; INFINITY: inextensible */

@@ -30,7 +30,7 @@ static Vec3 half_of(const CpsiLine *line, const double *x, int e) {
     const CpsiFlow *flow = line->field.flow;
     const Vec3 d = vec3_sub(vec3_at(x, e + 1), vec3_at(x, e));
     const double z = 0.5 * (x[3 * e + 2] + x[3 * e + 5]);
-    return vec3_scale(0.5 * line->element_length[e],
+    return vec3_scale(0.5 * line->natural_length[e],
                       cpsi_flow_drag(flow, cpsi_flow_velocity(flow, z), d));
 }
 

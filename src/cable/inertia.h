@@ -11,6 +11,15 @@
 
 #include "capstan/scene.h"
 
+/* The internal damping of a line (damping.h). */
+typedef struct CpsiDamping {
+    double coefficient; /* [N s] BA >= 0; 0: none, and the arrays are NULL */
+    double *elongation; /* (n) [-] d_n of each element, and d_{n-1} */
+    double *before;
+    double *rest;       /* (n) [-] r of the step; 0 after a quasi-static one */
+    double *own_factor; /* (n) line->compliance_factor without damping */
+} CpsiDamping;
+
 typedef struct CpsiInertia {
     bool is_moving; /* the last step, or the one under way, is one in time */
     double *mass;   /* (n) [kg] of the nodes */
@@ -24,8 +33,10 @@ typedef struct CpsiInertia {
     double *before_velocity; /* (n, 3) [m/s] v_{n-1}, likewise */
     bool *restarts;          /* (n) the next step of the node is an Euler step */
     bool *late;              /* (n) scratch: this step was to be one */
-    double kinetic;          /* [J] */
-    double position_bound;   /* [m] */
+    bool *is_euler;          /* (n) ... and whether it is one */
+    CpsiDamping damping;
+    double kinetic;        /* [J] */
+    double position_bound; /* [m] */
     CpsMotionLedger ledger;
     int landed, changed, snatched; /* contacts, contacts, elements (CpsLineMotion) */
 } CpsiInertia;

@@ -16,6 +16,12 @@ static void layout_inertia(CpsiInertia *inertia, CpsiArena *arena, size_t n) {
     CPSI_PLACE(arena, inertia->before_velocity, 3 * n);
     CPSI_PLACE(arena, inertia->restarts, n);
     CPSI_PLACE(arena, inertia->late, n);
+    CPSI_PLACE(arena, inertia->is_euler, n);
+    if (!(inertia->damping.coefficient > 0)) return;
+    CPSI_PLACE(arena, inertia->damping.elongation, n);
+    CPSI_PLACE(arena, inertia->damping.before, n);
+    CPSI_PLACE(arena, inertia->damping.rest, n);
+    CPSI_PLACE(arena, inertia->damping.own_factor, n);
 }
 
 /* The arrays of both stiffnesses of a line of n nodes; spring_count of both is set. */
@@ -36,8 +42,9 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     CPSI_PLACE(arena, line->arc_length, n);
     CPSI_PLACE(arena, line->element_length, n);
     line->natural_length = line->element_length;
+    const bool damped = line->has_inertia && line->inertia.damping.coefficient > 0;
+    if (line->two.exists || damped) CPSI_PLACE(arena, line->natural_length, n);
     if (line->two.exists) {
-        CPSI_PLACE(arena, line->natural_length, n);
         layout_two_stiffnesses(&line->two, arena, line->n);
     }
     CPSI_PLACE(arena, line->reference, 3 * n);
@@ -72,9 +79,9 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     if (line->has_zones) CPSI_PLACE(arena, line->friction_factor, n);
     if (line->has_sections) {
         CPSI_PLACE(arena, line->weight_factor, n);
-        CPSI_PLACE(arena, line->compliance_factor, n);
         CPSI_PLACE(arena, line->weight_length, n);
     }
+    if (line->has_sections || damped) CPSI_PLACE(arena, line->compliance_factor, n);
     const int springs = cpsi_line_most_springs(line);
     if (springs > 0) {
         CPSI_PLACE(arena, line->spring_at, n);
@@ -135,7 +142,8 @@ double cpsi_line_least_compliance(const CpsiLine *line) {
     for (int e = 0; e + 1 < line->n; e++) {
         const CpsiElementLaw law = cpsi_line_law(line, e);
         double own = cpsi_law_least_compliance(&law);
-        if (line->two.exists) own *= 1 + line->two.rest_strain[e];
+        if (line->natural_length != line->element_length)
+            own *= line->element_length[e] / line->natural_length[e];
         least = fmin(least, own);
     }
     return least;

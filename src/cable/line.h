@@ -52,7 +52,7 @@ typedef struct CpsiLine {
     bool is_at_point[2];    /* held at a point, which bears what obstacles do to the half element */
     double *arc_length;     /* (n) [m] */
     double *element_length; /* (n - 1) [m] at rest, element e joins nodes e and e + 1 */
-    double *natural_length; /* (n - 1) the same, but for `two` */
+    double *natural_length; /* (n - 1) the same, but for `two` and internal damping */
     double *breaking_load, *break_at; /* (n - 1) [N] INFINITY: none; NULL: none anywhere */
     /* of a line of sections or with point masses, else NULL */
     double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */

@@ -56,7 +56,7 @@ static void add_element(const CpsiLine *line, const double *x, int e, Vec3 v, Wa
     const CpsiFlow *flow = line->field.flow;
     const CpsDrag *by = &flow->drag;
     const Vec3 d = vec3_sub(vec3_at(x, e + 1), vec3_at(x, e));
-    const double size = vec3_norm(d), half = 0.5 * line->element_length[e];
+    const double size = vec3_norm(d), half = 0.5 * line->natural_length[e];
     const Vec3 t = vec3_scale(size > 0 ? 1 / size : 0, d);
     const Vec3 water = cpsi_flow_velocity(flow, 0.5 * (x[3 * e + 2] + x[3 * e + 5]));
     const Vec3 w = vec3_sub(water, v), across = vec3_reject(w, t);

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "cable/damping.h"
 #include "cable/soft.h"
 #include "cable/two_stiffnesses.h"
 #include "cable/winch.h"
@@ -184,6 +185,13 @@ static void pass_inertia(Tape *tape, CpsiLine *line) {
         pass(tape, vectors[i], 3 * n * sizeof(double));
     pass(tape, inertia->span, n * sizeof *inertia->span);
     for (size_t j = 0; j < n; j++) pass_flag(tape, &inertia->restarts[j]);
+    double *const damped[] = {inertia->damping.elongation, inertia->damping.before,
+                              inertia->damping.rest, line->element_length, line->compliance_factor};
+    if (cpsi_line_has_damping(line)) {
+        for (size_t i = 0; i < sizeof damped / sizeof *damped; i++)
+            pass(tape, damped[i], (n - 1) * sizeof(double));
+        for (size_t j = 0; j < n; j++) pass_flag(tape, &inertia->is_euler[j]);
+    }
     pass_flag(tape, &inertia->is_moving);
     PASS(tape, inertia->kinetic);
     PASS(tape, inertia->position_bound);
@@ -461,6 +469,7 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
     if (cpsi_line_has_soft(line)) hash_numbers(hash, 1, &line->bearing_width);
     if (line->has_node_loads) hash_numbers(hash, 3 * (size_t)line->n, line->field.own_load);
     if (line->field.flow) hash_flow(hash, line->field.flow);
+    if (cpsi_line_has_damping(line)) hash_numbers(hash, 1, &line->inertia.damping.coefficient);
     if (line->spring_count > 0) {
         hash_bytes(hash, line->spring_at, (size_t)line->n * sizeof *line->spring_at);
         hash_numbers(hash, (size_t)line->spring_count, line->spring_start);

@@ -450,7 +450,10 @@ CpsLineMotion cps_evolution_line_motion(const CpsEvolution *evolution, int line)
                            .velocity = inertia->velocity,
                            .before = inertia->start,
                            .rest_velocity = inertia->rest_velocity,
-                           .span = inertia->span};
+                           .span = inertia->span,
+                           .damping = inertia->damping.coefficient,
+                           .elongation = inertia->damping.elongation,
+                           .rest = inertia->damping.rest};
 }
 
 CpsPointMotion cps_evolution_point_motion(const CpsEvolution *evolution, int point) {

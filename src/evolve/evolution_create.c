@@ -123,6 +123,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         line->has_break_at = cpsi_has_break_at(&scene->line[i]);
         line->has_inertia = cpsi_is_in_time(scene) && !scene->line[i].quasi_static;
         line->has_field = line->has_field || line->has_inertia;
+        line->inertia.damping.coefficient = line->has_inertia ? scene->line[i].damping : 0;
         line->compliance = line->spring_compliance = cpsi_mean_compliance(&scene->line[i]);
         line->spring_count = cpsi_spring_count(&scene->line[i], false);
         line->two.exists = cpsi_has_dynamic_stiffness(&scene->line[i]);

@@ -26,6 +26,32 @@ static double inertia_of(const CpsLine *line, int k) {
     return line->section_count > 0 ? line->section[k].inertia : line->inertia;
 }
 
+/* Damping goes with one stiffness. */
+static CpsStatus check_damping(const CpsLine *line, bool in_time, CpsError *err) {
+    bool tables = line->stiffness_row_count > 0, stiff = !tables && isinf(line->stiffness),
+         two = line->has_dynamic_stiffness;
+    if (!cpsi_is_not_negative(line->damping))
+        return CPSI_FAIL_AT("damping", err, CPS_ERR_ARGUMENT,
+                            "line '%s': damping is %g N s, expected a finite number >= 0",
+                            line->name, line->damping);
+    if (line->section_count > 0) tables = stiff = two = false;
+    for (int k = 0; k < line->section_count; k++) {
+        const CpsSection *section = &line->section[k];
+        tables = tables || section->stiffness_row_count > 0;
+        stiff = stiff || (section->stiffness_row_count == 0 && isinf(section->stiffness));
+        two = two || section->has_dynamic_stiffness;
+    }
+    if (line->damping > 0 && in_time && !line->quasi_static && (tables || stiff || two))
+        return CPSI_FAIL_AT("damping", err, CPS_ERR_ARGUMENT,
+                            "line '%s': damping: it goes with a stiffness that is one number, not "
+                            "with %s: leave either out",
+                            line->name,
+                            stiff    ? "an inextensible line"
+                            : tables ? "a table of strains and tensions"
+                                     : "a dynamic stiffness");
+    return CPS_OK;
+}
+
 static CpsStatus check_line(const CpsLine *line, bool in_time, CpsError *err) {
     const int makes = line->section_count > 0 ? line->section_count : 1;
     for (int k = 0; k < makes; k++) {
@@ -47,6 +73,8 @@ static CpsStatus check_line(const CpsLine *line, bool in_time, CpsError *err) {
                                 "line '%s': point_weights: number %d has the inertia %g kg, "
                                 "expected a finite number >= 0",
                                 line->name, k + 1, line->point_weight[k].inertia);
+    const CpsStatus status = check_damping(line, in_time, err);
+    if (status != CPS_OK) return status;
     const double *v = line->velocity;
     if (!cpsi_are_usable(v))
         return CPSI_FAIL_AT("velocity", err, CPS_ERR_ARGUMENT,
@@ -225,6 +253,10 @@ void cpsi_inertia_fill(CpsiLine *line, const CpsLine *def) {
                 fabs(line->arc_length[nearest] - def->point_weight[k].arc_length))
                 nearest = j;
         inertia->mass[nearest] += def->point_weight[k].inertia;
+    }
+    for (int e = 0; inertia->damping.own_factor && e + 1 < line->n; e++) {
+        if (!line->has_sections) line->compliance_factor[e] = 1;
+        inertia->damping.own_factor[e] = line->compliance_factor[e];
     }
     for (int j = 0; j < line->n; j++) {
         const bool held = cpsi_line_is_held(line, j);

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "cable/damping.h"
 #include "cable/field.h"
 
 /* What the sums need of the step. */
@@ -11,7 +12,7 @@ typedef struct Sums {
     const CpsiLine *line;
     double length; /* [s] of the step */
     CpsLedger ledger;
-    double impact, scheme, drag, added;
+    double impact, scheme, drag, added, damping;
 } Sums;
 
 /* The displacement of node j in the step. */
@@ -67,10 +68,17 @@ static void add_bodies(Sums *sums) {
     }
     for (int e = 0; e + 1 < line->n; e++) {
         const Vec3 longer = vec3_sub(way_of(line, e + 1), way_of(line, e));
-        const double stored =
-            energy_of(line, line->position, e) - energy_of(line, inertia->start, e);
+        double stored = 0, damped = 0;
+        if (cpsi_line_has_damping(line)) {
+            const CpsiDamped element = cpsi_line_damped(line, e);
+            stored = element.stored;
+            damped = element.damped;
+        } else {
+            stored = energy_of(line, line->position, e) - energy_of(line, inertia->start, e);
+        }
         sums->ledger.elastic += stored;
-        sums->scheme += vec3_dot(vec3_at(line->segment_force, e), longer) - stored;
+        sums->damping += damped;
+        sums->scheme += vec3_dot(vec3_at(line->segment_force, e), longer) - stored - damped;
     }
 }
 
@@ -150,7 +158,8 @@ void cpsi_time_ledger(CpsiLine *line, double length, const unsigned char *state)
     line->inertia.ledger = (CpsMotionLedger){.impact = sums.impact,
                                              .scheme = sums.scheme,
                                              .drag = sums.drag,
-                                             .added = sums.added};
+                                             .added = sums.added,
+                                             .damping = sums.damping};
 }
 
 void cpsi_time_ledger_close(CpsiLine *line, double stopped) {
@@ -161,8 +170,9 @@ void cpsi_time_ledger_close(CpsiLine *line, double stopped) {
     inertia->kinetic = cpsi_kinetic_energy(line);
     motion->kinetic = inertia->kinetic - before;
     motion->scheme += stopped;
-    const double out[] = {ledger->elastic, ledger->gravity, ledger->dissipated, motion->kinetic,
-                          motion->impact,  motion->scheme,  motion->drag,       motion->added};
+    const double out[] = {ledger->elastic, ledger->gravity, ledger->dissipated,
+                          motion->kinetic, motion->impact,  motion->scheme,
+                          motion->drag,    motion->added,   motion->damping};
     ledger->imbalance = ledger->ends + ledger->obstacles + ledger->loads;
     motion->turnover = fabs(ledger->ends) + fabs(ledger->obstacles) + fabs(ledger->loads);
     for (size_t i = 0; i < sizeof out / sizeof *out; i++) {

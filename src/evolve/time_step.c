@@ -20,6 +20,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/damping.h"
 #include "cable/field.h"
 #include "cable/inertia_field.h"
 #include "cable/line_step.h"
@@ -32,13 +33,14 @@ static const double PARALLEL = 1e-6;
 
 static bool is_slack(const CpsiLine *line, const double *x, int e) {
     const double size = vec3_norm(vec3_sub(vec3_at(x, e + 1), vec3_at(x, e)));
-    return size < (1 - SLACK) * line->element_length[e];
+    return size < (1 - SLACK) * line->natural_length[e];
 }
 
 /* The reference of node j, v* and k, and its inertia. */
 static void predict(CpsiLine *line, int j, const CpsiTimeStep *step, bool euler) {
     CpsiInertia *inertia = &line->inertia;
     inertia->span[j] = euler ? step->length : 2 * step->length / 3;
+    inertia->is_euler[j] = euler;
     for (int i = 3 * j; i < 3 * j + 3; i++) {
         const double x = inertia->start[i], v = inertia->start_velocity[i];
         const double place = euler ? x : x + (x - inertia->before[i]) / 3,
@@ -66,6 +68,7 @@ static double attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
         for (int j = 0; j < line->n; j++) all = all || line->inertia.restarts[j];
     cpsi_line_field_clear(line);
     for (int j = 0; j < line->n; j++) predict(line, j, step, all || line->inertia.restarts[j]);
+    if (cpsi_line_has_damping(line)) cpsi_line_damp(line);
     const double share = all || !ground_moves(line, move) ? 1 : 2.0 / 3;
     cpsi_substeps_impose(line, move, scratch, 1 - share, 1);
     memcpy(line->weight_before, move->weight_from, sizeof line->weight_before);
@@ -187,6 +190,7 @@ static void advance(CpsiLine *line, const CpsiTimeStep *step, const unsigned cha
     cpsi_time_ledger(line, step->length, state);
     memcpy(inertia->before, inertia->start, places);
     memcpy(inertia->before_velocity, inertia->start_velocity, places);
+    if (cpsi_line_has_damping(line)) cpsi_line_advance_damping(line);
     const double energy = cpsi_kinetic_energy(line);
     for (int j = 0; j < line->n; j++) stop_node(line, j, step->length);
     stop_elements(line);
@@ -212,6 +216,7 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
                          const CpsiMove *move, CpsiSubsteps *scratch, const CpsiTimeStep *step) {
     CpsiInertia *inertia = &line->inertia;
     const size_t places = 3 * (size_t)line->n * sizeof *inertia->start;
+    if (cpsi_line_has_damping(line) && !inertia->is_moving) cpsi_line_begin_damping(line);
     inertia->is_moving = true;
     memcpy(inertia->start, line->position, places);
     memcpy(inertia->start_velocity, inertia->velocity, places);
@@ -261,6 +266,7 @@ void cpsi_line_stop(CpsiLine *line) {
     const size_t n = (size_t)line->n;
     inertia->is_moving = false;
     cpsi_line_field_clear(line);
+    if (cpsi_line_has_damping(line)) cpsi_line_undamp(line);
     inertia->kinetic = inertia->position_bound = 0;
     inertia->ledger = (CpsMotionLedger){0};
     inertia->landed = inertia->changed = inertia->snatched = 0;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The views of the lines of an evolution (view.h). */
 #include "evolve/view.h"
+#include "cable/damping.h"
 #include "cable/end_set.h"
 #include "cable/winch.h"
 
@@ -65,9 +66,11 @@ CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line) {
         .one_plane = !from->has_local_axes && from->grasp_count == 0 && !cpsi_line_has_sets(from) &&
                      !cpsi_line_has_winch(from) && !from->has_field && !from->has_node_loads,
         .arc_length = cpsi_line_has_winch(from) ? from->drums.place : from->arc_length,
-        .element_length = from->element_length,
+        .element_length = cpsi_line_has_damping(from) ? from->natural_length : from->element_length,
         .compliance = from->compliance,
-        .compliance_factor = from->has_sections ? from->compliance_factor : fill->one,
+        .compliance_factor = !from->has_sections           ? fill->one
+                             : cpsi_line_has_damping(from) ? from->inertia.damping.own_factor
+                                                           : from->compliance_factor,
         .uniform = !from->has_sections,
         .weight_length = from->has_sections ? from->weight_length : fill->zero,
         .spring_count = from->spring_count,

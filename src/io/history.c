@@ -40,6 +40,7 @@ static void add_motion(const CpsMotionLedger *ledger, double kinetic, CpsiMotion
     sum->ledger.kinetic += ledger->kinetic;
     sum->ledger.impact += ledger->impact;
     sum->ledger.scheme += ledger->scheme;
+    sum->ledger.damping += ledger->damping;
     sum->ledger.drag += ledger->drag;
     sum->ledger.added += ledger->added;
     sum->ledger.turnover += ledger->turnover;

@@ -8,13 +8,15 @@
  *     image       X = L y, y in t C: new unknowns y
  *     sum         X = X_1 + ... + X_k, X_i in t C_i: new unknowns X_2 .. X_k; for an image
  *                 new unknowns y_i with X_i = L_i y_i
- *     hull        the same with X_i in t_i C_i, sum t_i = t, t_i >= 0
+ *     hull        the same with X_i in t_i C_i, sum t_i = t, and t_i >= 0 where the rows of C_i do
+ *                 not say so
  *     polar       h_C(X) <= t by conic duality: with C = {origin + P v + Q'l : A v + b in K},
  *                 Q X = 0,  A'z + P'X = 0,  <origin, X> + b.z <= t,  z in K */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "linalg/dense.h"
 #include "set/set.h"
 
 /* The kind as which a node is written: its own, or a conic form. */
@@ -24,6 +26,19 @@ static CpsiSetKind kind_of(const CpsSet *set) { return set->touching ? CPSI_SET_
  * part, which is X less the other parts. */
 static bool is_carried(const CpsSet *set, int k) {
     return k > 0 && kind_of(set->part[k]) == CPSI_SET_IMAGE;
+}
+
+/* A ball that is at least this large beside the distance of its centre keeps its share t of a hull
+ * from becoming negative to nearly the accuracy of its own rows. */
+static const double LARGE = 0.01;
+
+/* Do the rows of "X in t C" hold t >= 0 already? Those of a ball do, the first of which is radius t
+ * >= |..|, and those of points, whose factors >= 0 add up to t. */
+static bool keeps_share(const CpsSet *set) {
+    const CpsiSetKind kind = kind_of(set);
+    if (kind == CPSI_SET_BALL)
+        return set->scalar > LARGE * (set->scalar + cpsi_norm(set->n, set->a));
+    return kind == CPSI_SET_POINTS && !set->hull && set->count > 1;
 }
 
 static void count_own(const CpsSet *set, CpsiCount *count) {
@@ -77,8 +92,10 @@ static void count_own(const CpsSet *set, CpsiCount *count) {
     case CPSI_SET_SUM: count->unknowns += (items - 1) * n; break;
     case CPSI_SET_HULL:
         count->unknowns += (items - 1) * (n + 1);
-        count->rows += items;
-        count->cones += items;
+        for (size_t k = 0; k < items; k++) {
+            count->rows += !keeps_share(set->part[k]);
+            count->cones += !keeps_share(set->part[k]);
+        }
         break;
     case CPSI_SET_POLAR:
         if (!set->dual) break;
@@ -380,7 +397,8 @@ static bool sum_rows(CpsiConicRows *conic, const CpsSet *set, const double *x, c
     bool done = true;
     for (int k = 0; done && k < set->count; k++) {
         const double *share = &last[(size_t)k * each];
-        if (hull) add(conic, 1, share, cpsi_conic_rows_cone(conic, 1));
+        if (hull && !keeps_share(set->part[k]))
+            add(conic, 1, share, cpsi_conic_rows_cone(conic, 1));
         done =
             cpsi_conic_rows_write(conic, is_carried(set, k) ? set->part[k]->part[0] : set->part[k],
                                   &parts[(size_t)k * each], share);

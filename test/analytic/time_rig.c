@@ -147,6 +147,7 @@ void time_step(TimeRun *run) {
     run->impact += ledger->impact;
     run->scheme += ledger->scheme;
     run->drag += ledger->drag;
+    run->damping += ledger->damping;
     run->added += ledger->added;
     run->lost += run->report.ledger.dissipated;
     run->landed += run->motion.landed;

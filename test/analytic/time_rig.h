@@ -54,7 +54,7 @@ typedef struct TimeRun {
     double remainder; /* what the ledger does not close by, over the sum of its turnover */
     double imbalance, turnover;           /* [J] sums */
     double kinetic, impact, scheme, lost; /* [J] sums; of friction */
-    double drag, added;                   /* [J] sums of the works on the water */
+    double drag, added, damping;          /* [J] sums: works on the water, internal damping */
     int landed, changed, snatched, steps, certified;
 } TimeRun;
 

@@ -146,7 +146,7 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
             COPY_TOLERANCE * sizes + NOTHING);
     if (r->substeps > 1) return;
     check_unaccounted(findings, r, m);
-    if (r->loads) same(findings, "ledger_loads", loads, m->loads, floor);
+    if (r->loads) same(findings, "ledger_loads", loads, m->loads, floor + loads_open_work(r));
     if (!r->winds) {
         same(findings, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
         same(findings, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Comparison of what a file says of a line with its scene (compare.h). */
 #include "compare.h"
+#include "damping.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -97,17 +98,19 @@ static void compare_weights(Compare *compare, const CpsLine *line, const Record 
     free(own);
 }
 
-/* Stiffness along the line, and whether its weights differ. */
+/* Stiffness along the line, its damping, and whether its weights differ. */
 static void compare_sections(Compare *compare, const CpsLine *line, const Record *r) {
+    same_number(compare, "damping", line->name, r->damping ? r->damping->coefficient : 0,
+                r->mass ? line->damping : 0);
     double arc = 0, mean = 0;
     for (size_t i = 0; i < r->elements; i++) {
         const double l = r->element_length[i],
                      given = softness(line, section_at(line, arc + l / 2));
         mean += l * given / line->length;
         arc += l;
-        if (fabs(r->element_compliance[i] - given) <= COMPUTED * given) continue;
+        if (fabs(damping_compliance(r, i) - given) <= COMPUTED * given) continue;
         find(compare, "compliance of %s: %.17g in element %zu, in the scene %.17g", line->name,
-             r->element_compliance[i], i, given);
+             damping_compliance(r, i), i, given);
         return;
     }
     if (line->section_count == 0) mean = softness(line, NULL);

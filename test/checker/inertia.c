@@ -11,6 +11,7 @@
 #include <netcdf.h>
 #include <stdlib.h>
 
+#include "damping.h"
 #include "elongation.h"
 #include "loads.h"
 
@@ -47,9 +48,10 @@ int inertia_create(const Source *source, const char *line, Record *record, FILE 
 }
 
 int inertia_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
-    static const char *const NUMBER[TIME_ENTRIES] = {"kinetic",       "ledger_kinetic",
-                                                     "ledger_impact", "ledger_scheme",
-                                                     "ledger_drag",   "ledger_added"};
+    static const char *const NUMBER[TIME_ENTRIES] = {"kinetic",        "ledger_kinetic",
+                                                     "ledger_impact",  "ledger_scheme",
+                                                     "ledger_damping", "ledger_drag",
+                                                     "ledger_added"};
     if (!record->mass) return 0;
     const size_t start[] = {step, 0, 0}, count[] = {1, record->nodes, 3};
     int time;
@@ -270,16 +272,23 @@ void inertia_check(const Source *source, const Record *r, const Record *before, 
                 kinetic - before->time_entry[TIME_KINETIC], noise, find, user);
     const double spent = r->ledger[LEDGER_ELASTIC] + r->ledger[LEDGER_GRAVITY] + r->dissipated +
                          r->time_entry[TIME_GROWTH] + r->time_entry[TIME_IMPACT] +
-                         r->time_entry[TIME_SCHEME] + r->time_entry[TIME_DRAG] +
-                         r->time_entry[TIME_ADDED] + r->ledger[LEDGER_IMBALANCE];
+                         r->time_entry[TIME_SCHEME] + r->time_entry[TIME_DAMPING] +
+                         r->time_entry[TIME_DRAG] + r->time_entry[TIME_ADDED] +
+                         r->ledger[LEDGER_IMBALANCE];
     compare("ledger in time, ends + obstacles + loads",
             r->ledger[LEDGER_ENDS] + r->ledger[LEDGER_OBSTACLES] + given, spent,
             1e-12 * sizes + 1e-300, find, user);
     compare("imbalance of the ledger in time", r->ledger[LEDGER_IMBALANCE], 0, noise, find, user);
+    const Damped own = r->damping ? damping_measure(r, before, older) : (Damped){0};
+    compare("ledger_damping", r->time_entry[TIME_DAMPING], own.damped, noise, find, user);
+    if (!(own.elongation <= PLACES * reach))
+        find(user, "elongation off that of the places, as a length", own.elongation, 0);
+    if (!(own.rest <= PLACES)) find(user, "elongation_rest off that of the scheme", own.rest, 0);
     if (!(r->time_entry[TIME_IMPACT] >= 0))
         find(user, "energy lost by impact", r->time_entry[TIME_IMPACT], 0);
     if (r->grasps > 0) return;
-    const Works w = works_of(r, before);
+    Works w = works_of(r, before);
+    if (r->damping) w.elastic = own.stored;
     compare("ledger_elastic in time", r->ledger[LEDGER_ELASTIC], w.elastic, noise, find, user);
     compare("ledger_gravity in time", r->ledger[LEDGER_GRAVITY], w.gravity,
             noise + ENERGIES * w.sizes, find, user);

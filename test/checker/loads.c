@@ -272,6 +272,19 @@ Real loads_work(const Record *record) {
     return work;
 }
 
+double loads_open_work(const Record *record) {
+    Real most = 0;
+    for (size_t j = 0; j < record->nodes; j++) {
+        Real square = 0;
+        for (int a = 0; a < 3; a++) {
+            const Real u = (Real)record->position[j][a] - record->reference[j][a];
+            square += u * u;
+        }
+        most = fmaxl(most, square);
+    }
+    return record->loads ? record->loads->residual * (double)sqrtl(most) : 0;
+}
+
 void loads_add_others(const Record *r, size_t j, Real *sum) {
     const Spring spring = loads_spring(r, j);
     for (int k = 0; k < 3; k++) sum[k] += spring.force[k];

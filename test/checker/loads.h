@@ -41,6 +41,9 @@ void loads_add_others(const Record *record, size_t j, Real *sum);
  */
 Real loads_work(const Record *record);
 
+/* [J] What the drag used and that of where the nodes are may differ by in it. */
+double loads_open_work(const Record *record);
+
 /* [N] The drag on node j at the places x, at rest. */
 void loads_drag(const Record *record, Vector *x, size_t j, Real *out);
 /* [N] ... of a step in time, where the line has come to be: drag in the water relative to the node,

@@ -3,6 +3,7 @@
  * compared with the dimensions before a byte of it is read, and every size is bounded before
  * anything is allocated. */
 #include "record.h"
+#include "damping.h"
 #include "elongation.h"
 #include "failure.h"
 #include "grasps.h"
@@ -531,9 +532,9 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (read_static(source, line, "compliance", 0, &record->compliance, log)) return -1;
     static int (*const CREATE[])(const Source *, const char *, Record *,
                                  FILE *) = {read_sections,  elongation_read, read_end_points,
-                                            failure_create, inertia_create,  loads_create,
-                                            read_zones,     winches_create,  soft_create,
-                                            sets_create};
+                                            failure_create, inertia_create,  damping_create,
+                                            loads_create,   read_zones,      winches_create,
+                                            soft_create,    sets_create};
     for (size_t k = 0; k < sizeof CREATE / sizeof *CREATE; k++)
         if (CREATE[k](source, line, record, log)) return -1;
     return 0;
@@ -553,6 +554,7 @@ void record_destroy(Record *record) {
     free(record->breaking_load);
     free(record->break_at);
     elongation_free(record);
+    damping_free(record);
     inertia_free(record);
     loads_free(record);
     free(record->gap);
@@ -745,6 +747,7 @@ int record_read(const Source *source, const char *line, size_t step, Record *rec
     bad |= elongation_read_step(source, line, step, record, log);
     bad |= sets_read(source, line, step, record, log);
     bad |= inertia_read(source, line, step, record, log);
+    bad |= damping_read(source, line, step, record, log);
     if (bad || read_scalars(source, line, step, record, log)) return -1;
     return winches_read(source, line, step, record, log);
 }

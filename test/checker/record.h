@@ -64,7 +64,16 @@ enum {
 };
 
 /* energies of a step in time, by the file */
-enum { TIME_KINETIC, TIME_GROWTH, TIME_IMPACT, TIME_SCHEME, TIME_DRAG, TIME_ADDED, TIME_ENTRIES };
+enum {
+    TIME_KINETIC,
+    TIME_GROWTH,
+    TIME_IMPACT,
+    TIME_SCHEME,
+    TIME_DAMPING,
+    TIME_DRAG,
+    TIME_ADDED,
+    TIME_ENTRIES
+};
 
 typedef double Vector[3];
 enum { GRASPS = 8 };
@@ -93,6 +102,7 @@ typedef struct Record {
      * at which strains there is no tension; else false, and NULL: 0 */
     bool has_dynamic, is_dynamic;
     double *rest_strain;
+    struct Damping *damping; /* (damping.h) NULL: none */
     Elasticity elasticity[2];
     double *breaking_load;              /* (elements) [N] infinite: none; NULL: the line has none */
     double utilisation, utilisation_at; /* [-], [m], where it has */

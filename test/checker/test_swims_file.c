@@ -11,7 +11,7 @@ static const char SCENE[] =
     "obstacles:\n"
     "  bed: {plane: {point: [0, 0, 0], normal: [0, 0.1, 1]}, friction: 0.4}\n"
     "lines:\n"
-    "  a: {length: 20, elements: 40, mass: 12, stiffness: 1e5, start: static, "
+    "  a: {length: 20, elements: 40, mass: 12, stiffness: 1e5, damping: 2e3, start: static, "
     "ends: {A: {held: [0, 0, 0.2]}, B: {held: [16, 0, 6]}}, "
     "drag: {diameter: 0.1, normal: 1.2, tangential: 0.3, added_normal: 0.9, added_tangential: "
     "0.2}, "
@@ -32,6 +32,12 @@ static const FalseNumber FALSE[] = {
     {"a_ledger_drag", 2, 0.1, "ledger_drag"},
     {"a_ledger_added", 3, 0.1, "ledger_added"},
     {"a_ledger_loads", 3, 0.1, "ledger_loads in time"},
+    {"a_ledger_damping", 3, 0.1, "ledger_damping"},
+    {"a_elongation", 2 * (NODES - 1) + AT, 0.01, "elongation off"},
+    {"a_elongation_rest", 2 * (NODES - 1) + AT, 0.01, "elongation_rest off"},
+    {"a_elongation_rest", 2 * (NODES - 1) + AT, -1, "senseless elongations"},
+    {"a_damping", 0, 2001, "elongation_rest off"},
+    {"a_damping", 0, -1, "senseless damping"},
     {"a_velocity", 3 * (2 * NODES + AT), 9, "velocity off"},
     {"a_node_load", 3 * (2 * NODES + AT), 3, NULL},
     {"a_drag", 0, 0.11, "ledger_drag"},
@@ -56,6 +62,7 @@ static const OtherScene OTHER[] = {
     {"tangential: 0.3", "tangential: 0.3001"},
     {"added_normal: 0.9", "added_normal: 0.9001"},
     {"added_tangential: 0.2", "added_tangential: 0.2001"},
+    {"damping: 2e3", "damping: 2001"},
     {"velocity: [0.5, 0.2, 0]", "velocity: [0.5, 0.201, 0]"},
     {"force: [0, 3, 1]", "force: [0, 3, 1.001]"},
 };

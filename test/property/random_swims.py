@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random lines that move in time in water that flows, with drag and water that is moved along, each checked by the independent checker.
+"""Random lines that move in time in water that flows, with drag, water that is moved along and internal damping, each checked independently.
 
 usage: random_swims.py CAPSTAN CHECKER [--count N] [--seed S] [--only CLASS] [--keep FOLDER]
 
@@ -60,7 +60,11 @@ class Swim:
         inextensible = self.kind != "joined" and dice.random() < 0.15
         added = dice.choice(["", f", added_normal: {dice.uniform(0, 1.5)!r}", f", added_normal: 1, added_tangential: {dice.uniform(0, 0.5)!r}"])
         along = dice.choice(["", f", tangential: {10 ** dice.uniform(-3, 0)!r}"])
-        loads = dice.choice(["", "", f", loads: [{{force: {vector(some(dice, 0.2 * weight / self.size))}}}]"])
+        if dice.random() < 0.4 and not inextensible:
+            loads = f", damping: {stiffness * self.period * 10 ** dice.uniform(-4, -1)!r}"
+        else:
+            loads = ""
+        loads += dice.choice(["", "", f", loads: [{{force: {vector(some(dice, 0.2 * weight / self.size))}}}]"])
         return (f"elements: {dice.randint(2, 40)}, mass: {self.mass!r}, stiffness: {'.inf' if inextensible else repr(stiffness)}, "
                 f"drag: {{diameter: {self.diameter!r}, normal: {10 ** dice.uniform(-0.5, 0.5)!r}{along}{added}}}{loads}")
 

@@ -193,6 +193,7 @@ static const char MOTION_SCENE[] =
     "time_scheme: bdf2\n"
     "lines:\n"
     "  one: {length: 3, elements: 4, mass: 2, inertia: 3, velocity: [0, 0, 1], stiffness: 1000,"
+    " damping: 5,"
     " point_weights: [{at: 1.5, mass: 1, inertia: 1.2}],"
     " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held},"
     " drag: {diameter: 0.1, normal: 1, tangential: 0.1, added_normal: 0.8, added_tangential:"
@@ -524,6 +525,7 @@ static const struct Change MOTION_CHANGE[] = {
     {"period", "period: 4", "period: 5"},
     {"oscillations", "{sine: [0.1, 0, 0], period: 7}", "{sine: [0.1, 0, 0], period: 8}"},
     {"oscillations", "sine: [0.1, 0, 0]", "sine: [0.2, 0, 0]"},
+    {"damping", " damping: 5", " damping: 6"},
     {"diameter", "diameter: 0.1", "diameter: 0.11"},
     {"normal", ", normal: 1", ", normal: 1.1"},
     {"tangential", ", tangential: 0.1", ", tangential: 0.2"},

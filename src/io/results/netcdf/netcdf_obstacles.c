@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Obstacles in result.nc (see netcdf_obstacles.h). */
+/* Obstacles, the water and motion in time in result.nc (see netcdf_obstacles.h). */
 #include "io/results/netcdf/netcdf_obstacles.h"
 
 #include <stdio.h>
@@ -448,6 +448,106 @@ void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, dou
         snprintf(name, sizeof name, "%.200s_added_mass", scene->line[i].name);
         if (added[0] > 0 || added[1] > 0) cpsi_netcdf_numbers(file, name, 2, added);
     }
+}
+
+/* ---- motion in time ---- */
+
+void cpsi_netcdf_define_time(CpsiNetcdfFile *file, CpsiNetcdfTime *ids, const CpsScene *scene,
+                             int step) {
+    ids->is_there = cpsi_has_duration(scene);
+    if (!ids->is_there) return;
+    ids->time = cpsi_netcdf_variable(file, "", "time", NC_DOUBLE, 1, &step,
+                                     "time since the history began", "s");
+    cpsi_netcdf_text(file, NC_GLOBAL, "time_scheme",
+                     scene->time_scheme == CPS_TIME_SCHEME_EULER ? "euler" : "bdf2");
+}
+
+void cpsi_netcdf_append_time(CpsiNetcdfFile *file, const CpsiNetcdfTime *ids, size_t step,
+                             const CpsEvolution *evolution) {
+    const size_t one = 1;
+    const double time = cps_evolution_time(evolution);
+    if (ids->is_there) cpsi_netcdf_doubles(file, ids->time, &step, &one, &time);
+}
+
+void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
+                               CpsiNetcdfMotion *ids, const CpsLine *given,
+                               const int dimension[4]) {
+    static const struct {
+        const char *name, *long_name, *units;
+    } ENTRY[CPSI_MOTION_NUMBERS] = {
+        {"kinetic", "kinetic energy", "J"},
+        {"ledger_kinetic", "growth of the kinetic energy", "J"},
+        {"ledger_impact", "energy lost where nodes land", "J"},
+        {"ledger_scheme", "energy lost by the scheme in time", "J"},
+        {"ledger_damping", "energy lost by internal damping", "J"},
+        {"ledger_drag", "work done on the water against its drag", "J"},
+        {"ledger_added", "work done on the water that is moved along", "J"},
+        {"ledger_turnover", "sum of the sizes of all entries of the ledger", "J"},
+        {"position_bound", "guaranteed rms error of the positions, by mass", "m"},
+        {"landed", "contacts of nodes that began to bear", "1"},
+        {"changed", "contacts that went from rest to sliding or back", "1"},
+        {"snatched", "elements that went from slack to taut", "1"}};
+    const char *line = given->name;
+    const int nodes[] = {dimension[0], dimension[1], dimension[2]},
+              elements[] = {dimension[0], dimension[3]};
+    ids->is_there = time->is_there && !given->quasi_static;
+    if (!ids->is_there) return;
+    ids->has_damping = given->damping > 0;
+    if (ids->has_damping) {
+        char name[NC_MAX_NAME + 1];
+        snprintf(name, sizeof name, "%.200s_damping", line);
+        cpsi_netcdf_numbers(file, name, 1, &given->damping);
+        ids->elongation = cpsi_netcdf_variable(file, line, "elongation", NC_DOUBLE, 2, elements,
+                                               "elongation by which internal damping goes", "1");
+        ids->rest = cpsi_netcdf_variable(file, line, "elongation_rest", NC_DOUBLE, 2, elements,
+                                         "elongation at which the tension of the step begins", "1");
+    }
+    ids->mass = cpsi_netcdf_variable(file, line, "node_mass", NC_DOUBLE, 1, &dimension[1],
+                                     "mass that moves with the node", "kg");
+    ids->velocity = cpsi_netcdf_variable(file, line, "velocity", NC_DOUBLE, 3, nodes,
+                                         "velocity after the step", "m s-1");
+    ids->rest_velocity = cpsi_netcdf_variable(
+        file, line, "rest_velocity", NC_DOUBLE, 3, nodes,
+        "v* of the scheme: the acceleration is (v - v*)/k with v = (position - reference)/k",
+        "m s-1");
+    ids->span = cpsi_netcdf_variable(file, line, "span", NC_DOUBLE, 2, nodes,
+                                     "k of the scheme, 0: a quasi-static step", "s");
+    for (int i = 0; i < CPSI_MOTION_NUMBERS; ++i)
+        ids->number[i] = cpsi_netcdf_variable(file, line, ENTRY[i].name, NC_DOUBLE, 1, nodes,
+                                              ENTRY[i].long_name, ENTRY[i].units);
+}
+
+void cpsi_netcdf_write_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids,
+                              const CpsEvolution *evolution, int line) {
+    const size_t first = 0,
+                 nodes = (size_t)cps_evolution_line_view(evolution, line).element_count + 1;
+    if (ids->is_there)
+        cpsi_netcdf_doubles(file, ids->mass, &first, &nodes,
+                            cps_evolution_line_motion(evolution, line).mass);
+}
+
+void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids, size_t step,
+                               const CpsEvolution *evolution, int line) {
+    if (!ids->is_there) return;
+    const CpsLineMotion motion = cps_evolution_line_motion(evolution, line);
+    const size_t nodes = (size_t)cps_evolution_line_view(evolution, line).element_count + 1;
+    const size_t start[] = {step, 0, 0}, count[] = {1, nodes, XYZ};
+    const double number[CPSI_MOTION_NUMBERS] = {motion.kinetic,         motion.ledger.kinetic,
+                                                motion.ledger.impact,   motion.ledger.scheme,
+                                                motion.ledger.damping,  motion.ledger.drag,
+                                                motion.ledger.added,    motion.ledger.turnover,
+                                                motion.position_bound,  (double)motion.landed,
+                                                (double)motion.changed, (double)motion.snatched};
+    cpsi_netcdf_doubles(file, ids->velocity, start, count, motion.velocity);
+    cpsi_netcdf_doubles(file, ids->rest_velocity, start, count, motion.rest_velocity);
+    cpsi_netcdf_doubles(file, ids->span, start, count, motion.span);
+    if (ids->has_damping) {
+        const size_t elements[] = {1, nodes - 1};
+        cpsi_netcdf_doubles(file, ids->elongation, start, elements, motion.elongation);
+        cpsi_netcdf_doubles(file, ids->rest, start, elements, motion.rest);
+    }
+    for (int i = 0; i < CPSI_MOTION_NUMBERS; ++i)
+        cpsi_netcdf_doubles(file, ids->number[i], start, count, &number[i]);
 }
 
 /* ---- sets of ends ---- */

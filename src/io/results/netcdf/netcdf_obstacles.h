@@ -132,7 +132,7 @@ void cpsi_netcdf_append_grasps(CpsiNetcdfFile *file, const CpsiNetcdfGrasps *ids
 
 /* The motion in time of a scene; nothing of one without steps in time. Of quasi-static steps among
  * them velocities and spans are 0. */
-enum { CPSI_MOTION_NUMBERS = 11 };
+enum { CPSI_MOTION_NUMBERS = 12 };
 
 typedef struct CpsiNetcdfTime {
     bool is_there; /* otherwise all other variables are unused */
@@ -142,6 +142,8 @@ typedef struct CpsiNetcdfTime {
 typedef struct CpsiNetcdfMotion {
     bool is_there; /* the line has inertia */
     int mass, velocity, rest_velocity, span, number[CPSI_MOTION_NUMBERS];
+    bool has_damping;
+    int elongation, rest;
 } CpsiNetcdfMotion;
 
 /* Define the variables of the run; write those of a step. */
@@ -150,10 +152,9 @@ void cpsi_netcdf_define_time(CpsiNetcdfFile *file, CpsiNetcdfTime *ids, const Cp
 void cpsi_netcdf_append_time(CpsiNetcdfFile *file, const CpsiNetcdfTime *ids, size_t step,
                              const CpsEvolution *evolution);
 
-/* The same of a line, and what does not change; the dimensions are step, node and xyz. */
+/* The same of a line, and what does not change; the dimensions are step, node, xyz and element. */
 void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
-                               CpsiNetcdfMotion *ids, const char *line, bool has_inertia,
-                               const int dimension[3]);
+                               CpsiNetcdfMotion *ids, const CpsLine *line, const int dimension[4]);
 void cpsi_netcdf_write_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids,
                               const CpsEvolution *evolution, int line);
 void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids, size_t step,

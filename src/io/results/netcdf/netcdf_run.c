@@ -619,9 +619,9 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
                                 (const int[]){nc->step, nc->end, nc->xyz});
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
-        cpsi_netcdf_define_motion(&nc->file, &nc->time, &nc->line[i].motion, view.name,
-                                  !scene->line[i].quasi_static,
-                                  (const int[]){nc->step, nc->line[i].node, nc->xyz});
+        cpsi_netcdf_define_motion(&nc->file, &nc->time, &nc->line[i].motion, &scene->line[i],
+                                  (const int[]){nc->step, nc->line[i].node, nc->xyz,
+                                                nc->line[i].element});
     }
     if (nc->file.status == NC_NOERR)
         cpsi_netcdf_keep(&nc->file, nc->file.library._enddef(nc->file.id, 0, ALIGN, 0, PAGE));

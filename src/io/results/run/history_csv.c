@@ -113,6 +113,7 @@ static const CpsiColumn MOTION_COLUMN[] = {
     {"kinetic_growth", "J", MOTION(ledger.kinetic)},
     {"impact", "J", MOTION(ledger.impact)},
     {"scheme", "J", MOTION(ledger.scheme)},
+    {"damping", "J", MOTION(ledger.damping)},
     {"drag", "J", MOTION(ledger.drag)},
     {"added", "J", MOTION(ledger.added)},
     {"turnover", "J", MOTION(ledger.turnover)},

@@ -609,6 +609,8 @@ static const CpsiKey LINE_KEYS[] = {
              "water that the diameter displaces"},
     {"weight", ONE_OF, NUMBER(Line, line.weight), NOT_NEGATIVE, .unit = "N/m",
      .help = "weight per unstretched length (in water: the submerged one), instead of mass"},
+    {"damping", OPTIONAL, NUMBER(Line, line.damping), NOT_NEGATIVE, .unit = "N s", .fallback = "0",
+     .help = "in time: tension per rate of strain, BA"},
     {"inertia", OPTIONAL, NUMBER(Line, inertia), NOT_NEGATIVE, .unless = "sections", .unit = "kg/m",
      .help = "mass per unstretched length that moves in time, with the water that goes along; by "
              "default its mass, 0 of a weight"},
