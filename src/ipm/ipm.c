@@ -31,6 +31,11 @@ static const int PATIENCE = 8;
 static const double CLOSE = 0.9;
 /* Each sharpening step aims at this share of the previous products s.z. */
 static const double SHARPER = 0.01;
+/* One that is shorter than this share has left the central path, and the next would be shorter
+ * still: a step back to it follows, at most so many times, unless the gap is below this share of
+ * the target. */
+static const double SHORT = 0.7, SMALL = 0.1;
+enum { MOST_RETURNS = 4 };
 /* A ray counts as a proof when its value exceeds everything that the proof neglects by this factor,
  * for any u of size one. */
 static const double RAY = 1e4;
@@ -95,8 +100,10 @@ static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const Cp
                    CpsiIpmReport *report) {
     const int sharpenings = sums->bound > 0 ? options->sharpenings : 0;
     double mu = sums->sz / sums->weight;
-    for (int k = 0; k < options->centering_steps + sharpenings; k++) {
-        if (k >= options->centering_steps) mu *= SHARPER;
+    bool returns = false;
+    for (int k = 0, returned = 0; k < options->centering_steps + sharpenings;) {
+        const bool sharpens = k >= options->centering_steps && !returns;
+        if (sharpens) mu *= SHARPER;
         if (!scale_and_factor(program)) return;
         const CpsiIpmAim centre = {CPSI_IPM_AIM_CENTRE, mu, 1};
         const CpsiSums step = direction(program, &centre);
@@ -110,6 +117,11 @@ static void refine(CpsiProgram *program, const CpsiIpmOptions *options, const Cp
             return;
         }
         report->iterations++;
+        const bool back = returns; /* the sharpening before it is taken again */
+        returns = sharpens && alpha < SHORT && report->gap > SMALL * options->target &&
+                  returned++ < MOST_RETURNS;
+        if (returns) mu = now.sz / now.weight;
+        if (!returns && !back) k++;
     }
 }
 
