@@ -23,6 +23,8 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "printable.h"
 
@@ -30,6 +32,8 @@
  * node that is no longer rounding, and the depth of an element at which it is not certified, both
  * relative to the line's length. */
 static const double WARN_BOUND = 0.1, WARN_LIFTED = 0.01, WARN_SUNK = 1e-6, WARN_PIERCED = 1e-10;
+/* Names of lines and points, of which longer ones are cut in warnings. */
+enum { NAME_SIZE = 96 };
 /* slack on more than this share of the length determines most of the answer */
 static const double WARN_SLACK = 0.5;
 /* ... and the tension caused by rounding of coordinates, as a share of the largest force */
@@ -130,6 +134,38 @@ static void note_anchors(Warnings *warnings, const CpsScene *scene, const CpsEvo
     }
 }
 
+/* The line `name` of the scene's file that line i is part k of, from 1, where the lines of the
+ * scene meet at floats of that line (docs/formats.md); 0: it is a line of the file. */
+static int part_of(const CpsScene *scene, int i, char *name, size_t size) {
+    const char *own = scene->line[i].name, *dash = strrchr(own, '-');
+    const int k = dash ? atoi(dash + 1) : 0;
+    char at[2 * NAME_SIZE];
+    if (k < 1 || (size_t)(dash - own) >= size) return 0;
+    snprintf(name, size, "%.*s", (int)(dash - own), own);
+    /* between this part and the one before, of the first the one behind */
+    const CpsLine *line = &scene->line[i];
+    const int end = k > 1 ? CPS_END_A : CPS_END_B;
+    snprintf(at, sizeof at, "%s-float-%d", name, k > 1 ? k - 1 : 1);
+    if (line->end[end].kind != CPS_END_KIND_POINT) return 0;
+    return strcmp(scene->point[line->end_point[end]].name, at) == 0 ? k : 0;
+}
+
+/* The name that the scene's file has for line i; returns where in that line it begins [m]. */
+static double written_as(const CpsScene *scene, int i, char *name, size_t size) {
+    const int k = part_of(scene, i, name, size);
+    double from = 0;
+    if (k == 0) {
+        snprintf(name, size, "%s", scene->line[i].name);
+        return 0;
+    }
+    for (int j = 0; j < scene->line_count; ++j) {
+        char other[NAME_SIZE];
+        const int before = part_of(scene, j, other, sizeof other);
+        if (before > 0 && before < k && strcmp(other, name) == 0) from += scene->line[j].length;
+    }
+    return from;
+}
+
 /* Buoys between the ends lift as if they were under water, wherever they are. */
 static void note_buoys(Warnings *warnings, const CpsScene *scene, int line, const CpsLineView *view,
                        const char *step) {
@@ -143,9 +179,10 @@ static void note_buoys(Warnings *warnings, const CpsScene *scene, int line, cons
                 fabs(view->arc_length[node] - buoy->arc_length))
                 node = j;
         const double height = view->position[3 * node + 2] + view->origin[2] - scene->water_surface;
-        if (buoy->weight < 0 && height > WARN_EMERGED * length)
-            note(&warnings->kind[WARNING_EMERGED], height, view->arc_length[node], step,
-                 view->name);
+        if (!(buoy->weight < 0 && height > WARN_EMERGED * length)) continue;
+        char name[NAME_SIZE];
+        const double from = written_as(scene, line, name, sizeof name);
+        note(&warnings->kind[WARNING_EMERGED], height, from + view->arc_length[node], step, name);
     }
 }
 

@@ -460,6 +460,8 @@ static void find_places(CpsiBalance *balance, int group) {
     if (!found && !is_interrupted(evolution)) found = stays(balance);
     if (!found && (cpsi_group_is_too_short(balance) || (frozen && cpsi_group_falls(balance))))
         return;
+    if (!found) cpsi_try_places(balance); /* as before the question for a proof */
+    if (!found && cpsi_group_is_left(balance)) return;
     cpsi_report_found(balance);
 }
 

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/certificate.h"
 #include "cable/existence.h"
 #include "cable/line_solve.h"
 #include "cable/line_step.h"
@@ -25,6 +26,7 @@ static void report_proof(CpsiBalance *balance, CpsOutcome outcome) {
     CpsEvolution *evolution = balance->evolution;
     const CpsiStepOptions options = cpsi_trial_options(evolution);
     cpsi_begin_again(balance);
+    (void)cpsi_place_joints(balance, true);
     for (int item = 0; item < balance->line_count; item++) {
         CpsiLine *line = &evolution->line[balance->line[item]];
         cpsi_trial_restore_line(balance, balance->line[item]);
@@ -34,6 +36,20 @@ static void report_proof(CpsiBalance *balance, CpsOutcome outcome) {
         cpsi_line_report_utilisation(line);
     }
     cpsi_report_no_place(balance);
+}
+
+bool cpsi_group_is_left(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    bool any = false;
+    for (int item = 0; item < balance->line_count; item++)
+        any = any || cps_outcome_is_final(evolution->line[balance->line[item]].report.outcome);
+    if (!any) return false;
+    report_proof(balance, CPS_OUTCOME_STALLED);
+    for (int item = 0; item < balance->line_count; item++) {
+        CpsiLine *line = &evolution->line[balance->line[item]];
+        line->report.certificate = cpsi_certificate(line, evolution->options.solver.tolerance);
+    }
+    return true;
 }
 
 /* unbounded ------------------------------------------------------------------------------------ */

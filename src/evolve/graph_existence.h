@@ -15,6 +15,10 @@ bool cpsi_group_falls(CpsiBalance *balance);
  * likewise, as infeasible. */
 bool cpsi_group_is_too_short(CpsiBalance *balance);
 
+/* Where the last trial has left a line with a proof of its own, which would depend on the places
+ * tried, leave all where it was before the step, not certified; else false. */
+bool cpsi_group_is_left(CpsiBalance *balance);
+
 /* Does anything hold a line of the group: an end, a grasp, or a point or body that does not move?
  */
 bool cpsi_group_is_held(const CpsiBalance *balance);

@@ -15,6 +15,7 @@ import tempfile
 
 sys.dont_write_bytecode = True  # nothing is left in the source folder
 import runs  # noqa: E402
+from result_file import Results  # noqa: E402
 from runs import command, falsify, resumed, write  # noqa: E402
 
 CAPSTAN, CHECKER = (os.path.abspath(path) for path in sys.argv[1:3])
@@ -166,6 +167,35 @@ def histories(folder, first, last):
     return last - first
 
 
+# a body on two inextensible lines, which winches haul straight and shorter than the way between their anchors, and pay out again
+TOO_SHORT = """capstan: 1
+gravity: [0, 0, -10]
+bodies: {hull: {free: [5, 0, -3], mass: 10}}
+points: {left: {body: hull, at: [-0.5, 0, 0.3]}, right: {body: hull, at: [0.5, 0, 0.3]}}
+lines:
+  a: {length: 8, elements: 8, weight: 5, stiffness: .inf, start: static, ends: {A: {held: [0, 0, 0], stored: 1.5}, B: {point: left}}}
+  b: {length: 8, elements: 8, weight: 5, stiffness: .inf, start: static, ends: {A: {held: [10, 0, 0], stored: 1.5}, B: {point: right}}}
+history:
+  - {name: haul, steps: 3, a.pay_out_A: -3, b.pay_out_A: -3}
+  - {name: pay, steps: 2, a.pay_out_A: 4, b.pay_out_A: 4}
+"""
+
+
+def stalls(folder):
+    """Where no pose is found the winches wind all the same, the lines and the body are where they were, and the checker refutes nothing; the
+    history goes on, and its last steps are certified."""
+    scene, out = write(folder, "short.yaml", TOO_SHORT), os.path.join(folder, "short")
+    code, said = command(CAPSTAN, "run", scene, "-q", "-o", out)
+    assert code == 1 and "no pose found" in said, (code, said)
+    results = Results(os.path.join(out, "result.nc"))
+    stored = [results.get("a_stored", step)[0] for step in range(results.steps)]
+    assert all(abs(a - b) < 1e-12 for a, b in zip(stored, [1.5, 2.5, 3.5, 4.5, 2.5, 0.5])), stored
+    places = [list(results.get("has_place_of_body", step)) == [1] for step in range(results.steps)]
+    assert places == [True, True, False, False, True, True], places
+    _, found = command(CHECKER, os.path.join(out, "result.nc"), scene, "-v")
+    assert "records 12, certified 8, not certified 4, refuted 0, not finite 0" in found and "against the scene: 0 findings" in found, found
+
+
 def mistakes(folder):
     text = POST.replace("STIFFNESS", "20000").replace(", rope.B: {move: [0.1, 0.2, 0]}", "")
     for good, wrong, words in BAD:
@@ -190,6 +220,7 @@ def main():
         resumed(CAPSTAN, folder, POST.replace("STIFFNESS", "20000").replace("-3, steps: 4", "-3, steps: 150"),
             400000, 162, (10, 60, 100, 161),
             ("rope_position", "rope_tension", "rope_length_off_drums", "rope_node_weight_length", "rope_ledger_winches"))
+        stalls(folder)
         ran = histories(folder, 0, SEEDS)
         wrong = mistakes(folder)
     print(f"{ran} random histories; {copies} falsified copies and {wrong} mistakes refused")

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "capstan/evolve.h"
-#include "splitmix.h"
+#include "dice.h"
 
 enum { MOST_LINES = 6, STAGES = 2 };
 
@@ -27,12 +27,6 @@ typedef struct Tally {
     int scenes, steps, open, trials, most_trials, stable, heeled, poses, grounded, wrong;
     double left;
 } Tally;
-
-static uint64_t state;
-
-static double uniform(double low, double high) { return splitmix(&state, low, high); }
-static int whole(int low, int high) { return (int)floor(uniform(low, high + 1)); }
-static bool chance(double share) { return uniform(0, 1) < share; }
 
 typedef struct Mooring {
     CpsObstacle bed;

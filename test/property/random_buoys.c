@@ -16,17 +16,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "balance_at_points.h"
 #include "capstan/evolve.h"
-#include "splitmix.h"
+#include "dice.h"
 
 enum { MOST_LINES = 12, MOST_POINTS = 16, STAGES = 3, CLASSES = 4 };
 typedef enum Class { LEG, SPREAD, STRING, BEACH } Class;
 static const char *const CLASS[CLASSES] = {"leg", "spread", "string", "beach"};
 
-/* As in random_graphs.c: what is left at a point per largest force, and to what strain times EA a
- * tension is known. Places at the surface per size of the mooring: touch, 1e-9 of the longest line,
- * which is no longer than 3 sizes, and the rounding of a level up to 1e4 sizes away. */
-static const double LEFT = 2e-6, RESTING = 3e-8, STRAIN = 1e-7, TENSION = 1e-4, PLACE = 1e-8;
+/* Places at the surface per size of the mooring: touch, 1e-9 of the longest line, which is no
+ * longer than 3 sizes, and the rounding of a level up to 1e4 sizes away. */
+static const double PLACE = 1e-8;
 /* Share of the steps that may be open, as in random_graphs.c. */
 static const double OPEN_SHARE = 0.015;
 
@@ -34,12 +34,6 @@ typedef struct Tally {
     int scenes, steps, open, trials, most_trials, water[4], touching, sliding, dragged, wrong;
     double left;
 } Tally;
-
-static uint64_t state;
-
-static double uniform(double low, double high) { return splitmix(&state, low, high); }
-static int whole(int low, int high) { return (int)floor(uniform(low, high + 1)); }
-static bool chance(double share) { return uniform(0, 1) < share; }
 
 typedef struct Mooring {
     CpsObstacle obstacle;

@@ -19,9 +19,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "balance_at_points.h"
 #include "capstan/evolve.h"
+#include "dice.h"
 #include "graph_proofs.h"
-#include "splitmix.h"
 
 enum { MOST_MESHES = 30, MOST_LINES = 2 * MOST_MESHES * (MOST_MESHES + 1) };
 enum {
@@ -37,11 +38,6 @@ static const char *const CLASS[CLASSES] = {"star", "tree",  "ring",         "net
 /* The share of steps of a class that are to have no equilibrium, so that proofs are tested. */
 static const double REFUSED[CLASSES] = {[LOOSE] = 0.1, [SHORT] = 0.05};
 
-/* What is left of the forces on a point, per largest force: points balance to 1e-6. The
- * tension of what rests slack on the bed is known to the strain RESTING times EA, as random_joined
- * finds it of single lines too, and any to what the line's certificate says of its strains and
- * tensions, which are to be known to STRAIN and TENSION. */
-static const double LEFT = 2e-6, RESTING = 3e-8, STRAIN = 1e-7, TENSION = 1e-4;
 /* Share of the steps of a class that may be open. */
 static const double OPEN_SHARE = 0.005;
 
@@ -50,12 +46,7 @@ typedef struct Tally {
     double left;
 } Tally;
 
-static uint64_t state;
 static int most_meshes = 10;
-
-static double uniform(double low, double high) { return splitmix(&state, low, high); }
-static int whole(int low, int high) { return (int)floor(uniform(low, high + 1)); }
-static bool chance(double share) { return uniform(0, 1) < share; }
 
 typedef struct Graph {
     CpsObstacle obstacle[1 + PEGS];

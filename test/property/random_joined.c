@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "capstan/evolve.h"
-#include "splitmix.h"
+#include "dice.h"
 
 enum { MOST_PIECES = 5, MOST_ELEMENTS = 40, MOVES = 3 };
 
@@ -35,12 +35,6 @@ typedef struct Tally {
     double place, force;
     int trials;
 } Tally;
-
-static uint64_t state;
-
-static double uniform(double low, double high) { return splitmix(&state, low, high); }
-static int whole(int low, int high) { return (int)floor(uniform(low, high + 1)); }
-static bool chance(double share) { return uniform(0, 1) < share; }
 
 typedef struct Pair {
     CpsObstacle bed;

@@ -18,7 +18,7 @@
 #include <string.h>
 
 #include "capstan/evolve.h"
-#include "splitmix.h"
+#include "dice.h"
 
 enum { MESHES = 6, MOST_ELEMENTS = 1600, MEASURES = 6 * NEWTON_BODIES + 2 * NEWTON_LINES };
 
@@ -34,12 +34,6 @@ typedef struct Tally {
     int unsolved, unstable, outside, loose; /* not compared */
     double suspended, c, slack_c, coarsest, finest;
 } Tally;
-
-static uint64_t state;
-
-static double uniform(double low, double high) { return splitmix(&state, low, high); }
-static int whole(int low, int high) { return (int)floor(uniform(low, high + 1)); }
-static bool chance(double share) { return uniform(0, 1) < share; }
 
 /* the system ----------------------------------------------------------------------------------- */
 

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "capstan/evolve.h"
-#include "splitmix.h"
+#include "dice.h"
 
 enum { MOST_LINES = 5, MOST_POINTS = MOST_LINES + 1, STAGES = 3 };
 /* What may be left at a point, per what acts: the tolerance of a balance is 1e-6. */
@@ -25,9 +25,6 @@ static const double OFF = 2.3e-5;
  * most; in a row of several with small loads beside a large one, and along it, somewhat more. */
 static const double STRONGEST = 2e5;
 
-static uint64_t state;
-static double uniform(double low, double high) { return splitmix(&state, low, high); }
-static int whole(int low, int high) { return (int)floor(uniform(low, high + 1)); }
 static double norm(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 typedef struct Row {
