@@ -70,7 +70,10 @@ typedef struct CpsMotionLedger {
 
 /* The motion of a line in the last step. */
 typedef struct CpsLineMotion {
-    bool is_moving;         /* the last step had a duration; otherwise the next ones are 0 */
+    /* the last step had a duration, and the line has inertia; otherwise the next ones are 0, but
+     * for `scheme` of a quasi-static line at points in a step in time: what its pull after the step
+     * does on them beyond the work in its own ledger */
+    bool is_moving;
     double kinetic;         /* [J] kinetic energy now */
     CpsMotionLedger ledger; /* of the step */
     int landed;             /* contacts of nodes that began to bear */

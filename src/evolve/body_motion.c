@@ -233,7 +233,7 @@ static void advance(const CpsEvolution *evolution, CpsiBody *body) {
     }
     CpsMotionLedger *ledger = &inertia->ledger;
     *ledger = (CpsMotionLedger){.kinetic = kinetic - inertia->kinetic};
-    ledger->scheme = work[0] - ledger->kinetic + beyond_all(evolution, body, step, motion);
+    ledger->scheme = work[0] - ledger->kinetic - beyond_all(evolution, body, step, motion);
     inertia->dissipated = work[1];
     ledger->turnover = fabs(ledger->kinetic) + fabs(ledger->scheme) + fabs(work[1]);
     inertia->kinetic = kinetic;

@@ -29,7 +29,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '1', '9'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '0'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -245,6 +245,7 @@ static void pass_line(Tape *tape, CpsiLine *line) {
     PASS(tape, line->newton.pause);
     pass_flag(tape, &line->newton.useful);
     if (line->has_inertia) pass_inertia(tape, line);
+    if (!line->has_inertia) PASS(tape, line->inertia.ledger);
     if (cpsi_line_has_winch(line)) {
         double stored[2] = {line->drums.stored[CPS_END_A], line->drums.stored[CPS_END_B]};
         PASS(tape, stored);

@@ -24,6 +24,7 @@
 #include "evolve/stage_check.h"
 #include "evolve/stages.h"
 #include "evolve/statics.h"
+#include "evolve/step_ledger.h"
 #include "evolve/time_step.h"
 #include "evolve/view.h"
 
@@ -122,47 +123,6 @@ static void add_report(CpsStepReport *step, const CpsLineReport *line) {
     to->stretch_residual = cpsi_max_nan(to->stretch_residual, from->stretch_residual);
     to->penetration = cpsi_max_nan(to->penetration, from->penetration);
     to->element_penetration = cpsi_max_nan(to->element_penetration, from->element_penetration);
-}
-
-/* [J] The work that an obstacle which turns or moves does on a point that touches it. */
-static double work_on_point(const CpsEvolution *evolution, const CpsPointReport *point) {
-    const int k = point->obstacle;
-    if (k < 0 || (evolution->angle[k] == 0 && cpsi_shift_is_none(&evolution->shift[k]))) return 0;
-    const Vec3 x = vec3_load(point->position),
-               before = cpsi_obstacle_turn(&evolution->obstacle[k], x, -evolution->angle[k]),
-               moved = vec3_add(vec3_sub(x, before), cpsi_shift_to(&evolution->shift[k], before));
-    return vec3_dot(moved, vec3_axpy(point->reaction, vec3_load(point->normal),
-                                     vec3_load(point->friction)));
-}
-
-/* Add the friction of the points, and the work that the forces at them and the obstacles under them
- * do for it beside that which the lines get. */
-static void add_friction_of_points(CpsStepReport *step, const CpsEvolution *evolution) {
-    const CpsiPoints *points = &evolution->points;
-    for (int i = 0; i < points->count; i++) {
-        const CpsPointReport *report = &points->point[i].report;
-        const double work = work_on_point(evolution, report);
-        step->dissipated += report->dissipated;
-        step->ledger.dissipated += report->dissipated;
-        step->ledger.ends += report->dissipated - work;
-        step->ledger.obstacles += work;
-    }
-}
-
-/* Add what points and bodies get from outside in a step in time: that is what they gain, beside
- * what the lines get of them; and what their damping dissipates. */
-static void add_motion(CpsStepReport *step, const CpsEvolution *evolution) {
-    if (!(evolution->interval > 0)) return;
-    for (int i = 0; i < evolution->points.count; i++) {
-        const CpsMotionLedger *of = &evolution->points.point[i].inertia.ledger;
-        step->ledger.ends += of->kinetic + of->impact + of->scheme;
-    }
-    for (int i = 0; i < evolution->bodies.count; i++) {
-        const CpsiBodyInertia *inertia = &evolution->bodies.body[i].inertia;
-        step->dissipated += inertia->dissipated;
-        step->ledger.dissipated += inertia->dissipated;
-        step->ledger.ends += inertia->dissipated + inertia->ledger.kinetic + inertia->ledger.scheme;
-    }
 }
 
 static double seconds(void) {
@@ -284,8 +244,8 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
                                         .certificate.has_tension_bound = true};
     for (int i = 0; i < evolution->line_count; i++)
         add_report(&evolution->report, &evolution->line[i].report);
-    add_friction_of_points(&evolution->report, evolution);
-    add_motion(&evolution->report, evolution);
+    cpsi_coupling_ledger(evolution);
+    cpsi_step_ledger(evolution, &evolution->report);
     for (int i = 0; i < evolution->line_count; i++) cpsi_view_update(&evolution->line[i]);
     evolution->ended = !is_move && cps_outcome_is_final(evolution->report.outcome);
     evolution->report.wall = seconds() - begin;
@@ -432,8 +392,9 @@ CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line)
 }
 
 CpsLineMotion cps_evolution_line_motion(const CpsEvolution *evolution, int line) {
-    if (!has_line(evolution, line) || !evolution->line[line].has_inertia) return (CpsLineMotion){0};
+    if (!has_line(evolution, line)) return (CpsLineMotion){0};
     const CpsiInertia *inertia = &evolution->line[line].inertia;
+    if (!evolution->line[line].has_inertia) return (CpsLineMotion){.ledger = inertia->ledger};
     return (CpsLineMotion){.is_moving = inertia->is_moving,
                            .kinetic = inertia->kinetic,
                            .ledger = inertia->ledger,

@@ -50,8 +50,8 @@ CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution) {
     CpsiMotionRow sum = {.time = cps_evolution_time(evolution)};
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineMotion motion = cps_evolution_line_motion(evolution, i);
-        if (!motion.is_moving) continue;
         add_motion(&motion.ledger, motion.kinetic, &sum);
+        if (!motion.is_moving) continue;
         sum.landed += motion.landed;
         sum.changed += motion.changed;
         sum.snatched += motion.snatched;

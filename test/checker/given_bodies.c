@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "body_ledger.h"
 #include "body_stiffness.h"
 
 /* Numbers that are copied; poses on their way; loads: sums of a few products, and the turning
@@ -21,6 +22,9 @@ static const double COPIED = 1e-14, POSES = 1e-12, LOADS = 1e-11;
 /* A stiffness, lengths in arms of the body, per its largest entry: rounding of places up to 1e4
  * lengths from the origin, which strains of stiff lines magnify, makes 1e-8 of it. */
 static const double STIFFNESS = 1e-6;
+
+/* A work, per the sizes of its terms. */
+static const double WORKS = 1e-9;
 
 /* What the scene imposes on a body. */
 typedef struct Imposed {
@@ -33,7 +37,8 @@ typedef struct Compare {
     const Source *source;
     const CpsScene *scene;
     Bodies bodies;
-    Record *line; /* (lines) of the step */
+    Record *line;       /* (lines) of the step */
+    BodyMotion *motion; /* (bodies) of the step */
     GivenFinding *find;
     void *user;
     bool found;
@@ -247,6 +252,23 @@ static void compare_stiffness(Compare *c, size_t k, const double g[3], size_t st
              c->bodies.data[k].name, step, worst, most);
 }
 
+/* The ledger of a body in a step in time: the work of all forces is dissipated by damping, or in
+ * its motion, or lost by the scheme. */
+static void compare_ledger(Compare *c, size_t k, const double g[3], size_t step,
+                           const BodyState *before, const BodyState *now) {
+    const double pull = size(c->scene->gravity);
+    const BodyMotion *motion = &c->motion[k];
+    double per[3], sizes = fabs(motion->lost) + fabs(motion->growth) + motion->kinetic;
+    if (step == 0 || !(motion->span > 0)) return;
+    for (int i = 0; i < 3; i++) per[i] = pull > 0 ? g[i] / pull : 0;
+    const BodyLedger of = {c->source, &c->bodies, c->line, per, now, before, k};
+    const double work = (double)body_ledger_work(&of, &sizes),
+                 spent = motion->lost + motion->growth + motion->scheme;
+    if (!(fabs(work - spent) <= WORKS * sizes))
+        find(c, "ledger of body %s, step %zu: work of %.9g J, spent %.9g J", c->bodies.data[k].name,
+             step, work, spent);
+}
+
 static void compare_step(Compare *c, const GivenStep *given, size_t step, Imposed *imposed,
                          const BodyState *before, const BodyState *now) {
     const int changes = given->stage ? given->stage->body_change_count : 0;
@@ -258,6 +280,7 @@ static void compare_step(Compare *c, const GivenStep *given, size_t step, Impose
     for (size_t k = 0; k < c->bodies.count; k++) {
         compare_state(c, k, &imposed[k], given->gravity, step, &now[k]);
         compare_stiffness(c, k, given->gravity, step, &now[k]);
+        compare_ledger(c, k, given->gravity, step, &before[k], &now[k]);
     }
 }
 
@@ -267,7 +290,8 @@ static int compare_steps(Compare *c, GivenStep (*step_of)(const void *user, size
     Imposed *imposed = calloc(n, sizeof *imposed);
     BodyState *now = calloc(n, sizeof *now), *before = calloc(n, sizeof *before);
     c->line = calloc(c->source->lines, sizeof *c->line);
-    int bad = imposed && now && before && c->line ? 0 : -1;
+    c->motion = calloc(n, sizeof *c->motion);
+    int bad = imposed && now && before && c->line && c->motion ? 0 : -1;
     for (size_t i = 0; i < c->source->lines && !bad; i++)
         bad = record_create(c->source, c->source->line_name[i], &c->line[i], log);
     if (!bad)
@@ -275,6 +299,7 @@ static int compare_steps(Compare *c, GivenStep (*step_of)(const void *user, size
     for (size_t step = 0; step < c->source->steps && !bad && !c->found; step++) {
         const GivenStep given = step_of(c->user, step);
         bad = bodies_read(c->source, &c->bodies, step, now, log);
+        if (!bad) bad = body_motions_read(c->source, n, step, c->motion, log);
         for (size_t i = 0; i < c->source->lines && !bad; i++)
             bad = record_read(c->source, c->source->line_name[i], step, &c->line[i], log);
         if (!bad) compare_step(c, &given, step, imposed, before, now);
@@ -284,6 +309,7 @@ static int compare_steps(Compare *c, GivenStep (*step_of)(const void *user, size
     }
     for (size_t i = 0; i < c->source->lines && c->line; i++) record_destroy(&c->line[i]);
     free(c->line);
+    free(c->motion);
     free(imposed);
     free(now);
     free(before);
