@@ -39,16 +39,28 @@ typedef enum CpsTimeScheme {
     CPS_TIME_SCHEME_EULER /* of first order; never gains energy */
 } CpsTimeScheme;
 
-/* An oscillation of an end that the stage changes, beside its way to its value:
+typedef enum CpsSwayOf { CPS_SWAY_OF_END, CPS_SWAY_OF_POINT, CPS_SWAY_OF_BODY } CpsSwayOf;
+
+/* An oscillation of an end, point or body that the stage changes, beside its way to its value:
  *
  *     sine sin(w t) + cosine (1 - cos(w t)),    w = 2 pi / period,
  *
- * t from the beginning of the stage, in a stage with a duration. It is 0 where the stage begins. */
+ * t from the beginning of the stage, in a stage with a duration. It is 0 where the stage begins.
+ * Oscillations of one thing add up. A held body gets the rotation of the last three components, a
+ * rotation vector in the axes of the scene, after the rotation of its way. */
 typedef struct CpsSway {
-    int line, end; /* index in the scene; CPS_END_A or CPS_END_B, held or free in the change */
-    double sine[3], cosine[3]; /* [m] of a held end, [N] of a free one; default 0 0 0 */
-    double period;             /* [s] > 0 */
+    CpsSwayOf of;
+    int owner; /* index of the line, point or body in the scene */
+    int end;   /* of a line: CPS_END_A or CPS_END_B */
+    /* [m] of what is held, [N] of what is free, then of a body [rad] or [N m] about x, y and z, of
+     * an end or point 0; default 0 */
+    double sine[6], cosine[6];
+    double period; /* [s] > 0 */
 } CpsSway;
+
+/* What an oscillation adds `time` [s] after its stage began, in the units of its amplitudes; 0 of
+ * none, and of one without a period. */
+CPS_API void cps_sway_at(const CpsSway *sway, double time, double out[6]);
 
 /* Energy of a step in time [J]. With the ledger of the line (step.h):
  *

@@ -209,7 +209,7 @@ typedef struct CpsStage {
     const CpsTurn *turn;
     int shift_count, sway_count, pay_out_count; /* default 0 */
     const CpsShift *shift;
-    const CpsSway *sway; /* oscillations of ends that change, with a duration */
+    const CpsSway *sway; /* oscillations of what changes, with a duration */
     const CpsPayOut *pay_out;
     int point_change_count, body_change_count, grasp_change_count; /* default 0 */
     const CpsPointChange *point_change;

@@ -15,7 +15,7 @@ from ._native import ffi, lib
 if TYPE_CHECKING:
     from .evolution import Evolution
 
-_SWAY = ("sine", "cosine", "period")
+_SWAY = ("sine", "cosine", "period", "oscillations")
 
 
 def _quaternion(key: str, value: Any) -> np.ndarray:
@@ -33,12 +33,15 @@ class Move:
     """A target of moves, made by `Evolution.target` of a dictionary with the keys of an entry of a scene's history:
 
         "LINE.A", "LINE.B"   {"position": [x, y, z]}, {"move": [x, y, z]} from where it is, {"force": [x, y, z]}, or
-                             {"release": True}; in time beside it "sine" or "cosine" with "period"
+                             {"release": True}; in time beside it "sine" or "cosine" with "period", or a list of such
+                             dictionaries as "oscillations"
         "LINE.node"          with "at", the natural length from end A: {"position": ..}, {"hold": True}, {"force": ..} or
                              {"release": True}; further nodes as "LINE.node2" to "LINE.node4"
-        "POINT.point"        as an end
+        "POINT.point"        as an end, but it is not let go
         "BODY.body"          {"position": .., "rotation": {"quaternion": [w, x, y, z]}}, "move" in place of "position",
-                             "roll_pitch_yaw" [degrees] in place of "quaternion"; or {"force": .., "moment": .., "arm": ..}
+                             "roll_pitch_yaw" [degrees] in place of "quaternion"; or {"force": .., "moment": .., "arm": ..}; in
+                             time beside it "oscillations", each with "sine", "cosine", "rotation_sine", "rotation_cosine" [degrees],
+                             "moment_sine" or "moment_cosine", and "period"
         "LINE.pay_out_A", "LINE.pay_out_B"   length that the winch there pays out, negative: it hauls in
         "OBSTACLE.turn"      degrees
         "OBSTACLE.obstacle"  {"move": [x, y, z]}, {"turn": degrees, "axis": .., "about": ..} or both, of one that the history
@@ -66,6 +69,7 @@ class Move:
         self._values: Dict[str, np.ndarray] = {}
         self._stage = ffi.new("CpsStage *", lib.cps_stage_default())
         self._rows: Dict[str, List[Tuple[str, Any]]] = {}
+        self._given = changes
         for key, value in changes.items():
             self._sort(evolution, key, value)
         for rows, kind, fill in ((("change"), "CpsChange", self._end), (("turn"), "CpsTurn", self._turn),
@@ -112,8 +116,8 @@ class Move:
             raise ArgumentError(f"target: found the key {key!r}, expected 'gravity', 'duration', 'stiffness', 'name', or a name with "
                                 ".A, .B, .node, .pay_out_A, .pay_out_B, .point, .body, .turn or .obstacle")
         self._rows.setdefault(kinds[what], []).append((key, value))
-        if what in ("A", "B") and isinstance(value, Mapping) and any(word in value for word in _SWAY):
-            self._rows.setdefault("sway", []).append((key, value))
+        if what in ("A", "B", "point", "body") and isinstance(value, Mapping):
+            self._rows.setdefault("sway", []).extend((key, sway) for sway in self._sways(key, value))
 
     def _fill(self, evolution: "Evolution", rows: str, kind: str, fill: Any) -> None:
         wanted = self._rows.get(rows, [])
@@ -173,7 +177,7 @@ class Move:
 
     def _point(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         name = key.rpartition(".")[0]
-        word = self._only(key, value, ("position", "move", "force"))
+        word = self._only(key, value, ("position", "move", "force"), _SWAY)
         row.point = evolution._index("points", name)
         row.kind = lib.CPS_POINT_KIND_FREE if word == "force" else lib.CPS_POINT_KIND_HELD
         now = evolution.points[name].position if word == "move" else None
@@ -196,18 +200,45 @@ class Move:
         else:
             self._vector(key, row.value, value[word])
 
+    @staticmethod
+    def _sways(key: str, value: Mapping[str, Any]) -> List[Tuple[str, Mapping[str, Any]]]:
+        """The oscillations beside a change: that of its own words, and those of its list, by the keys of their vectors."""
+        single = {word: value[word] for word in ("sine", "cosine", "period") if word in value}
+        several = value.get("oscillations", [])
+        if "release" in value and (single or several):
+            raise ArgumentError(f"'{key}': found an oscillation beside 'release': what is let go does not oscillate")
+        if not isinstance(several, (list, tuple)) or not all(isinstance(sway, Mapping) for sway in several):
+            raise ArgumentError(f"'{key}' oscillations: found {several!r:.60}, expected a list of dictionaries")
+        return [(key, single)] * bool(single) + [(f"{key}.oscillations[{i}]", sway) for i, sway in enumerate(several)]
+
     def _sway(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
-        name, _, end = key.rpartition(".")
-        if "period" not in value or not ("sine" in value or "cosine" in value) or "release" in value:
-            raise ArgumentError(f"'{key}': expected 'sine' or 'cosine' or both with 'period', beside position, move or force")
-        row.line, row.end = evolution._index("lines", name), "AB".index(end)
-        row.period = _numbers.number(value["period"], f"'{key}' period")
-        self._vector(key + ".sine", row.sine, value.get("sine", [0, 0, 0]))
-        self._vector(key + ".cosine", row.cosine, value.get("cosine", [0, 0, 0]))
+        path, sway = value
+        name, _, what = key.rpartition(".")
+        body = what == "body"
+        sizes = ("sine", "cosine", "rotation_sine", "rotation_cosine", "moment_sine", "moment_cosine")[:6 if body else 2]
+        if "period" not in sway or not any(word in sway for word in sizes) or not set(sway) <= {"period", *sizes}:
+            raise ArgumentError(f"'{path}': expected 'period' with one or more of {', '.join(sizes)}")
+        row.of = {"point": lib.CPS_SWAY_OF_POINT, "body": lib.CPS_SWAY_OF_BODY}.get(what, lib.CPS_SWAY_OF_END)
+        row.owner = evolution._index({"point": "points", "body": "bodies"}.get(what, "lines"), name)
+        row.end = "AB".index(what) if what in "AB" else 0
+        row.period = _numbers.number(sway["period"], f"'{path}' period")
+        held = body and not set(self._given[key]) & {"force", "moment"}
+        for word, field in (("sine", row.sine), ("cosine", row.cosine)):
+            first = _numbers.array(sway.get(word, [0, 0, 0]), (3,), f"'{path}' {word}")
+            turn, moment = f"rotation_{word}", f"moment_{word}"
+            wrong = moment if held else turn
+            if wrong in sway:
+                raise ArgumentError(f"'{path}': found '{wrong}' of a body that is {'held' if held else 'loaded'} in this move")
+            last = _numbers.array(sway.get(turn if held else moment, [0, 0, 0]), (3,), f"'{path}' {turn if held else moment}")
+            both = np.concatenate([first, np.radians(last) if held else last])
+            np.frombuffer(ffi.buffer(field), np.float64)[:] = both
+            self._values[f"{path}.{word}"] = np.frombuffer(ffi.buffer(field), np.float64)[:6 if body else 3]
 
     def _body(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         name = key.rpartition(".")[0]
         held, free = {"position", "move", "rotation"}, {"force", "moment", "arm"}
+        if isinstance(value, Mapping):
+            value = {word: vector for word, vector in value.items() if word != "oscillations"}
         known = isinstance(value, Mapping) and value and (set(value) <= held or set(value) <= free)
         if not known or {"position", "move"} <= set(value) or ("arm" in value and "force" not in value):
             raise ArgumentError(f"'{key}': expected a dictionary with position or move and rotation, or with force, moment and arm")

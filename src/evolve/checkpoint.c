@@ -521,10 +521,10 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     }
     for (int i = 0; i < stage->sway_count; i++) {
         const CpsSway *sway = &stage->sway[i];
-        const int what[2] = {sway->line, sway->end};
+        const int what[3] = {(int)sway->of, sway->owner, sway->end};
         hash_bytes(hash, what, sizeof what);
-        hash_numbers(hash, 3, sway->sine);
-        hash_numbers(hash, 3, sway->cosine);
+        hash_numbers(hash, 6, sway->sine);
+        hash_numbers(hash, 6, sway->cosine);
         hash_numbers(hash, 1, &sway->period);
     }
     for (int i = 0; i < stage->point_change_count; i++) {

@@ -24,6 +24,7 @@
 #include "evolve/stage_check.h"
 #include "evolve/stages.h"
 #include "evolve/statics.h"
+#include "evolve/sways.h"
 #include "evolve/step_ledger.h"
 #include "evolve/time_step.h"
 #include "evolve/view.h"
@@ -334,6 +335,10 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
     if (status == CPS_OK && move->step_count != 1)
         status = cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: steps is %d: a move is one step", what,
                            move->step_count);
+    const int things = scene.line_count * 2 + scene.point_count + scene.body_count;
+    if (status == CPS_OK && move->sway_count > cpsi_sways_of_move(things))
+        status = cpsi_fail(err, CPS_ERR_LIMIT, "%s: found %d oscillations, at most %d in a move",
+                           what, move->sway_count, cpsi_sways_of_move(things));
     if (status == CPS_OK && move->duration > 0) status = check_time(evolution, move, what, err);
     if (status == CPS_OK) status = prepare_move(evolution, err);
     if (status != CPS_OK) return status;

@@ -23,6 +23,7 @@
 #include "evolve/soft_check.h"
 #include "evolve/stages.h"
 #include "evolve/start.h"
+#include "evolve/sways.h"
 #include "evolve/time_check.h"
 #include "evolve/trial.h"
 #include "evolve/view.h"
@@ -149,7 +150,9 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->point_count,
                       scene->body_count, scene->obstacle_count,
                       CPSI_GRASP_CHANGES * scene->line_count, scene->obstacle_count,
-                      2 * scene->line_count, 2 * scene->line_count);
+                      cpsi_sways_of_move(2 * scene->line_count + scene->point_count +
+                                         scene->body_count),
+                      2 * scene->line_count);
     cpsi_points_layout(&evolution->points, arena, scene);
     for (int i = 0; i < scene->point_count; i++) {
         const char *name = copy_name(arena, scene->point[i].name);

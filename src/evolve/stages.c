@@ -13,6 +13,7 @@
 #include "evolve/path_check.h"
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
+#include "evolve/sways.h"
 #include "evolve/water.h"
 #include "evolve/winches.h"
 
@@ -157,18 +158,21 @@ static void release(CpsEvolution *evolution, int line, int end, CpsRelease by) {
     move->from[end] = move->to[end] = (CpsEnd){.kind = CPS_END_KIND_FREE};
 }
 
+/* What oscillations have become at `part` of a stage. */
+static void sway_at(const CpsiEvolutionStage *stage, CpsSwayOf of, int owner, int end, int part,
+                    double out[6]) {
+    cpsi_sways_at(stage->sway_count, stage->sway, of, owner, end,
+                  part * (stage->duration / stage->steps), out);
+}
+
 /* An end of a line at `part` of a stage. */
 static CpsEnd end_at(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
                      const CpsChange *change, int part) {
     const CpsEnd *from = &evolution->from[2 * change->line + change->end];
     CpsEnd at = cpsi_stage_value(from, &change->to, part, stage->steps);
-    for (int k = 0; k < stage->sway_count; k++) {
-        const CpsSway *sway = &stage->sway[k];
-        if (sway->line != change->line || sway->end != change->end) continue;
-        const double angle = 2 * CPSI_PI * (part * (stage->duration / stage->steps) / sway->period);
-        for (int a = 0; a < 3; a++)
-            at.value[a] += sway->sine[a] * sin(angle) + sway->cosine[a] * (1 - cos(angle));
-    }
+    double sway[6];
+    sway_at(stage, CPS_SWAY_OF_END, change->line, change->end, part, sway);
+    for (int a = 0; a < 3; a++) at.value[a] += sway[a];
     return at;
 }
 
@@ -177,6 +181,12 @@ static CpsiWrench wrench_at(const CpsiWrench *from, const CpsiWrench *to, double
     if (!(share < 1)) return *to;
     return (CpsiWrench){vec3_axpy(share, vec3_sub(to->force, from->force), from->force),
                         vec3_axpy(share, vec3_sub(to->moment, from->moment), from->moment)};
+}
+
+/* Add an oscillation, a displacement and a rotation vector. */
+static void sway_pose(CpsiPose *pose, const double sway[6]) {
+    pose->place = vec3_add(pose->place, vec3_load(sway));
+    pose->turn = rotation_after(rotation_of(vec3_load(&sway[3])), pose->turn);
 }
 
 /* What is imposed on the bodies at the end of step `part`. */
@@ -193,13 +203,18 @@ static void plan_bodies(CpsEvolution *evolution, const CpsiEvolutionStage *stage
                                   : (CpsiWrench){vec3_load(support), vec3_load(&support[3])};
             body->kind = change->kind;
         }
+        double sway[6];
+        sway_at(stage, CPS_SWAY_OF_BODY, change->body, 0, part + 1, sway);
         if (change->kind == CPS_BODY_KIND_HELD) {
             const CpsiPose to = {vec3_load(change->position), rotation_load(change->rotation)};
             body->pose = cpsi_pose_between(&body->from, &to, share);
+            if (stage->sway_count > 0) sway_pose(&body->pose, sway);
             body->load = (CpsiWrench){vec3(0, 0, 0), vec3(0, 0, 0)};
         } else {
             const CpsiWrench to = {vec3_load(change->force), vec3_load(change->moment)};
             body->load = wrench_at(&body->load_from, &to, share);
+            body->load.force = vec3_add(body->load.force, vec3_load(sway));
+            body->load.moment = vec3_add(body->load.moment, vec3_load(&sway[3]));
         }
     }
 }
@@ -229,8 +244,10 @@ static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage
             }
             point->kind = change->kind;
         }
-        value_at(point->from, change->value, part + 1, stage->steps,
-                 held ? point->position : point->force);
+        double *value = held ? point->position : point->force, sway[6];
+        value_at(point->from, change->value, part + 1, stage->steps, value);
+        sway_at(stage, CPS_SWAY_OF_POINT, change->point, 0, part + 1, sway);
+        for (int a = 0; a < 3; a++) value[a] += sway[a];
     }
     for (int i = 0; i < points->count; i++) {
         const CpsPoint *given = &points->given[i];

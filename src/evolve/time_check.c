@@ -9,6 +9,7 @@
 #include "base/status.h"
 #include "evolve/body_motion_check.h"
 #include "evolve/ranges.h"
+#include "evolve/sways.h"
 
 bool cpsi_is_in_time(const CpsScene *scene) {
     bool any = scene->in_time;
@@ -223,47 +224,6 @@ CpsStatus cpsi_time_check(const CpsScene *scene, CpsError *err) {
     return CPS_OK;
 }
 
-/* The change that an oscillation goes with. */
-static const CpsChange *change_of(const CpsStage *stage, const CpsSway *sway) {
-    for (int i = 0; i < stage->change_count; i++)
-        if (stage->change[i].line == sway->line && stage->change[i].end == sway->end)
-            return &stage->change[i];
-    return NULL;
-}
-
-static CpsStatus check_sway(const CpsScene *scene, const CpsStage *stage, int index,
-                            const char *what, CpsError *err) {
-    const CpsSway *sway = &stage->sway[index];
-    const CpsChange *change = change_of(stage, sway);
-    if (!change)
-        return cpsi_fail(
-            err, CPS_ERR_ARGUMENT,
-            "%s: oscillation %d is of line %d, end %d, which the stage does not change", what,
-            index + 1, sway->line, sway->end);
-    const char *name = scene->line[change->line].name, *letter = cpsi_end_letter(change->end);
-    char place[80];
-    snprintf(place, sizeof place, "%s.%s", name, letter);
-    for (int i = 0; i < index; i++)
-        if (stage->sway[i].line == sway->line && stage->sway[i].end == sway->end)
-            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT, "%s: %s.%s oscillates twice", what,
-                                name, letter);
-    if (!cpsi_is_positive(sway->period) || !cpsi_are_usable(sway->sine) ||
-        !cpsi_are_usable(sway->cosine))
-        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                            "%s: %s.%s oscillates with the period %g s, sine (%g, %g, %g) and "
-                            "cosine (%g, %g, %g): expected a positive period and finite numbers",
-                            what, name, letter, sway->period, sway->sine[0], sway->sine[1],
-                            sway->sine[2], sway->cosine[0], sway->cosine[1], sway->cosine[2]);
-    if (!(stage->duration > 0))
-        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                            "%s: %s.%s oscillates in time, but the stage has no duration", what,
-                            name, letter);
-    if (change->to.kind == CPS_END_KIND_RELEASED)
-        return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                            "%s: %s.%s is let go, and cannot oscillate", what, name, letter);
-    return CPS_OK;
-}
-
 CpsStatus cpsi_stage_time_check(const CpsScene *scene, const CpsStage *stage, const char *what,
                                 CpsError *err) {
     const double h = stage->duration / stage->step_count;
@@ -271,14 +231,7 @@ CpsStatus cpsi_stage_time_check(const CpsScene *scene, const CpsStage *stage, co
         return CPSI_FAIL_AT("duration", err, CPS_ERR_ARGUMENT,
                             "%s: duration is %g s, expected a finite number >= 0", what,
                             stage->duration);
-    if (stage->sway_count < 0 || (stage->sway_count > 0 && !stage->sway))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: found %d oscillations, expected 0 or more",
-                         what, stage->sway_count);
-    for (int i = 0; i < stage->sway_count; i++) {
-        const CpsStatus status = check_sway(scene, stage, i, what, err);
-        if (status != CPS_OK) return status;
-    }
-    return CPS_OK;
+    return cpsi_sways_check(scene, stage, what, err);
 }
 
 /* ---- fill ---- */

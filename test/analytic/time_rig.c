@@ -63,7 +63,7 @@ CpsChange *time_change(TimeRig *rig, CpsEndKind kind, double x, double y, double
 
 CpsSway *time_sway(TimeRig *rig, double period) {
     const int s = rig->scene.stage_count - 1;
-    rig->sway[s] = (CpsSway){.line = 0, .end = CPS_END_B, .period = period};
+    rig->sway[s] = (CpsSway){.owner = 0, .end = CPS_END_B, .period = period};
     rig->stage[s].sway = &rig->sway[s];
     rig->stage[s].sway_count = 1;
     return &rig->sway[s];

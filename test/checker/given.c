@@ -17,6 +17,7 @@
 #include "given_bodies.h"
 #include "grasps.h"
 #include "loads.h"
+#include "oscillation.h"
 #include "record.h"
 #include "water.h"
 
@@ -69,7 +70,8 @@ static size_t planned(const Compare *compare) {
 typedef struct Imposed {
     CpsEnd from, now;
     double noise; /* COPIED, or COMPUTED where it starts from the end of an arc, a sum of angles */
-    int release;  /* whether it was let go (failure.h) */
+    double sway_noise[3]; /* [m] or [N] to what its oscillation is known, which may have ended */
+    int release;          /* whether it was let go (failure.h) */
 } Imposed;
 
 /* An end that is let go is free without a force. */
@@ -131,20 +133,6 @@ static CpsEnd first_end(const Source *source, const CpsLine *line, int e, const 
     return end;
 }
 
-/* Add the oscillation of the end, at the time that has passed in its stage. */
-static void oscillate(Imposed *end, const CpsStage *stage, int part, int line, int e) {
-    for (int i = 0; i < stage->sway_count; i++) {
-        const CpsSway *sway = &stage->sway[i];
-        if (sway->line != line || sway->end != e) continue;
-        const double turns = stage->duration * part / stage->step_count / sway->period,
-                     angle = 2 * acos(-1) * turns;
-        for (int k = 0; k < 3; k++)
-            end->now.value[k] += sway->sine[k] * sin(angle) + sway->cosine[k] * (1 - cos(angle));
-        /* the angle is known to its rounding */
-        end->noise = fmax(end->noise, 1e-14 * (1 + turns));
-    }
-}
-
 /* The end at part k of a stage that changes it; `before`: the step before, NULL for the first;
  * `start`: where it starts. */
 static void impose(const Source *source, Imposed *end, const CpsStage *stage, int part, int line,
@@ -173,7 +161,12 @@ static void impose(const Source *source, Imposed *end, const CpsStage *stage, in
                 part == stage->step_count
                     ? to.value[k]
                     : end->from.value[k] + share * (to.value[k] - end->from.value[k]);
-        oscillate(end, stage, part, line, e);
+        double added[6], noise[6];
+        oscillation(stage, CPS_SWAY_OF_END, line, e, part, added, noise);
+        for (int k = 0; k < 3; k++) {
+            end->now.value[k] += added[k];
+            end->sway_noise[k] += noise[k];
+        }
     }
 }
 
@@ -193,7 +186,7 @@ static void compare_end(Compare *compare, const CpsLine *line, int e, const Impo
     const bool held = r->end_kind[e] == END_HELD;
     const double *value = held ? r->held_position[e] : r->applied_force[e];
     for (int k = 0; k < 3; k++)
-        if (!(fabs(value[k] - end->now.value[k]) <= end->noise * most))
+        if (!(fabs(value[k] - end->now.value[k]) <= end->noise * most + end->sway_noise[k]))
             find(compare, "%s of %s is %.17g, in the scene %.17g",
                  held ? "end_held_position" : "end_applied_force", of, value[k], end->now.value[k]);
 }
@@ -376,16 +369,17 @@ static bool begins_at_point(Compare *compare, const CpsLine *line, int e, const 
 typedef struct ImposedPoint {
     CpsPointKind kind;
     double from[3], now[3];
+    double sway_noise[3]; /* to what its oscillations so far are known */
     /* of a point that is let go the force it begins with is a result: it is known when the stage
      * ends */
     bool is_known;
 } ImposedPoint;
 
-static void impose_on_point(const Compare *compare, ImposedPoint *point,
-                            const CpsPointChange *change, int part, int parts,
-                            const Junction *before) {
+static void impose_on_point(const Compare *compare, ImposedPoint *point, const CpsStage *stage,
+                            const CpsPointChange *change, int part, const Junction *before) {
+    const int parts = stage->step_count;
     const double share = (double)part / parts;
-    double to[3];
+    double to[3], added[6], noise[6];
     for (int k = 0; k < 3; k++)
         to[k] = change->value[k] -
                 (change->kind == CPS_POINT_KIND_HELD ? compare->source.origin[k] : 0);
@@ -400,6 +394,11 @@ static void impose_on_point(const Compare *compare, ImposedPoint *point,
     point->is_known = point->is_known || part == parts;
     for (int k = 0; k < 3; k++)
         point->now[k] = part == parts ? to[k] : point->from[k] + share * (to[k] - point->from[k]);
+    oscillation(stage, CPS_SWAY_OF_POINT, change->point, 0, part, added, noise);
+    for (int k = 0; k < 3; k++) {
+        point->now[k] += added[k];
+        point->sway_noise[k] += noise[k];
+    }
 }
 
 /* Where an anchor that drags is held: where the stage puts it, or where it was; and from there it
@@ -442,7 +441,7 @@ static void compare_point(Compare *compare, const CpsPoint *given, const Imposed
     }
     const double *found = is_held ? at->position : at->load;
     for (int k = 0; k < 3; k++)
-        if (!(fabs(found[k] - wanted[k]) <= COPIED * noise))
+        if (!(fabs(found[k] - wanted[k]) <= COPIED * noise + point->sway_noise[k]))
             find(compare, "%s_of_point of %s, step %zu, is %.17g, in the scene %.17g",
                  is_held ? "position" : "load", given->name, step, found[k], wanted[k]);
 }
@@ -479,7 +478,7 @@ static void compare_points_at(Compare *compare, size_t step, ImposedPoint *impos
     const int changes = staged && !is_break(&compare->source, step) ? at->point_change_count : 0;
     for (int i = 0; i < changes; i++) {
         const CpsPointChange *change = &at->point_change[i];
-        impose_on_point(compare, &imposed[change->point], change, part, at->step_count,
+        impose_on_point(compare, &imposed[change->point], at, change, part,
                         step > 0 ? &before[change->point] : NULL);
     }
     for (int k = 0; k < compare->scene->point_count; k++) {

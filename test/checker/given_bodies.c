@@ -15,6 +15,7 @@
 #include "bodies.h"
 #include "body_ledger.h"
 #include "body_stiffness.h"
+#include "oscillation.h"
 
 /* Numbers that are copied; poses on their way; loads: sums of a few products, and the turning
  * moment of the water by differences. */
@@ -31,6 +32,7 @@ typedef struct Imposed {
     int kind;
     double from_position[3], position[3], from_rotation[FOUR], rotation[FOUR];
     double from_load[SIX], load[SIX];
+    double noise[SIX]; /* to what its oscillations so far are known */
 } Imposed;
 
 typedef struct Compare {
@@ -153,9 +155,27 @@ static void between(const double from[FOUR], const double to[FOUR], double share
     unit(sum, out);
 }
 
-static void impose(const Compare *c, Imposed *body, const CpsBodyChange *change, int part,
-                   int parts, const BodyState *before) {
-    const double share = (double)part / parts;
+/* Turn q further by a rotation vector. */
+static void turn_further(const double by[3], double q[FOUR]) {
+    const double angle = size(by);
+    if (angle == 0) return;
+    double p[FOUR] = {cos(angle / 2)}, out[FOUR];
+    for (int i = 0; i < 3; i++) p[1 + i] = sin(angle / 2) / angle * by[i];
+    out[0] = p[0] * q[0];
+    for (int i = 1; i < FOUR; i++) {
+        const int j = i % 3 + 1, k = j % 3 + 1;
+        out[0] -= p[i] * q[i];
+        out[i] = p[0] * q[i] + q[0] * p[i] + p[j] * q[k] - p[k] * q[j];
+    }
+    unit(out, q);
+}
+
+static void impose(const Compare *c, Imposed *body, const CpsStage *stage,
+                   const CpsBodyChange *change, int part, const BodyState *before) {
+    const double share = (double)part / stage->step_count;
+    double added[SIX], noise[SIX];
+    oscillation(stage, CPS_SWAY_OF_BODY, change->body, 0, part, added, noise);
+    for (int i = 0; i < SIX; i++) body->noise[i] += noise[i];
     const int kind = change->kind == CPS_BODY_KIND_HELD ? BODY_HELD : BODY_FREE;
     if (part == 1) {
         if (kind == BODY_HELD && body->kind == BODY_FREE && before) {
@@ -175,14 +195,16 @@ static void impose(const Compare *c, Imposed *body, const CpsBodyChange *change,
         between(body->from_rotation, to, share, body->rotation);
         for (int i = 0; i < 3; i++) {
             const double end = change->position[i] - c->source->origin[i];
-            body->position[i] = body->from_position[i] + share * (end - body->from_position[i]);
+            body->position[i] =
+                body->from_position[i] + share * (end - body->from_position[i]) + added[i];
         }
+        turn_further(&added[3], body->rotation);
         memset(body->load, 0, sizeof body->load);
         return;
     }
     for (int i = 0; i < SIX; i++) {
         const double end = i < 3 ? change->force[i] : change->moment[i - 3];
-        body->load[i] = body->from_load[i] + share * (end - body->from_load[i]);
+        body->load[i] = body->from_load[i] + share * (end - body->from_load[i]) + added[i];
     }
 }
 
@@ -198,11 +220,12 @@ static void compare_state(Compare *c, size_t k, const Imposed *body, const doubl
     if (at->kind == BODY_HELD) {
         double sign = 0, wanted[FOUR];
         same(c, "position_of_body", of, at->position, body->position, 3,
-             POSES * (size(body->position) + size(body->from_position) + size(c->source->origin)));
+             POSES * (size(body->position) + size(body->from_position) + size(c->source->origin)) +
+                 size(body->noise));
         for (int i = 0; i < FOUR; i++) sign += at->rotation[i] * body->rotation[i];
         for (int i = 0; i < FOUR; i++)
             wanted[i] = sign < 0 ? -body->rotation[i] : body->rotation[i];
-        same(c, "rotation_of_body", of, at->rotation, wanted, FOUR, POSES);
+        same(c, "rotation_of_body", of, at->rotation, wanted, FOUR, POSES + size(&body->noise[3]));
     }
     const double pull = size(c->scene->gravity);
     double per[3], wanted[SIX], noise[2], q[SIX];
@@ -221,8 +244,9 @@ static void compare_state(Compare *c, size_t k, const Imposed *body, const doubl
                size(&body->from_load[3]);
     for (int i = 0; i < SIX; i++)
         for (int j = 0; j < SIX; j++) noise[i / 3] += fabs(data->hydrostatics[SIX * i + j]) * q[j];
-    same(c, "load_of_body", of, at->load, wanted, 3, LOADS * noise[0]);
-    same(c, "moment of load_of_body", of, &at->load[3], &wanted[3], 3, LOADS * noise[1]);
+    same(c, "load_of_body", of, at->load, wanted, 3, LOADS * noise[0] + size(body->noise));
+    same(c, "moment of load_of_body", of, &at->load[3], &wanted[3], 3,
+         LOADS * noise[1] + size(&body->noise[3]));
 }
 
 /* [m] How far the farthest point of body k is from its reference point; else 1. */
@@ -274,7 +298,7 @@ static void compare_step(Compare *c, const GivenStep *given, size_t step, Impose
     const int changes = given->stage ? given->stage->body_change_count : 0;
     for (int i = 0; i < changes; i++) {
         const CpsBodyChange *change = &given->stage->body_change[i];
-        impose(c, &imposed[change->body], change, given->part, given->stage->step_count,
+        impose(c, &imposed[change->body], given->stage, change, given->part,
                step > 0 ? &before[change->body] : NULL);
     }
     for (size_t k = 0; k < c->bodies.count; k++) {

@@ -79,12 +79,17 @@ def test_every_example_can_be_made_of_objects(root, monkeypatch):
 # a value of each key of each kind of change, with what it cannot be without
 SAMPLES = {
     "change": {"position": {}, "move": {}, "force": {}, "release": {}, "sine": {"position": [2, 0, 0], "period": 1},
-               "cosine": {"position": [2, 0, 0], "period": 1}, "period": {"position": [2, 0, 0], "sine": [0, 0, 0.01]}},
+               "cosine": {"position": [2, 0, 0], "period": 1}, "period": {"position": [2, 0, 0], "sine": [0, 0, 0.01]},
+               "oscillations": {"move": [0, 0, 0]}},
     "grasp": {"at": {"hold": True}, "position": {"at": 1}, "hold": {"at": 1}, "force": {"at": 1}, "release": {"at": 1}},
-    "point_change": {"position": {}, "move": {}, "force": {}},
-    "body_change": {"position": {}, "move": {}, "rotation": {}, "force": {}, "moment": {}, "arm": {"force": [0, 0, 1]}},
+    "point_change": {"position": {}, "move": {}, "force": {}, "sine": {"move": [0, 0, 0], "period": 1},
+                     "cosine": {"move": [0, 0, 0], "period": 1}, "period": {"force": [2, 0, 0], "sine": [0, 0, 0.01]},
+                     "oscillations": {"force": [0, 0, 0]}},
+    "body_change": {"position": {}, "move": {}, "rotation": {}, "force": {}, "moment": {}, "arm": {"force": [0, 0, 1]},
+                    "oscillations": {"move": [0, 0, 0]}},
     "obstacle_change": {"move": {}, "turn": {"axis": [0, 0, 1]}, "axis": {"turn": 1}, "about": {"turn": 1, "axis": [0, 0, 1]}}}
-VALUES = {"release": True, "hold": True, "period": 1.0, "at": 1.0, "turn": 1.0, "rotation": {"quaternion": [1, 0, 0, 0]}, "axis": [0, 0, 1]}
+VALUES = {"release": True, "hold": True, "period": 1.0, "at": 1.0, "turn": 1.0, "rotation": {"quaternion": [1, 0, 0, 0]}, "axis": [0, 0, 1],
+          "oscillations": [{"sine": [0, 0, 0.1], "period": 3}, {"cosine": [0, 0.1, 0], "period": 2}]}
 
 SCENE = """\
 capstan: 1
@@ -143,6 +148,30 @@ def test_targets_do_what_the_history_does():
         assert np.array_equal(whole[line].position, moves[line].position)
     assert np.array_equal(whole.bodies["spar"].rotation, moves.bodies["spar"].rotation)
     assert whole.bodies["spar"].position[0] != 5.1  # it has been let go
+
+
+def test_oscillations_of_points_and_bodies():
+    scene = yaml.safe_load(SCENE)
+    for line in scene["lines"].values():
+        line.update(stiffness=1e4, quasi_static=True)
+    evolution = capstan.Evolution(scene, in_time=True)
+    evolution.step()
+    turning = {"rotation_sine": [0, 0, 90], "sine": [0, 0, 0.5], "period": 4}
+    evolution.move({"duration": 1, "spar.body": {"move": [0, 0, 0], "oscillations": [turning]},
+                    "knot.point": {"move": [0, 0, 0], "sine": [0.1, 0, 0], "period": 4, "oscillations": [{"sine": [0, 0.1, 0], "period": 4}]}})
+    # a quarter of the period: the body has turned by 90 degrees about z
+    assert np.allclose(evolution.bodies["spar"].rotation, [np.sqrt(0.5), 0, 0, np.sqrt(0.5)], atol=1e-12)
+    assert np.allclose(evolution.bodies["spar"].position, [5, 0, 0.5], atol=1e-12)
+    assert np.allclose(evolution.points["knot"].position, [1.1, 2.1, 0], atol=1e-12)
+    for bad, words in (({**turning, "moment_sine": [1, 0, 0]}, "held"), ({"period": 2}, "one or more"),
+                       ({"sine": [0, 0, 1]}, "period"), ({**turning, "sway": 1}, "one or more"), (3, "list of dictionaries")):
+        with pytest.raises(capstan.ArgumentError, match=words):
+            evolution.target({"spar.body": {"move": [0, 0, 0], "oscillations": [bad]}})
+    with pytest.raises(capstan.ArgumentError, match="release"):
+        evolution.target({"rope.B": {"release": True, "oscillations": [{"sine": [0, 0, 1], "period": 1}]}})
+    many = [{"sine": [0, 0, 0.01], "period": 3.0}] * 100
+    with pytest.raises(capstan.Error, match="at most 56 in a move"):
+        evolution.move({"duration": 1, "spar.body": {"move": [0, 0, 0], "oscillations": many}})
 
 
 def test_moves_in_time():
@@ -225,6 +254,7 @@ NOT_CALLED = {
     r"cps_evolution_(body|line|obstacle|point)_count|cps_law_file_(space|title)|cps_loaded_law_\w+|cps_extremes_add": "lists of Python",
     r"cps_set_(support|contains|gauge|dissipation)|cps_evolution_interrupt": "called by native.c, in loops and for signals",
     r"cps_set_conic\w*|cps_set_user": "for programs in C that extend the library",
+    r"cps_sway_at": "a sine and a cosine",
     r"cps_(ground|mesh)_(create|report|distance|height)": "scenes read grounds and meshes from files",
     r"cps_(json_\w+|write_file|row_read|suggest|read_limits_default|(law|drive)_write_schema|drive_walk)": "of the command",
     r"cps_drive_(read\w*|draw_\w+)|cps_(law|resistance)_draw|cps_law_picture_default": "files of driven systems: `python -m capstan drive`",

@@ -2,7 +2,9 @@
 /* Memory: stepping allocates nothing; creating survives every failing allocation and leaks nothing.
  * malloc and its kin are replaced by wrappers that count and can be told to fail (linked with
  * --wrap). */
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "capstan/evolve.h"
 #include "check.h"
@@ -93,6 +95,69 @@ static void step_all(double stiffness) {
     while (cps_evolution_remaining_count(evolution) > 0) {
         assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
         assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
+    }
+    CHECK_INT(allocations, before);
+    cps_evolution_destroy(evolution);
+}
+
+/* Steps in time neither: a clump between a line with inertia and a quasi-static one, which ends at
+ * a body. */
+static void motion_allocates_nothing(void **unused) {
+    (void)unused;
+    static const char *const NAME[] = {"a", "b", "anchor", "clump", "eye"};
+    static const double AT[][3] = {{0, 0, 0}, {3, 0, -1}, {5, 0, 1}};
+    CpsLine line[2];
+    CpsPoint point[3];
+    CpsBody body = cps_body_default();
+    CpsStage swing = cps_stage_default();
+    swing.name = "swing";
+    swing.duration = 0.5;
+    swing.step_count = 20;
+    body.name = "body";
+    body.kind = CPS_BODY_KIND_FREE;
+    body.mass = 5;
+    body.weight = 49;
+    body.position[0] = AT[2][0];
+    body.position[2] = AT[2][2];
+    for (int i = 0; i < 3; i++) body.inertia[i] = 2;
+    for (int i = 0; i < 3; i++) {
+        point[i] = cps_point_default();
+        point[i].name = NAME[2 + i];
+        if (i < 2) memcpy(point[i].position, AT[i], sizeof AT[i]);
+    }
+    point[1].kind = CPS_POINT_KIND_FREE;
+    point[1].weight = 20;
+    point[1].inertia = 2;
+    point[2].kind = CPS_POINT_KIND_ON_BODY;
+    for (int i = 0; i < 2; i++) {
+        line[i] = rope();
+        line[i].name = NAME[i];
+        line[i].length = i == 0 ? sqrt(10) : sqrt(8);
+        line[i].element_count = 8;
+        line[i].stiffness = 1e4;
+        line[i].inertia = 1;
+        line[i].quasi_static = i == 1;
+        line[i].start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = AT[i]};
+        for (int end = 0; end < 2; end++) {
+            line[i].end[end].kind = CPS_END_KIND_POINT;
+            line[i].end_point[end] = i + end;
+        }
+    }
+    CpsScene s = cps_scene_default();
+    s.line_count = 2;
+    s.line = line;
+    s.point_count = 3;
+    s.point = point;
+    s.body_count = s.stage_count = 1;
+    s.body = &body;
+    s.stage = &swing;
+    CpsEvolution *evolution;
+    CpsError err;
+    if (cps_evolution_create(&s, &evolution, &err)) fail_msg("%s", err.message);
+    const int before = allocations;
+    while (cps_evolution_remaining_count(evolution) > 0) {
+        assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
+        assert_true(cps_outcome_is_certified(cps_evolution_report(evolution).outcome));
     }
     CHECK_INT(allocations, before);
     cps_evolution_destroy(evolution);
@@ -220,6 +285,7 @@ static void friction_sets_and_zones_take_no_more(void **unused) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stepping_allocates_nothing),
+        cmocka_unit_test(motion_allocates_nothing),
         cmocka_unit_test(moving_allocates_once),
         cmocka_unit_test(every_failing_allocation_is_survived),
         cmocka_unit_test(friction_sets_and_zones_take_no_more),

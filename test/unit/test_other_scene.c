@@ -201,20 +201,25 @@ static const char MOTION_SCENE[] =
     "water_density: 10\n"
     "history:\n"
     "  - {name: pull, duration: 2, time_step: 0.5,"
-    " one.B: {move: [0, 0, 0.1], sine: [0, 0, 0.2], cosine: [0, 0, 0.3], period: 4}}\n";
+    " one.B: {move: [0, 0, 0.1], sine: [0, 0, 0.2], cosine: [0, 0, 0.3], period: 4,"
+    " oscillations: [{sine: [0.1, 0, 0], period: 7}]}}\n";
 
 static const char ADRIFT_SCENE[] =
     "capstan: 1\n"
     "bodies: {raft: {free: [0, 0, 0], mass: 50, moments_of_inertia: [20, 25, 30],"
     " products_of_inertia: [1, 2, 3], added_mass: {x: 5}, damping: {y: 6},"
-    " quadratic_damping: {z: 7}, velocity: [0.1, 0, 0], turn_rate: [0, 0, 0.2]}}\n"
-    "points: {eye: {body: raft, at: [0, 0, 0.5]}}\n"
+    " quadratic_damping: {z: 7}, velocity: [0.1, 0, 0], turn_rate: [0, 0, 0.2]},"
+    " quay: {held: [0, 0, 3]}}\n"
+    "points: {eye: {body: raft, at: [0, 0, 0.5]}, ring: {body: quay, at: [0, 0, 0.5]}}\n"
     "lines:\n"
     "  one: {length: 3, elements: 4, mass: 2, stiffness: 10000, quasi_static: true,"
     " start: {straight: {from: [0, 0, 3.5], to: [0, 0, 0.5]}},"
-    " ends: {A: {held: [0, 0, 3.5]}, B: {point: eye}}}\n"
+    " ends: {A: {point: ring}, B: {point: eye}}}\n"
     "history:\n"
-    "  - {name: pull, duration: 0.2, time_step: 0.1, one.A: {move: [0, 0, 0.1]}}\n";
+    "  - {name: pull, duration: 0.2, time_step: 0.1,"
+    " raft.body: {force: [0, 0, 0], oscillations: [{moment_sine: [0, 1, 0],"
+    " moment_cosine: [0, 2, 0], period: 5}]}, quay.body: {move: [0, 0, 0],"
+    " oscillations: [{rotation_sine: [0, 3, 0], rotation_cosine: [0, 4, 0], period: 5}]}}\n";
 
 static const struct GroundFile {
     const char *name, *text;
@@ -442,6 +447,10 @@ static const struct Change MESH_CHANGE[] = {
 };
 
 static const struct Change ADRIFT_CHANGE[] = {
+    {"moment_sine", "moment_sine: [0, 1, 0]", "moment_sine: [1, 1, 0]"},
+    {"moment_cosine", "moment_cosine: [0, 2, 0]", "moment_cosine: [0, 2, 1]"},
+    {"rotation_sine", "rotation_sine: [0, 3, 0]", "rotation_sine: [0, 3.5, 0]"},
+    {"rotation_cosine", "rotation_cosine: [0, 4, 0]", "rotation_cosine: [1, 4, 0]"},
     {"quasi_static", ", quasi_static: true", ""},
     {"moments_of_inertia", "[20, 25, 30]", "[20, 25, 31]"},
     {"products_of_inertia", "[1, 2, 3]", "[1, 2, 4]"},
@@ -514,6 +523,8 @@ static const struct Change MOTION_CHANGE[] = {
     {"sine", "sine: [0, 0, 0.2]", "sine: [0, 0, 0.21]"},
     {"cosine", "cosine: [0, 0, 0.3]", "cosine: [0, 0.1, 0.3]"},
     {"period", "period: 4", "period: 5"},
+    {"oscillations", "{sine: [0.1, 0, 0], period: 7}", "{sine: [0.1, 0, 0], period: 8}"},
+    {"oscillations", "sine: [0.1, 0, 0]", "sine: [0.2, 0, 0]"},
     {"damping", " damping: 5", " damping: 6"},
     {"diameter", "diameter: 0.1", "diameter: 0.11"},
     {"normal", ", normal: 1", ", normal: 1.1"},

@@ -301,7 +301,8 @@ static CpsStatus move_history(const Split *s) {
         }
         for (int k = 0; k < stage[i].sway_count; k++) {
             sway[k] = stage[i].sway[k];
-            sway[k].line = part_of_end(s, sway[k].line, sway[k].end);
+            if (sway[k].of == CPS_SWAY_OF_END)
+                sway[k].owner = part_of_end(s, sway[k].owner, sway[k].end);
         }
         const CpsiGraspValues *grasps = values[i].grasps.item;
         for (int k = 0; k < stage[i].grasp_change_count; k++) {

@@ -64,30 +64,12 @@ static CpsStatus build_release(const CpsiHistoryBuild *b, const CpsiChangeValues
     return CPS_OK;
 }
 
-/* An oscillation has a size, and what is let go none. */
-static CpsStatus check_sway(const CpsiHistoryBuild *b, const CpsiChangeValues *values) {
-    const CpsiYaml *period = cpsi_yaml_child(values->node, "period");
-    if (!period) return CPS_OK;
-    if (values->kind == CPSI_CHANGE_RELEASE)
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, period,
-                                  "'period': found beside 'release': what is let go does not "
-                                  "oscillate");
-    if (!cpsi_yaml_child(values->node, "sine") && !cpsi_yaml_child(values->node, "cosine"))
-        return cpsi_document_fail(b->d, CPS_ERR_INPUT, period,
-                                  "'period': nothing oscillates, expected 'sine' or 'cosine' "
-                                  "beside it");
-    return CPS_OK;
-}
-
 static CpsStatus build_change(const CpsiHistoryBuild *b, const CpsiChangeValues *values,
                               CpsChange *change) {
     const char *key = values->node->key;
     *change = (CpsChange){.line = find_line(b, key)};
     change->end = key[strlen(key) - 1] == 'A' ? CPS_END_A : CPS_END_B;
-    if (values->kind == CPSI_CHANGE_RELEASE) {
-        const CpsStatus status = check_sway(b, values);
-        return status ? status : build_release(b, values, change);
-    }
+    if (values->kind == CPSI_CHANGE_RELEASE) return build_release(b, values, change);
     change->to.kind = values->kind == CPSI_CHANGE_FORCE ? CPS_END_KIND_FREE : CPS_END_KIND_HELD;
     const CpsLine *line = &b->scene->line[change->line];
     const bool at_point = line->end[change->end].kind == CPS_END_KIND_POINT &&
@@ -106,7 +88,7 @@ static CpsStatus build_change(const CpsiHistoryBuild *b, const CpsiChangeValues 
                                   "the end of an arc): give a position instead",
                                   key);
     build_value(values, held, change->to.value);
-    return check_sway(b, values);
+    return CPS_OK;
 }
 
 static CpsStatus build_point_change(const CpsiHistoryBuild *b, const CpsiChangeValues *values,
@@ -156,31 +138,161 @@ static CpsStatus build_body_changes(const CpsiHistoryBuild *b, const CpsiList *c
     return status;
 }
 
+/* ---- oscillations ---- */
+
+/* An oscillation has a size. */
+static CpsStatus check_size(const CpsiHistoryBuild *b, const CpsiYaml *node) {
+    static const char *const sizes[] = {"sine",          "cosine",
+                                        "rotation_sine", "rotation_cosine",
+                                        "moment_sine",   "moment_cosine"};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        if (cpsi_yaml_child(node, sizes[i])) return CPS_OK;
+    return cpsi_document_fail(b->d, CPS_ERR_INPUT, cpsi_yaml_child(node, "period"),
+                              "'period': nothing oscillates, expected 'sine' or 'cosine' "
+                              "beside it");
+}
+
+/* Oscillations of an end or point: that beside its value, and those of its list. */
+static CpsStatus check_change_sways(const CpsiHistoryBuild *b, const CpsiChangeValues *values) {
+    const CpsiYaml *period = cpsi_yaml_child(values->node, "period"),
+                   *list = cpsi_yaml_child(values->node, "oscillations");
+    const CpsiSwayValues *sways = values->oscillations.item;
+    if ((period || list) && values->kind == CPSI_CHANGE_RELEASE)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, period ? period : list,
+                                  "'%s': found beside 'release': what is let go does not "
+                                  "oscillate",
+                                  period ? "period" : "oscillations");
+    CpsStatus status = period ? check_size(b, values->node) : CPS_OK;
+    for (int i = 0; i < values->oscillations.count && status == CPS_OK; i++)
+        status = check_size(b, sways[i].node);
+    return status;
+}
+
+/* Oscillations of a body, whose angles go with a pose and moments with a load. */
+static CpsStatus check_body_sways(const CpsiHistoryBuild *b, const CpsiBodyChangeValues *values,
+                                  const CpsBodyChange *change) {
+    const bool held = change->kind == CPS_BODY_KIND_HELD;
+    const CpsiSwayValues *sways = values->oscillations.item;
+    for (int i = 0; i < values->oscillations.count; i++) {
+        const CpsiYaml *sine =
+            cpsi_yaml_child(sways[i].node, held ? "moment_sine" : "rotation_sine");
+        const CpsiYaml *wrong =
+            sine ? sine
+                 : cpsi_yaml_child(sways[i].node, held ? "moment_cosine" : "rotation_cosine");
+        if (wrong)
+            return cpsi_document_fail(b->d, CPS_ERR_INPUT, wrong,
+                                      held ? "'%s': the body is held in this entry, expected "
+                                             "'rotation_sine' or 'rotation_cosine'"
+                                           : "'%s': the body is loaded in this entry, expected "
+                                             "'moment_sine' or 'moment_cosine'",
+                                      wrong->key);
+        const CpsStatus status = check_size(b, sways[i].node);
+        if (status != CPS_OK) return status;
+    }
+    return CPS_OK;
+}
+
+/* Add an oscillation to the stage, and what it is at the end of the stage to `after`. */
+static void add_sway(CpsStage *stage, CpsSway *sway, const CpsiSwayValues *values, bool held,
+                     double after[6]) {
+    double at[6];
+    for (int i = 0; i < 3; i++) {
+        sway->sine[i] = values->sine[i];
+        sway->cosine[i] = values->cosine[i];
+        sway->sine[3 + i] = held ? values->rotation_sine[i] * CPSI_DEGREE : values->moment_sine[i];
+        sway->cosine[3 + i] =
+            held ? values->rotation_cosine[i] * CPSI_DEGREE : values->moment_cosine[i];
+    }
+    sway->period = values->period;
+    cps_sway_at(sway, stage->duration, at);
+    for (int i = 0; i < 6; i++) after[i] += at[i];
+    stage->sway_count++;
+}
+
+/* The oscillations of an end or point, which is then held elsewhere. */
+static CpsStatus build_change_sways(const CpsiHistoryBuild *b, const CpsiChangeValues *values,
+                                    CpsSway like, double held[3], CpsStage *stage, CpsSway *sway) {
+    const CpsiSwayValues *sways = values->oscillations.item;
+    const CpsStatus status = check_change_sways(b, values);
+    double after[6] = {0};
+    if (status != CPS_OK) return status;
+    for (int i = -1; i < values->oscillations.count; i++) {
+        if (i < 0 && isnan(values->sway.period)) continue;
+        sway[stage->sway_count] = like;
+        add_sway(stage, &sway[stage->sway_count], i < 0 ? &values->sway : &sways[i], true, after);
+    }
+    for (int i = 0; i < 3; i++) held[i] += after[i];
+    return CPS_OK;
+}
+
+/* The oscillations of a body, which is then held in another pose. */
+static CpsStatus build_body_sways(const CpsiHistoryBuild *b, const CpsiBodyChangeValues *values,
+                                  const CpsBodyChange *change, CpsStage *stage, CpsSway *sway) {
+    const CpsiSwayValues *sways = values->oscillations.item;
+    const bool held = change->kind == CPS_BODY_KIND_HELD;
+    const CpsStatus status = check_body_sways(b, values, change);
+    double after[6] = {0};
+    if (status != CPS_OK) return status;
+    for (int i = 0; i < values->oscillations.count; i++) {
+        sway[stage->sway_count] = (CpsSway){.of = CPS_SWAY_OF_BODY, .owner = change->body};
+        add_sway(stage, &sway[stage->sway_count], &sways[i], held, after);
+    }
+    cpsi_held_pose_sway(&b->held.body[change->body], after);
+    return CPS_OK;
+}
+
+static int count_sways(const CpsiStageValues *values) {
+    const CpsiChangeValues *end = values->changes.item, *point = values->point_changes.item;
+    const CpsiBodyChangeValues *body = values->body_changes.item;
+    int count = values->changes.count + values->point_changes.count;
+    for (int k = 0; k < values->changes.count; k++) count += end[k].oscillations.count;
+    for (int k = 0; k < values->point_changes.count; k++) count += point[k].oscillations.count;
+    for (int k = 0; k < values->body_changes.count; k++) count += body[k].oscillations.count;
+    return count;
+}
+
+/* The oscillations of all changes, which have been built. */
+static CpsStatus build_sways(const CpsiHistoryBuild *b, const CpsiStageValues *values,
+                             CpsStage *stage) {
+    const CpsiChangeValues *end = values->changes.item, *point = values->point_changes.item;
+    const CpsiBodyChangeValues *body = values->body_changes.item;
+    CpsSway *sway = CPSI_POOL_TAKE(b->pool, count_sways(values), CpsSway);
+    if (!sway) return cpsi_document_no_memory(b->d);
+    stage->sway = sway;
+    CpsStatus status = CPS_OK;
+    for (int k = 0; k < stage->change_count && status == CPS_OK; k++) {
+        const CpsChange *change = &stage->change[k];
+        const CpsSway like = {.of = CPS_SWAY_OF_END, .owner = change->line, .end = change->end};
+        status = build_change_sways(b, &end[k], like, b->held.end[change->line][change->end], stage,
+                                    sway);
+    }
+    for (int k = 0; k < stage->point_change_count && status == CPS_OK; k++) {
+        const CpsSway like = {.of = CPS_SWAY_OF_POINT, .owner = stage->point_change[k].point};
+        status = build_change_sways(b, &point[k], like, b->held.point[like.owner], stage, sway);
+    }
+    for (int k = 0; k < stage->body_change_count && status == CPS_OK; k++)
+        status = build_body_sways(b, &body[k], &stage->body_change[k], stage, sway);
+    return status;
+}
+
 static CpsStatus build_changes(const CpsiHistoryBuild *b, const CpsiStageValues *values,
                                CpsStage *stage) {
     const int count = values->changes.count, point_count = values->point_changes.count;
     const CpsiChangeValues *from = values->changes.item, *point_from = values->point_changes.item;
     CpsChange *change = CPSI_POOL_TAKE(b->pool, count, CpsChange);
     CpsPointChange *point_change = CPSI_POOL_TAKE(b->pool, point_count, CpsPointChange);
-    CpsSway *sway = CPSI_POOL_TAKE(b->pool, count, CpsSway);
-    if (!change || !point_change || !sway) return cpsi_document_no_memory(b->d);
+    if (!change || !point_change) return cpsi_document_no_memory(b->d);
     stage->change = change;
     stage->change_count = count;
-    stage->sway = sway;
     stage->point_change = point_change;
     stage->point_change_count = point_count;
     CpsStatus status = CPS_OK;
     for (int k = 0; k < count && status == CPS_OK; k++)
         status = build_change(b, &from[k], &change[k]);
-    for (int k = 0; k < count; k++) {
-        if (isnan(from[k].sway.period)) continue;
-        sway[stage->sway_count] = from[k].sway;
-        sway[stage->sway_count].line = change[k].line;
-        sway[stage->sway_count++].end = change[k].end;
-    }
     for (int k = 0; k < point_count && status == CPS_OK; k++)
         status = build_point_change(b, &point_from[k], &point_change[k]);
-    return status ? status : build_body_changes(b, &values->body_changes, stage);
+    if (status == CPS_OK) status = build_body_changes(b, &values->body_changes, stage);
+    return status == CPS_OK ? build_sways(b, values, stage) : status;
 }
 
 /* The node between the ends that is nearest to an arc length; 0: there is none. */

@@ -176,6 +176,17 @@ static CpsStatus build_pose(const CpsiDocument *d, const CpsiBodyChangeValues *v
     return CPS_OK;
 }
 
+void cpsi_held_pose_sway(CpsiHeldPose *held, const double by[6]) {
+    const double angle = hypot(hypot(by[3], by[4]), by[5]);
+    double turn[4] = {cos(0.5 * angle)}, before[4];
+    for (int i = 0; i < 3; i++) {
+        held->position[i] += by[i];
+        turn[1 + i] = angle > 0 ? sin(0.5 * angle) * (by[3 + i] / angle) : 0;
+    }
+    memcpy(before, held->rotation, sizeof before);
+    multiply(turn, before, held->rotation);
+}
+
 CpsStatus cpsi_body_change_build(const CpsiDocument *d, const CpsiBodyChangeValues *values,
                                  CpsiHeldPose *held, CpsBodyChange *change) {
     const CpsiYaml *node = values->node;

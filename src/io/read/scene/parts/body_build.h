@@ -22,6 +22,9 @@ CpsStatus cpsi_bodies_build(const CpsiMaterials *materials, const CpsiList *bodi
 CpsStatus cpsi_body_find(const CpsiDocument *d, const CpsScene *scene, const CpsiYaml *node,
                          int *index);
 
+/* Add to the pose the displacement, and turn it by the rotation vector [rad], of an oscillation. */
+void cpsi_held_pose_sway(CpsiHeldPose *held, const double by[6]);
+
 /* What an entry changes at a body, without its index; `held` becomes the pose after it. */
 CpsStatus cpsi_body_change_build(const CpsiDocument *d, const CpsiBodyChangeValues *values,
                                  CpsiHeldPose *held, CpsBodyChange *change);

@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Oscillations of ends, points and bodies in time, by the command and the checker: forced motion of a body and a point beside its closed
+form, the order of the scheme, places of what is held beside the formula, and where an entry begins that follows an oscillation.
+                                                                                                          usage: oscillations.py CAPSTAN CHECKER"""
+import csv
+import math
+import os
+import sys
+import tempfile
+
+from runs import command, falsify, solve, write
+
+TAU = 2*math.pi
+# places of what is held are the sum of a few products: rounding
+EXACT = 1e-12
+
+BODY = """capstan: 1
+bodies:
+  buoy:
+    free: [0, 0, 0]
+    fixed: [x, y, rx, ry, rz]
+    mass: 2000
+    buoyancy: {buoyancy}
+    hydrostatics: {{z: 15000}}
+    added_mass: {{z: 900}}
+points: {{eye: {{body: buoy, at: [0, 0, -1]}}}}
+lines:
+  wire: {{length: 40, mass: 1e-6, elements: 4, stiffness: 1, quasi_static: true, start: {{straight: {{from: [40, 0, -1], to: [0, 0, -1]}}}}, ends: {{A: held, B: {{point: eye}}}}}}
+history:
+  - {{name: waves, duration: 12, time_step: {h}, buoy.body: {{force: [0, 0, 0], oscillations: [{{sine: [0, 0, 900], period: 5}}, {{cosine: [0, 0, 400], period: 3}}]}}}}
+"""
+
+
+def forced(t, mass, stiffness, terms):
+    """From rest: the response of a mass on a spring to the sum of S sin(w t) and C (1 - cos(w t)), by superposition."""
+    w0, z = math.sqrt(stiffness/mass), 0
+    for sine, cosine, period in terms:
+        w = TAU/period
+        z += sine/mass*(math.sin(w*t) - w/w0*math.sin(w0*t))/(w0**2 - w**2)
+        z += cosine/stiffness*(1 - math.cos(w0*t)) - cosine/mass*(math.cos(w*t) - math.cos(w0*t))/(w0**2 - w**2)
+    return z
+
+
+def column(out, name, table="history.csv"):
+    with open(os.path.join(out, table)) as file:
+        rows = list(csv.DictReader(row for row in file if not row.startswith("#")))
+    return [float(row[name]) for row in rows if row[name] not in ("", "m", "N", "s")]
+
+
+def heave(capstan, checker, folder):
+    errors = []
+    for h in (0.08, 0.04, 0.02):
+        _, _, found = solve(capstan, checker, folder, BODY.format(buoyancy=2000*9.81, h=h))
+        steps = round(12/h)
+        worst = 0
+        for step in range(found.steps):
+            t = (step + 1 - (found.steps - steps))*h
+            z = found.get("position_of_body", step)[2]
+            worst = max(worst, abs(z - forced(t, 2900, 15000, [(900, 0, 5), (0, 400, 3)])) if t > 0 else 0)
+        errors.append(worst)
+    order = math.log2(errors[1]/errors[2])
+    print("oscillations: heave under two harmonics: errors %.2e %.2e %.2e m of %.2g m, order %.2f" % (*errors, 0.12, order))
+    assert abs(order - 2) < 0.1 and errors[2] < 4e-3, errors
+
+
+HELD = """capstan: 1
+bodies:
+  barge: {held: [10, -3, 5], rotation: {roll_pitch_yaw: [0, 0, 30]}}
+points:
+  eye: {body: barge, at: [2, 1, -1]}
+  knot: {held: [0, 0, 0]}
+lines:
+  one: {length: 14, mass: 2, elements: 8, stiffness: 1e5, start: static, ends: {A: {point: knot}, B: {point: eye}}}
+  two: {length: 5, mass: 2, elements: 8, stiffness: 1e5, start: static, ends: {A: {point: knot}, B: {held: [0, 4, 0]}}}
+history:
+  - name: roll
+    duration: 2.5
+    time_step: 0.05
+    barge.body: {move: [0, 0, 1], oscillations: [{sine: [0.3, 0, 0.2], rotation_sine: [12, 0, 0], rotation_cosine: [0, 5, 0], period: 6}, {rotation_sine: [0, 0, -9], period: 1.7}]}
+    knot.point: {move: [0, 0, 0], sine: [0, 0.2, 0], period: 4, oscillations: [{cosine: [0.1, 0, 0], period: 1.3}]}
+    two.B: {position: [0, 4, 0], oscillations: [{sine: [0, 0, 0.3], period: 2}, {sine: [0, 0, 0.1], cosine: [0.05, 0, 0], period: 0.7}]}
+  - {name: stay, duration: 1, time_step: 0.1, barge.body: {move: [0, 0, 0]}, knot.point: {move: [0, 0, 0]}, two.B: {move: [0, 0, 0]}}
+"""
+
+
+def matrix(v):
+    """exp of the matrix of v x, by Rodrigues."""
+    a = math.hypot(*v)
+    k = [[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]]
+    square = [[sum(k[i][m]*k[m][j] for m in range(3)) for j in range(3)] for i in range(3)]
+    s, c = (math.sin(a)/a, (1 - math.cos(a))/a**2) if a > 0 else (1, 0.5)
+    return [[(i == j) + s*k[i][j] + c*square[i][j] for j in range(3)] for i in range(3)]
+
+
+def turned(m, v):
+    return [sum(m[i][j]*v[j] for j in range(3)) for i in range(3)]
+
+
+def places(t):
+    """Where eye, knot and two.B are t seconds after the first entry began."""
+    deg = math.pi/180
+    turn = [12*deg*math.sin(TAU*t/6), 5*deg*(1 - math.cos(TAU*t/6)), -9*deg*math.sin(TAU*t/1.7)]
+    arm = turned(matrix(turn), turned(matrix([0, 0, 30*deg]), [2, 1, -1]))
+    at = [10 + 0.3*math.sin(TAU*t/6), -3, 5 + t/2.5 + 0.2*math.sin(TAU*t/6)]
+    end = [0.05*(1 - math.cos(TAU*t/0.7)), 4, 0.3*math.sin(TAU*t/2) + 0.1*math.sin(TAU*t/0.7)]
+    return [a + b for a, b in zip(at, arm)], [0.1*(1 - math.cos(TAU*t/1.3)), 0.2*math.sin(TAU*t/4), 0], end
+
+
+def held(capstan, checker, folder):
+    scene, out, found = solve(capstan, checker, folder, HELD)
+    first = found.steps - 60
+    worst, along = 0, list(zip(*(column(out, "two.B." + axis) for axis in "xyz")))
+    for step in range(first, found.steps):
+        t = min(2.5, 0.05*(step - first + 1))  # in the entry "stay" they are where the first one has left them
+        eye, knot, end = places(t)
+        position = found.get("position_of_point", step)
+        for place, wanted in ((position[0:3], eye), (position[3:6], knot), (along[step], end)):
+            worst = max(worst, *(abs(a - b) for a, b in zip(place, wanted)))
+    print("oscillations: places of what is held: %.1e m" % worst)
+    assert worst < EXACT, worst
+    falsify(found, folder, "position_of_body", first + 20, 2, 1e-6)
+    code, said = command(checker, os.path.join(folder, "copy.nc"), scene)
+    assert code != 0, said
+
+
+def knot(capstan, checker, folder):
+    """A mass on a taut spring, which begins at rest under its force, when that begins to oscillate."""
+    mass, k, force, errors = 5, 200, 30, []
+    for steps in (400, 800):
+        _, _, found = solve(capstan, checker, folder, f"""capstan: 1
+gravity: [0, 0, 0]
+points: {{top: {{held: [0, 0, 0]}}, knot: {{free: [0, 0, -10.5], inertia: {mass}, force: [0, 0, {-k*0.5}]}}}}
+lines:
+  rod: {{length: 10, mass: 1, elements: 1, stiffness: {k*10}, quasi_static: true, start: {{straight: {{from: [0, 0, 0], to: [0, 0, -10.5]}}}}, ends: {{A: {{point: top}}, B: {{point: knot}}}}}}
+history:
+  - {{name: push, duration: 4, steps: {steps}, knot.point: {{force: [0, 0, {-k*0.5}], sine: [0, 0, {force}], period: 2.2}}}}
+""")
+        first = found.steps - steps
+        errors.append(max(abs(found.get("position_of_point", first + i)[5] + 10.5 - forced((i + 1)*4/steps, mass, k, [(force, 0, 2.2)]))
+                          for i in range(steps)))
+    order = math.log2(errors[0]/errors[1])
+    print("oscillations: a mass on a spring under an oscillating force: errors %.1e %.1e m, order %.2f" % (*errors, order))
+    assert abs(order - 2) < 0.1 and errors[1] < 1e-3, errors
+
+
+BAD = [
+    ("nothing oscillates", "{sine: [0, 0, 0.3], period: 2}", "{period: 2}", "'period': nothing oscillates, expected 'sine' or 'cosine' beside it"),
+    ("no period", "{sine: [0, 0, 0.3], period: 2}", "{sine: [0, 0, 0.3]}", "oscillation: 'period' is missing"),
+    ("a period of nothing", "period: 1.7", "period: 0", "'period': found '0', expected a number in s, greater than 0"),
+    ("a moment of what is held", "rotation_sine: [0, 0, -9]", "moment_sine: [0, 0, -9]", "'moment_sine': the body is held in this entry, expected 'rotation_sine' or 'rotation_cosine'"),
+    ("a rotation of what is loaded", "move: [0, 0, 1], ", "force: [0, 0, 1], ", "'rotation_sine': the body is loaded in this entry, expected 'moment_sine' or 'moment_cosine'"),
+    ("rotation and moment", "rotation_sine: [0, 0, -9]", "rotation_sine: [0, 0, -9], moment_sine: [0, 0, 1]", "'moment_sine'"),
+    ("a rotation of a point", "{cosine: [0.1, 0, 0], period: 1.3}", "{rotation_sine: [1, 0, 0], period: 1.3}", "unknown key 'rotation_sine'"),
+    ("no list", "oscillations: [{cosine: [0.1, 0, 0], period: 1.3}]", "oscillations: {cosine: [0.1, 0, 0], period: 1.3}", "'oscillations': found a mapping, expected a list"),
+    ("an endless one", "[0.05, 0, 0]", "[.inf, 0, 0]", "'cosine': found '.inf', expected a number"),
+    ("two components", "sine: [0, 0, 0.1]", "sine: [0, 0.1]", "'sine': found a list of 2, expected three numbers"),
+    ("without a duration", "    duration: 2.5\n    time_step: 0.05\n", "", "oscillates in time, but the stage has no duration"),
+    ("of an end let go", "position: [0, 4, 0], oscillations", "release: true, oscillations", "'oscillations': found beside 'release': what is let go does not oscillate"),
+]
+
+
+def bad(capstan, folder):
+    for name, before, after, words in BAD:
+        assert HELD.count(before) == 1, name
+        scene = write(folder, "bad.yaml", HELD.replace(before, after))
+        code, said = command(capstan, "check", scene)
+        assert code == 3 and words in said, (name, code, said)
+    print("oscillations: %d bad files refused" % len(BAD))
+
+
+def main():
+    capstan, checker = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        heave(capstan, checker, folder)
+        held(capstan, checker, folder)
+        knot(capstan, checker, folder)
+        bad(capstan, folder)
+
+
+main()
