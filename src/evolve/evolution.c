@@ -24,8 +24,8 @@
 #include "evolve/stage_check.h"
 #include "evolve/stages.h"
 #include "evolve/statics.h"
-#include "evolve/sways.h"
 #include "evolve/step_ledger.h"
+#include "evolve/sways.h"
 #include "evolve/time_step.h"
 #include "evolve/view.h"
 
