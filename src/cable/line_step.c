@@ -215,10 +215,17 @@ static void solve_from(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
     (void)solve_once(line, program, options, &first, conditions(line, options) & ROUNDS, 0);
 }
 
-/* Try the first strategy with Newton's method. False where its answer is not certified, or, if the
- * method alone has found it, less accurate than that of the loop has to be. A line that bends over
- * a node and an element beside it has two equilibria, with the element before or behind; which of
- * them is on the way does not show where the last move leads, but in rounds from the reference. */
+/* Was the attempt with Newton's method the first strategy itself? So it was where the method has
+ * solved no program, and there are no rounds that it would have ended early. */
+static bool was_first_strategy(const CpsiLine *line) {
+    return line->newton.solved == 0 && !line->has_local_axes;
+}
+
+/* Try the first strategy with Newton's method. False where its answer is not certified, or less
+ * accurate than that of the loop has to be, which the first strategy itself would be again. A line
+ * that bends over a node and an element beside it has two equilibria, with the element before or
+ * behind; which of them is on the way does not show where the last move leads, but in rounds from
+ * the reference. */
 static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                        CpsiGuess guess) {
     solve_from(line, program, options, guess);
@@ -226,8 +233,8 @@ static bool solve_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
         cpsi_contact_holds_element(line))
         solve_from(line, program, options, CPSI_GUESS_REFERENCE);
     const CpsCertificate *found = &line->report.certificate;
-    const bool good =
-        cps_outcome_is_certified(line->report.outcome) && found->gap <= CPSI_TARGET * found->scale;
+    const bool good = cps_outcome_is_certified(line->report.outcome) &&
+                      (was_first_strategy(line) || found->gap <= CPSI_TARGET * found->scale);
     cpsi_warm_step_note(line, good);
     return good;
 }
@@ -252,9 +259,7 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
         if (solve_warm(line, program, options, guess)) return;
         line->newton.guessed = false;
         again = true;
-        /* where Newton's method has solved no program, and there are no rounds that it would have
-         * ended early, this was the first strategy */
-        if (line->newton.solved == 0 && !line->has_local_axes) first = 1;
+        if (was_first_strategy(line)) first = 1;
         line->report.warm_count = 0;
         guess = CPSI_GUESS_NONE;
     }
