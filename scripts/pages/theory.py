@@ -53,6 +53,7 @@ def strategy(field, begins):
 
 FIGURES = {}
 SENTENCES = [
+    ("or not finite, the residual is {} N", number("cable/potential.c", "NOT_USABLE")),
     ("psi(x_R) = 0 }, to {} of the length", number(".h", "CPS_TOUCH")),
     ("at mu theta = 6 pi, a ratio of tensions of {}", lambda p: short(math.exp(6 * math.pi))),
     ("when no touching node's axes turned by more than {} rad", number("cable/rounds.c", "AXES_TOL")),

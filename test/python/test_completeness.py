@@ -255,6 +255,7 @@ NOT_CALLED = {
     r"cps_set_(support|contains|gauge|dissipation)|cps_evolution_interrupt": "called by native.c, in loops and for signals",
     r"cps_set_conic\w*|cps_set_user": "for programs in C that extend the library",
     r"cps_sway_at": "a sine and a cosine",
+    r"cps_evolution_potential": "potentials are functions in C",
     r"cps_(ground|mesh)_(create|report|distance|height)": "scenes read grounds and meshes from files",
     r"cps_(json_\w+|write_file|row_read|suggest|read_limits_default|(law|drive)_write_schema|drive_walk)": "of the command",
     r"cps_drive_(read\w*|draw_\w+)|cps_(law|resistance)_draw|cps_law_picture_default": "files of driven systems: `python -m capstan drive`",
