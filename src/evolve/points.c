@@ -137,10 +137,10 @@ static CpsStatus check_point(const CpsScene *scene, const PointNames *names, int
                            "leave the force out, or let the point be free",
                            point->name, f[0], f[1], f[2]);
     else if (point->kind == CPS_POINT_KIND_ON_BODY &&
-             (f[0] != 0 || f[1] != 0 || f[2] != 0 || point->weight != 0))
+             (f[0] != 0 || f[1] != 0 || f[2] != 0 || point->weight != 0 || point->inertia != 0))
         status = cpsi_fail(err, CPS_ERR_ARGUMENT,
-                           "point '%s': it is on a body, but has a force or a weight: give them to "
-                           "the body",
+                           "point '%s': it is on a body, but has a force, a weight or an inertia: "
+                           "give them to the body",
                            point->name);
     else if (!(length > 0))
         status = cpsi_fail(err, CPS_ERR_ARGUMENT,
