@@ -52,7 +52,7 @@ history:
   - {name: aside, steps: 8, east.B: {move: [0, 20, 0]}, north.B: {move: [0, -20, 0]}, west.B: {move: [0, 20, 0]}}
   - {name: home, steps: 8, east.B: {move: [-12, -20, 0]}, north.B: {move: [-12, 20, 0]}, west.B: {move: [-12, -20, 0]}}
 """
-# points and a body in time: added mass, damping, a line without inertia, a clump that lands and slides
+# points and a body in time: added mass, damping, drag of a line, oscillating loads, a line without inertia, a clump that lands and slides
 IN_TIME = """capstan: 1
 gravity: [0, 0, -9.81]
 water_density: 1025
@@ -67,11 +67,11 @@ points:
   clump: {free: [14, 3, -19.99], mass: 80, velocity: [0.6, 0.8, -0.4]}
 lines:
   a: {length: 22.07, elements: 10, mass: 4, stiffness: 1e5, quasi_static: true, start: {straight: {from: [-12, 1, -20], to: [-1.208334883627139, -0.1350230755365901, -0.7494635268526606]}}, ends: {A: {held: [-12, 1, -20]}, B: {point: left}}}
-  b: {length: 11.39, elements: 6, mass: 3, stiffness: 1e5, start: {straight: {from: [0.6947194347465925, 0.3456063995896875, -1.182337144619938], to: [9, 0, -9]}}, ends: {A: {point: right}, B: {point: knot}}}
+  b: {length: 11.39, elements: 6, mass: 3, stiffness: 1e5, damping: 500, drag: {diameter: 0.1, normal: 1.2, tangential: 0.2, added_normal: 0.9, added_tangential: 0.2}, start: {straight: {from: [0.6947194347465925, 0.3456063995896875, -1.182337144619938], to: [9, 0, -9]}}, ends: {A: {point: right}, B: {point: knot}}}
   c: {length: 12.4, elements: 6, mass: 3, stiffness: 1e5, start: {straight: {from: [9, 0, -9], to: [14, 3, -19.99]}}, ends: {A: {point: knot}, B: {point: clump}}}
 history:
   - {name: swing, duration: 1, steps: 40, float.body: {force: [90, 10, 0], arm: [0, 0, 1]}, knot.point: {force: [0, 40, 0]}}
-  - {name: go on, duration: 1, steps: 40, float.body: {force: [0, 0, 0]}}
+  - {name: go on, duration: 1, steps: 40, float.body: {force: [0, 0, 0], oscillations: [{sine: [0, 30, 0], moment_cosine: [8, 0, 0], period: 1.3}]}, knot.point: {force: [0, 40, 0], sine: [5, 0, 0], period: 0.7}}
 """
 WHOLE = {}  # scene: (directory of the run without a kill, seconds it took, largest size of its journal)
 
