@@ -15,7 +15,7 @@
  * but never a negative one; where it is slack its elongation goes back to 0 as if alone.
  *
  * A time step is the same convex program as a quasi-static one, with a quadratic term for each node
- * (docs/theory.md 8): friction stays a set, and the step has a certificate. The scheme is the
+ * (docs/theory.md 9): friction stays a set, and the step has a certificate. The scheme is the
  * backward difference formula of second order, or the implicit Euler method; the first step in
  * time, and those at which an element is snatched taut, are Euler steps. A node that lands does not
  * rebound. It needs Coulomb's law, contact that is reached, and a scene without lines that part,
@@ -68,7 +68,7 @@ CPS_API void cps_sway_at(const CpsSway *sway, double time, double out[6]);
  *         = elastic + gravity + dissipated + kinetic + impact + scheme + damping + drag + added
  *           + imbalance
  *
- * where each but the last has a formula of its own (docs/theory.md 8), and forces do their work at
+ * where each but the last has a formula of its own (docs/theory.md 9), and forces do their work at
  * their values after the step. So the imbalance is rounding. */
 typedef struct CpsMotionLedger {
     double kinetic;  /* increase of the kinetic energy */
