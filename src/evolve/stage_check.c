@@ -14,6 +14,7 @@
 #include "evolve/points.h"
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
+#include "evolve/sways.h"
 #include "evolve/time_check.h"
 #include "evolve/water.h"
 #include "evolve/winches.h"
@@ -156,10 +157,11 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
     if (status == CPS_OK) status = cpsi_stage_shifts_check(scene, stage, what, err);
     for (int i = 0; i < stage->change_count && status == CPS_OK; i++)
         status = check_change(scene, stage, i, what, err);
-    if (status == CPS_OK) status = cpsi_stage_time_check(scene, stage, what, err);
+    if (status == CPS_OK) status = cpsi_stage_time_check(stage, what, err);
     if (status == CPS_OK) status = cpsi_point_changes_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_grasp_changes_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_pay_outs_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_constraints_check_stage(scene, stage, what, err);
-    return status == CPS_OK ? cpsi_body_changes_check(scene, stage, what, err) : status;
+    if (status == CPS_OK) status = cpsi_body_changes_check(scene, stage, what, err);
+    return status == CPS_OK ? cpsi_sways_check(scene, stage, what, err) : status;
 }

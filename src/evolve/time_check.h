@@ -12,9 +12,8 @@ bool cpsi_is_in_time(const CpsScene *scene);
 /* Check the numbers of the scene that concern time and inertia. */
 CpsStatus cpsi_time_check(const CpsScene *scene, CpsError *err);
 
-/* Check the duration of a stage or move and its oscillations. */
-CpsStatus cpsi_stage_time_check(const CpsScene *scene, const CpsStage *stage, const char *what,
-                                CpsError *err);
+/* Check the duration of a stage or move. */
+CpsStatus cpsi_stage_time_check(const CpsStage *stage, const char *what, CpsError *err);
 
 /* Set the masses of the nodes and their first velocities; the line is placed. */
 void cpsi_inertia_fill(CpsiLine *line, const CpsLine *def);

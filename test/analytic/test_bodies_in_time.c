@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Points and bodies with inertia: known answers, orders of the scheme, energy. */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -569,6 +570,38 @@ static int close_ledgers(void **state) {
     return !(ledgers.imbalance <= 1e-10 * ledgers.turnover);
 }
 
+/* Oscillations of what is not there, or does not change, are refused. */
+static void test_absent_owners(void **state) {
+    (void)state;
+    static const int ABSENT[] = {-1, 99, INT_MAX, INT_MIN, 0};
+    for (int k = 0; k < 5; k++)
+        for (int of = CPS_SWAY_OF_END; of <= CPS_SWAY_OF_BODY + 1; of++)
+            for (int changed = 0; changed < 2; changed++) {
+                Rig rig;
+                CpsError err = {0};
+                CpsEvolution *evolution = NULL;
+                CpsSway sway = {.of = (CpsSwayOf)of, .owner = ABSENT[k], .period = 1};
+                CpsChange change = {.line = ABSENT[k], .to = {.kind = CPS_END_KIND_FREE}};
+                if (ABSENT[k] == 0 && changed) continue; /* they are there */
+                guide(&rig, 0);
+                rig.body.mass = 3;
+                for (int i = 0; i < 3; i++) rig.body.inertia[i] = 1;
+                rig.point_change = (CpsPointChange){.point = ABSENT[k]};
+                rig.body_change = (CpsBodyChange){.body = ABSENT[k]};
+                rig.stage.sway_count = 1;
+                rig.stage.sway = &sway;
+                rig.stage.duration = 1;
+                rig.stage.change = &change;
+                rig.stage.point_change = &rig.point_change;
+                rig.stage.body_change = &rig.body_change;
+                rig.stage.change_count = changed && of == CPS_SWAY_OF_END;
+                rig.stage.point_change_count = changed && of == CPS_SWAY_OF_POINT;
+                rig.stage.body_change_count = changed && of == CPS_SWAY_OF_BODY;
+                CHECK_INT(cps_evolution_create(&rig.scene, &evolution, &err), CPS_ERR_ARGUMENT);
+                assert_null(evolution);
+            }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_mass_on_a_line, begin_ledgers, close_ledgers),
@@ -580,6 +613,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_decay, begin_ledgers, close_ledgers),
         cmocka_unit_test_setup_teardown(test_quadratic, begin_ledgers, close_ledgers),
         cmocka_unit_test_setup_teardown(test_step_lengths, begin_ledgers, close_ledgers),
+        cmocka_unit_test(test_absent_owners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
