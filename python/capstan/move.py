@@ -69,7 +69,6 @@ class Move:
         self._values: Dict[str, np.ndarray] = {}
         self._stage = ffi.new("CpsStage *", lib.cps_stage_default())
         self._rows: Dict[str, List[Tuple[str, Any]]] = {}
-        self._given = changes
         for key, value in changes.items():
             self._sort(evolution, key, value)
         for rows, kind, fill in ((("change"), "CpsChange", self._end), (("turn"), "CpsTurn", self._turn),
@@ -201,18 +200,20 @@ class Move:
             self._vector(key, row.value, value[word])
 
     @staticmethod
-    def _sways(key: str, value: Mapping[str, Any]) -> List[Tuple[str, Mapping[str, Any]]]:
-        """The oscillations beside a change: that of its own words, and those of its list, by the keys of their vectors."""
+    def _sways(key: str, value: Mapping[str, Any]) -> List[Tuple[str, Mapping[str, Any], bool]]:
+        """The oscillations beside a change: that of its own words, and those of its list, by the keys of their vectors; and whether
+        a body is held meanwhile."""
+        held = not set(value) & {"force", "moment"}
         single = {word: value[word] for word in ("sine", "cosine", "period") if word in value}
         several = value.get("oscillations", [])
         if "release" in value and (single or several):
             raise ArgumentError(f"'{key}': found an oscillation beside 'release': what is let go does not oscillate")
         if not isinstance(several, (list, tuple)) or not all(isinstance(sway, Mapping) for sway in several):
             raise ArgumentError(f"'{key}' oscillations: found {several!r:.60}, expected a list of dictionaries")
-        return [(key, single)] * bool(single) + [(f"{key}.oscillations[{i}]", sway) for i, sway in enumerate(several)]
+        return [(key, single, held)] * bool(single) + [(f"{key}.oscillations[{i}]", sway, held) for i, sway in enumerate(several)]
 
     def _sway(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
-        path, sway = value
+        path, sway, held = value
         name, _, what = key.rpartition(".")
         body = what == "body"
         sizes = ("sine", "cosine", "rotation_sine", "rotation_cosine", "moment_sine", "moment_cosine")[:6 if body else 2]
@@ -222,14 +223,12 @@ class Move:
         row.owner = evolution._index({"point": "points", "body": "bodies"}.get(what, "lines"), name)
         row.end = "AB".index(what) if what in "AB" else 0
         row.period = _numbers.number(sway["period"], f"'{path}' period")
-        held = body and not set(self._given[key]) & {"force", "moment"}
         for word, field in (("sine", row.sine), ("cosine", row.cosine)):
             first = _numbers.array(sway.get(word, [0, 0, 0]), (3,), f"'{path}' {word}")
-            turn, moment = f"rotation_{word}", f"moment_{word}"
-            wrong = moment if held else turn
+            right, wrong = (f"rotation_{word}", f"moment_{word}") if held else (f"moment_{word}", f"rotation_{word}")
             if wrong in sway:
                 raise ArgumentError(f"'{path}': found '{wrong}' of a body that is {'held' if held else 'loaded'} in this move")
-            last = _numbers.array(sway.get(turn if held else moment, [0, 0, 0]), (3,), f"'{path}' {turn if held else moment}")
+            last = _numbers.array(sway.get(right, [0, 0, 0]), (3,), f"'{path}' {right}")
             both = np.concatenate([first, np.radians(last) if held else last])
             np.frombuffer(ffi.buffer(field), np.float64)[:] = both
             self._values[f"{path}.{word}"] = np.frombuffer(ffi.buffer(field), np.float64)[:6 if body else 3]

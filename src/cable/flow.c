@@ -2,7 +2,7 @@
 /* The drag of a current (flow.h). */
 #include "cable/flow.h"
 
-static const double PI = 3.14159265358979323846;
+#include "base/math.h"
 
 Vec3 cpsi_flow_velocity(const CpsiFlow *flow, double z) {
     const CpsCurrentRow *row = flow->row;
@@ -20,7 +20,7 @@ Vec3 cpsi_flow_drag(const CpsiFlow *flow, Vec3 velocity, Vec3 d) {
     const double size = vec3_norm(d), half = 0.5 * flow->density * drag->diameter;
     const Vec3 t = vec3_scale(size > 0 ? 1 / size : 0, d), across = vec3_reject(velocity, t);
     const double along = vec3_dot(velocity, t);
-    return vec3_axpy(half * PI * drag->tangential * fabs(along) * along, t,
+    return vec3_axpy(half * CPSI_PI * drag->tangential * fabs(along) * along, t,
                      vec3_scale(half * drag->normal * vec3_norm(across), across));
 }
 

@@ -21,13 +21,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/math.h"
 #include "cable/field.h"
 #include "cable/flow.h"
 #include "cable/held.h"
 #include "cable/inertia_field.h"
 #include "linalg/dense.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* Programs whose change is not below this share of the change before are accelerated. */
 static const double SLOW = 0.5;
@@ -62,10 +61,10 @@ static void add_element(const CpsiLine *line, const double *x, int e, Vec3 v, Wa
     const Vec3 w = vec3_sub(water, v), across = vec3_reject(w, t);
     const double fast = vec3_norm(across), along = fabs(vec3_dot(w, t));
     const double pressed = half * 0.5 * flow->density * by->diameter,
-                 moved = half * flow->density * 0.25 * PI * by->diameter * by->diameter;
+                 moved = half * flow->density * 0.25 * CPSI_PI * by->diameter * by->diameter;
     out->drag = vec3_axpy(half, cpsi_flow_drag(flow, w, d), out->drag);
-    add_directed(out->slope, pressed * by->normal * fast, 2 * pressed * PI * by->tangential * along,
-                 t);
+    add_directed(out->slope, pressed * by->normal * fast,
+                 2 * pressed * CPSI_PI * by->tangential * along, t);
     if (fast > 0)
         add_directed(out->slope, 0, pressed * by->normal * fast, vec3_scale(1 / fast, across));
     add_directed(out->mass, moved * by->added_normal, moved * by->added_tangential, t);

@@ -473,16 +473,15 @@ void cpsi_follow_forces(CpsiBalance *balance) {
     }
 }
 
-void cpsi_limit(double step[3], double most) {
-    const double size = vec3_norm(vec3_load(step));
-    if (size > most)
-        for (int a = 0; a < 3; a++) step[a] *= most / size;
-}
-
 /* The share of a displacement or rotation that is no longer than `most`. */
 static double share_within(const double step[3], double most) {
     const double size = vec3_norm(vec3_load(step));
     return size > most ? most / size : 1;
+}
+
+void cpsi_limit(double step[3], double most) {
+    const double share = share_within(step, most);
+    for (int a = 0; a < 3; a++) step[a] *= share;
 }
 
 /* Without bodies each point by itself. */

@@ -7,6 +7,11 @@
 #include "evolve/bodies.h"
 #include "evolve/points.h"
 
+/* The pose of a body before the step in time. */
+static CpsiPose pose_before(const CpsiBody *body) {
+    return (CpsiPose){body->inertia.before.place, body->inertia.before.turn};
+}
+
 /* The way of a point in the step. */
 static Vec3 way_of_point(const CpsEvolution *evolution, int index) {
     const CpsPoint *given = &evolution->points.given[index];
@@ -14,7 +19,7 @@ static Vec3 way_of_point(const CpsEvolution *evolution, int index) {
     if (given->kind != CPS_POINT_KIND_ON_BODY)
         return vec3_sub(vec3_load(point->position), vec3_load(point->before));
     const CpsiBody *body = &evolution->bodies.body[given->body];
-    const CpsiPose from = {body->inertia.before.place, body->inertia.before.turn};
+    const CpsiPose from = pose_before(body);
     return vec3_sub(cpsi_pose_place(&body->pose, given->position),
                     cpsi_pose_place(&from, given->position));
 }
@@ -59,8 +64,7 @@ static double work_outside(const CpsEvolution *evolution, int index) {
 
 /* [J] of load, weight and water on a body, and of what holds it. */
 static double work_on_body(const CpsEvolution *evolution, const CpsiBody *body) {
-    const CpsiPose from = {body->inertia.before.place, body->inertia.before.turn},
-                   *to = &body->pose;
+    const CpsiPose from = pose_before(body), *to = &body->pose;
     const double *centre[2] = {body->given.centre_of_gravity, body->given.centre_of_buoyancy};
     const Vec3 g = vec3_load(evolution->gravity), way = vec3_sub(to->place, from.place),
                turn = rotation_vector(rotation_after(to->turn, rotation_inverse(from.turn)));

@@ -19,46 +19,36 @@ typedef struct Owner {
     bool is_released; /* an end that is let go */
 } Owner;
 
-static Owner find_end(const CpsScene *scene, const CpsStage *stage, const CpsSway *sway) {
-    Owner owner = {.name = ""};
-    for (int i = 0; i < stage->change_count; i++) {
-        const CpsChange *change = &stage->change[i];
-        if (change->line != sway->owner || change->end != sway->end) continue;
-        owner.is_there = true;
-        owner.is_released = change->to.kind == CPS_END_KIND_RELEASED;
-        snprintf(owner.name, sizeof owner.name, "%s.%s", scene->line[change->line].name,
-                 cpsi_end_letter(change->end));
-    }
-    return owner;
-}
-
-static Owner find_point(const CpsScene *scene, const CpsStage *stage, const CpsSway *sway) {
-    Owner owner = {.name = ""};
-    for (int i = 0; i < stage->point_change_count; i++) {
-        if (stage->point_change[i].point != sway->owner) continue;
-        owner.is_there = true;
-        snprintf(owner.name, sizeof owner.name, "%s.point", scene->point[sway->owner].name);
-    }
-    return owner;
-}
-
-static Owner find_body(const CpsScene *scene, const CpsStage *stage, const CpsSway *sway) {
-    Owner owner = {.name = ""};
-    for (int i = 0; i < stage->body_change_count; i++) {
-        if (stage->body_change[i].body != sway->owner) continue;
-        owner.is_there = true;
-        snprintf(owner.name, sizeof owner.name, "%s.body", scene->body[sway->owner].name);
-    }
-    return owner;
-}
-
 static Owner find_owner(const CpsScene *scene, const CpsStage *stage, const CpsSway *sway) {
+    Owner owner = {.name = ""};
+    const int index = sway->owner;
+    const char *name = "", *what = "";
     switch (sway->of) {
-    case CPS_SWAY_OF_END: return find_end(scene, stage, sway);
-    case CPS_SWAY_OF_POINT: return find_point(scene, stage, sway);
-    case CPS_SWAY_OF_BODY: return find_body(scene, stage, sway);
+    case CPS_SWAY_OF_END:
+        for (int i = 0; i < stage->change_count; i++) {
+            const CpsChange *change = &stage->change[i];
+            if (change->line != index || change->end != sway->end) continue;
+            owner.is_there = true;
+            owner.is_released = change->to.kind == CPS_END_KIND_RELEASED;
+        }
+        if (owner.is_there) name = scene->line[index].name;
+        what = cpsi_end_letter(sway->end);
+        break;
+    case CPS_SWAY_OF_POINT:
+        for (int i = 0; i < stage->point_change_count; i++)
+            owner.is_there = owner.is_there || stage->point_change[i].point == index;
+        if (owner.is_there) name = scene->point[index].name;
+        what = "point";
+        break;
+    case CPS_SWAY_OF_BODY:
+        for (int i = 0; i < stage->body_change_count; i++)
+            owner.is_there = owner.is_there || stage->body_change[i].body == index;
+        if (owner.is_there) name = scene->body[index].name;
+        what = "body";
+        break;
     }
-    return (Owner){.name = ""};
+    snprintf(owner.name, sizeof owner.name, "%s.%s", name, what);
+    return owner;
 }
 
 static bool is_zero(const double v[3]) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }

@@ -15,7 +15,7 @@
 
 enum { MOST_TEXT = 8192 };
 
-static const char *text_of_scene;
+static const Falsified *all;
 static char copy[80];
 static CpsSceneFile *scene;
 
@@ -33,30 +33,26 @@ static void write_beside(const DataFile *file) {
     write_text(path, file->text);
 }
 
-int falsified_begin(const char *text, void **state) {
-    return falsified_begin_beside(text, NULL, 0, state);
-}
-
-int falsified_begin_beside(const char *text, const DataFile *file, size_t count, void **state) {
+static int begin(void **state) {
     CpsError err;
-    if (strlen(text) + 1 > MOST_TEXT || make_scene_directory(state) != 0) return -1;
-    text_of_scene = text;
-    for (size_t i = 0; i < count; i++) write_beside(&file[i]);
-    write_scene(text);
+    if (strlen(all->scene) + 1 > MOST_TEXT || make_scene_directory(state) != 0) return -1;
+    for (size_t i = 0; i < all->files; i++) write_beside(&all->file[i]);
+    write_scene(all->scene);
     run_scene();
     snprintf(copy, sizeof copy, "%s-copy", scene_result);
     return cps_scene_read(scene_path, NULL, &scene, &err) != CPS_OK;
 }
 
-int falsified_end(void **state) {
+static int end(void **state) {
     cps_scene_file_destroy(scene);
     return remove_scene_directory(state);
 }
 
-void falsified_check_sound(int records) {
+static void sound_file_is_the_scenes(void **state) {
+    (void)state;
     CheckerReport report;
     CHECK_INT(checker_file(scene_result, &report, stdout), 0);
-    CHECK_INT(report.certified, records);
+    CHECK_INT(report.certified, all->records);
     CHECK_INT(given_file(scene_result, cps_scene_file_scene(scene), stdout), 0);
 }
 
@@ -86,14 +82,15 @@ static void check_number(const FalseNumber *number) {
     free(text);
 }
 
-void falsified_check_numbers(const FalseNumber *number, size_t count) {
-    for (size_t i = 0; i < count; i++) check_number(&number[i]);
+static void falsified_copies_are_refused(void **state) {
+    (void)state;
+    for (size_t i = 0; i < all->numbers; i++) check_number(&all->number[i]);
     remove(copy);
 }
 
 /* The text of the scene with every `from` replaced; returns how many there were. */
 static int replace(const char *from, const char *to, char out[2 * MOST_TEXT]) {
-    const char *rest = text_of_scene;
+    const char *rest = all->scene;
     size_t size = 0;
     int count = 0;
     for (const char *at; (at = strstr(rest, from)) != NULL; rest = at + strlen(from), count++) {
@@ -117,6 +114,16 @@ static void check_scene(const OtherScene *other) {
     cps_scene_file_destroy(file);
 }
 
-void falsified_check_scenes(const OtherScene *other, size_t count) {
-    for (size_t i = 0; i < count; i++) check_scene(&other[i]);
+static void other_scenes_are_refused(void **state) {
+    (void)state;
+    if (all->others == 0) skip();
+    for (size_t i = 0; i < all->others; i++) check_scene(&all->other[i]);
+}
+
+int falsified_main(const Falsified *given) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
+                                       cmocka_unit_test(falsified_copies_are_refused),
+                                       cmocka_unit_test(other_scenes_are_refused)};
+    all = given;
+    return cmocka_run_group_tests(tests, begin, end);
 }

@@ -26,14 +26,19 @@ typedef struct DataFile {
     const char *name, *text;
 } DataFile;
 
-/* The text of the scene, which stays the caller's, and perhaps files that it names. */
-int falsified_begin(const char *scene, void **state);
-int falsified_begin_beside(const char *scene, const DataFile *file, size_t count, void **state);
-int falsified_end(void **state);
+/* All that is tried of a scene. */
+typedef struct Falsified {
+    const char *scene;    /* its text */
+    const DataFile *file; /* (files) that it names */
+    size_t files;
+    int records; /* of its result file, all of which are certified */
+    const FalseNumber *number;
+    size_t numbers;
+    const OtherScene *other;
+    size_t others;
+} Falsified;
 
-/* The checker finds nothing and certifies so many records. */
-void falsified_check_sound(int records);
-void falsified_check_numbers(const FalseNumber *number, size_t count);
-void falsified_check_scenes(const OtherScene *other, size_t count);
+/* Try it, as the main function of a program does; returns the number of tests that failed. */
+int falsified_main(const Falsified *given);
 
 #endif

@@ -41,13 +41,6 @@ static const char SCENE[] =
     " 0.1]}}}\n";
 enum { STEPS = 9, LINES = 4, BODIES = 2, POINTS = 5, SPAR = 0, BARGE = 1, LEFT = 1 };
 
-static int begin(void **state) { return falsified_begin(SCENE, state); }
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(LINES * STEPS);
-}
-
 /* A number of a step and a body, or component i of so many. */
 #define NUMBER(step, body)    ((step)*BODIES + (body))
 #define OF(step, body, n, i)  ((n)*NUMBER(step, body) + (i))
@@ -111,11 +104,6 @@ static const FalseNumber FALSE[] = {
     {"b_end_force", 0, 1e3, "point right: sum of the lines"},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 /* Scenes in which something else is imposed on the bodies. */
 static const OtherScene OTHER[] = {
     {"free: [0, 0, 0]", "free: [0, 0, 1e-6]"},
@@ -141,14 +129,12 @@ static const OtherScene OTHER[] = {
     {"left", "port"},
 };
 
-static void other_scenes_are_refused(void **state) {
-    (void)state;
-    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
-                                       cmocka_unit_test(falsified_copies_are_refused),
-                                       cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = LINES * STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE,
+                                        .other = OTHER,
+                                        .others = sizeof OTHER / sizeof *OTHER};
+    return falsified_main(&FALSIFIED);
 }

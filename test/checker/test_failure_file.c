@@ -31,13 +31,6 @@ static const char SCENE[] =
     "  - {name: last, a.A: {move: [1, 0, 0]}}\n";
 enum { STEPS = 10, LINES = 3, BREAK = 3, A = 0, B = 1 };
 
-static int begin(void **state) { return falsified_begin(SCENE, state); }
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(LINES * STEPS);
-}
-
 /* Ends A and B of a line in a step. */
 #define END(step, end) (2 * (step) + (end))
 
@@ -69,11 +62,6 @@ static const FalseNumber FALSE[] = {
     {"c_end_held_position", 6 * BREAK, -6.5, "line c: end A changes in a step in which a line"},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 /* Scenes in which something else parts or is let go. */
 static const OtherScene OTHER[] = {
     {"break_at: 600", "break_at: 601"},
@@ -89,14 +77,12 @@ static const OtherScene OTHER[] = {
     {"  - {name: last, a.A: {move: [1, 0, 0]}}\n", ""},
 };
 
-static void other_scenes_are_refused(void **state) {
-    (void)state;
-    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
-                                       cmocka_unit_test(falsified_copies_are_refused),
-                                       cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = LINES * STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE,
+                                        .other = OTHER,
+                                        .others = sizeof OTHER / sizeof *OTHER};
+    return falsified_main(&FALSIFIED);
 }

@@ -49,15 +49,6 @@ static const char SCENE[] =
     "  - {name: back, steps: 2, rope.B: {position: [6.9, 2.2, 0.45]}}\n";
 enum { STEPS = 6 };
 
-static int begin(void **state) {
-    return falsified_begin_beside(SCENE, FILES, sizeof FILES / sizeof *FILES, state);
-}
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(STEPS);
-}
-
 static const FalseNumber FALSE[] = {
     {"obstacle_bed_grid_z", 12, 0.71, "depth below an obstacle"},
     {"obstacle_bed_grid_z", 12, 0.69, "normal against the obstacle's"},
@@ -80,11 +71,6 @@ static const FalseNumber FALSE[] = {
     {"obstacle_friction_axial", 0, 0.61, "times the reaction"},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 /* Scenes with another ground. */
 static const OtherScene OTHER[] = {
     {"file: bed.txt", "file: other.txt"},
@@ -98,14 +84,14 @@ static const OtherScene OTHER[] = {
     {"{ground: {file: bed.txt, form: moordyn_c, friction_factor: factor.txt}", "{plane: {}"},
 };
 
-static void other_scenes_are_refused(void **state) {
-    (void)state;
-    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
-                                       cmocka_unit_test(falsified_copies_are_refused),
-                                       cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE,
+                                        .other = OTHER,
+                                        .others = sizeof OTHER / sizeof *OTHER,
+                                        .file = FILES,
+                                        .files = sizeof FILES / sizeof *FILES};
+    return falsified_main(&FALSIFIED);
 }

@@ -43,13 +43,6 @@ static const char SCENE[] =
     "1]}}\n";
 enum { STEPS = 8, LINES = 3, POINTS = 4, FLOAT = 0, KNOT = 2, CLUMP = 3 };
 
-static int begin(void **state) { return falsified_begin(SCENE, state); }
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(LINES * STEPS);
-}
-
 /* Component a of a vector of the float, or of a point, in a step. */
 #define BODY(step, a)         (3 * (step) + (a))
 #define POINT(step, point)    ((step)*POINTS + (point))
@@ -95,15 +88,10 @@ static const FalseNumber FALSE[] = {
     {"time", 4, 0.13, "float: span of the scheme"},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sound_file_is_the_scenes),
-        cmocka_unit_test(falsified_copies_are_refused),
-    };
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = LINES * STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE};
+    return falsified_main(&FALSIFIED);
 }

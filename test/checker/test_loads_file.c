@@ -26,13 +26,6 @@ static const char SCENE[] =
     "  - {name: back, steps: 2, a.B: {position: [15, 1, 6]}, b.B: {position: [15, 20.5, 6]}}\n";
 enum { STEPS = 5, NODES = 41, CLAY = 0, LOG = 1, AT = 15 };
 
-static int begin(void **state) { return falsified_begin(SCENE, state); }
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(2 * STEPS);
-}
-
 static const FalseNumber FALSE[] = {
     {"obstacle_stiffness", CLAY, 4001, "claimed contact_residual"},
     {"obstacle_stiffness", CLAY, 0, "depth below an obstacle"},
@@ -57,11 +50,6 @@ static const FalseNumber FALSE[] = {
     {"b_ledger_loads", 2, 1, "claimed ledger_loads"},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 /* Scenes with other loads and other ground. */
 static const OtherScene OTHER[] = {
     {"stiffness: 4000", "stiffness: 4000.01"},
@@ -78,14 +66,12 @@ static const OtherScene OTHER[] = {
     {"velocity: [0.5, 0.2, 0]", "velocity: [0.5, 0.201, 0]"},
 };
 
-static void other_scenes_are_refused(void **state) {
-    (void)state;
-    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
-                                       cmocka_unit_test(falsified_copies_are_refused),
-                                       cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = 2 * STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE,
+                                        .other = OTHER,
+                                        .others = sizeof OTHER / sizeof *OTHER};
+    return falsified_main(&FALSIFIED);
 }

@@ -38,15 +38,6 @@ static const char SCENE[] =
     "1], about: [0.3, 0, 0]}}\n";
 enum { STEPS = 5 };
 
-static int begin(void **state) {
-    return falsified_begin_beside(SCENE, FILES, sizeof FILES / sizeof *FILES, state);
-}
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(STEPS);
-}
-
 static const FalseNumber FALSE[] = {
     {"obstacle_roof_mesh_vertex", 3 * 4 + 2, 1.01, "slip against the path from the reference"},
     {"obstacle_roof_mesh_vertex", 3 * 4 + 2, 0.99, "slip against the path from the reference"},
@@ -65,11 +56,6 @@ static const FalseNumber FALSE[] = {
     {"obstacle_friction_axial", 0, 0.31, "times the reaction"},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 /* Scenes with another mesh. */
 static const OtherScene OTHER[] = {
     {"file: roof.obj", "file: higher.obj"},
@@ -83,14 +69,14 @@ static const OtherScene OTHER[] = {
     {"turn: 4", "turn: 4.00001"},
 };
 
-static void other_scenes_are_refused(void **state) {
-    (void)state;
-    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
-                                       cmocka_unit_test(falsified_copies_are_refused),
-                                       cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE,
+                                        .other = OTHER,
+                                        .others = sizeof OTHER / sizeof *OTHER,
+                                        .file = FILES,
+                                        .files = sizeof FILES / sizeof *FILES};
+    return falsified_main(&FALSIFIED);
 }

@@ -27,13 +27,6 @@ static const char SCENE[] =
     "  - {name: hold, knot.point: {position: [0.5, 0.3, 2.5]}, gravity: [0, 1, -9]}\n";
 enum { STEPS = 6, POINTS = 3, POST = 0, KNOT = 1, BUOY = 2 };
 
-static int begin(void **state) { return falsified_begin(SCENE, state); }
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(3 * STEPS);
-}
-
 /* A number of a step and a point, or its component a. */
 #define NUMBER(step, point)    ((step)*POINTS + (point))
 #define VECTOR(step, point, a) (3 * NUMBER(step, point) + (a))
@@ -78,11 +71,6 @@ static const FalseNumber FALSE[] = {
     {"b_end_kind", 0, 1, "point knot: the end of line b is free"},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 /* Scenes in which something else is imposed on the points. */
 static const OtherScene OTHER[] = {
     {"held: [-4, 1, -1]", "held: [-4, 1, -1.000001]"},
@@ -96,14 +84,12 @@ static const OtherScene OTHER[] = {
     {"gravity: [0, 1, -9]", "gravity: [0, 1, -8]"},
 };
 
-static void other_scenes_are_refused(void **state) {
-    (void)state;
-    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
-                                       cmocka_unit_test(falsified_copies_are_refused),
-                                       cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = 3 * STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE,
+                                        .other = OTHER,
+                                        .others = sizeof OTHER / sizeof *OTHER};
+    return falsified_main(&FALSIFIED);
 }

@@ -33,13 +33,6 @@ static const char SCENE[] =
                                                    "0]}, rod.turn: 4}\n";
 enum { STEPS = 3, ROD = 0, RING = 1, TIP = 2, QUAY = 3, BOWL = 4 };
 
-static int begin(void **state) { return falsified_begin(SCENE, state); }
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(4 * STEPS);
-}
-
 static const FalseNumber FALSE[] = {
     {"obstacle_kind", ROD, 1, "depth below an obstacle"},
     {"obstacle_kind", ROD, 4, "senseless obstacle in 'obstacle_kind and the like'"},
@@ -63,11 +56,6 @@ static const FalseNumber FALSE[] = {
     {"obstacle_radius", BOWL, 4, "depth below an obstacle"},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 /* Scenes with other shapes. */
 static const OtherScene OTHER[] = {
     {"length: 1, radius: 1", "length: 1.00001, radius: 1"},
@@ -82,14 +70,12 @@ static const OtherScene OTHER[] = {
      "  bowl: {sphere: {centre: [15, 0, -100], radius: 40}}"},
 };
 
-static void other_scenes_are_refused(void **state) {
-    (void)state;
-    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
-                                       cmocka_unit_test(falsified_copies_are_refused),
-                                       cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = 4 * STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE,
+                                        .other = OTHER,
+                                        .others = sizeof OTHER / sizeof *OTHER};
+    return falsified_main(&FALSIFIED);
 }

@@ -26,13 +26,6 @@ static const char SCENE[] =
     "  - {name: fast, leg.B: {position: [64.5, 1, 20]}}\n";
 enum { STEPS = 6, ELEMENTS = 8 };
 
-static int begin(void **state) { return falsified_begin(SCENE, state); }
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(STEPS);
-}
-
 #define REST(step, element) ((step)*ELEMENTS + (element))
 
 static const FalseNumber FALSE[] = {
@@ -52,11 +45,6 @@ static const FalseNumber FALSE[] = {
     {"leg_ledger_elastic", 2, 0, "claimed ledger_elastic"},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 static const OtherScene OTHER[] = {
     {"strain: [0, 0.002, 0.01]", "strain: [0, 0.002, 0.0101]"},
     {"tension: [0, 500, 4000]", "tension: [0, 501, 4000]"},
@@ -67,14 +55,12 @@ static const OtherScene OTHER[] = {
     {"name: slow, stiffness: static,", "name: slow,"},
 };
 
-static void other_scenes_are_refused(void **state) {
-    (void)state;
-    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
-                                       cmocka_unit_test(falsified_copies_are_refused),
-                                       cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE,
+                                        .other = OTHER,
+                                        .others = sizeof OTHER / sizeof *OTHER};
+    return falsified_main(&FALSIFIED);
 }

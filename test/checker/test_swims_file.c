@@ -20,13 +20,6 @@ static const char SCENE[] =
     "  - {name: sway, duration: 1, steps: 4, a.B: {move: [0, 0, 0], sine: [1, 2, 0], period: 3}}\n";
 enum { STEPS = 5, NODES = 41, AT = 30 };
 
-static int begin(void **state) { return falsified_begin(SCENE, state); }
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(STEPS);
-}
-
 static const FalseNumber FALSE[] = {
     {"a_ledger_drag", 2, 0.1, "ledger in time"},
     {"a_ledger_drag", 2, 0.1, "ledger_drag"},
@@ -50,11 +43,6 @@ static const FalseNumber FALSE[] = {
     {"a_load_residual", 2, 1, NULL},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 /* Scenes with another drag and other loads. */
 static const OtherScene OTHER[] = {
     {"diameter: 0.1", "diameter: 0.10001"},
@@ -67,14 +55,12 @@ static const OtherScene OTHER[] = {
     {"force: [0, 3, 1]", "force: [0, 3, 1.001]"},
 };
 
-static void other_scenes_are_refused(void **state) {
-    (void)state;
-    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
-                                       cmocka_unit_test(falsified_copies_are_refused),
-                                       cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE,
+                                        .other = OTHER,
+                                        .others = sizeof OTHER / sizeof *OTHER};
+    return falsified_main(&FALSIFIED);
 }

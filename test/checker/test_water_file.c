@@ -30,13 +30,6 @@ static const char SCENE[] =
 enum { STEPS = 4, POINTS = 5, FOOT = 0, FLOAT = 1, CAN = 2, KNOT = 3, CLAW = 4 };
 enum { NONE = 0, SUBMERGED = 1, FLOATING = 2, ABOVE = 3 };
 
-static int begin(void **state) { return falsified_begin(SCENE, state); }
-
-static void sound_file_is_the_scenes(void **state) {
-    (void)state;
-    falsified_check_sound(4 * STEPS);
-}
-
 /* A number of a step and a point, or its component a. */
 #define NUMBER(step, point)    ((step)*POINTS + (point))
 #define VECTOR(step, point, a) (3 * NUMBER(step, point) + (a))
@@ -73,11 +66,6 @@ static const FalseNumber FALSE[] = {
     {"holding_capacity_of_point", CLAW, 70, "point claw: what a drag lacks of the capacity"},
 };
 
-static void falsified_copies_are_refused(void **state) {
-    (void)state;
-    falsified_check_numbers(FALSE, sizeof FALSE / sizeof *FALSE);
-}
-
 /* Scenes with other water. */
 static const OtherScene OTHER[] = {
     {"water_surface: 3", "water_surface: 3.0000001"},
@@ -91,14 +79,12 @@ static const OtherScene OTHER[] = {
     {"held: [10, 0, -5]", "held: [10.00001, 0, -5]"},
 };
 
-static void other_scenes_are_refused(void **state) {
-    (void)state;
-    falsified_check_scenes(OTHER, sizeof OTHER / sizeof *OTHER);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_file_is_the_scenes),
-                                       cmocka_unit_test(falsified_copies_are_refused),
-                                       cmocka_unit_test(other_scenes_are_refused)};
-    return cmocka_run_group_tests(tests, begin, falsified_end);
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = 4 * STEPS,
+                                        .number = FALSE,
+                                        .numbers = sizeof FALSE / sizeof *FALSE,
+                                        .other = OTHER,
+                                        .others = sizeof OTHER / sizeof *OTHER};
+    return falsified_main(&FALSIFIED);
 }

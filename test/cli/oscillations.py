@@ -12,7 +12,8 @@ import tempfile
 from runs import command, falsify, solve, write
 
 TAU = 2*math.pi
-# places of what is held are the sum of a few products: rounding
+# Places of what is held are the sum of a few products: rounding. Of free ones the backward difference formula is late by
+# (w h)^2/3 of the phase w t, which is allowed of the largest response.
 EXACT = 1e-12
 
 BODY = """capstan: 1
@@ -42,6 +43,11 @@ def forced(t, mass, stiffness, terms):
     return z
 
 
+def allowed(size, mass, stiffness, h, t):
+    w = math.sqrt(stiffness/mass)
+    return size*w*t*(w*h)**2/3
+
+
 def column(out, name, table="history.csv"):
     with open(os.path.join(out, table)) as file:
         rows = list(csv.DictReader(row for row in file if not row.startswith("#")))
@@ -49,19 +55,18 @@ def column(out, name, table="history.csv"):
 
 
 def heave(capstan, checker, folder):
-    errors = []
+    errors, size = [], 0
     for h in (0.08, 0.04, 0.02):
         _, _, found = solve(capstan, checker, folder, BODY.format(buoyancy=2000*9.81, h=h))
-        steps = round(12/h)
-        worst = 0
-        for step in range(found.steps):
-            t = (step + 1 - (found.steps - steps))*h
-            z = found.get("position_of_body", step)[2]
-            worst = max(worst, abs(z - forced(t, 2900, 15000, [(900, 0, 5), (0, 400, 3)])) if t > 0 else 0)
+        steps, worst = round(12/h), 0
+        for i in range(steps):
+            exact = forced((i + 1)*h, 2900, 15000, [(900, 0, 5), (0, 400, 3)])
+            worst = max(worst, abs(found.get("position_of_body", found.steps - steps + i)[2] - exact))
+            size = max(size, abs(exact))
         errors.append(worst)
-    order = math.log2(errors[1]/errors[2])
-    print("oscillations: heave under two harmonics: errors %.2e %.2e %.2e m of %.2g m, order %.2f" % (*errors, 0.12, order))
-    assert abs(order - 2) < 0.1 and errors[2] < 4e-3, errors
+    order, bound = math.log2(errors[1]/errors[2]), allowed(size, 2900, 15000, 0.02, 12)
+    print("oscillations: heave under two harmonics: errors %.2e %.2e %.2e m of %.2g m, order %.2f" % (*errors, size, order))
+    assert abs(order - 2) < 0.1 and errors[2] < bound, (errors, bound)
 
 
 HELD = """capstan: 1
@@ -137,11 +142,11 @@ history:
   - {{name: push, duration: 4, steps: {steps}, knot.point: {{force: [0, 0, {-k*0.5}], sine: [0, 0, {force}], period: 2.2}}}}
 """)
         first = found.steps - steps
-        errors.append(max(abs(found.get("position_of_point", first + i)[5] + 10.5 - forced((i + 1)*4/steps, mass, k, [(force, 0, 2.2)]))
-                          for i in range(steps)))
-    order = math.log2(errors[0]/errors[1])
+        exact = [forced((i + 1)*4/steps, mass, k, [(force, 0, 2.2)]) for i in range(steps)]
+        errors.append(max(abs(found.get("position_of_point", first + i)[5] + 10.5 - z) for i, z in enumerate(exact)))
+    order, bound = math.log2(errors[0]/errors[1]), allowed(max(map(abs, exact)), mass, k, 4/800, 4)
     print("oscillations: a mass on a spring under an oscillating force: errors %.1e %.1e m, order %.2f" % (*errors, order))
-    assert abs(order - 2) < 0.1 and errors[1] < 1e-3, errors
+    assert abs(order - 2) < 0.1 and errors[1] < bound, (errors, bound)
 
 
 BAD = [

@@ -3,23 +3,38 @@
 #include "io/schema/rows.h"
 #include "io/schema/tables/scene_keys.h"
 
-static const CpsiKey SWAY_KEYS[] = {
-    {"sine", OPTIONAL, POINT(Sway, sine, 3), ANY, .fallback = "[0, 0, 0]",
-     .help = "added to the way to the value: this times sin(2 pi t/period), in m of a position and "
-             "N of a force"},
-    {"cosine", OPTIONAL, POINT(Sway, cosine, 3), ANY, .fallback = "[0, 0, 0]",
-     .help = "... and this times 1 - cos(2 pi t/period)"},
-    {"period", REQUIRED, NUMBER(Sway, period), POSITIVE, .unit = "s",
-     .help = "of the oscillation; t is the time since the entry began"},
-};
+/* An oscillation beside a value, or by itself: `at` is where the struct has it. */
+#define SINES(kind, at)                                                                       \
+    {"sine",                                                                                  \
+     OPTIONAL,                                                                                \
+     POINT(kind, at sine, 3),                                                                 \
+     ANY,                                                                                     \
+     .with = "period",                                                                        \
+     .fallback = "[0, 0, 0]",                                                                 \
+     .help = "in an entry with a duration, beside the way to the value: this times sin(2 pi " \
+             "t/period), in m of a position and N of a force"},                               \
+    {                                                                                         \
+        "cosine", OPTIONAL, POINT(kind, at cosine, 3), ANY,                                   \
+            .with = "period", .fallback = "[0, 0, 0]",                                        \
+            .help = "... and this times 1 - cos(2 pi t/period)"                               \
+    }
+#define PERIOD(kind, at, need)                                                             \
+    {                                                                                      \
+        "period", need, NUMBER(kind, at period), POSITIVE,                                 \
+            .unit = "s", .help = "of the oscillation; t is the time since the entry began" \
+    }
+#define SEVERAL(kind, keys)                                                           \
+    {                                                                                 \
+        "oscillations", OPTIONAL, LIST(kind, oscillations, 0),                        \
+            .inside = &keys, .fallback = "[]",                                        \
+            .help = "in an entry with a duration: several oscillations, which add up" \
+    }
+
+static const CpsiKey SWAY_KEYS[] = {SINES(Sway, ), PERIOD(Sway, , REQUIRED)};
 static const CpsiMapping SWAY = {"oscillation", KEYS(SWAY_KEYS), INTO(Sway)};
 
 static const CpsiKey BODY_SWAY_KEYS[] = {
-    {"sine", OPTIONAL, POINT(Sway, sine, 3), ANY, .fallback = "[0, 0, 0]",
-     .help = "added to the way to the value: this times sin(2 pi t/period), in m of a position and "
-             "N of a force"},
-    {"cosine", OPTIONAL, POINT(Sway, cosine, 3), ANY, .fallback = "[0, 0, 0]",
-     .help = "... and this times 1 - cos(2 pi t/period)"},
+    SINES(Sway, ),
     {"rotation_sine", OPTIONAL, POINT(Sway, rotation_sine, 3), ANY, .unit = "degrees",
      .unless = "moment_sine", .fallback = "[0, 0, 0]",
      .help = "of a held body: the rotation vector that turns it further, about the scene's axes"},
@@ -29,35 +44,10 @@ static const CpsiKey BODY_SWAY_KEYS[] = {
      .fallback = "[0, 0, 0]", .help = "of a free body: added to the moment"},
     {"moment_cosine", OPTIONAL, POINT(Sway, moment_cosine, 3), ANY, .unit = "N m",
      .fallback = "[0, 0, 0]", .help = "likewise"},
-    {"period", REQUIRED, NUMBER(Sway, period), POSITIVE, .unit = "s",
-     .help = "of the oscillation; t is the time since the entry began"},
+    PERIOD(Sway, , REQUIRED),
 };
 static const CpsiMapping BODY_SWAY = {"oscillation", KEYS(BODY_SWAY_KEYS), INTO(Sway),
                                       .definition = "body_oscillation"};
-
-/* beside the value of an end or point */
-#define OSCILLATION                                                                                 \
-    {"sine",                                                                                        \
-     OPTIONAL,                                                                                      \
-     POINT(Change, sway.sine, 3),                                                                   \
-     ANY,                                                                                           \
-     .with = "period",                                                                              \
-     .fallback = "[0, 0, 0]",                                                                       \
-     .help = "in an entry with a duration, beside the way to the value: this times sin(2 pi "       \
-             "t/period), in m of a position and N of a force"},                                     \
-        {"cosine",                                                                                  \
-         OPTIONAL,                                                                                  \
-         POINT(Change, sway.cosine, 3),                                                             \
-         ANY,                                                                                       \
-         .with = "period",                                                                          \
-         .fallback = "[0, 0, 0]",                                                                   \
-         .help = "... and this times 1 - cos(2 pi t/period)"},                                      \
-        {"period", OPTIONAL,    NUMBER(Change, sway.period),                                        \
-         POSITIVE, .unit = "s", .help = "of the oscillation; t is the time since the entry began"}, \
-    {                                                                                               \
-        "oscillations", OPTIONAL, LIST(Change, oscillations, 0),                                    \
-            .inside = &SWAY, .fallback = "[]", .help = "several oscillations, which add up"         \
-    }
 
 static const CpsiKey CHANGE_KEYS[] = {
     {"position", ONE_OF, POINT(Change, value, 3), ANY, .unit = "m",
@@ -68,7 +58,9 @@ static const CpsiKey CHANGE_KEYS[] = {
      .help = "pull with this force; a held end is let go, from the force it carries"},
     {"release", ONE_OF, FLAG(Change, yes),
      .help = "true: let the end go at once, without force, also from its point"},
-    OSCILLATION,
+    SINES(Change, sway.),
+    PERIOD(Change, sway., OPTIONAL),
+    SEVERAL(Change, SWAY),
 };
 
 static void begin_change(void *values) { ((CpsiChangeValues *)values)->sway.period = NAN; }
@@ -83,7 +75,9 @@ static const CpsiKey POINT_CHANGE_KEYS[] = {
      .help = "move it by this much from where the entry before has put it"},
     {"force", ONE_OF, POINT(Change, value, 3), ANY, .unit = "N",
      .help = "pull it with this force; a held one is let go, from the force that holds it"},
-    OSCILLATION,
+    SINES(Change, sway.),
+    PERIOD(Change, sway., OPTIONAL),
+    SEVERAL(Change, SWAY),
 };
 static const CpsiMapping POINT_CHANGE = {"change",
                                          KEYS(POINT_CHANGE_KEYS),
@@ -117,9 +111,7 @@ static const CpsiKey BODY_CHANGE_KEYS[] = {
      .fallback = "[0, 0, 0]",
      .help = "from its reference point to where the force acts, in the scene's axes, whatever its "
              "rotation: the moment gains arm x force"},
-    {"oscillations", OPTIONAL, LIST(BodyChange, oscillations, 0), .inside = &BODY_SWAY,
-     .fallback = "[]",
-     .help = "in an entry with a duration: oscillations of the pose or the load, which add up"},
+    SEVERAL(BodyChange, BODY_SWAY),
 };
 static const CpsiMapping BODY_CHANGE = {
     "change", KEYS(BODY_CHANGE_KEYS), INTO(BodyChange), .definition = "body_change",
