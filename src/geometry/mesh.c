@@ -363,6 +363,7 @@ static CpsStatus make(CpsMesh *mesh, const CpsMeshTriangles *given, CpsError *er
     if (status == CPS_OK) {
         sum_normals(mesh, angle);
         find_ranges(mesh);
+        cpsi_mesh_find_folds(mesh);
         measure(mesh);
     }
     free(angle);

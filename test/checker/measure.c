@@ -161,7 +161,7 @@ static void place_of(const Where *where, const Record *r, size_t j, Triple x) {
  * may be that of either place, so it is the nearest here. */
 static const Surface *surface_of(const Where *where, const Record *r, size_t j, size_t c) {
     const Source *source = where->source;
-    if (source->surfaces == 0) return NULL;
+    if (source->surfaces == 0 || r->obstacle[c] < 0) return NULL;
     if (c >= r->nodes || !held(r, j)) return &source->surface[(size_t)r->obstacle[c]];
     Triple x;
     place_of(where, r, j, x);
@@ -172,6 +172,14 @@ static const Surface *surface_of(const Where *where, const Record *r, size_t j, 
     return &source->surface[best];
 }
 
+/* ... as the contact sees it: with contact of the reference, and of what is held, its nearest
+ * foot. */
+static Surface seen_by(const Where *where, const Record *r, size_t j, size_t c) {
+    const Surface *on = surface_of(where, r, j, c);
+    if (!on) return (Surface){.kind = SURFACE_KINDS};
+    return where->source->touching_only || held(r, j) ? *on : surface_seen(on, r->normal[c]);
+}
+
 /* Does contact c stay with its obstacle through the step, whichever are near where it ends? Frozen
  * friction does, and what contact of the reference keeps out. */
 static bool stays(const Where *where, const Record *r, size_t c) {
@@ -179,33 +187,57 @@ static bool stays(const Where *where, const Record *r, size_t c) {
     return where->frozen && r->friction_bound[c] > 0;
 }
 
-/* Is surface k, a plane, that of the third contact of node j, at the end of the element before
- * it? */
-static bool is_third(const Where *where, const Record *r, size_t j, size_t k) {
-    return r->has_elements && j > 0 && r->obstacle[r->contacts * r->nodes + j - 1] == (int)k &&
-           where->source->surface[k].kind == SURFACE_PLANE;
+/* Which of the feet of a surface a contact with normal n has: that with the nearest normal. */
+static size_t foot_with(size_t feet, Real normal[MESH_FEET][3], const double *n) {
+    size_t best = 0;
+    Triple wide;
+    widen(n, wide);
+    for (size_t i = 1; i < feet; i++)
+        if (dot(normal[i], wide) > dot(normal[best], wide)) best = i;
+    return best;
 }
 
-/* Is the obstacle of contact c the nearest but for those before it, within a margin? One that stays
- * is so at the reference, and the other contact of its node is with the nearest of the rest. */
+/* The third contact of node j, at the end of the element before it; 0: none. */
+static size_t third_of(const Where *where, const Record *r, size_t j) {
+    const size_t c = r->contacts * r->nodes + j - 1;
+    if (!r->has_elements || j == 0 || r->obstacle[c] < 0) return 0;
+    return surface_may_be_third(&where->source->surface[(size_t)r->obstacle[c]]) ? c : 0;
+}
+
+/* Is contact c with the nearest foot of all obstacles but for those before it, within a margin? One
+ * that stays is so at the reference, and the other contact of its node is with the nearest of the
+ * rest. */
 static bool in_place(const Where *where, const Record *r, size_t j, size_t c, Real margin) {
     const Source *source = where->source;
-    const size_t mine = (size_t)r->obstacle[c], first = (size_t)r->obstacle[j];
-    const size_t other = c == j ? (size_t)r->obstacle[j + r->nodes] : first;
-    const bool kept = stays(where, r, c), beside = stays(where, r, c == j ? j + r->nodes : j);
+    const size_t other = c == j ? j + r->nodes : j, third = third_of(where, r, j);
+    const bool kept = stays(where, r, c), beside = stays(where, r, other);
+    const bool skips_other = !kept && (c != j || beside);
+    Real gap[MESH_FEET], normal[MESH_FEET][3];
     Triple x;
     widen(kept ? r->reference[j] : where->place[j], x);
-    if (mine == other) return false;
-    const Real distance = surface_distance(&source->surface[mine], x);
+    const Surface seen = seen_by(where, r, j, c);
+    const Real distance = surface_distance(&seen, x);
     size_t nearer = 0;
-    for (size_t k = 0; k < source->surfaces; k++)
-        if (k != mine && !is_third(where, r, j, k) && (kept || k != other || (c == j && !beside)))
-            nearer += distance > surface_distance(&source->surface[k], x) + margin;
+    for (size_t k = 0; k < source->surfaces; k++) {
+        const size_t feet = surface_feet(&source->surface[k], x, gap, normal);
+        const bool is_mine = r->obstacle[c] == (double)k, is_others = r->obstacle[other] == (double)k,
+                   is_thirds = third && r->obstacle[third] == (double)k;
+        const size_t mine = is_mine ? foot_with(feet, normal, r->normal[c]) : feet,
+                     others = is_others ? foot_with(feet, normal, r->normal[other]) : feet,
+                     thirds = is_thirds ? foot_with(feet, normal, r->normal[third]) : feet;
+        if (is_mine && mine == others) return false;
+        for (size_t i = 0; i < feet; i++)
+            if (i != mine && i != thirds && (!skips_other || i != others))
+                nearer += distance > gap[i] + margin;
+    }
     return nearer <= kept;
 }
 
-static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
-    Seat seat = {.surface = surface_of(where, r, j, c), .gap = INFINITY};
+/* What contact c of node j sees of its obstacle; *seen is that obstacle as it sees it. */
+static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c, Surface *seen) {
+    const Surface *on = surface_of(where, r, j, c);
+    *seen = seen_by(where, r, j, c);
+    Seat seat = {.surface = on ? seen : NULL, .gap = INFINITY};
     if (!seat.surface) return seat;
     Triple x, reference, place, carried, u, along;
     Vector *nodes =
@@ -216,7 +248,7 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
     subtract(r->position[j], r->reference[j], u);
     surface_normal(seat.surface, place, seat.normal);
     surface_normal(seat.surface, where->frozen ? reference : place, seat.plane);
-    const Real turn = (Real)r->turn[seat.surface - where->source->surface];
+    const Real turn = (Real)r->turn[on - where->source->surface];
     const bool moves = turn != 0 || surface_moves(seat.surface);
     surface_carry(seat.surface, reference, r->share, turn, carried);
     const Surface at = soft_level(seat.surface, x);
@@ -369,7 +401,8 @@ static void measure_contact(const Where *where, const Record *r, size_t j, size_
     subtract(r->position[j], r->reference[j], u);
     Real R = r->reaction[c], gap = r->gap[c], force = size(F), has_normal = size(n);
     bool active = !held(r, j);
-    const Seat seat = seat_of(where, r, j, c);
+    Surface seen;
+    const Seat seat = seat_of(where, r, j, c, &seen);
     measure_seat(where, r, j, c, &seat, PLACE_MARGIN * total(&s->length), m);
     if (R < m->reaction_least) m->reaction_least = (double)R;
     // at a held end the obstacle may share the load with the support, which needs no friction
@@ -442,12 +475,11 @@ static bool is_nearest(const Surface *on, const Real *a, const Real *b, Real t, 
 }
 
 /* What the point x of element i at the share t, with its reference, sees of surface `on`, in which
- * it may lie by `depth`. */
-static Seat element_seat(const Where *where, const Record *r, const Surface *on, size_t i, Real t,
-                         const Real *x, const Real *reference, Real depth) {
+ * it may lie by `depth`, and which turns about its axis. */
+static Seat element_seat(const Where *where, const Record *r, const Surface *on, Real turn, size_t i,
+                         Real t, const Real *x, const Real *reference, Real depth) {
     Seat seat = {.surface = on};
     Triple carried, u, along;
-    const Real turn = (Real)r->turn[on - where->source->surface];
     for (int k = 0; k < 3; k++) u[k] = x[k] - reference[k];
     surface_normal(on, x, seat.normal);
     measure_element_plane(r, on, i, where->frozen, t, x, seat.plane, along);
@@ -469,6 +501,14 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     return seat;
 }
 
+/* Are two contacts with one obstacle, and on one face of it? */
+static bool is_same_contact(const Record *r, size_t a, size_t b) {
+    Real off = 0;
+    if (r->obstacle[a] != r->obstacle[b]) return false;
+    for (int k = 0; k < 3; k++) off += fabsl((Real)r->normal[a][k] - r->normal[b][k]);
+    return off < 1e-8L;
+}
+
 /* Contact of element i: the laws of a node's contact, for its point. */
 static void measure_element_contact(const Where *where, const Record *r, size_t i, Measures *m,
                                     Sums *s) {
@@ -481,7 +521,8 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
         raise_to(&m->stray_force, fabsl(r->reaction[c]) + size(none) + fabsl(r->friction_bound[c]));
         return;
     }
-    const Surface *on = &where->source->surface[(size_t)r->obstacle[c]];
+    const size_t on_file = (size_t)r->obstacle[c];
+    const Surface seen = surface_seen(&where->source->surface[on_file], r->normal[c]), *on = &seen;
     const Real t = r->share_of[i], R = r->reaction[c], gap = r->gap[c];
     Triple x, reference, along, a, b, n, F, slip, start;
     point_of(r->position, i, t, x);
@@ -492,16 +533,16 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     widen(r->normal[c], n);
     widen(r->friction[c], F);
     widen(r->slip[c], slip);
-    const Seat seat =
-        element_seat(where, r, on, i, t, x, reference,
-                     on->kind == SURFACE_PLANE ? 0 : surface_allowance(on, r->element_length[i]));
+    // a plane, or a face of a mesh, is touched by the node at the end of the element, beside two
+    // other obstacles or faces
+    const bool third = surface_may_be_third(on);
+    const Seat seat = element_seat(where, r, on, (Real)r->turn[on_file], i, t, x, reference,
+                                   third ? 0 : surface_allowance(on, r->element_length[i]));
     const Real factor = r->factor ? (1 - t) * r->factor[i] + t * r->factor[i + 1] : 1;
     r->mu[c] = (double)(factor * surface_friction(on));
     // where it is, against what it says
-    // a plane is touched by the node at the end of the element, beside two other obstacles
-    const bool third = on->kind == SURFACE_PLANE;
-    if (third && (r->contacts < 2 || held(r, i + 1) || r->obstacle[i + 1] == r->obstacle[c] ||
-                  r->obstacle[r->nodes + i + 1] == r->obstacle[c]))
+    if (third && (r->contacts < 2 || held(r, i + 1) || is_same_contact(r, i + 1, c) ||
+                  is_same_contact(r, r->nodes + i + 1, c)))
         m->misplaced++;
     // frozen friction acts on what has left the surface as well, where it last was
     const Real facing = third ? 1 : surface_facing(on, a, b);
@@ -514,7 +555,8 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
         slip[k] -= seat.slip[k];
         start[k] = x[k] - seat.slip[k];
     }
-    raise_to(&m->normal_error, size(n) / (1 + (third ? 0 : where->reach / on->radius)));
+    raise_to(&m->normal_error,
+             size(n) / (1 + (on->kind == SURFACE_PLANE ? 0 : where->reach / on->radius)));
     raise_to(&m->slip_error, size(slip));
     Triple shifted;
     surface_shift(on, reference, r->share, shifted);

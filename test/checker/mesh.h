@@ -18,6 +18,14 @@ typedef struct MeshAnswer {
     Real x[3], normal[3], distance;
 } MeshAnswer;
 
+/* The nearest point of one triangle, or of several. */
+typedef struct MeshNear {
+    Real square, foot[3];
+    size_t triangle;
+    int edge;   /* -1: on the face */
+    Real share; /* of the edge */
+} MeshNear;
+
 typedef struct Mesh {
     size_t vertices, triangles;
     double *vertex; /* (vertices, 3) */
@@ -25,6 +33,7 @@ typedef struct Mesh {
     bool *rim;      /* (triangles, 3) is the edge from corner i to the next one of no other? */
     double *ball;   /* (triangles, 4) middle, and a radius that holds the triangle */
     bool two_sided;
+    MeshNear *near; /* (triangles) scratch */
     MeshAnswer kept[MESH_KEPT]; /* the last ones, by a hash of the place */
 } Mesh;
 
@@ -34,6 +43,22 @@ void mesh_free(Mesh *mesh);
 /* Distance of x from the triangles, negative where lines may not be, and the normal there towards
  * the free side; x in the axes of the mesh. */
 Real mesh_distance(Mesh *mesh, const Real *x, Real *normal);
+
+/* A point of the triangles that is the nearest of those around it. */
+typedef struct MeshFoot {
+    Real distance, normal[3];
+} MeshFoot;
+
+enum { MESH_FEET = 12 };
+
+/* The nearest point of the triangles to x and, if x is on the free side, the others from which x is
+ * seen there, up to a distance; at most MESH_FEET, in no order but for the first. Returns their
+ * number. */
+size_t mesh_feet(Mesh *mesh, const Real *x, Real within, MeshFoot out[MESH_FEET]);
+
+/* Has a line this variable? Those of second and third contacts are there with one mesh as well, if it
+ * has concave edges. */
+bool mesh_has(int nc, const char *line, const char *variable);
 
 /* The name of obstacle k; "" without one. */
 void name_of_obstacle(int nc, size_t k, char name[201]);

@@ -146,12 +146,18 @@ Real places_work(const Source *source, const Record *r, const Record *before) {
     return before ? (after + push(source, before, true)) / 2 : after;
 }
 
-double places_reaction_on(const Record *r, size_t j, double obstacle) {
-    for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
-        if (r->obstacle[c] == obstacle) return r->reaction[c];
-    if (r->has_elements && j > 0 && r->share_of[j - 1] == 1) {
-        const size_t third = r->contacts * r->nodes + j - 1;
-        if (r->obstacle[third] == obstacle) return r->reaction[third];
+double places_reaction_on(const Record *r, size_t j, double obstacle, const double *n) {
+    const size_t third = r->contacts * r->nodes + j - 1;
+    const bool has_third = r->has_elements && j > 0 && r->share_of[j - 1] == 1;
+    double nearest = -INFINITY, reaction = 0;
+    for (size_t i = 0; i < r->contacts + has_third; i++) {
+        const size_t c = i < r->contacts ? j + i * r->nodes : third;
+        double near = 0;
+        if (r->obstacle[c] != obstacle) continue;
+        for (int k = 0; k < 3; k++) near += n[k] * r->normal[c][k];
+        if (!(near > nearest)) continue;
+        nearest = near;
+        reaction = r->reaction[c];
     }
-    return 0;
+    return reaction;
 }

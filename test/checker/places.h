@@ -18,7 +18,8 @@ void places_close(Source *source);
 Real places_work(const Source *source, const Record *r, const Record *before);
 
 /* The reaction of an obstacle on node j: it may have been another contact of the node, of which
- * the third is that of the element before it, at its end. */
-double places_reaction_on(const Record *r, size_t j, double obstacle);
+ * the third is that of the element before it, at its end. Of
+ * several contacts with one mesh it is that whose normal is nearest to n. */
+double places_reaction_on(const Record *r, size_t j, double obstacle, const double *n);
 
 #endif
