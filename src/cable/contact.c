@@ -97,8 +97,8 @@ static Vec3 carried_along(const CpsiLine *line, int c) {
 /* The displacement to x from the carried-along reference of contact c, projected onto the plane of
  * friction. */
 static Vec3 plane_slip(const CpsiLine *line, int c, Vec3 x) {
+    if (line->obstacle_index[c] < 0) return vec3(0, 0, 0);
     const Vec3 u = vec3_sub(x, carried_along(line, c));
-    if (line->obstacle_index[c] < 0) return u;
     const Vec3 n = vec3_load(&cpsi_line_axes(line, c)[6]);
     return vec3_reject(u, n);
 }

@@ -125,26 +125,57 @@ static Candidate plain_candidate(const CpsiLine *line, int k, Vec3 x, const Had 
     return out;
 }
 
-/* The foot to which that of a contact has moved, if it is one of the candidates that no other
- * contact goes on at, else -1. Of a contact whose face is not known it is the foot with the normal
- * that is nearest to its own. */
-static int moved_to(const Candidate *of, int count, const SavedContact *contact,
-                    const CpsiFoot *moved) {
-    const Vec3 normal = moved ? moved->normal : vec3_load(contact->normal);
-    double nearest = moved ? 1 - ALIKE : -INFINITY;
+/* Which of the candidates has the normal nearest to n, no farther than `least` says; -1: none. With
+ * `all` also those at which another contact goes on. */
+static int nearest_to(const Candidate *of, int count, Vec3 n, double least, bool all) {
     int best = -1;
     for (int i = 0; i < count; i++) {
-        const double near = vec3_dot(of[i].foot.normal, normal);
-        if (of[i].before >= 0 || !(near > nearest)) continue;
-        nearest = near;
+        const double near = vec3_dot(of[i].foot.normal, n);
+        if ((of[i].before >= 0 && !all) || !(near > least)) continue;
+        least = near;
         best = i;
     }
     return best;
 }
 
-/* The feet of x on obstacle k, which has folds. A contact that has borne in the round before goes on
- * as one with the plane of its face if the node has gone over a fold; where it was one already, the
- * face bears nothing there. Returns their number. */
+/* Let contact i go on, whose foot has moved with x. */
+static int follow_foot(const CpsiObstacle *obstacle, Vec3 x, const Had *had, int i, int count,
+                       Candidate out[MOST_CANDIDATES]) {
+    const SavedContact *contact = &had->contact[i];
+    CpsiObstacle seen = *obstacle;
+    seen.face = contact->face;
+    const CpsiFoot moved = cpsi_obstacle_foot(&seen, x);
+    const int at = nearest_to(out, count, moved.normal, 1 - ALIKE, true);
+    if (at >= 0 && out[at].before < 0) {
+        continue_as(&out[at], had, i);
+    } else if (at >= 0 && !contact->keeps) {
+        /* two feet have become one */
+    } else if (contact->keeps || (contact->active && !contact->beyond)) {
+        out[count] = (Candidate){
+            .obstacle = contact->obstacle_index, .gap = moved.gap, .foot = moved};
+        continue_as(&out[count++], had, i);
+    }
+    return count;
+}
+
+/* Let contact i go on, whose face is not known. */
+static int place_by_normal(const Had *had, int i, int count, Candidate out[MOST_CANDIDATES]) {
+    const SavedContact *contact = &had->contact[i];
+    const Vec3 n = vec3_load(contact->normal);
+    const int at = nearest_to(out, count, n, -INFINITY, false);
+    if (at >= 0) {
+        continue_as(&out[at], had, i);
+    } else if (contact->keeps) {
+        out[count] = out[nearest_to(out, count, n, -INFINITY, true)];
+        continue_as(&out[count++], had, i);
+    }
+    return count;
+}
+
+/* The feet of x on obstacle k, which has folds. A contact goes on at the foot to which its own has
+ * moved; where its face is not known, at that with the normal nearest to its own. One that has borne
+ * in the round before goes on with the plane of its face if the node has gone over a fold; where it
+ * was so already, the face bears nothing there. Returns their number. */
 static int folded_candidates(const CpsiLine *line, int k, Vec3 x, const Had *had,
                              Candidate out[MOST_CANDIDATES]) {
     const CpsiObstacle *obstacle = &line->obstacle[k];
@@ -152,21 +183,12 @@ static int folded_candidates(const CpsiLine *line, int k, Vec3 x, const Had *had
     int count = cpsi_obstacle_feet(obstacle, x, foot);
     for (int i = 0; i < count; i++)
         out[i] = (Candidate){.obstacle = k, .before = -1, .gap = foot[i].gap, .foot = foot[i]};
-    for (int i = 0; i < 3; i++) {
-        const SavedContact *contact = &had->contact[i];
-        if (contact->obstacle_index != k) continue;
-        CpsiObstacle seen = *obstacle;
-        seen.face = contact->face;
-        const bool known = contact->face != CPSI_NO_FACE;
-        const CpsiFoot moved = known ? cpsi_obstacle_foot(&seen, x) : foot[0];
-        const int at = moved_to(out, count, contact, known ? &moved : NULL);
-        if (at >= 0) {
-            continue_as(&out[at], had, i);
-        } else if (known && (contact->keeps || (contact->active && !contact->beyond))) {
-            out[count] = (Candidate){.obstacle = k, .gap = moved.gap, .foot = moved};
-            continue_as(&out[count++], had, i);
-        }
-    }
+    for (int pass = 0; pass < 2; pass++) /* first those that stay */
+        for (int i = 0; i < 3; i++)
+            if (had->contact[i].obstacle_index == k && had->contact[i].keeps == (pass == 0))
+                count = had->contact[i].face == CPSI_NO_FACE
+                            ? place_by_normal(had, i, count, out)
+                            : follow_foot(obstacle, x, had, i, count, out);
     return count;
 }
 
@@ -201,7 +223,7 @@ static bool is_needed(const CpsiLine *line, const Candidate *of) {
 }
 
 static bool is_same(const Candidate *a, const Candidate *b) {
-    return a->obstacle == b->obstacle && a->foot.face == b->foot.face;
+    return a->obstacle == b->obstacle && a->foot.face == b->foot.face && a->before == b->before;
 }
 
 /* The first two contacts of a node at x: those that stay, else the nearest, in the order of

@@ -24,7 +24,8 @@ struct CpsMesh {
     int depth;      /* of the tree: it has 2^depth leaves */
     CpsiBox *box;   /* (2^(depth + 1) - 1) of node i, whose halves are 2 i + 1 and 2 i + 2 */
     bool two_sided;
-    bool has_folds; /* a concave edge; of a sheet with two sides any edge between two planes */
+    bool has_folds; /* a concave edge, of a sheet with two sides any edge between two planes; or
+                       it is not all in one piece: a place may have several feet */
     CpsMeshReport report;
     atomic_int refcount;
 };
@@ -63,8 +64,8 @@ void cpsi_mesh_each_within(const CpsMesh *mesh, Vec3 x, double within,
 
 /* Several feet (mesh_feet.c). */
 
-/* Set has_folds. */
-void cpsi_mesh_find_folds(CpsMesh *mesh);
+/* Set has_folds; `scratch` has memory for 2 triangle_count numbers. */
+void cpsi_mesh_find_folds(CpsMesh *mesh, int *scratch);
 /* The nearest foot of x and, if x is on the free side, the other points of the triangles that are
  * the nearest of those around them, up to a distance; at most `most`, the nearest first. Where x is
  * behind a concave edge or corner they are its feet on the planes of the faces there, the deepest

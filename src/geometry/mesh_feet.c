@@ -52,18 +52,33 @@ static bool is_fold(const CpsMesh *mesh, int t, int i, int s, Vec3 x) {
     return mesh->two_sided && height_of(mesh, t, x) < 0 ? -up > FLAT : up > FLAT;
 }
 
-void cpsi_mesh_find_folds(CpsMesh *mesh) {
-    mesh->has_folds = false;
+static bool has_fold(const CpsMesh *mesh) {
     for (int t = 0; t < mesh->triangle_count; t++)
         for (int i = 0; i < 3; i++) {
             const int s = beyond_edge(mesh, t, i);
-            if (s < 0) continue;
-            const double up = rise(mesh, t, i, s);
-            if (mesh->two_sided ? fabs(up) > FLAT : up > FLAT) {
-                mesh->has_folds = true;
-                return;
-            }
+            const double up = s < 0 ? 0 : rise(mesh, t, i, s);
+            if (mesh->two_sided ? fabs(up) > FLAT : up > FLAT) return true;
         }
+    return false;
+}
+
+/* Do all triangles hang together across edges? */
+static bool is_one_piece(const CpsMesh *mesh, int *scratch) {
+    int *reached = scratch, *is_reached = &scratch[mesh->triangle_count], count = 1;
+    for (int t = 0; t < mesh->triangle_count; t++) is_reached[t] = t == 0;
+    reached[0] = 0;
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < 3; i++) {
+            const int s = beyond_edge(mesh, reached[k], i);
+            if (s < 0 || is_reached[s]) continue;
+            is_reached[s] = 1;
+            reached[count++] = s;
+        }
+    return count == mesh->triangle_count;
+}
+
+void cpsi_mesh_find_folds(CpsMesh *mesh, int *scratch) {
+    mesh->has_folds = has_fold(mesh) || !is_one_piece(mesh, scratch);
 }
 
 /* A way over the faces round a corner, or over the one edge of a foot. */

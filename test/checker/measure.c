@@ -204,33 +204,47 @@ static size_t third_of(const Where *where, const Record *r, size_t j) {
     return surface_may_be_third(&where->source->surface[(size_t)r->obstacle[c]]) ? c : 0;
 }
 
-/* Is contact c with the nearest foot of all obstacles but for those before it, within a margin? One
- * that stays is so at the reference, and the other contact of its node is with the nearest of the
- * rest. */
+/* Is contact c, which stays, with the nearest obstacle at the reference, or with the next? */
+static bool was_in_place(const Where *where, const Record *r, size_t j, size_t c, Real margin) {
+    const Surface *surface = where->source->surface;
+    const size_t mine = (size_t)r->obstacle[c];
+    Triple x;
+    widen(r->reference[j], x);
+    const Real distance = surface_distance(&surface[mine], x);
+    const size_t third = third_of(where, r, j);
+    size_t nearer = 0;
+    for (size_t k = 0; k < where->source->surfaces; k++)
+        if (k != mine && !(third && r->obstacle[third] == (double)k))
+            nearer += distance > surface_distance(&surface[k], x) + margin;
+    return nearer <= 1;
+}
+
+/* Is contact c with the nearest foot of all obstacles but for those before it, within a margin? The
+ * other contact of its node is with the nearest of the rest, unless it stays. */
 static bool in_place(const Where *where, const Record *r, size_t j, size_t c, Real margin) {
-    const Source *source = where->source;
     const size_t other = c == j ? j + r->nodes : j, third = third_of(where, r, j);
-    const bool kept = stays(where, r, c), beside = stays(where, r, other);
-    const bool skips_other = !kept && (c != j || beside);
+    if (stays(where, r, c)) return was_in_place(where, r, j, c, margin);
+    const bool skips_other = c != j || stays(where, r, other);
     Real gap[MESH_FEET], normal[MESH_FEET][3];
     Triple x;
-    widen(kept ? r->reference[j] : where->place[j], x);
+    widen(where->place[j], x);
     const Surface seen = seen_by(where, r, j, c);
     const Real distance = surface_distance(&seen, x);
-    size_t nearer = 0;
-    for (size_t k = 0; k < source->surfaces; k++) {
-        const size_t feet = surface_feet(&source->surface[k], x, gap, normal);
-        const bool is_mine = r->obstacle[c] == (double)k, is_others = r->obstacle[other] == (double)k,
+    for (size_t k = 0; k < where->source->surfaces; k++) {
+        const size_t feet = surface_feet(&where->source->surface[k], x, gap, normal);
+        const bool is_mine = r->obstacle[c] == (double)k,
+                   is_others = r->obstacle[other] == (double)k,
                    is_thirds = third && r->obstacle[third] == (double)k;
         const size_t mine = is_mine ? foot_with(feet, normal, r->normal[c]) : feet,
                      others = is_others ? foot_with(feet, normal, r->normal[other]) : feet,
                      thirds = is_thirds ? foot_with(feet, normal, r->normal[third]) : feet;
         if (is_mine && mine == others) return false;
         for (size_t i = 0; i < feet; i++)
-            if (i != mine && i != thirds && (!skips_other || i != others))
-                nearer += distance > gap[i] + margin;
+            if (i != mine && i != thirds && (!skips_other || i != others) &&
+                distance > gap[i] + margin)
+                return false;
     }
-    return nearer <= kept;
+    return true;
 }
 
 /* What contact c of node j sees of its obstacle; *seen is that obstacle as it sees it. */
@@ -454,7 +468,7 @@ void measure_element_plane(const Record *r, const Surface *on, size_t i, bool fr
     subtract(nodes[i + 1], nodes[i], along);
     widen(nodes[i], a);
     widen(nodes[i + 1], b);
-    const Real facing = surface_facing(on, a, b);
+    const Real facing = surface_may_be_third(on) ? t : surface_facing(on, a, b);
     point_of(nodes, i, facing > 0 && facing < 1 ? facing : t, from);
     surface_normal(on, frozen ? from : x, plane);
 }
