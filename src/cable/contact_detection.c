@@ -43,8 +43,7 @@ typedef struct SavedContact {
     double reaction, bound, gap, winding, force[3], normal[3];
     unsigned char state;
     bool active;
-    int face; /* with folds */
-    bool beyond;
+    int face;   /* with folds */
     bool keeps; /* it stays with its obstacle */
 } SavedContact;
 
@@ -60,10 +59,7 @@ static SavedContact save_contact(const CpsiLine *line, int c, bool keep_active) 
                           .keeps = is_kept(line, c) || (keep_active && line->active[c])};
     memcpy(saved.force, &line->friction_force[3 * c], sizeof saved.force);
     memcpy(saved.normal, &line->normal[3 * c], sizeof saved.normal);
-    if (line->has_folds) {
-        saved.face = line->face[c];
-        saved.beyond = line->beyond[c];
-    }
+    if (line->has_folds) saved.face = line->face[c];
     return saved;
 }
 
@@ -77,9 +73,7 @@ static void restore_contact(CpsiLine *line, int c, const SavedContact *saved) {
     line->active[c] = saved->active;
     memcpy(&line->friction_force[3 * c], saved->force, sizeof saved->force);
     memcpy(&line->normal[3 * c], saved->normal, sizeof saved->normal);
-    if (!line->has_folds) return;
-    line->face[c] = saved->face;
-    line->beyond[c] = saved->beyond;
+    if (line->has_folds) line->face[c] = saved->face;
 }
 
 Vec3 cpsi_contact_reference_normal(const CpsiLine *line, int k, int c) {
@@ -139,8 +133,8 @@ static int nearest_to(const Candidate *of, int count, Vec3 n, double least, bool
 }
 
 /* Let contact i go on, whose foot has moved with x. */
-static int follow_foot(const CpsiObstacle *obstacle, Vec3 x, const Had *had, int i, int count,
-                       Candidate out[MOST_CANDIDATES]) {
+static int follow_foot(const CpsiObstacle *obstacle, Vec3 x, double touch, const Had *had, int i,
+                       int count, Candidate out[MOST_CANDIDATES]) {
     const SavedContact *contact = &had->contact[i];
     CpsiObstacle seen = *obstacle;
     seen.face = contact->face;
@@ -150,7 +144,8 @@ static int follow_foot(const CpsiObstacle *obstacle, Vec3 x, const Had *had, int
         continue_as(&out[at], had, i);
     } else if (at >= 0 && !contact->keeps) {
         /* two feet have become one */
-    } else if (contact->keeps || (contact->active && !contact->beyond)) {
+    } else if (contact->keeps ||
+               (contact->active && (out[0].gap < -touch || moved.gap > touch))) {
         out[count] = (Candidate){
             .obstacle = contact->obstacle_index, .gap = moved.gap, .foot = moved};
         continue_as(&out[count++], had, i);
@@ -174,11 +169,13 @@ static int place_by_normal(const Had *had, int i, int count, Candidate out[MOST_
 
 /* The feet of x on obstacle k, which has folds. A contact goes on at the foot to which its own has
  * moved; where its face is not known, at that with the normal nearest to its own. One that has borne
- * in the round before goes on with the plane of its face if the node has gone over a fold; where it
- * was so already, the face bears nothing there. Returns their number. */
+ * in the round before goes on with the plane of its face where the node has gone over a fold; not if
+ * it lies on that plane without being below another face, for then nothing is there that bears it.
+ * Returns their number. */
 static int folded_candidates(const CpsiLine *line, int k, Vec3 x, const Had *had,
                              Candidate out[MOST_CANDIDATES]) {
     const CpsiObstacle *obstacle = &line->obstacle[k];
+    const double touch = 0.1 * CPS_TOUCH * line->length;
     CpsiFoot foot[CPSI_MOST_FEET];
     int count = cpsi_obstacle_feet(obstacle, x, foot);
     for (int i = 0; i < count; i++)
@@ -188,7 +185,7 @@ static int folded_candidates(const CpsiLine *line, int k, Vec3 x, const Had *had
             if (had->contact[i].obstacle_index == k && had->contact[i].keeps == (pass == 0))
                 count = had->contact[i].face == CPSI_NO_FACE
                             ? place_by_normal(had, i, count, out)
-                            : follow_foot(obstacle, x, had, i, count, out);
+                            : follow_foot(obstacle, x, touch, had, i, count, out);
     return count;
 }
 
@@ -304,7 +301,6 @@ static void become(CpsiLine *line, int j, int c, const Candidate *now, const Had
                    has_face ? now->foot.normal
                             : cpsi_contact_reference_normal(line, now->obstacle, j));
     contact.face = has_face ? now->foot.face : CPSI_NO_FACE;
-    contact.beyond = has_face && now->foot.beyond;
     restore_contact(line, c, &contact);
 }
 

@@ -108,10 +108,8 @@ typedef struct CpsiLine {
     double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *obstacle_index; /* (contacts, n) the obstacle of each contact: the nearest and the next; of
                             an element the one with which it is in contact; -1: none */
-    /* with has_folds, else NULL, and known from the detection of contacts to the end of the step:
-     * (contacts, n) the face that each contact was found on, and whether it was beyond a fold */
-    int *face;
-    bool *beyond;
+    int *face; /* (contacts, n) with has_folds, else NULL: the face that each contact was found on,
+                  known from the detection of contacts to the end of the step */
     double *beta; /* (n) share of element e at which it touches; NULL without such contacts */
     double *node_reaction;     /* (n) [N] sum of the reactions on the node and on its elements */
     bool is_rough;             /* the program was solved to a hundredth of the tolerance only */
