@@ -168,7 +168,7 @@ def main():
                 failed += 1
                 print(f"{name}: exit code {done.returncode}, expected {code}; {done.stderr.rstrip()}\n    expected {wanted}")
     print(f"{len(cases)} cases, {failed} failed")
-    return 0 if is_told(len(CHANGES)) and not failed else 1
+    return 0 if is_told(len(cases)) and not failed else 1
 
 
 if __name__ == "__main__":
