@@ -205,9 +205,9 @@ void cpsi_contact_update_geometry(CpsiLine *line) {
         vec3_store(&line->slip[3 * c], slip_to(line, c, x));
         const Vec3 u = vec3_sub(x, cpsi_line_place(line, line->reference, c));
         CpsiObstacle seen;
-        const double gap = k < 0 ? INFINITY
-                                 : cpsi_obstacle_gap(cpsi_contact_surface(line, c, &seen), x) +
-                                       allowance(line, c);
+        const double gap =
+            k < 0 ? INFINITY
+                  : cpsi_obstacle_gap(cpsi_contact_surface(line, c, &seen), x) + allowance(line, c);
         line->gap[c] = cpsi_contact_is_watched(line, c, gap) ? gap - vec3_dot(n, u) : INFINITY;
         if (!isfinite(line->gap[c])) cpsi_contact_clear(line, c);
     }

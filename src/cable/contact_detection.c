@@ -87,11 +87,11 @@ Vec3 cpsi_contact_reference_normal(const CpsiLine *line, int k, int c) {
 
 /* What node j may touch: an obstacle, or one of its feet on an obstacle with folds. */
 typedef struct Candidate {
-    int obstacle; /* CPS_NO_OBSTACLE: none */
-    int before;   /* which of the contacts that the node had goes on here, -1: none */
-    bool keeps;   /* ... and stays with its obstacle */
-    bool active;  /* ... and has borne */
-    double gap;   /* [m] */
+    int obstacle;  /* CPS_NO_OBSTACLE: none */
+    int before;    /* which of the contacts that the node had goes on here, -1: none */
+    bool keeps;    /* ... and stays with its obstacle */
+    bool active;   /* ... and has borne */
+    double gap;    /* [m] */
     CpsiFoot foot; /* with folds, else with CPSI_NO_FACE */
 } Candidate;
 
@@ -144,10 +144,9 @@ static int follow_foot(const CpsiObstacle *obstacle, Vec3 x, double touch, const
         continue_as(&out[at], had, i);
     } else if (at >= 0 && !contact->keeps) {
         /* two feet have become one */
-    } else if (contact->keeps ||
-               (contact->active && (out[0].gap < -touch || moved.gap > touch))) {
-        out[count] = (Candidate){
-            .obstacle = contact->obstacle_index, .gap = moved.gap, .foot = moved};
+    } else if (contact->keeps || (contact->active && (out[0].gap < -touch || moved.gap > touch))) {
+        out[count] =
+            (Candidate){.obstacle = contact->obstacle_index, .gap = moved.gap, .foot = moved};
         continue_as(&out[count++], had, i);
     }
     return count;
@@ -168,10 +167,10 @@ static int place_by_normal(const Had *had, int i, int count, Candidate out[MOST_
 }
 
 /* The feet of x on obstacle k, which has folds. A contact goes on at the foot to which its own has
- * moved; where its face is not known, at that with the normal nearest to its own. One that has borne
- * in the round before goes on with the plane of its face where the node has gone over a fold; not if
- * it lies on that plane without being below another face, for then nothing is there that bears it.
- * Returns their number. */
+ * moved; where its face is not known, at that with the normal nearest to its own. One that has
+ * borne in the round before goes on with the plane of its face where the node has gone over a fold;
+ * not if it lies on that plane without being below another face, for then nothing is there that
+ * bears it. Returns their number. */
 static int folded_candidates(const CpsiLine *line, int k, Vec3 x, const Had *had,
                              Candidate out[MOST_CANDIDATES]) {
     const CpsiObstacle *obstacle = &line->obstacle[k];
@@ -297,9 +296,9 @@ static void become(CpsiLine *line, int j, int c, const Candidate *now, const Had
     if (goes_on)
         contact = had->contact[now->before];
     else
-        vec3_store(contact.normal,
-                   has_face ? now->foot.normal
-                            : cpsi_contact_reference_normal(line, now->obstacle, j));
+        vec3_store(contact.normal, has_face
+                                       ? now->foot.normal
+                                       : cpsi_contact_reference_normal(line, now->obstacle, j));
     contact.face = has_face ? now->foot.face : CPSI_NO_FACE;
     restore_contact(line, c, &contact);
 }

@@ -27,6 +27,7 @@
 #include "evolve/time_check.h"
 #include "evolve/trial.h"
 #include "evolve/view.h"
+#include "evolve/waves.h"
 #include "geometry/folds.h"
 
 static char *copy_name(CpsiArena *arena, const char *name) {
@@ -47,8 +48,8 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
  * nearest one. */
 static bool scene_has_folds(const CpsScene *scene) {
     bool folds = false;
-    for (int k = 0; k < scene->obstacle_count && scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
-         k++) {
+    for (int k = 0;
+         k < scene->obstacle_count && scene->contact_policy == CPS_CONTACT_POLICY_REACHED; k++) {
         const CpsiObstacle o = cpsi_obstacle(&scene->obstacle[k]);
         folds = folds || cpsi_obstacle_has_folds(&o);
     }
@@ -108,9 +109,11 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         CPSI_PLACE(arena, evolution->current_row, scene->current->row_count);
         CPSI_PLACE(arena, evolution->flow, scene->line_count);
     }
+    if (cpsi_waves_of(scene)) CPSI_PLACE(arena, evolution->wave, cpsi_waves_of(scene)->wave_count);
     layout_given(evolution, arena, scene, real);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
-                              .contacts = scene->obstacle_count > 1 || scene_has_folds(scene) ? 2 : 1,
+                              .contacts =
+                                  scene->obstacle_count > 1 || scene_has_folds(scene) ? 2 : 1,
                               .element_contacts = scene_has_element_contacts(scene) ? 1 : 0,
                               .has_local_axes = scene_needs_local_axes(scene),
                               .has_path_tolerance = scene->solver.path_tolerance > 0,
@@ -251,6 +254,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     if (def->loads)
         cpsi_line_loads_fill(line, scene, def, evolution->origin, evolution->current_row,
                              evolution->flow ? &evolution->flow[def - scene->line] : NULL);
+    if (line->field.flow && evolution->wave)
+        evolution->flow[def - scene->line].waves = &evolution->waves;
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
         if (def->end[end].kind == CPS_END_KIND_FREE) continue;
@@ -283,6 +288,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->time_scheme = scene->time_scheme;
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
+    cpsi_waves_fill(&evolution->waves, evolution->wave, scene, evolution->origin);
     for (int i = 0; i < scene->line_count; i++) {
         fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
         const double pull = vec3_norm(vec3_load(scene->gravity));

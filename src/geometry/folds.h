@@ -2,8 +2,8 @@
 /* Several feet of a place on one obstacle: beside the concave edges of a mesh, its folds.
  *
  * A place that touches both faces beside a fold touches as if these were two obstacles. An obstacle
- * that has folds may be asked as seen from one of its faces: with CpsiObstacle.face set, the foot of
- * a place in obstacle.h is the one that is reached from that face without crossing a fold. */
+ * that has folds may be asked as seen from one of its faces: with CpsiObstacle.face set, the foot
+ * of a place in obstacle.h is the one that is reached from that face without crossing a fold. */
 #ifndef CAPSTAN_SRC_GEOMETRY_FOLDS_H
 #define CAPSTAN_SRC_GEOMETRY_FOLDS_H
 
@@ -22,9 +22,9 @@ typedef struct CpsiFoot {
 /* Is it a rigid mesh with folds? On one that gives a place has its nearest foot alone. */
 bool cpsi_obstacle_has_folds(const CpsiObstacle *obstacle);
 
-/* The feet of x on an obstacle with folds, the nearest first: that one, and others whose gap is less
- * than a part of the radius; returns their number, 1 to CPSI_MOST_FEET. Behind a fold they are those
- * on the planes of the faces there. */
+/* The feet of x on an obstacle with folds, the nearest first: that one, and others whose gap is
+ * less than a part of the radius; returns their number, 1 to CPSI_MOST_FEET. Behind a fold they are
+ * those on the planes of the faces there. */
 int cpsi_obstacle_feet(const CpsiObstacle *obstacle, Vec3 x, CpsiFoot out[CPSI_MOST_FEET]);
 
 /* The face of the foot of x whose normal is nearest to n. */

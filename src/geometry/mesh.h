@@ -73,7 +73,8 @@ void cpsi_mesh_find_folds(CpsMesh *mesh, int *scratch);
 int cpsi_mesh_feet(const CpsMesh *mesh, Vec3 x, double within, int most, CpsiMeshFoot out[],
                    bool *beyond);
 /* The foot that is reached from a face by going to nearer points of the faces around, but over no
- * concave edge. *beyond: it would go on over one; the foot is that on the plane of the last face. */
+ * concave edge. *beyond: it would go on over one; the foot is that on the plane of the last face.
+ */
 CpsiMeshFoot cpsi_mesh_foot_from(const CpsMesh *mesh, int face, Vec3 x, bool *beyond);
 
 #endif

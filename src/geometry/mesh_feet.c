@@ -36,8 +36,7 @@ static double rise(const CpsMesh *mesh, int t, int i, int s) {
     int far_corner = 0;
     for (int k = 0; k < 3; k++)
         if (vertex_of(mesh, s, k) != a && vertex_of(mesh, s, k) != b) far_corner = k;
-    const Vec3 arm =
-        vec3_sub(cpsi_mesh_corner(mesh, s, far_corner), cpsi_mesh_corner(mesh, t, i));
+    const Vec3 arm = vec3_sub(cpsi_mesh_corner(mesh, s, far_corner), cpsi_mesh_corner(mesh, t, i));
     return vec3_dot(arm, cpsi_mesh_normal(mesh, t)) / vec3_norm(arm);
 }
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A mesh inflated by a radius (shape.h, folds.h; docs/theory.md 2.3): distance d to the nearest
- * triangle less the radius r. Where the foot is on an edge the level of d through x is a cylinder of
- * radius d round it, at a corner a ball, on a face a plane. The way between two feet is their chord,
- * laid into the tangent plane where it arrives: right to second order where the surface turns
- * little, and to first order across an edge. Across a fold it is that of the plane where it
+ * triangle less the radius r. Where the foot is on an edge the level of d through x is a cylinder
+ * of radius d round it, at a corner a ball, on a face a plane. The way between two feet is their
+ * chord, laid into the tangent plane where it arrives: right to second order where the surface
+ * turns little, and to first order across an edge. Across a fold it is that of the plane where it
  * arrives. */
 #include <math.h>
 
@@ -154,9 +154,9 @@ typedef struct Way {
 } Way;
 
 static Way way_between(const CpsiObstacle *o, Vec3 from, Vec3 to) {
-    const CpsiMeshFoot last = foot_of(o, to),
-                       first = o->face == CPSI_NO_FACE ? foot_of(o, from)
-                                                       : foot_towards(o, from, last.normal);
+    const CpsiMeshFoot last = foot_of(o, to), first = o->face == CPSI_NO_FACE
+                                                          ? foot_of(o, from)
+                                                          : foot_towards(o, from, last.normal);
     Way way = {.from = vec3_axpy(o->radius - first.distance, first.normal, from),
                .to = vec3_axpy(o->radius - last.distance, last.normal, to),
                .first = first.normal,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Lines in concave edges and corners of a mesh, against the planes of its faces, raised by its
- * radius: a groove between two faces, and a pit between three. The node between two elements comes to
- * rest there, and is drawn about. */
+ * radius: a groove between two faces, and a pit between three. The node between two elements comes
+ * to rest there, and is drawn about. */
 #include <stdio.h>
 #include <string.h>
 
@@ -57,8 +57,8 @@ typedef struct Pit {
 static Pit groove(uint64_t *random) {
     const double rise = splitmix(random, 0.1, 1.2), other = splitmix(random, 0.1, 1.2);
     Pit pit = {.faces = 2, .triangles = 4};
-    const double corner[5][3] = {{0, 0, 0}, {30, 0, 0}, {0, 30, 30 * rise}, {-30, 0, 0},
-                                 {0, -30, 30 * other}};
+    const double corner[5][3] = {
+        {0, 0, 0}, {30, 0, 0}, {0, 30, 30 * rise}, {-30, 0, 0}, {0, -30, 30 * other}};
     const int triangle[] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1};
     memcpy(pit.corner, corner, sizeof corner);
     memcpy(pit.triangle, triangle, sizeof triangle);
@@ -114,9 +114,9 @@ static double height_at(const CpsObstacle plane[FACES], int faces, double a, dou
     double most = -INFINITY;
     for (int k = 0; k < faces; k++) {
         const double *n = plane[k].normal;
-        most = fmax(most, plane[k].point[2] + ((plane[k].point[0] - a) * n[0] +
-                                               (plane[k].point[1] - b) * n[1]) /
-                                                  n[2]);
+        most = fmax(most,
+                    plane[k].point[2] +
+                        ((plane[k].point[0] - a) * n[0] + (plane[k].point[1] - b) * n[1]) / n[2]);
     }
     return most;
 }
@@ -161,7 +161,8 @@ static void compare(const Pit *pit, double friction, double stiffness, uint64_t 
     const double way = splitmix(random, 0, 6.28), out = splitmix(random, 3.2, 4.2);
     for (int end = 0; end < 2; end++) {
         const double a = (end == 0 ? -out : out) * cos(way), b = (end == 0 ? -out : out) * sin(way);
-        line.end[end] = (CpsEnd){CPS_END_KIND_HELD, {a, b, height_at(plane, pit->faces, a, b) + 0.4}};
+        line.end[end] =
+            (CpsEnd){CPS_END_KIND_HELD, {a, b, height_at(plane, pit->faces, a, b) + 0.4}};
     }
     /* taut, so that the node has one place only */
     line.length = 1.9 * fmin(size_of(line.end[0].value), size_of(line.end[1].value));
@@ -211,8 +212,8 @@ static void against_planes(const char *name, Pit (*make)(uint64_t *random), doub
     assert_true(apart.steps >= 100);
 }
 
-/* Along the groove a node is held by the tension alone, in the static start: the interior point ends
- * at a gap of 1e-13 of the scale, which is the square of an error of the place. */
+/* Along the groove a node is held by the tension alone, in the static start: the interior point
+ * ends at a gap of 1e-13 of the scale, which is the square of an error of the place. */
 static void a_groove(void **state) {
     (void)state;
     against_planes("groove between two faces", groove, 1e-8);

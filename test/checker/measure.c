@@ -490,8 +490,8 @@ static bool is_nearest(const Surface *on, const Real *a, const Real *b, Real t, 
 
 /* What the point x of element i at the share t, with its reference, sees of surface `on`, in which
  * it may lie by `depth`, and which turns about its axis. */
-static Seat element_seat(const Where *where, const Record *r, const Surface *on, Real turn, size_t i,
-                         Real t, const Real *x, const Real *reference, Real depth) {
+static Seat element_seat(const Where *where, const Record *r, const Surface *on, Real turn,
+                         size_t i, Real t, const Real *x, const Real *reference, Real depth) {
     Seat seat = {.surface = on};
     Triple carried, u, along;
     for (int k = 0; k < 3; k++) u[k] = x[k] - reference[k];

@@ -33,7 +33,7 @@ typedef struct Mesh {
     bool *rim;      /* (triangles, 3) is the edge from corner i to the next one of no other? */
     double *ball;   /* (triangles, 4) middle, and a radius that holds the triangle */
     bool two_sided;
-    MeshNear *near; /* (triangles) scratch */
+    MeshNear *near;             /* (triangles) scratch */
     MeshAnswer kept[MESH_KEPT]; /* the last ones, by a hash of the place */
 } Mesh;
 
@@ -56,8 +56,8 @@ enum { MESH_FEET = 12 };
  * number. */
 size_t mesh_feet(Mesh *mesh, const Real *x, Real within, MeshFoot out[MESH_FEET]);
 
-/* Has a line this variable? Those of second and third contacts are there with one mesh as well, if it
- * has concave edges. */
+/* Has a line this variable? Those of second and third contacts are there with one mesh as well, if
+ * it has concave edges. */
 bool mesh_has(int nc, const char *line, const char *variable);
 
 /* The name of obstacle k; "" without one. */

@@ -160,8 +160,8 @@ static size_t contacts_with(const Record *r, size_t j, double obstacle, size_t o
 static double rank_of(const double *values, const size_t *contact, size_t count, size_t c) {
     double larger = 0;
     for (size_t i = 0; i < count; i++)
-        larger += values[contact[i]] > values[c] ||
-                  (values[contact[i]] == values[c] && contact[i] < c);
+        larger +=
+            values[contact[i]] > values[c] || (values[contact[i]] == values[c] && contact[i] < c);
     return larger;
 }
 

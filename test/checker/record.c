@@ -511,7 +511,8 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (record->nodes != record->elements + 1)
         return complain(log, "nodes are not elements + 1 in line", line, 0);
 
-    record->contacts = source->surfaces > 1 || mesh_has(source->nc, line, "obstacle_second") ? 2 : 1;
+    record->contacts =
+        source->surfaces > 1 || mesh_has(source->nc, line, "obstacle_second") ? 2 : 1;
     size_t n = record->contacts * record->nodes + record->elements;
     Vector **vectors[] = {&record->reference,     &record->position, &record->load,
                           &record->normal,        &record->friction, &record->slip,

@@ -113,8 +113,8 @@ size_t surface_feet(const Surface *s, const Real *x, Real gap[MESH_FEET],
 
 Surface surface_seen(const Surface *s, const double *normal) {
     Surface seen = *s;
-    seen.faces = s->mesh && !(s->gives > 0) &&
-                 !(normal[0] == 0 && normal[1] == 0 && normal[2] == 0);
+    seen.faces =
+        s->mesh && !(s->gives > 0) && !(normal[0] == 0 && normal[1] == 0 && normal[2] == 0);
     for (int k = 0; k < 3; k++) seen.facing[k] = normal[k];
     return seen;
 }
