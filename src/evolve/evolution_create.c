@@ -69,6 +69,17 @@ static bool scene_has_element_contacts(const CpsScene *scene) {
            scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
 }
 
+static int contact_count(const CpsScene *scene) {
+    return scene->obstacle_count > 1 || scene_has_folds(scene) ? 2 : 1;
+}
+
+static void take_contacts(CpsiLine *line, const CpsiWorkspaceSize *size, bool has_folds) {
+    line->has_local_axes = size->has_local_axes;
+    line->has_folds = has_folds;
+    line->contacts = size->contacts;
+    line->element_contacts = size->element_contacts;
+}
+
 /* More threads than lines would have nothing to do. */
 static int workspace_count(const CpsScene *scene) {
     const int threads = scene->solver.thread_count;
@@ -112,8 +123,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     if (cpsi_waves_of(scene)) CPSI_PLACE(arena, evolution->wave, cpsi_waves_of(scene)->wave_count);
     layout_given(evolution, arena, scene, real);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
-                              .contacts =
-                                  scene->obstacle_count > 1 || scene_has_folds(scene) ? 2 : 1,
+                              .contacts = contact_count(scene),
                               .element_contacts = scene_has_element_contacts(scene) ? 1 : 0,
                               .has_local_axes = scene_needs_local_axes(scene),
                               .has_path_tolerance = scene->solver.path_tolerance > 0,
@@ -126,10 +136,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         CpsiLine *line = real ? &evolution->line[i] : &any;
         line->name = copy_name(arena, scene->line[i].name);
         line->n = scene->line[i].element_count + 1;
-        line->has_local_axes = size.has_local_axes;
-        line->has_folds = scene_has_folds(scene);
-        line->contacts = size.contacts;
-        line->element_contacts = size.element_contacts;
+        take_contacts(line, &size, scene_has_folds(scene));
         line->has_zones = scene->line[i].zone_count > 0;
         line->has_sections = cpsi_has_sections(&scene->line[i]);
         for (int end = 0; end < 2; end++) line->drums.on[end] = scene->line[i].winch[end].is_there;

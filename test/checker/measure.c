@@ -20,6 +20,7 @@
 #include "grasps.h"
 #include "loads.h"
 #include "missing.h"
+#include "seen.h"
 #include "sets.h"
 #include "shape.h"
 
@@ -132,15 +133,6 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     raise_to(&m->tension_least, -T);
 }
 
-/* Where contact is seen from: the configuration reached, or the reference. */
-typedef struct Where {
-    const Source *source;
-    Vector *place;
-    bool reached, frozen; /* frozen: friction is that of the reference whatever place */
-    /* [m] largest coordinate, radius and obstacle coordinate: what rounding goes with */
-    Real reach;
-} Where;
-
 /* What a contact sees of its obstacle. */
 typedef struct Seat {
     const Surface *surface; /* NULL without any */
@@ -151,105 +143,9 @@ typedef struct Seat {
     bool has_axes;
 } Seat;
 
-/* Where the contacts of node j are seen from: a held end on which an obstacle pushes is where it
- * came to. */
-static void place_of(const Where *where, const Record *r, size_t j, Triple x) {
-    widen(held(r, j) && r->reaction[j] > 0 ? r->position[j] : where->place[j], x);
-}
-
-/* The obstacle of contact c of node j, which the file says where there are several; a held node's
- * may be that of either place, so it is the nearest here. */
-static const Surface *surface_of(const Where *where, const Record *r, size_t j, size_t c) {
-    const Source *source = where->source;
-    if (source->surfaces == 0 || r->obstacle[c] < 0) return NULL;
-    if (c >= r->nodes || !held(r, j)) return &source->surface[(size_t)r->obstacle[c]];
-    Triple x;
-    place_of(where, r, j, x);
-    size_t best = 0;
-    for (size_t k = 1; k < source->surfaces; k++)
-        if (surface_distance(&source->surface[k], x) < surface_distance(&source->surface[best], x))
-            best = k;
-    return &source->surface[best];
-}
-
-/* ... as the contact sees it: with contact of the reference, and of what is held, its nearest
- * foot. */
-static Surface seen_by(const Where *where, const Record *r, size_t j, size_t c) {
-    const Surface *on = surface_of(where, r, j, c);
-    if (!on) return (Surface){.kind = SURFACE_KINDS};
-    return where->source->touching_only || held(r, j) ? *on : surface_seen(on, r->normal[c]);
-}
-
-/* Does contact c stay with its obstacle through the step, whichever are near where it ends? Frozen
- * friction does, and what contact of the reference keeps out. */
-static bool stays(const Where *where, const Record *r, size_t c) {
-    if (where->source->touching_only) return where->reached && isfinite(r->gap[c]);
-    return where->frozen && r->friction_bound[c] > 0;
-}
-
-/* Which of the feet of a surface a contact with normal n has: that with the nearest normal. */
-static size_t foot_with(size_t feet, Real normal[MESH_FEET][3], const double *n) {
-    size_t best = 0;
-    Triple wide;
-    widen(n, wide);
-    for (size_t i = 1; i < feet; i++)
-        if (dot(normal[i], wide) > dot(normal[best], wide)) best = i;
-    return best;
-}
-
-/* The third contact of node j, at the end of the element before it; 0: none. */
-static size_t third_of(const Where *where, const Record *r, size_t j) {
-    const size_t c = r->contacts * r->nodes + j - 1;
-    if (!r->has_elements || j == 0 || r->obstacle[c] < 0) return 0;
-    return surface_may_be_third(&where->source->surface[(size_t)r->obstacle[c]]) ? c : 0;
-}
-
-/* Is contact c, which stays, with the nearest obstacle at the reference, or with the next? */
-static bool was_in_place(const Where *where, const Record *r, size_t j, size_t c, Real margin) {
-    const Surface *surface = where->source->surface;
-    const size_t mine = (size_t)r->obstacle[c];
-    Triple x;
-    widen(r->reference[j], x);
-    const Real distance = surface_distance(&surface[mine], x);
-    const size_t third = third_of(where, r, j);
-    size_t nearer = 0;
-    for (size_t k = 0; k < where->source->surfaces; k++)
-        if (k != mine && !(third && r->obstacle[third] == (double)k))
-            nearer += distance > surface_distance(&surface[k], x) + margin;
-    return nearer <= 1;
-}
-
-/* Is contact c with the nearest foot of all obstacles but for those before it, within a margin? The
- * other contact of its node is with the nearest of the rest, unless it stays. */
-static bool in_place(const Where *where, const Record *r, size_t j, size_t c, Real margin) {
-    const size_t other = c == j ? j + r->nodes : j, third = third_of(where, r, j);
-    if (stays(where, r, c)) return was_in_place(where, r, j, c, margin);
-    const bool skips_other = c != j || stays(where, r, other);
-    Real gap[MESH_FEET], normal[MESH_FEET][3];
-    Triple x;
-    widen(where->place[j], x);
-    const Surface seen = seen_by(where, r, j, c);
-    const Real distance = surface_distance(&seen, x);
-    for (size_t k = 0; k < where->source->surfaces; k++) {
-        const size_t feet = surface_feet(&where->source->surface[k], x, gap, normal);
-        const bool is_mine = r->obstacle[c] == (double)k,
-                   is_others = r->obstacle[other] == (double)k,
-                   is_thirds = third && r->obstacle[third] == (double)k;
-        const size_t mine = is_mine ? foot_with(feet, normal, r->normal[c]) : feet,
-                     others = is_others ? foot_with(feet, normal, r->normal[other]) : feet,
-                     thirds = is_thirds ? foot_with(feet, normal, r->normal[third]) : feet;
-        if (is_mine && mine == others) return false;
-        for (size_t i = 0; i < feet; i++)
-            if (i != mine && i != thirds && (!skips_other || i != others) &&
-                distance > gap[i] + margin)
-                return false;
-    }
-    return true;
-}
-
 /* What contact c of node j sees of its obstacle; *seen is that obstacle as it sees it. */
 static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c, Surface *seen) {
-    const Surface *on = surface_of(where, r, j, c);
+    const Surface *on = seen_surface(where, r, j, c);
     *seen = seen_by(where, r, j, c);
     Seat seat = {.surface = on ? seen : NULL, .gap = INFINITY};
     if (!seat.surface) return seat;
@@ -258,7 +154,7 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c, Sur
         where->frozen ? r->reference : where->place; /* whose direction friction takes */
     widen(r->position[j], x);
     widen(r->reference[j], reference);
-    place_of(where, r, j, place);
+    seen_from(where, r, j, place);
     subtract(r->position[j], r->reference[j], u);
     surface_normal(seat.surface, place, seat.normal);
     surface_normal(seat.surface, where->frozen ? reference : place, seat.plane);
@@ -349,7 +245,7 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     Triple shifted;
     surface_shift(seat->surface, from, r->share, shifted);
     if (acts) raise_to(&m->gone_quarters, surface_angle(seat->surface, shifted, x) / QUARTER);
-    if (r->contacts > 1 && !in_place(where, r, j, c, margin)) m->misplaced++;
+    if (r->contacts > 1 && !seen_in_place(where, r, j, c, margin)) m->misplaced++;
     // a second obstacle that is round is looked for up to half its radius away
     Triple place, reference;
     widen(where->place[j], place);

@@ -42,11 +42,16 @@ void name_of_obstacle(int nc, size_t k, char name[201]) {
     free(text);
 }
 
-bool mesh_has(int nc, const char *line, const char *variable) {
+static bool has_variable(int nc, const char *line, const char *variable) {
     char name[300];
     int id;
     snprintf(name, sizeof name, "%.200s_%.50s", line, variable);
     return nc_inq_varid(nc, name, &id) == NC_NOERR;
+}
+
+bool mesh_contacts(int nc, const char *line, size_t obstacles, size_t *contacts) {
+    *contacts = obstacles > 1 || has_variable(nc, line, "obstacle_second") ? 2 : 1;
+    return has_variable(nc, line, "element_obstacle");
 }
 
 /* The rows of a variable with three columns; its dimension has its name. */

@@ -56,9 +56,9 @@ enum { MESH_FEET = 12 };
  * number. */
 size_t mesh_feet(Mesh *mesh, const Real *x, Real within, MeshFoot out[MESH_FEET]);
 
-/* Has a line this variable? Those of second and third contacts are there with one mesh as well, if
- * it has concave edges. */
-bool mesh_has(int nc, const char *line, const char *variable);
+/* *contacts: of a node by the number of obstacles; two also with one, where the file has second
+ * ones, as with a mesh that has concave edges. Returns whether it has contacts of elements. */
+bool mesh_contacts(int nc, const char *line, size_t obstacles, size_t *contacts);
 
 /* The name of obstacle k; "" without one. */
 void name_of_obstacle(int nc, size_t k, char name[201]);

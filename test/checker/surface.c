@@ -295,8 +295,9 @@ static void slip_on_mesh(const Surface *s, const Real *from, const Real *to, Rea
         for (int k = 0; k < 3; k++) chord[k] = to[k] - from[k];
     const Real rise = dot(chord, n1);
     for (int k = 0; k < 3; k++) out[k] = chord[k] - rise * n1[k];
+    if (closes) return;
     const Real flat = size(out);
-    for (int k = 0; k < 3 && !closes; k++) out[k] = flat > 0 ? out[k] * (size(chord) / flat) : 0;
+    for (int k = 0; k < 3; k++) out[k] = flat > 0 ? out[k] * (size(chord) / flat) : 0;
 }
 
 void surface_slip(const Surface *s, const Real *from, const Real *to, Real *out) {
