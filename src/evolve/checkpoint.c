@@ -13,6 +13,7 @@
 
 #include "base/status.h"
 #include "cable/damping.h"
+#include "cable/place_form.h"
 #include "cable/soft.h"
 #include "cable/two_stiffnesses.h"
 #include "cable/winch.h"
@@ -440,8 +441,20 @@ static void hash_elasticity(uint64_t *hash, const CpsiLine *line, const CpsiElas
     hash_numbers(hash, (size_t)own->spring_count, own->spring_stiffness);
 }
 
+static void hash_form(uint64_t *hash, const CpsiConicSet *form, size_t space) {
+    hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
+    hash_numbers(hash, (size_t)form->rows * (size_t)form->unknowns, form->a);
+    hash_numbers(hash, (size_t)form->rows, form->b);
+    hash_numbers(hash, space * (size_t)form->unknowns, form->p);
+    hash_numbers(hash, space, form->origin);
+}
+
 static void hash_set(uint64_t *hash, const CpsiEndSet *on) {
     if (!on->is_there) return;
+    if (on->form) {
+        hash_form(hash, cpsi_place_form_conic(on->form), 3);
+        return;
+    }
     const double centre[3] = {on->set.centre.x, on->set.centre.y, on->set.centre.z},
                  radius = on->set.round + on->set.radius;
     hash_numbers(hash, 3, centre);
@@ -610,13 +623,7 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     if (obstacle->stiffness > 0) hash_numbers(hash, 1, &obstacle->stiffness);
     hash_ground(hash, obstacle);
     hash_mesh(hash, obstacle->mesh);
-    if (!set) return;
-    const CpsiConicSet *form = cpsi_friction_set_conic(set);
-    hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
-    hash_numbers(hash, (size_t)form->rows * (size_t)form->unknowns, form->a);
-    hash_numbers(hash, (size_t)form->rows, form->b);
-    hash_numbers(hash, 2 * (size_t)form->unknowns, form->p);
-    hash_numbers(hash, 2, form->origin);
+    if (set) hash_form(hash, cpsi_friction_set_conic(set), 2);
 }
 
 static void hash_anchor(uint64_t *hash, const CpsPoint *given) {
