@@ -149,11 +149,12 @@ void cpsi_line_unpack_sets(CpsiLine *line, const CpsiChainProgram *program, doub
         if (on->form) {
             const double *of = cpsi_place_form_constraint(on->form)->force;
             for (int a = 0; a < 3; a++) on->reaction[a] = force * of[a];
-            vec3_store(x, cpsi_place_form_place(on->form));
-            continue;
+        } else {
+            read_reaction(&on->set, &from->item[k++], force, on->reaction);
         }
-        read_reaction(&on->set, &from->item[k++], force, on->reaction);
-        vec3_store(x, cpsi_place_set_project(&on->set, vec3_load(x)));
+        const Vec3 found = vec3_load(x);
+        vec3_store(x, on->form ? cpsi_place_form_place(on->form, found)
+                               : cpsi_place_set_project(&on->set, found));
     }
 }
 

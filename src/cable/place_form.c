@@ -28,7 +28,9 @@ struct CpsiPlaceForm {
     CpsiConicForm *form;
     CpsiArena arena;
     CpsSet *closed; /* the set, where its support function is a formula; else NULL */
+    Vec3 middle;    /* a place of the set, about which the form is written */
     CpsiConicConstraint constraint;
+    double origin[3]; /* [m] of the set's form about that of the scene */
     double *centre;
     CpsiConicProgram *support, *nearest;
     double *cost;      /* (unknowns) of the support */
@@ -36,7 +38,7 @@ struct CpsiPlaceForm {
     int *dim;
 };
 
-static CpsStatus check(const CpsSet *set, CpsError *err) {
+static CpsStatus check(const CpsSet *set, double middle[3], CpsError *err) {
     CpsSetFacts facts;
     if (!set) return cpsi_fail(err, CPS_ERR_ARGUMENT, "is NULL");
     if (cps_set_space(set) != 3)
@@ -44,7 +46,7 @@ static CpsStatus check(const CpsSet *set, CpsError *err) {
     if (cpsi_set_has_user(set))
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "holds a user's set, which is known by its support alone");
-    const CpsStatus status = cps_set_facts(set, 0, &facts, NULL, NULL, err);
+    const CpsStatus status = cps_set_facts(set, 0, &facts, middle, NULL, err);
     if (status) return status;
     if (facts.outcome != CPS_SET_OUTCOME_ANSWERED)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "has no answer: %s",
@@ -107,7 +109,8 @@ static CpsStatus make(const CpsSet *of, CpsiPlaceForm *out, CpsError *err) {
                               .a = form->a,
                               .b = form->b,
                               .p = form->p,
-                              .origin = form->origin};
+                              .origin = out->origin};
+    vec3_store(out->origin, vec3_add(out->middle, vec3_load(form->origin)));
     layout(out);
     if (!cpsi_arena_allocate(&out->arena))
         return cpsi_fail(err, CPS_ERR_MEMORY, "needs more memory than there is");
@@ -127,12 +130,17 @@ static CpsStatus make(const CpsSet *of, CpsiPlaceForm *out, CpsError *err) {
 
 CpsStatus cpsi_place_form_make(const CpsConstraint *on, CpsiPlaceForm **out, CpsError *err) {
     CpsSet *moved = NULL;
+    double middle[3] = {0}, back[3];
     *out = NULL;
-    CpsStatus status = check(on->set, err);
-    if (!status) status = cps_set_translate(on->point, on->set, &moved, err);
+    CpsStatus status = check(on->set, middle, err);
+    for (int a = 0; a < 3; a++) back[a] = -middle[a];
+    if (!status) status = cps_set_translate(back, on->set, &moved, err);
     CpsiPlaceForm *made = status ? NULL : calloc(1, sizeof *made);
     if (!status && !made) status = cpsi_fail(err, CPS_ERR_MEMORY, "needs more memory than there is");
-    if (!status) status = make(moved, made, err);
+    if (!status) {
+        made->middle = vec3_add(vec3_load(on->point), vec3_load(middle));
+        status = make(moved, made, err);
+    }
     cps_set_release(moved);
     if (status)
         cpsi_place_form_free(made);
@@ -153,12 +161,25 @@ const CpsiConicSet *cpsi_place_form_conic(const CpsiPlaceForm *form) { return &f
 
 CpsiConicConstraint *cpsi_place_form_constraint(CpsiPlaceForm *form) { return &form->constraint; }
 
+/* The unknowns v of the place of the set nearest to x; NULL where they are not found. */
+static const double *find_nearest(CpsiPlaceForm *form, Vec3 x) {
+    const int m = form->set.rows;
+    const Vec3 off = vec3_sub(vec3_load(form->set.origin), x);
+    vec3_store(&form->b[m + 1], vec3_scale(1 / form->form->size, off));
+    const CpsiConicResult result = cpsi_conic_solve(form->nearest, ACCEPT);
+    return result.outcome == CPSI_CONIC_SOLVED ? result.x : NULL;
+}
+
 void cpsi_place_form_fill(CpsiPlaceForm *form, int node, Vec3 base, const double *axes,
                           double unit) {
+    const double *v = form->set.unknowns > 0 ? find_nearest(form, base) : form->centre;
+    memcpy(form->constraint.begin, v ? v : form->centre,
+           (size_t)form->set.unknowns * sizeof *form->centre);
     CpsiConicConstraint *of = &form->constraint;
     const Vec3 off = vec3_sub(base, vec3_load(form->set.origin));
     of->node = node;
     of->unit = unit;
+    of->rows_per_unit = unit / form->form->size;
     vec3_store(of->at, vec3_scale(1 / unit, off));
     for (int a = 0; a < 3; a++) {
         const double common[3] = {a == 0, a == 1, a == 2};
@@ -176,47 +197,32 @@ static Vec3 place_at(const CpsiPlaceForm *form, const double *v) {
     return x;
 }
 
-/* The largest share <= 1 of the way from the centre to v that stays in all cones: what rounding
- * leaves outside is drawn in. The margin s0 - |s1| of a cone is concave along the way. */
-static double share_inside(const CpsiPlaceForm *form, const double *v) {
+/* Are the unknowns in all cones? */
+static bool is_inside(const CpsiPlaceForm *form, const double *v) {
     const CpsiConicSet *set = &form->set;
-    const int n = set->unknowns;
-    double share = 1;
+    bool inside = true;
     CPSI_FOR_CONES(k, i, set->cones, set->dim) {
-        double margin[2] = {0, 0}, across[2] = {0, 0};
+        double first = 0, across = 0;
         for (int r = i; r < i + set->dim[k]; r++) {
-            const double *row = &set->a[(size_t)r * (size_t)n],
-                         at[2] = {set->b[r] + cpsi_dot(n, row, set->centre),
-                                  set->b[r] + cpsi_dot(n, row, v)};
-            for (int e = 0; e < 2; e++) {
-                if (r == i)
-                    margin[e] = at[e];
-                else
-                    across[e] += at[e] * at[e];
-            }
+            const double at = set->b[r] + cpsi_dot(set->unknowns,
+                                                   &set->a[(size_t)r * (size_t)set->unknowns], v);
+            if (r == i) first = at;
+            if (r > i) across += at * at;
         }
-        for (int e = 0; e < 2; e++) margin[e] -= sqrt(across[e]);
-        if (margin[1] < 0) share = fmin(share, margin[0] / (margin[0] - margin[1]));
+        inside = inside && first >= sqrt(across);
     }
-    return share;
+    return inside;
 }
 
-Vec3 cpsi_place_form_place(const CpsiPlaceForm *form) {
-    const int n = form->set.unknowns;
-    const double share = share_inside(form, form->constraint.v);
-    const Vec3 from = place_at(form, form->set.centre);
-    Vec3 to = place_at(form, form->constraint.v);
-    return n > 0 && share < 1 ? vec3_axpy(share, vec3_sub(to, from), from) : to;
+Vec3 cpsi_place_form_place(CpsiPlaceForm *form, Vec3 x) {
+    const double *v = form->constraint.v;
+    return is_inside(form, v) ? place_at(form, v) : cpsi_place_form_nearest(form, x);
 }
 
 Vec3 cpsi_place_form_nearest(CpsiPlaceForm *form, Vec3 x) {
-    const int n = form->set.unknowns, m = form->set.rows;
-    const Vec3 off = vec3_sub(vec3_load(form->set.origin), x);
-    if (n == 0) return vec3_load(form->set.origin);
-    vec3_store(&form->b[m + 1], vec3_scale(1 / form->form->size, off));
-    const CpsiConicResult result = cpsi_conic_solve(form->nearest, ACCEPT);
-    if (result.outcome != CPSI_CONIC_SOLVED) return vec3(NAN, NAN, NAN);
-    return place_at(form, result.x);
+    if (form->set.unknowns == 0) return vec3_load(form->set.origin);
+    const double *v = find_nearest(form, x);
+    return v ? place_at(form, v) : vec3(NAN, NAN, NAN);
 }
 
 /* sup of v.(y - origin) by the small conic program. */
@@ -243,6 +249,6 @@ double cpsi_place_form_gap(CpsiPlaceForm *form, Vec3 v, Vec3 x) {
     vec3_store(direction, v);
     if (form->closed && cpsi_support(form->closed, direction, NULL, &answer, NULL) == CPS_OK &&
         answer.outcome == CPS_SET_OUTCOME_ANSWERED)
-        return answer.value - vec3_dot(v, x);
+        return answer.value - vec3_dot(v, vec3_sub(x, form->middle));
     return solve_support(form, v) + vec3_dot(v, vec3_sub(vec3_load(form->set.origin), x));
 }

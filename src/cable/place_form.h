@@ -22,8 +22,9 @@ CpsiConicConstraint *cpsi_place_form_constraint(CpsiPlaceForm *form);
 /* Fill it for a node of the program at `base` (3), with its axes (9) and a unit of length [m]. */
 void cpsi_place_form_fill(CpsiPlaceForm *form, int node, Vec3 base, const double *axes,
                           double unit);
-/* The place that the solution has in the set. */
-Vec3 cpsi_place_form_place(const CpsiPlaceForm *form);
+/* The place of the solution in the set, x in the program: where rounding leaves that outside, the
+ * nearest one. */
+Vec3 cpsi_place_form_place(CpsiPlaceForm *form, Vec3 x);
 
 /* The nearest place of the set; NAN where that is not found. Writes to the scratch memory. */
 Vec3 cpsi_place_form_nearest(CpsiPlaceForm *form, Vec3 x);

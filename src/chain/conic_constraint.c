@@ -16,7 +16,8 @@
  *
  *     (T'T + e) df = T'y - r_x - F du.
  *
- * The columns of T are made orthogonal by rotations (one-sided Jacobi), so that each eigenvalue of
+ * and dz = M^1/2 ((1 - QQ') M^1/2 g + Q (T df - R^-T r)), which keeps A'dz = P'df - r to rounding; M
+ * (g - A dv) would lose it where M is large. The columns of T are made orthogonal by rotations (one-sided Jacobi), so that each eigenvalue of
  * T'T keeps its relative accuracy. */
 #include <string.h>
 
@@ -30,19 +31,24 @@
 enum { SWEEPS = 30 };
 static const double ORTHOGONAL = 1e-15;
 
+/* Added to the normal equations of the first force, per trace. */
+static const double FLAT = 1e-12;
+
 void cpsi_conic_constraint_layout(CpsiConicConstraint *of, CpsiArena *arena,
                                   const CpsiConicSet *set) {
     const size_t n = (size_t)set->unknowns, m = (size_t)set->rows;
     of->set = set;
+    CPSI_PLACE(arena, of->begin, n);
     CPSI_PLACE(arena, of->v, n);
     CPSI_PLACE(arena, of->dv, n);
-    double **const rows[] = {&of->s, &of->z, &of->ds, &of->dz, &of->q, &of->w, &of->right};
+    double **const rows[] = {&of->s, &of->z, &of->ds, &of->dz, &of->q, &of->w, &of->rest};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) CPSI_PLACE(arena, *rows[i], m);
     CPSI_PLACE(arena, of->g, set->cones);
     CPSI_PLACE(arena, of->basis, m * n);
     CPSI_PLACE(arena, of->factor, n * n);
     CPSI_PLACE(arena, of->reach, 3 * n);
     CPSI_PLACE(arena, of->along, n);
+    CPSI_PLACE(arena, of->missing, n);
     CPSI_PLACE(arena, of->scratch, 4 * m);
 }
 
@@ -86,7 +92,7 @@ static void add_to_node(const CpsiConicConstraint *of, const double force[3], do
         for (int c = 0; c < 3; c++) to[3 * of->node + c] += force[a] * of->frame[a][c];
 }
 
-/* The pair of a cone from the centre of the set, where A'z = 0. */
+/* s at the iterate, or where that is nearer to the boundary than `margin`, beyond it. */
 static void start_cone(CpsiConicConstraint *of, int i, int dim, double mu, double margin) {
     double *s = &of->s[i], *z = &of->z[i];
     const double size = cpsi_norm(dim - 1, s + 1);
@@ -96,14 +102,39 @@ static void start_cone(CpsiConicConstraint *of, int i, int dim, double mu, doubl
     for (int r = 1; r < dim; r++) z[r] = -inverse * s[r];
 }
 
+/* The force that balances z best, in the least squares of P'f = A'z; none along axes in which the
+ * set is flat. */
+static void start_force(CpsiConicConstraint *of) {
+    const int n = of->set->unknowns;
+    double normal[9] = {0}, factor[9], *f = of->force, size = 0;
+    memset(f, 0, sizeof of->force);
+    for (int j = 0; j < n; j++) {
+        const double pull = imbalance_of(of, j);
+        for (int a = 0; a < 3; a++) of->d_force[a] = map_of(of, a, j);
+        for (int a = 0; a < 3; a++) {
+            of->fixed[a] = (j > 0 ? of->fixed[a] : 0) + of->d_force[a] * pull;
+            for (int b = 0; b < 3; b++) normal[3 * a + b] += of->d_force[a] * of->d_force[b];
+        }
+    }
+    for (int a = 0; a < 3; a++) size += normal[4 * a];
+    for (int a = 0; a < 3; a++) normal[4 * a] += FLAT * size;
+    if (!(size > 0) || !cpsi_cholesky(3, normal, factor)) return;
+    for (int a = 0; a < 3; a++)
+        f[a] = (of->fixed[a] - cpsi_dot(a, &factor[3 * a], f)) / factor[4 * a];
+    for (int a = 2; a >= 0; a--) {
+        for (int b = a + 1; b < 3; b++) f[a] -= factor[3 * b + a] * f[b];
+        f[a] /= factor[4 * a];
+    }
+}
+
 static void start(CpsiProgram *base, double mu, double margin) {
     CpsiConstraints *all = &cpsi_chain(base)->constraints;
     for (int c = 0; c < all->conic_count; c++) {
         CpsiConicConstraint *of = all->conic[c];
-        memcpy(of->v, of->set->centre, (size_t)of->set->unknowns * sizeof *of->v);
-        memset(of->force, 0, sizeof of->force);
+        memcpy(of->v, of->begin, (size_t)of->set->unknowns * sizeof *of->v);
         for (int i = 0; i < of->set->rows; i++) of->s[i] = value_of(of, i);
-        FOR_CONES(k, i, of) start_cone(of, i, of->set->dim[k], mu, margin);
+        FOR_CONES(k, i, of) start_cone(of, i, of->set->dim[k], mu, margin * of->rows_per_unit);
+        start_force(of);
     }
 }
 
@@ -118,6 +149,7 @@ static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     for (int c = 0; c < all->conic_count; c++) {
         CpsiConicConstraint *of = all->conic[c];
         if (alpha != 0) advance(of, alpha);
+        const double size = fmax(1, cpsi_norm(3, of->force));
         for (int i = 0; i < of->set->rows; i++) {
             const double at = value_of(of, i);
             sums->sz += of->s[i] * of->z[i];
@@ -131,7 +163,7 @@ static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
             sums->largest = cpsi_max_nan(sums->largest, fabs(of->force[a]));
         }
         for (int j = 0; j < of->set->unknowns; j++)
-            sums->residual = cpsi_max_nan(sums->residual, fabs(imbalance_of(of, j)));
+            sums->residual = cpsi_max_nan(sums->residual, fabs(imbalance_of(of, j)) / size);
         FOR_CONES(k, i, of) {
             sums->weight += 1;
             if (of->set->dim[k] > 1) sums->scale += of->s[i] * of->z[i];
@@ -140,7 +172,7 @@ static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     }
 }
 
-/* Q and R of M^1/2 A, by modified Gram and Schmidt. */
+/* Q and R of M^1/2 A, by Gram and Schmidt. */
 static void factorise(CpsiConicConstraint *of) {
     const int n = of->set->unknowns, m = of->set->rows;
     double *q = of->basis, *column = of->scratch, *turned = of->scratch + m;
@@ -152,16 +184,18 @@ static void factorise(CpsiConicConstraint *of) {
         for (int i = 0; i < m; i++) q[i * n + j] = turned[i];
     }
     for (int j = 0; j < n; j++) {
+        for (int l = 0; l < j; l++) of->factor[l * n + j] = 0;
+        for (int l = 0; l < 2 * j; l++) { /* twice, which leaves no more than rounding */
+            const int by = l % j;
+            double common = 0;
+            for (int i = 0; i < m; i++) common += q[i * n + by] * q[i * n + j];
+            for (int i = 0; i < m; i++) q[i * n + j] -= common * q[i * n + by];
+            of->factor[by * n + j] += common;
+        }
         double size = 0;
         for (int i = 0; i < m; i++) size += q[i * n + j] * q[i * n + j];
         size = of->factor[j * n + j] = sqrt(size);
         for (int i = 0; i < m; i++) q[i * n + j] /= size;
-        for (int l = j + 1; l < n; l++) {
-            double common = 0;
-            for (int i = 0; i < m; i++) common += q[i * n + j] * q[i * n + l];
-            for (int i = 0; i < m; i++) q[i * n + l] -= common * q[i * n + j];
-            of->factor[j * n + l] = common;
-        }
     }
 }
 
@@ -265,22 +299,26 @@ static void set_aim(CpsiConicConstraint *of, const CpsiIpmAim *aim) {
     }
 }
 
-/* g, and y in `along`. */
+/* What does not depend on du of y and of dz. */
 static void set_right(CpsiConicConstraint *of, double keep) {
     const int n = of->set->unknowns, m = of->set->rows;
-    double *turned = of->scratch;
-    for (int j = 0; j < n; j++) of->along[j] = keep * imbalance_of(of, j);
-    solve_transposed(of, of->along, 1);
+    double *g = of->scratch, *rest = of->rest;
+    for (int j = 0; j < n; j++) of->missing[j] = keep * imbalance_of(of, j);
+    solve_transposed(of, of->missing, 1);
+    memcpy(of->along, of->missing, (size_t)n * sizeof *of->along);
     FOR_CONES(k, i, of) {
         const int dim = of->set->dim[k];
-        cpsi_cone_power_apply(&of->right[i], &of->q[i], dim, &of->w[i], of->g[k],
-                              CPSI_CONE_COMPLIANCE);
-        for (int r = i; r < i + dim; r++) of->right[r] -= keep * (value_of(of, r) - of->s[r]);
-        cpsi_cone_power_apply(&turned[i], &of->right[i], dim, &of->w[i], of->g[k],
-                              CPSI_CONE_STIFFNESS_ROOT);
+        cpsi_cone_power_apply(&g[i], &of->q[i], dim, &of->w[i], of->g[k], CPSI_CONE_COMPLIANCE);
+        for (int r = i; r < i + dim; r++) g[r] -= keep * (value_of(of, r) - of->s[r]);
+        cpsi_cone_power_apply(&rest[i], &g[i], dim, &of->w[i], of->g[k], CPSI_CONE_STIFFNESS_ROOT);
     }
-    for (int i = 0; i < m; i++)
-        for (int j = 0; j < n; j++) of->along[j] += of->basis[i * n + j] * turned[i];
+    for (int l = 0; l < 2 * n; l++) { /* twice, as Q was made */
+        const int j = l % n;
+        double common = 0;
+        for (int i = 0; i < m; i++) common += of->basis[i * n + j] * rest[i];
+        for (int i = 0; i < m; i++) rest[i] -= common * of->basis[i * n + j];
+        of->along[j] += common;
+    }
 }
 
 /* out = (T'T + e)^-1 (x along the eigenvectors). */
@@ -308,7 +346,7 @@ static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
     }
 }
 
-/* df, then dv, from du. */
+/* df, then dv and dz, from du. */
 static void follow(CpsiConicConstraint *of, const double *du) {
     double moved[3] = {0}, by[3], own[3] = {0};
     for (int a = 0; a < 3; a++) {
@@ -321,11 +359,20 @@ static void follow(CpsiConicConstraint *of, const double *du) {
         of->d_force[a] = of->fixed[a] - by[a];
         for (int e = 0; e < 3; e++) own[e] += of->turn[3 * e + a] * of->d_force[a];
     }
-    for (int j = 0; j < of->set->unknowns; j++) {
-        of->dv[j] = of->along[j];
-        for (int e = 0; e < 3; e++) of->dv[j] -= of->reach[3 * j + e] * own[e];
+    const int n = of->set->unknowns;
+    double *turned = of->scratch;
+    memcpy(turned, of->rest, (size_t)of->set->rows * sizeof *turned);
+    for (int j = 0; j < n; j++) {
+        double pull = 0;
+        for (int e = 0; e < 3; e++) pull += of->reach[3 * j + e] * own[e];
+        of->dv[j] = of->along[j] - pull;
+        for (int i = 0; i < of->set->rows; i++)
+            turned[i] += of->basis[i * n + j] * (pull - of->missing[j]);
     }
     solve_upper(of, of->dv);
+    FOR_CONES(k, i, of)
+    cpsi_cone_power_apply(&of->dz[i], &turned[i], of->set->dim[k], &of->w[i], of->g[k],
+                          CPSI_CONE_STIFFNESS_ROOT);
 }
 
 static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
@@ -335,9 +382,6 @@ static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
         follow(of, base->du);
         FOR_CONES(k, i, of) {
             const int dim = of->set->dim[k];
-            for (int r = i; r < i + dim; r++) of->ds[r] = of->right[r] - change_of(of, r);
-            cpsi_cone_power_apply(&of->dz[i], &of->ds[i], dim, &of->w[i], of->g[k],
-                                  CPSI_CONE_STIFFNESS);
             for (int r = i; r < i + dim; r++)
                 of->ds[r] = change_of(of, r) + aim->keep * (value_of(of, r) - of->s[r]) +
                             CPSI_YIELD * of->dz[r];

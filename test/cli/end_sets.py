@@ -129,12 +129,57 @@ def vector(numbers):
     return "[" + ", ".join(repr(float(x)) for x in numbers) + "]"
 
 
+def matrix(rows):
+    return "[" + ", ".join(vector(row) for row in rows) + "]"
+
+
+def random_expression(rng, size, depth=0):
+    """A bounded set of space around 0, as an expression: balls, ellipsoids, boxes, segments and polytopes, flat ones among them, and operations on
+    them."""
+    def some(scale, count=3):
+        return [rng.uniform(-1, 1)*scale for _ in range(count)]
+
+    def part():
+        return "{" + random_expression(rng, size, depth + 1) + "}"
+    plain, made = ["ball", "box", "ellipsoid", "segment", "polytope"], ["hull", "sum", "intersection", "image", "translate", "scale", "product", "polar"]
+    kind = rng.choice(plain if depth > 1 else plain + 2*made)
+    if kind == "ball":
+        return f"ball: {{radius: {rng.uniform(0.05, 0.6)*size!r}, dimension: 3}}"
+    if kind == "box":
+        return f"box: {matrix([[-rng.uniform(0.05, 0.5)*size, rng.uniform(0.05, 0.5)*size] for _ in range(3)])}"
+    if kind == "ellipsoid":
+        rows = [some(0.3*size) for _ in range(3)]
+        shape = [[sum(a*b for a, b in zip(one, two)) + (0.01*size**2 if one is two else 0) for two in rows] for one in rows]
+        return f"ellipsoid: {matrix(shape)}"
+    if kind == "segment":
+        end, share = some(size), rng.uniform(0.1, 1)
+        return f"segment: {matrix([end, [-share*x for x in end]])}"
+    if kind == "polytope":
+        points = [some(0.7*size) for _ in range(rng.choice([2, 3, 5, 9]))]
+        return f"polytope: {matrix(points + [[-0.6*sum(p[a] for p in points)/len(points) for a in range(3)]])}"
+    if kind in ("hull", "sum", "intersection"):
+        return f"{kind}: [{part()}, {part()}]"
+    if kind == "image":
+        rows = [some(0.6) for _ in range(3)]
+        return f"image: {{map: {matrix(rows)}, of: {part()}}}"
+    if kind == "translate":  # a ball, so that 0 stays in it
+        off = some(0.2*size)
+        return f"translate: {{by: {vector(off)}, of: {{ball: {{radius: {math.hypot(*off)*rng.uniform(1.001, 2)!r}, dimension: 3}}}}}}"
+    if kind == "scale":
+        return f"scale: {{by: {rng.choice([-1, 0.5, 1.2])}, of: {part()}}}"
+    if kind == "polar":  # of a set with 0 well inside
+        return f"polar: {{box: {matrix([[-rng.uniform(1, 5)/size, rng.uniform(1, 5)/size] for _ in range(3)])}}}"
+    return f"product: [{{disc: {rng.uniform(0.1, 0.5)*size!r}}}, {{interval: {vector([-rng.uniform(0, 0.5)*size, rng.uniform(0.1, 0.5)*size])}}}]"
+
+
 def random_set(rng, place, size, bounded):
     """A set of any kind that has the place in it, and its keys."""
     def some(scale):
         return [rng.uniform(-1, 1)*scale for _ in range(3)]
-    kind, axis = rng.choice(["rail", "ball", "disc", "box"] if bounded else ["rail", "line", "half_space", "ball", "disc", "box"]), some(1)
+    kind, axis = rng.choice(["rail", "ball", "disc", "box", "set"] if bounded else ["rail", "line", "half_space", "ball", "disc", "box", "set", "set"]), some(1)
     length = math.hypot(*axis)
+    if kind == "set":
+        return f"set: {{translate: {{by: {vector(place)}, of: {{{random_expression(rng, size)}}}}}}}"
     if kind == "line":
         return f"rail: {{from: {vector(place)}, along: {vector(axis)}}}"
     if kind == "rail":

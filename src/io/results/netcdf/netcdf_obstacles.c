@@ -559,14 +559,23 @@ enum { QUATERNION = 4 };
 static void define_form(CpsiNetcdfFile *file, const char *line, int end, const CpsConstraint *on,
                         const double origin[3]) {
     CpsSetConic form;
-    if (cps_set_conic(on->set, &form, NULL) != CPS_OK) {
+    CpsSetFacts facts;
+    CpsSet *moved = NULL;
+    double middle[3], back[3];
+    /* about a place of the set, so that its numbers are of its own size */
+    bool made = cps_set_facts(on->set, 0, &facts, middle, NULL, NULL) == CPS_OK;
+    for (int a = 0; made && a < 3; ++a) back[a] = -middle[a];
+    made = made && cps_set_translate(back, on->set, &moved, NULL) == CPS_OK &&
+           cps_set_conic(moved, &form, NULL) == CPS_OK;
+    cps_set_release(moved);
+    if (!made) {
         cpsi_netcdf_keep(file, NC_ENOMEM);
         return;
     }
     const size_t n = (size_t)form.unknown_count, m = (size_t)form.row_count;
     double at[3], *cone = calloc(m + 1, sizeof *cone);
     if (!cone) cpsi_netcdf_keep(file, NC_ENOMEM);
-    for (int a = 0; a < 3; ++a) at[a] = form.origin[a] + (on->point[a] - origin[a]);
+    for (int a = 0; a < 3; ++a) at[a] = form.origin[a] + (middle[a] + (on->point[a] - origin[a]));
     for (int k = 0, i = 0; cone && k < form.cone_count; i += form.dim[k], ++k)
         cone[i] = form.dim[k];
     const struct {
