@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/constraint.h: ends of lines held to convex sets (S90 remark 2.3: x in C2, a perfect
  * convex constraint). An end of the kind CPS_END_KIND_FREE may be held to a closed convex set of
- * places: a rail, a half-space, a ball, a disc, a box, or any bounded set of set.h. It slides without friction where the
- * forces take it in the set; what the set does to it is a reaction r, opposite to the outward
- * normal cone at the place x: r.(y - x) >= 0 for all y in the set. Its support function is in the
- * certificate (docs/theory.md).
+ * places: a rail, a half-space, a ball, a disc, a box, or any bounded set of set.h. It slides
+ * without friction where the forces take it in the set; what the set does to it is a reaction r,
+ * opposite to the outward normal cone at the place x: r.(y - x) >= 0 for all y in the set. Its
+ * support function is in the certificate (docs/theory.md).
  *
  *     line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_KIND_FREE};              or a force on the end
  *     line.constraint[CPS_END_B] = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,

@@ -89,11 +89,12 @@ static void layout(CpsiFrictionSet *set) {
 static CpsStatus find_centre(CpsiFrictionSet *set, const char *name, CpsError *err) {
     bool found;
     const CpsStatus status = cpsi_conic_centre(set->form, set->centre, &found, err);
-    return status || found ? status
-                           : cpsi_fail(err, CPS_ERR_ARGUMENT,
-                                       "obstacle '%s': friction set: its expression has no interior "
-                                       "or no centre: write it with fewer operations",
-                                       name);
+    return status || found
+               ? status
+               : cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "obstacle '%s': friction set: its expression has no interior "
+                           "or no centre: write it with fewer operations",
+                           name);
 }
 
 /* Replace a set of dimension 1 by the segment between its end points. */

@@ -13,7 +13,7 @@ typedef struct CpsiEndSet {
     bool is_there;
     CpsiPlaceSet set;           /* of a set that is given by an expression the axes alone */
     struct CpsiPlaceForm *form; /* of such a set (place_form.h); else NULL */
-    double reaction[3]; /* [N] on the end, in the axes of the set */
+    double reaction[3];         /* [N] on the end, in the axes of the set */
 } CpsiEndSet;
 
 #endif

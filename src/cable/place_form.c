@@ -68,10 +68,10 @@ static void layout(CpsiPlaceForm *of) {
     CPSI_PLACE(&of->arena, of->dim, form->cones + 1);
     cpsi_conic_constraint_layout(&of->constraint, &of->arena, &of->set);
     if (n == 0) return;
-    of->support = cpsi_conic_layout(&of->arena, form->unknowns, form->rows, form->cones,
-                                    form->largest_cone);
-    of->nearest = cpsi_conic_layout(&of->arena, form->unknowns + 1, form->rows + 4,
-                                    form->cones + 1, form->largest_cone > 4 ? form->largest_cone : 4);
+    of->support =
+        cpsi_conic_layout(&of->arena, form->unknowns, form->rows, form->cones, form->largest_cone);
+    of->nearest = cpsi_conic_layout(&of->arena, form->unknowns + 1, form->rows + 4, form->cones + 1,
+                                    form->largest_cone > 4 ? form->largest_cone : 4);
 }
 
 /* The parts of the program of the nearest place that do not depend on the place. */
@@ -136,7 +136,8 @@ CpsStatus cpsi_place_form_make(const CpsConstraint *on, CpsiPlaceForm **out, Cps
     for (int a = 0; a < 3; a++) back[a] = -middle[a];
     if (!status) status = cps_set_translate(back, on->set, &moved, err);
     CpsiPlaceForm *made = status ? NULL : calloc(1, sizeof *made);
-    if (!status && !made) status = cpsi_fail(err, CPS_ERR_MEMORY, "needs more memory than there is");
+    if (!status && !made)
+        status = cpsi_fail(err, CPS_ERR_MEMORY, "needs more memory than there is");
     if (!status) {
         made->middle = vec3_add(vec3_load(on->point), vec3_load(middle));
         status = make(moved, made, err);
@@ -204,8 +205,8 @@ static bool is_inside(const CpsiPlaceForm *form, const double *v) {
     CPSI_FOR_CONES(k, i, set->cones, set->dim) {
         double first = 0, across = 0;
         for (int r = i; r < i + set->dim[k]; r++) {
-            const double at = set->b[r] + cpsi_dot(set->unknowns,
-                                                   &set->a[(size_t)r * (size_t)set->unknowns], v);
+            const double at =
+                set->b[r] + cpsi_dot(set->unknowns, &set->a[(size_t)r * (size_t)set->unknowns], v);
             if (r == i) first = at;
             if (r > i) across += at * at;
         }

@@ -3,9 +3,10 @@
  *
  *     x = origin + P v,     s = A v + b in K,     z in K*,     s o z = 0,     P'f = A'z,
  *
- * x the place of the node and f the force of the set on it: -f is in the normal cone at x, since for
- * any other y = origin + P w of the set f.(y - x) = z.(A w + b) - z.s >= 0. Linearised, with g =
- * H^-1 q - rho and M = (H^-1 + e)^-1 as in constraint.c, and the same e in the equation of the place,
+ * x the place of the node and f the force of the set on it: -f is in the normal cone at x, since
+ * for any other y = origin + P w of the set f.(y - x) = z.(A w + b) - z.s >= 0. Linearised, with g
+ * = H^-1 q - rho and M = (H^-1 + e)^-1 as in constraint.c, and the same e in the equation of the
+ * place,
  *
  *     dz = M (g - A dv)
  *     A'M A dv = A'M g + r - P'df                         r = A'z - P'f
@@ -16,9 +17,9 @@
  *
  *     (T'T + e) df = T'y - r_x - F du.
  *
- * and dz = M^1/2 ((1 - QQ') M^1/2 g + Q (T df - R^-T r)), which keeps A'dz = P'df - r to rounding; M
- * (g - A dv) would lose it where M is large. The columns of T are made orthogonal by rotations (one-sided Jacobi), so that each eigenvalue of
- * T'T keeps its relative accuracy. */
+ * and dz = M^1/2 ((1 - QQ') M^1/2 g + Q (T df - R^-T r)), which keeps A'dz = P'df - r to rounding;
+ * M (g - A dv) would lose it where M is large. The columns of T are made orthogonal by rotations
+ * (one-sided Jacobi), so that each eigenvalue of T'T keeps its relative accuracy. */
 #include <string.h>
 
 #include "chain/constraint.h"
@@ -385,9 +386,10 @@ static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
             for (int r = i; r < i + dim; r++)
                 of->ds[r] = change_of(of, r) + aim->keep * (value_of(of, r) - of->s[r]) +
                             CPSI_YIELD * of->dz[r];
-            sums->inverse_step = cpsi_max_nan(
-                sums->inverse_step, cpsi_cone_step(dim, &of->w[i], of->g[k], &of->s[i], &of->z[i],
-                                                   &of->ds[i], &of->dz[i], of->scratch));
+            sums->inverse_step =
+                cpsi_max_nan(sums->inverse_step,
+                             cpsi_cone_step(dim, &of->w[i], of->g[k], &of->s[i], &of->z[i],
+                                            &of->ds[i], &of->dz[i], of->scratch));
         }
     }
 }

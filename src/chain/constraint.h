@@ -24,23 +24,24 @@ typedef struct CpsiConstraint {
 /* A node in { origin + P v : A v + b in K }, in space: v are unknowns of its own. */
 typedef struct CpsiConicConstraint {
     int node;
-    const struct CpsiConicSet *set; /* P (3, unknowns), origin (3), in the caller's unit of length */
-    double unit;                    /* ... which this makes one of the program */
-    double rows_per_unit;           /* by how much rows change per the program's unit of length, roughly */
-    double frame[3][3];             /* the common axes, each in the axes of the node */
-    double at[3];                   /* base - origin, in the program's unit of length */
-    double force[3], d_force[3];    /* of the set on the node, in the common axes */
-    double fixed[3];                /* the part of the direction of the force that du has no share in */
-    double turn[9], compliance[3];  /* rows: eigenvectors of -du/d(force), and its eigenvalues */
-    double *begin;                  /* (unknowns) v at the base, the caller's */
-    double *v, *dv;                 /* (unknowns) */
+    const struct CpsiConicSet
+        *set;             /* P (3, unknowns), origin (3), in the caller's unit of length */
+    double unit;          /* ... which this makes one of the program */
+    double rows_per_unit; /* by how much rows change per the program's unit of length, roughly */
+    double frame[3][3];   /* the common axes, each in the axes of the node */
+    double at[3];         /* base - origin, in the program's unit of length */
+    double force[3], d_force[3]; /* of the set on the node, in the common axes */
+    double fixed[3]; /* the part of the direction of the force that du has no share in */
+    double turn[9], compliance[3];   /* rows: eigenvectors of -du/d(force), and its eigenvalues */
+    double *begin;                   /* (unknowns) v at the base, the caller's */
+    double *v, *dv;                  /* (unknowns) */
     double *s, *z, *ds, *dz, *q, *w; /* (rows) */
     double *g;                       /* (cones) */
     double *basis, *factor;          /* (rows, unknowns), (unknowns, unknowns): M^1/2 A = Q R */
     double *reach;                   /* (unknowns, 3) R^-T P' */
-    double *rest;            /* (rows) M^1/2 g across the columns of Q */
-    double *along, *missing; /* (unknowns) y, and R^-T r in it */
-    double *scratch;         /* (4 rows) */
+    double *rest;                    /* (rows) M^1/2 g across the columns of Q */
+    double *along, *missing;         /* (unknowns) y, and R^-T r in it */
+    double *scratch;                 /* (4 rows) */
 } CpsiConicConstraint;
 
 typedef struct CpsiConstraints {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The elements of a program over a chain (chain_program.h): the arrays of each kind, the program
  * that holds them, and what one kind needs of another. Each kind is a file: segment.c, drag.c,
- * node_field.c, constraint.c, conic_constraint.c, unilateral.c, friction_disc.c, friction_conic.c; chain_program.c puts
- * them together. */
+ * node_field.c, constraint.c, conic_constraint.c, unilateral.c, friction_disc.c, friction_conic.c;
+ * chain_program.c puts them together. */
 #ifndef CAPSTAN_SRC_CHAIN_ELEMENTS_H
 #define CAPSTAN_SRC_CHAIN_ELEMENTS_H
 

@@ -243,7 +243,8 @@ static Real find_margin(Conic *set) {
 
 bool conic_prepare(Conic *set) {
     set->reach = hypotl(hypotl(set->origin[0], set->origin[1]), set->origin[2]);
-    for (size_t j = 0; j < set->space * set->unknowns; j++) set->reach = hypotl(set->reach, set->map[j]);
+    for (size_t j = 0; j < set->space * set->unknowns; j++)
+        set->reach = hypotl(set->reach, set->map[j]);
     if (set->unknowns == 0) return true;
     Real margin = find_margin(set);
     if (!(margin > -WIDER / 2)) return false;

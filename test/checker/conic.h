@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sets of the plane or of space, {origin + P v : A v + b in K}, K a product of half-lines and second-order cones, in
- * long double: support and distance, with bounds of their own. */
+/* Sets of the plane or of space, {origin + P v : A v + b in K}, K a product of half-lines and
+ * second-order cones, in long double: support and distance, with bounds of their own. */
 #ifndef CAPSTAN_CHECKER_CONIC_H
 #define CAPSTAN_CHECKER_CONIC_H
 
@@ -11,11 +11,11 @@ typedef long double Real;
 
 typedef struct Conic {
     size_t space, unknowns, rows; /* space: 2 or 3 */
-    size_t *cone;          /* (rows) rows of the cone that begins here, 0: none begins */
-    Real *a, *b;           /* (rows, unknowns), (rows) */
-    Real *map;             /* (space, unknowns) P */
-    Real *centre;          /* (unknowns) inside every cone: conic_prepare */
-    Real origin[3], reach; /* reach: of P v, roughly */
+    size_t *cone;                 /* (rows) rows of the cone that begins here, 0: none begins */
+    Real *a, *b;                  /* (rows, unknowns), (rows) */
+    Real *map;                    /* (space, unknowns) P */
+    Real *centre;                 /* (unknowns) inside every cone: conic_prepare */
+    Real origin[3], reach;        /* reach: of P v, roughly */
 } Conic;
 
 /* Room for a set, zeroed; NULL: no memory. Its owner fills it and frees it. */

@@ -26,7 +26,8 @@ static void compare_numbers(Compare *compare, const char *line, const char *what
             same_number(compare, what, of, found[k], wanted[k] - (from ? from[k] : 0));
 }
 
-/* Two sets with the same support in directions all over the sphere, to what small programs leave. */
+/* Two sets with the same support in directions all over the sphere, to what small programs leave.
+ */
 static void compare_forms(Compare *compare, const char *line, int e, const CpsConstraint *on,
                           const Conic *form) {
     enum { DIRECTIONS = 60 };
@@ -40,8 +41,9 @@ static void compare_forms(Compare *compare, const char *line, int e, const CpsCo
             return;
         const double file = (double)conic_support(form, (Real[]){d[0], d[1], d[2]});
         if (fabs(file - answer.value) <= answer.gap + 1e-9 * (double)form->reach) continue;
-        find(compare, "set of line %s, end %c, reaches %.17g along (%.3g, %.3g, %.3g), in the scene "
-                      "%.17g",
+        find(compare,
+             "set of line %s, end %c, reaches %.17g along (%.3g, %.3g, %.3g), in the scene "
+             "%.17g",
              line, e ? 'B' : 'A', file, d[0], d[1], d[2], answer.value);
         return;
     }

@@ -76,8 +76,8 @@ static Conic *read_form(const Source *source, const char *line, int e, const dou
     m = part[2] ? count[2] : 0;
     bool good = part[0] && count[0] == 3 && (n > 0) == (m > 0);
     if (n > 0)
-        good = good && count[1] == 3 * n && part[3] && count[3] == m * n && part[4] &&
-               count[4] == m;
+        good =
+            good && count[1] == 3 * n && part[3] && count[3] == m * n && part[4] && count[4] == m;
     for (size_t i = 0; good && i < m; i += (size_t)part[2][i]) {
         good = part[2][i] >= 1 && part[2][i] <= (double)(m - i) && floor(part[2][i]) == part[2][i];
         if (!good) break;

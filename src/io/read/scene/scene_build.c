@@ -286,8 +286,7 @@ static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsS
 }
 
 /* A free end with the force and the set that it is held to. */
-static CpsStatus build_set(Build *b, const CpsiOnValues *values, CpsEnd *end,
-                           CpsConstraint *on) {
+static CpsStatus build_set(Build *b, const CpsiOnValues *values, CpsEnd *end, CpsConstraint *on) {
     *on = values->on;
     on->kind = (CpsConstraintKind)(CPS_CONSTRAINT_KIND_RAIL + values->kind);
     end->kind = CPS_END_KIND_FREE;

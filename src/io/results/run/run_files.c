@@ -479,8 +479,7 @@ void cps_results_destroy(CpsResults *results) {
     free(results->line_elements);
     free(results->line_point);
     for (int i = 0; i < results->line_count; ++i)
-        for (int e = 0; e < 2; ++e)
-            cps_set_release((CpsSet *)results->line_constraint[i][e].set);
+        for (int e = 0; e < 2; ++e) cps_set_release((CpsSet *)results->line_constraint[i][e].set);
     free(results->line_constraint);
     free(results->point);
     free(results->body);
