@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Nodes held to a closed convex set in its conic form (constraint.h),
+/* Nodes held to a closed convex set in its conic form (constraints.h),
  *
  *     x = origin + P v,     s = A v + b in K,     z in K*,     s o z = 0,     P'f = A'z,
  *
@@ -22,7 +22,7 @@
  * (one-sided Jacobi), so that each eigenvalue of T'T keeps its relative accuracy. */
 #include <string.h>
 
-#include "chain/constraint.h"
+#include "chain/constraints.h"
 #include "chain/elements.h"
 #include "ipm/cone.h"
 #include "ipm/cones.h"

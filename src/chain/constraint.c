@@ -18,7 +18,7 @@
 #include <string.h>
 
 #include "base/larger.h"
-#include "chain/constraint.h"
+#include "chain/constraints.h"
 #include "chain/elements.h"
 #include "ipm/cone.h"
 

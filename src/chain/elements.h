@@ -10,7 +10,7 @@
 
 #include "base/element_law.h"
 #include "chain/chain_system.h"
-#include "chain/constraint.h"
+#include "chain/constraints.h"
 #include "chain/friction_shape.h"
 #include "ipm/program.h"
 

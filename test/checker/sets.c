@@ -151,7 +151,8 @@ int sets_read(const Source *source, const char *line, size_t step, Record *r, FI
 const struct Conic *sets_form(const Record *r, int e) { return r->sets->end[e].form; }
 
 void sets_free(Record *r) {
-    for (int e = 0; r->sets && e < 2; e++) conic_free(r->sets->end[e].form);
+    if (!r->sets) return;
+    for (int e = 0; e < 2; e++) conic_free(r->sets->end[e].form);
     free(r->sets);
     r->sets = NULL;
 }

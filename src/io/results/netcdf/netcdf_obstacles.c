@@ -561,10 +561,10 @@ static void define_form(CpsiNetcdfFile *file, const char *line, int end, const C
     CpsSetConic form;
     CpsSetFacts facts;
     CpsSet *moved = NULL;
-    double middle[3], back[3];
+    double middle[3] = {0}, back[3];
     /* about a place of the set, so that its numbers are of its own size */
     bool made = cps_set_facts(on->set, 0, &facts, middle, NULL, NULL) == CPS_OK;
-    for (int a = 0; made && a < 3; ++a) back[a] = -middle[a];
+    for (int a = 0; a < 3; ++a) back[a] = -middle[a];
     made = made && cps_set_translate(back, on->set, &moved, NULL) == CPS_OK &&
            cps_set_conic(moved, &form, NULL) == CPS_OK;
     cps_set_release(moved);
@@ -574,9 +574,13 @@ static void define_form(CpsiNetcdfFile *file, const char *line, int end, const C
     }
     const size_t n = (size_t)form.unknown_count, m = (size_t)form.row_count;
     double at[3], *cone = calloc(m + 1, sizeof *cone);
-    if (!cone) cpsi_netcdf_keep(file, NC_ENOMEM);
+    if (!cone) {
+        cpsi_netcdf_keep(file, NC_ENOMEM);
+        cps_set_conic_clear(&form);
+        return;
+    }
     for (int a = 0; a < 3; ++a) at[a] = form.origin[a] + (middle[a] + (on->point[a] - origin[a]));
-    for (int k = 0, i = 0; cone && k < form.cone_count; i += form.dim[k], ++k)
+    for (int k = 0, i = 0; k < form.cone_count; i += form.dim[k], ++k)
         cone[i] = form.dim[k];
     const struct {
         const char *what;
@@ -587,7 +591,7 @@ static void define_form(CpsiNetcdfFile *file, const char *line, int end, const C
                 {"cone", m, cone},
                 {"rows", m * n, form.a},
                 {"offset", m, form.b}};
-    for (size_t i = 0; cone && i < sizeof part / sizeof *part; ++i) {
+    for (size_t i = 0; i < sizeof part / sizeof *part; ++i) {
         char name[NC_MAX_NAME + 1];
         snprintf(name, sizeof name, "%.200s_set_%c_%s", line, end == CPS_END_A ? 'A' : 'B',
                  part[i].what);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Nodes that are held to convex sets: by rows of their own (constraint.c), or by the conic form of
  * the set (conic_constraint.c). */
-#ifndef CAPSTAN_SRC_CHAIN_CONSTRAINT_H
-#define CAPSTAN_SRC_CHAIN_CONSTRAINT_H
+#ifndef CAPSTAN_SRC_CHAIN_CONSTRAINTS_H
+#define CAPSTAN_SRC_CHAIN_CONSTRAINTS_H
 
 #include <math.h>
 
