@@ -601,8 +601,7 @@ static void define_form(CpsiNetcdfFile *file, const char *line, int end, const C
         return;
     }
     for (int a = 0; a < 3; ++a) at[a] = form.origin[a] + (middle[a] + (on->point[a] - origin[a]));
-    for (int k = 0, i = 0; k < form.cone_count; i += form.dim[k], ++k)
-        cone[i] = form.dim[k];
+    for (int k = 0, i = 0; k < form.cone_count; i += form.dim[k], ++k) cone[i] = form.dim[k];
     const struct {
         const char *what;
         size_t count;
