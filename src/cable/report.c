@@ -59,12 +59,9 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
             line->state[c] = CPS_NODE_STATE_SLIP;
     }
     report->dissipated = dissipated(line);
-    for (int i = 1; i < line->n; i++) {
-        const double *s = program->segment.s[i], *z = program->segment.z[i];
-        if (z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]) &&
-            !cpsi_line_is_on_drum(line, i - 1))
+    for (int i = 1; i < line->n; i++)
+        if (cpsi_segment_is_slack(&program->segment, i) && !cpsi_line_is_on_drum(line, i - 1))
             report->slack += line->natural_length[i - 1];
-    }
 }
 
 Vec3 cpsi_line_end_slip(const CpsiLine *line, int end, int k) {
