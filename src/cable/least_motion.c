@@ -28,6 +28,7 @@
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/winch.h"
+#include "chain/slack.h"
 #include "ipm/ipm.h"
 
 /* A force below this, per unit of force, counts as zero; other configurations then increase the gap

@@ -11,6 +11,7 @@
 #include "cable/friction_law.h"
 #include "cable/winch.h"
 #include "chain/frame.h"
+#include "chain/slack.h"
 
 /* [J] by friction in the step. */
 static double dissipated(const CpsiLine *line) {

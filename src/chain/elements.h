@@ -66,14 +66,6 @@ static inline CpsiElementLaw cpsi_segment_law(const CpsiSegment *segment, int i)
     return law;
 }
 
-/* Whether element i has no tension. Of tension and slack, whose product is 0 in a solution, the one
- * that is larger on its own scale counts; a tension that is the rounding of the unit of force is
- * none, also where the element is just as long as it may be. */
-static inline bool cpsi_segment_is_slack(const CpsiSegment *segment, int i) {
-    const double rounding = 1e-12, *s = segment->s[i], *z = segment->z[i];
-    return z[0] < fmax(rounding, s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]));
-}
-
 typedef struct CpsiFrictionDisc {
     int count;
     int *node;
