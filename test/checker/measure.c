@@ -411,10 +411,11 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     return seat;
 }
 
-/* Are two contacts with one obstacle, and on one face of it? */
-static bool is_same_contact(const Record *r, size_t a, size_t b) {
+/* Are two contacts with one obstacle and, of a mesh, on one face of it? */
+static bool is_same_contact(const Record *r, bool on_mesh, size_t a, size_t b) {
     Real off = 0;
     if (r->obstacle[a] != r->obstacle[b]) return false;
+    if (!on_mesh) return true;
     for (int k = 0; k < 3; k++) off += fabsl((Real)r->normal[a][k] - r->normal[b][k]);
     return off < 1e-8L;
 }
@@ -451,8 +452,8 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     const Real factor = r->factor ? (1 - t) * r->factor[i] + t * r->factor[i + 1] : 1;
     r->mu[c] = (double)(factor * surface_friction(on));
     // where it is, against what it says
-    if (third && (r->contacts < 2 || held(r, i + 1) || is_same_contact(r, i + 1, c) ||
-                  is_same_contact(r, r->nodes + i + 1, c)))
+    if (third && (r->contacts < 2 || held(r, i + 1) || is_same_contact(r, on->mesh, i + 1, c) ||
+                  is_same_contact(r, on->mesh, r->nodes + i + 1, c)))
         m->misplaced++;
     // frozen friction acts on what has left the surface as well, where it last was
     const Real facing = third ? 1 : surface_facing(on, a, b);

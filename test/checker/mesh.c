@@ -42,16 +42,29 @@ void name_of_obstacle(int nc, size_t k, char name[201]) {
     free(text);
 }
 
-static bool has_variable(int nc, const char *line, const char *variable) {
+size_t mesh_contacts(int nc, const char *line, size_t obstacles) {
     char name[300];
     int id;
-    snprintf(name, sizeof name, "%.200s_%.50s", line, variable);
-    return nc_inq_varid(nc, name, &id) == NC_NOERR;
+    snprintf(name, sizeof name, "%.200s_obstacle_second", line);
+    return obstacles > 1 || nc_inq_varid(nc, name, &id) == NC_NOERR ? 2 : 1;
 }
 
-bool mesh_contacts(int nc, const char *line, size_t obstacles, size_t *contacts) {
-    *contacts = obstacles > 1 || has_variable(nc, line, "obstacle_second") ? 2 : 1;
-    return has_variable(nc, line, "element_obstacle");
+bool mesh_is_index(double index, size_t obstacles, bool second) {
+    return index >= (second && obstacles == 1 ? -1 : 0) && index < (double)obstacles;
+}
+
+/* Has any line contacts of elements? */
+static bool has_elements(int nc) {
+    static const char LAST[] = "_element_obstacle";
+    int count = 0;
+    char name[NC_MAX_NAME + 1];
+    if (nc_inq_nvars(nc, &count)) return false;
+    for (int id = 0; id < count; id++) {
+        if (nc_inq_varname(nc, id, name)) return false;
+        const size_t size = strlen(name);
+        if (size >= sizeof LAST && strcmp(&name[size - sizeof LAST + 1], LAST) == 0) return true;
+    }
+    return false;
 }
 
 /* The rows of a variable with three columns; its dimension has its name. */
@@ -148,6 +161,7 @@ Mesh *mesh_read(int nc, size_t k, FILE *log) {
         mesh->ball = malloc(4 * mesh->triangles * sizeof *mesh->ball);
         mesh->near = malloc(mesh->triangles * sizeof *mesh->near);
         mesh->two_sided = is_two_sided(nc, corner);
+        mesh->has_elements = has_elements(nc);
         good = mesh->vertex && mesh->corner && mesh->rim && mesh->ball && mesh->near &&
                nc_get_var_double(nc, vertex, mesh->vertex) == NC_NOERR &&
                nc_get_var_int(nc, corner, mesh->corner) == NC_NOERR && is_whole(mesh) &&

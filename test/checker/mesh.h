@@ -33,7 +33,8 @@ typedef struct Mesh {
     bool *rim;      /* (triangles, 3) is the edge from corner i to the next one of no other? */
     double *ball;   /* (triangles, 4) middle, and a radius that holds the triangle */
     bool two_sided;
-    MeshNear *near;             /* (triangles) scratch */
+    bool has_elements; /* the file has contacts of elements, of which there are third ones */
+    MeshNear *near;    /* (triangles) scratch */
     MeshAnswer kept[MESH_KEPT]; /* the last ones, by a hash of the place */
 } Mesh;
 
@@ -56,9 +57,12 @@ enum { MESH_FEET = 12 };
  * number. */
 size_t mesh_feet(Mesh *mesh, const Real *x, Real within, MeshFoot out[MESH_FEET]);
 
-/* *contacts: of a node by the number of obstacles; two also with one, where the file has second
- * ones, as with a mesh that has concave edges. Returns whether it has contacts of elements. */
-bool mesh_contacts(int nc, const char *line, size_t obstacles, size_t *contacts);
+/* The contacts of a node by the number of obstacles: two also with one, where the file has second
+ * ones, as with a mesh that has concave edges. */
+size_t mesh_contacts(int nc, const char *line, size_t obstacles);
+/* Is it the index of one of so many obstacles? A second contact may have none, -1, if there is one.
+ */
+bool mesh_is_index(double index, size_t obstacles, bool second);
 
 /* The name of obstacle k; "" without one. */
 void name_of_obstacle(int nc, size_t k, char name[201]);

@@ -177,7 +177,7 @@ static int fill_set(size_t rows, size_t unknowns, const double *all, const doubl
     const double *cone = all, *b = all + rows, *a = b + rows, *map = a + rows * unknowns;
     size_t m = 0, n = 0;
     if (!set_size(rows, unknowns, cone, a, &m, &n)) return -1;
-    Conic *set = *out = conic_create(n, m);
+    Conic *set = *out = conic_create(2, n, m);
     if (!set) return -1;
     for (size_t i = 0; i < m; i += (size_t)cone[i]) set->cone[i] = (size_t)cone[i];
     for (size_t i = 0; i < m; i++) {
@@ -511,7 +511,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (record->nodes != record->elements + 1)
         return complain(log, "nodes are not elements + 1 in line", line, 0);
 
-    record->has_elements = mesh_contacts(source->nc, line, source->surfaces, &record->contacts);
+    record->contacts = mesh_contacts(source->nc, line, source->surfaces);
     size_t n = record->contacts * record->nodes + record->elements;
     Vector **vectors[] = {&record->reference,     &record->position, &record->load,
                           &record->normal,        &record->friction, &record->slip,
@@ -645,9 +645,7 @@ static int read_contact(const Source *source, const char *line, size_t step, boo
     for (size_t k = 0; k < known; k++)
         bad |= read_step(source, line, NAME[second][k], step, n, k < 3 ? 3 : 0, to[k], log);
     for (size_t c = from; c < from + n && !bad; c++)
-        if (record->contacts > 1 &&
-            !(record->obstacle[c] >= (source->surfaces > 1 || !second ? 0 : -1) &&
-              record->obstacle[c] < (double)source->surfaces))
+        if (record->contacts > 1 && !mesh_is_index(record->obstacle[c], source->surfaces, second))
             bad = complain(log, "unknown obstacle in", NAME[second][6], 0);
     return bad;
 }
@@ -671,7 +669,8 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
     int bad = 0;
     for (size_t k = 0; k < source->surfaces; k++)
         record->has_elements |=
-            (surface_is_cut(&source->surface[k]) || source->surfaces > 2) && !source->touching_only;
+            (surface_has_elements(&source->surface[k]) || source->surfaces > 2) &&
+            !source->touching_only;
     if (record->has_elements)
         for (size_t k = 0; k < 8; k++)
             bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);

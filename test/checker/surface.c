@@ -43,6 +43,10 @@ bool surface_may_be_third(const Surface *s) {
     return s->kind == SURFACE_PLANE || s->kind == SURFACE_MESH;
 }
 
+bool surface_has_elements(const Surface *s) {
+    return surface_is_cut(s) || (s->mesh && s->mesh->has_elements);
+}
+
 Surface surface_within(const Surface *s, Real depth) {
     Surface within = *s;
     within.radius += s->inside ? depth : -depth;

@@ -46,6 +46,8 @@ typedef struct Surface {
 void surface_free(Surface *surface);
 /* Is it a cylinder or a ball, with the lines outside? */
 bool surface_is_round(const Surface *surface);
+/* Has a file contacts of elements with it, be they the third ones of nodes? */
+bool surface_has_elements(const Surface *surface);
 /* Do elements touch it at their nodes alone, so that the contact of one may be a node's third? */
 bool surface_may_be_third(const Surface *surface);
 /* May an element whose ends are outside cut into it? */
