@@ -18,6 +18,7 @@
 #include "cable/winch.h"
 #include "evolve/failure.h"
 #include "evolve/state_check.h"
+#include "evolve/sways.h"
 
 /* The header of a state. */
 typedef struct Head {
@@ -427,12 +428,8 @@ static void hash_numbers(uint64_t *hash, size_t count, const double *number) {
 
 static void hash_waves(uint64_t *hash, const CpsiWaves *waves) {
     hash_numbers(hash, 3, (const double[3]){waves->surface, waves->depth, waves->ramp});
-    for (int k = 0; k < waves->count; k++) {
-        const CpsiWave *wave = &waves->wave[k];
-        const double given[] = {wave->amplitude, wave->frequency, wave->number,
-                                wave->along[0],  wave->along[1],  wave->phase};
-        hash_numbers(hash, sizeof given / sizeof *given, given);
-    }
+    for (int k = 0; k < waves->count; k++)
+        hash_bytes(hash, &waves->wave[k], sizeof waves->wave[k]); /* numbers only */
 }
 
 static void hash_flow(uint64_t *hash, const CpsiFlow *flow) {
@@ -540,6 +537,7 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
         hash_numbers(hash, 6, sway->sine);
         hash_numbers(hash, 6, sway->cosine);
         hash_numbers(hash, 1, &sway->period);
+        hash_numbers(hash, cpsi_sways_numbers(1, sway), sway->row);
     }
     for (int i = 0; i < stage->point_change_count; i++) {
         const CpsPointChange *change = &stage->point_change[i];

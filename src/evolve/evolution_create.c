@@ -147,6 +147,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
                           scene->stage[i].point_change_count, scene->stage[i].body_change_count,
                           scene->stage[i].turn_count, scene->stage[i].grasp_change_count,
                           scene->stage[i].shift_count, scene->stage[i].sway_count,
+                          cpsi_sways_numbers(scene->stage[i].sway_count, scene->stage[i].sway),
                           scene->stage[i].pay_out_count);
     }
     cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->point_count,
@@ -154,7 +155,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
                       CPSI_GRASP_CHANGES * scene->line_count, scene->obstacle_count,
                       cpsi_sways_of_move(2 * scene->line_count + scene->point_count +
                                          scene->body_count),
-                      2 * scene->line_count);
+                      0, 2 * scene->line_count);
     cpsi_points_layout(&evolution->points, arena, scene);
     for (int i = 0; i < scene->point_count; i++) {
         const char *name = copy_name(arena, scene->point[i].name);

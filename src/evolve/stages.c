@@ -21,7 +21,9 @@
 static const double SAME_STEP = 1e-12;
 
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
-                       int bodies, int turns, int grasps, int shifts, int sways, int pay_outs) {
+                       int bodies, int turns, int grasps, int shifts, int sways, size_t rows,
+                       int pay_outs) {
+    CPSI_PLACE(arena, stage->series, rows);
     CPSI_PLACE(arena, stage->pay_out, pay_outs);
     CPSI_PLACE(arena, stage->shift, shifts);
     CPSI_PLACE(arena, stage->sway, sways);
@@ -71,7 +73,7 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
     stage->turn_count = from->turn_count;
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
     stage->sway_count = from->sway_count;
-    for (int k = 0; k < from->sway_count; k++) stage->sway[k] = from->sway[k];
+    cpsi_sways_copy(from->sway_count, from->sway, stage->sway, stage->series);
     stage->pay_out_count = from->pay_out_count;
     for (int k = 0; k < from->pay_out_count; k++) stage->pay_out[k] = from->pay_out[k];
     stage->static_stiffness = from->static_stiffness;

@@ -24,6 +24,7 @@ typedef struct CpsiEvolutionStage {
     CpsTurn *turn;
     CpsShift *shift;
     CpsSway *sway;
+    double *series; /* the rows of all sways */
     CpsPayOut *pay_out;
     bool static_stiffness;
     bool gravity_changes;

@@ -26,7 +26,7 @@ static const char MOTION_SCENE[] =
     "history:\n"
     "  - {name: pull, duration: 2, time_step: 0.5,"
     " one.B: {move: [0, 0, 0.1], sine: [0, 0, 0.2], cosine: [0, 0, 0.3], period: 4,"
-    " oscillations: [{sine: [0.1, 0, 0], period: 7}]}}\n";
+    " oscillations: [{sine: [0.1, 0, 0], period: 7}], series: other_scene_s.csv}}\n";
 
 static const char ADRIFT_SCENE[] =
     "capstan: 1\n"
@@ -72,6 +72,11 @@ static const struct Change MOTION_CHANGE[] = {
     {"period", "period: 4", "period: 5"},
     {"oscillations", "{sine: [0.1, 0, 0], period: 7}", "{sine: [0.1, 0, 0], period: 8}"},
     {"oscillations", "sine: [0.1, 0, 0]", "sine: [0.2, 0, 0]"},
+    {"series", "other_scene_s.csv", "other_scene_t.csv"},
+    {"file",
+     "components: [{amplitude: 0.1, period: 5, direction: 20, phase: 30}, {amplitude: 0.2, "
+     "frequency: 0.1, direction: 0}]",
+     "file: other_scene_w.csv"},
     {"damping", " damping: 5", " damping: 6"},
     {"diameter", "diameter: 0.1", "diameter: 0.11"},
     {"normal", ", normal: 1", ", normal: 1.1"},
