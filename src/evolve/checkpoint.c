@@ -680,6 +680,7 @@ static void hash_body(uint64_t *hash, const CpsiBody *body) {
     hash_numbers(hash, 36, given->damping);
     hash_numbers(hash, 6, given->quadratic_damping);
     hash_numbers(hash, 6, given->velocity);
+    hash_numbers(hash, 12 * (size_t)body->wave_count, body->excitation);
 }
 
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {

@@ -13,6 +13,7 @@
 #include "evolve/body_motion.h"
 #include "evolve/checkpoint.h"
 #include "evolve/constraints.h"
+#include "evolve/excitation.h"
 #include "evolve/failure.h"
 #include "evolve/friction_zone.h"
 #include "evolve/loads.h"
@@ -162,6 +163,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         if (real) evolution->points.point[i].name = name;
     }
     cpsi_bodies_layout(&evolution->bodies, arena, scene);
+    cpsi_excitation_layout(evolution, arena, scene);
     CPSI_PLACE(arena, evolution->given_body, scene->body_count);
     for (int i = 0; i < scene->body_count; i++) {
         const char *name = copy_name(arena, scene->body[i].name);
@@ -329,6 +331,7 @@ static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, con
                              CpsError *err) {
     cpsi_points_fill(&evolution->points, scene, local);
     cpsi_bodies_fill(&evolution->bodies, scene, local);
+    cpsi_excitation_fill(evolution, local);
     for (int i = 0; i < scene->body_count; i++)
         evolution->given_body[i] = evolution->bodies.body[i].given;
     cpsi_body_motion_start(evolution);

@@ -13,6 +13,7 @@
 #include "evolve/path_check.h"
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
+#include "evolve/excitation.h"
 #include "evolve/sways.h"
 #include "evolve/water.h"
 #include "evolve/winches.h"
@@ -310,6 +311,7 @@ static void plan_time(CpsEvolution *evolution, const CpsiEvolutionStage *stage, 
     const bool other = fabs(evolution->interval - before) > SAME_STEP * before;
     evolution->restarts = part == 0 && (moves || evolution->ground_moved || other);
     evolution->ground_moved = moves;
+    cpsi_excite_bodies(evolution);
 }
 
 void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
@@ -356,6 +358,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
 /* Nothing changes. */
 static void plan_rest(CpsEvolution *evolution) {
     evolution->interval = 0;
+    cpsi_excite_bodies(evolution);
     evolution->ground_moved = false;
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int i = 0; i < evolution->line_count; i++) {
