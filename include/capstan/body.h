@@ -26,12 +26,12 @@ typedef enum CpsBodyKind {
 /* Directions of a body: along x, y and z of the scene, and about them. */
 enum { CPS_BODY_DIRECTIONS = 6 };
 
-/* The first-order force of waves (waves.h) of one period and direction on a body that stays where it
- * begins, in the axes of the scene: component j is amplitude_j times that of the wave, and is largest
- * by lead_j of the phase before the crest is at the place of the reference point. */
+/* The first-order force of waves (waves.h) of one period and direction on a body that stays where
+ * it begins, in the axes of the scene: component j is amplitude_j times that of the wave, and is
+ * largest by lead_j of the phase before the crest is at the place of the reference point. */
 typedef struct CpsExcitation {
-    double period;    /* [s] > 0 */
-    double direction; /* [rad] as of the wave */
+    double period;                         /* [s] > 0 */
+    double direction;                      /* [rad] as of the wave */
     double amplitude[CPS_BODY_DIRECTIONS]; /* [N/m, N] >= 0 of force and moment */
     double lead[CPS_BODY_DIRECTIONS];      /* [rad] */
 } CpsExcitation;
@@ -65,9 +65,9 @@ typedef struct CpsBody {
     double velocity[CPS_BODY_DIRECTIONS]; /* [m/s, rad/s] as the history begins, of a free body, in
                                              the axes of the scene */
     /* In steps in time, of at most CPS_MAX_WAVES rows, those of one direction with periods that
-     * increase; default 0 and NULL: waves do nothing to it. Between two rows amplitude exp(i lead) is
-     * linear in the frequency; each of the scene's waves is at a row or between two of its direction.
-     * Memory of radiation, drift and the second order are not in it */
+     * increase; default 0 and NULL: waves do nothing to it. Between two rows amplitude exp(i lead)
+     * is linear in the frequency; each of the scene's waves is at a row or between two of its
+     * direction. Memory of radiation, drift and the second order are not in it */
     int excitation_count;
     const CpsExcitation *excitation;
 } CpsBody;

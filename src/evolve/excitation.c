@@ -31,7 +31,8 @@ static void add_row(const CpsExcitation *row, double share, double out[OF_WAVE])
     }
 }
 
-/* [N, N m] per amplitude of a wave at its phases 0 and pi/2; false: no rows have it between them. */
+/* [N, N m] per amplitude of a wave at its phases 0 and pi/2; false: no rows have it between them.
+ */
 static bool find_transfer(const CpsBody *body, const CpsWave *wave, double out[OF_WAVE]) {
     const CpsExcitation *below = NULL, *above = NULL;
     const double period = wave->period, margin = SAME_PERIOD * period;
@@ -158,7 +159,7 @@ void cpsi_excite_bodies(CpsEvolution *evolution) {
             for (int j = 0; j < SIX; j++) sum[j] += c * force[j] + s * force[SIX + j];
         }
         const double share = cpsi_waves_share(waves);
-        body->waves = (CpsiWrench){vec3_scale(share, vec3_load(sum)),
-                                   vec3_scale(share, vec3_load(&sum[3]))};
+        body->waves =
+            (CpsiWrench){vec3_scale(share, vec3_load(sum)), vec3_scale(share, vec3_load(&sum[3]))};
     }
 }

@@ -13,8 +13,8 @@ CpsStatus cpsi_excitation_check(const CpsScene *scene, CpsError *err);
 void cpsi_excitation_layout(CpsEvolution *evolution, CpsiArena *arena, const CpsScene *scene);
 void cpsi_excitation_fill(CpsEvolution *evolution, const CpsScene *local);
 
-/* Find what the waves do to the bodies at their time, which is that after the step under way; nothing
- * in a quasi-static one. */
+/* Find what the waves do to the bodies at their time, which is that after the step under way;
+ * nothing in a quasi-static one. */
 void cpsi_excite_bodies(CpsEvolution *evolution);
 
 #endif

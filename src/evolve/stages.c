@@ -8,12 +8,12 @@
 
 #include "base/math.h"
 #include "cable/two_stiffnesses.h"
+#include "evolve/excitation.h"
 #include "evolve/failure.h"
 #include "evolve/grasps.h"
 #include "evolve/path_check.h"
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
-#include "evolve/excitation.h"
 #include "evolve/sways.h"
 #include "evolve/water.h"
 #include "evolve/winches.h"

@@ -51,8 +51,7 @@ static CpsStatus check_scene(const CpsScene *scene, CpsError *err) {
         return CPSI_FAIL_AT("waves", err, CPS_ERR_ARGUMENT,
                             "waves: they move the water in time, but no stage of the history has "
                             "a duration: give one");
-    for (int i = 0; i < scene->line_count; i++)
-        any = any || cpsi_has_drag(scene, &scene->line[i]);
+    for (int i = 0; i < scene->line_count; i++) any = any || cpsi_has_drag(scene, &scene->line[i]);
     for (int i = 0; i < scene->body_count; i++) any = any || scene->body[i].excitation_count > 0;
     if (!any)
         return CPSI_FAIL_AT("waves", err, CPS_ERR_ARGUMENT,

@@ -9,8 +9,8 @@
 
 static const Real TAU = 6.283185307179586476925286766559L;
 
-/* amplitude exp(-i lead) of component j at a frequency, on the straight line between the rows for the
- * direction that enclose it. */
+/* amplitude exp(-i lead) of component j at a frequency, on the straight line between the rows for
+ * the direction that enclose it. */
 static long double complex transfer(const CpsBody *body, const CpsWave *wave, int j) {
     const Real frequency = 1 / (Real)wave->period;
     long double complex value[2] = {0, 0};
@@ -21,7 +21,8 @@ static long double complex transfer(const CpsBody *body, const CpsWave *wave, in
         if (cosl(row->direction - (Real)wave->direction) < 1 - 1e-11L) continue;
         for (int side = 0; side < 2; side++) {
             const Real off = side ? own - frequency : frequency - own;
-            const bool nearer = at[side] < 0 || off < (side ? at[1] - frequency : frequency - at[0]);
+            const bool nearer =
+                at[side] < 0 || off < (side ? at[1] - frequency : frequency - at[0]);
             if (off < -2e-9L * frequency || !nearer) continue;
             at[side] = own;
             value[side] = row->amplitude[j] * cexpl(-I * (Real)row->lead[j]);
@@ -36,8 +37,7 @@ void excitation(const CpsScene *scene, int index, double time, double out[6], do
     const CpsWaves *waves = scene->current ? scene->current->waves : NULL;
     for (int j = 0; j < 6; j++) out[j] = noise[j] = 0;
     if (!waves || body->excitation_count == 0) return;
-    const Real grown =
-        time < waves->ramp ? (1 - cosl(TAU / 2 * time / waves->ramp)) / 2 : 1;
+    const Real grown = time < waves->ramp ? (1 - cosl(TAU / 2 * time / waves->ramp)) / 2 : 1;
     for (int w = 0; w < waves->wave_count; w++) {
         const CpsWave *wave = &waves->wave[w];
         const Real frequency = TAU / wave->period,

@@ -262,7 +262,8 @@ static void compare_state(Compare *c, size_t k, const Imposed *body, const doubl
                size(&body->from_load[3]);
     for (int i = 0; i < SIX; i++)
         for (int j = 0; j < SIX; j++) noise[i / 3] += fabs(data->hydrostatics[SIX * i + j]) * q[j];
-    same(c, "load_of_body", of, at->load, wanted, 3, LOADS * noise[0] + size(body->noise) + size(known));
+    same(c, "load_of_body", of, at->load, wanted, 3,
+         LOADS * noise[0] + size(body->noise) + size(known));
     same(c, "moment of load_of_body", of, &at->load[3], &wanted[3], 3,
          LOADS * noise[1] + size(&body->noise[3]) + size(&known[3]));
 }

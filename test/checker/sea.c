@@ -65,11 +65,12 @@ int sea_read(const Source *source, Sea *out, FILE *log) {
                 isfinite(of[3]);
         if (!sound) continue;
         const Real frequency = TAU / of[1];
-        out->wave[i] = (Wave){.amplitude = of[0],
-                              .frequency = frequency,
-                              .number = sea_number(frequency, -(Real)source->gravity[2], out->depth),
-                              .heading = {cosl(of[2]), sinl(of[2])},
-                              .phase = of[3]};
+        out->wave[i] =
+            (Wave){.amplitude = of[0],
+                   .frequency = frequency,
+                   .number = sea_number(frequency, -(Real)source->gravity[2], out->depth),
+                   .heading = {cosl(of[2]), sinl(of[2])},
+                   .phase = of[3]};
     }
     free(row);
     return sound ? 0 : complain(log, "senseless numbers");

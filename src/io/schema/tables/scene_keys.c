@@ -243,8 +243,9 @@ static const CpsiKey EXCITATION_KEYS[] = {
     {"direction", REQUIRED, NUMBER(Excitation, direction), ANY, .unit = "degree",
      .help = "of the wave, from the x axis towards the y axis"},
     {"amplitude", REQUIRED, POINT(Excitation, amplitude, 6), NOT_NEGATIVE,
-     .help = "[N/m, N] of force and moment about the reference point, along and about x, y and z of "
-             "the scene, per metre of the wave's amplitude"},
+     .help =
+         "[N/m, N] of force and moment about the reference point, along and about x, y and z of "
+         "the scene, per metre of the wave's amplitude"},
     {"phase", OPTIONAL, POINT(Excitation, phase, 6), ANY, .unit = "degree",
      .fallback = "[0, 0, 0, 0, 0, 0]",
      .help = "by which each is largest before the crest is where the reference point begins"},

@@ -60,8 +60,8 @@ typedef struct CpsiDiagonalValues {
 /* The force of waves of one period and direction on a body. */
 typedef struct CpsiExcitationValues {
     const CpsiYaml *node;
-    double period, frequency; /* NaN: not given */
-    double direction;         /* [degree] */
+    double period, frequency;                                          /* NaN: not given */
+    double direction;                                                  /* [degree] */
     double amplitude[CPS_BODY_DIRECTIONS], phase[CPS_BODY_DIRECTIONS]; /* [N/m, N], [degree] */
 } CpsiExcitationValues;
 
@@ -74,7 +74,7 @@ typedef struct CpsiSceneBodyValues {
     CpsiNumberRows hydrostatics;        /* (6, 6) */
     CpsiDiagonalValues diagonal;        /* .. or these */
     CpsiNumberRows added_mass, damping; /* (6, 6) .. or these */
-    CpsiList excitation; /* CpsiExcitationValues */
+    CpsiList excitation;                /* CpsiExcitationValues */
     CpsiDiagonalValues added_diagonal, damping_diagonal, quadratic;
     double moments[3], products[3];   /* [kg m2] */
     double velocity[3], turn_rate[3]; /* [m/s], [rad/s] */
