@@ -63,6 +63,15 @@ static int workspace_count(const CpsScene *scene) {
     return threads < scene->line_count ? threads : scene->line_count;
 }
 
+/* Current and waves. */
+static void layout_water(CpsEvolution *evolution, CpsiArena *arena, const CpsScene *scene) {
+    if (scene->current) {
+        CPSI_PLACE(arena, evolution->current_row, scene->current->row_count);
+        CPSI_PLACE(arena, evolution->flow, scene->line_count);
+    }
+    if (cpsi_waves_of(scene)) CPSI_PLACE(arena, evolution->wave, cpsi_waves_of(scene)->wave_count);
+}
+
 /* What stages are checked against. */
 static void layout_given(CpsEvolution *evolution, CpsiArena *arena, const CpsScene *scene,
                          bool real) {
@@ -93,11 +102,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     CPSI_PLACE(arena, evolution->move, scene->line_count);
     CPSI_PLACE(arena, evolution->from, 2 * scene->line_count);
     CPSI_PLACE(arena, evolution->release, 2 * scene->line_count);
-    if (scene->current) {
-        CPSI_PLACE(arena, evolution->current_row, scene->current->row_count);
-        CPSI_PLACE(arena, evolution->flow, scene->line_count);
-    }
-    if (cpsi_waves_of(scene)) CPSI_PLACE(arena, evolution->wave, cpsi_waves_of(scene)->wave_count);
+    layout_water(evolution, arena, scene);
     layout_given(evolution, arena, scene, real);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
                               .contacts = scene->obstacle_count > 1 ? 2 : 1,

@@ -11,7 +11,7 @@
 #include "io/base/file/text_rows.h"
 #include "io/base/yaml/yaml.h"
 
-typedef struct Reader {
+typedef struct TableReader {
     const char *path;
     CpsError *err;
     const CpsiCsvColumn *column;
@@ -19,7 +19,7 @@ typedef struct Reader {
     int columns, meaning[CPSI_CSV_COLUMNS]; /* found, and what each is */
     int line;
     CpsiCsvTable table;
-} Reader;
+} TableReader;
 
 int cpsi_csv_cut(char *text, char **cell, int capacity) {
     int count = 0;
@@ -37,14 +37,14 @@ int cpsi_csv_cut(char *text, char **cell, int capacity) {
 }
 
 /* "time, x, y (optional)" */
-static void list_names(const Reader *r, char *out, size_t size) {
+static void list_names(const TableReader *r, char *out, size_t size) {
     size_t at = 0;
     for (int k = 0; k < r->count && at < size; k++)
         at += (size_t)snprintf(out + at, size - at, "%s%s%s", k > 0 ? ", " : "", r->column[k].name,
                                r->column[k].required ? "" : " (optional)");
 }
 
-static CpsStatus read_names(Reader *r, char *text) {
+static CpsStatus read_names(TableReader *r, char *text) {
     char *cell[CPSI_CSV_COLUMNS], names[400];
     bool *has = r->table.has;
     list_names(r, names, sizeof names);
@@ -73,14 +73,14 @@ static CpsStatus read_names(Reader *r, char *text) {
     return CPS_OK;
 }
 
-static bool are_units(const Reader *r, char *const *cell, int count) {
+static bool are_units(const TableReader *r, char *const *cell, int count) {
     bool units = count == r->columns;
     for (int k = 0; k < count && units; k++)
         units = strcmp(cell[k], r->column[r->meaning[k]].unit) == 0;
     return units;
 }
 
-static CpsStatus read_row(Reader *r, char *text) {
+static CpsStatus read_row(TableReader *r, char *text) {
     char *cell[CPSI_CSV_COLUMNS];
     const int count = cpsi_csv_cut(text, cell, r->columns), row = r->table.rows;
     if (row == 0 && are_units(r, cell, count)) return CPS_OK;
@@ -104,7 +104,7 @@ static CpsStatus read_row(Reader *r, char *text) {
 
 CpsStatus cpsi_csv_read(const char *path, size_t max_bytes, const CpsiCsvColumn *column, int count,
                         CpsiPool *pool, CpsiCsvTable *out, CpsError *err) {
-    Reader r = {.path = path, .err = err, .column = column, .count = count};
+    TableReader r = {.path = path, .err = err, .column = column, .count = count};
     CpsiTextRows rows;
     CpsStatus status = cpsi_text_rows_open(&rows, path, max_bytes, err);
     if (status == CPS_OK) {
