@@ -334,17 +334,30 @@ double cpsi_work_along(const CpsiBalance *balance) {
     return work;
 }
 
-/* Is the symmetric part of a stiffness positive definite in the directions that are not fixed? */
-bool cpsi_is_definite(const double stiffness[36], const bool fixed[6], double arm) {
-    double m[36], l[36];
+/* The symmetric part of a stiffness in the directions that are not fixed, rotations times the arm,
+ * less a share of its largest entry: is it positive definite? */
+static bool is_definite_by(const double stiffness[36], const bool fixed[6], double arm,
+                           double share) {
+    double m[36], l[36], most = 0;
     for (int i = 0; i < 6; i++)
         for (int k = 0; k < 6; k++) {
             const double unit = (i < 3 ? 1 : arm) * (k < 3 ? 1 : arm);
             m[6 * i + k] = fixed[i] || fixed[k]
-                               ? i == k
+                               ? 0
                                : 0.5 * (stiffness[6 * i + k] + stiffness[6 * k + i]) / unit;
+            most = fmax(most, fabs(m[6 * i + k]));
         }
+    for (int i = 0; i < 6; i++) m[7 * i] = fixed[i] ? 1 : m[7 * i] - share * most;
     return cpsi_cholesky(6, m, l);
+}
+
+bool cpsi_is_definite(const double stiffness[36], const bool fixed[6], double arm) {
+    return is_definite_by(stiffness, fixed, arm, 0);
+}
+
+bool cpsi_is_stable(const double stiffness[36], const bool fixed[6], double arm) {
+    static const double NEUTRAL = 3e-10; /* what places found to 1e-10 leave of a stiffness of 0 */
+    return is_definite_by(stiffness, fixed, arm, NEUTRAL);
 }
 
 /* The block of body k in the matrix. */

@@ -15,6 +15,8 @@ void cpsi_fill_matrix(CpsiBalance *balance);
 void cpsi_body_block(const CpsiBalance *balance, int k, double out[36]);
 /* Is the symmetric part of a stiffness positive definite in the directions that are not fixed? */
 bool cpsi_is_definite(const double stiffness[36], const bool fixed[6], double arm);
+/* Is it by more than rounding? A body that may drift or turn freely is not stable. */
+bool cpsi_is_stable(const double stiffness[36], const bool fixed[6], double arm);
 
 /* The step of all points and bodies, in balance->step. Where a body in its pose is not stable it
  * might lead up the energy; then the body is held back. False where there is none. */

@@ -101,6 +101,45 @@ static void a_pendulum(void **unused) {
     }
 }
 
+/* What nothing holds in some direction is not stable, whatever its rounding says: a float with a
+ * line that hangs from it, slack, which may drift; and a pendulum without an axis that is fixed. */
+static void neutral_poses(void **unused) {
+    (void)unused;
+    for (int k = 0; k < 40; k++) {
+        const double heading = 0.37 + 2.1 * k;
+        Mooring m;
+        begin(&m, 1);
+        m.line[0].length = 9;
+        m.line[0].weight = 1.3;
+        m.line[0].element_count = 6;
+        m.line[0].stiffness = k % 4 == 1 ? INFINITY : k % 4 == 2 ? 7e7 : 700;
+        m.point[1].position[0] = 0.3 * cos(heading);
+        m.point[1].position[1] = 0.3 * sin(heading);
+        m.body.weight = 80;
+        if (k % 2) {
+            m.point[0].position[0] = 5 * cos(heading);
+            m.point[0].position[1] = 5 * sin(heading);
+            m.point[0].position[2] = -5.8;
+            m.body.buoyancy = 120;
+            const double stiff[] = {0, 0, 130, 30, 40, 9};
+            for (int i = 0; i < 6; i++) m.body.hydrostatics[7 * i] = stiff[i];
+            m.bed.normal[2] = 1;
+            m.bed.point[2] = -6;
+            m.scene.obstacle = &m.bed;
+            m.scene.obstacle_count = 1;
+        } else {
+            m.point[1].position[2] = 0.4;
+            m.body.position[2] = -9.6;
+            m.body.centre_of_gravity[2] = -0.2;
+        }
+        CpsEvolution *evolution = evolve(&m.scene);
+        const CpsBodyReport found = step(evolution);
+        assert_true(found.has_place);
+        if (found.is_stable) fail_msg("pose %d is said to be stable", k);
+        cps_evolution_destroy(evolution);
+    }
+}
+
 /* A float of buoyancy B above its weight on two equal strings, with hydrostatics in heave: the
  * strings have half each of what the heave leaves. */
 static void a_float_on_two_strings(void **unused) {
@@ -553,6 +592,7 @@ static void what_is_refused(void **unused) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pendulum),
+        cmocka_unit_test(neutral_poses),
         cmocka_unit_test(fixed_directions_stay),
         cmocka_unit_test(below_the_bed),
         cmocka_unit_test(a_float_on_two_strings),
