@@ -572,9 +572,23 @@ Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const do
     return x;
 }
 
-/* The pose of a body after a share of the step. */
-CpsiPose cpsi_pose_after(const CpsiPose *from, const double step[6], double share) {
-    return (
-        CpsiPose){vec3_axpy(share, vec3_load(step), from->place),
-                  rotation_after(rotation_of(vec3_scale(share, vec3_load(&step[3]))), from->turn)};
+/* The rotation from one to another without its components, as one vector, in fixed directions: with
+ * one axis fixed, rotations about the two others would add up to one about it. */
+static Rotation without_fixed(const bool fixed[6], Rotation from, Rotation to) {
+    if (fixed[3] + fixed[4] + fixed[5] != 1) return to;
+    double turn[3];
+    vec3_store(turn, rotation_vector(rotation_after(to, rotation_inverse(from))));
+    for (int i = 0; i < 3; i++)
+        if (fixed[3 + i]) turn[i] = 0;
+    return rotation_after(rotation_of(vec3_load(turn)), from);
+}
+
+/* The pose of body k after a share of the step. */
+CpsiPose cpsi_pose_after(const CpsiBalance *balance, int k, const CpsiPose *from,
+                         const double step[6], double share) {
+    const CpsiBody *body = &balance->evolution->bodies.body[balance->rigid[k].body];
+    const Rotation turn =
+        rotation_after(rotation_of(vec3_scale(share, vec3_load(&step[3]))), from->turn);
+    return (CpsiPose){vec3_axpy(share, vec3_load(step), from->place),
+                      without_fixed(body->given.fixed, body->pose.turn, turn)};
 }

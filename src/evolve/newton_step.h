@@ -33,10 +33,11 @@ void cpsi_limit(double step[3], double most);
 double cpsi_work_along(const CpsiBalance *balance);
 
 /* The place of a point after a share of the step: out of every obstacle, and on that on which it is
- * to lie; exactly where it was where it is to stick. The pose of a body after a share of the
- * step. */
+ * to lie; exactly where it was where it is to stick. The pose of body k after a share of the step:
+ * its rotation since the step began, as one vector, has no component about a fixed axis. */
 Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const double step[3],
                       double share);
-CpsiPose cpsi_pose_after(const CpsiPose *from, const double step[6], double share);
+CpsiPose cpsi_pose_after(const CpsiBalance *balance, int k, const CpsiPose *from,
+                         const double step[6], double share);
 
 #endif
