@@ -365,6 +365,92 @@ static void a_reaction_does_no_work(void **state) {
     cps_evolution_destroy(evolution);
 }
 
+/* A set of this kind whose place nearest to the origin is y, along the unit vector u from it. Of an
+ * expression *made is released by the caller: the hull of a ball and places farther on. */
+static CpsConstraint set_about(int kind, const double *u, const double *y, uint64_t *random,
+                               CpsSet **made) {
+    CpsConstraint on = {.kind = (CpsConstraintKind)kind};
+    const double r = splitmix(random, 0.2, 5);
+    double across[3], size = 0, along;
+    for (int a = 0; a < 3; a++) across[a] = splitmix(random, -1, 1);
+    along = dot(across, u);
+    for (int a = 0; a < 3; a++) size += pow(across[a] -= along * u[a], 2);
+    for (int a = 0; a < 3; a++) {
+        across[a] /= sqrt(size);
+        on.point[a] = y[a];
+        on.axis[a] = u[a];
+    }
+    *made = NULL;
+    if (kind == CPS_CONSTRAINT_KIND_RAIL) { /* across, to both sides */
+        for (int a = 0; a < 3; a++) {
+            on.axis[a] = across[a];
+            on.point[a] -= r / 3 * across[a];
+        }
+        on.length = r;
+    }
+    if (kind == CPS_CONSTRAINT_KIND_DISC) /* across the way to it */
+        for (int a = 0; a < 3; a++) on.point[a] += 0.4 * r * across[a];
+    if (kind == CPS_CONSTRAINT_KIND_BALL || kind == CPS_CONSTRAINT_KIND_SET)
+        for (int a = 0; a < 3; a++) on.point[a] += r * u[a];
+    on.radius = r;
+    if (kind == CPS_CONSTRAINT_KIND_SET) {
+        CpsSet *ball, *far;
+        double corner[9];
+        for (int i = 0; i < 9; i++)
+            corner[i] = r * (splitmix(random, 0.5, 2) * u[i % 3] + (i / 3 - 1) * across[i % 3]);
+        assert_int_equal(cps_set_ball(3, NULL, r, &ball, NULL), CPS_OK);
+        assert_int_equal(cps_set_hull_of_points(3, 3, corner, &far, NULL), CPS_OK);
+        assert_int_equal(cps_set_hull(2, (const CpsSet *[]){ball, far}, made, NULL), CPS_OK);
+        cps_set_release(ball);
+        cps_set_release(far);
+        on.set = *made;
+    }
+    return on;
+}
+
+/* Sets of any kind in reach of an inextensible line that is held at the origin, by a share of its
+ * length, and out of reach: the proof is the unit vector to the nearest place, and what is missing.
+ * An elastic line reaches all of them. */
+static void reach(void **state) {
+    (void)state;
+    static const int KIND[] = {CPS_CONSTRAINT_KIND_RAIL, CPS_CONSTRAINT_KIND_HALF_SPACE,
+                               CPS_CONSTRAINT_KIND_BALL, CPS_CONSTRAINT_KIND_DISC,
+                               CPS_CONSTRAINT_KIND_SET};
+    static const double SHARE[] = {-1e-3, -1e-6, 1e-9, 1e-6, 1e-3, 1, 30};
+    uint64_t random = 17;
+    for (int i = 0; i < 5 * 7 * 8; i++) {
+        const double share = SHARE[i / 5 % 7], length = pow(10, splitmix(&random, -1, 3));
+        double u[3], y[3], size = 0;
+        for (int a = 0; a < 3; a++) size += pow(u[a] = splitmix(&random, -1, 1), 2);
+        for (int a = 0; a < 3; a++) y[a] = length * (1 + share) * (u[a] /= sqrt(size));
+        CpsLine line = hung(length, 12, INFINITY);
+        CpsSet *made;
+        line.constraint[CPS_END_B] = set_about(KIND[i % 5], u, y, &random, &made);
+        CpsEvolution *evolution =
+            solve(&line, share > 0 ? CPS_OUTCOME_INFEASIBLE : CPS_OUTCOME_SOLVED);
+        CpsLineReport report = cps_evolution_line_report(evolution, 0);
+        const CpsLineView view = cps_evolution_line_view(evolution, 0);
+        if (share > 0) { /* what small programs leave, docs/sets.md, along the way and, by its root, across */
+            const double leaves = 2e-12 * (length * (1 + share) + 10);
+            CHECK_NEAR(report.proof_length, length * share, leaves);
+            CHECK_VECTOR(report.proof, u, 1e-5);
+            for (int e = 0; e < 12; e++) assert_true(view.tension[e] == 0);
+        } else {
+            CHECK_LESS(cps_evolution_constraint_report(evolution, 0, CPS_END_B).residual,
+                       1e-11 * length);
+        }
+        cps_evolution_destroy(evolution);
+        line.stiffness = 1e3 * length;
+        evolution = solve(&line, CPS_OUTCOME_SOLVED);
+        report = cps_evolution_line_report(evolution, 0);
+        /* the tension is that of the strain and the weight, and no more */
+        CHECK_LESS(report.end[CPS_END_B].tension,
+                   line.stiffness * fmax(share, 0) * 1.01 + 30 * line.weight * length);
+        cps_evolution_destroy(evolution);
+        cps_set_release(made);
+    }
+}
+
 static void no_equilibrium(void **state) {
     (void)state;
     CpsLine line = hung(10, 20, INFINITY);
@@ -458,6 +544,7 @@ int main(void) {
         cmocka_unit_test(any_set_bears_along_its_normals),
         cmocka_unit_test(a_set_that_does_not_bear_changes_nothing),
         cmocka_unit_test(a_reaction_does_no_work),
+        cmocka_unit_test(reach),
         cmocka_unit_test(no_equilibrium),
         cmocka_unit_test(both_constraints_of_the_remark),
     };
