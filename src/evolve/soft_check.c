@@ -11,7 +11,9 @@ static bool may_bear(const CpsScene *scene) {
     bool any = false;
     for (int i = 0; i < scene->point_count; i++)
         any = any || scene->point[i].kind == CPS_POINT_KIND_FREE || scene->point[i].drags;
-    for (int k = 0; scene->stage && k < scene->stage_count; k++)
+    const int stages =
+        scene->stage ? scene->stage_count : 0; /* also asked before they are checked */
+    for (int k = 0; k < stages; k++)
         for (int i = 0; i < scene->stage[k].point_change_count; i++)
             any = any || scene->stage[k].point_change[i].kind == CPS_POINT_KIND_FREE;
     return any;

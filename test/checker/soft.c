@@ -139,7 +139,8 @@ double soft_damped(const Source *source, const Record *r, const Record *before) 
     Real sum = 0;
     bool any = false;
     for (size_t k = 0; k < source->surfaces; k++) any = any || source->surface[k].damps > 0;
-    for (size_t j = 0; any && j < r->nodes; j++) {
+    if (!any) return 0;
+    for (size_t j = 0; j < r->nodes; j++) {
         if (node_is_held(r, j)) continue;
         for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
             sum += damped_at(source, r, before, j, c);

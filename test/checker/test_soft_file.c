@@ -26,8 +26,8 @@ static const FalseNumber FALSE[] = {
     {"a_ledger_damping", 4, 0.1, "ledger_damping"},
     {"a_ledger_elastic", 4, 0.1, "ledger_elastic in time"},
     {"a_ledger_impact", 4, 0.1, "ledger in time"},
-    {"a_reaction", 4 * NODES + AT, 90, NULL},
-    {"a_span", 4 * NODES + AT, 0.05, NULL},
+    {"a_reaction", 4 * NODES + AT, 90, "sum of local gaps"},
+    {"a_span", 4 * NODES + AT, 0.05, "velocity off"},
 };
 
 static const OtherScene OTHER[] = {
