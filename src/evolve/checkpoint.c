@@ -7,16 +7,19 @@
  * only valid for the same program on the same kind of machine. Structs are copied field by field:
  * the bytes contain no padding and no address, and are the same in every run. */
 #include "evolve/checkpoint.h"
+#include "evolve/hash.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
 #include "cable/damping.h"
+#include "cable/place_form.h"
 #include "cable/soft.h"
 #include "cable/two_stiffnesses.h"
 #include "cable/winch.h"
 #include "evolve/failure.h"
+#include "evolve/hash.h"
 #include "evolve/state_check.h"
 
 /* The header of a state. */
@@ -413,18 +416,6 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     return tape->at;
 }
 
-/* FNV-1a, 64 bits. */
-static const uint64_t HASH_START = 14695981039346656037u;
-
-static void hash_bytes(uint64_t *hash, const void *data, size_t size) {
-    const unsigned char *byte = data;
-    for (size_t i = 0; i < size; i++) *hash = (*hash ^ byte[i]) * 1099511628211u;
-}
-
-static void hash_numbers(uint64_t *hash, size_t count, const double *number) {
-    hash_bytes(hash, number, count * sizeof *number);
-}
-
 static void hash_waves(uint64_t *hash, const CpsiWaves *waves) {
     hash_numbers(hash, 3, (const double[3]){waves->surface, waves->depth, waves->ramp});
     for (int k = 0; k < waves->count; k++) {
@@ -454,8 +445,17 @@ static void hash_elasticity(uint64_t *hash, const CpsiLine *line, const CpsiElas
     hash_numbers(hash, (size_t)own->spring_count, own->spring_stiffness);
 }
 
+static void hash_form(uint64_t *hash, const CpsiConicSet *form, size_t space) {
+    hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
+    hash_numbers(hash, (size_t)form->rows * (size_t)form->unknowns, form->a);
+    hash_numbers(hash, (size_t)form->rows, form->b);
+    hash_numbers(hash, space * (size_t)form->unknowns, form->p);
+    hash_numbers(hash, space, form->origin);
+}
+
 static void hash_set(uint64_t *hash, const CpsiEndSet *on) {
     if (!on->is_there) return;
+    if (on->form) hash_form(hash, cpsi_place_form_conic(on->form), 3);
     const double centre[3] = {on->set.centre.x, on->set.centre.y, on->set.centre.z},
                  radius = on->set.round + on->set.radius;
     hash_numbers(hash, 3, centre);
@@ -625,13 +625,7 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     if (obstacle->damping > 0) hash_numbers(hash, 1, &obstacle->damping);
     hash_ground(hash, obstacle);
     hash_mesh(hash, obstacle->mesh);
-    if (!set) return;
-    const CpsiConicSet *form = cpsi_friction_set_conic(set);
-    hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
-    hash_numbers(hash, (size_t)form->rows * (size_t)form->unknowns, form->a);
-    hash_numbers(hash, (size_t)form->rows, form->b);
-    hash_numbers(hash, 2 * (size_t)form->unknowns, form->p);
-    hash_numbers(hash, 2, form->origin);
+    if (set) hash_form(hash, cpsi_friction_set_conic(set), 2);
 }
 
 static void hash_anchor(uint64_t *hash, const CpsPoint *given) {

@@ -320,6 +320,8 @@ static void fill_given(CpsEvolution *evolution, const CpsScene *scene) {
                                             : NULL,
                       .winch = {scene->line[i].winch[0], scene->line[i].winch[1]},
                       .constraint = {scene->line[i].constraint[0], scene->line[i].constraint[1]}};
+    for (int i = 0; i < scene->line_count; i++)
+        for (int end = 0; end < 2; end++) evolution->given_line[i].constraint[end].set = NULL;
 }
 
 /* The points, and the memory to find those that are free: with friction that has directions none
@@ -398,7 +400,8 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
             if (status == CPS_OK) {
                 fill_given(evolution, scene);
                 fill(evolution, &local.scene);
-                status = fill_points(evolution, scene, &local.scene, err);
+                status = cpsi_constraints_make(evolution, &local.scene, err);
+                if (status == CPS_OK) status = fill_points(evolution, scene, &local.scene, err);
                 evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
             }
         }
@@ -418,6 +421,7 @@ void cps_evolution_destroy(CpsEvolution *evolution) {
     cpsi_workers_destroy(evolution->workers);
     for (int i = 0; i < evolution->workspace_count; i++)
         cpsi_friction_sets_free(&evolution->workspace[i].friction_sets);
+    cpsi_constraints_free(evolution);
     free(evolution->before);
     cpsi_balance_free(evolution->points.balance);
     for (int k = 0; k < evolution->obstacle_count; k++) {

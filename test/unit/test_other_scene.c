@@ -170,8 +170,11 @@ static const char SETS_SCENE[] =
                 IN_A_SET("e", "40", "disc: {centre: [6, 40, 0], radius: 1, normal: [0, 0, 2]}")
                     IN_A_SET("f", "50",
                              "box: {centre: [6, 50, 0], size: [1, 2, 3], rotation: {quaternion: "
-                             "[1, 0, 0, 0]}}") "history:\n"
-                                               "  - {name: pull, a.A: {move: [0, 0, 0.1]}}\n";
+                             "[1, 0, 0, 0]}}")
+                        IN_A_SET("g", "60",
+                                 "set: {translate: {by: [6, 60, 0], of: {ball: {radius: 9, "
+                                 "dimension: 3}}}}") "history:\n"
+                                                     "  - {name: pull, a.A: {move: [0, 0, 0.1]}}\n";
 
 static const char SHAPES_SCENE[] =
     "capstan: 1\n"
@@ -434,6 +437,8 @@ static const struct Change SET_CHANGE[] = {
     {"disc", "normal: [0, 0, 2]", "normal: [0, 1, 2]"},
     {"box", "size: [1, 2, 3]", "size: [1, 2, 4]"},
     {"rotation", "quaternion: [1, 0, 0, 0]", "quaternion: [1, 0.1, 0, 0]"},
+    {"set", "radius: 9, dimension: 3", "radius: 8, dimension: 3"},
+    {"set", "by: [6, 60, 0]", "by: [6, 60.5, 0]"},
 };
 
 static const struct Change SHAPE_CHANGE[] = {

@@ -437,6 +437,8 @@ static const CpsiKey ON_KEYS[] = {
     {"ball", ONE_OF, AROUND, .inside = &BALL, .help = "within a ball"},
     {"disc", ONE_OF, AROUND, .inside = &DISC, .help = "within a flat disc"},
     {"box", ONE_OF, AROUND, .inside = &ON_BOX, .help = "within a box"},
+    {"set", ONE_OF, EXPRESSION(On, set), .inside = &cpsi_set_words,
+     .help = "within any bounded set of space, in metres, in the words of law files"},
     {"force", OPTIONAL, POINT(On, force, 3), ANY, .unit = "N", .fallback = "[0, 0, 0]",
      .help = "on the end, beside the reaction of the set"},
 };

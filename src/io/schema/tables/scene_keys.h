@@ -156,6 +156,7 @@ typedef struct CpsiOnValues {
     int rail;             /* 0: to a place, 1: without ends */
     double to[3], force[3];
     CpsiRotationValues rotation;
+    const CpsiYaml *set; /* an expression */
 } CpsiOnValues;
 
 /* An end of a line: `held` or `free` as a word, or with its position or force; or at a point. */
