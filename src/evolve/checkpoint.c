@@ -21,6 +21,7 @@
 #include "evolve/failure.h"
 #include "evolve/hash.h"
 #include "evolve/state_check.h"
+#include "evolve/sways.h"
 
 /* The header of a state. */
 typedef struct Head {
@@ -418,12 +419,8 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
 
 static void hash_waves(uint64_t *hash, const CpsiWaves *waves) {
     hash_numbers(hash, 3, (const double[3]){waves->surface, waves->depth, waves->ramp});
-    for (int k = 0; k < waves->count; k++) {
-        const CpsiWave *wave = &waves->wave[k];
-        const double given[] = {wave->amplitude, wave->frequency, wave->number,
-                                wave->along[0],  wave->along[1],  wave->phase};
-        hash_numbers(hash, sizeof given / sizeof *given, given);
-    }
+    for (int k = 0; k < waves->count; k++)
+        hash_bytes(hash, &waves->wave[k], sizeof waves->wave[k]); /* numbers only */
 }
 
 static void hash_flow(uint64_t *hash, const CpsiFlow *flow) {
@@ -540,6 +537,7 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
         hash_numbers(hash, 6, sway->sine);
         hash_numbers(hash, 6, sway->cosine);
         hash_numbers(hash, 1, &sway->period);
+        hash_numbers(hash, cpsi_sways_numbers(1, sway), sway->row);
     }
     for (int i = 0; i < stage->point_change_count; i++) {
         const CpsPointChange *change = &stage->point_change[i];
@@ -677,6 +675,7 @@ static void hash_body(uint64_t *hash, const CpsiBody *body) {
     hash_numbers(hash, 36, given->damping);
     hash_numbers(hash, 6, given->quadratic_damping);
     hash_numbers(hash, 6, given->velocity);
+    hash_numbers(hash, 12 * (size_t)body->wave_count, body->excitation);
 }
 
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
