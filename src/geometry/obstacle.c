@@ -39,6 +39,7 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
                         .radius = radius_of(def),
                         .form = def->shape,
                         .stiffness = def->stiffness,
+                        .damping = def->damping,
                         .shape = def->friction_shape,
                         .moves = def->moves,
                         .face = CPSI_NO_FACE,
