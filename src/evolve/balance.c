@@ -39,8 +39,9 @@ static const double TARGET = 1e-11;
  * body that swings on stiff lines goes down a curved valley, in which its forces do not fall before
  * the end, and so does a group that nothing holds as it turns with its loads. Trials in which a
  * line finds no answer take the most time by far: they are fewer. At last, where nothing was found,
- * it goes on for longer: in a net whose sides become taut one after the other what is left rises
- * and falls for thirty iterations before it vanishes. */
+ * it goes on for longer. Where there is an answer as one program, which takes the time of some ten
+ * trials of a net, the first search has few trials: in a net whose sides become taut one after the
+ * other what is left rises and falls for thirty iterations before it vanishes. */
 enum {
     ITERATIONS = 100,
     PATIENCE = 6,
@@ -48,6 +49,7 @@ enum {
     PATIENCE_WITH_BODIES = 20,
     PATIENCE_UNHELD = 60,
     MOST_TRIALS = 200,
+    TRIALS_BESIDE = 30,
     FEW_TRIALS = 8,
     OPEN_TRIALS = 12
 };
@@ -446,7 +448,13 @@ static void find_places(CpsiBalance *balance, int group) {
     const bool guessed = cpsi_guess_places(balance, false);
     if (!guessed && cpsi_group_is_too_short(balance)) return;
     if (!guessed) cpsi_extrapolate_places(balance);
-    bool found = search(balance, MOST_TRIALS);
+    const bool joint = !cpsi_has_inextensible(balance) && cpsi_may_have_joint_answer(balance);
+    bool found = search(balance, joint ? TRIALS_BESIDE : MOST_TRIALS);
+    if (!found && joint && !is_interrupted(evolution) && cpsi_take_joint_answer(balance)) {
+        cpsi_report_found(balance);
+        return;
+    }
+    if (!found && joint && !is_over(balance)) found = search(balance, MOST_TRIALS);
     if (!found && !is_over(balance) && balance->body_count == 0) found = search_again(balance);
     if (!found && !is_over(balance) && balance->body_count == 0)
         found = search_with(balance, MOST_TRIALS, PATIENCE_AT_LAST);
@@ -456,7 +464,6 @@ static void find_places(CpsiBalance *balance, int group) {
         found = cpsi_is_answer(balance);
     }
     if (found) cpsi_take_nearest_places(balance);
-    if (!found && !cpsi_has_inextensible(balance)) found = cpsi_take_joint_answer(balance);
     if (!found && !is_interrupted(evolution)) found = stays(balance);
     if (!found && (cpsi_group_is_too_short(balance) || (frozen && cpsi_group_falls(balance))))
         return;
