@@ -15,6 +15,7 @@
 #include "evolve/bodies.h"
 #include "evolve/newton_step.h"
 #include "evolve/points.h"
+#include "linalg/dense.h"
 #include "linalg/farthest_rotation.h"
 
 enum { ITERATIONS = 200, TURNS = 6, CORRECTIONS = 2 };
@@ -186,8 +187,14 @@ static bool find_step(CpsiBalance *balance, double added) {
     cpsi_graph_matrix_solve(balance->matrix, balance->step);
     for (int i = 0; i < balance->unknowns; i++)
         if (!isfinite(balance->step[i])) return false;
-    cpsi_limit_step(balance);
     return true;
+}
+
+/* Shorten the step where it is too long; was it? */
+static bool is_shortened(CpsiBalance *balance) {
+    const double before = cpsi_norm(balance->unknowns, balance->step);
+    cpsi_limit_step(balance);
+    return cpsi_norm(balance->unknowns, balance->step) < 0.5 * before;
 }
 
 static void take_step(CpsiBalance *balance) {
@@ -225,12 +232,15 @@ static bool minimise(CpsiBalance *balance, double longest) {
         memcpy(balance->rigid_from, balance->rigid,
                (size_t)balance->body_count * sizeof *balance->rigid);
         double largest, then = INFINITY;
+        bool shortened = false;
         if (find_step(balance, added)) {
+            shortened = is_shortened(balance);
             take_step(balance);
             then = excess(balance, &largest);
         }
         if (then < now) {
-            added = fmax(LESS * added, LEAST / longest);
+            /* what nothing holds would go far, and all else with it by a small share only */
+            added = shortened ? MORE * added : fmax(LESS * added, LEAST / longest);
             now = then;
             most = largest;
             store_forces(balance);

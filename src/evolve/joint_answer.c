@@ -29,7 +29,7 @@
 /* A point whose friction is below its bound by this share rests, and has not moved by more than
  * this many times what counts as none: the loop leaves it a way that is as long as what its
  * friction lacks of the bound is small. */
-static const double CLEARLY = 1e-6, BARELY = 100;
+static const double CLEARLY = 1e-6, BARELY = 1000;
 /* Lines that are pulled straight by loads of which their tension is more than this multiple get the
  * tension of slightly longer ones. */
 static const double STRAINED = 1e5;
