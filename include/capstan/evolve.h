@@ -158,7 +158,7 @@ CPS_API CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evol
 CPS_API CpsStatus cps_evolution_stiffness(const CpsEvolution *evolution, int line, int end,
                                           CpsStiffnessKind kind, CpsStiffness *out, CpsError *err);
 
-/* The same of a body in its pose. A line with both ends on it has none. */
+/* The same of a body in its pose, of all lines at its points. */
 CPS_API CpsStatus cps_evolution_body_stiffness(const CpsEvolution *evolution, int body,
                                                CpsStiffnessKind kind, CpsBodyStiffness *out,
                                                CpsError *err);

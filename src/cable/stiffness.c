@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stiffness of an end of a line (stiffness.h): one linear system of the chain, at the state
- * that the step has left, for the three directions in which the end may move.
+/* The stiffness of the ends of a line (stiffness.h): one linear system of the chain, at the state
+ * that the step has left, for the three directions in which an end may move.
  *
  * The force in a taut element, p = T t with T = (|x'| - 1)/c, changes by
  *
@@ -47,7 +47,7 @@ typedef struct Tangent {
     bool pinned;     /* what friction can hold stays where it is */
     bool consistent; /* friction follows the reaction */
     bool curved;     /* contact follows the surface; else it is that of the reference (S90 (35)) */
-    int end_node;    /* that moves */
+    bool moves[2];   /* ends whose stiffness is asked for */
     double force;    /* [N] its unit */
     int opened, landed; /* contacts that are taken as open and as closed, -1: none */
 } Tangent;
@@ -220,6 +220,12 @@ static void load_field(Tangent *t, int j) {
     for (int i = 0; i < 6; i++) t->matrix->diagonal[6 * j + i] += own[FROM[i]];
 }
 
+/* Is node j an end whose stiffness is asked for? */
+static bool is_moved(const Tangent *t, int j) {
+    return (t->moves[0] && j == cpsi_line_end_node(t->line, 0)) ||
+           (t->moves[1] && j == cpsi_line_end_node(t->line, 1));
+}
+
 static void load_nodes(Tangent *t) {
     const CpsiLine *line = t->line;
     const size_t n = (size_t)line->n;
@@ -229,7 +235,7 @@ static void load_nodes(Tangent *t) {
         bool both;
         const int c = contact_of(t, j, &both);
         t->program->held[j] =
-            j == t->end_node || cpsi_line_is_held(line, j) || both || (c >= 0 && rests(t, c));
+            is_moved(t, j) || cpsi_line_is_held(line, j) || both || (c >= 0 && rests(t, c));
         if (line->has_local_axes)
             memcpy(&t->program->frame[9 * j], line->common_axes, sizeof line->common_axes);
         if (c >= 0 && !t->program->held[j]) load_contact(t, j, c);
@@ -297,49 +303,98 @@ static bool is_loose(const Tangent *t) {
 
 /* solution ------------------------------------------------------------------------------------- */
 
-/* The force on the line at its end, by a move of it in the direction `a` of the common axes. */
-static void solve(const Tangent *t, int end, int a, double force[3]) {
-    const int n = t->line->n, at = cpsi_line_end_node(t->line, end),
-              i = end == CPS_END_A ? at + 1 : at, j = end == CPS_END_A ? at + 1 : at - 1;
-    const CpsiMatrix *matrix = t->matrix;
-    const double sign = end == CPS_END_A ? -1 : 1, *m = &matrix->direction[3 * i];
-    double *x = t->program->base.du, *tension = t->program->dt, move[3] = {0}, to[3];
-    memset(x, 0, 3 * (size_t)n * sizeof *x);
-    memset(tension, 0, (size_t)n * sizeof *tension);
-    move[a] = matrix->stiffness[i];
+/* v of the common axes in those of node j, and back. */
+static void to_node(const Tangent *t, int j, const double v[3], double out[3]) {
     if (t->program->frame)
-        cpsi_frame_to(to, &t->program->frame[9 * j], move);
+        cpsi_frame_to(out, &t->program->frame[9 * j], v);
     else
-        memcpy(to, move, sizeof to);
-    if (!t->program->held[j]) memcpy(&x[3 * j], to, sizeof to);
-    tension[i] = -sign * m[a];
-    t->program->ops->solve(t->program->linsys, matrix, x, tension, NULL);
+        memcpy(out, v, 3 * sizeof *out);
+}
+static void from_node(const Tangent *t, int j, const double v[3], double out[3]) {
     if (t->program->frame)
-        cpsi_frame_from(to, &t->program->frame[9 * j], &x[3 * j]);
+        cpsi_frame_from(out, &t->program->frame[9 * j], v);
     else
-        memcpy(to, &x[3 * j], sizeof to);
-    if (t->program->held[j]) memset(to, 0, sizeof to);
-    for (int b = 0; b < 3; b++)
-        force[b] = matrix->stiffness[i] * ((b == a) - to[b]) + sign * m[b] * tension[i];
+        memcpy(out, v, 3 * sizeof *out);
 }
 
-/* The stiffness of an end with the contacts as they are taken, in the axes of the scene. */
-static CpsStiffnessOutcome find_matrix(Tangent *t, int end, double out[9]) {
+/* An end: its node, the next one, the element between and the sign of its direction. */
+typedef struct EndPlace {
+    int node, next, element;
+    double sign;
+} EndPlace;
+
+static EndPlace place_of(const CpsiLine *line, int end) {
+    const int j = cpsi_line_end_node(line, end);
+    return end == CPS_END_A ? (EndPlace){j, j + 1, j + 1, -1} : (EndPlace){j, j - 1, j, 1};
+}
+
+/* The forces on the line at its ends by a move of one of them in the direction `a`, in the common
+ * axes and in units of the program. */
+static void solve(const Tangent *t, int end, int a, double column[6]) {
+    const int n = t->line->n;
+    const CpsiMatrix *matrix = t->matrix;
+    const EndPlace from = place_of(t->line, end);
+    double *x = t->program->base.du, *tension = t->program->dt, move[3] = {0};
+    memset(x, 0, 3 * (size_t)n * sizeof *x);
+    memset(tension, 0, (size_t)n * sizeof *tension);
+    move[a] = matrix->stiffness[from.element];
+    if (!t->program->held[from.next]) to_node(t, from.next, move, &x[3 * from.next]);
+    tension[from.element] = -from.sign * matrix->direction[3 * from.element + a];
+    t->program->ops->solve(t->program->linsys, matrix, x, tension, NULL);
+    for (int to = 0; to < 2; to++) {
+        const EndPlace at = place_of(t->line, to);
+        const double *m = &matrix->direction[3 * at.element];
+        double next[3] = {0};
+        if (!t->program->held[at.next]) from_node(t, at.next, &x[3 * at.next], next);
+        for (int b = 0; b < 3; b++) {
+            const double own = to == end && b == a,
+                         other = at.element == from.element && to != end && b == a;
+            column[3 * to + b] = matrix->stiffness[at.element] * (own - other - next[b]) +
+                                 at.sign * m[b] * tension[at.element];
+        }
+    }
+}
+
+/* Add the field of the end itself, in the axes of the scene. */
+static void add_field_of_end(const CpsiLine *line, int end, double out[36]) {
+    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5};
+    if (!cpsi_line_has_field(line)) return;
+    const double *own = &line->field.stiffness[6 * cpsi_line_end_node(line, end)];
+    for (int i = 0; i < 9; i++) out[6 * (3 * end + i / 3) + 3 * end + i % 3] += own[AT[i]];
+}
+
+/* The derivative of the forces on the line at the ends that move by their places, (6, 6) [N/m] in
+ * the axes of the scene; 0 at an end that does not. The matrix of the chain is factored. */
+static void find_columns(const Tangent *t, double out[36]) {
     const CpsiLine *line = t->line;
-    double k[9], own[9];
+    double own[9], block[9]; /* from the common axes to those of the scene: Q'K Q */
+    for (int i = 0; i < 9; i++) own[i] = line->common_axes[3 * (i % 3) + i / 3];
+    memset(out, 0, 36 * sizeof *out);
+    for (int end = 0; end < 2; end++) {
+        double column[3][6] = {{0}};
+        if (!t->moves[end]) continue;
+        for (int a = 0; a < 3; a++) solve(t, end, a, column[a]);
+        for (int to = 0; to < 2; to++) {
+            if (!t->moves[to]) continue;
+            for (int i = 0; i < 9; i++) block[i] = column[i % 3][3 * to + i / 3];
+            cpsi_frame_turn(block, own, block);
+            for (int i = 0; i < 9; i++)
+                out[6 * (3 * to + i / 3) + 3 * end + i % 3] = block[i] * t->force / line->length;
+        }
+    }
+}
+
+/* ... with the contacts as they are taken. */
+static CpsStiffnessOutcome find_matrix(Tangent *t, double out[36]) {
+    double k[36];
     load_elements(t);
     load_nodes(t);
     if (is_loose(t) || !t->program->ops->factor(t->program->linsys, t->matrix))
         return CPS_STIFFNESS_OUTCOME_LOOSE;
-    for (int a = 0; a < 3; a++) {
-        double force[3];
-        solve(t, end, a, force);
-        for (int b = 0; b < 3; b++) k[3 * b + a] = force[b] * t->force / line->length;
-    }
-    /* from the common axes to those of the scene: Q'K Q */
-    for (int i = 0; i < 9; i++) own[i] = line->common_axes[3 * (i % 3) + i / 3];
-    cpsi_frame_turn(k, own, k);
-    for (int i = 0; i < 9; i++)
+    find_columns(t, k);
+    for (int end = 0; end < 2; end++)
+        if (t->moves[end]) add_field_of_end(t->line, end, k);
+    for (int i = 0; i < 36; i++)
         if (!isfinite(k[i])) return CPS_STIFFNESS_OUTCOME_LOOSE;
     memcpy(out, k, sizeof k);
     return CPS_STIFFNESS_OUTCOME_FOUND;
@@ -379,16 +434,15 @@ static bool find_front(const Tangent *t, int j, int step, Front *out) {
 
 /* The stiffness with the touchdown at the node beside; false where it is not known, or differs by
  * so much that the line turns up from the ground within an element. */
-static bool find_beside(Tangent *t, int end, const Front *front, const double as_is[9],
-                        double out[9]) {
+static bool find_beside(Tangent *t, const Front *front, const double as_is[36], double out[36]) {
     double jump = 0, size = 0;
     t->opened = front->opens > 0 ? front->contact : -1;
     t->landed = front->opens > 0 ? -1 : front->next;
     const bool treated = t->landed < 0 || is_treated(t, t->landed);
-    const bool found = treated && find_matrix(t, end, out) == CPS_STIFFNESS_OUTCOME_FOUND;
+    const bool found = treated && find_matrix(t, out) == CPS_STIFFNESS_OUTCOME_FOUND;
     t->opened = t->landed = -1;
     if (!found) return false;
-    for (int i = 0; i < 9; i++) {
+    for (int i = 0; i < 36; i++) {
         jump += (out[i] - as_is[i]) * (out[i] - as_is[i]);
         size += as_is[i] * as_is[i];
     }
@@ -398,24 +452,34 @@ static bool find_beside(Tangent *t, int end, const Front *front, const double as
 /* The stiffness with touchdown points that move along the elements instead of jumping from node to
  * node: add what it would differ by with each of them at the node beside, by the share of the way
  * there. */
-static bool find_smooth(Tangent *t, int end, const double as_is[9], double out[9]) {
-    memcpy(out, as_is, 9 * sizeof *out);
+static bool find_smooth(Tangent *t, const double as_is[36], double out[36]) {
+    memcpy(out, as_is, 36 * sizeof *out);
     for (int j = 1; j < t->line->n - 1; j++)
         for (int step = -1; step <= 1; step += 2) {
             Front front;
-            double beside[9];
+            double beside[36];
             if (!find_front(t, j, step, &front)) continue;
-            if (!(t->pinned || t->consistent) || !find_beside(t, end, &front, as_is, beside))
+            if (!(t->pinned || t->consistent) || !find_beside(t, &front, as_is, beside))
                 return false;
             const double share = fmax(front.opens, front.lands);
-            for (int i = 0; i < 9; i++) out[i] += share * (beside[i] - as_is[i]);
+            for (int i = 0; i < 36; i++) out[i] += share * (beside[i] - as_is[i]);
         }
     return true;
 }
 
-CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program,
-                                 const CpsiStepOptions *options, CpsStiffnessKind kind, int end) {
-    CpsStiffness out = {.outcome = CPS_STIFFNESS_OUTCOME_NO_STEP};
+/* Lend the program's arrays to the matrix of the chain. */
+static void begin(Tangent *t) {
+    cpsi_chain_program_resize(t->program, t->line->n, t->line->has_local_axes);
+    t->matrix->held = t->program->held;
+    t->matrix->frame = t->program->frame;
+    t->matrix->second = NULL;
+    t->matrix->share = NULL;
+}
+
+CpsiLineStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program,
+                                      const CpsiStepOptions *options, CpsStiffnessKind kind,
+                                      const bool moves[2]) {
+    CpsiLineStiffness out = {.outcome = CPS_STIFFNESS_OUTCOME_NO_STEP};
     bool both;
     Tangent t = {.line = line,
                  .program = program,
@@ -424,7 +488,7 @@ CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program
                  .consistent = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
                  .curved = options->contact_policy != CPS_CONTACT_POLICY_REFERENCE ||
                            options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
-                 .end_node = cpsi_line_end_node(line, end),
+                 .moves = {moves[0], moves[1]},
                  .opened = -1,
                  .landed = -1,
                  .force = line->report.certificate.largest_force};
@@ -432,16 +496,14 @@ CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program
     out.outcome = CPS_STIFFNESS_OUTCOME_NOT_GIVEN;
     if (cpsi_line_has_sets(line)) return out;
     out.outcome = CPS_STIFFNESS_OUTCOME_TOUCHES;
-    if (contact_of(&t, t.end_node, &both) >= 0) return out;
+    for (int end = 0; end < 2; end++)
+        if (moves[end] && contact_of(&t, cpsi_line_end_node(line, end), &both) >= 0) return out;
     out.outcome = CPS_STIFFNESS_OUTCOME_NOT_GIVEN;
     if (cpsi_line_has_soft(line) || !all_are_treated(&t)) return out;
-    cpsi_chain_program_resize(program, line->n, line->has_local_axes);
-    t.matrix->held = program->held;
-    t.matrix->frame = program->frame;
-    t.matrix->second = NULL;
-    out.outcome = find_matrix(&t, end, out.matrix);
+    begin(&t);
+    out.outcome = find_matrix(&t, out.matrix);
     if (out.outcome != CPS_STIFFNESS_OUTCOME_FOUND) return out;
-    out.has_smooth = find_smooth(&t, end, out.matrix, out.smooth);
+    out.has_smooth = find_smooth(&t, out.matrix, out.smooth);
     if (!out.has_smooth) memset(out.smooth, 0, sizeof out.smooth);
     return out;
 }
@@ -466,105 +528,28 @@ static void hold_others(Tangent *t) {
     }
 }
 
-/* v of the common axes in those of node j, and back. */
-static void to_node(const Tangent *t, int j, const double v[3], double out[3]) {
-    if (t->program->frame)
-        cpsi_frame_to(out, &t->program->frame[9 * j], v);
-    else
-        memcpy(out, v, 3 * sizeof *out);
-}
-static void from_node(const Tangent *t, int j, const double v[3], double out[3]) {
-    if (t->program->frame)
-        cpsi_frame_from(out, &t->program->frame[9 * j], v);
-    else
-        memcpy(out, v, 3 * sizeof *out);
-}
-
-/* An end: its node, the next one, the element between and the sign of its direction. */
-typedef struct EndPlace {
-    int node, next, element;
-    double sign;
-} EndPlace;
-
-static EndPlace place_of(const CpsiLine *line, int end) {
-    const int j = cpsi_line_end_node(line, end);
-    return end == CPS_END_A ? (EndPlace){j, j + 1, j + 1, -1} : (EndPlace){j, j - 1, j, 1};
-}
-
-/* Column 3 end + a of the tangent, in the common axes and in units of the program. */
-static void solve_ends(const Tangent *t, int end, int a, double column[6]) {
-    const int n = t->line->n;
-    const CpsiMatrix *matrix = t->matrix;
-    const EndPlace from = place_of(t->line, end);
-    double *x = t->program->base.du, *tension = t->program->dt, move[3] = {0};
-    memset(x, 0, 3 * (size_t)n * sizeof *x);
-    memset(tension, 0, (size_t)n * sizeof *tension);
-    move[a] = matrix->stiffness[from.element];
-    if (!t->program->held[from.next]) to_node(t, from.next, move, &x[3 * from.next]);
-    tension[from.element] = -from.sign * matrix->direction[3 * from.element + a];
-    t->program->ops->solve(t->program->linsys, matrix, x, tension, NULL);
-    for (int to = 0; to < 2; to++) {
-        const EndPlace at = place_of(t->line, to);
-        const double *m = &matrix->direction[3 * at.element];
-        double next[3] = {0};
-        if (!t->program->held[at.next]) from_node(t, at.next, &x[3 * at.next], next);
-        for (int b = 0; b < 3; b++) {
-            const double own = to == end && b == a,
-                         other = at.element == from.element && to != end && b == a;
-            column[3 * to + b] = matrix->stiffness[at.element] * (own - other - next[b]) +
-                                 at.sign * m[b] * tension[at.element];
-        }
-    }
-}
-
-/* Add the field of the end itself, in the axes of the scene. */
-static void add_field_of_end(const CpsiLine *line, int end, double tangent[36]) {
-    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5};
-    if (!cpsi_line_has_field(line)) return;
-    const double *own = &line->field.stiffness[6 * cpsi_line_end_node(line, end)];
-    for (int i = 0; i < 9; i++) tangent[6 * (3 * end + i / 3) + 3 * end + i % 3] += own[AT[i]];
-}
-
 void cpsi_line_tangent(const CpsiLine *line, CpsiChainProgram *program,
                        const CpsiStepOptions *options, double tangent[36]) {
+    double found[36];
     Tangent t = {.line = line,
                  .program = program,
                  .matrix = &program->matrix,
                  .consistent = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT,
                  .curved = options->contact_policy != CPS_CONTACT_POLICY_REFERENCE,
-                 .end_node = -1,
                  .opened = -1,
                  .landed = -1,
                  .force = line->report.certificate.largest_force};
     memset(tangent, 0, 36 * sizeof *tangent);
-    for (int end = 0; end < 2; end++)
-        if (line->end[end].kind == CPS_END_KIND_HELD) add_field_of_end(line, end, tangent);
+    for (int end = 0; end < 2; end++) {
+        t.moves[end] = line->end[end].kind == CPS_END_KIND_HELD;
+        if (t.moves[end]) add_field_of_end(line, end, tangent);
+    }
     if (!(t.force > 0)) return;
-    cpsi_chain_program_resize(program, line->n, line->has_local_axes);
-    t.matrix->held = program->held;
-    t.matrix->frame = program->frame;
-    t.matrix->second = NULL;
-    t.matrix->share = NULL;
+    begin(&t);
     load_elements(&t);
     load_nodes(&t);
     hold_others(&t);
     if (!program->ops->factor(program->linsys, t.matrix)) return;
-    double own[9], block[9];
-    for (int i = 0; i < 9; i++) own[i] = line->common_axes[3 * (i % 3) + i / 3];
-    for (int end = 0; end < 2; end++) {
-        double column[3][6] = {{0}};
-        if (line->end[end].kind != CPS_END_KIND_HELD) continue;
-        for (int a = 0; a < 3; a++) solve_ends(&t, end, a, column[a]);
-        for (int to = 0; to < 2; to++) {
-            if (line->end[to].kind != CPS_END_KIND_HELD) continue;
-            for (int b = 0; b < 3; b++)
-                for (int a = 0; a < 3; a++) block[3 * b + a] = column[a][3 * to + b];
-            cpsi_frame_turn(block, own, block);
-            for (int b = 0; b < 3; b++)
-                for (int a = 0; a < 3; a++) {
-                    const double k = block[3 * b + a] * t.force / line->length;
-                    tangent[6 * (3 * to + b) + 3 * end + a] += isfinite(k) ? k : 0;
-                }
-        }
-    }
+    find_columns(&t, found);
+    for (int i = 0; i < 36; i++) tangent[i] += isfinite(found[i]) ? found[i] : 0;
 }

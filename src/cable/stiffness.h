@@ -8,9 +8,21 @@
 #include "capstan/stiffness.h"
 #include "chain/chain_program.h"
 
-/* `program`: scratch memory for the line. */
-CpsStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program,
-                                 const CpsiStepOptions *options, CpsStiffnessKind kind, int end);
+/* The stiffness of the ends of a line. */
+typedef struct CpsiLineStiffness {
+    CpsStiffnessOutcome outcome;
+    /* (6, 6) [N/m] the forces on the line at its ends A and B by their places; all 0 unless found,
+     * and in the rows and columns of an end that does not move */
+    double matrix[36];
+    bool has_smooth;
+    double smooth[36];
+} CpsiLineStiffness;
+
+/* Of the ends that move; the other one stays, or keeps its force. `program`: scratch memory for the
+ * line. */
+CpsiLineStiffness cpsi_line_stiffness(const CpsiLine *line, CpsiChainProgram *program,
+                                      const CpsiStepOptions *options, CpsStiffnessKind kind,
+                                      const bool moves[2]);
 
 /* A derivative of the forces on the line at its ends A and B by their places, (6, 6) [N/m], that of
  * the step where cpsi_line_stiffness would find it. Elsewhere what is not looked into there counts

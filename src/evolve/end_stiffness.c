@@ -20,6 +20,9 @@ const char *cps_stiffness_outcome_text(CpsStiffnessOutcome outcome) {
     return CPSI_WORDS(OUTCOME, outcome).text;
 }
 
+/* Where entry i of a block (3, 3) of two ends is in their matrix (6, 6). */
+static int block_entry(int to, int from, int i) { return 6 * (3 * to + i / 3) + 3 * from + i % 3; }
+
 CpsStatus cps_evolution_stiffness(const CpsEvolution *evolution, int line, int end,
                                   CpsStiffnessKind kind, CpsStiffness *out, CpsError *err) {
     if (!evolution || !out)
@@ -35,20 +38,32 @@ CpsStatus cps_evolution_stiffness(const CpsEvolution *evolution, int line, int e
                          "kind %d, expected CPS_STIFFNESS_STEP or CPS_STIFFNESS_STICK", (int)kind);
     if (evolution->done + evolution->move_count == 0 || cpsi_move_failed(evolution)) return CPS_OK;
     cpsi_workspace_attach(&evolution->workspace[0], &evolution->line[line]);
-    *out = cpsi_line_stiffness(&evolution->line[line], &evolution->workspace[0].program,
-                               &evolution->options, kind, end);
+    const CpsiLineStiffness found =
+        cpsi_line_stiffness(&evolution->line[line], &evolution->workspace[0].program,
+                            &evolution->options, kind,
+                            (const bool[2]){end == CPS_END_A, end == CPS_END_B});
+    out->outcome = found.outcome;
+    out->has_smooth = found.has_smooth;
+    for (int i = 0; i < 9; i++) {
+        out->matrix[i] = found.matrix[block_entry(end, end, i)];
+        out->smooth[i] = found.smooth[block_entry(end, end, i)];
+    }
     return CPS_OK;
 }
 
-/* Add A' K A, A = [I, -[a]], for the stiffness K of an end at the arm a. */
-static void add_end(const double k[9], Vec3 a, double out[36]) {
-    const double by[3][6] = {{1, 0, 0, 0, a.z, -a.y},
-                             {0, 1, 0, -a.z, 0, a.x},
-                             {0, 0, 1, a.y, -a.x, 0}};
+/* Add A' K B, A = [I, -[a]] and B = [I, -[b]], of the force at the arm a by the place at the arm b:
+ * block (to, from) of the stiffness of a line. */
+static void add_block(const double stiffness[36], int to, int from, const Vec3 arm[2],
+                      double out[36]) {
+    const Vec3 a = arm[to], b = arm[from];
+    const double by[2][3][6] = {
+        {{1, 0, 0, 0, a.z, -a.y}, {0, 1, 0, -a.z, 0, a.x}, {0, 0, 1, a.y, -a.x, 0}},
+        {{1, 0, 0, 0, b.z, -b.y}, {0, 1, 0, -b.z, 0, b.x}, {0, 0, 1, b.y, -b.x, 0}}};
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++)
-            for (int b = 0; b < 3; b++)
-                for (int c = 0; c < 3; c++) out[6 * i + j] += by[b][i] * k[3 * b + c] * by[c][j];
+            for (int k = 0; k < 9; k++)
+                out[6 * i + j] +=
+                    by[0][k / 3][i] * stiffness[block_entry(to, from, k)] * by[1][k % 3][j];
 }
 
 /* The body that an end is on, or -1. */
@@ -59,27 +74,34 @@ static int body_of(const CpsEvolution *evolution, int line, int end) {
     return given->kind == CPS_POINT_KIND_ON_BODY ? given->body : -1;
 }
 
-/* Add what a line brings at one of its ends; false, with the outcome, where it has no stiffness. */
-static bool add_line(const CpsEvolution *evolution, int line, int end, CpsStiffnessKind kind,
+/* Add what a line brings at its ends on a body; false, with the outcome, where it has no stiffness.
+ */
+static bool add_line(const CpsEvolution *evolution, int line, int body, CpsStiffnessKind kind,
                      CpsBodyStiffness *out) {
-    const int index = body_of(evolution, line, end);
-    const CpsiBody *body = &evolution->bodies.body[index];
-    const CpsPoint *given = &evolution->points.given[evolution->points.tie[2 * line + end]];
     const CpsiLine *of = &evolution->line[line];
-    const Vec3 arm = rotation_apply(body->pose.turn, vec3_load(given->position));
-    out->outcome = CPS_STIFFNESS_OUTCOME_NOT_GIVEN;
-    if (body_of(evolution, line, !end) == index) return false;
+    const CpsiPose *pose = &evolution->bodies.body[body].pose;
+    const bool moves[2] = {body_of(evolution, line, 0) == body,
+                           body_of(evolution, line, 1) == body};
+    Vec3 arm[2] = {{0}};
+    if (!moves[0] && !moves[1]) return true;
     cpsi_workspace_attach(&evolution->workspace[0], &evolution->line[line]);
-    const CpsStiffness found =
-        cpsi_line_stiffness(of, &evolution->workspace[0].program, &evolution->options, kind, end);
+    const CpsiLineStiffness found =
+        cpsi_line_stiffness(of, &evolution->workspace[0].program, &evolution->options, kind, moves);
     out->outcome = found.outcome;
-    if (found.outcome != CPS_STIFFNESS_OUTCOME_FOUND) return false;
-    const Vec3 pull = vec3_scale(-1, vec3_load(of->report.end[end].force));
-    add_end(found.matrix, arm, out->matrix);
-    add_end(found.smooth, arm, out->smooth);
     out->has_smooth = out->has_smooth && found.has_smooth;
-    cpsi_add_turning_force(pull, arm, out->matrix);
-    cpsi_add_turning_force(pull, arm, out->smooth);
+    if (found.outcome != CPS_STIFFNESS_OUTCOME_FOUND) return false;
+    for (int end = 0; end < 2; end++) {
+        if (!moves[end]) continue;
+        const CpsPoint *point = &evolution->points.given[evolution->points.tie[2 * line + end]];
+        const Vec3 pull = vec3_scale(-1, vec3_load(of->report.end[end].force));
+        arm[end] = rotation_apply(pose->turn, vec3_load(point->position));
+        cpsi_add_turning_force(pull, arm[end], out->matrix);
+        cpsi_add_turning_force(pull, arm[end], out->smooth);
+    }
+    for (int k = 0; k < 4; k++) { /* blocks of an end that does not move are 0 */
+        add_block(found.matrix, k / 2, k % 2, arm, out->matrix);
+        add_block(found.smooth, k / 2, k % 2, arm, out->smooth);
+    }
     return true;
 }
 
@@ -99,9 +121,11 @@ CpsStatus cps_evolution_body_stiffness(const CpsEvolution *evolution, int body,
     const CpsiBody *of = &evolution->bodies.body[body];
     bool found = true;
     out->has_smooth = true;
+    if (cps_outcome_is_certified(cps_evolution_report(evolution).outcome))
+        out->outcome = CPS_STIFFNESS_OUTCOME_FOUND; /* also of a body without lines */
     for (int i = 0; found && i < evolution->line_count; i++)
-        for (int end = 0; found && end < 2; end++)
-            if (body_of(evolution, i, end) == body) found = add_line(evolution, i, end, kind, out);
+        found = add_line(evolution, i, body, kind, out);
+    found = found && out->outcome == CPS_STIFFNESS_OUTCOME_FOUND;
     if (found) {
         cpsi_body_stiffness(of, &of->pose, evolution->gravity, out->matrix);
         cpsi_body_stiffness(of, &of->pose, evolution->gravity, out->smooth);
