@@ -383,7 +383,14 @@ static void follow(CpsiLine *line, const CpsiJoined *joined, const CpsiStepOptio
     *turned = fmax(*turned, own);
 }
 
-/* Solve the program as that of a line alone is solved. In one of thousands of lines rounding may
+/* Is a line inextensible? */
+static bool has_inextensible(const CpsiLine *line, const CpsiNetworkPart *part) {
+    for (int k = 0; k < part->lines; k++)
+        if (line[part->number[k]].compliance == 0) return true;
+    return false;
+}
+
+/* Solve the program as that of a line alone is solved. Of thousands of elastic lines rounding may
  * end the loop before its target; then it has to come less near. */
 static bool solve_to_the_end(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
                              const CpsiStepOptions *options, const CpsiNetworkMove *out) {
@@ -392,7 +399,8 @@ static bool solve_to_the_end(CpsiNetwork *network, CpsiLine *line, const CpsiNet
                           .centering_steps = CPSI_CENTERING_STEPS,
                           .sharpenings = CPSI_REFINEMENT_STEPS};
     bool solved = solve(network, line, part, options, ipm, out);
-    while (network->found == CPSI_IPM_STALLED && ipm.target < ENOUGH) {
+    while (network->found == CPSI_IPM_STALLED && ipm.target < ENOUGH &&
+           !has_inextensible(line, part)) {
         ipm.target *= 10;
         solved = solve(network, line, part, options, ipm, out);
     }

@@ -26,10 +26,8 @@
 #include "evolve/first_guess.h"
 #include "evolve/points.h"
 
-/* A point whose friction is below its bound by this share rests, and has not moved by more than
- * this many times what counts as none: the loop leaves it a way that is as long as what its
- * friction lacks of the bound is small. */
-static const double CLEARLY = 1e-6, BARELY = 1000;
+/* A point whose friction is below its bound by this share rests. */
+static const double CLEARLY = 1e-6;
 /* Lines that are pulled straight by loads of which their tension is more than this multiple get the
  * tension of slightly longer ones. */
 static const double STRAINED = 1e5;
@@ -47,6 +45,15 @@ bool cpsi_may_have_joint_answer(const CpsiBalance *balance) {
     return true;
 }
 
+/* Is the slip no more than what counts as none, or as the loop leaves where friction is below its
+ * bound: one that changes the forces of elastic lines by less than what balances to? */
+static bool is_short(const CpsiBalance *balance, const CpsiFree *at) {
+    const double slip = vec3_norm(at->slip);
+    return slip <= cpsi_trial_touch(balance, at) ||
+           (at->stiffness > AS_FOUND && !cpsi_has_inextensible(balance) &&
+            cpsi_is_balanced(balance, at->stiffness * slip));
+}
+
 /* The place of point k in the solution: on what it touches, and where it was if it rests there. */
 static Vec3 place_of(const CpsiBalance *balance, int k) {
     const CpsEvolution *evolution = balance->evolution;
@@ -59,8 +66,7 @@ static Vec3 place_of(const CpsiBalance *balance, int k) {
     if (!touches) return at.place;
     cpsi_trial_find_obstacle(evolution, &at);
     const double *z = chain->disc.z[0];
-    if (chain->disc.count > 0 && hypot(z[1], z[2]) < (1 - CLEARLY) * z[0] &&
-        vec3_norm(at.slip) <= BARELY * cpsi_trial_touch(balance, &at))
+    if (chain->disc.count > 0 && hypot(z[1], z[2]) < (1 - CLEARLY) * z[0] && is_short(balance, &at))
         return at.start;
     return vec3_axpy(-at.gap, at.normal, at.place);
 }
@@ -194,9 +200,10 @@ static bool try_solution(CpsiBalance *balance, double longer) {
         keep_still(balance);
     else
         for (int k = 0; k < balance->count; k++) balance->from[k].place = place_of(balance, k);
+    const bool elastic = !cpsi_has_inextensible(balance);
     for (int k = 0; k < balance->count; k++) {
         balance->at[k].place = balance->from[k].place;
-        balance->at[k].stiffness = AS_FOUND;
+        if (elastic) balance->at[k].stiffness = AS_FOUND;
     }
     join(balance, longer);
     try_joined(balance);
