@@ -259,7 +259,7 @@ void cpsi_report_no_place(CpsiBalance *balance) {
         store(body->report.load, &load);
         store(body->report.residual, &load);
         body->report.is_stable =
-            cpsi_is_definite(body->report.stiffness, body->given.fixed, body->arm);
+            cpsi_is_stable(body->report.stiffness, body->given.fixed, body->arm);
         for (int i = 0; i < 6; i++)
             if (body->given.fixed[i]) {
                 body->report.support[i] = -body->report.load[i];

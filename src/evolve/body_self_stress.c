@@ -201,7 +201,7 @@ static void take_step(CpsiBalance *balance) {
     for (int k = 0; k < balance->count; k++)
         balance->at[k].place = vec3_add(balance->from[k].place, vec3_load(&balance->step[3 * k]));
     for (int k = 0; k < balance->body_count; k++)
-        balance->rigid[k].pose = cpsi_pose_after(&balance->rigid_from[k].pose,
+        balance->rigid[k].pose = cpsi_pose_after(balance, k, &balance->rigid_from[k].pose,
                                                  &balance->step[3 * balance->count + 6 * k], 1);
 }
 

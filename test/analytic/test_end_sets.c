@@ -430,7 +430,8 @@ static void reach(void **state) {
             solve(&line, share > 0 ? CPS_OUTCOME_INFEASIBLE : CPS_OUTCOME_SOLVED);
         CpsLineReport report = cps_evolution_line_report(evolution, 0);
         const CpsLineView view = cps_evolution_line_view(evolution, 0);
-        if (share > 0) { /* what small programs leave, docs/sets.md, along the way and, by its root, across */
+        if (share > 0) { /* what small programs leave, docs/sets.md, along the way and, by its root,
+                            across */
             const double leaves = 2e-12 * (length * (1 + share) + 10);
             CHECK_NEAR(report.proof_length, length * share, leaves);
             CHECK_VECTOR(report.proof, u, 1e-5);
