@@ -290,6 +290,23 @@ static void print_line(const CpsScene *scene, const CpsLine *line) {
     print_end(scene, line, CPS_END_B);
 }
 
+static void print_waves(const CpsScene *scene) {
+    const CpsWaves *waves = scene->current ? scene->current->waves : NULL;
+    if (!waves) return;
+    printf("waves in a depth of %g m", waves->depth);
+    if (waves->ramp > 0) printf(", which grow for %g s", waves->ramp);
+    putchar('\n');
+    for (int i = 0; i < waves->wave_count; i++) {
+        const CpsWave *wave = &waves->wave[i];
+        static const double DEGREES = 57.29577951308232;
+        const double k = cps_wave_number(wave->period, waves->depth, -scene->gravity[2]);
+        printf("  amplitude %g m, period %g s, length %.6g m, direction %g degrees, phase %g "
+               "degrees; %.3g of the height at which it breaks\n",
+               wave->amplitude, wave->period, 2 * acos(-1) / k, wave->direction * DEGREES,
+               wave->phase * DEGREES, 2 * wave->amplitude / cps_breaking_height(k, waves->depth));
+    }
+}
+
 static void print_scene(const CpsScene *scene) {
     if (scene->title) {
         cli_print_text(stdout, scene->title, INT_MAX, false);
@@ -298,6 +315,7 @@ static void print_scene(const CpsScene *scene) {
     printf("gravity (%g, %g, %g) m/s2\n", scene->gravity[0], scene->gravity[1], scene->gravity[2]);
     if (scene->has_water_surface)
         printf("surface of the water at z = %g m\n", scene->water_surface);
+    print_waves(scene);
     for (int i = 0; i < scene->obstacle_count; i++) print_obstacle(&scene->obstacle[i]);
     for (int i = 0; i < scene->body_count; i++) print_body(&scene->body[i]);
     for (int i = 0; i < scene->point_count; i++) print_point(scene, &scene->point[i]);

@@ -166,6 +166,25 @@ static double written_as(const CpsScene *scene, int i, char *name, size_t size) 
     return from;
 }
 
+/* Where waves end, water still acts on lines with drag. */
+static void note_dry(Warnings *warnings, const CpsScene *scene, int line, const CpsLineView *view,
+                     const char *step) {
+    const CpsLineLoads *loads = scene->line[line].loads;
+    const double length = view->arc_length[view->element_count];
+    if (!scene->current || !scene->current->waves || !loads || !(loads->drag.diameter > 0)) return;
+    double highest = -INFINITY, at = 0;
+    for (int j = 0; j <= view->element_count; ++j) {
+        const double z = view->position[3 * j + 2] + view->origin[2];
+        if (!(z > highest)) continue;
+        highest = z;
+        at = view->arc_length[j];
+    }
+    if (!(highest - scene->water_surface > WARN_EMERGED * length)) return;
+    char name[NAME_SIZE];
+    const double from = written_as(scene, line, name, sizeof name);
+    note(&warnings->kind[WARNING_DRY], highest - scene->water_surface, from + at, step, name);
+}
+
 /* Buoys between the ends lift as if they were under water, wherever they are. */
 static void note_buoys(Warnings *warnings, const CpsScene *scene, int line, const CpsLineView *view,
                        const char *step) {
@@ -214,6 +233,7 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
             residual > WARN_BOUND * bounds && bounds > 0)
             note(&warnings->kind[WARNING_BOUND], residual, bounds, step, view.name);
         if (scene->has_water_surface) note_buoys(warnings, scene, i, &view, step);
+        note_dry(warnings, scene, i, &view, step);
         if (line.has_utilisation && line.utilisation > 1)
             note(&warnings->kind[WARNING_BROKEN], line.utilisation, line.utilisation_arc_length,
                  step, view.name);
@@ -271,6 +291,12 @@ static void print_figures(int kind, double value, double of) {
                 "were below it: give it 'floats: true', or end the line there at a free point with "
                 "its mass and volume",
                 of, value);
+    else if (kind == WARNING_DRY)
+        fprintf(
+            stderr,
+            "at %.6g m it is %.4g m above the surface of the water at rest, where the drag of "
+            "the water and its waves act as at the surface: let a line without drag go on there",
+            of, value);
     else if (kind == WARNING_DRAGGED)
         fprintf(stderr, "the anchor drags: by %.4g m in this step, by %.4g m in all", of, value);
     else if (kind == WARNING_CAPACITY)

@@ -24,6 +24,7 @@ enum {
     WARNING_BEND,
     WARNING_BROKEN,
     WARNING_EMERGED,
+    WARNING_DRY,
     WARNING_DRAGGED, /* and the two below: of a point */
     WARNING_CAPACITY,
     WARNING_UPLIFT,

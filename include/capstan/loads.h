@@ -13,6 +13,7 @@
 #include <stdbool.h>
 
 #include "capstan/base.h"
+#include "capstan/waves.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -45,7 +46,10 @@ typedef struct CpsLineForce {
  *
  *     -rho (pi/4) d^2 (added_normal a_n + added_tangential a_t)
  *
- * acts beside it: water that is moved along. This is not to be counted in `inertia` as well. */
+ * acts beside it: water that is moved along. This is not to be counted in `inertia` as well. In
+ * waves (waves.h) a is the acceleration of the line less that of the water, and with b that of the
+ * water rho (pi/4) d^2 b acts as well (Froude and Krylov), all of it: the tension is the effective
+ * one, with the pressure of the water in it, as the submerged weight has it. */
 typedef struct CpsDrag {
     double diameter;                       /* [m] >= 0, default 0: no drag */
     double normal, tangential;             /* [-] >= 0 */
@@ -89,6 +93,7 @@ typedef struct CpsCurrent {
     double density;           /* [kg/m3] > 0 of the water */
     int row_count;            /* >= 1 */
     const CpsCurrentRow *row; /* (row_count) with z that rises from row to row */
+    const CpsWaves *waves;    /* beside it, in time (waves.h); NULL, the default: none */
 } CpsCurrent;
 
 /* The potential of a line after the last step. The arrays are valid until the evolution changes. */

@@ -64,7 +64,7 @@ CPS_API void cps_sway_at(const CpsSway *sway, double time, double out[6]);
 
 /* Energy of a step in time [J]. With the ledger of the line (step.h):
  *
- *     ends + obstacles + loads
+ *     ends + obstacles + loads + waves
  *         = elastic + gravity + dissipated + kinetic + impact + scheme + damping + drag + added
  *           + imbalance
  *
@@ -77,6 +77,7 @@ typedef struct CpsMotionLedger {
     double damping;  /* lost by internal damping */
     double drag;     /* work done on the water against its drag; of a current also negative */
     double added;    /* work done on the water that is moved along (CpsDrag), which gives it back */
+    double waves;    /* work of the water's own acceleration in waves (waves.h) on the line */
     double turnover; /* sum of the sizes of all entries */
 } CpsMotionLedger;
 

@@ -15,6 +15,13 @@ Vec3 cpsi_flow_velocity(const CpsiFlow *flow, double z) {
     return vec3_axpy(share, vec3_sub(high, low), low);
 }
 
+CpsiWaterMotion cpsi_flow_motion(const CpsiFlow *flow, Vec3 x) {
+    CpsiWaterMotion out = {.acceleration = {0, 0, 0}};
+    if (flow->waves) out = cpsi_waves_at(flow->waves, x, NULL);
+    out.velocity = vec3_add(out.velocity, cpsi_flow_velocity(flow, x.z));
+    return out;
+}
+
 Vec3 cpsi_flow_drag(const CpsiFlow *flow, Vec3 velocity, Vec3 d) {
     const CpsDrag *drag = &flow->drag;
     const double size = vec3_norm(d), half = 0.5 * flow->density * drag->diameter;

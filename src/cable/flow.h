@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The drag of a current on a line at rest (capstan/loads.h). */
+/* The water about a line, and its drag on a line at rest (capstan/loads.h). */
 #ifndef CAPSTAN_SRC_CABLE_FLOW_H
 #define CAPSTAN_SRC_CABLE_FLOW_H
 
@@ -10,8 +10,9 @@
  * it. */
 #define CPSI_FOLLOWED 1e-9
 
-/* [m/s] The velocity of the water at height z. */
+/* [m/s] The velocity of the current at height z; and the motion of the water in time at x. */
 Vec3 cpsi_flow_velocity(const CpsiFlow *flow, double z);
+CpsiWaterMotion cpsi_flow_motion(const CpsiFlow *flow, Vec3 x);
 
 /* [N/m] The drag per length of a line in the direction of d, of any length. */
 Vec3 cpsi_flow_drag(const CpsiFlow *flow, Vec3 velocity, Vec3 d);

@@ -61,7 +61,12 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
             CPSI_PLACE(arena, line->field.pull, 3 * n);
             CPSI_PLACE(arena, line->field.energy, n);
         }
-        if (line->has_inertia) CPSI_PLACE(arena, line->field.added, 3 * n);
+        if (line->has_inertia) {
+            CPSI_PLACE(arena, line->field.added, 3 * n);
+            CPSI_PLACE(arena, line->field.wave, 3 * n);
+            CPSI_PLACE(arena, line->field.water, 3 * n);
+            CPSI_PLACE(arena, line->field.water_rate, 3 * n);
+        }
         cpsi_anderson_layout(&line->field.rounds, arena, line->n);
     }
     if (line->has_field) {

@@ -41,7 +41,7 @@ void cpsi_line_set_loads(CpsiLine *line) {
         for (int i = 0; i < 3 * line->n; i++) {
             line->field.all[i] = line->field.load[i] + line->field.drag[i];
             if (line->has_potential) line->field.all[i] += line->field.pull[i];
-            if (line->has_inertia) line->field.all[i] += line->field.added[i];
+            if (line->has_inertia) line->field.all[i] += line->field.added[i] + line->field.wave[i];
             line->load[i] += line->field.all[i];
         }
     for (int end = 0; end < 2; end++)

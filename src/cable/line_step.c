@@ -322,7 +322,7 @@ static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
         const double left = cpsi_line_swim_change(line, &largest);
         if (left <= CPSI_FOLLOWED * fmax(found->largest_force, largest)) break;
         cpsi_line_classify(line, program);
-        cpsi_line_approach_swim(line);
+        cpsi_line_approach_swim(line, left);
         cpsi_line_set_loads(line);
         const CpsiGuess guess = cpsi_warm_step_go_on(line, program, options);
         if (guess == CPSI_GUESS_NONE) memset(line->reaction, 0, contacts * sizeof *line->reaction);

@@ -6,11 +6,12 @@
  *
  *     f = (l/2) (rho/2) d ( C_n |w_n| w_n + pi C_t |w_t| w_t ),
  *
- * whose negative derivative by v, C, is symmetric and nowhere negative, and half of the mass A of
- * the water that is moved along. With v = (x - x*)/k both are written about a place y, t being that
- * of y,
+ * whose negative derivative by v, C, is symmetric and nowhere negative, half of the mass A of the
+ * water that is moved along, and with the mass M of the water that it displaces and the water's
+ * acceleration b in waves half of (M + A) b. With v = (x - x*)/k all are written about a place y, t
+ * and the water being those of y,
  *
- *     f(y) - (C/k) (x - y) - (A/k) ((x - x*)/k - v*),
+ *     f(y) + (M + A) b(y) - (C/k) (x - y) - (A/k) ((x - x*)/k - v*),
  *
  * and added to the field of inertia. That is Newton's method in the velocity; the directions t
  * follow from one program to the next. The last forces are given loads of the step, whose
@@ -36,7 +37,18 @@ typedef struct Water {
     Vec3 drag;       /* [N] */
     double slope[6]; /* [N s/m] C */
     double mass[6];  /* [kg] A */
+    Vec3 wave;       /* [N] of the water's own acceleration */
 } Water;
+
+/* See the water in the middle of each element at the places x. */
+static void see_water(const CpsiLine *line, const double *x) {
+    for (int e = 0; e + 1 < line->n; e++) {
+        const Vec3 middle = vec3_scale(0.5, vec3_add(vec3_at(x, e), vec3_at(x, e + 1)));
+        const CpsiWaterMotion water = cpsi_flow_motion(line->field.flow, middle);
+        vec3_store(&line->field.water[3 * e], water.velocity);
+        vec3_store(&line->field.water_rate[3 * e], water.acceleration);
+    }
+}
 
 /* Add a (I - t t') + b t t' to the symmetric matrix m. */
 static void add_directed(double m[6], double a, double b, Vec3 t) {
@@ -49,7 +61,7 @@ static void add_directed(double m[6], double a, double b, Vec3 t) {
     m[5] += a + c * t.z * t.z;
 }
 
-/* Add the water of element e on one of its nodes, which has the velocity v. */
+/* Add the water of element e, which has been seen, on one of its nodes, with the velocity v. */
 static void add_element(const CpsiLine *line, const double *x, int e, Vec3 v, Water *out) {
     if (e < 0 || e + 1 >= line->n) return;
     const CpsiFlow *flow = line->field.flow;
@@ -57,8 +69,7 @@ static void add_element(const CpsiLine *line, const double *x, int e, Vec3 v, Wa
     const Vec3 d = vec3_sub(vec3_at(x, e + 1), vec3_at(x, e));
     const double size = vec3_norm(d), half = 0.5 * line->natural_length[e];
     const Vec3 t = vec3_scale(size > 0 ? 1 / size : 0, d);
-    const Vec3 water = cpsi_flow_velocity(flow, 0.5 * (x[3 * e + 2] + x[3 * e + 5]));
-    const Vec3 w = vec3_sub(water, v), across = vec3_reject(w, t);
+    const Vec3 w = vec3_sub(vec3_at(line->field.water, e), v), across = vec3_reject(w, t);
     const double fast = vec3_norm(across), along = fabs(vec3_dot(w, t));
     const double pressed = half * 0.5 * flow->density * by->diameter,
                  moved = half * flow->density * 0.25 * CPSI_PI * by->diameter * by->diameter;
@@ -68,6 +79,11 @@ static void add_element(const CpsiLine *line, const double *x, int e, Vec3 v, Wa
     if (fast > 0)
         add_directed(out->slope, 0, pressed * by->normal * fast, vec3_scale(1 / fast, across));
     add_directed(out->mass, moved * by->added_normal, moved * by->added_tangential, t);
+    if (!flow->waves) return;
+    double carried[6] = {0};
+    add_directed(carried, moved * (1 + by->added_normal), moved * (1 + by->added_tangential), t);
+    out->wave =
+        vec3_add(out->wave, cpsi_node_field_product(carried, vec3_at(line->field.water_rate, e)));
 }
 
 /* The velocity of node j at the place x. */
@@ -76,6 +92,7 @@ static Vec3 velocity_of(const CpsiLine *line, const double *x, int j) {
                       vec3_sub(vec3_at(x, j), vec3_at(line->reference, j)));
 }
 
+/* What the water that has been seen at the places x does to node j there. */
 static Water water_at(const CpsiLine *line, const double *x, int j) {
     Water out = {.drag = {0, 0, 0}};
     const Vec3 v = velocity_of(line, x, j);
@@ -97,7 +114,8 @@ static double write_node(CpsiLine *line, const double *y, int j) {
     const Water water = water_at(line, y, j);
     double *k = &line->field.stiffness[6 * j], *place = &line->field.place[3 * j];
     const Vec3 off = vec3_sub(vec3_at(y, j), vec3_load(place)),
-               about = vec3_axpy(1 / span, cpsi_node_field_product(water.slope, off), water.drag);
+               about = vec3_axpy(1 / span, cpsi_node_field_product(water.slope, off),
+                                 vec3_add(water.drag, water.wave));
     for (int i = 0; i < 6; i++) k[i] += water.slope[i] / span + water.mass[i] / (span * span);
     double m[9] = {k[0], k[1], k[3], k[1], k[2], k[4], k[3], k[4], k[5]};
     double by[3] = {about.x, about.y, about.z};
@@ -106,14 +124,16 @@ static double write_node(CpsiLine *line, const double *y, int j) {
         cpsi_lu_solve(3, m, pivot, by);
         for (int a = 0; a < 3; a++) place[a] += by[a];
     }
-    return own + vec3_norm(water.drag);
+    return own + vec3_norm(water.drag) + vec3_norm(water.wave);
 }
 
 static void write(CpsiLine *line, const double *y) {
     const size_t numbers = 3 * (size_t)line->n * sizeof(double);
     memset(line->field.drag, 0, numbers);
     memset(line->field.added, 0, numbers);
+    memset(line->field.wave, 0, numbers);
     line->field.size = 0;
+    see_water(line, y);
     for (int j = 0; j < line->n; j++) line->field.size += write_node(line, y, j);
 }
 
@@ -130,10 +150,12 @@ void cpsi_line_begin_swim(CpsiLine *line) {
 
 double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
     double changed = 0, most = 0;
+    see_water(line, line->position);
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_at(line->position, j), reference = vec3_at(line->reference, j);
         const Water water = water_at(line, line->position, j);
-        const Vec3 now = vec3_add(water.drag, added_force(line, &water, line->position, j));
+        const Vec3 now = vec3_add(vec3_add(water.drag, water.wave),
+                                  added_force(line, &water, line->position, j));
         const double span = line->inertia.span[j];
         const Vec3 off = vec3_sub(x, cpsi_line_free_place(line, j, reference)),
                    all = cpsi_line_field_force(line, j, x),
@@ -145,23 +167,24 @@ double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
     return changed;
 }
 
-void cpsi_line_approach_swim(CpsiLine *line) {
+void cpsi_line_approach_swim(CpsiLine *line, double left) {
     CpsiAnderson *rounds = &line->field.rounds;
-    const double change = cpsi_line_swim_change(line, NULL);
     /* all nodes but the last one count: an element is as long as it is */
-    if (rounds->begun || change > SLOW * line->field.left)
+    if (rounds->begun || left > SLOW * line->field.left)
         cpsi_anderson_accelerate(rounds, line->n, line->element_length, line->position);
     else
         cpsi_anderson_start(rounds, line->n, line->position);
-    line->field.left = change;
+    line->field.left = left;
     write(line, line->position);
 }
 
 void cpsi_line_settle_swim(CpsiLine *line, const double *x) {
+    see_water(line, x);
     for (int j = 0; j < line->n; j++) {
         const Water water = water_at(line, x, j);
         vec3_store(&line->field.drag[3 * j], water.drag);
         vec3_store(&line->field.added[3 * j], added_force(line, &water, x, j));
+        vec3_store(&line->field.wave[3 * j], water.wave);
         (void)cpsi_line_set_inertia(line, j, vec3_at(line->reference, j));
     }
 }

@@ -11,6 +11,7 @@
 
 #include "base/vec3.h"
 #include "cable/anderson.h"
+#include "cable/waves.h"
 #include "capstan/loads.h"
 
 /* A current about a line. */
@@ -19,6 +20,7 @@ typedef struct CpsiFlow {
     CpsDrag drag;
     int row_count;
     const CpsCurrentRow *row;
+    const CpsiWaves *waves; /* NULL: none */
 } CpsiFlow;
 
 /* A potential of a program's own (potential.h). */
@@ -43,7 +45,7 @@ typedef struct CpsiNodeField {
     double *own_load, *own_stiffness, *own_place;
     double *diagonal, *coupling; /* (n, 3) [N/m] of own_stiffness: xx, yy, zz; xy, xz, yz */
     const CpsiFlow *flow;        /* NULL: none */
-    double *all;                 /* (n, 3) [N] load, drag, pull and added together; NULL as load */
+    double *all;                 /* (n, 3) [N] load, drag, pull, added and wave; NULL as load */
     CpsiAnderson rounds;         /* of the drag */
     CpsiPotential potential;     /* without a function: none, and the next arrays are not there */
     double *share;               /* (n) [m] length of the line at each node that has it */
@@ -52,7 +54,10 @@ typedef struct CpsiNodeField {
     double *drag; /* (n, 3) [N] of the flow, where the line was last seen; NULL: none */
     /* of a step in time (moving_flow.h): */
     double *added; /* (n, 3) [N] of the water that is moved along; NULL without inertia or loads */
-    double left;   /* [N] sum over the nodes of what the last program lacked of the flow's forces */
+    double *wave;  /* (n, 3) [N] of the water's own acceleration; likewise */
+    /* (n, 3) [m/s, m/s2] of the water in the middle of each element, where it was last seen */
+    double *water, *water_rate;
+    double left; /* [N] sum over the nodes of what the last program lacked of the flow's forces */
 } CpsiNodeField;
 
 /* K v for K (6). */

@@ -29,7 +29,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '0'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '1'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -218,7 +218,10 @@ static void pass_line(Tape *tape, CpsiLine *line) {
         pass(tape, line->field.load, 3 * n * sizeof(double));
         pass(tape, line->field.drag, 3 * n * sizeof(double));
         pass(tape, line->field.all, 3 * n * sizeof(double));
-        if (line->has_inertia) pass(tape, line->field.added, 3 * n * sizeof(double));
+        if (line->has_inertia) {
+            pass(tape, line->field.added, 3 * n * sizeof(double));
+            pass(tape, line->field.wave, 3 * n * sizeof(double));
+        }
         PASS(tape, line->field.left);
     }
     if (line->has_potential) {
@@ -422,6 +425,16 @@ static void hash_numbers(uint64_t *hash, size_t count, const double *number) {
     hash_bytes(hash, number, count * sizeof *number);
 }
 
+static void hash_waves(uint64_t *hash, const CpsiWaves *waves) {
+    hash_numbers(hash, 3, (const double[3]){waves->surface, waves->depth, waves->ramp});
+    for (int k = 0; k < waves->count; k++) {
+        const CpsiWave *wave = &waves->wave[k];
+        const double given[] = {wave->amplitude, wave->frequency, wave->number,
+                                wave->along[0],  wave->along[1],  wave->phase};
+        hash_numbers(hash, sizeof given / sizeof *given, given);
+    }
+}
+
 static void hash_flow(uint64_t *hash, const CpsiFlow *flow) {
     const double given[] = {flow->density,           flow->drag.diameter,
                             flow->drag.normal,       flow->drag.tangential,
@@ -431,6 +444,7 @@ static void hash_flow(uint64_t *hash, const CpsiFlow *flow) {
         hash_numbers(hash, 1, &flow->row[k].z);
         hash_numbers(hash, 3, flow->row[k].velocity);
     }
+    if (flow->waves) hash_waves(hash, flow->waves);
 }
 
 static void hash_elasticity(uint64_t *hash, const CpsiLine *line, const CpsiElasticity *own) {
@@ -741,6 +755,7 @@ void cps_evolution_save(const CpsEvolution *evolution, void *state) {
 void cpsi_evolution_restore(CpsEvolution *evolution, const void *state) {
     pass_state(&(Tape){.in = state}, evolution);
     cpsi_follow_releases(evolution);
+    evolution->waves.time = evolution->time;
     evolution->report.name = evolution->step_name;
     evolution->ended = cps_outcome_is_final(evolution->report.outcome);
 }

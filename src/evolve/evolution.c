@@ -28,6 +28,7 @@
 #include "evolve/sways.h"
 #include "evolve/time_step.h"
 #include "evolve/view.h"
+#include "evolve/waves.h"
 
 int cps_evolution_step_count(const CpsEvolution *evolution) {
     if (!evolution) return 0;
@@ -340,6 +341,7 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
         status = cpsi_fail(err, CPS_ERR_LIMIT, "%s: found %d oscillations, at most %d in a move",
                            what, move->sway_count, cpsi_sways_of_move(things));
     if (status == CPS_OK && move->duration > 0) status = check_time(evolution, move, what, err);
+    if (status == CPS_OK && evolution->wave) status = cpsi_waves_check_stage(move, what, err);
     if (status == CPS_OK) status = prepare_move(evolution, err);
     if (status != CPS_OK) return status;
     for (int i = 0; i < move->body_change_count; i++)

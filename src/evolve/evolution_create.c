@@ -27,6 +27,7 @@
 #include "evolve/time_check.h"
 #include "evolve/trial.h"
 #include "evolve/view.h"
+#include "evolve/waves.h"
 
 static char *copy_name(CpsiArena *arena, const char *name) {
     const size_t size = strlen(name) + 1;
@@ -95,6 +96,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         CPSI_PLACE(arena, evolution->current_row, scene->current->row_count);
         CPSI_PLACE(arena, evolution->flow, scene->line_count);
     }
+    if (cpsi_waves_of(scene)) CPSI_PLACE(arena, evolution->wave, cpsi_waves_of(scene)->wave_count);
     layout_given(evolution, arena, scene, real);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
                               .contacts = scene->obstacle_count > 1 ? 2 : 1,
@@ -235,6 +237,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     if (def->loads)
         cpsi_line_loads_fill(line, scene, def, evolution->origin, evolution->current_row,
                              evolution->flow ? &evolution->flow[def - scene->line] : NULL);
+    if (line->field.flow && evolution->wave)
+        evolution->flow[def - scene->line].waves = &evolution->waves;
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
         if (def->end[end].kind == CPS_END_KIND_FREE) continue;
@@ -267,6 +271,7 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     evolution->time_scheme = scene->time_scheme;
     evolution->line_count = scene->line_count;
     evolution->stage_count = scene->stage_count;
+    cpsi_waves_fill(&evolution->waves, evolution->wave, scene, evolution->origin);
     for (int i = 0; i < scene->line_count; i++) {
         fill_line(&evolution->line[i], evolution, scene, &scene->line[i]);
         const double pull = vec3_norm(vec3_load(scene->gravity));

@@ -27,6 +27,7 @@
 #include "evolve/start.h"
 #include "evolve/time_check.h"
 #include "evolve/water.h"
+#include "evolve/waves.h"
 #include "evolve/winches.h"
 #include "geometry/obstacle.h"
 
@@ -602,6 +603,7 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
         status = check_line(&held.scene, i, err);
     if (status == CPS_OK) status = check_history(scene, err);
     if (status == CPS_OK) status = cpsi_time_check(scene, err);
+    if (status == CPS_OK) status = cpsi_waves_check(scene, err);
     if (status == CPS_OK) status = cpsi_path_check(&held.scene, err);
     if (status == CPS_OK) status = cpsi_path_check_points(scene, err);
     free(held.block);

@@ -303,6 +303,7 @@ static void plan_time(CpsEvolution *evolution, const CpsiEvolutionStage *stage, 
     const bool moves = stage->turn_count > 0 || stage->shift_count > 0;
     const double before = evolution->interval;
     evolution->interval = stage->duration / stage->steps;
+    evolution->waves.time = evolution->time + evolution->interval;
     /* the scheme is one of equal steps */
     const bool other = fabs(evolution->interval - before) > SAME_STEP * before;
     evolution->restarts = part == 0 && (moves || evolution->ground_moved || other);

@@ -56,6 +56,8 @@ struct CpsEvolution {
     CpsCurrentRow
         *current_row; /* the scene's current, about the origin; and of each line, or NULL */
     CpsiFlow *flow;
+    CpsiWave *wave; /* (waves of the scene), and what is known of them; NULL: none */
+    CpsiWaves waves;
     CpsiPoints points;
     CpsiBodies bodies;
     CpsiEvolutionStage *stage; /* (stage_count) */

@@ -148,7 +148,8 @@ static CpsStatus check_point(const CpsScene *scene, int index, bool in_time, Cps
         return CPSI_FAIL_AT("volume", err, CPS_ERR_ARGUMENT,
                             "point '%s': volume: a step of the history has a duration, in which "
                             "points do not float at a water surface: leave 'water_surface' out, "
-                            "and the point is always under water",
+                            "and the point is always under water, or give its weight in water in "
+                            "place of the volume",
                             point->name);
     return moves(v, 3) ? check_first_step(scene, "point", point->name, err) : CPS_OK;
 }

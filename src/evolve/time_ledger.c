@@ -12,7 +12,7 @@ typedef struct Sums {
     const CpsiLine *line;
     double length; /* [s] of the step */
     CpsLedger ledger;
-    double impact, scheme, drag, added, damping;
+    double impact, scheme, drag, added, waves, damping;
 } Sums;
 
 /* The displacement of node j in the step. */
@@ -50,6 +50,7 @@ static void add_loads(Sums *sums) {
         sums->ledger.loads += vec3_dot(vec3_at(field->load, j), way);
         sums->drag -= vec3_dot(vec3_at(field->drag, j), way);
         sums->added -= vec3_dot(vec3_at(field->added, j), way);
+        sums->waves += vec3_dot(vec3_at(field->wave, j), way);
     }
 }
 
@@ -159,6 +160,7 @@ void cpsi_time_ledger(CpsiLine *line, double length, const unsigned char *state)
                                              .scheme = sums.scheme,
                                              .drag = sums.drag,
                                              .added = sums.added,
+                                             .waves = sums.waves,
                                              .damping = sums.damping};
 }
 
@@ -173,8 +175,9 @@ void cpsi_time_ledger_close(CpsiLine *line, double stopped) {
     const double out[] = {ledger->elastic, ledger->gravity, ledger->dissipated,
                           motion->kinetic, motion->impact,  motion->scheme,
                           motion->drag,    motion->added,   motion->damping};
-    ledger->imbalance = ledger->ends + ledger->obstacles + ledger->loads;
-    motion->turnover = fabs(ledger->ends) + fabs(ledger->obstacles) + fabs(ledger->loads);
+    ledger->imbalance = ledger->ends + ledger->obstacles + ledger->loads + motion->waves;
+    motion->turnover =
+        fabs(ledger->ends) + fabs(ledger->obstacles) + fabs(ledger->loads) + fabs(motion->waves);
     for (size_t i = 0; i < sizeof out / sizeof *out; i++) {
         ledger->imbalance -= out[i];
         motion->turnover += fabs(out[i]);

@@ -270,7 +270,10 @@ void cpsi_line_stop(CpsiLine *line) {
     inertia->kinetic = inertia->position_bound = 0;
     inertia->ledger = (CpsMotionLedger){0};
     inertia->landed = inertia->changed = inertia->snatched = 0;
-    if (line->has_node_loads) memset(line->field.added, 0, 3 * n * sizeof *line->field.added);
+    if (line->has_node_loads) {
+        memset(line->field.added, 0, 3 * n * sizeof *line->field.added);
+        memset(line->field.wave, 0, 3 * n * sizeof *line->field.wave);
+    }
     memset(inertia->velocity, 0, 3 * n * sizeof *inertia->velocity);
     memset(inertia->rest_velocity, 0, 3 * n * sizeof *inertia->rest_velocity);
     memset(inertia->span, 0, n * sizeof *inertia->span);

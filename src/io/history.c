@@ -43,6 +43,7 @@ static void add_motion(const CpsMotionLedger *ledger, double kinetic, CpsiMotion
     sum->ledger.damping += ledger->damping;
     sum->ledger.drag += ledger->drag;
     sum->ledger.added += ledger->added;
+    sum->ledger.waves += ledger->waves;
     sum->ledger.turnover += ledger->turnover;
 }
 

@@ -158,7 +158,7 @@ static Answer answer(const Current *c, int n) {
     CpsScene scene = cps_scene_default();
     CpsLine line = cps_line_default();
     const CpsLineLoads loads = {.drag = {c->diameter, c->normal, c->tangential}};
-    const CpsCurrent current = {1025, c->rows, c->row};
+    const CpsCurrent current = {.density = 1025, .row_count = c->rows, .row = c->row};
     line.name = "line";
     line.length = c->length;
     line.element_count = n;

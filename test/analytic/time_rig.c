@@ -149,6 +149,7 @@ void time_step(TimeRun *run) {
     run->drag += ledger->drag;
     run->damping += ledger->damping;
     run->added += ledger->added;
+    run->waves += ledger->waves;
     run->lost += run->report.ledger.dissipated;
     run->landed += run->motion.landed;
     run->changed += run->motion.changed;

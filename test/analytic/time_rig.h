@@ -55,6 +55,7 @@ typedef struct TimeRun {
     double imbalance, turnover;           /* [J] sums */
     double kinetic, impact, scheme, lost; /* [J] sums; of friction */
     double drag, added, damping;          /* [J] sums: works on the water, internal damping */
+    double waves;                         /* [J] sum: work of the water's own acceleration */
     int landed, changed, snatched, steps, certified;
 } TimeRun;
 

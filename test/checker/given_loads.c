@@ -102,6 +102,35 @@ static void compare_drag(Compare *compare, const CpsLine *line, const Loads *loa
     }
 }
 
+/* The waves of the file are those of the scene. */
+static void compare_waves(Compare *compare, const Sea *sea) {
+    static const Real TAU = 6.283185307179586476925286766559L;
+    const CpsCurrent *current = compare->scene->current;
+    const CpsWaves *waves = current ? current->waves : NULL;
+    if (sea->waves != (waves ? (size_t)waves->wave_count : 0)) {
+        find(compare, "waves: %zu, in the scene %d", sea->waves, waves ? waves->wave_count : 0);
+        return;
+    }
+    if (!waves) return;
+    if (!(sea->depth == waves->depth)) find(compare, "depth of the waves");
+    same_number(compare, "surface of the waves about", "the water", sea->surface,
+                compare->scene->water_surface - compare->source.origin[2]);
+    same_number(compare, "ramp of the waves about", "the water", sea->ramp, waves->ramp);
+    for (size_t k = 0; k < sea->waves; k++) {
+        const Wave *wave = &sea->wave[k];
+        const CpsWave *of = &waves->wave[k];
+        same_number(compare, "amplitude of a wave about", "the water", (double)wave->amplitude,
+                    of->amplitude);
+        same_number(compare, "period of a wave about", "the water", (double)(TAU / wave->frequency),
+                    of->period);
+        same_number(compare, "heading of a wave along x about", "the water",
+                    (double)wave->heading[0], (double)cosl(of->direction));
+        same_number(compare, "heading of a wave along y about", "the water",
+                    (double)wave->heading[1], (double)sinl(of->direction));
+        same_number(compare, "phase of a wave about", "the water", (double)wave->phase, of->phase);
+    }
+}
+
 /* Add what the scene's function gives at a node. */
 static void add_potential(Compare *compare, const CpsLine *line, const Record *r, size_t j,
                           double at, Real *sum) {
@@ -134,21 +163,25 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
     }
     if (potential != (loads && loads->pull)) find(compare, "potential of %s", line->name);
     if (drag != (loads && loads->has_drag)) find(compare, "drag of %s", line->name);
-    if (drag && loads && loads->has_drag && step == 0) compare_drag(compare, line, loads);
+    if (drag && loads && loads->has_drag && step == 0) {
+        compare_drag(compare, line, loads);
+        compare_waves(compare, &loads->sea);
+    }
     double at = 0, off = 0, sizes = 0;
     if (!loads) return;
     for (size_t j = 0; j < r->nodes; j++) {
         at += j > 0 ? r->element_length[j - 1] : 0;
         if (springs && !compare_springs(compare, line, r, j, at)) return;
         if (!forces) continue;
-        Real left[3], added[3] = {0, 0, 0};
-        if (in_time(r))
-            loads_flow(r, j, left, added);
-        else
-            loads_drag(r, r->position, j, left);
+        Real left[3];
+        loads_drag(r, r->position, j, left);
+        if (in_time(r)) {
+            const Flow flow = loads_flow(r, j);
+            for (int a = 0; a < 3; a++) left[a] = flow.drag[a] + flow.added[a] + flow.wave[a];
+        }
         if (potential && loads->pull) add_potential(compare, line, r, j, at, left);
         for (int a = 0; a < 3; a++) {
-            left[a] += added[a] - loads->given[j][a];
+            left[a] -= loads->given[j][a];
             for (int i = 0; i < given->force_count; i++)
                 left[a] += common_length(r, j, at, given->force[i].from, given->force[i].to) *
                            given->force[i].force[a];

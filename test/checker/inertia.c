@@ -51,7 +51,7 @@ int inertia_read(const Source *source, const char *line, size_t step, Record *re
     static const char *const NUMBER[TIME_ENTRIES] = {"kinetic",        "ledger_kinetic",
                                                      "ledger_impact",  "ledger_scheme",
                                                      "ledger_damping", "ledger_drag",
-                                                     "ledger_added"};
+                                                     "ledger_added",   "ledger_waves"};
     if (!record->mass) return 0;
     const size_t start[] = {step, 0, 0}, count[] = {1, record->nodes, 3};
     int time;
@@ -203,7 +203,7 @@ static double kinetic_energy(const Record *r, double reach, InertiaFind *find, v
 
 /* [J] What the forces on the nodes do on their way, and the energies that are stored. */
 typedef struct Works {
-    double elastic, gravity, ends, drag, added, loads, sizes;
+    double elastic, gravity, ends, drag, added, waves, loads, sizes;
 } Works;
 
 static double stored(const Record *r, const Vector *x, size_t i) {
@@ -222,8 +222,7 @@ static Works works_of(const Record *r, const Record *before) {
         w.elastic += stored(r, (const Vector *)r->position, i) -
                      stored(r, (const Vector *)before->position, i);
     for (size_t j = 0; j < r->nodes; j++) {
-        Real drag[3], added[3];
-        loads_flow(r, j, drag, added);
+        const Flow flow = loads_flow(r, j);
         for (int a = 0; a < 3; a++) {
             double load = r->load[j][a];
             const double way = r->position[j][a] - before->position[j][a];
@@ -235,10 +234,12 @@ static Works works_of(const Record *r, const Record *before) {
             if (r->loads && r->loads->given) {
                 const double given = r->loads->given[j][a];
                 load -= given;
-                w.drag -= (double)drag[a] * way;
-                w.added -= (double)added[a] * way;
-                w.loads += (given - (double)(drag[a] + added[a])) * way;
-                w.sizes += fabs(given * way) + fabs((double)drag[a] * way);
+                w.drag -= (double)flow.drag[a] * way;
+                w.added -= (double)flow.added[a] * way;
+                w.waves += (double)flow.wave[a] * way;
+                w.loads += (given - (double)(flow.drag[a] + flow.added[a] + flow.wave[a])) * way;
+                w.sizes += fabs(given * way) + fabs((double)flow.drag[a] * way) +
+                           fabs((double)flow.wave[a] * way);
             }
             w.gravity -= load * way;
             w.sizes += fabs(load * way);
@@ -275,9 +276,10 @@ void inertia_check(const Source *source, const Record *r, const Record *before, 
                          r->time_entry[TIME_SCHEME] + r->time_entry[TIME_DAMPING] +
                          r->time_entry[TIME_DRAG] + r->time_entry[TIME_ADDED] +
                          r->ledger[LEDGER_IMBALANCE];
-    compare("ledger in time, ends + obstacles + loads",
-            r->ledger[LEDGER_ENDS] + r->ledger[LEDGER_OBSTACLES] + given, spent,
-            1e-12 * sizes + 1e-300, find, user);
+    compare("ledger in time, ends + obstacles + loads + waves",
+            r->ledger[LEDGER_ENDS] + r->ledger[LEDGER_OBSTACLES] + given +
+                r->time_entry[TIME_WAVES],
+            spent, 1e-12 * sizes + 1e-300, find, user);
     compare("imbalance of the ledger in time", r->ledger[LEDGER_IMBALANCE], 0, noise, find, user);
     const Damped own = r->damping ? damping_measure(r, before, older) : (Damped){0};
     compare("ledger_damping", r->time_entry[TIME_DAMPING], own.damped, noise, find, user);
@@ -296,5 +298,6 @@ void inertia_check(const Source *source, const Record *r, const Record *before, 
     const double water = noise + ENERGIES * w.sizes;
     compare("ledger_drag", r->time_entry[TIME_DRAG], w.drag, water, find, user);
     compare("ledger_added", r->time_entry[TIME_ADDED], w.added, water, find, user);
+    compare("ledger_waves", r->time_entry[TIME_WAVES], w.waves, water, find, user);
     compare("ledger_loads in time", given, w.loads, water, find, user);
 }

@@ -132,7 +132,8 @@ int loads_create(const Source *source, const char *line, Record *record, FILE *l
     if (nc_inq_attlen(source->nc, NC_GLOBAL, name, &found) == NC_NOERR &&
         (found != numbers || nc_get_att_double(source->nc, NC_GLOBAL, name, loads->added)))
         return complain(log, "cannot read", name);
-    return loads->has_drag ? read_current(source, loads, log) : 0;
+    if (!loads->has_drag) return 0;
+    return read_current(source, loads, log) || sea_read(source, &loads->sea, log) ? -1 : 0;
 }
 
 int loads_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
@@ -170,6 +171,7 @@ void loads_free(Record *record) {
     free(loads->energy);
     free(loads->energy_before);
     free(loads->row);
+    sea_free(&loads->sea);
     free(loads);
     record->loads = NULL;
 }
@@ -235,14 +237,15 @@ static Real direction(Vector *x, size_t i, Real *t) {
     return sqrtl(size);
 }
 
-/* Half of the drag on element i at the places x, whose end there has the velocity v: Morison's law
- * across and along it. */
-static void add_half(const Record *record, Vector *x, size_t i, const Real *v, Real *out) {
+/* Half of the drag on element i at the places x, whose end there has the velocity v, in water that
+ * waves move: Morison's law across and along it. */
+static void add_half(const Record *record, Vector *x, size_t i, const Real *v, const Real *waves,
+                     Real *out) {
     const Loads *loads = record->loads;
     const double diameter = loads->drag[0], across_by = loads->drag[1], along_by = loads->drag[2];
     Real u[3], t[3], along = 0, across[3], speed = 0;
     velocity(loads, ((Real)x[i][2] + x[i + 1][2]) / 2, u);
-    for (int a = 0; a < 3; a++) u[a] -= v[a];
+    for (int a = 0; a < 3; a++) u[a] += waves[a] - v[a];
     const Real size = direction(x, i, t);
     for (int a = 0; a < 3; a++) along += size > 0 ? u[a] * t[a] / size : 0;
     for (int a = 0; a < 3; a++) {
@@ -263,12 +266,14 @@ void loads_drag(const Record *record, Vector *x, size_t j, Real *out) {
     out[0] = out[1] = out[2] = 0;
     if (!record->loads || !record->loads->has_drag) return;
     const Real rest[3] = {0, 0, 0};
-    if (j > 0) add_half(record, x, j - 1, rest, out);
-    if (j < record->elements) add_half(record, x, j, rest, out);
+    if (j > 0) add_half(record, x, j - 1, rest, rest, out);
+    if (j < record->elements) add_half(record, x, j, rest, rest, out);
 }
 
-/* Half of the mass of water that element i moves along, times minus the acceleration. */
-static void add_inertia(const Record *record, size_t i, const Real *acceleration, Real *out) {
+/* Half of the mass of water that element i moves along, times minus the acceleration; `own` times
+ * that which it displaces. */
+static void add_inertia(const Record *record, size_t i, const Real *acceleration, double own,
+                        Real *out) {
     const Loads *loads = record->loads;
     Real t[3], along = 0;
     const Real size = direction(record->position, i, t), radius = (Real)loads->drag[0] / 2;
@@ -277,22 +282,30 @@ static void add_inertia(const Record *record, size_t i, const Real *acceleration
     for (int a = 0; a < 3; a++) along += size > 0 ? acceleration[a] * t[a] / size : 0;
     for (int a = 0; a < 3; a++) {
         const Real part = size > 0 ? along * t[a] / size : 0;
-        out[a] -= displaced * (loads->added[0] * (acceleration[a] - part) + loads->added[1] * part);
+        out[a] -= displaced * ((loads->added[0] + own) * (acceleration[a] - part) +
+                               (loads->added[1] + own) * part);
     }
 }
 
-void loads_flow(const Record *record, size_t j, Real *drag, Real *added) {
+Flow loads_flow(const Record *record, size_t j) {
     Real v[3], acceleration[3];
-    for (int a = 0; a < 3; a++) drag[a] = added[a] = 0;
-    if (!record->loads || !record->loads->has_drag) return;
+    Flow out = {.drag = {0, 0, 0}};
+    if (!record->loads || !record->loads->has_drag) return out;
     for (int a = 0; a < 3; a++) {
         v[a] = ((Real)record->position[j][a] - record->reference[j][a]) / record->span[j];
         acceleration[a] = (v[a] - record->rest_velocity[j][a]) / record->span[j];
     }
     for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < record->elements; i++) {
-        add_half(record, record->position, i, v, drag);
-        add_inertia(record, i, acceleration, added);
+        Real middle[3], waves[3] = {0, 0, 0}, faster[3] = {0, 0, 0}, against[3];
+        for (int a = 0; a < 3; a++)
+            middle[a] = ((Real)record->position[i][a] + record->position[i + 1][a]) / 2;
+        sea_motion(&record->loads->sea, record->time, middle, waves, faster);
+        for (int a = 0; a < 3; a++) against[a] = -faster[a];
+        add_half(record, record->position, i, v, waves, out.drag);
+        add_inertia(record, i, acceleration, 0, out.added);
+        add_inertia(record, i, against, 1, out.wave);
     }
+    return out;
 }
 
 Real loads_work(const Record *record) {

@@ -5,6 +5,7 @@
 #define CAPSTAN_CHECKER_LOADS_H
 
 #include "record.h"
+#include "sea.h"
 
 /* Of one line and step; arrays are NULL where the file has none. */
 typedef struct Loads {
@@ -23,6 +24,7 @@ typedef struct Loads {
     double density;
     size_t rows;
     double *row; /* (rows, 4) z and velocity */
+    Sea sea;     /* of a line with drag */
 } Loads;
 
 /* What the file has of a line; record->loads is NULL where that is nothing. Both return 0, or -1
@@ -56,7 +58,11 @@ double loads_open_work(const Record *record);
 /* [N] The drag on node j at the places x, at rest. */
 void loads_drag(const Record *record, Vector *x, size_t j, Real *out);
 /* [N] ... of a step in time, where the line has come to be: drag in the water relative to the node,
- * and what the water that is moved along opposes to its acceleration. */
-void loads_flow(const Record *record, size_t j, Real *drag, Real *added);
+ * what the water that is moved along opposes to its acceleration, and what the water does that
+ * waves accelerate. */
+typedef struct Flow {
+    Real drag[3], added[3], wave[3];
+} Flow;
+Flow loads_flow(const Record *record, size_t j);
 
 #endif

@@ -72,6 +72,7 @@ enum {
     TIME_DAMPING,
     TIME_DRAG,
     TIME_ADDED,
+    TIME_WAVES,
     TIME_ENTRIES
 };
 

@@ -4,7 +4,7 @@
 
 usage: bad_motions.py CAPSTAN
 
-Every case is one change to a good scene. Expected is the exit code and what follows the file name in the message; standard error must be one
+Every case is one change to one of two good scenes. Expected is the exit code and what follows the file name in the message; standard error must be one
 line, and standard output empty.
 """
 import os
@@ -84,6 +84,64 @@ CHANGES = [
     ("a misspelt added mass", "mass: 1", "mass: 1\n    drag: {diameter: 0.1, normal: 1, added_norml: 1}", INPUT, "8:38: 'drag': unknown key 'added_norml'; did you mean 'added_normal'?"),
     ("a winch", "B: held}", "B: {held: [10, 0, 1], stored: 0}}", INPUT, "10:5: line 'cable': stored: winches do not wind in a history of which a step has a duration: leave it out"),
 ]
+IN_WAVES = """\
+capstan: 1
+water_density: 1025
+water_surface: 2
+waves:
+  depth: 20
+  ramp: 3
+  components:
+    - {amplitude: 1, period: 9, direction: 0}
+    - {amplitude: 0.5, period: 6, direction: 30, phase: 40}
+points:
+  knot: {free: [9, 0, 0], mass: 5, force: [0, 0, 100]}
+lines:
+  cable: {length: 9, elements: 4, mass: 1, stiffness: 1e6, start: {straight: {from: [0, 0, 0], to: [9, 0, 0]}}, drag: {diameter: 0.1, normal: 1}, ends: {A: held, B: {point: knot}}}
+history:
+  - {name: swing, duration: 2, time_step: 0.01}
+"""
+ONE, TWO = "{amplitude: 1, period: 9, direction: 0}", "{amplitude: 0.5, period: 6, direction: 30, phase: 40}"
+NEEDED = "waves: they are those of a surface, which the water has not: give water_surface"
+WAVE_CHANGES = [
+    ("waves without depth", "  depth: 20\n", "", INPUT, "4:1: 'waves': 'depth' is missing: [m] of the water below water_surface; .inf: deep water"),
+    ("depth 0", "depth: 20", "depth: 0", INPUT, "5:3: 'depth': found '0', expected a number in m, greater than 0, or .inf"),
+    ("a depth below the surface", "depth: 20", "depth: -20", INPUT, "5:3: 'depth': found '-20', expected a number in m, greater than 0, or .inf"),
+    ("NaN in a depth", "depth: 20", "depth: .nan", INPUT, "5:3: 'depth': found '.nan', expected a number in m"),
+    ("a depth in words", "depth: 20", "depth: deep", INPUT, "5:3: 'depth': found 'deep', expected a number in m"),
+    ("waves without a surface", "water_surface: 2\n", "", INPUT, "3:1: 'waves': it goes with 'water_surface', which is not given"),
+    ("waves without components", "  components:\n    - " + ONE + "\n    - " + TWO + "\n", "", INPUT, "4:1: 'waves': 'components' is missing"),
+    ("no component", "  components:\n    - " + ONE + "\n    - " + TWO + "\n", "  components: []\n", INPUT, "7:3: 'components': found a list of 0, expected a list"),
+    ("a component in words", ONE, "high", INPUT, "8:7: component: found 'high', expected a mapping with amplitude"),
+    ("a negative ramp", "ramp: 3", "ramp: -3", INPUT, "6:3: 'ramp': found '-3', expected a number in s, at least 0"),
+    ("a ramp without end", "ramp: 3", "ramp: .inf", INPUT, "6:3: 'ramp': found '.inf', expected a number in s"),
+    ("no amplitude", "amplitude: 1, ", "", INPUT, "8:7: component: 'amplitude' is missing: [m] half of the height between trough and crest"),
+    ("amplitude 0", "amplitude: 1,", "amplitude: 0,", INPUT, "8:8: 'amplitude': found '0', expected a number in m, greater than 0"),
+    ("a negative amplitude", "amplitude: 1,", "amplitude: -1,", INPUT, "8:8: 'amplitude': found '-1', expected a number in m, greater than 0"),
+    ("an amplitude in feet", "amplitude: 1,", "amplitude: 3 ft,", INPUT, "8:8: 'amplitude': found '3 ft', expected a number in m, greater than 0: write the number alone"),
+    ("a wave that breaks", "amplitude: 1,", "amplitude: 8,", INPUT, "8:7: waves: component 1 would be 16 m high, but in this depth a wave with the period 9 s breaks at 12.43 m: give half of a height below that as amplitude"),
+    ("a steep wave", "period: 6", "period: 1", INPUT, "9:7: waves: component 2 would be 1 m high, but in this depth a wave with the period 1 s breaks at 0.2217 m"),
+    ("a period of 0", "period: 9", "period: 0", INPUT, "8:22: 'period': found '0', expected a number in s, greater than 0"),
+    ("a wave of a negative period", "period: 9", "period: -9", INPUT, "8:22: 'period': found '-9', expected a number in s, greater than 0"),
+    ("no period", "period: 9, ", "", INPUT, "8:7: component: 'period' is missing: [s] time from crest to crest in one place"),
+    ("a period and a frequency", "period: 9", "period: 9, frequency: 0.1", INPUT, "8:22: 'period': it does not go with 'frequency': leave one of them out"),
+    ("a negative frequency", "period: 9", "frequency: -0.1", INPUT, "8:22: 'frequency': found '-0.1', expected a number in Hz, greater than 0"),
+    ("a wave without a length", "period: 9", "period: 1e-60", INPUT, "8:7: waves: component 1 has no wave length: its period is 1e-60 s"),
+    ("no direction", ", direction: 0", "", INPUT, "8:7: component: 'direction' is missing: [degree] in which it goes"),
+    ("a direction in words", "direction: 0", "direction: east", INPUT, "8:33: 'direction': found 'east', expected a number in degree"),
+    ("a direction of two numbers", "direction: 0", "direction: [1, 0]", INPUT, "8:33: 'direction': found a list of 2, expected a number in degree"),
+    ("NaN in a phase", "phase: 40", "phase: .nan", INPUT, "9:50: 'phase': found '.nan', expected a number in degree"),
+    ("a misspelt phase", "phase: 40", "fase: 40", INPUT, "9:50: component: unknown key 'fase'; did you mean 'phase'?"),
+    ("a misspelt component", "components", "component", INPUT, "7:3: 'waves': unknown key 'component'; did you mean 'components'?"),
+    ("a list of waves", "waves:\n  depth: 20\n  ramp: 3\n  components:\n", "waves:\n", INPUT, "4:1: 'waves': found a list of 2, expected a mapping"),
+    ("waves without time", "duration: 2, time_step: 0.01", "steps: 3", INPUT, "4:1: waves: they move the water in time, but no stage of the history has a duration: give one"),
+    ("waves on nothing", " drag: {diameter: 0.1, normal: 1},", "", INPUT, "4:1: waves: they act on lines with drag, and none has any: give a line its drag, or leave the waves out"),
+    ("waves without gravity", "capstan: 1\n", "capstan: 1\ngravity: [0, 0, 0]\n", INPUT, "5:1: waves: without gravity there are none: give gravity (0, 0, -g)"),
+    ("waves under gravity that leans", "capstan: 1\n", "capstan: 1\ngravity: [1, 0, -9]\n", INPUT, "2:1: gravity: (1, 0, -9) m/s2 in a scene with a water surface, which is a plane z = constant: expected (0, 0, -g)"),
+    ("waves under gravity that changes", "time_step: 0.01", "time_step: 0.01, gravity: [0, 0, -8]", INPUT, "15:49: stage 1: gravity changes, but waves are those under one gravity: leave either out"),
+    ("waves in air", "water_density: 1025\n", "", INPUT, "2:1: 'water_surface': it goes with 'water_density', which is not given"),
+    ("a point that would float in waves", "mass: 5", "mass: 5, volume: 0.01", INPUT, "11:36: point 'knot': volume: a step of the history has a duration, in which points do not float at a water surface: leave 'water_surface' out"),
+]
 
 
 def main():
@@ -96,19 +154,21 @@ def main():
                 file.write(text)
             return subprocess.run([sys.argv[1], "check", path], capture_output=True, text=True, check=False)
 
-        good = run(GOOD)
-        if good.returncode:
-            failed += 1
-            print("the good scene:", good.stderr)
-        for name, old, new, code, wanted in CHANGES:
-            assert GOOD.count(old) == 1, name
-            done = run(GOOD.replace(old, new))
+        for scene in (GOOD, IN_WAVES):
+            good = run(scene)
+            if good.returncode:
+                failed += 1
+                print("a good scene:", good.stderr)
+        cases = [(GOOD, *case) for case in CHANGES] + [(IN_WAVES, *case) for case in WAVE_CHANGES]
+        for scene, name, old, new, code, wanted in cases:
+            assert scene.count(old) == 1, name
+            done = run(scene.replace(old, new))
             told = done.stderr.replace(path + ":", "", 1).replace("capstan: ", "", 1)
             if done.returncode != code or done.stdout or done.stderr.count("\n") != 1 or not told.startswith(wanted):
                 failed += 1
                 print(f"{name}: exit code {done.returncode}, expected {code}; {done.stderr.rstrip()}\n    expected {wanted}")
-    print(f"{len(CHANGES)} cases, {failed} failed")
-    return 0 if is_told(len(CHANGES)) and not failed else 1
+    print(f"{len(cases)} cases, {failed} failed")
+    return 0 if is_told(len(cases)) and not failed else 1
 
 
 if __name__ == "__main__":

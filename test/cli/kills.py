@@ -52,10 +52,12 @@ history:
   - {name: aside, steps: 8, east.B: {move: [0, 20, 0]}, north.B: {move: [0, -20, 0]}, west.B: {move: [0, 20, 0]}}
   - {name: home, steps: 8, east.B: {move: [-12, -20, 0]}, north.B: {move: [-12, 20, 0]}, west.B: {move: [-12, -20, 0]}}
 """
-# points and a body in time: added mass, damping, drag of a line, oscillating loads, a line without inertia, a clump that lands and slides
+# points and a body in time: added mass, damping, drag of a line in waves, oscillating loads, a line without inertia, a clump that lands and slides
 IN_TIME = """capstan: 1
 gravity: [0, 0, -9.81]
 water_density: 1025
+water_surface: 2
+waves: {depth: 22, ramp: 1, components: [{amplitude: 0.4, period: 3, direction: 20}, {amplitude: 0.3, period: 5, direction: -60, phase: 50}]}
 obstacles:
   bed: {plane: {point: [0, 0, -20]}, friction: 0.3}
 bodies:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random lines that move in time in water that flows, with drag, water that is moved along and internal damping, each checked independently.
+"""Random lines that move in time in water that flows, with drag, water that is moved along and internal damping, two of
+five in waves, each checked independently.
 
 usage: random_swims.py CAPSTAN CHECKER [--count N] [--seed S] [--only CLASS] [--keep FOLDER]
 
@@ -32,16 +33,16 @@ def some(dice, size):
 class Swim:
     """The text of a scene of lines about `size` metres long, in water that flows up to about as fast as they sink."""
 
-    def __init__(self, dice, kind):
-        self.dice, self.kind = dice, kind
+    def __init__(self, dice, sea, kind):
+        self.dice, self.sea, self.kind = dice, sea, kind
         self.size = 10 ** dice.uniform(-0.5, 2.5)
         self.diameter = self.size * 10 ** dice.uniform(-4, -2)
         self.displaced = 1025 * math.pi / 4 * self.diameter ** 2
         self.mass = self.displaced * 10 ** dice.uniform(0.1, 1)  # kg/m, heavier than water
         # what nothing holds buckles as it falls along itself: its steps are shorter
         self.period = math.sqrt(self.size / 9.81) * 10 ** dice.uniform(-0.5, 0 if kind == "free" else 1)
-        sinking = math.sqrt(2 * 9.81 * (self.mass - self.displaced) / (1025 * self.diameter))
-        self.speed = 10 ** dice.uniform(-1.5, 0) * sinking
+        self.sinking = math.sqrt(2 * 9.81 * (self.mass - self.displaced) / (1025 * self.diameter))
+        self.speed = 10 ** dice.uniform(-1.5, 0) * self.sinking
         self.origin = [0.0 if kind == "joined" else dice.choice([0, 0, 1e3, -1e4]) * self.size for _ in range(2)] + [0.0]
         self.bed = kind != "free" and (kind != "joined" or dice.random() < 0.5)
         self.low = -self.size * dice.uniform(0.05, 0.5)
@@ -52,6 +53,25 @@ class Swim:
             rows.append(f"{{z: {z!r}, velocity: {vector(some(self.dice, self.speed * self.dice.choice([0, 1, 1])))}}}")
             z += self.size * self.dice.uniform(0.1, 1)
         return f"water_density: 1025\ncurrent: [{', '.join(rows)}]\n" if self.dice.random() < 0.8 else "water_density: 1025\n"
+
+    def waves(self):
+        """Waves up to nine tenths as high as those that break, in water that may be deep, whose surface may be below the line."""
+        sea = self.sea
+        if sea.random() > 0.4:
+            return ""
+        depth = sea.choice([math.inf, self.size * 10 ** sea.uniform(-0.5, 1)])
+        components = []
+        for _ in range(sea.choice([1, 1, 2, 5])):
+            period = self.period * 10 ** sea.uniform(-0.3, 1)
+            k = (2 * math.pi / period) ** 2 / 9.81
+            for _ in range(60):
+                k = 0.5 * (k + (2 * math.pi / period) ** 2 / 9.81 / math.tanh(min(k * depth, 300)))
+            breaks = 0.142 * math.pi / k * math.tanh(min(k * depth, 300))
+            amplitude = min(0.9 * breaks, self.sinking * 10 ** sea.uniform(-1.5, 0.3) * period / (2 * math.pi))
+            components.append(f"{{amplitude: {amplitude!r}, period: {period!r}, direction: {sea.uniform(-180, 360)!r}, phase: {sea.uniform(-360, 360)!r}}}")
+        ramp = sea.choice(["", f", ramp: {self.period * sea.uniform(0, 3)!r}"])
+        return (f"water_surface: {self.size * sea.uniform(-0.2, 1.5)!r}\n"
+                f"waves: {{depth: {'.inf' if math.isinf(depth) else repr(depth)}{ramp}, components: [{', '.join(components)}]}}\n")
 
     def make(self):
         """What a line is made of."""
@@ -121,7 +141,7 @@ class Swim:
     def text(self):
         dice = self.dice
         name = "l0.A" if self.kind == "joined" else "rope.B" if self.kind != "free" else None
-        out = "capstan: 1\n" + (f"time_scheme: {dice.choice(['bdf2', 'bdf2', 'euler'])}\n") + self.water() + self.obstacles()
+        out = "capstan: 1\n" + (f"time_scheme: {dice.choice(['bdf2', 'bdf2', 'euler'])}\n") + self.water() + self.waves() + self.obstacles()
         out += self.mooring() if self.kind == "joined" else self.rope()
         out += "history:\n"
         for k in range(dice.randint(1, 3)):
@@ -145,7 +165,7 @@ def one_class(given, kind):
         os.makedirs(folder, exist_ok=True)
         scene, out = os.path.join(folder, "scene.yaml"), os.path.join(folder, "out")
         with open(scene, "w", encoding="ascii") as file:
-            file.write(Swim(random.Random(f"{kind} {seed}"), kind).text())
+            file.write(Swim(random.Random(f"{kind} {seed}"), random.Random(f"waves {kind} {seed}"), kind).text())
         done = checked.run(given.capstan, "run", "-q", scene, "-o", out, "--force")
         found, words = checked.check(given.checker, out, scene) if done.returncode in (0, 1) else ([0] * 5, done.stderr.strip())
         steps, certified, refuted = steps + found[0], certified + found[1], refuted + found[3] + found[4]

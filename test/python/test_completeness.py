@@ -254,7 +254,7 @@ NOT_CALLED = {
     r"cps_evolution_(body|line|obstacle|point)_count|cps_law_file_(space|title)|cps_loaded_law_\w+|cps_extremes_add": "lists of Python",
     r"cps_set_(support|contains|gauge|dissipation)|cps_evolution_interrupt": "called by native.c, in loops and for signals",
     r"cps_set_conic\w*|cps_set_user": "for programs in C that extend the library",
-    r"cps_sway_at": "a sine and a cosine",
+    r"cps_sway_at|cps_wave_number|cps_breaking_height|cps_waves_at": "sines and cosines",
     r"cps_evolution_potential": "potentials are functions in C",
     r"cps_(ground|mesh)_(create|report|distance|height)": "scenes read grounds and meshes from files",
     r"cps_(json_\w+|write_file|row_read|suggest|read_limits_default|(law|drive)_write_schema|drive_walk)": "of the command",

@@ -14,6 +14,7 @@
 #include "capstan/evolve.h"
 #include "capstan/io.h"
 #include "io/schema/tables/scene_keys.h"
+#include "other_motions.h"
 
 static const char SCENE[] =
     "capstan: 1\n"
@@ -187,40 +188,6 @@ static const char SHAPES_SCENE[] =
     "history:\n"
     "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
 
-/* A line that moves in time. */
-static const char MOTION_SCENE[] =
-    "capstan: 1\n"
-    "time_scheme: bdf2\n"
-    "lines:\n"
-    "  one: {length: 3, elements: 4, mass: 2, inertia: 3, velocity: [0, 0, 1], stiffness: 1000,"
-    " damping: 5,"
-    " point_weights: [{at: 1.5, mass: 1, inertia: 1.2}],"
-    " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held},"
-    " drag: {diameter: 0.1, normal: 1, tangential: 0.1, added_normal: 0.8, added_tangential:"
-    " 0.3}}\n"
-    "water_density: 10\n"
-    "history:\n"
-    "  - {name: pull, duration: 2, time_step: 0.5,"
-    " one.B: {move: [0, 0, 0.1], sine: [0, 0, 0.2], cosine: [0, 0, 0.3], period: 4,"
-    " oscillations: [{sine: [0.1, 0, 0], period: 7}]}}\n";
-
-static const char ADRIFT_SCENE[] =
-    "capstan: 1\n"
-    "bodies: {raft: {free: [0, 0, 0], mass: 50, moments_of_inertia: [20, 25, 30],"
-    " products_of_inertia: [1, 2, 3], added_mass: {x: 5}, damping: {y: 6},"
-    " quadratic_damping: {z: 7}, velocity: [0.1, 0, 0], turn_rate: [0, 0, 0.2]},"
-    " quay: {held: [0, 0, 3]}}\n"
-    "points: {eye: {body: raft, at: [0, 0, 0.5]}, ring: {body: quay, at: [0, 0, 0.5]}}\n"
-    "lines:\n"
-    "  one: {length: 3, elements: 4, mass: 2, stiffness: 10000, quasi_static: true,"
-    " start: {straight: {from: [0, 0, 3.5], to: [0, 0, 0.5]}},"
-    " ends: {A: {point: ring}, B: {point: eye}}}\n"
-    "history:\n"
-    "  - {name: pull, duration: 0.2, time_step: 0.1,"
-    " raft.body: {force: [0, 0, 0], oscillations: [{moment_sine: [0, 1, 0],"
-    " moment_cosine: [0, 2, 0], period: 5}]}, quay.body: {move: [0, 0, 0],"
-    " oscillations: [{rotation_sine: [0, 3, 0], rotation_cosine: [0, 4, 0], period: 5}]}}\n";
-
 static const struct GroundFile {
     const char *name, *text;
 } GROUND_FILE[] = {
@@ -231,10 +198,7 @@ static const struct GroundFile {
     {"other_scene_e.obj", "v 0 -1 0\nv 2 -1 0\nv 2 1 0\nv 0 1 0\nf 1 2 4\nf 2 3 4\n"},
 };
 
-/* The key, what is written of it, and what else could be. */
-static const struct Change {
-    const char *key, *from, *to;
-} CHANGE[] = {
+static const struct Change CHANGE[] = {
     {"gravity", "gravity: [0, 0, -10]", "gravity: [0, 0, -9.9]"},
     {"obstacles", "  ball:", "  best: {plane: {}}\n  ball:"},
     {"plane", "bed: {plane: {point: [0, 0, -1], normal: [0, 0, 1]}",
@@ -446,21 +410,6 @@ static const struct Change MESH_CHANGE[] = {
     {"two_sided", "two_sided: false", "two_sided: true"},
 };
 
-static const struct Change ADRIFT_CHANGE[] = {
-    {"moment_sine", "moment_sine: [0, 1, 0]", "moment_sine: [1, 1, 0]"},
-    {"moment_cosine", "moment_cosine: [0, 2, 0]", "moment_cosine: [0, 2, 1]"},
-    {"rotation_sine", "rotation_sine: [0, 3, 0]", "rotation_sine: [0, 3.5, 0]"},
-    {"rotation_cosine", "rotation_cosine: [0, 4, 0]", "rotation_cosine: [1, 4, 0]"},
-    {"quasi_static", ", quasi_static: true", ""},
-    {"moments_of_inertia", "[20, 25, 30]", "[20, 25, 31]"},
-    {"products_of_inertia", "[1, 2, 3]", "[1, 2, 4]"},
-    {"added_mass", "added_mass: {x: 5}", "added_mass: {x: 5, rz: 1}"},
-    {"damping", ", damping: {y: 6}", ", damping: {y: 7}"},
-    {"quadratic_damping", "quadratic_damping: {z: 7}", "quadratic_damping: {z: 8}"},
-    {"velocity", "velocity: [0.1, 0, 0]", "velocity: [0.2, 0, 0]"},
-    {"turn_rate", "turn_rate: [0, 0, 0.2]", "turn_rate: [0, 0, 0.3]"},
-};
-
 static const struct Change FLOAT_CHANGE[] = {
     {"floats", ", floats: true", ""},
     {"floats", "at: 2", "at: 3"},
@@ -511,26 +460,6 @@ static const struct Change SHAPE_CHANGE[] = {
     {"size", "size: [2, 3, 4]", "size: [3, 3, 4]"},
     {"radius", "radius: 0.5", "radius: 0.6"},
     {"rotation", "rotation: {quaternion: [1, 0, 0, 0]}", "rotation: {quaternion: [1, 0, 0, 1]}"},
-};
-
-static const struct Change MOTION_CHANGE[] = {
-    {"time_scheme", "time_scheme: bdf2", "time_scheme: euler"},
-    {"inertia", "inertia: 3", "inertia: 3.5"},
-    {"inertia", "inertia: 1.2", "inertia: 1.3"},
-    {"velocity", "velocity: [0, 0, 1]", "velocity: [0, 0, 2]"},
-    {"duration", "duration: 2", "duration: 1.9"},
-    {"time_step", "time_step: 0.5", "time_step: 0.25"},
-    {"sine", "sine: [0, 0, 0.2]", "sine: [0, 0, 0.21]"},
-    {"cosine", "cosine: [0, 0, 0.3]", "cosine: [0, 0.1, 0.3]"},
-    {"period", "period: 4", "period: 5"},
-    {"oscillations", "{sine: [0.1, 0, 0], period: 7}", "{sine: [0.1, 0, 0], period: 8}"},
-    {"oscillations", "sine: [0.1, 0, 0]", "sine: [0.2, 0, 0]"},
-    {"damping", " damping: 5", " damping: 6"},
-    {"diameter", "diameter: 0.1", "diameter: 0.11"},
-    {"normal", ", normal: 1", ", normal: 1.1"},
-    {"tangential", ", tangential: 0.1", ", tangential: 0.2"},
-    {"added_normal", "added_normal: 0.8", "added_normal: 0.9"},
-    {"added_tangential", "added_tangential: 0.3", "added_tangential: 0.4"},
 };
 
 /* Keys that change no answer, and how the file of a ground is to be read; and a file of places,

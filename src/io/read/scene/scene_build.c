@@ -459,7 +459,8 @@ CpsStatus cpsi_scene_build(const CpsiDocument *d, const CpsiSceneValues *values,
     if (scene->title) scene->title = copy_text(&b, scene->title);
     if (values->scene.title && !scene->title) return cpsi_document_no_memory(d);
     CpsStatus status = cpsi_materials_sort(&b.materials, &values->types);
-    if (status == CPS_OK) status = cpsi_current_build(&b.materials, &values->current, scene);
+    if (status == CPS_OK)
+        status = cpsi_current_build(&b.materials, &values->current, &values->waves, scene);
     if (status == CPS_OK) status = build_obstacles(&b, &values->obstacles);
     if (status == CPS_OK)
         status = cpsi_bodies_build(&b.materials, &values->bodies, scene, &b.held.body);

@@ -2,6 +2,7 @@
 /* Obstacles, the water and motion in time in result.nc (see netcdf_obstacles.h). */
 #include "io/results/netcdf/netcdf_obstacles.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -425,6 +426,23 @@ void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene) {
     }
 }
 
+enum { OF_WAVE = 4 };
+
+static void define_waves(CpsiNetcdfFile *file, const CpsScene *scene) {
+    const CpsWaves *waves = scene->current->waves;
+    double *number = malloc(OF_WAVE * (size_t)waves->wave_count * sizeof *number);
+    if (!number) cpsi_netcdf_keep(file, NC_ENOMEM);
+    for (int k = 0; number && k < waves->wave_count; ++k) {
+        const CpsWave *wave = &waves->wave[k];
+        const double of[OF_WAVE] = {wave->amplitude, wave->period, wave->direction, wave->phase};
+        memcpy(&number[OF_WAVE * k], of, sizeof of);
+    }
+    if (number) cpsi_netcdf_numbers(file, "waves", OF_WAVE * (size_t)waves->wave_count, number);
+    free(number);
+    if (isfinite(waves->depth)) cpsi_netcdf_numbers(file, "wave_depth", 1, &waves->depth);
+    cpsi_netcdf_numbers(file, "wave_ramp", 1, &waves->ramp);
+}
+
 void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, double origin_z) {
     const CpsCurrent *current = scene->current;
     if (!current) return;
@@ -437,6 +455,7 @@ void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, dou
     cpsi_netcdf_numbers(file, "water_density", 1, &current->density);
     if (rows) cpsi_netcdf_numbers(file, "current", 4 * (size_t)current->row_count, rows);
     free(rows);
+    if (current->waves) define_waves(file, scene);
     for (int i = 0; i < scene->line_count; ++i) {
         const CpsLineLoads *loads = scene->line[i].loads;
         if (!loads || !(loads->drag.diameter > 0)) continue;
@@ -482,6 +501,7 @@ void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
         {"ledger_damping", "energy lost by internal damping", "J"},
         {"ledger_drag", "work done on the water against its drag", "J"},
         {"ledger_added", "work done on the water that is moved along", "J"},
+        {"ledger_waves", "work of the water's own acceleration in waves", "J"},
         {"ledger_turnover", "sum of the sizes of all entries of the ledger", "J"},
         {"position_bound", "guaranteed rms error of the positions, by mass", "m"},
         {"landed", "contacts of nodes that began to bear", "1"},
@@ -535,9 +555,10 @@ void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids
     const double number[CPSI_MOTION_NUMBERS] = {motion.kinetic,         motion.ledger.kinetic,
                                                 motion.ledger.impact,   motion.ledger.scheme,
                                                 motion.ledger.damping,  motion.ledger.drag,
-                                                motion.ledger.added,    motion.ledger.turnover,
-                                                motion.position_bound,  (double)motion.landed,
-                                                (double)motion.changed, (double)motion.snatched};
+                                                motion.ledger.added,    motion.ledger.waves,
+                                                motion.ledger.turnover, motion.position_bound,
+                                                (double)motion.landed,  (double)motion.changed,
+                                                (double)motion.snatched};
     cpsi_netcdf_doubles(file, ids->velocity, start, count, motion.velocity);
     cpsi_netcdf_doubles(file, ids->rest_velocity, start, count, motion.rest_velocity);
     cpsi_netcdf_doubles(file, ids->span, start, count, motion.span);

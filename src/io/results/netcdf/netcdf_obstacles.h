@@ -132,7 +132,7 @@ void cpsi_netcdf_append_grasps(CpsiNetcdfFile *file, const CpsiNetcdfGrasps *ids
 
 /* The motion in time of a scene; nothing of one without steps in time. Of quasi-static steps among
  * them velocities and spans are 0. */
-enum { CPSI_MOTION_NUMBERS = 12 };
+enum { CPSI_MOTION_NUMBERS = 13 };
 
 typedef struct CpsiNetcdfTime {
     bool is_there; /* otherwise all other variables are unused */
@@ -203,7 +203,9 @@ void cpsi_netcdf_append_potential(CpsiNetcdfFile *file, const CpsiNetcdfPotentia
 
 /* How obstacles give, and the widths with which lines bear on them; nothing where none gives. */
 void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene);
-/* The current as attributes: the density, z and velocity of row after row; and the drag of lines.
+/* The current as attributes: the density, z and velocity of row after row; the waves: amplitude,
+ * period, direction and phase [rad] about the origin of the scene, one after the other, depth,
+ * which deep water has not, and ramp; and the drag of lines.
  */
 void cpsi_netcdf_define_current(CpsiNetcdfFile *file, const CpsScene *scene, double origin_z);
 

@@ -116,6 +116,7 @@ static const CpsiColumn MOTION_COLUMN[] = {
     {"damping", "J", MOTION(ledger.damping)},
     {"drag", "J", MOTION(ledger.drag)},
     {"added", "J", MOTION(ledger.added)},
+    {"waves", "J", MOTION(ledger.waves)},
     {"turnover", "J", MOTION(ledger.turnover)},
     {"position_bound", "m", MOTION(position_bound)},
     {"landed", "1", MOTION(landed)},

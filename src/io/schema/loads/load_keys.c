@@ -63,3 +63,32 @@ static const CpsiKey CURRENT_KEYS[] = {
      .help = "of the water there"},
 };
 const CpsiMapping cpsi_current_keys = {"row of the current", KEYS(CURRENT_KEYS), INTO(Current)};
+
+static const CpsiKey WAVE_KEYS[] = {
+    {"amplitude", REQUIRED, NUMBER(Wave, amplitude), POSITIVE, .unit = "m",
+     .help = "half of the height between trough and crest"},
+    {"period", REQUIRED, NUMBER(Wave, period), POSITIVE, .unless = "frequency", .unit = "s",
+     .help = "time from crest to crest in one place"},
+    {"frequency", OPTIONAL, NUMBER(Wave, frequency), POSITIVE, .unless = "period", .unit = "Hz",
+     .help = "1 over the period, in its place"},
+    {"direction", REQUIRED, NUMBER(Wave, direction), ANY, .unit = "degree",
+     .help = "in which it goes, from the x axis towards the y axis"},
+    {"phase", OPTIONAL, NUMBER(Wave, phase), ANY, .unit = "degree", .fallback = "0",
+     .help = "0: a crest over x = y = 0 as the history begins; 90: the surface sinks there"},
+};
+
+static void begin_wave(void *values) {
+    CpsiWaveValues *wave = values;
+    wave->period = wave->frequency = NAN;
+}
+static const CpsiMapping WAVE = {"component", KEYS(WAVE_KEYS), INTO(Wave), .begin = begin_wave};
+
+static const CpsiKey WAVES_KEYS[] = {
+    {"depth", REQUIRED, NUMBER(Waves, depth), 0, INFINITY, true, .unit = "m",
+     .help = "of the water below water_surface; .inf: deep water"},
+    {"components", REQUIRED, LIST(Waves, components, 1), .inside = &WAVE,
+     .help = "waves of one period each, whose motions add up; one is a regular wave"},
+    {"ramp", OPTIONAL, NUMBER(Waves, ramp), NOT_NEGATIVE, .unit = "s", .fallback = "0",
+     .help = "time from the beginning of the history in which they grow to their amplitudes"},
+};
+const CpsiMapping cpsi_waves_keys = {"waves", KEYS(WAVES_KEYS), INTO(Waves)};

@@ -30,6 +30,20 @@ typedef struct CpsiCurrentValues {
     CpsCurrentRow row;
 } CpsiCurrentValues;
 
-extern const CpsiMapping cpsi_spring_keys, cpsi_force_keys, cpsi_drag_keys, cpsi_current_keys;
+/* A wave: its period or its frequency, the other one is NaN. */
+typedef struct CpsiWaveValues {
+    const CpsiYaml *node;
+    double amplitude, period, frequency; /* [m], [s], [Hz] */
+    double direction, phase;             /* [degree] */
+} CpsiWaveValues;
+
+typedef struct CpsiWavesValues {
+    const CpsiYaml *node; /* NULL: none */
+    double depth, ramp;   /* [m], [s] */
+    CpsiList components;  /* CpsiWaveValues */
+} CpsiWavesValues;
+
+extern const CpsiMapping cpsi_spring_keys, cpsi_force_keys, cpsi_drag_keys, cpsi_current_keys,
+    cpsi_waves_keys;
 
 #endif

@@ -709,6 +709,8 @@ static const CpsiKey SCENE_KEYS[] = {
      .with = "water_density",
      .help = "velocity of the water over the height, from the lowest row to the highest; linear "
              "between, constant beyond"},
+    {"waves", OPTIONAL, MAPPING(Scene, waves), .inside = &cpsi_waves_keys, .with = "water_surface",
+     .help = "waves of small height, which move the water about lines with drag in time"},
     {"types", OPTIONAL, NAMED(Scene, types), .inside = &TYPE, .fallback = "{}",
      .help = "what sections of lines are made of, by name"},
     {"obstacles", OPTIONAL, NAMED(Scene, obstacles), .inside = &OBSTACLE, .fallback = "{}",

@@ -11,10 +11,11 @@
 typedef struct CpsiSceneValues {
     const CpsiYaml *node;
     int version;
-    CpsScene scene;     /* without its lists */
-    double water;       /* [kg/m3] 0: in air */
-    CpsiList types;     /* CpsiTypeValues */
-    CpsiList current;   /* CpsiCurrentValues */
+    CpsScene scene;   /* without its lists */
+    double water;     /* [kg/m3] 0: in air */
+    CpsiList types;   /* CpsiTypeValues */
+    CpsiList current; /* CpsiCurrentValues */
+    CpsiWavesValues waves;
     CpsiList obstacles; /* CpsiObstacleValues */
     CpsiList bodies;    /* CpsiSceneBodyValues */
     CpsiList points;    /* CpsiScenePointValues */

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/math.h"
+
 static CpsSpring spring_of(const CpsiSpringValues *values, const CpsLine *line) {
     CpsSpring out = {.from = isnan(values->from) ? 0 : values->from,
                      .to = isnan(values->to) ? line->length : values->to,
@@ -42,14 +44,37 @@ CpsStatus cpsi_loads_build(const CpsiMaterials *m, const CpsiLineValues *values,
     return CPS_OK;
 }
 
-CpsStatus cpsi_current_build(const CpsiMaterials *m, const CpsiList *rows, CpsScene *scene) {
+static const CpsWaves *waves_of(const CpsiMaterials *m, const CpsiWavesValues *values) {
+    const CpsiWaveValues *component = values->components.item;
+    const int count = values->components.count;
+    CpsWaves *waves = CPSI_POOL_TAKE(m->pool, 1, CpsWaves);
+    CpsWave *wave = CPSI_POOL_TAKE(m->pool, count, CpsWave);
+    if (!waves || !wave) return NULL;
+    for (int k = 0; k < count; k++)
+        wave[k] = (CpsWave){.amplitude = component[k].amplitude,
+                            .period = isnan(component[k].period) ? 1 / component[k].frequency
+                                                                 : component[k].period,
+                            .direction = component[k].direction * CPSI_DEGREE,
+                            .phase = component[k].phase * CPSI_DEGREE};
+    *waves =
+        (CpsWaves){.depth = values->depth, .wave_count = count, .wave = wave, .ramp = values->ramp};
+    return waves;
+}
+
+/* Waves without a current are those of water at rest. */
+CpsStatus cpsi_current_build(const CpsiMaterials *m, const CpsiList *rows,
+                             const CpsiWavesValues *waves, CpsScene *scene) {
     const CpsiCurrentValues *values = rows->item;
-    if (rows->count == 0) return CPS_OK;
+    if (rows->count == 0 && !waves->node) return CPS_OK;
+    const int count = rows->count > 0 ? rows->count : 1;
     CpsCurrent *current = CPSI_POOL_TAKE(m->pool, 1, CpsCurrent);
-    CpsCurrentRow *row = CPSI_POOL_TAKE(m->pool, rows->count, CpsCurrentRow);
+    CpsCurrentRow *row = CPSI_POOL_TAKE(m->pool, count, CpsCurrentRow);
     if (!current || !row) return cpsi_document_no_memory(m->d);
     for (int k = 0; k < rows->count; k++) row[k] = values[k].row;
-    *current = (CpsCurrent){.density = m->water, .row_count = rows->count, .row = row};
+    if (rows->count == 0) *row = (CpsCurrentRow){.z = 0};
+    *current = (CpsCurrent){.density = m->water, .row_count = count, .row = row};
+    if (waves->node) current->waves = waves_of(m, waves);
+    if (waves->node && !current->waves) return cpsi_document_no_memory(m->d);
     scene->current = current;
     return CPS_OK;
 }

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The waves of a file, and how the water moves in them. */
+#ifndef CAPSTAN_CHECKER_SEA_H
+#define CAPSTAN_CHECKER_SEA_H
+
+#include "record.h"
+
+typedef struct Wave {
+    Real amplitude, frequency, number, heading[2], phase;
+} Wave;
+
+typedef struct Sea {
+    size_t waves;                /* 0: the file has none, and the rest is not set */
+    Wave *wave;                  /* (waves) */
+    double surface, depth, ramp; /* INFINITY: deep */
+    double origin[3];
+} Sea;
+
+/* Returns 0, or -1 after one sentence on log. */
+int sea_read(const Source *source, Sea *out, FILE *log);
+void sea_free(Sea *sea);
+
+/* Add the velocity of the water at a time in the place x of the file's coordinates, and its
+ * acceleration. */
+void sea_motion(const Sea *sea, Real time, const Real *x, Real *velocity, Real *acceleration);
+
+#endif
