@@ -183,6 +183,7 @@ static void print_set(const CpsConstraint *on) {
         printf(", in a disc about (%g, %g, %g) m, radius %g m, normal (%g, %g, %g)", p[0], p[1],
                p[2], on->radius, a[0], a[1], a[2]);
         break;
+    case CPS_CONSTRAINT_KIND_SET: printf(", in a convex set"); break;
     case CPS_CONSTRAINT_KIND_BOX:
         printf(", in a box about (%g, %g, %g) m, %g x %g x %g m", p[0], p[1], p[2], s[0], s[1],
                s[2]);

@@ -26,6 +26,16 @@ typedef enum CpsBodyKind {
 /* Directions of a body: along x, y and z of the scene, and about them. */
 enum { CPS_BODY_DIRECTIONS = 6 };
 
+/* The first-order force of waves (waves.h) of one period and direction on a body that stays where
+ * it begins, in the axes of the scene: component j is amplitude_j times that of the wave, and is
+ * largest by lead_j of the phase before the crest is at the place of the reference point. */
+typedef struct CpsExcitation {
+    double period;                         /* [s] > 0 */
+    double direction;                      /* [rad] as of the wave */
+    double amplitude[CPS_BODY_DIRECTIONS]; /* [N/m, N] >= 0 of force and moment */
+    double lead[CPS_BODY_DIRECTIONS];      /* [rad] */
+} CpsExcitation;
+
 typedef struct CpsBody {
     uint32_t cookie;
     const char *name;
@@ -54,6 +64,12 @@ typedef struct CpsBody {
     double quadratic_damping[CPS_BODY_DIRECTIONS]; /* D_i >= 0, -D_i |u_i| u_i; [N s2/m2, N m s2] */
     double velocity[CPS_BODY_DIRECTIONS]; /* [m/s, rad/s] as the history begins, of a free body, in
                                              the axes of the scene */
+    /* In steps in time, of at most CPS_MAX_WAVES rows, those of one direction with periods that
+     * increase; default 0 and NULL: waves do nothing to it. Between two rows amplitude exp(i lead)
+     * is linear in the frequency; each of the scene's waves is at a row or between two of its
+     * direction. Memory of radiation, drift and the second order are not in it */
+    int excitation_count;
+    const CpsExcitation *excitation;
 } CpsBody;
 
 CPS_API CpsBody cps_body_default(void);
@@ -75,7 +91,7 @@ typedef struct CpsBodyReport {
     double position[3]; /* [m] in the coordinates of the scene */
     double rotation[4];
     double lines[CPS_BODY_DIRECTIONS];    /* of all lines at its points */
-    double load[CPS_BODY_DIRECTIONS];     /* weight, buoyancy, hydrostatics and the given load */
+    double load[CPS_BODY_DIRECTIONS];     /* weight, buoyancy, hydrostatics, waves, given load */
     double support[CPS_BODY_DIRECTIONS];  /* of what holds it, or its fixed directions */
     double inertia[CPS_BODY_DIRECTIONS];  /* of its mass and added mass, in a step in time */
     double damping[CPS_BODY_DIRECTIONS];  /* likewise */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/constraint.h: ends of lines held to convex sets (S90 remark 2.3: x in C2, a perfect
  * convex constraint). An end of the kind CPS_END_KIND_FREE may be held to a closed convex set of
- * places: a rail, a half-space, a ball, a disc or a box. It slides without friction where the
- * forces take it in the set; what the set does to it is a reaction r, opposite to the outward
- * normal cone at the place x: r.(y - x) >= 0 for all y in the set. Its support function is in the
- * certificate (docs/theory.md).
+ * places: a rail, a half-space, a ball, a disc, a box, or any bounded set of set.h. It slides
+ * without friction where the forces take it in the set; what the set does to it is a reaction r,
+ * opposite to the outward normal cone at the place x: r.(y - x) >= 0 for all y in the set. Its
+ * support function is in the certificate (docs/theory.md).
  *
  *     line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_KIND_FREE};              or a force on the end
  *     line.constraint[CPS_END_B] = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
@@ -17,6 +17,7 @@
 #include <stdbool.h>
 
 #include "capstan/base.h"
+#include "capstan/set.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -31,7 +32,9 @@ typedef enum CpsConstraintKind {
                                      */
     CPS_CONSTRAINT_KIND_BALL,       /* of `radius` about `point` */
     CPS_CONSTRAINT_KIND_DISC,       /* flat, of `radius` about `point`, across `axis` */
-    CPS_CONSTRAINT_KIND_BOX         /* of `size`, with its centre at `point` and sharp edges */
+    CPS_CONSTRAINT_KIND_BOX,        /* of `size`, with its centre at `point` and sharp edges */
+    /* { point + y : y in `set` }: any bounded set of R^3, in metres, without user's sets */
+    CPS_CONSTRAINT_KIND_SET
 } CpsConstraintKind;
 
 /* What the kind does not name is not read. */
@@ -41,6 +44,7 @@ typedef struct CpsConstraint {
     double axis[3];         /* [-] of any non-zero length */
     double length, radius;  /* [m] > 0 */
     double size[3];         /* [m] > 0, along the box's own axes */
+    const CpsSet *set;      /* retained by the evolution; the caller's otherwise */
     double rotation[4]; /* [-] quaternion (w, x, y, z) of the box's axes, of any non-zero length; 0
                            0 0 0: they are those of the scene */
 } CpsConstraint;

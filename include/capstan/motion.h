@@ -47,7 +47,12 @@ typedef enum CpsSwayOf { CPS_SWAY_OF_END, CPS_SWAY_OF_POINT, CPS_SWAY_OF_BODY } 
  *
  * t from the beginning of the stage, in a stage with a duration. It is 0 where the stage begins.
  * Oscillations of one thing add up. A held body gets the rotation of the last three components, a
- * rotation vector in the axes of the scene, after the rotation of its way. */
+ * rotation vector in the axes of the scene, after the rotation of its way.
+ *
+ * With rows it is a time series in their place: through its rows goes a cubic of each component in
+ * each interval, with the slope of the parabola through a row and its neighbours, so that values
+ * and velocities are continuous. What is held has 0 at the time 0, for a place does not jump. A
+ * move has none, for it is one step. */
 typedef struct CpsSway {
     CpsSwayOf of;
     int owner; /* index of the line, point or body in the scene */
@@ -55,11 +60,15 @@ typedef struct CpsSway {
     /* [m] of what is held, [N] of what is free, then of a body [rad] or [N m] about x, y and z, of
      * an end or point 0; default 0 */
     double sine[6], cosine[6];
-    double period; /* [s] > 0 */
+    double period; /* [s] > 0; not read with rows */
+    int row_count; /* default 0; or at least 2 */
+    /* (row_count, 7) time [s], which increases from at most 0 to at least the duration, and value
+     */
+    const double *row;
 } CpsSway;
 
 /* What an oscillation adds `time` [s] after its stage began, in the units of its amplitudes; 0 of
- * none, and of one without a period. */
+ * none, and of one without a period or rows. */
 CPS_API void cps_sway_at(const CpsSway *sway, double time, double out[6]);
 
 /* Energy of a step in time [J]. With the ledger of the line (step.h):

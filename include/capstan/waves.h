@@ -41,7 +41,8 @@ typedef struct CpsWave {
 } CpsWave;
 
 /* All is 0 in a struct that is initialised so. They need a scene with a water surface, gravity
- * (0, 0, -g) that does not change, g > 0, a line with drag, and a step in time. */
+ * (0, 0, -g) that does not change, g > 0, a line with drag or a body with excitation (body.h), and
+ * a step in time. */
 typedef struct CpsWaves {
     double depth;        /* [m] d > 0 of the water at rest; INFINITY: deep */
     int wave_count;      /* 1..CPS_MAX_WAVES; their motions add up */

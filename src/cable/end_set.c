@@ -7,6 +7,7 @@
 
 #include "cable/held.h"
 #include "cable/line.h"
+#include "cable/place_form.h"
 #include "chain/elements.h"
 #include "chain/frame.h"
 
@@ -21,6 +22,16 @@ static const CpsiEndSet *set_of(const CpsiLine *line, int j) {
     return NULL;
 }
 
+/* sup over y in the set of v.(y - x), v in its own axes. */
+static double gap_of(const CpsiEndSet *on, const double v[3], Vec3 x) {
+    return on->form ? cpsi_place_form_gap(on->form, vec3_load(v), x)
+                    : cpsi_place_set_gap(&on->set, v, x);
+}
+
+Vec3 cpsi_end_set_project(const CpsiEndSet *on, Vec3 x) {
+    return on->form ? cpsi_place_form_nearest(on->form, x) : cpsi_place_set_project(&on->set, x);
+}
+
 bool cpsi_line_is_in_set(const CpsiLine *line, int j) { return set_of(line, j); }
 
 Vec3 cpsi_line_set_reaction(const CpsiLine *line, int j) {
@@ -32,7 +43,7 @@ double cpsi_line_set_gap(const CpsiLine *line, int j) {
     const CpsiEndSet *on = set_of(line, j);
     if (!on) return 0;
     const double outwards[3] = {-on->reaction[0], -on->reaction[1], -on->reaction[2]};
-    return fabs(cpsi_place_set_gap(&on->set, outwards, vec3_at(line->position, j)));
+    return fabs(gap_of(on, outwards, vec3_at(line->position, j)));
 }
 
 void cpsi_line_clear_set_reactions(CpsiLine *line) {
@@ -99,10 +110,16 @@ static void fill_set(const CpsiPlaceSet *set, CpsiConstraint *out, Vec3 base, do
 void cpsi_line_fill_sets(const CpsiLine *line, CpsiChainProgram *program, const double *base,
                          const double *axes, bool common) {
     CpsiConstraints *out = &program->constraints;
-    out->count = 0;
+    out->count = out->conic_count = 0;
     for (int end = 0; end < 2; end++) {
         const int j = end == CPS_END_A ? 0 : line->n - 1;
         if (!line->on[end].is_there) continue;
+        if (line->on[end].form) {
+            cpsi_place_form_fill(line->on[end].form, j, vec3_at(base, j),
+                                 common ? axes : &axes[9 * j], line->length);
+            out->conic[out->conic_count++] = cpsi_place_form_constraint(line->on[end].form);
+            continue;
+        }
         CpsiConstraint *of = &out->item[out->count++];
         *of = (CpsiConstraint){.node = j};
         fill_set(&line->on[end].set, of, vec3_at(base, j), line->length,
@@ -124,12 +141,20 @@ static void read_reaction(const CpsiPlaceSet *set, const CpsiConstraint *of, dou
 
 void cpsi_line_unpack_sets(CpsiLine *line, const CpsiChainProgram *program, double force) {
     const CpsiConstraints *from = &program->constraints;
-    for (int end = 0, k = 0; end < 2 && k < from->count; end++) {
+    if (from->count + from->conic_count == 0) return;
+    for (int end = 0, k = 0; end < 2; end++) {
         CpsiEndSet *on = &line->on[end];
         if (!on->is_there) continue;
         double *x = &line->position[3 * (end == CPS_END_A ? 0 : line->n - 1)];
-        read_reaction(&on->set, &from->item[k++], force, on->reaction);
-        vec3_store(x, cpsi_place_set_project(&on->set, vec3_load(x)));
+        if (on->form) {
+            const double *of = cpsi_place_form_constraint(on->form)->force;
+            for (int a = 0; a < 3; a++) on->reaction[a] = force * of[a];
+        } else {
+            read_reaction(&on->set, &from->item[k++], force, on->reaction);
+        }
+        const Vec3 found = vec3_load(x);
+        vec3_store(x, on->form ? cpsi_place_form_place(on->form, found)
+                               : cpsi_place_set_project(&on->set, found));
     }
 }
 
@@ -137,12 +162,30 @@ void cpsi_line_unpack_sets(CpsiLine *line, const CpsiChainProgram *program, doub
 static const double ROUNDING = 1e-12;
 
 /* How far the sets' nearest places are apart along the unit vector v, by their support. */
-static double apart_along(const CpsiPlaceSet *set, Vec3 v, Vec3 x) {
+static double apart_along(const CpsiEndSet *on, Vec3 v, Vec3 x) {
+    const CpsiPlaceSet *set = &on->set;
     double own[3];
     cpsi_place_set_to(set, v, own);
     for (int a = set->round; a < 3; a++)
         if (fabs(own[a]) < ROUNDING && isinf(own[a] > 0 ? set->high[a] : set->low[a])) own[a] = 0;
-    return cpsi_place_set_gap(set, own, x);
+    return gap_of(on, own, x);
+}
+
+/* Alternating projections approach the nearest places of two convex sets. Who proves by them takes
+ * the sets' support functions along the vector between, which hold wherever they have come to. */
+enum { NEARINGS = 1000, FORM_NEARINGS = 50 };
+
+/* The nearest places of two sets, b in the second; of a place and a set where `first` is NULL. */
+static void find_nearest(const CpsiEndSet *first, const CpsiEndSet *second, Vec3 *a, Vec3 *b) {
+    *b = cpsi_end_set_project(second, *a);
+    if (!first) return;
+    const int most = first->form || second->form ? FORM_NEARINGS : NEARINGS;
+    for (int i = 0; i < most; i++) {
+        const Vec3 before = *a;
+        *a = cpsi_end_set_project(first, *b);
+        *b = cpsi_end_set_project(second, *a);
+        if (vec3_norm(vec3_sub(*a, before)) == 0) return;
+    }
 }
 
 static int last_held(const CpsiLine *line) {
@@ -163,7 +206,7 @@ bool cpsi_line_set_distance(const CpsiLine *line, double *distance, double *leng
         if (!to->is_there || (both && (end == CPS_END_A || !a->is_there || !b->is_there))) continue;
         const int last = end == CPS_END_A ? held : last_held(line);
         Vec3 x = both ? vec3_load(line->position) : cpsi_line_held_place(line, last), y;
-        cpsi_place_sets_nearest(both ? &a->set : NULL, &to->set, &x, &y);
+        find_nearest(both ? a : NULL, to, &x, &y);
         const double size = vec3_norm(vec3_sub(y, x)),
                      between =
                          both ? line->length
@@ -171,8 +214,8 @@ bool cpsi_line_set_distance(const CpsiLine *line, double *distance, double *leng
                                                          end == CPS_END_A ? last : line->n - 1);
         if (!(size > 0)) continue;
         const Vec3 v = vec3_scale(1 / size, vec3_sub(y, x));
-        double least = size - apart_along(&to->set, vec3_scale(-1, v), y);
-        if (both) least -= apart_along(&a->set, v, x);
+        double least = size - apart_along(to, vec3_scale(-1, v), y);
+        if (both) least -= apart_along(a, v, x);
         if (found && least - between <= *distance - *length) continue;
         *distance = least;
         *length = between;

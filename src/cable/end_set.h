@@ -8,10 +8,14 @@
 
 #include "base/vec3.h"
 
+struct CpsiEndSet;
 struct CpsiLine;
 struct CpsiChainProgram;
 
 bool cpsi_line_has_sets(const struct CpsiLine *line);
+
+/* The place of the set nearest to x; NAN where it is not found. */
+Vec3 cpsi_end_set_project(const struct CpsiEndSet *on, Vec3 x);
 
 /* Is node j an end that is held to a set? */
 bool cpsi_line_is_in_set(const struct CpsiLine *line, int j);

@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Friction sets (friction_set.h).
  *
- * The centre is the analytic one of the conic form, the minimum of -sum log det(A v + b) (log of
- * the number itself for a half-line), where A'z^-1 = 0: Newton's method, damped while its decrement
- * is large (Nesterov and Nemirovskii 1994), from the point with the largest margin, which a small
- * conic program finds.
- *
  * The support function is a formula where the expression has one, and for polygons however they are
  * written. The boundary of an intersection is put together of those of its parts
  * (boundary_intersection.h), and gives its support function. For the other sets, intersections with
@@ -21,6 +16,7 @@
 #include "base/arena.h"
 #include "base/status.h"
 #include "cable/boundary_intersection.h"
+#include "cable/conic_centre.h"
 #include "cable/friction_boundary.h"
 #include "conic/dense_program.h"
 #include "ipm/cones.h"
@@ -30,11 +26,8 @@
 
 /* Accuracy that a support value must have to be used, relative to data of order one. */
 static const double ACCEPT = 1e-9;
-/* A conic form whose largest margin is below this, its rows being of size one, counts as having no
- * interior. */
-static const double LEAST_MARGIN = 1e-9;
 /* Limit of the rows of the conic form: every touching node stores a matrix of them. */
-enum { MOST_ROWS = 128, MAX_CENTERING = 200 };
+enum { MOST_ROWS = 128 };
 /* Answers of small programs that are kept: about as many as a line has nodes in contact. */
 enum { KEPT = 1024 };
 /* The support function of a polygon and that of its corners differ by less, per reach: a few
@@ -93,119 +86,15 @@ static void layout(CpsiFrictionSet *set) {
         cpsi_conic_layout(&set->arena, form->unknowns, form->rows, form->cones, form->largest_cone);
 }
 
-/* Scratch memory of the search for the centre. */
-typedef struct Work {
-    CpsiConicProgram *program;
-    double *a, *b, *c; /* of the program for the margin */
-    int *dim;
-    double *z, *gradient, *step; /* (rows), (unknowns), (unknowns) */
-    double *hessian, *factor;    /* (unknowns, unknowns) */
-} Work;
-
-static void layout_work(CpsiArena *arena, Work *work, const CpsiConicForm *form) {
-    const size_t n = (size_t)form->unknowns, m = (size_t)form->rows;
-    work->program = cpsi_conic_layout(arena, form->unknowns + 1, form->rows + 1, form->cones + 1,
-                                      form->largest_cone);
-    CPSI_PLACE(arena, work->a, (m + 1) * (n + 1));
-    CPSI_PLACE(arena, work->b, m + 1);
-    CPSI_PLACE(arena, work->c, n + 1);
-    CPSI_PLACE(arena, work->dim, form->cones + 1);
-    CPSI_PLACE(arena, work->z, m);
-    CPSI_PLACE(arena, work->gradient, n);
-    CPSI_PLACE(arena, work->step, n);
-    CPSI_PLACE(arena, work->hessian, n * n);
-    CPSI_PLACE(arena, work->factor, n * n);
-}
-
-/* The largest t <= 1 with A v + b - t e in K, and v. */
-static double find_margin(const CpsiConicForm *form, const Work *work, double *v) {
-    const size_t n = (size_t)form->unknowns, m = (size_t)form->rows, width = n + 1;
-    for (size_t i = 0; i < m; i++)
-        memcpy(&work->a[i * width], &form->a[i * n], n * sizeof *work->a);
-    memcpy(work->b, form->b, m * sizeof *work->b);
-    memcpy(work->dim, form->dim, (size_t)form->cones * sizeof *work->dim);
-    CPSI_FOR_CONES(k, i, form->cones, form->dim) work->a[(size_t)i * width + n] = -1;
-    work->a[m * width + n] = -1;
-    work->b[m] = 1;
-    work->dim[form->cones] = 1;
-    work->c[n] = -1;
-    work->program->data =
-        (CpsiConicData){.dim = work->dim, .a = work->a, .b = work->b, .c = work->c};
-    const CpsiConicResult result = cpsi_conic_solve(work->program, ACCEPT);
-    if (result.outcome != CPSI_CONIC_SOLVED) return 0;
-    memcpy(v, result.x, n * sizeof *v);
-    return result.x[n];
-}
-
-/* z = A v + b, its gradient A'z^-1 and the Hessian A'(2 (Jz)(Jz)'/det^2 - J/det) A of the barrier.
- * False: z is not inside. */
-static bool differentiate(const CpsiConicForm *form, const Work *work, const double *v) {
-    const size_t n = (size_t)form->unknowns;
-    memset(work->gradient, 0, n * sizeof *work->gradient);
-    memset(work->hessian, 0, n * n * sizeof *work->hessian);
-    for (int i = 0; i < form->rows; i++)
-        work->z[i] = cpsi_dot(form->unknowns, &form->a[(size_t)i * n], v) + form->b[i];
-    CPSI_FOR_CONES(k, i, form->cones, form->dim) {
-        const int d = form->dim[k];
-        const double *z = &work->z[i], *a = &form->a[(size_t)i * n];
-        if (!(z[0] > (d == 1 ? 0 : cpsi_norm(d - 1, z + 1)))) return false;
-        const double det = d == 1 ? z[0] * z[0] : cpsi_soc_det(z, d);
-        for (size_t j = 0; j < n;
-             j++) { /* the column a'Jz, then products; a half-line's (1/z)^2 comes out the same */
-            double jz = z[0] * a[j];
-            for (size_t r = 1; r < (size_t)d; r++) jz -= z[r] * a[r * n + j];
-            work->step[j] = jz / det;
-            work->gradient[j] += jz / det;
-        }
-        for (size_t j = 0; j < n; j++)
-            for (size_t l = 0; l < n; l++) {
-                double inner = a[j] * a[l];
-                for (size_t r = 1; r < (size_t)d; r++) inner -= a[r * n + j] * a[r * n + l];
-                work->hessian[j * n + l] += 2 * work->step[j] * work->step[l] - inner / det;
-            }
-    }
-    return true;
-}
-
-/* From a point inside to the analytic centre; false where it is not reached. */
-static bool centre(const CpsiConicForm *form, const Work *work, double *v) {
-    const int n = form->unknowns;
-    for (int round = 0; round < MAX_CENTERING; round++) {
-        if (!differentiate(form, work, v) || !cpsi_cholesky(n, work->hessian, work->factor))
-            return false;
-        /* step = (L L')^-1 gradient, decrement = |L^-1 gradient| */
-        double *x = work->step;
-        for (int i = 0; i < n; i++)
-            x[i] = (work->gradient[i] - cpsi_dot(i, &work->factor[i * n], x)) /
-                   work->factor[i * n + i];
-        const double decrement = cpsi_norm(n, x);
-        for (int i = n - 1; i >= 0; i--) {
-            for (int j = i + 1; j < n; j++) x[i] -= work->factor[j * n + i] * x[j];
-            x[i] /= work->factor[i * n + i];
-        }
-        const double by = decrement > 0.25 ? 1 / (1 + decrement) : 1;
-        for (int i = 0; i < n; i++) v[i] += by * x[i];
-        if (decrement <= 1e-8)
-            return true; /* the last step squares the decrement, which is then rounding */
-    }
-    return false;
-}
-
 static CpsStatus find_centre(CpsiFrictionSet *set, const char *name, CpsError *err) {
-    CpsiArena arena = {0};
-    Work work;
-    layout_work(&arena, &work, set->form);
-    if (!cpsi_arena_allocate(&arena))
-        return cpsi_fail(err, CPS_ERR_MEMORY, "no memory for a friction set");
-    layout_work(&arena, &work, set->form);
-    const bool found = find_margin(set->form, &work, set->centre) > LEAST_MARGIN &&
-                       centre(set->form, &work, set->centre);
-    cpsi_arena_free(&arena);
-    return found ? CPS_OK
-                 : cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "obstacle '%s': friction set: its expression has no interior or no "
-                             "centre: write it with fewer operations",
-                             name);
+    bool found;
+    const CpsStatus status = cpsi_conic_centre(set->form, set->centre, &found, err);
+    return status || found
+               ? status
+               : cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "obstacle '%s': friction set: its expression has no interior "
+                           "or no centre: write it with fewer operations",
+                           name);
 }
 
 /* Replace a set of dimension 1 by the segment between its end points. */

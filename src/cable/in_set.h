@@ -7,10 +7,13 @@
 
 #include "geometry/place_set.h"
 
+struct CpsiPlaceForm;
+
 typedef struct CpsiEndSet {
     bool is_there;
-    CpsiPlaceSet set;
-    double reaction[3]; /* [N] on the end, in the axes of the set */
+    CpsiPlaceSet set;           /* of a set that is given by an expression the axes alone */
+    struct CpsiPlaceForm *form; /* of such a set (place_form.h); else NULL */
+    double reaction[3];         /* [N] on the end, in the axes of the set */
 } CpsiEndSet;
 
 #endif

@@ -28,6 +28,7 @@
 #include "cable/field.h"
 #include "cable/friction_law.h"
 #include "cable/winch.h"
+#include "chain/slack.h"
 #include "ipm/ipm.h"
 
 /* A force below this, per unit of force, counts as zero; other configurations then increase the gap
@@ -103,11 +104,9 @@ static void read_solution(const CpsiLine *line, CpsiLeastMotion *least,
         if (!(unilateral->z[k] < unilateral->s[k] && unilateral->z[k] < NO_FORCE))
             least->mark[unilateral->contact[k]] = ACTIVE;
     mark_friction(least, program);
-    for (int i = 1; i < line->n; i++) {
-        const double *s = program->segment.s[i], *z = program->segment.z[i];
+    for (int i = 1; i < line->n; i++)
         least->slack[i] =
-            z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]) && z[0] < NO_FORCE;
-    }
+            cpsi_segment_is_slack(&program->segment, i) && program->segment.z[i][0] < NO_FORCE;
 }
 
 /* clusters ------------------------------------------------------------------------------------- */

@@ -177,7 +177,10 @@ static bool goes_straight(const CpsiLine *line, const CpsiStepOptions *options) 
 static bool is_in_place(const CpsiLine *line, const CpsiStepOptions *options) {
     const bool consistent =
         line->has_local_axes && options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT;
-    if ((consistent || line->keeps_reference_axes) &&
+    /* an end is put into its set, which may be into an obstacle */
+    const bool moved =
+        cpsi_line_has_sets(line) && options->contact_policy == CPS_CONTACT_POLICY_REACHED;
+    if ((consistent || moved || line->keeps_reference_axes) &&
         !(cpsi_contact_depth(line) <= 0.1 * CPSI_TOUCH * line->length))
         return false;
     /* contact of the reference restricts nodes that touched, and nothing else (S90 (35)) */

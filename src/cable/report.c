@@ -11,6 +11,7 @@
 #include "cable/friction_law.h"
 #include "cable/winch.h"
 #include "chain/frame.h"
+#include "chain/slack.h"
 
 /* [J] by friction in the step. */
 static double dissipated(const CpsiLine *line) {
@@ -59,12 +60,9 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
             line->state[c] = CPS_NODE_STATE_SLIP;
     }
     report->dissipated = dissipated(line);
-    for (int i = 1; i < line->n; i++) {
-        const double *s = program->segment.s[i], *z = program->segment.z[i];
-        if (z[0] < s[0] - sqrt(s[1] * s[1] + s[2] * s[2] + s[3] * s[3]) &&
-            !cpsi_line_is_on_drum(line, i - 1))
+    for (int i = 1; i < line->n; i++)
+        if (cpsi_segment_is_slack(&program->segment, i) && !cpsi_line_is_on_drum(line, i - 1))
             report->slack += line->natural_length[i - 1];
-    }
 }
 
 Vec3 cpsi_line_end_slip(const CpsiLine *line, int end, int k) {

@@ -41,6 +41,18 @@ CpsiWave cpsi_wave(const CpsWave *given, double depth, double g, const double or
                                     2 * CPSI_PI)};
 }
 
+double cpsi_wave_phase(const CpsiWaves *waves, int wave, Vec3 x) {
+    const CpsiWave *of = &waves->wave[wave];
+    return of->number * (of->along[0] * x.x + of->along[1] * x.y) - of->frequency * waves->time +
+           of->phase;
+}
+
+double cpsi_waves_share(const CpsiWaves *waves) {
+    if (!(waves->time < waves->ramp)) return 1;
+    const double half = sin(0.5 * CPSI_PI * waves->time / waves->ramp);
+    return half * half;
+}
+
 /* cosh(k (z + d)) / sinh(k d) and sinh(k (z + d)) / sinh(k d), which no depth makes overflow. */
 static void decay(double k, double z, double d, double share[2]) {
     const double sink = exp(k * z), twice = -2 * k * d, above = -2 * k * (z + d);
@@ -49,11 +61,11 @@ static void decay(double k, double z, double d, double share[2]) {
 }
 
 /* Add a wave at the height z <= 0 above the surface at rest. */
-static void add_wave(const CpsiWave *wave, const CpsiWaves *waves, Vec3 x, double z,
-                     CpsiWaterMotion *out, double *elevation) {
+static void add_wave(const CpsiWaves *waves, int index, Vec3 x, double z, CpsiWaterMotion *out,
+                     double *elevation) {
+    const CpsiWave *wave = &waves->wave[index];
     const double w = wave->frequency, speed = wave->amplitude * w,
-                 way = wave->along[0] * x.x + wave->along[1] * x.y,
-                 p = wave->number * way - w * waves->time + wave->phase, c = cos(p), s = sin(p);
+                 p = cpsi_wave_phase(waves, index, x), c = cos(p), s = sin(p);
     double share[2];
     decay(wave->number, z, waves->depth, share);
     const double u = speed * share[0] * c, du = speed * w * share[0] * s;
@@ -68,9 +80,9 @@ CpsiWaterMotion cpsi_waves_at(const CpsiWaves *waves, Vec3 x, double *elevation)
     CpsiWaterMotion out = {.velocity = {0, 0, 0}, .acceleration = {0, 0, 0}};
     const double z = fmax(fmin(x.z - waves->surface, 0), -waves->depth), t = waves->time;
     double lift = 0;
-    for (int i = 0; i < waves->count; i++) add_wave(&waves->wave[i], waves, x, z, &out, &lift);
+    for (int i = 0; i < waves->count; i++) add_wave(waves, i, x, z, &out, &lift);
     if (t < waves->ramp) {
-        const double turn = CPSI_PI / waves->ramp, half = sin(0.5 * turn * t), share = half * half,
+        const double share = cpsi_waves_share(waves), turn = CPSI_PI / waves->ramp,
                      rate = 0.5 * turn * sin(turn * t);
         out.acceleration = vec3_axpy(rate, out.velocity, vec3_scale(share, out.acceleration));
         out.velocity = vec3_scale(share, out.velocity);

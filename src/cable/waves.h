@@ -26,6 +26,10 @@ typedef struct CpsiWaves {
 /* A wave, for places relative to an origin. */
 CpsiWave cpsi_wave(const CpsWave *given, double depth, double g, const double origin[3]);
 
+/* The phase of a wave at x, and the share of its motion that has grown. */
+double cpsi_wave_phase(const CpsiWaves *waves, int wave, Vec3 x);
+double cpsi_waves_share(const CpsiWaves *waves);
+
 /* Of the water; `elevation` of the surface may be NULL. */
 typedef struct CpsiWaterMotion {
     Vec3 velocity, acceleration;

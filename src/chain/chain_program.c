@@ -216,7 +216,7 @@ void cpsi_chain_program_resize(CpsiChainProgram *program, int n, bool own_axes) 
     program->n = program->matrix.n = n;
     program->base.size = 3 * n;
     program->field = NULL;
-    program->constraints.count = 0;
+    program->constraints.count = program->constraints.conic_count = 0;
     program->frame = own_axes ? program->node_frames.frame : NULL;
     program->disc.offset = own_axes ? program->node_frames.offset : NULL;
     program->disc.map = own_axes ? program->node_frames.map : NULL;

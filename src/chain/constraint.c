@@ -18,11 +18,9 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "chain/constraints.h"
 #include "chain/elements.h"
 #include "ipm/cone.h"
-
-/* e, in units of the program */
-static const double YIELD = 1e-9;
 
 /* The cones of a constraint: k with its first row i; an equation has dimension 0 and one row. */
 static inline int rows_of(int dim) { return dim > 0 ? dim : 1; }
@@ -93,34 +91,13 @@ static void measure(CpsiProgram *base, double alpha, CpsiSums *sums) {
     }
 }
 
-/* out = (H^-1 + more)^-1 x, or H^-1 x where `inverse` (more is not read); H^-1 = W^2/g. */
-static void apply(const CpsiConstraint *of, int k, int i, bool inverse, double more,
-                  const double *x, double *out) {
-    const int dim = of->dim[k];
-    if (dim == 0) {
-        out[0] = inverse ? 0 : x[0] / more;
-        return;
-    }
-    if (dim == 1) {
-        const double own = of->s[i] / of->z[i];
-        out[0] = inverse ? own * x[0] : x[0] / (own + more);
-        return;
-    }
-    const double *w = &of->w[i], g = of->g[k];
-    double size = 0, along = 0;
-    for (int r = 1; r < dim; r++) size += w[r] * w[r];
-    size = sqrt(size);
-    const double over = size > 0 ? 1 / size : 0;
-    for (int r = 1; r < dim; r++) along += over * w[r] * x[r];
-    const double wide = (w[0] + size) * (w[0] + size), value[3] = {wide / g, 1 / (wide * g), 1 / g};
-    double factor[3];
-    for (int e = 0; e < 3; e++) factor[e] = inverse ? value[e] : 1 / (value[e] + more);
-    const double up = factor[0] * 0.5 * (x[0] + along), down = factor[1] * 0.5 * (x[0] - along);
-    out[0] = up + down;
-    for (int r = 1; r < dim; r++) {
-        const double n = over * w[r];
-        out[r] = (up - down) * n + factor[2] * (x[r] - along * n);
-    }
+/* out = f(H^-1) x; of an equation H^-1 is 0. */
+static void apply(const CpsiConstraint *of, int k, int i, CpsiConePower power, const double *x,
+                  double *out) {
+    if (of->dim[k] == 0)
+        out[0] = cpsi_cone_power(0, power) * x[0];
+    else
+        cpsi_cone_power_apply(out, x, of->dim[k], &of->w[i], of->g[k], power);
 }
 
 static void scale(CpsiProgram *base) {
@@ -136,7 +113,7 @@ static void scale(CpsiProgram *base) {
             for (int a = 0; a < 3; a++) { /* M times column a of A, and A' times that */
                 double column[CPSI_CONE_ROWS], of_m[CPSI_CONE_ROWS];
                 for (int r = 0; r < rows; r++) column[r] = of->a[i + r][a];
-                apply(of, k, i, false, YIELD, column, of_m);
+                apply(of, k, i, CPSI_CONE_STIFFNESS, column, of_m);
                 for (int e = 0; e < 6; e++)
                     for (int r = 0; r < rows && COLUMN[e] == a; r++)
                         diagonal[e] += of->a[i + r][ROW[e]] * of_m[r];
@@ -163,10 +140,10 @@ static void set_aim(CpsiConstraint *of, int k, int i, const CpsiIpmAim *aim) {
 static void fixed_part(const CpsiConstraint *of, int k, int i, double keep, const double *u,
                        double *out) {
     double right[CPSI_CONE_ROWS];
-    apply(of, k, i, true, 0, &of->q[i], right);
+    apply(of, k, i, CPSI_CONE_COMPLIANCE, &of->q[i], right);
     for (int r = 0; r < rows_of(of->dim[k]); r++)
         right[r] -= keep * (value_of(of, i + r, u) - of->s[i + r]);
-    apply(of, k, i, false, YIELD, right, out);
+    apply(of, k, i, CPSI_CONE_STIFFNESS, right, out);
 }
 
 static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
@@ -193,14 +170,14 @@ static void direct(CpsiProgram *base, const CpsiIpmAim *aim, CpsiSums *sums) {
                 scratch[2 * CPSI_CONE_ROWS];
             fixed_part(of, k, i, aim->keep, base->u, fixed);
             for (int r = 0; r < rows_of(dim); r++) moved[r] = change_of(of, i + r, base->du);
-            apply(of, k, i, false, YIELD, moved, by);
+            apply(of, k, i, CPSI_CONE_STIFFNESS, moved, by);
             for (int r = 0; r < rows_of(dim); r++) {
                 of->dz[i + r] = fixed[r] - by[r];
                 of->ds[i + r] =
                     dim == 0
                         ? 0
                         : moved[r] + aim->keep * (value_of(of, i + r, base->u) - of->s[i + r]) +
-                              YIELD * of->dz[i + r];
+                              CPSI_YIELD * of->dz[i + r];
             }
             if (dim > 0)
                 sums->inverse_step =

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The elements of a program over a chain (chain_program.h): the arrays of each kind, the program
  * that holds them, and what one kind needs of another. Each kind is a file: segment.c, drag.c,
- * node_field.c, constraint.c, unilateral.c, friction_disc.c, friction_conic.c; chain_program.c puts
- * them together. */
+ * node_field.c, constraint.c, conic_constraint.c, unilateral.c, friction_disc.c, friction_conic.c;
+ * chain_program.c puts them together. */
 #ifndef CAPSTAN_SRC_CHAIN_ELEMENTS_H
 #define CAPSTAN_SRC_CHAIN_ELEMENTS_H
 
@@ -10,6 +10,7 @@
 
 #include "base/element_law.h"
 #include "chain/chain_system.h"
+#include "chain/constraints.h"
 #include "chain/friction_shape.h"
 #include "ipm/program.h"
 
@@ -140,22 +141,6 @@ typedef struct CpsiFrictionConic {
     size_t blocks, stride, index_stride;
 } CpsiFrictionConic;
 
-/* A node that is held to a convex set (constraint.c): rows A u + b in cones. */
-enum { CPSI_CONSTRAINT_ROWS = 6, CPSI_CONE_ROWS = 4 };
-typedef struct CpsiConstraint {
-    int node, cones;
-    int dim[CPSI_CONSTRAINT_ROWS]; /* (cones) 1 a half-line, > 1 second order, 0 an equation */
-    double a[CPSI_CONSTRAINT_ROWS][3], b[CPSI_CONSTRAINT_ROWS]; /* A in the axes of the node */
-    double s[CPSI_CONSTRAINT_ROWS], z[CPSI_CONSTRAINT_ROWS], q[CPSI_CONSTRAINT_ROWS];
-    double ds[CPSI_CONSTRAINT_ROWS], dz[CPSI_CONSTRAINT_ROWS];
-    double w[CPSI_CONSTRAINT_ROWS], g[CPSI_CONSTRAINT_ROWS];
-} CpsiConstraint;
-
-typedef struct CpsiConstraints {
-    int count;
-    CpsiConstraint item[2]; /* (count) */
-} CpsiConstraints;
-
 typedef struct CpsiChainProgram {
     CpsiProgram base;    /* u (n, or 2 n with points, 3) and so on: node after node */
     int n;               /* nodes */
@@ -279,7 +264,7 @@ extern const CpsiKind cpsi_segment_128, cpsi_segment_256, cpsi_segment_512;
 extern const CpsiKind cpsi_unilateral_128, cpsi_unilateral_256, cpsi_unilateral_512;
 extern const CpsiKind cpsi_friction_disc_128, cpsi_friction_disc_256, cpsi_friction_disc_512;
 extern const CpsiKind cpsi_friction_conic_128, cpsi_friction_conic_256, cpsi_friction_conic_512;
-extern const CpsiKind cpsi_drag, cpsi_node_field, cpsi_constraint;
+extern const CpsiKind cpsi_drag, cpsi_node_field, cpsi_constraint, cpsi_conic_constraint;
 
 /* In this order: friction discs and conics read what the same pass has computed for their
  * unilateral contact. */
@@ -288,6 +273,7 @@ enum {
     CPSI_KIND_DRAG,
     CPSI_KIND_FIELD,
     CPSI_KIND_CONSTRAINT,
+    CPSI_KIND_CONIC_CONSTRAINT,
     CPSI_KIND_UNILATERAL,
     CPSI_KIND_FRICTION_DISC,
     CPSI_KIND_FRICTION_CONIC,

@@ -7,6 +7,7 @@
     {                                                                                    \
         [CPSI_KIND_SEGMENT] = &cpsi_segment_##width, [CPSI_KIND_DRAG] = &cpsi_drag,      \
         [CPSI_KIND_FIELD] = &cpsi_node_field, [CPSI_KIND_CONSTRAINT] = &cpsi_constraint, \
+        [CPSI_KIND_CONIC_CONSTRAINT] = &cpsi_conic_constraint,                           \
         [CPSI_KIND_UNILATERAL] = &cpsi_unilateral_##width,                               \
         [CPSI_KIND_FRICTION_DISC] = &cpsi_friction_disc_##width,                         \
         [CPSI_KIND_FRICTION_CONIC] = &cpsi_friction_conic_##width                        \

@@ -34,7 +34,7 @@ typedef enum CpsiConicOutcome {
 typedef struct CpsiConicResult {
     CpsiConicOutcome outcome;
     int iterations;
-    double gap;      /* s.z of the solution */
+    double gap;      /* s.z of the solution; of a sparse program in units of 1 + |c.x| */
     double residual; /* largest |A x + b - s|, |E x + h| and |A'z + E'y - c| */
     const double *x, *y, *s, *z;
 } CpsiConicResult;

@@ -29,15 +29,19 @@
  * need a small one. The factor's growth goes with its inverse square, so that on large programs the
  * first can lose all digits; the second loses half of them, which refinement restores. */
 static const double EASE[] = {1e-10, 3e-8};
-/* A step that leaves more than it is to remove is not one. Those between are kept, since along weak
- * constraints Newton's next steps remove what refinement has left. */
-static const double ROUGH = 1;
+/* A step that leaves more than it is to remove is not one. One that leaves less than this share is
+ * good; those between are taken where the other number does no better, since along weak constraints
+ * Newton's next steps remove what refinement has left. */
+static const double ROUGH = 1, GOOD = 0.1;
 enum { STEPS = 4, ROUNDS = 6 };
 /* Residuals of this many roundings of the largest unknown are as good as any. */
 static const double ROUNDING = 1e-15;
 /* Steps that stay inside their cones and come to this many of them have converged: rounding of the
  * products keeps the residual above the limit before on large programs. */
 static const double CONVERGED = 1e-14;
+/* Or the residual's own rounding is larger, as where |s1| of a ray is small: a good step does not
+ * halve it although it is at most so many times the largest unknown. */
+static const double ROUNDED = 1e-13;
 /* Limit for the entries of the factor, as for the program itself. */
 static const size_t MOST_ENTRIES = (size_t)500 << 20;
 
@@ -48,18 +52,21 @@ typedef struct Polish {
     CpsiActive *other;
     bool left_some;        /* whether the steps have left a cone */
     bool hasty;            /* then there are no more of them */
+    bool rounded;          /* whether they have come to the rounding of the residual */
     double enough, best;   /* the residual that is good enough, and the smallest accepted so far */
+    double unit;           /* 1 + the largest unknown */
+    double unsolved;       /* share of the right-hand side that the last system's solution leaves */
     int multipliers, size; /* number of multipliers m; number of all unknowns (x, -y, -m) */
     size_t *start;         /* pattern of the matrix */
     int *index;
     size_t entries;
     double *value;
     double ease;  /* what is added to the diagonals of `value` */
-    size_t tried; /* the first of EASE that has not failed */
+    size_t tried; /* the one of EASE that did best; those before it are not tried again */
     signed char *sign;
     CpsiLdl *ldl;
-    double *at, *step, *left, *fix; /* (size) */
-    double *s, *z;                  /* (rows) at `at` */
+    double *at, *step, *other_step, *left, *fix; /* (size) */
+    double *s, *z;                               /* (rows) at `at` */
 } Polish;
 
 /* A loop over cones with their blocks. */
@@ -122,10 +129,11 @@ static bool begin(Polish *p) {
     p->index = malloc((p->entries + 1) * sizeof *p->index);
     p->value = malloc((p->entries + 1) * sizeof *p->value);
     p->sign = malloc(size + 1);
-    p->at = calloc(4 * size + 2 * rows + 1, sizeof *p->at);
+    p->at = calloc(5 * size + 2 * rows + 1, sizeof *p->at);
     if (!p->start || !p->index || !p->value || !p->sign || !p->at) return false;
     p->step = p->at + size;
-    p->left = p->step + size;
+    p->other_step = p->step + size;
+    p->left = p->other_step + size;
     p->fix = p->left + size;
     p->s = p->fix + size;
     p->z = p->s + rows;
@@ -293,8 +301,9 @@ static double refine(Polish *p) {
 /* step = matrix^-1 left; false where no regularisation gives one, or when memory does not
  * suffice. */
 static bool solve(Polish *p) {
-    for (; p->tried < sizeof EASE / sizeof *EASE; p->tried++) {
-        p->ease = EASE[p->tried];
+    p->unsolved = INFINITY;
+    for (size_t k = p->tried; k < sizeof EASE / sizeof *EASE && !(p->unsolved <= GOOD); k++) {
+        p->ease = EASE[k];
         if (!write_matrix(p)) return false;
         if (!p->ldl) {
             const CpsiPattern pattern = {.n = p->size, .start = p->start, .index = p->index};
@@ -302,10 +311,16 @@ static bool solve(Polish *p) {
             p->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &entries);
         }
         if (!p->ldl) return false;
-        if (cpsi_ldl_factor(p->ldl, p->value, p->sign, 1e-3 * p->ease) && refine(p) <= ROUGH)
-            return true;
+        if (!cpsi_ldl_factor(p->ldl, p->value, p->sign, 1e-3 * p->ease)) continue;
+        memcpy(p->other_step, p->step, (size_t)p->size * sizeof *p->step);
+        const double unsolved = refine(p);
+        if (unsolved < p->unsolved) {
+            p->unsolved = unsolved;
+            p->tried = k;
+        } else
+            memcpy(p->step, p->other_step, (size_t)p->size * sizeof *p->step);
     }
-    return false;
+    return p->unsolved <= ROUGH;
 }
 
 /* Newton's steps with the present activities. A point is accepted if it is admissible and its
@@ -314,7 +329,7 @@ static bool solve(Polish *p) {
 static bool polish_steps(Polish *p) {
     CpsiSparseProgram *program = p->program;
     const CpsiSparseData *d = &program->data;
-    double so_far = INFINITY;
+    double so_far = INFINITY, before = INFINITY;
     if (!begin(p)) return false;
     for (int k = 0; k <= STEPS; k++) {
         const bool in = place(p);
@@ -327,6 +342,9 @@ static bool polish_steps(Polish *p) {
             memcpy(program->core.cones.z, p->z, (size_t)program->core.cones.rows * sizeof *p->z);
         }
         if (in && now <= p->enough) so_far = fmin(so_far, now);
+        p->rounded |=
+            in && before <= ROUNDED * p->unit && p->unsolved <= GOOD && now > 0.5 * before;
+        before = in ? now : INFINITY;
         if (p->hasty && !in) break;
         if (k == STEPS || !isfinite(now) || (k > 1 && now > so_far) || !solve(p)) break;
         for (int i = 0; i < p->size; i++) p->at[i] += i < d->unknowns ? p->step[i] : -p->step[i];
@@ -351,25 +369,24 @@ static void doubt(Polish *p) {
     p->left_some = true;
 }
 
-double cpsi_sparse_polish(CpsiSparseProgram *program, double residual, int trials) {
+CpsiPolished cpsi_sparse_polish(CpsiSparseProgram *program, double merit, int trials) {
     const CpsiCones *cones = &program->core.cones;
-    Polish p = {.program = program, .hasty = trials == 1, .best = INFINITY};
-    double largest = 0;
+    Polish p = {.program = program, .hasty = trials == 1, .best = INFINITY, .unit = 1};
     for (int j = 0; j < program->data.unknowns; j++)
-        largest = fmax(largest, fabs(program->core.base.u[j]));
-    p.enough = fmax(residual, ROUNDING * (1 + largest));
+        p.unit = fmax(p.unit, 1 + fabs(program->core.base.u[j]));
+    p.enough = fmax(merit, ROUNDING * p.unit);
     p.active = cones->count > 0 ? malloc(2 * (size_t)cones->count * sizeof *p.active) : NULL;
-    if (!p.active) return INFINITY;
+    if (!p.active) return (CpsiPolished){.residual = INFINITY};
     p.other = p.active + cones->count;
     CPSI_FOR_CONES(k, i, cones->count, cones->dim)
         p.active[k] = cpsi_active(&cones->s[i], &cones->z[i], cones->dim[k]);
     for (int trial = 0; trial < trials; trial++) {
-        const bool done = polish_steps(&p), converged = p.best <= ROUNDING * (1 + largest);
-        if (done && !p.left_some && !(p.best <= CONVERGED * (1 + largest))) doubt(&p);
+        const bool done = polish_steps(&p), converged = p.best <= ROUNDING * p.unit;
+        if (done && !p.left_some && !p.rounded && !(p.best <= CONVERGED * p.unit)) doubt(&p);
         release(&p);
         if (!done || converged || !p.left_some) break;
         memcpy(p.active, p.other, (size_t)cones->count * sizeof *p.active);
     }
     free(p.active);
-    return p.best;
+    return (CpsiPolished){.residual = p.best, .rounded = p.rounded};
 }

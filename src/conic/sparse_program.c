@@ -34,7 +34,8 @@ typedef struct Regular {
 static const Regular REGULAR[] = {{3e-8, 1e-9}, {3e-8, 1e-7}, {1e-10, 1e-9}, {1e-10, 1e-12}};
 /* The next regularisation is tried while gap plus residual of the run's best iterate and of the
  * polished answer are both above this, in units of 1 + the largest unknown, to whose rounding a
- * successful run comes. */
+ * successful run comes. The residual of an answer whose polish came to its rounding does not count.
+ */
 static const double SOUND = 1e-14;
 /* Limit for the entries of the factor: 6 GB. */
 static const size_t MOST_ENTRIES = (size_t)500 << 20;
@@ -212,12 +213,18 @@ static void regularise(CpsiSparseProgram *program, const Regular *with) {
     }
 }
 
-/* Replace a solution by the polished one, where there is one. */
-static void polish(CpsiSparseProgram *program, CpsiConicResult *result, int trials) {
-    if (result->outcome != CPSI_CONIC_SOLVED) return;
-    const double residual = cpsi_sparse_polish(program, result->residual, trials);
-    result->residual = fmin(result->residual, residual);
-    result->gap = fabs(cpsi_dot(program->core.cones.rows, result->s, result->z));
+/* Replace a solution by the polished one, where there is one. Returns whether its residual is
+ * rounding. */
+static bool polish(CpsiSparseProgram *program, CpsiConicResult *result, int trials) {
+    if (result->outcome != CPSI_CONIC_SOLVED) return false;
+    const CpsiPolished polished =
+        cpsi_sparse_polish(program, result->gap + result->residual, trials);
+    if (!isfinite(polished.residual)) return false;
+    const CpsiHomogeneous *core = &program->core;
+    result->residual = polished.residual;
+    result->gap = fabs(cpsi_dot(core->cones.rows, result->s, result->z)) /
+                  (1 + fabs(cpsi_dot(core->unknowns, core->c, result->x)));
+    return polished.rounded;
 }
 
 /* Residual and gap to whose rounding a successful run comes. */
@@ -225,6 +232,11 @@ static double sound_residual(const CpsiConicResult *result, int unknowns) {
     double largest = 0;
     for (int j = 0; j < unknowns; j++) largest = fmax(largest, fabs(result->x[j]));
     return SOUND * (1 + largest);
+}
+
+/* Whether the solution, polished or not, is as good as rounding allows. */
+static bool is_sound(const CpsiConicResult *result, double enough, bool rounded) {
+    return result->gap + (rounded ? 0 : result->residual) <= enough;
 }
 
 static bool is_within(const CpsiConicResult *result, double limit) {
@@ -246,9 +258,8 @@ static bool solve_early(CpsiSparseProgram *program, CpsiConicResult *result) {
     if (run(program, EARLY, false) != CPSI_IPM_SOLVED) return false; /* it has ended before */
     *result = cpsi_homogeneous_result(core);
     const double enough = sound_residual(result, core->unknowns);
-    polish(program, result, 1);
-    if (result->outcome == CPSI_CONIC_SOLVED && result->gap + result->residual <= enough)
-        return true;
+    const bool rounded = polish(program, result, 1);
+    if (result->outcome == CPSI_CONIC_SOLVED && is_sound(result, enough, rounded)) return true;
     cpsi_homogeneous_return(core);
     run(program, TARGET, true);
     return false;
@@ -268,10 +279,10 @@ CpsiConicResult cpsi_sparse_program_solve(CpsiSparseProgram *program, double acc
         if (k > 0) run(program, TARGET, false);
         result = cpsi_homogeneous_result(core);
         const double enough = sound_residual(&result, core->unknowns);
-        sound = result.gap + result.residual <= enough;
+        sound = is_sound(&result, enough, false);
         accepted = is_within(&result, accept);
-        polish(program, &result, TRIALS);
-        sound |= result.gap + result.residual <= enough;
+        const bool rounded = polish(program, &result, TRIALS);
+        sound |= is_sound(&result, enough, rounded);
         accepted = accepted || is_within(&result, accept);
     }
     if (!accepted) result.outcome = CPSI_CONIC_FAILED;

@@ -84,12 +84,19 @@ void cpsi_sparse_blocks_add(const CpsiSparseProgram *program, bool scaled, doubl
 /* sparse_system.c */
 extern const CpsiConicOperator cpsi_sparse_operator;
 
+/* What the polish has found: the residual of what replaces the solution, infinity where nothing
+ * does, and whether it has come to the rounding of that residual, so that nothing better is to be
+ * had. */
+typedef struct CpsiPolished {
+    double residual;
+    bool rounded;
+} CpsiPolished;
+
 /* Improve a solution in base.u and cones of the core (sparse_polish.c). It is replaced where
- * Newton's method on the active constraints ends with residuals no worse than `residual` or
- * rounding; otherwise, and when memory does not suffice, it remains unchanged. `trials`: how
- * often the active constraints may be chosen; 1: as the iterate shows them, and a step that
- * contradicts that is the last. Returns the residual of what replaces it, infinity where nothing
- * does. */
-double cpsi_sparse_polish(CpsiSparseProgram *program, double residual, int trials);
+ * Newton's method on the active constraints ends with residuals no worse than `merit`, gap plus
+ * residual of the solution, or rounding; otherwise, and when memory does not suffice, it remains
+ * unchanged. `trials`: how often the active constraints may be chosen; 1: as the iterate shows
+ * them, and a step that contradicts that is the last. */
+CpsiPolished cpsi_sparse_polish(CpsiSparseProgram *program, double merit, int trials);
 
 #endif

@@ -137,7 +137,7 @@ static double take_step(CpsiBalance *balance, int shortenings, double longer) {
                 cpsi_place_after(balance, &balance->from[k], &balance->step[3 * k], share);
         for (int k = 0; k < balance->body_count; k++)
             balance->rigid[k].pose =
-                cpsi_pose_after(&balance->rigid_from[k].pose,
+                cpsi_pose_after(balance, k, &balance->rigid_from[k].pose,
                                 &balance->step[3 * balance->count + 6 * k], share);
         cpsi_try_places(balance);
         if (is_over(balance)) return 1;

@@ -112,7 +112,7 @@ static void report_body(CpsiBalance *balance, int k) {
     for (int i = 0; i < 6; i++)
         if (body->given.fixed[i]) report->support[i] = -rest[i];
     cpsi_body_block(balance, k, report->stiffness);
-    report->is_stable = cpsi_is_definite(report->stiffness, body->given.fixed, body->arm);
+    report->is_stable = cpsi_is_stable(report->stiffness, body->given.fixed, body->arm);
     report->has_place =
         cpsi_is_balanced(balance, fmax(vec3_norm(rigid->left.force),
                                        vec3_norm(rigid->left.moment) / body->arm)) &&

@@ -309,7 +309,8 @@ void cpsi_body_add_stiffness_of(CpsiWrenchAt *force, const CpsiBody *body, const
 
 CpsiWrench cpsi_body_load(const CpsiBody *body, const CpsiPose *pose, const double gravity[3]) {
     const Vec3 g = vec3_load(gravity);
-    CpsiWrench out = body->load;
+    CpsiWrench out = {vec3_add(body->load.force, body->waves.force),
+                      vec3_add(body->load.moment, body->waves.moment)};
     add_force(&out, vec3_scale(body->mass, g),
               rotation_apply(pose->turn, vec3_load(body->given.centre_of_gravity)));
     add_force(&out, vec3_scale(-body->lift, g),

@@ -27,11 +27,14 @@ typedef struct CpsiBody {
     CpsiPose from;    /* when the stage under way began */
     CpsiWrench load;  /* given, while it is free */
     CpsiWrench load_from;
-    CpsBody given;        /* with the name above */
-    double mass, lift;    /* [kg] weight and buoyancy per gravity */
-    double length;        /* [m] of the longest line at its points */
-    double arm;           /* [m] of its farthest point */
-    CpsBodyReport report; /* its position relative to the origin */
+    CpsiWrench waves;         /* of the waves in the step (excitation.h) */
+    int wave_count;           /* of those that act on it */
+    const double *excitation; /* (wave_count, 12) */
+    CpsBody given;            /* with the name above */
+    double mass, lift;        /* [kg] weight and buoyancy per gravity */
+    double length;            /* [m] of the longest line at its points */
+    double arm;               /* [m] of its farthest point */
+    CpsBodyReport report;     /* its position relative to the origin */
     CpsiBodyInertia inertia;
 } CpsiBody;
 

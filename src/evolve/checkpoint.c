@@ -7,17 +7,21 @@
  * only valid for the same program on the same kind of machine. Structs are copied field by field:
  * the bytes contain no padding and no address, and are the same in every run. */
 #include "evolve/checkpoint.h"
+#include "evolve/hash.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
 #include "cable/damping.h"
+#include "cable/place_form.h"
 #include "cable/soft.h"
 #include "cable/two_stiffnesses.h"
 #include "cable/winch.h"
 #include "evolve/failure.h"
+#include "evolve/hash.h"
 #include "evolve/state_check.h"
+#include "evolve/sways.h"
 
 /* The header of a state. */
 typedef struct Head {
@@ -413,26 +417,10 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     return tape->at;
 }
 
-/* FNV-1a, 64 bits. */
-static const uint64_t HASH_START = 14695981039346656037u;
-
-static void hash_bytes(uint64_t *hash, const void *data, size_t size) {
-    const unsigned char *byte = data;
-    for (size_t i = 0; i < size; i++) *hash = (*hash ^ byte[i]) * 1099511628211u;
-}
-
-static void hash_numbers(uint64_t *hash, size_t count, const double *number) {
-    hash_bytes(hash, number, count * sizeof *number);
-}
-
 static void hash_waves(uint64_t *hash, const CpsiWaves *waves) {
     hash_numbers(hash, 3, (const double[3]){waves->surface, waves->depth, waves->ramp});
-    for (int k = 0; k < waves->count; k++) {
-        const CpsiWave *wave = &waves->wave[k];
-        const double given[] = {wave->amplitude, wave->frequency, wave->number,
-                                wave->along[0],  wave->along[1],  wave->phase};
-        hash_numbers(hash, sizeof given / sizeof *given, given);
-    }
+    for (int k = 0; k < waves->count; k++)
+        hash_bytes(hash, &waves->wave[k], sizeof waves->wave[k]); /* numbers only */
 }
 
 static void hash_flow(uint64_t *hash, const CpsiFlow *flow) {
@@ -454,8 +442,17 @@ static void hash_elasticity(uint64_t *hash, const CpsiLine *line, const CpsiElas
     hash_numbers(hash, (size_t)own->spring_count, own->spring_stiffness);
 }
 
+static void hash_form(uint64_t *hash, const CpsiConicSet *form, size_t space) {
+    hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
+    hash_numbers(hash, (size_t)form->rows * (size_t)form->unknowns, form->a);
+    hash_numbers(hash, (size_t)form->rows, form->b);
+    hash_numbers(hash, space * (size_t)form->unknowns, form->p);
+    hash_numbers(hash, space, form->origin);
+}
+
 static void hash_set(uint64_t *hash, const CpsiEndSet *on) {
     if (!on->is_there) return;
+    if (on->form) hash_form(hash, cpsi_place_form_conic(on->form), 3);
     const double centre[3] = {on->set.centre.x, on->set.centre.y, on->set.centre.z},
                  radius = on->set.round + on->set.radius;
     hash_numbers(hash, 3, centre);
@@ -540,6 +537,7 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
         hash_numbers(hash, 6, sway->sine);
         hash_numbers(hash, 6, sway->cosine);
         hash_numbers(hash, 1, &sway->period);
+        hash_numbers(hash, cpsi_sways_numbers(1, sway), sway->row);
     }
     for (int i = 0; i < stage->point_change_count; i++) {
         const CpsPointChange *change = &stage->point_change[i];
@@ -624,13 +622,7 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
     if (obstacle->stiffness > 0) hash_numbers(hash, 1, &obstacle->stiffness);
     hash_ground(hash, obstacle);
     hash_mesh(hash, obstacle->mesh);
-    if (!set) return;
-    const CpsiConicSet *form = cpsi_friction_set_conic(set);
-    hash_bytes(hash, form->dim, (size_t)form->cones * sizeof *form->dim);
-    hash_numbers(hash, (size_t)form->rows * (size_t)form->unknowns, form->a);
-    hash_numbers(hash, (size_t)form->rows, form->b);
-    hash_numbers(hash, 2 * (size_t)form->unknowns, form->p);
-    hash_numbers(hash, 2, form->origin);
+    if (set) hash_form(hash, cpsi_friction_set_conic(set), 2);
 }
 
 static void hash_anchor(uint64_t *hash, const CpsPoint *given) {
@@ -682,6 +674,7 @@ static void hash_body(uint64_t *hash, const CpsiBody *body) {
     hash_numbers(hash, 36, given->damping);
     hash_numbers(hash, 6, given->quadratic_damping);
     hash_numbers(hash, 6, given->velocity);
+    hash_numbers(hash, 12 * (size_t)body->wave_count, body->excitation);
 }
 
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {

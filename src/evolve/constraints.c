@@ -7,6 +7,7 @@
 
 #include "base/status.h"
 #include "cable/end_set.h"
+#include "cable/place_form.h"
 #include "evolve/places.h"
 #include "evolve/ranges.h"
 #include "evolve/sections.h"
@@ -23,6 +24,16 @@ static CpsStatus refuse(const CpsLine *line, int end, const char *key, const cha
                         line->name, cpsi_end_letter(end), what);
 }
 
+/* The form of a set that is given by an expression; the caller frees it. */
+static CpsStatus make_form(const CpsLine *line, int end, CpsiPlaceForm **out, CpsError *err) {
+    CpsError found;
+    const CpsStatus status = cpsi_place_form_make(&line->constraint[end], out, &found);
+    if (status == CPS_OK) return status;
+    if (status == CPS_ERR_MEMORY)
+        return cpsi_fail(err, status, "no memory for the set of an end of line '%s'", line->name);
+    return refuse(line, end, "set", found.message, err);
+}
+
 static CpsStatus check_numbers(const CpsLine *line, int end, CpsError *err) {
     const CpsConstraint *on = &line->constraint[end];
     const double size = vec3_norm(vec3_load(on->axis));
@@ -31,7 +42,7 @@ static CpsStatus check_numbers(const CpsLine *line, int end, CpsError *err) {
                           on->kind == CPS_CONSTRAINT_KIND_DISC,
                is_round =
                    on->kind == CPS_CONSTRAINT_KIND_BALL || on->kind == CPS_CONSTRAINT_KIND_DISC;
-    if (on->kind < CPS_CONSTRAINT_KIND_NONE || on->kind > CPS_CONSTRAINT_KIND_BOX)
+    if (on->kind < CPS_CONSTRAINT_KIND_NONE || on->kind > CPS_CONSTRAINT_KIND_SET)
         return refuse(line, end, "", "is of an unknown kind", err);
     if (!cpsi_are_usable(on->point))
         return refuse(line, end, "", "has a point that is not finite", err);
@@ -75,11 +86,16 @@ static CpsStatus check_one(const CpsLine *line, int end, CpsError *err) {
                       "does not go together with break_at: give the line a "
                       "breaking_load, which is only reported",
                       err);
-    if (line->start.kind == CPS_START_STATIC) return CPS_OK;
-    const CpsiPlaceSet set = cpsi_place_set(&line->constraint[end]);
-    double start[3];
-    cpsi_start_end(line, end, start);
-    const Vec3 x = vec3_load(start), near = cpsi_place_set_project(&set, x);
+    CpsiEndSet on = {.is_there = true, .set = cpsi_place_set(&line->constraint[end])};
+    if (line->constraint[end].kind == CPS_CONSTRAINT_KIND_SET) {
+        status = make_form(line, end, &on.form, err);
+        if (status != CPS_OK) return status;
+    }
+    const bool placed = line->start.kind == CPS_START_STATIC;
+    double start[3] = {0};
+    if (!placed) cpsi_start_end(line, end, start);
+    const Vec3 x = vec3_load(start), near = placed ? x : cpsi_end_set_project(&on, x);
+    cpsi_place_form_free(on.form);
     const double off = vec3_norm(vec3_sub(near, x));
     if (off <= cpsi_place_tolerance(line, x)) return CPS_OK;
     char what[200];
@@ -137,6 +153,23 @@ CpsStatus cpsi_constraints_check_stage(const CpsScene *scene, const CpsStage *st
     return CPS_OK;
 }
 
+CpsStatus cpsi_constraints_make(CpsEvolution *evolution, const CpsScene *scene, CpsError *err) {
+    for (int i = 0; i < scene->line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const CpsConstraint *on = &scene->line[i].constraint[end];
+            if (on->kind != CPS_CONSTRAINT_KIND_SET) continue;
+            const CpsStatus status =
+                make_form(&scene->line[i], end, &evolution->line[i].on[end].form, err);
+            if (status != CPS_OK) return status;
+        }
+    return CPS_OK;
+}
+
+void cpsi_constraints_free(CpsEvolution *evolution) {
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++) cpsi_place_form_free(evolution->line[i].on[end].form);
+}
+
 void cpsi_constraints_fill(CpsiLine *line, const CpsLine *given) {
     for (int end = 0; end < 2; end++) {
         line->on[end] =
@@ -155,7 +188,7 @@ CpsConstraintReport cps_evolution_constraint_report(const CpsEvolution *evolutio
     const int j = end == CPS_END_A ? 0 : of->n - 1;
     if (!of->on[end].is_there) return out;
     const Vec3 r = cpsi_line_set_reaction(of, j), x = vec3_at(of->position, j);
-    const Vec3 moved = cpsi_place_set_project(&of->on[end].set, x);
+    const Vec3 moved = cpsi_end_set_project(&of->on[end], x);
     out.is_there = true;
     vec3_store(out.reaction, r);
     out.gap = cpsi_line_set_gap(of, j);

@@ -14,7 +14,12 @@ CpsStatus cpsi_constraints_check_points(const CpsScene *scene, CpsError *err);
 CpsStatus cpsi_constraints_check_stage(const CpsScene *scene, const CpsStage *stage,
                                        const char *what, CpsError *err);
 
-/* Fill the sets of a line. */
+/* Prepare the sets that are given by expressions, of a scene whose places are relative to its
+ * origin; and free them. */
+CpsStatus cpsi_constraints_make(CpsEvolution *evolution, const CpsScene *scene, CpsError *err);
+void cpsi_constraints_free(CpsEvolution *evolution);
+
+/* Fill the sets of a line, but for what belongs to expressions. */
 void cpsi_constraints_fill(CpsiLine *line, const CpsLine *given);
 
 #endif

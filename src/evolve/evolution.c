@@ -340,6 +340,10 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
     if (status == CPS_OK && move->sway_count > cpsi_sways_of_move(things))
         status = cpsi_fail(err, CPS_ERR_LIMIT, "%s: found %d oscillations, at most %d in a move",
                            what, move->sway_count, cpsi_sways_of_move(things));
+    if (status == CPS_OK && cpsi_sways_numbers(move->sway_count, move->sway) > 0)
+        status =
+            cpsi_fail(err, CPS_ERR_ARGUMENT,
+                      "%s: a move is one step, and has no time series: impose its place", what);
     if (status == CPS_OK && move->duration > 0) status = check_time(evolution, move, what, err);
     if (status == CPS_OK && evolution->wave) status = cpsi_waves_check_stage(move, what, err);
     if (status == CPS_OK) status = prepare_move(evolution, err);

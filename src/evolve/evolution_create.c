@@ -13,6 +13,7 @@
 #include "evolve/body_motion.h"
 #include "evolve/checkpoint.h"
 #include "evolve/constraints.h"
+#include "evolve/excitation.h"
 #include "evolve/failure.h"
 #include "evolve/friction_zone.h"
 #include "evolve/loads.h"
@@ -62,6 +63,15 @@ static int workspace_count(const CpsScene *scene) {
     return threads < scene->line_count ? threads : scene->line_count;
 }
 
+/* Current and waves. */
+static void layout_water(CpsEvolution *evolution, CpsiArena *arena, const CpsScene *scene) {
+    if (scene->current) {
+        CPSI_PLACE(arena, evolution->current_row, scene->current->row_count);
+        CPSI_PLACE(arena, evolution->flow, scene->line_count);
+    }
+    if (cpsi_waves_of(scene)) CPSI_PLACE(arena, evolution->wave, cpsi_waves_of(scene)->wave_count);
+}
+
 /* What stages are checked against. */
 static void layout_given(CpsEvolution *evolution, CpsiArena *arena, const CpsScene *scene,
                          bool real) {
@@ -92,11 +102,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     CPSI_PLACE(arena, evolution->move, scene->line_count);
     CPSI_PLACE(arena, evolution->from, 2 * scene->line_count);
     CPSI_PLACE(arena, evolution->release, 2 * scene->line_count);
-    if (scene->current) {
-        CPSI_PLACE(arena, evolution->current_row, scene->current->row_count);
-        CPSI_PLACE(arena, evolution->flow, scene->line_count);
-    }
-    if (cpsi_waves_of(scene)) CPSI_PLACE(arena, evolution->wave, cpsi_waves_of(scene)->wave_count);
+    layout_water(evolution, arena, scene);
     layout_given(evolution, arena, scene, real);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
                               .contacts = scene->obstacle_count > 1 ? 2 : 1,
@@ -147,6 +153,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
                           scene->stage[i].point_change_count, scene->stage[i].body_change_count,
                           scene->stage[i].turn_count, scene->stage[i].grasp_change_count,
                           scene->stage[i].shift_count, scene->stage[i].sway_count,
+                          cpsi_sways_numbers(scene->stage[i].sway_count, scene->stage[i].sway),
                           scene->stage[i].pay_out_count);
     }
     cpsi_stage_layout(&evolution->live, arena, 2 * scene->line_count, scene->point_count,
@@ -154,13 +161,14 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
                       CPSI_GRASP_CHANGES * scene->line_count, scene->obstacle_count,
                       cpsi_sways_of_move(2 * scene->line_count + scene->point_count +
                                          scene->body_count),
-                      2 * scene->line_count);
+                      0, 2 * scene->line_count);
     cpsi_points_layout(&evolution->points, arena, scene);
     for (int i = 0; i < scene->point_count; i++) {
         const char *name = copy_name(arena, scene->point[i].name);
         if (real) evolution->points.point[i].name = name;
     }
     cpsi_bodies_layout(&evolution->bodies, arena, scene);
+    cpsi_excitation_layout(evolution, arena, scene);
     CPSI_PLACE(arena, evolution->given_body, scene->body_count);
     for (int i = 0; i < scene->body_count; i++) {
         const char *name = copy_name(arena, scene->body[i].name);
@@ -320,6 +328,8 @@ static void fill_given(CpsEvolution *evolution, const CpsScene *scene) {
                                             : NULL,
                       .winch = {scene->line[i].winch[0], scene->line[i].winch[1]},
                       .constraint = {scene->line[i].constraint[0], scene->line[i].constraint[1]}};
+    for (int i = 0; i < scene->line_count; i++)
+        for (int end = 0; end < 2; end++) evolution->given_line[i].constraint[end].set = NULL;
 }
 
 /* The points, and the memory to find those that are free: with friction that has directions none
@@ -328,6 +338,7 @@ static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, con
                              CpsError *err) {
     cpsi_points_fill(&evolution->points, scene, local);
     cpsi_bodies_fill(&evolution->bodies, scene, local);
+    cpsi_excitation_fill(evolution, local);
     for (int i = 0; i < scene->body_count; i++)
         evolution->given_body[i] = evolution->bodies.body[i].given;
     cpsi_body_motion_start(evolution);
@@ -398,7 +409,8 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
             if (status == CPS_OK) {
                 fill_given(evolution, scene);
                 fill(evolution, &local.scene);
-                status = fill_points(evolution, scene, &local.scene, err);
+                status = cpsi_constraints_make(evolution, &local.scene, err);
+                if (status == CPS_OK) status = fill_points(evolution, scene, &local.scene, err);
                 evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
             }
         }
@@ -418,6 +430,7 @@ void cps_evolution_destroy(CpsEvolution *evolution) {
     cpsi_workers_destroy(evolution->workers);
     for (int i = 0; i < evolution->workspace_count; i++)
         cpsi_friction_sets_free(&evolution->workspace[i].friction_sets);
+    cpsi_constraints_free(evolution);
     free(evolution->before);
     cpsi_balance_free(evolution->points.balance);
     for (int k = 0; k < evolution->obstacle_count; k++) {

@@ -263,7 +263,7 @@ static bool guess_round(CpsiBalance *balance, const CpsiStepOptions *options, in
         turned->bodies = fmax(turned->bodies, vec3_norm(vec3_load(&move[3])));
         cpsi_limit(&move[3], FARTHEST_TURN);
         keep_fixed(&evolution->bodies.body[balance->rigid[k].body], move);
-        balance->rigid[k].pose = cpsi_pose_after(&balance->rigid[k].pose, move, 1);
+        balance->rigid[k].pose = cpsi_pose_after(balance, k, &balance->rigid[k].pose, move, 1);
     }
     return true;
 }

@@ -79,7 +79,7 @@ static bool is_as_good(CpsiBalance *balance, double share, double left) {
         if (vec3_norm(off) <= BACK * far) at->place = vec3_sub(at->place, off);
     }
     for (int k = 0; k < balance->body_count; k++)
-        balance->rigid[k].pose = cpsi_pose_after(&balance->rigid_from[k].pose,
+        balance->rigid[k].pose = cpsi_pose_after(balance, k, &balance->rigid_from[k].pose,
                                                  &balance->step[3 * balance->count + 6 * k], share);
     cpsi_try_places(balance);
     return cpsi_is_answer(balance) && cpsi_left_now(balance) <= left + AS_WELL * balance->force;

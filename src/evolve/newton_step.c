@@ -334,17 +334,30 @@ double cpsi_work_along(const CpsiBalance *balance) {
     return work;
 }
 
-/* Is the symmetric part of a stiffness positive definite in the directions that are not fixed? */
-bool cpsi_is_definite(const double stiffness[36], const bool fixed[6], double arm) {
-    double m[36], l[36];
+/* The symmetric part of a stiffness in the directions that are not fixed, rotations times the arm,
+ * less a share of its largest entry: is it positive definite? */
+static bool is_definite_by(const double stiffness[36], const bool fixed[6], double arm,
+                           double share) {
+    double m[36], l[36], most = 0;
     for (int i = 0; i < 6; i++)
         for (int k = 0; k < 6; k++) {
             const double unit = (i < 3 ? 1 : arm) * (k < 3 ? 1 : arm);
             m[6 * i + k] = fixed[i] || fixed[k]
-                               ? i == k
+                               ? 0
                                : 0.5 * (stiffness[6 * i + k] + stiffness[6 * k + i]) / unit;
+            most = fmax(most, fabs(m[6 * i + k]));
         }
+    for (int i = 0; i < 6; i++) m[7 * i] = fixed[i] ? 1 : m[7 * i] - share * most;
     return cpsi_cholesky(6, m, l);
+}
+
+bool cpsi_is_definite(const double stiffness[36], const bool fixed[6], double arm) {
+    return is_definite_by(stiffness, fixed, arm, 0);
+}
+
+bool cpsi_is_stable(const double stiffness[36], const bool fixed[6], double arm) {
+    static const double NEUTRAL = 3e-10; /* what places found to 1e-10 leave of a stiffness of 0 */
+    return is_definite_by(stiffness, fixed, arm, NEUTRAL);
 }
 
 /* The block of body k in the matrix. */
@@ -559,9 +572,23 @@ Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const do
     return x;
 }
 
-/* The pose of a body after a share of the step. */
-CpsiPose cpsi_pose_after(const CpsiPose *from, const double step[6], double share) {
-    return (
-        CpsiPose){vec3_axpy(share, vec3_load(step), from->place),
-                  rotation_after(rotation_of(vec3_scale(share, vec3_load(&step[3]))), from->turn)};
+/* The rotation from one to another without its components, as one vector, in fixed directions: with
+ * one axis fixed, rotations about the two others would add up to one about it. */
+static Rotation without_fixed(const bool fixed[6], Rotation from, Rotation to) {
+    if (fixed[3] + fixed[4] + fixed[5] != 1) return to;
+    double turn[3];
+    vec3_store(turn, rotation_vector(rotation_after(to, rotation_inverse(from))));
+    for (int i = 0; i < 3; i++)
+        if (fixed[3 + i]) turn[i] = 0;
+    return rotation_after(rotation_of(vec3_load(turn)), from);
+}
+
+/* The pose of body k after a share of the step. */
+CpsiPose cpsi_pose_after(const CpsiBalance *balance, int k, const CpsiPose *from,
+                         const double step[6], double share) {
+    const CpsiBody *body = &balance->evolution->bodies.body[balance->rigid[k].body];
+    const Rotation turn =
+        rotation_after(rotation_of(vec3_scale(share, vec3_load(&step[3]))), from->turn);
+    return (CpsiPose){vec3_axpy(share, vec3_load(step), from->place),
+                      without_fixed(body->given.fixed, body->pose.turn, turn)};
 }

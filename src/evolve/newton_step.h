@@ -15,6 +15,8 @@ void cpsi_fill_matrix(CpsiBalance *balance);
 void cpsi_body_block(const CpsiBalance *balance, int k, double out[36]);
 /* Is the symmetric part of a stiffness positive definite in the directions that are not fixed? */
 bool cpsi_is_definite(const double stiffness[36], const bool fixed[6], double arm);
+/* Is it by more than rounding? A body that may drift or turn freely is not stable. */
+bool cpsi_is_stable(const double stiffness[36], const bool fixed[6], double arm);
 
 /* The step of all points and bodies, in balance->step. Where a body in its pose is not stable it
  * might lead up the energy; then the body is held back. False where there is none. */
@@ -31,10 +33,11 @@ void cpsi_limit(double step[3], double most);
 double cpsi_work_along(const CpsiBalance *balance);
 
 /* The place of a point after a share of the step: out of every obstacle, and on that on which it is
- * to lie; exactly where it was where it is to stick. The pose of a body after a share of the
- * step. */
+ * to lie; exactly where it was where it is to stick. The pose of body k after a share of the step:
+ * its rotation since the step began, as one vector, has no component about a fixed axis. */
 Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const double step[3],
                       double share);
-CpsiPose cpsi_pose_after(const CpsiPose *from, const double step[6], double share);
+CpsiPose cpsi_pose_after(const CpsiBalance *balance, int k, const CpsiPose *from,
+                         const double step[6], double share);
 
 #endif

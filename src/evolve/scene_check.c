@@ -12,6 +12,7 @@
 #include "capstan/scene.h"
 #include "evolve/bodies.h"
 #include "evolve/constraints.h"
+#include "evolve/excitation.h"
 #include "evolve/loads.h"
 #include "evolve/names.h"
 #include "evolve/node_start.h"
@@ -604,6 +605,7 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
     if (status == CPS_OK) status = check_history(scene, err);
     if (status == CPS_OK) status = cpsi_time_check(scene, err);
     if (status == CPS_OK) status = cpsi_waves_check(scene, err);
+    if (status == CPS_OK) status = cpsi_excitation_check(scene, err);
     if (status == CPS_OK) status = cpsi_path_check(&held.scene, err);
     if (status == CPS_OK) status = cpsi_path_check_points(scene, err);
     free(held.block);

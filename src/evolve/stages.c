@@ -8,6 +8,7 @@
 
 #include "base/math.h"
 #include "cable/two_stiffnesses.h"
+#include "evolve/excitation.h"
 #include "evolve/failure.h"
 #include "evolve/grasps.h"
 #include "evolve/path_check.h"
@@ -21,7 +22,9 @@
 static const double SAME_STEP = 1e-12;
 
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
-                       int bodies, int turns, int grasps, int shifts, int sways, int pay_outs) {
+                       int bodies, int turns, int grasps, int shifts, int sways, size_t rows,
+                       int pay_outs) {
+    CPSI_PLACE(arena, stage->series, rows);
     CPSI_PLACE(arena, stage->pay_out, pay_outs);
     CPSI_PLACE(arena, stage->shift, shifts);
     CPSI_PLACE(arena, stage->sway, sways);
@@ -71,7 +74,7 @@ void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const doub
     stage->turn_count = from->turn_count;
     for (int k = 0; k < from->turn_count; k++) stage->turn[k] = from->turn[k];
     stage->sway_count = from->sway_count;
-    for (int k = 0; k < from->sway_count; k++) stage->sway[k] = from->sway[k];
+    cpsi_sways_copy(from->sway_count, from->sway, stage->sway, stage->series);
     stage->pay_out_count = from->pay_out_count;
     for (int k = 0; k < from->pay_out_count; k++) stage->pay_out[k] = from->pay_out[k];
     stage->static_stiffness = from->static_stiffness;
@@ -308,6 +311,7 @@ static void plan_time(CpsEvolution *evolution, const CpsiEvolutionStage *stage, 
     const bool other = fabs(evolution->interval - before) > SAME_STEP * before;
     evolution->restarts = part == 0 && (moves || evolution->ground_moved || other);
     evolution->ground_moved = moves;
+    cpsi_excite_bodies(evolution);
 }
 
 void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
@@ -354,6 +358,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
 /* Nothing changes. */
 static void plan_rest(CpsEvolution *evolution) {
     evolution->interval = 0;
+    cpsi_excite_bodies(evolution);
     evolution->ground_moved = false;
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int i = 0; i < evolution->line_count; i++) {

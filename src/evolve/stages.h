@@ -12,7 +12,8 @@
 /* Memory for a stage of so many changes of ends, points and bodies, turns, grasps, shifts,
  * oscillations, and lengths paid out. */
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
-                       int bodies, int turns, int grasps, int shifts, int sways, int pay_outs);
+                       int bodies, int turns, int grasps, int shifts, int sways, size_t rows,
+                       int pay_outs);
 
 /* Fill it with what a checked stage changes, positions relative to `origin`; not its name. */
 void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const double origin[3]);

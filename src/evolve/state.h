@@ -24,6 +24,7 @@ typedef struct CpsiEvolutionStage {
     CpsTurn *turn;
     CpsShift *shift;
     CpsSway *sway;
+    double *series; /* the rows of all sways */
     CpsPayOut *pay_out;
     bool static_stiffness;
     bool gravity_changes;
@@ -58,6 +59,7 @@ struct CpsEvolution {
     CpsiFlow *flow;
     CpsiWave *wave; /* (waves of the scene), and what is known of them; NULL: none */
     CpsiWaves waves;
+    double *excitation; /* of all bodies (excitation.h) */
     CpsiPoints points;
     CpsiBodies bodies;
     CpsiEvolutionStage *stage; /* (stage_count) */

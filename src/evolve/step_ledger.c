@@ -74,8 +74,10 @@ static double work_on_body(const CpsEvolution *evolution, const CpsiBody *body) 
                 vec3_dot(g, vec3_sub(cpsi_pose_place(to, centre[k]),
                                      cpsi_pose_place(&from, centre[k])));
     const double *support = body->report.support;
-    work += vec3_dot(vec3_add(body->load.force, vec3_load(support)), way);
-    return work + vec3_dot(vec3_add(body->load.moment, vec3_load(&support[3])), turn);
+    const Vec3 force = vec3_add(body->load.force, body->waves.force),
+               moment = vec3_add(body->load.moment, body->waves.moment);
+    work += vec3_dot(vec3_add(force, vec3_load(support)), way);
+    return work + vec3_dot(vec3_add(moment, vec3_load(&support[3])), turn);
 }
 
 /* Friction of the points, and the work of the obstacles under them. */

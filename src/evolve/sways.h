@@ -9,6 +9,11 @@
 CpsStatus cpsi_sways_check(const CpsScene *scene, const CpsStage *stage, const char *what,
                            CpsError *err);
 
+/* The numbers in the rows of oscillations that are time series; and copy them, their rows to
+ * `rows`, which has so many. */
+size_t cpsi_sways_numbers(int count, const CpsSway *sway);
+void cpsi_sways_copy(int count, const CpsSway *from, CpsSway *to, double *rows);
+
 /* The number of oscillations of one move that `things` ends, points and bodies can have. */
 int cpsi_sways_of_move(int things);
 

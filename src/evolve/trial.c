@@ -334,8 +334,9 @@ static void find_rest(CpsiBalance *balance, CpsiRigid *rigid) {
     for (int i = 0; i < 6; i++)
         if (body->given.fixed[i]) left[i] = 0;
     rigid->left = (CpsiWrench){vec3_load(left), vec3_load(&left[3])};
-    count_force(balance, vec3_norm(body->load.force));
-    count_force(balance, vec3_norm(body->load.moment) / body->arm);
+    count_force(balance, vec3_norm(body->load.force) + vec3_norm(body->waves.force));
+    count_force(balance,
+                (vec3_norm(body->load.moment) + vec3_norm(body->waves.moment)) / body->arm);
     balance->acting = cpsi_max_nan(balance->acting, vec3_norm(load.force));
     balance->acting = cpsi_max_nan(balance->acting, vec3_norm(load.moment) / body->arm);
 }

@@ -39,7 +39,7 @@ static CpsStatus check_wave(const CpsScene *scene, int index, CpsError *err) {
 
 /* What waves need of the scene. */
 static CpsStatus check_scene(const CpsScene *scene, CpsError *err) {
-    bool drag = false;
+    bool any = false;
     if (!scene->has_water_surface)
         return CPSI_FAIL_AT("waves", err, CPS_ERR_ARGUMENT,
                             "waves: they are those of a surface, which the water has not: give "
@@ -51,12 +51,12 @@ static CpsStatus check_scene(const CpsScene *scene, CpsError *err) {
         return CPSI_FAIL_AT("waves", err, CPS_ERR_ARGUMENT,
                             "waves: they move the water in time, but no stage of the history has "
                             "a duration: give one");
-    for (int i = 0; i < scene->line_count; i++)
-        drag = drag || cpsi_has_drag(scene, &scene->line[i]);
-    if (!drag)
+    for (int i = 0; i < scene->line_count; i++) any = any || cpsi_has_drag(scene, &scene->line[i]);
+    for (int i = 0; i < scene->body_count; i++) any = any || scene->body[i].excitation_count > 0;
+    if (!any)
         return CPSI_FAIL_AT("waves", err, CPS_ERR_ARGUMENT,
-                            "waves: they act on lines with drag, and none has any: give a line "
-                            "its drag, or leave the waves out");
+                            "waves: they act on lines with drag and on bodies with excitation, "
+                            "and there is none: give one, or leave the waves out");
     return CPS_OK;
 }
 

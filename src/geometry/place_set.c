@@ -61,6 +61,7 @@ CpsiPlaceSet cpsi_place_set(const CpsConstraint *given) {
         }
         break;
     case CPS_CONSTRAINT_KIND_NONE:
+    case CPS_CONSTRAINT_KIND_SET:
     case CPS_CONSTRAINT_KIND_BALL:
         axes_about(vec3(0, 0, 1), false, set.axes);
         set.round = 3;
@@ -129,20 +130,4 @@ Vec3 cpsi_place_set_recedes(const CpsiPlaceSet *set, Vec3 v) {
             (own[a] < 0 && isfinite(set->low[a])))
             own[a] = 0;
     return cpsi_place_set_from(set, own);
-}
-
-/* Alternating projections approach the nearest places of two convex sets. Who proves by them takes
- * the sets' support functions along the vector between, which hold wherever they have come to. */
-enum { PROJECTIONS = 1000 };
-
-void cpsi_place_sets_nearest(const CpsiPlaceSet *first, const CpsiPlaceSet *second, Vec3 *a,
-                             Vec3 *b) {
-    *b = cpsi_place_set_project(second, *a);
-    if (!first) return;
-    for (int i = 0; i < PROJECTIONS; i++) {
-        const Vec3 before = *a;
-        *a = cpsi_place_set_project(first, *b);
-        *b = cpsi_place_set_project(second, *a);
-        if (vec3_norm(vec3_sub(*a, before)) == 0) return;
-    }
 }

@@ -19,7 +19,8 @@ typedef struct CpsiPlaceSet {
     double radius;          /* [m] */
 } CpsiPlaceSet;
 
-/* Of a constraint that has been checked and is one. */
+/* Of a constraint that has been checked and is one; of a set of set.h a ball without a radius, in
+ * the axes of the scene. */
 CpsiPlaceSet cpsi_place_set(const CpsConstraint *given);
 
 /* The place of the set nearest to x. */
@@ -35,9 +36,5 @@ void cpsi_place_set_to(const CpsiPlaceSet *set, Vec3 v, double own[3]);
 
 /* The part of v along which the set has no end: the nearest v in its recession cone. */
 Vec3 cpsi_place_set_recedes(const CpsiPlaceSet *set, Vec3 v);
-
-/* The nearest places of two sets, b in the second; of a place and a set where `first` is one. */
-void cpsi_place_sets_nearest(const CpsiPlaceSet *first, const CpsiPlaceSet *second, Vec3 *a,
-                             Vec3 *b);
 
 #endif

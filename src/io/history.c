@@ -291,11 +291,30 @@ static int box_outline(const CpsConstraint *on, int piece, Vec3 out[CPSI_OUTLINE
     return count;
 }
 
+/* The places of a set that are farthest along the directions of one of the planes of the axes: what
+ * is seen of it along the third axis lies within this curve. */
+static int silhouette(const CpsConstraint *on, int piece, Vec3 out[CPSI_OUTLINE_POINTS]) {
+    CpsSetAnswer answer;
+    if (piece > 2) return 0;
+    for (int i = 0; i < CPSI_OUTLINE_POINTS; ++i) {
+        const double angle = 2 * CPSI_PI * i / (CPSI_OUTLINE_POINTS - 1);
+        double along[3] = {0}, x[3] = {0};
+        along[piece] = cos(angle);
+        along[(piece + 1) % 3] = sin(angle);
+        if (cps_set_support(on->set, along, x, &answer, NULL) != CPS_OK ||
+            answer.outcome != CPS_SET_OUTCOME_ANSWERED)
+            return 0;
+        out[i] = vec3_add(vec3_load(on->point), vec3_load(x));
+    }
+    return CPSI_OUTLINE_POINTS;
+}
+
 int cpsi_set_outline(const CpsConstraint *on, Vec3 about, double reach, int piece,
                      Vec3 out[CPSI_OUTLINE_POINTS]) {
     static const double X[5] = {-1, 1, 1, -1, -1}, Y[5] = {-1, -1, 1, 1, -1};
     const Vec3 point = vec3_load(on->point), from = vec3_sub(about, point);
     if (on->kind == CPS_CONSTRAINT_KIND_BOX) return box_outline(on, piece, out);
+    if (on->kind == CPS_CONSTRAINT_KIND_SET) return silhouette(on, piece, out);
     if (on->kind == CPS_CONSTRAINT_KIND_NONE ||
         piece > (on->kind == CPS_CONSTRAINT_KIND_BALL ? 2 : 0))
         return 0;

@@ -10,6 +10,7 @@
  * all four. */
 #include "linalg/sparse_ldl.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -32,6 +33,12 @@ struct CpsiLdl {
     int *count, *path, *mark; /* (n) */
     bool *joined; /* (n) the column before has its nonzeros in the same rows and in this one */
 };
+
+/* A pivot is a difference of terms, each of them rounded, as often is what they are made of: it is
+ * known to about this share of their sum. Taken from below that, it would be a number without
+ * digits, and the entries of its column, which are rounding as well, would grow by their ratio to
+ * it. */
+static const double PIVOT_ROUNDING = 4 * DBL_EPSILON;
 
 /* Columns of a supernode that are used at once, and the nonzeros from which on that pays. */
 enum { MOST_TOGETHER = 4, LONG = 12 };
@@ -216,7 +223,7 @@ bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign
     }
     for (int k = 0; k < ldl->n; k++) {
         int top;
-        double pivot = scatter_row(ldl, k, &top);
+        double pivot = scatter_row(ldl, k, &top), terms = fabs(pivot);
         while (top < ldl->n) {
             const int i = ldl->path[top];
             int width = 1;
@@ -231,6 +238,7 @@ bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign
                 const size_t end = ldl->start[i + a] + (size_t)ldl->count[i + a]++;
                 ldl->y[i + a] = 0;
                 pivot -= l * y[a];
+                terms += fabs(l * y[a]);
                 ldl->index[end] = k;
                 ldl->factor[end] = l;
             }
@@ -238,7 +246,8 @@ bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign
         }
         const double s = sign[ldl->order[k]];
         if (!isfinite(pivot)) return false;
-        ldl->pivot[k] = pivot * s >= least ? pivot : s * least;
+        const double smallest = fmax(least, PIVOT_ROUNDING * terms);
+        ldl->pivot[k] = pivot * s >= smallest ? pivot : s * smallest;
     }
     return true;
 }

@@ -33,8 +33,9 @@ CpsiLdl *cpsi_ldl_new(const CpsiPattern *pattern, size_t most, size_t *entries);
 void cpsi_ldl_free(CpsiLdl *ldl);
 
 /* Factorise the matrix of the pattern with these values. Unknown j's pivot should have the sign of
- * sign[j]; a pivot below `least` in that direction is replaced by sign[j] least. Returns false
- * where a pivot is not finite. */
+ * sign[j]; a pivot that in that direction is below `least`, or below the rounding of the terms of
+ * which it is the sum, is replaced by the larger of both with that sign. Returns false where a
+ * pivot is not finite. */
 bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign, double least);
 /* x = A^-1 x with the last factor. */
 void cpsi_ldl_solve(const CpsiLdl *ldl, double *x);

@@ -101,6 +101,108 @@ static void a_pendulum(void **unused) {
     }
 }
 
+/* What nothing holds in some direction is not stable, whatever its rounding says: a float with a
+ * line that hangs from it, slack, which may drift; and a pendulum without an axis that is fixed. */
+static void neutral_poses(void **unused) {
+    (void)unused;
+    for (int k = 0; k < 40; k++) {
+        const double heading = 0.37 + 2.1 * k;
+        Mooring m;
+        begin(&m, 1);
+        m.line[0].length = 9;
+        m.line[0].weight = 1.3;
+        m.line[0].element_count = 6;
+        m.line[0].stiffness = k % 4 == 1 ? INFINITY : k % 4 == 2 ? 7e7 : 700;
+        m.point[1].position[0] = 0.3 * cos(heading);
+        m.point[1].position[1] = 0.3 * sin(heading);
+        m.body.weight = 80;
+        if (k % 2) {
+            m.point[0].position[0] = 5 * cos(heading);
+            m.point[0].position[1] = 5 * sin(heading);
+            m.point[0].position[2] = -5.8;
+            m.body.buoyancy = 120;
+            const double stiff[] = {0, 0, 130, 30, 40, 9};
+            for (int i = 0; i < 6; i++) m.body.hydrostatics[7 * i] = stiff[i];
+            m.bed.normal[2] = 1;
+            m.bed.point[2] = -6;
+            m.scene.obstacle = &m.bed;
+            m.scene.obstacle_count = 1;
+        } else {
+            m.point[1].position[2] = 0.4;
+            m.body.position[2] = -9.6;
+            m.body.centre_of_gravity[2] = -0.2;
+        }
+        CpsEvolution *evolution = evolve(&m.scene);
+        const CpsBodyReport found = step(evolution);
+        assert_true(found.has_place);
+        if (found.is_stable) fail_msg("pose %d is said to be stable", k);
+        cps_evolution_destroy(evolution);
+    }
+}
+
+/* The vector of the one turn by which a rotation follows another. */
+static void turn_between(const double from[4], const double to[4], double turn[3]) {
+    const double q[4] = {
+        to[0] * from[0] + to[1] * from[1] + to[2] * from[2] + to[3] * from[3],
+        to[1] * from[0] - to[0] * from[1] - to[2] * from[3] + to[3] * from[2],
+        to[2] * from[0] - to[0] * from[2] - to[3] * from[1] + to[1] * from[3],
+        to[3] * from[0] - to[0] * from[3] - to[1] * from[2] + to[2] * from[1],
+    };
+    const double size = sqrt(q[1] * q[1] + q[2] * q[2] + q[3] * q[3]),
+                 angle = 2 * atan2(size, fabs(q[0]));
+    for (int i = 0; i < 3; i++)
+        turn[i] = size > 0 ? (q[0] < 0 ? -1 : 1) * angle * q[1 + i] / size : 0;
+}
+
+/* With one axis fixed a body turns about the two others, by large angles too: what it turns by in a
+ * step has nothing about the fixed one, however the pose was found, and the moments about the two
+ * others balance. Rotations that follow each other about them would add up to one about the third:
+ * up to 30 degrees here. */
+static void one_axis_is_fixed(void **unused) {
+    static const double MOMENT[][3] = {{10, 5, 8}, {30, 20, -10}, {60, -40, 20}, {100, 70, 50}};
+    (void)unused;
+    for (int k = 0; k < 12; k++) {
+        const int axis = k % 3;
+        Mooring m;
+        begin(&m, 1);
+        m.point[0].position[0] = 3;
+        m.point[0].position[2] = -8;
+        m.point[1].position[0] = 0.3;
+        m.point[1].position[1] = 0.1;
+        m.point[1].position[2] = -0.4;
+        m.line[0].length = 9;
+        m.line[0].weight = 1.3;
+        m.line[0].element_count = 6;
+        m.line[0].stiffness = 500;
+        m.body.weight = 80;
+        const double stiff[] = {0, 0, 100, 60, 30, 45}, centre[] = {0.1, 0.05, -0.5};
+        for (int i = 0; i < 6; i++) m.body.hydrostatics[7 * i] = stiff[i];
+        memcpy(m.body.centre_of_gravity, centre, sizeof centre);
+        m.body.fixed[3 + axis] = true;
+        CpsEvolution *evolution = evolve(&m.scene);
+        double turn[3];
+        CpsBodyReport was = step(evolution);
+        turn_between(m.body.rotation, was.rotation, turn);
+        CHECK_NEAR(turn[axis], 0, 1e-14);
+        CpsBodyChange change = {.kind = CPS_BODY_KIND_FREE};
+        memcpy(change.moment, MOMENT[k / 3], sizeof change.moment);
+        CpsStage stage = cps_stage_default();
+        stage.body_change_count = 1;
+        stage.body_change = &change;
+        CpsError err;
+        if (cps_evolution_move(evolution, &stage, &err) != CPS_OK) fail_msg("%s", err.message);
+        const CpsBodyReport now = cps_evolution_body_report(evolution, 0);
+        assert_true(now.has_place);
+        turn_between(was.rotation, now.rotation, turn);
+        CHECK_NEAR(turn[axis], 0, 1e-14); /* a few roundings of a rotation of order one */
+        assert_true(fabs(turn[(axis + 1) % 3]) > 0.01 && fabs(turn[(axis + 2) % 3]) > 0.01);
+        for (int i = 0; i < 3; i++)
+            if (i != axis)
+                CHECK_NEAR(now.lines[3 + i] + now.load[3 + i] + now.support[3 + i], 0, 1e-4);
+        cps_evolution_destroy(evolution);
+    }
+}
+
 /* A float of buoyancy B above its weight on two equal strings, with hydrostatics in heave: the
  * strings have half each of what the heave leaves. */
 static void a_float_on_two_strings(void **unused) {
@@ -553,6 +655,8 @@ static void what_is_refused(void **unused) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pendulum),
+        cmocka_unit_test(neutral_poses),
+        cmocka_unit_test(one_axis_is_fixed),
         cmocka_unit_test(fixed_directions_stay),
         cmocka_unit_test(below_the_bed),
         cmocka_unit_test(a_float_on_two_strings),

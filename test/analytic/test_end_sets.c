@@ -7,6 +7,9 @@
  *   - remark 2.3.4: an end in a set is in the place, and has the force, of an end held there; the
  *     force is in the normal cone of a ball, a half-space, a disc, an edge and a corner of a box;
  *   - a set that does not bear, or is far larger than the line: the answer of a free end;
+ *   - any bounded set of set.h: a kind of set, written as an expression, has the answer of the
+ * kind; hulls, sums, intersections and images, whose conic form has unknowns of its own, have that
+ * of an end which is held there, with the force in the normal cone;
  *   - the load of an end on a face does as much work as it moves along it, and the reaction none;
  *   - a set farther away than an inextensible line is long, or a load along a rail without ends
  * that nothing else bears: no equilibrium, with its proof. */
@@ -109,6 +112,8 @@ static void a_rail_is_normal_to_the_pull(void **state) {
 
 /* Hold the end where the set has it: the same configuration and force. */
 static CpsConstraintReport is_as_held(const CpsLine *line, CpsLineReport *report) {
+    /* what small programs leave of the nearest place and of the support, docs/sets.md */
+    const double leaves = line->constraint[CPS_END_B].kind == CPS_CONSTRAINT_KIND_SET ? 1e-11 : 0;
     CpsEvolution *in_set = solve(line, CPS_OUTCOME_SOLVED);
     const CpsConstraintReport on = cps_evolution_constraint_report(in_set, 0, CPS_END_B);
     CpsLine other = *line;
@@ -124,8 +129,8 @@ static CpsConstraintReport is_as_held(const CpsLine *line, CpsLineReport *report
                  1e-6 * as.certificate.largest_force);
     for (int j = 0; j < 3 * (line->element_count + 1); j++)
         CHECK_NEAR(view.position[j], seen.position[j], 1e-8 * line->length);
-    CHECK_LESS(on.residual, 1e-14);
-    CHECK_LESS(on.gap, 1e-9);
+    CHECK_LESS(on.residual, 1e-14 + leaves);
+    CHECK_LESS(on.gap, 1e-9 + leaves * as.certificate.largest_force);
     cps_evolution_destroy(in_set);
     cps_evolution_destroy(held);
     return on;
@@ -182,6 +187,118 @@ static void an_end_in_a_set_is_as_one_that_is_held(void **state) {
         CHECK_VECTOR(report.end[CPS_END_B].position, on->point, INSIDE);
         CHECK_GREATER(found.reaction[0], 1);
     }
+}
+
+/* The set `of` moved by x, which takes its place. */
+static void move(CpsSet **of, double x, double y, double z) {
+    CpsSet *moved = NULL;
+    assert_int_equal(cps_set_translate((const double[3]){x, y, z}, *of, &moved, NULL), CPS_OK);
+    cps_set_release(*of);
+    *of = moved;
+}
+
+/* The same place and force for a kind of set and for its expression. */
+static void a_kind_of_set_is_an_expression(void **state) {
+    (void)state;
+    static const double FLAT[6] = {1, 0, 0, 1, 0, 0},
+                        TURN[9] = {0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1};
+    const CpsConstraint kind[] = {
+        {.kind = CPS_CONSTRAINT_KIND_BALL, .point = {5, 2, 1}, .radius = 1.5},
+        {.kind = CPS_CONSTRAINT_KIND_BOX,
+         .point = {5, 3, 1},
+         .size = {2, 2, 2},
+         .rotation = {2, 0, 0, 1}},
+        {.kind = CPS_CONSTRAINT_KIND_DISC, .point = {5, 0, 1}, .axis = {0, 0, 1}, .radius = 1},
+        {.kind = CPS_CONSTRAINT_KIND_RAIL, .point = {5, -2, 0}, .axis = {1, 4, 0}, .length = 3}};
+    CpsSet *set[4] = {NULL}, *part;
+    assert_int_equal(cps_set_ball(3, NULL, 1.5, &set[0], NULL), CPS_OK);
+    move(&set[0], 5, 2, 1);
+    assert_int_equal(cps_set_box(3, (double[3]){-1, -1, -1}, (double[3]){1, 1, 1}, &part, NULL),
+                     CPS_OK);
+    assert_int_equal(cps_set_image(3, TURN, part, &set[1], NULL), CPS_OK);
+    cps_set_release(part);
+    move(&set[1], 5, 3, 1);
+    assert_int_equal(cps_set_ball(2, NULL, 1, &part, NULL), CPS_OK);
+    assert_int_equal(cps_set_image(3, FLAT, part, &set[2], NULL), CPS_OK);
+    cps_set_release(part);
+    move(&set[2], 5, 0, 1);
+    const double to[3] = {5 + 3 / sqrt(17), -2 + 12 / sqrt(17), 0};
+    assert_int_equal(cps_set_segment(3, kind[3].point, to, &set[3], NULL), CPS_OK);
+    for (int k = 0; k < 8; k++) {
+        CpsLine line = hung(10, 60, k % 2 ? INFINITY : 5e3);
+        CpsConstraintReport found[2];
+        CpsLineReport report;
+        for (int i = 0; i < 2; i++) {
+            line.constraint[CPS_END_B] = kind[k / 2];
+            /* as an expression about another place */
+            if (i)
+                line.constraint[CPS_END_B] =
+                    (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_SET, .set = set[k / 2]};
+            found[i] = is_as_held(&line, &report);
+        }
+        assert_true(found[0].is_active && found[1].is_active);
+        CHECK_VECTOR(found[1].reaction, found[0].reaction, 1e-6 * report.certificate.largest_force);
+        /* `point` moves it */
+        CpsConstraint *on = &line.constraint[CPS_END_B];
+        CpsSet *back = cps_set_retain(set[k / 2]);
+        move(&back, 0.3, -7, 100);
+        *on =
+            (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_SET, .set = back, .point = {-0.3, 7, -100}};
+        found[1] = is_as_held(&line, &report);
+        CHECK_VECTOR(found[1].reaction, found[0].reaction, 1e-6 * report.certificate.largest_force);
+        cps_set_release(back);
+    }
+    for (int k = 0; k < 4; k++) cps_set_release(set[k]);
+}
+
+/* The force is in the normal cone of any set: sup of -r.y over it is -r.x. */
+static void any_set_bears_along_its_normals(void **state) {
+    (void)state;
+    static const double LOW[3] = {-0.4, -0.2, -0.3}, HIGH[3] = {0.1, 0.6, 0.2},
+                        THIN[9] = {1, 0.2, 0, -0.3, 0.9, 0.1, 0.7, 0.2, 1e-3},
+                        CORNER[15] = {0, 0, 0, 1, 0, 0, 0, 1.5, 0, 0, 0, 0.7, 0.4, 0.5, -0.9};
+    CpsSet *ball, *box, *corners, *side, *thin, *set[7];
+    assert_int_equal(cps_set_ball(3, NULL, 0.8, &ball, NULL), CPS_OK);
+    assert_int_equal(cps_set_box(3, LOW, HIGH, &box, NULL), CPS_OK);
+    assert_int_equal(cps_set_hull_of_points(3, 5, CORNER, &corners, NULL), CPS_OK);
+    assert_int_equal(cps_set_half_space(3, (double[3]){-1, 0.3, -0.2}, 0.1, &side, NULL), CPS_OK);
+    assert_int_equal(cps_set_image(3, THIN, box, &thin, NULL), CPS_OK);
+    const CpsSet *const pair[][2] = {{ball, corners}, {ball, box}, {ball, side}, {thin, ball}};
+    assert_int_equal(cps_set_hull(2, pair[0], &set[0], NULL), CPS_OK);
+    assert_int_equal(cps_set_sum(2, pair[1], &set[1], NULL), CPS_OK);
+    assert_int_equal(cps_set_intersection(2, pair[2], &set[2], NULL), CPS_OK);
+    assert_int_equal(cps_set_intersection(2, pair[3], &set[3], NULL), CPS_OK);
+    assert_int_equal(cps_set_polar(box, &set[4], NULL), CPS_OK);
+    assert_int_equal(cps_set_hull_of_points(3, 1, (double[3]){0.2, 0.1, -0.1}, &set[5], NULL),
+                     CPS_OK);
+    assert_int_equal(cps_set_hull_of_points(3, 3, CORNER, &set[6], NULL), CPS_OK);
+    for (int k = 0; k < 14; k++) {
+        CpsLine line = hung(10, 60, k % 2 ? INFINITY : 5e3);
+        CpsConstraint *on = &line.constraint[CPS_END_B];
+        CpsLineReport report;
+        *on = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_SET,
+                              .set = set[k / 2],
+                              .point = {6, -1, 1}};
+        if (k / 2 == 4) on->point[0] = 9; /* it reaches 10 m to one side */
+        memcpy(line.end[CPS_END_B].value, (double[]){-30, 20, 10}, 3 * sizeof(double));
+        const CpsConstraintReport found = is_as_held(&line, &report);
+        const double *r = found.reaction, *x = report.end[CPS_END_B].position,
+                     size = sqrt(dot(r, r));
+        double against[3], own[3], distance[3];
+        CpsSetAnswer answer;
+        for (int a = 0; a < 3; a++) {
+            against[a] = -r[a] / size;
+            own[a] = x[a] - on->point[a];
+        }
+        CHECK_GREATER(size, 1);
+        assert_int_equal(cps_set_support(on->set, against, NULL, &answer, NULL), CPS_OK);
+        CHECK_NEAR(answer.value, dot(against, own), 1e-9);
+        assert_int_equal(cps_set_contains(on->set, own, distance, &answer, NULL), CPS_OK);
+        CHECK_GREATER(answer.value, -1e-11);
+    }
+    for (int k = 0; k < 7; k++) cps_set_release(set[k]);
+    CpsSet *const part[] = {ball, box, corners, side, thin};
+    for (int k = 0; k < 5; k++) cps_set_release(part[k]);
 }
 
 static void a_set_that_does_not_bear_changes_nothing(void **state) {
@@ -246,6 +363,93 @@ static void a_reaction_does_no_work(void **state) {
     CHECK_NEAR(ends, by_hand, 1e-9 * ends);
     CHECK_NEAR(ends, stored, 1e-4 * ends); /* the trapezium rule, at order 2 of 400 steps */
     cps_evolution_destroy(evolution);
+}
+
+/* A set of this kind whose place nearest to the origin is y, along the unit vector u from it. Of an
+ * expression *made is released by the caller: the hull of a ball and places farther on. */
+static CpsConstraint set_about(int kind, const double *u, const double *y, uint64_t *random,
+                               CpsSet **made) {
+    CpsConstraint on = {.kind = (CpsConstraintKind)kind};
+    const double r = splitmix(random, 0.2, 5);
+    double across[3], size = 0, along;
+    for (int a = 0; a < 3; a++) across[a] = splitmix(random, -1, 1);
+    along = dot(across, u);
+    for (int a = 0; a < 3; a++) size += pow(across[a] -= along * u[a], 2);
+    for (int a = 0; a < 3; a++) {
+        across[a] /= sqrt(size);
+        on.point[a] = y[a];
+        on.axis[a] = u[a];
+    }
+    *made = NULL;
+    if (kind == CPS_CONSTRAINT_KIND_RAIL) { /* across, to both sides */
+        for (int a = 0; a < 3; a++) {
+            on.axis[a] = across[a];
+            on.point[a] -= r / 3 * across[a];
+        }
+        on.length = r;
+    }
+    if (kind == CPS_CONSTRAINT_KIND_DISC) /* across the way to it */
+        for (int a = 0; a < 3; a++) on.point[a] += 0.4 * r * across[a];
+    if (kind == CPS_CONSTRAINT_KIND_BALL || kind == CPS_CONSTRAINT_KIND_SET)
+        for (int a = 0; a < 3; a++) on.point[a] += r * u[a];
+    on.radius = r;
+    if (kind == CPS_CONSTRAINT_KIND_SET) {
+        CpsSet *ball, *far;
+        double corner[9];
+        for (int i = 0; i < 9; i++)
+            corner[i] = r * (splitmix(random, 0.5, 2) * u[i % 3] + (i / 3 - 1) * across[i % 3]);
+        assert_int_equal(cps_set_ball(3, NULL, r, &ball, NULL), CPS_OK);
+        assert_int_equal(cps_set_hull_of_points(3, 3, corner, &far, NULL), CPS_OK);
+        assert_int_equal(cps_set_hull(2, (const CpsSet *[]){ball, far}, made, NULL), CPS_OK);
+        cps_set_release(ball);
+        cps_set_release(far);
+        on.set = *made;
+    }
+    return on;
+}
+
+/* Sets of any kind in reach of an inextensible line that is held at the origin, by a share of its
+ * length, and out of reach: the proof is the unit vector to the nearest place, and what is missing.
+ * An elastic line reaches all of them. */
+static void reach(void **state) {
+    (void)state;
+    static const int KIND[] = {CPS_CONSTRAINT_KIND_RAIL, CPS_CONSTRAINT_KIND_HALF_SPACE,
+                               CPS_CONSTRAINT_KIND_BALL, CPS_CONSTRAINT_KIND_DISC,
+                               CPS_CONSTRAINT_KIND_SET};
+    static const double SHARE[] = {-1e-3, -1e-6, 1e-9, 1e-6, 1e-3, 1, 30};
+    uint64_t random = 17;
+    for (int i = 0; i < 5 * 7 * 8; i++) {
+        const double share = SHARE[i / 5 % 7], length = pow(10, splitmix(&random, -1, 3));
+        double u[3], y[3], size = 0;
+        for (int a = 0; a < 3; a++) size += pow(u[a] = splitmix(&random, -1, 1), 2);
+        for (int a = 0; a < 3; a++) y[a] = length * (1 + share) * (u[a] /= sqrt(size));
+        CpsLine line = hung(length, 12, INFINITY);
+        CpsSet *made;
+        line.constraint[CPS_END_B] = set_about(KIND[i % 5], u, y, &random, &made);
+        CpsEvolution *evolution =
+            solve(&line, share > 0 ? CPS_OUTCOME_INFEASIBLE : CPS_OUTCOME_SOLVED);
+        CpsLineReport report = cps_evolution_line_report(evolution, 0);
+        const CpsLineView view = cps_evolution_line_view(evolution, 0);
+        if (share > 0) { /* what small programs leave, docs/sets.md, along the way and, by its root,
+                            across */
+            const double leaves = 2e-12 * (length * (1 + share) + 10);
+            CHECK_NEAR(report.proof_length, length * share, leaves);
+            CHECK_VECTOR(report.proof, u, 1e-5);
+            for (int e = 0; e < 12; e++) assert_true(view.tension[e] == 0);
+        } else {
+            CHECK_LESS(cps_evolution_constraint_report(evolution, 0, CPS_END_B).residual,
+                       1e-11 * length);
+        }
+        cps_evolution_destroy(evolution);
+        line.stiffness = 1e3 * length;
+        evolution = solve(&line, CPS_OUTCOME_SOLVED);
+        report = cps_evolution_line_report(evolution, 0);
+        /* the tension is that of the strain and the weight, and no more */
+        CHECK_LESS(report.end[CPS_END_B].tension,
+                   line.stiffness * fmax(share, 0) * 1.01 + 30 * line.weight * length);
+        cps_evolution_destroy(evolution);
+        cps_set_release(made);
+    }
 }
 
 static void no_equilibrium(void **state) {
@@ -337,8 +541,11 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_rail_is_normal_to_the_pull),
         cmocka_unit_test(an_end_in_a_set_is_as_one_that_is_held),
+        cmocka_unit_test(a_kind_of_set_is_an_expression),
+        cmocka_unit_test(any_set_bears_along_its_normals),
         cmocka_unit_test(a_set_that_does_not_bear_changes_nothing),
         cmocka_unit_test(a_reaction_does_no_work),
+        cmocka_unit_test(reach),
         cmocka_unit_test(no_equilibrium),
         cmocka_unit_test(both_constraints_of_the_remark),
     };

@@ -385,7 +385,7 @@ static void the_form_is_the_set(void **state) {
         CHECK_INT(form.outcome, CPS_SET_OUTCOME_ANSWERED);
         CHECK_INT(form.space, 2);
         const size_t n = (size_t)form.unknown_count, m = (size_t)form.row_count;
-        Conic *conic = conic_create(n, m);
+        Conic *conic = conic_create(2, n, m);
         for (size_t i = 0, c = 0; i < m; i += (size_t)form.dim[c++])
             conic->cone[i] = (size_t)form.dim[c];
         for (size_t i = 0; i < m * n; i++) conic->a[i] = form.a[i];

@@ -134,6 +134,30 @@ static void end_goes_back(void **state) {
     }
 }
 
+/* Pulled taut on a smooth floor, or in the air without weight, and let go: nothing is left but the
+ * rounding of the tension before, which is none. So all of it is slack, and it may lie otherwise.
+ */
+static void let_go_of_what_was_taut(void **state) {
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        Case c;
+        case_begin(&c, 3, 30, k & 1 ? 2 : 0, k < 2 ? 300 : k < 4 ? 1e5 : INFINITY);
+        if (k & 1) case_bed(&c, 0);
+        case_straight(&c, 0, 3);
+        let_go(&c, CPS_END_B);
+        case_force(&c, 1, 7.3, 0, 0);
+        case_force(&c, 1, 0, 0, 0);
+        Run run = case_open(&c);
+        const CpsLineView v = case_step(&run);
+        CHECK_NEAR(v.tension[0], 7.3, 1e-9);
+        CHECK_INT(places(&run), CPS_PLACES_UNIQUE);
+        CHECK_LESS(case_step(&run).tension[0], 7.3e-12);
+        CHECK_INT(places(&run), CPS_PLACES_NEAREST);
+        CHECK_NEAR(cps_evolution_line_report(run.evolution, 0).slack, 3, 1e-12);
+        case_close(&run);
+    }
+}
+
 enum { N = 9, SWEEPS = 200000 };
 
 static double random_between(uint64_t *seed, double from, double to) {
@@ -307,9 +331,10 @@ static void the_other_way_round(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_loads_the_line), cmocka_unit_test(rest_on_a_smooth_floor),
-        cmocka_unit_test(dropped_beside_a_wall),  cmocka_unit_test(end_goes_back),
-        cmocka_unit_test(nearest_by_projections), cmocka_unit_test(the_other_way_round),
+        cmocka_unit_test(let_go_of_what_was_taut), cmocka_unit_test(nothing_loads_the_line),
+        cmocka_unit_test(rest_on_a_smooth_floor),  cmocka_unit_test(dropped_beside_a_wall),
+        cmocka_unit_test(end_goes_back),           cmocka_unit_test(nearest_by_projections),
+        cmocka_unit_test(the_other_way_round),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

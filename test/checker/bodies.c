@@ -26,7 +26,8 @@ enum { MOST_BODIES = 1000, MOST_NAME = 256 };
 
 /* Sums of a few numbers of the file per sum of their sizes; a balance, in tolerances of the step;
  * places per length; unit quaternions. */
-static const double SUMS = 1e-12, BALANCED = 100, COPIED = 1e-12, UNIT = 1e-12;
+static const double SUMS = 1e-12, BALANCED = 100, COPIED = 1e-12, UNIT = 1e-12,
+                    TURNED = 1e-9; /* [rad] rounding of quaternions that are read */
 /* Pivots of a stiffness this small, per its largest entry, may have either sign: its own error. */
 static const double DEFINITE = 1e-9;
 
@@ -486,6 +487,30 @@ static void check_stable(const Check *c, const BodyState *at) {
              at->is_stable ? "stable" : "not stable", sign > 0 ? "positive" : "not");
 }
 
+/* The vector of the one turn by which `to` follows `from`, unit quaternions. */
+static void turn_between(const double *from, const double *to, double turn[3]) {
+    const double w = to[0] * from[0] + to[1] * from[1] + to[2] * from[2] + to[3] * from[3];
+    double v[3];
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        v[i] = to[1 + i] * from[0] - to[0] * from[1 + i] - to[1 + j] * from[1 + k] +
+               to[1 + k] * from[1 + j];
+    }
+    const double sine = size(v), angle = 2 * atan2(sine, fabs(w));
+    for (int i = 0; i < 3; i++) turn[i] = sine > 0 ? (w < 0 ? -1 : 1) * angle * v[i] / sine : 0;
+}
+
+/* In a step of one part the turn of a body has no component about a fixed axis. */
+static void check_turn(const Check *c, const double *from, const double *to) {
+    const BodyData *data = &c->bodies->data[c->body];
+    for (size_t i = 0; i < c->source->lines; i++)
+        if (c->line[i].substeps != 1) return;
+    double turn[3];
+    turn_between(from, to, turn);
+    for (int i = 0; i < 3; i++)
+        if (data->fixed[3 + i]) at_most(c, "rotation about a fixed axis", fabs(turn[i]), TURNED);
+}
+
 /* A free body does not move along its fixed axes. */
 static void check_fixed(const Check *c, const BodyState *at) {
     const BodyData *data = &c->bodies->data[c->body];
@@ -500,6 +525,7 @@ static void check_fixed(const Check *c, const BodyState *at) {
         if (data->fixed[i])
             at_most(c, "displacement in a fixed direction", fabs(at->position[i] - from[i]),
                     allowed);
+    if (!first) check_turn(c, turned, at->rotation);
     double product = 0, sizes[2] = {0};
     for (int k = 0; k < FOUR; k++) {
         product += at->rotation[k] * turned[k];

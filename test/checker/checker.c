@@ -201,7 +201,7 @@ static bool is_static(const Record *r) {
 static void check_claims(Findings *findings, const Record *r, const Measures *m, double ends) {
     const double *claim = r->claim;
     double energy = ENERGY_FLOOR * m->scale + 1e-13 * m->largest_force * m->extent +
-                    strain_energy_of_rounding(r, m);
+                    strain_energy_of_rounding(r, m) + sets_rounding(r);
     double force = FORCE_FLOOR * m->largest_force;
     bool certified = claims_something(r) || solves_equations_only(r);
     same(findings, "primal", claim[CLAIM_PRIMAL], m->primal, energy);

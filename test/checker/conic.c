@@ -186,19 +186,19 @@ static bool take(Program *p, size_t n, size_t m) {
     return block != NULL;
 }
 
-Conic *conic_create(size_t unknowns, size_t rows) {
+Conic *conic_create(size_t space, size_t unknowns, size_t rows) {
     Conic *set = calloc(1, sizeof *set);
     if (!set) return NULL;
-    *set = (Conic){.unknowns = unknowns, .rows = rows};
+    *set = (Conic){.space = space, .unknowns = unknowns, .rows = rows};
     set->cone = calloc(rows + 1, sizeof *set->cone);
-    set->a = calloc(rows * unknowns + rows + 3 * unknowns + 1, sizeof *set->a);
+    set->a = calloc(rows * unknowns + rows + (space + 1) * unknowns + 1, sizeof *set->a);
     if (!set->cone || !set->a) {
         conic_free(set);
         return NULL;
     }
     set->b = set->a + rows * unknowns;
     set->map = set->b + rows;
-    set->centre = set->map + 2 * unknowns;
+    set->centre = set->map + space * unknowns;
     return set;
 }
 
@@ -214,7 +214,7 @@ void conic_free(Conic *set) {
 static Real find_margin(Conic *set) {
     size_t n = set->unknowns, m = set->rows;
     Program p;
-    Conic *wider = conic_create(n + 1, m + 1);
+    Conic *wider = conic_create(set->space, n + 1, m + 1);
     Real margin = NAN, gap, most = 1;
     if (!wider) return NAN;
     for (size_t i = 0; i < m; i++) {
@@ -242,8 +242,9 @@ static Real find_margin(Conic *set) {
 }
 
 bool conic_prepare(Conic *set) {
-    set->reach = hypotl(set->origin[0], set->origin[1]);
-    for (size_t j = 0; j < 2 * set->unknowns; j++) set->reach = hypotl(set->reach, set->map[j]);
+    set->reach = hypotl(hypotl(set->origin[0], set->origin[1]), set->origin[2]);
+    for (size_t j = 0; j < set->space * set->unknowns; j++)
+        set->reach = hypotl(set->reach, set->map[j]);
     if (set->unknowns == 0) return true;
     Real margin = find_margin(set);
     if (!(margin > -WIDER / 2)) return false;
@@ -265,13 +266,13 @@ bool conic_prepare(Conic *set) {
     return found;
 }
 
-Real conic_support(const Conic *set, const Real d[2]) {
+Real conic_support(const Conic *set, const Real *d) {
     size_t n = set->unknowns;
-    Real size = 0, gap = 0, value = dot(2, d, set->origin);
+    Real size = 0, gap = 0, value = dot(set->space, d, set->origin);
     Program p;
     if (!take(&p, n, set->rows)) return NAN;
     for (size_t j = 0; j < n; j++) {
-        p.cost[j] = -(d[0] * set->map[j] + d[1] * set->map[n + j]);
+        for (size_t k = 0; k < set->space; k++) p.cost[j] -= d[k] * set->map[k * n + j];
         size = hypotl(size, p.cost[j]);
     }
     if (size > 0) {
@@ -287,22 +288,23 @@ Real conic_support(const Conic *set, const Real d[2]) {
 }
 
 /* The least r with |origin + P v - F| <= r reach, in (v, r): one more cone. */
-Real conic_distance(const Conic *set, const Real F[2]) {
-    size_t n = set->unknowns, m = set->rows;
-    Real off[2] = {set->origin[0] - F[0], set->origin[1] - F[1]}, gap, distance = NAN;
-    if (n == 0) return hypotl(off[0], off[1]);
-    Conic *all = conic_create(n + 1, m + 3);
+Real conic_distance(const Conic *set, const Real *F) {
+    size_t n = set->unknowns, m = set->rows, space = set->space;
+    Real off[3] = {0}, gap, distance = NAN;
+    for (size_t k = 0; k < space; k++) off[k] = set->origin[k] - F[k];
+    if (n == 0) return sqrtl(dot(space, off, off));
+    Conic *all = conic_create(space, n + 1, m + space + 1);
     Program p = {.v = NULL};
-    if (all && take(&p, n + 1, m + 3)) {
+    if (all && take(&p, n + 1, m + space + 1)) {
         size_t w = n + 1;
         for (size_t i = 0; i < m; i++) {
             memcpy(&all->a[i * w], &set->a[i * n], n * sizeof *all->a);
             all->b[i] = set->b[i];
             all->cone[i] = set->cone[i];
         }
-        all->cone[m] = 3;
+        all->cone[m] = space + 1;
         all->a[m * w + n] = p.cost[n] = 1;
-        for (size_t k = 0; k < 2; k++) {
+        for (size_t k = 0; k < space; k++) {
             for (size_t j = 0; j < n; j++)
                 all->a[(m + 1 + k) * w + j] = set->map[k * n + j] / set->reach;
             all->b[m + 1 + k] = off[k] / set->reach;
@@ -311,13 +313,13 @@ Real conic_distance(const Conic *set, const Real F[2]) {
         p.a = all->a;
         p.b = all->b;
         memcpy(p.v, set->centre, n * sizeof *p.v);
-        for (size_t k = 0; k < 2; k++) off[k] += dot(n, &set->map[k * n], p.v);
-        p.v[n] = 1 + hypotl(off[0], off[1]) / set->reach;
+        for (size_t k = 0; k < space; k++) off[k] += dot(n, &set->map[k * n], p.v);
+        p.v[n] = 1 + sqrtl(dot(space, off, off)) / set->reach;
         // the point found is one of the set, whatever the bound says
         if (minimise(&p, &gap)) {
-            for (size_t k = 0; k < 2; k++)
+            for (size_t k = 0; k < space; k++)
                 off[k] = set->origin[k] - F[k] + dot(n, &set->map[k * n], p.v);
-            distance = hypotl(off[0], off[1]);
+            distance = sqrtl(dot(space, off, off));
         }
     }
     free(p.v);

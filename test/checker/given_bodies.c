@@ -8,6 +8,7 @@
 #include "given_bodies.h"
 
 #include <math.h>
+#include <netcdf.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +16,7 @@
 #include "bodies.h"
 #include "body_ledger.h"
 #include "body_stiffness.h"
+#include "excitation.h"
 #include "oscillation.h"
 
 /* Numbers that are copied; poses on their way; loads: sums of a few products, and the turning
@@ -208,6 +210,20 @@ static void impose(const Compare *c, Imposed *body, const CpsStage *stage,
     }
 }
 
+/* [s] since the history began. */
+static double time_after(const Compare *c, size_t step) {
+    int id;
+    double time = 0;
+    if (nc_inq_varid(c->source->nc, "time", &id) == NC_NOERR)
+        nc_get_var1_double(c->source->nc, id, &step, &time);
+    return time;
+}
+
+/* Has the step a duration? */
+static bool has_duration(const Compare *c, size_t step) {
+    return time_after(c, step) > (step > 0 ? time_after(c, step - 1) : 0);
+}
+
 static void compare_state(Compare *c, size_t k, const Imposed *body, const double g[3], size_t step,
                           const BodyState *at) {
     const BodyData *data = &c->bodies.data[k];
@@ -232,7 +248,9 @@ static void compare_state(Compare *c, size_t k, const Imposed *body, const doubl
     Real load[SIX];
     for (int i = 0; i < 3; i++) per[i] = pull > 0 ? g[i] / pull : 0;
     body_load(data, at->position, at->rotation, per, load);
-    for (int i = 0; i < SIX; i++) wanted[i] = (double)load[i] + body->load[i];
+    double waves[SIX] = {0}, known[SIX] = {0};
+    if (has_duration(c, step)) excitation(c->scene, (int)k, time_after(c, step), waves, known);
+    for (int i = 0; i < SIX; i++) wanted[i] = (double)load[i] + body->load[i] + waves[i];
     /* sizes of what the sums are made of; of rotations, up to half a turn */
     for (int i = 0; i < 3; i++)
         q[i] = fabs(at->position[i]) + fabs(data->start_position[i]) + size(c->source->origin);
@@ -244,9 +262,10 @@ static void compare_state(Compare *c, size_t k, const Imposed *body, const doubl
                size(&body->from_load[3]);
     for (int i = 0; i < SIX; i++)
         for (int j = 0; j < SIX; j++) noise[i / 3] += fabs(data->hydrostatics[SIX * i + j]) * q[j];
-    same(c, "load_of_body", of, at->load, wanted, 3, LOADS * noise[0] + size(body->noise));
+    same(c, "load_of_body", of, at->load, wanted, 3,
+         LOADS * noise[0] + size(body->noise) + size(known));
     same(c, "moment of load_of_body", of, &at->load[3], &wanted[3], 3,
-         LOADS * noise[1] + size(&body->noise[3]));
+         LOADS * noise[1] + size(&body->noise[3]) + size(&known[3]));
 }
 
 /* [m] How far the farthest point of body k is from its reference point; else 1. */

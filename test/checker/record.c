@@ -177,7 +177,7 @@ static int fill_set(size_t rows, size_t unknowns, const double *all, const doubl
     const double *cone = all, *b = all + rows, *a = b + rows, *map = a + rows * unknowns;
     size_t m = 0, n = 0;
     if (!set_size(rows, unknowns, cone, a, &m, &n)) return -1;
-    Conic *set = *out = conic_create(n, m);
+    Conic *set = *out = conic_create(2, n, m);
     if (!set) return -1;
     for (size_t i = 0; i < m; i += (size_t)cone[i]) set->cone[i] = (size_t)cone[i];
     for (size_t i = 0; i < m; i++) {

@@ -122,7 +122,7 @@ static double extreme(const RestLine *line, size_t element, int sign, double mar
             rows += 4;
         }
     }
-    Conic *set = conic_create(unknowns, rows);
+    Conic *set = conic_create(2, unknowns, rows);
     if (!set) return NAN;
     size_t row = 0, own = n;
     for (size_t i = 0; i < n; i++) {

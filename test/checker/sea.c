@@ -22,7 +22,7 @@ static int complain(FILE *log, const char *what) {
 }
 
 /* tanh(k d) is at most 1, so k is at least w^2/g. */
-static Real number_of(Real frequency, Real g, Real depth) {
+Real sea_number(Real frequency, Real g, Real depth) {
     Real low = frequency * frequency / g, high = low;
     if (!isfinite((double)depth)) return low;
     while (g * high * tanhl(high * depth) < frequency * frequency) high *= 2;
@@ -65,11 +65,12 @@ int sea_read(const Source *source, Sea *out, FILE *log) {
                 isfinite(of[3]);
         if (!sound) continue;
         const Real frequency = TAU / of[1];
-        out->wave[i] = (Wave){.amplitude = of[0],
-                              .frequency = frequency,
-                              .number = number_of(frequency, -(Real)source->gravity[2], out->depth),
-                              .heading = {cosl(of[2]), sinl(of[2])},
-                              .phase = of[3]};
+        out->wave[i] =
+            (Wave){.amplitude = of[0],
+                   .frequency = frequency,
+                   .number = sea_number(frequency, -(Real)source->gravity[2], out->depth),
+                   .heading = {cosl(of[2]), sinl(of[2])},
+                   .phase = of[3]};
     }
     free(row);
     return sound ? 0 : complain(log, "senseless numbers");

@@ -16,6 +16,8 @@ typedef struct Sea {
     double origin[3];
 } Sea;
 
+/* k of a wave by bisection; the depth may be infinite. */
+Real sea_number(Real frequency, Real g, Real depth);
 /* Returns 0, or -1 after one sentence on log. */
 int sea_read(const Source *source, Sea *out, FILE *log);
 void sea_free(Sea *sea);

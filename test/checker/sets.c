@@ -8,13 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "conic.h"
 #include "grasps.h"
 
-enum { NONE, RAIL, HALF_SPACE, BALL, DISC, BOX, KINDS };
+enum { NONE, RAIL, HALF_SPACE, BALL, DISC, BOX, FORM, KINDS };
 
 typedef struct Set {
     int kind;
     double point[3], axis[3], length, radius, size[3], turn[4], reaction[3];
+    Conic *form; /* of a set that is given by an expression, relative to `point` */
 } Set;
 
 struct Sets {
@@ -23,6 +25,11 @@ struct Sets {
 
 /* Rounding of a direction, of a unit vector; of a place, per reach of the coordinates. */
 static const Real DIRECTION = 1e-12L, PLACE = 1e-13L;
+/* Of a set in conic form, where the bound of a distance may stop this far above it (conic.h). */
+static const Real FORM_PLACE = 1e-10L;
+/* Of a value of a small conic program in double precision, per size of the data: ten times what
+ * they leave where their last steps are Newton's. */
+static const Real FORM_VALUE = 1e-12L;
 
 static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static Real norm(const Real *a) { return sqrtl(dot(a, a)); }
@@ -43,6 +50,52 @@ static int read_one(const Source *source, const char *line, const char *what, si
     const int skip = strcmp(what, "set_reaction") == 0 ? 0 : 1;
     if (dimensions != (count > 1 ? 3 : 2) - skip) return -1;
     return nc_get_vara_double(source->nc, id, &start[skip], &counts[skip], value);
+}
+
+/* The numbers of an attribute of the file, which the caller frees; NULL: none, or not finite. */
+static double *read_numbers(const Source *source, const char *line, int e, const char *what,
+                            size_t *count) {
+    char name[300];
+    snprintf(name, sizeof name, "%.200s_set_%c_%s", line, e ? 'B' : 'A', what);
+    if (nc_inq_attlen(source->nc, NC_GLOBAL, name, count) || *count > 1000000) return NULL;
+    double *value = calloc(*count + 1, sizeof *value);
+    bool bad = !value || nc_get_att_double(source->nc, NC_GLOBAL, name, value);
+    for (size_t i = 0; !bad && i < *count; i++) bad = !isfinite(value[i]);
+    if (!bad) return value;
+    free(value);
+    return NULL;
+}
+
+/* {origin + P v : A v + b in K} less `point`. Without a map it is the origin alone. */
+static Conic *read_form(const Source *source, const char *line, int e, const double point[3]) {
+    static const char *const WHAT[5] = {"origin", "map", "cone", "rows", "offset"};
+    double *part[5] = {NULL};
+    size_t count[5] = {0}, n, m;
+    for (int i = 0; i < 5; i++) part[i] = read_numbers(source, line, e, WHAT[i], &count[i]);
+    n = part[1] ? count[1] / 3 : 0;
+    m = part[2] ? count[2] : 0;
+    bool good = part[0] && count[0] == 3 && (n > 0) == (m > 0);
+    if (n > 0)
+        good =
+            good && count[1] == 3 * n && part[3] && count[3] == m * n && part[4] && count[4] == m;
+    for (size_t i = 0; good && i < m; i += (size_t)part[2][i]) {
+        good = part[2][i] >= 1 && part[2][i] <= (double)(m - i) && floor(part[2][i]) == part[2][i];
+        if (!good) break;
+    }
+    Conic *set = good ? conic_create(3, n, m) : NULL;
+    if (set) {
+        for (size_t i = 0; i < m; i += (size_t)part[2][i]) set->cone[i] = (size_t)part[2][i];
+        for (size_t i = 0; i < m * n; i++) set->a[i] = part[3][i];
+        for (size_t i = 0; i < m; i++) set->b[i] = part[4][i];
+        for (size_t i = 0; i < 3 * n; i++) set->map[i] = part[1][i];
+        for (int a = 0; a < 3; a++) set->origin[a] = (Real)part[0][a] - point[a];
+        if (!conic_prepare(set)) {
+            conic_free(set);
+            set = NULL;
+        }
+    }
+    for (int i = 0; i < 5; i++) free(part[i]);
+    return set;
 }
 
 static bool all_finite(const double *value, int count) {
@@ -79,6 +132,9 @@ int sets_create(const Source *source, const char *line, Record *r, FILE *log) {
             ((kind == BALL || kind == DISC) && !(set->radius > 0 && isfinite(set->radius))) ||
             (kind == BOX && !(set->size[0] > 0 && set->size[1] > 0 && set->size[2] > 0)))
             return complain(log, line, "a value that cannot be");
+        if (kind == FORM) set->form = read_form(source, line, e, set->point);
+        if (kind == FORM && !set->form)
+            return complain(log, line, "no conic form of a bounded set with points inside");
     }
     return 0;
 }
@@ -92,7 +148,11 @@ int sets_read(const Source *source, const char *line, size_t step, Record *r, FI
     return 0;
 }
 
+const struct Conic *sets_form(const Record *r, int e) { return r->sets->end[e].form; }
+
 void sets_free(Record *r) {
+    if (!r->sets) return;
+    for (int e = 0; e < 2; e++) conic_free(r->sets->end[e].form);
     free(r->sets);
     r->sets = NULL;
 }
@@ -142,6 +202,7 @@ static Real support(const Set *set, const Real *v) {
         return norm(across) <= nothing && along <= nothing ? 0 : INFINITY;
     }
     case BALL: return size * set->radius;
+    case FORM: return conic_support(set->form, v);
     case DISC: {
         unit_axis(set, u);
         const Real along = dot(u, v);
@@ -163,6 +224,7 @@ static Real distance(const Set *set, const Real *x) {
     Real y[3], u[3], off[3];
     for (int a = 0; a < 3; a++) y[a] = x[a] - set->point[a];
     if (set->kind == BALL) return fmaxl(0, norm(y) - set->radius);
+    if (set->kind == FORM) return conic_distance(set->form, y);
     if (set->kind == BOX) {
         for (int i = 0; i < 3; i++) {
             box_axis(set, i, u);
@@ -186,6 +248,17 @@ Real sets_add(const Record *r, size_t j, Real *sum) {
     for (int a = 0; a < 3; a++) force[a] = set->reaction[a];
     for (int a = 0; a < 3; a++) sum[a] += force[a];
     return norm(force);
+}
+
+double sets_rounding(const Record *r) {
+    Real sum = 0;
+    for (int e = 0; r->sets && e < 2; e++) {
+        const Set *set = &r->sets->end[e];
+        Real force[3];
+        for (int a = 0; a < 3; a++) force[a] = set->reaction[a];
+        if (set->form) sum += FORM_VALUE * norm(force) * set->form->reach;
+    }
+    return (double)sum;
 }
 
 Real sets_gap(const Record *r, size_t j) {
@@ -213,6 +286,8 @@ static void sizes(const Record *r, double *reach, double *force) {
             *reach = fmax(*reach, fabs(r->sets->end[e].point[a]));
             *force = fmax(*force, fabs(r->sets->end[e].reaction[a]));
         }
+    for (int e = 0; e < 2; e++)
+        if (r->sets->end[e].form) *reach = fmax(*reach, (double)r->sets->end[e].form->reach);
 }
 
 void sets_check(const Record *r, SetFind *find, void *user) {
@@ -227,7 +302,8 @@ void sets_check(const Record *r, SetFind *find, void *user) {
         for (int a = 0; a < 3; a++) x[a] = r->position[j][a];
         const Real off = distance(set, x);
         if (r->end_kind[e] == END_HELD) find(user, "an end in a set is held", 1, 0);
-        if (!(off <= PLACE * reach)) find(user, "distance of an end from its set", (double)off, 0);
+        if (!(off <= (set->form ? FORM_PLACE : PLACE) * reach))
+            find(user, "distance of an end from its set", (double)off, 0);
         /* what of the gap is rounding of places goes with the force and the coordinates */
         const Real gap = sets_gap(r, j);
         if (!(gap >= -1e-14L * force * reach && isfinite(gap)))

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sets to which ends of a line are held: rails, half-spaces, balls, discs and boxes. A set K does a
+/* Sets to which ends of a line are held: rails, half-spaces, balls, discs and boxes, and any
+ * bounded set in conic form. A set K does a
  * force r on the end at x in K, and is perfect: r.(y - x) >= 0 for all y in K. */
 #ifndef CAPSTAN_CHECKER_SETS_H
 #define CAPSTAN_CHECKER_SETS_H
@@ -11,9 +12,13 @@
 int sets_create(const Source *source, const char *line, Record *record, FILE *log);
 int sets_read(const Source *source, const char *line, size_t step, Record *record, FILE *log);
 void sets_free(Record *record);
+/* The conic form of the set of end e relative to its point, or NULL. */
+const struct Conic *sets_form(const Record *r, int e);
 
 /* [N] Add the reaction on node j to `sum`; and its size. */
 Real sets_add(const Record *r, size_t j, Real *sum);
+/* [J] What small conic programs leave of the gaps of sets in conic form. */
+double sets_rounding(const Record *r);
 /* [J] sup over y in K of -r.(y - x) at node j; 0 where there is none. */
 Real sets_gap(const Record *r, size_t j);
 

@@ -54,6 +54,7 @@ static const FalseNumber FALSE[] = {
     {"position_of_body", OF(1, SPAR, 3, 1), 0.1, "body spar: displacement in a fixed direction"},
     {"rotation_of_body", OF(1, SPAR, 4, 2), 0.2, "body spar: length of the quaternion"},
     {"rotation_of_body", OF(1, SPAR, 4, 3), -0.17, "body spar: distance of a point"},
+    {"rotation_of_body", OF(1, SPAR, 4, 3), -0.17, "body spar: rotation about a fixed axis"},
     {"position_of_point", PLACE(1, LEFT, 2), -3.5, "body spar: distance of a point"},
     {"state_of_point", 1 * POINTS + LEFT, 0, "body spar: point left is said to be off it"},
     {"lines_of_body", OF(1, SPAR, 3, 0), 5, "body spar: force of the lines"},

@@ -440,7 +440,7 @@ static void corner_is_certified(void **state) {
 static void supports_and_distances(void **state) {
     (void)state;
     static const Real CORNER[3][2] = {{0.3L, 0}, {0, 0.2L}, {-0.1L, -0.4L}};
-    Conic *triangle = conic_create(2, 3), *half = conic_create(2, 4);
+    Conic *triangle = conic_create(2, 2, 3), *half = conic_create(2, 2, 4);
     for (size_t i = 0; i < 2; i++) {
         triangle->cone[i] = 1;
         triangle->a[2 * i + i] = 1;

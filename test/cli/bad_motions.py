@@ -94,9 +94,13 @@ waves:
   components:
     - {amplitude: 1, period: 9, direction: 0}
     - {amplitude: 0.5, period: 6, direction: 30, phase: 40}
+bodies:
+  hull: {free: [9, 5, 0], mass: 200, moments_of_inertia: [9, 9, 9], excitation: [{frequency: 0.2, direction: 390, amplitude: [1, 1, 1, 0, 0, 0]}, {frequency: 0.15, direction: 390, amplitude: [1, 2, 1, 0, 0, 0]}, {frequency: 0.11111111111111, direction: 360, amplitude: [1, 0, 1, 0, 1, 0], phase: [90, 0, 0, 0, -90, 0]}]}
 points:
   knot: {free: [9, 0, 0], mass: 5, force: [0, 0, 100]}
+  eye: {body: hull, at: [0, 0, 0]}
 lines:
+  leash: {length: 9, elements: 4, mass: 1, stiffness: 1e6, start: {straight: {from: [0, 5, 0], to: [9, 5, 0]}}, ends: {A: held, B: {point: eye}}}
   cable: {length: 9, elements: 4, mass: 1, stiffness: 1e6, start: {straight: {from: [0, 0, 0], to: [9, 0, 0]}}, drag: {diameter: 0.1, normal: 1}, ends: {A: held, B: {point: knot}}}
 history:
   - {name: swing, duration: 2, time_step: 0.01}
@@ -135,12 +139,23 @@ WAVE_CHANGES = [
     ("a misspelt component", "components", "component", INPUT, "7:3: 'waves': unknown key 'component'; did you mean 'components'?"),
     ("a list of waves", "waves:\n  depth: 20\n  ramp: 3\n  components:\n", "waves:\n", INPUT, "4:1: 'waves': found a list of 2, expected a mapping"),
     ("waves without time", "duration: 2, time_step: 0.01", "steps: 3", INPUT, "4:1: waves: they move the water in time, but no stage of the history has a duration: give one"),
-    ("waves on nothing", " drag: {diameter: 0.1, normal: 1},", "", INPUT, "4:1: waves: they act on lines with drag, and none has any: give a line its drag, or leave the waves out"),
     ("waves without gravity", "capstan: 1\n", "capstan: 1\ngravity: [0, 0, 0]\n", INPUT, "5:1: waves: without gravity there are none: give gravity (0, 0, -g)"),
     ("waves under gravity that leans", "capstan: 1\n", "capstan: 1\ngravity: [1, 0, -9]\n", INPUT, "2:1: gravity: (1, 0, -9) m/s2 in a scene with a water surface, which is a plane z = constant: expected (0, 0, -g)"),
-    ("waves under gravity that changes", "time_step: 0.01", "time_step: 0.01, gravity: [0, 0, -8]", INPUT, "15:49: stage 1: gravity changes, but waves are those under one gravity: leave either out"),
+    ("waves under gravity that changes", "time_step: 0.01", "time_step: 0.01, gravity: [0, 0, -8]", INPUT, "19:49: stage 1: gravity changes, but waves are those under one gravity: leave either out"),
     ("waves in air", "water_density: 1025\n", "", INPUT, "2:1: 'water_surface': it goes with 'water_density', which is not given"),
-    ("a point that would float in waves", "mass: 5", "mass: 5, volume: 0.01", INPUT, "11:36: point 'knot': volume: a step of the history has a duration, in which points do not float at a water surface: leave 'water_surface' out"),
+    ("a point that would float in waves", "mass: 5", "mass: 5, volume: 0.01", INPUT, "13:36: point 'knot': volume: a step of the history has a duration, in which points do not float at a water surface: leave 'water_surface' out"),
+    ("excitation without waves", "waves:\n  depth: 20\n  ramp: 3\n  components:\n    - " + ONE + "\n    - " + TWO + "\n", "", INPUT, "5:69: body 'hull': excitation: it is that of waves, and the scene has none: give waves, or leave it out"),
+    ("excitation in words", "[{frequency: 0.2, direction: 390, amplitude: [1, 1, 1, 0, 0, 0]}, ", "[much, ", INPUT, "11:82: row of the excitation: found 'much', expected a mapping"),
+    ("excitation without a period", "frequency: 0.2, ", "", INPUT, "11:82: row of the excitation: 'period' is missing"),
+    ("excitation without a direction", "frequency: 0.2, direction: 390", "frequency: 0.2", INPUT, "11:82: row of the excitation: 'direction' is missing"),
+    ("excitation without an amplitude", ", amplitude: [1, 1, 1, 0, 0, 0]", "", INPUT, "11:82: row of the excitation: 'amplitude' is missing"),
+    ("excitation of three components", "[1, 1, 1, 0, 0, 0]", "[1, 1, 1]", INPUT, "11:115: 'amplitude': found a list of 3, expected six numbers, as in [x, y, z, rx, ry, rz]"),
+    ("a negative excitation", "[1, 1, 1, 0, 0, 0]", "[1, 1, -1, 0, 0, 0]", INPUT, "11:133: 'amplitude': found '-1', expected a number, at least 0"),
+    ("NaN in a phase of excitation", "[90, 0, 0, 0, -90, 0]", "[90, 0, .nan, 0, -90, 0]", INPUT, "11:305: 'phase': found '.nan', expected a number in degree"),
+    ("excitation for other periods", "frequency: 0.15", "frequency: 0.18", INPUT, "11:69: body 'hull': excitation: no rows for the direction 30 degrees have the period 6 s of wave 2 between them"),
+    ("excitation for another direction", "direction: 360", "direction: 10", INPUT, "11:69: body 'hull': excitation: no rows for the direction 0 degrees have the period 9 s of wave 1 between them"),
+    ("excitation in falling periods", "frequency: 0.15", "frequency: 0.25", INPUT, "11:147: body 'hull': excitation: row 2 has the period 4 s, after 5 s for the same direction: give rows of one direction with periods that increase"),
+    ("memory of radiation", "moments_of_inertia: [9, 9, 9]", "moments_of_inertia: [9, 9, 9], radiation: [[0, 1]]", INPUT, "11:69: body 'hull': unknown key 'radiation'"),
 ]
 
 

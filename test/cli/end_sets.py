@@ -10,6 +10,7 @@ import json
 import math
 import os
 import random
+import struct
 import sys
 import tempfile
 
@@ -48,11 +49,11 @@ ON = "{rail: {from: [5, -1, 0.5], to: [5, 2, 0.5]}}"
 RAIL = "B: {on: " + ON + "}"
 DRAW = "rope.B: {force: [0, 90, 0]}"
 BAD = (  # (what is replaced, by what, what is said)
-    (RAIL, "B: {on: {}}", "12:41: 'on': nothing given, expected exactly one of 'rail', 'half_space', 'ball', 'disc', 'box'"),
+    (RAIL, "B: {on: {}}", "12:41: 'on': nothing given, expected exactly one of 'rail', 'half_space', 'ball', 'disc', 'box', 'set'"),
     (RAIL, "B: {on: rail}", "12:41: 'on': found 'rail', expected a mapping"),
     (RAIL, "B: {on: [5, 0, 0]}", "12:41: 'on': found a list of 3, expected a mapping"),
     (RAIL, "B: {on: {rod: {}}}", "12:46: 'on': unknown key 'rod'"),
-    (RAIL, "B: {on: {ball: {centre: [5, 0, 0], radius: 1}, disc: {centre: [5, 0, 0], radius: 1}}}", "12:41: 'on': too much given, expected exactly one of 'rail', 'half_space', 'ball', 'disc', 'box'"),
+    (RAIL, "B: {on: {ball: {centre: [5, 0, 0], radius: 1}, disc: {centre: [5, 0, 0], radius: 1}}}", "12:41: 'on': too much given, expected exactly one of 'rail', 'half_space', 'ball', 'disc', 'box', 'set'"),
     (RAIL, "B: {held: [5, 0, 0.5], on: " + ON + "}", "12:37: 'B': too much given, expected exactly one of 'held', 'force', 'point', 'on'"),
     (RAIL, "B: {force: [5, 0, 0.5], on: " + ON + "}", "12:37: 'B': too much given, expected exactly one of 'held', 'force', 'point', 'on'"),
     (ON, "{rail: {}}", "12:46: 'rail': 'from' is missing"),
@@ -79,6 +80,21 @@ BAD = (  # (what is replaced, by what, what is said)
     (ON, "{box: {centre: [5, 0, 0.5], size: [1, 0, 1]}}", "12:83: 'size': found '0', expected a number in m, greater than 0"),
     (ON, "{box: {centre: [5, 0, 0.5], size: 1}}", "12:73: 'size': found '1', expected three numbers"),
     (ON, "{box: {centre: [5, 0, 0.5], size: [1, 1, 1], rotation: {quaternion: [0, 0, 0, 0]}}}", "12:"),
+    (ON, "{set: {}}", "12:46: 'set': found a mapping, expected one word with its value, as in {disc: 500}"),
+    (ON, "{set: ball}", "12:46: 'set': found 'ball', expected one word with its value, as in {disc: 500}"),
+    (ON, "{set: {globe: 1}}", "12:52: unknown word 'globe', expected one of: point"),
+    (ON, "{set: {disc: 1}}", "12:46: line 'rope': ends: the set of end B lies in R^2, expected R^3"),
+    (ON, "{set: {ball: {radius: 1}}}", "12:52: 'ball': 'dimension' is missing: number of components"),
+    (ON, "{set: {ball: {radius: -1, dimension: 3}}}", "12:59: 'radius': found '-1', expected a number, at least 0"),
+    (ON, "{set: {ball: {radius: 6, dimension: 2}}}", "12:46: line 'rope': ends: the set of end B lies in R^2, expected R^3"),
+    (ON, "{set: {ball: {radius: 4.9, dimension: 3}}}", "12:41: line 'rope': ends: the set of end B is 0.124938 m"),
+    (ON, "{set: {ball: {radius: .inf, dimension: 3}}}", "12:59: 'radius': found '.inf', expected a number, at least 0, finite and at most 1e100"),
+    (ON, "{set: {half_space: {normal: [0, 0, 1], offset: 1}}}", "12:46: line 'rope': ends: the set of end B is unbounded: intersect it with a box that the line does not leave"),
+    (ON, "{set: {subspace: [[1, 0, 0], [0, 0, 1]]}}", "12:46: line 'rope': ends: the set of end B is unbounded: intersect it with a box that the line does not leave"),
+    (ON, "{set: {box: [.inf, 1, 1]}}", "12:46: line 'rope': ends: the set of end B is unbounded: intersect it with a box that the line does not leave"),
+    (ON, "{set: {intersection: [{translate: {by: [9, 0, 0], of: {ball: {radius: 2, dimension: 3}}}}, {ball: {radius: 6, dimension: 3}}]}}", "12:46: line 'rope': ends: the set of end B has no answer: the set is empty"),
+    (ON, "{set: {translate: {by: [5, 0], of: {ball: {radius: 2, dimension: 3}}}}}", "12:64: 'by': found 2 numbers, expected 3, as many as its set has components"),
+    (ON, "{set: {ball: {radius: 6, dimension: 3}}, ball: {centre: [5, 0, 0], radius: 1}}", "12:41: 'on': too much given, expected exactly one of 'rail', 'half_space', 'ball', 'disc', 'box', 'set'"),
     (ON, "{ball: {centre: [5, 0, 0], radius: 1}, force: [1, 2]}", "12:84: 'force': found a list of 2, expected three numbers"),
     (ON, "{ball: {centre: [5, 0, 0], radius: 1}, friction: 0.2}", "12:84: 'on': unknown key 'friction'"),
     (DRAW, "rope.B: {position: [5, 1, 0.5]}", "15:18: stage 2: rope.B is moved, but it is held to a set, which stays where it is: give it a force"),
@@ -125,16 +141,98 @@ def post(folder, stiffness):
     return len(FALSIFIED) + len(STATIC_FALSIFIED)
 
 
+# the end within the convex hull of a ball and a triangle, drawn along it
+HULL = ("{set: {hull: [{translate: {by: [4.8, 0, 0.4], of: {ball: {radius: 0.5, dimension: 3}}}}, "
+        "{polytope: [[5, 2, 0.5], [5.2, 1.5, 1], [4.5, 1.8, 0.2]]}]}}")
+HULL_FALSIFIED = (("rope_set_reaction", 3, 3, 1e-2), ("rope_set_reaction", 8, 4, 1e-2), ("rope_set_reaction", 12, 5, -1e-2), ("rope_position", 7, 3*60, 1e-4),
+                  ("rope_position", 9, 3*60 + 2, 1e-4), ("rope_end_force", 8, 3, 1e-2), ("rope_ledger_ends", 9, 0, 1e-2))
+FORM_FALSIFIED = (("origin", 0, 1e-3), ("origin", 2, -1e-3), ("map", 1, 1e-3), ("offset", 3, 1e-3), ("rows", 2, 1e-3), ("cone", 0, 1), ("cone", 0, -1), ("map", 0, math.inf))
+
+
+def falsify_attribute(folder, name, index, change):
+    """Write copy.nc with a number of a global attribute changed: name, padded to 4 bytes, type, count, numbers (the format's specification)."""
+    with open(os.path.join(folder, "result.nc"), "rb") as file:
+        data = bytearray(file.read())
+    head = struct.pack(">I", len(name)) + name.encode() + bytes(-len(name) % 4) + struct.pack(">I", 6)
+    assert data.count(head) == 1, name
+    at = data.index(head) + len(head) + 4 + 8*index
+    value, = struct.unpack_from(">d", data, at)
+    struct.pack_into(">d", data, at, value + change)
+    with open(os.path.join(folder, "copy.nc"), "wb") as file:
+        file.write(data)
+
+
+def hull(folder, stiffness):
+    """An end in a set that is given by an expression."""
+    scene, out, results = solve(folder, POST.replace(ON, HULL).replace("STIFFNESS", stiffness))
+    assert results.steps == 16
+    assert results.get("rope_position", 11)[181] > 1 and math.hypot(*results.get("rope_set_reaction", 11)[3:]) > 10
+    for variable, step, index, change in HULL_FALSIFIED:
+        falsify(results, out, variable, step, index, change)
+        code, said = command(CHECKER, os.path.join(out, "copy.nc"), scene)
+        assert code != 0, (variable, step, said)
+    for what, index, change in FORM_FALSIFIED:
+        falsify_attribute(out, "rope_set_B_" + what, index, change)
+        code, said = command(CHECKER, os.path.join(out, "copy.nc"), scene)
+        assert code != 0, (what, said)
+    return len(HULL_FALSIFIED) + len(FORM_FALSIFIED)
+
+
 def vector(numbers):
     return "[" + ", ".join(repr(float(x)) for x in numbers) + "]"
+
+
+def matrix(rows):
+    return "[" + ", ".join(vector(row) for row in rows) + "]"
+
+
+def random_expression(rng, size, depth=0):
+    """A bounded set of space around 0, as an expression: balls, ellipsoids, boxes, segments and polytopes, flat ones among them, and operations on
+    them."""
+    def some(scale, count=3):
+        return [rng.uniform(-1, 1)*scale for _ in range(count)]
+
+    def part():
+        return "{" + random_expression(rng, size, depth + 1) + "}"
+    plain, made = ["ball", "box", "ellipsoid", "segment", "polytope"], ["hull", "sum", "intersection", "image", "translate", "scale", "product", "polar"]
+    kind = rng.choice(plain if depth > 1 else plain + 2*made)
+    if kind == "ball":
+        return f"ball: {{radius: {rng.uniform(0.05, 0.6)*size!r}, dimension: 3}}"
+    if kind == "box":
+        return f"box: {matrix([[-rng.uniform(0.05, 0.5)*size, rng.uniform(0.05, 0.5)*size] for _ in range(3)])}"
+    if kind == "ellipsoid":
+        rows = [some(0.3*size) for _ in range(3)]
+        shape = [[sum(a*b for a, b in zip(one, two)) + (0.01*size**2 if one is two else 0) for two in rows] for one in rows]
+        return f"ellipsoid: {matrix(shape)}"
+    if kind == "segment":
+        end, share = some(size), rng.uniform(0.1, 1)
+        return f"segment: {matrix([end, [-share*x for x in end]])}"
+    if kind == "polytope":
+        points = [some(0.7*size) for _ in range(rng.choice([2, 3, 5, 9]))]
+        return f"polytope: {matrix(points + [[-0.6*sum(p[a] for p in points)/len(points) for a in range(3)]])}"
+    if kind in ("hull", "sum", "intersection"):
+        return f"{kind}: [{part()}, {part()}]"
+    if kind == "image":
+        rows = [some(0.6) for _ in range(3)]
+        return f"image: {{map: {matrix(rows)}, of: {part()}}}"
+    if kind == "translate":  # a ball, so that 0 stays in it
+        off = some(0.2*size)
+        return f"translate: {{by: {vector(off)}, of: {{ball: {{radius: {math.hypot(*off)*rng.uniform(1.001, 2)!r}, dimension: 3}}}}}}"
+    if kind == "scale":
+        return f"scale: {{by: {rng.choice([-1, 0.5, 1.2])}, of: {part()}}}"
+    if kind == "polar":  # of a set with 0 well inside
+        return f"polar: {{box: {matrix([[-rng.uniform(1, 5)/size, rng.uniform(1, 5)/size] for _ in range(3)])}}}"
+    return f"product: [{{disc: {rng.uniform(0.1, 0.5)*size!r}}}, {{interval: {vector([-rng.uniform(0, 0.5)*size, rng.uniform(0.1, 0.5)*size])}}}]"
 
 
 def random_set(rng, place, size, bounded):
     """A set of any kind that has the place in it, and its keys."""
     def some(scale):
         return [rng.uniform(-1, 1)*scale for _ in range(3)]
-    kind, axis = rng.choice(["rail", "ball", "disc", "box"] if bounded else ["rail", "line", "half_space", "ball", "disc", "box"]), some(1)
+    kind, axis = rng.choice(["rail", "ball", "disc", "box", "set"] if bounded else ["rail", "line", "half_space", "ball", "disc", "box", "set", "set"]), some(1)
     length = math.hypot(*axis)
+    if kind == "set":
+        return f"set: {{translate: {{by: {vector(place)}, of: {{{random_expression(rng, size)}}}}}}}"
     if kind == "line":
         return f"rail: {{from: {vector(place)}, along: {vector(axis)}}}"
     if kind == "rail":
@@ -257,9 +355,15 @@ def main():
             return 0
         wrong = mistakes(folder)
         copies = sum(post(folder, stiffness) for stiffness in ("20000", ".inf"))
+        copies += sum(hull(folder, stiffness) for stiffness in ("20000", ".inf"))
         resumed(CAPSTAN, folder, POST.replace("STIFFNESS", "20000").replace("90, 0]}, steps: 6", "90, 0]}, steps: 150"),
             400000, 160, range(160),
             ("rope_position", "rope_tension", "rope_set_reaction", "rope_ledger_ends"))
+    with tempfile.TemporaryDirectory() as folder:
+        resumed(CAPSTAN, folder, POST.replace(ON, HULL).replace("STIFFNESS", "20000").replace("90, 0]}, steps: 6", "90, 0]}, steps: 150"),
+                400000, 160, range(160),
+                ("rope_position", "rope_tension", "rope_set_reaction", "rope_ledger_ends"))
+    with tempfile.TemporaryDirectory() as folder:
         ran = histories(folder, 0, SEEDS)
     print(f"{ran[0]} random histories with {ran[1]} of {ran[2]} steps certified; {copies} falsified copies and {wrong} mistakes refused")
     return 0

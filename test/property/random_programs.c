@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random programs of the sparse conic solver: every answer satisfies the conditions of an optimum.
- *     usage: random_programs [--cases N] [--seed S]
+ *     usage: random_programs [--cases N] [--seed S] [--unknowns N]
  *
  * Programs of 16 to 400 unknowns (random_program.h), a third of them with unknowns in no block, a
- * third with equations that stand twice. Optimality is checked with arithmetic of its own. */
+ * third with equations that stand twice. With --unknowns all are banded and have so many, and of
+ * ten at most one may take more than one run of the loop. Optimality is checked with arithmetic of
+ * its own. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,25 +17,26 @@
 /* Residual and gap above which an answer is not accepted, as in drive/. */
 static const double ACCEPT = 1e-7;
 /* What an answer may miss, in units of 1 + the largest unknown. The solver looks for 1e-14;
- * where no polish comes to it, the best iterate is the answer, and the worst of 5000 missed
- * 7.7e-13. */
+ * where no polish comes to it, the best iterate is the answer. */
 static const double ERROR = 1e-12;
 /* One run of the loop ends below this number of iterations. */
 enum { ONE_RUN = 40 };
 
 int main(int argc, char **argv) {
-    int cases = 1000, repeated = 0, failures = 0;
+    int cases = 1000, size = 0, repeated = 0, failures = 0;
     uint64_t seed = 1;
     for (int i = 1; i + 1 < argc; i += 2) {
         if (!strcmp(argv[i], "--cases")) cases = atoi(argv[i + 1]);
+        if (!strcmp(argv[i], "--unknowns")) size = atoi(argv[i + 1]);
         if (!strcmp(argv[i], "--seed")) seed = strtoull(argv[i + 1], NULL, 10);
     }
     double worst = 0;
     for (int k = 0; k < cases; k++) {
         uint64_t state = seed + (uint64_t)k;
-        const int unknowns = (int)exp(splitmix(&state, log(RANDOM_PROGRAM_LEAST), log(401)));
+        const double drawn = splitmix(&state, log(RANDOM_PROGRAM_LEAST), log(401));
+        const int unknowns = size > 0 ? size : (int)exp(drawn);
         const RandomProgramKind kind = {.unknowns = unknowns,
-                                        .banded = splitmix(&state, 0, 1) < 0.5,
+                                        .banded = splitmix(&state, 0, 1) < 0.5 || size > 0,
                                         .loose = splitmix(&state, 0, 3) < 1 ? 1 + unknowns / 50 : 0,
                                         .repeated =
                                             splitmix(&state, 0, 3) < 1 ? 1 + unknowns / 20 : 0};
@@ -59,6 +62,7 @@ int main(int argc, char **argv) {
         cpsi_sparse_program_free(program);
         random_program_free(&made);
     }
+    if (size > 0 && 10 * repeated > cases) failures++;
     printf("%d programs: largest error %.2g, %d took more than %d iterations, %d failures\n", cases,
            worst, repeated, (int)ONE_RUN, failures);
     return failures > 0;

@@ -117,7 +117,8 @@ def test_targets_take_every_key_of_an_entry(schema):
                 taken += 1
                 continue
             kind = what["$ref"].rpartition("/")[2]
-            for name in schema[kind]["properties"]:
+            # a move is one step: it has no time series
+            for name in set(schema[kind]["properties"]) - {"series"}:
                 assert name in SAMPLES[kind], f"a target does not know the new key {name} of {kind}"
                 evolution.target({key: {name: VALUES.get(name, [0.1, 0.2, 0.3]), **SAMPLES[kind][name]}})
                 taken += 1

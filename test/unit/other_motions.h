@@ -26,13 +26,16 @@ static const char MOTION_SCENE[] =
     "history:\n"
     "  - {name: pull, duration: 2, time_step: 0.5,"
     " one.B: {move: [0, 0, 0.1], sine: [0, 0, 0.2], cosine: [0, 0, 0.3], period: 4,"
-    " oscillations: [{sine: [0.1, 0, 0], period: 7}]}}\n";
+    " oscillations: [{sine: [0.1, 0, 0], period: 7}], series: other_scene_s.csv}}\n";
 
 static const char ADRIFT_SCENE[] =
     "capstan: 1\n"
     "bodies: {raft: {free: [0, 0, 0], mass: 50, moments_of_inertia: [20, 25, 30],"
     " products_of_inertia: [1, 2, 3], added_mass: {x: 5}, damping: {y: 6},"
-    " quadratic_damping: {z: 7}, velocity: [0.1, 0, 0], turn_rate: [0, 0, 0.2]},"
+    " quadratic_damping: {z: 7}, velocity: [0.1, 0, 0], turn_rate: [0, 0, 0.2],"
+    " excitation: [{period: 4, direction: 20, amplitude: [1, 2, 3, 4, 5, 6]}, {period: 6, "
+    "direction: 20,"
+    " amplitude: [1, 2, 3, 4, 5, 7], phase: [10, 20, 30, 40, 50, 60]}]},"
     " quay: {held: [0, 0, 3]}}\n"
     "points: {eye: {body: raft, at: [0, 0, 0.5]}, ring: {body: quay, at: [0, 0, 0.5]}}\n"
     "lines:\n"
@@ -43,7 +46,10 @@ static const char ADRIFT_SCENE[] =
     "  - {name: pull, duration: 0.2, time_step: 0.1,"
     " raft.body: {force: [0, 0, 0], oscillations: [{moment_sine: [0, 1, 0],"
     " moment_cosine: [0, 2, 0], period: 5}]}, quay.body: {move: [0, 0, 0],"
-    " oscillations: [{rotation_sine: [0, 3, 0], rotation_cosine: [0, 4, 0], period: 5}]}}\n";
+    " oscillations: [{rotation_sine: [0, 3, 0], rotation_cosine: [0, 4, 0], period: 5}]}}\n"
+    "water_density: 10\n"
+    "water_surface: 9\n"
+    "waves: {depth: 30, components: [{amplitude: 0.1, period: 5, direction: 20, phase: 30}]}\n";
 
 static const struct Change ADRIFT_CHANGE[] = {
     {"moment_sine", "moment_sine: [0, 1, 0]", "moment_sine: [1, 1, 0]"},
@@ -58,6 +64,10 @@ static const struct Change ADRIFT_CHANGE[] = {
     {"quadratic_damping", "quadratic_damping: {z: 7}", "quadratic_damping: {z: 8}"},
     {"velocity", "velocity: [0.1, 0, 0]", "velocity: [0.2, 0, 0]"},
     {"turn_rate", "turn_rate: [0, 0, 0.2]", "turn_rate: [0, 0, 0.3]"},
+    {"excitation", "[{period: 4, direction: 20, amplitude: [1, 2, 3, 4, 5, 6]}, ",
+     "[{period: 3, direction: 20, amplitude: [1, 2, 3, 4, 5, 6]}, "},
+    {"amplitude", "[1, 2, 3, 4, 5, 7]", "[1, 2, 3, 4, 5, 8]"},
+    {"phase", "phase: [10", "phase: [11"},
 };
 
 static const struct Change MOTION_CHANGE[] = {
@@ -72,6 +82,11 @@ static const struct Change MOTION_CHANGE[] = {
     {"period", "period: 4", "period: 5"},
     {"oscillations", "{sine: [0.1, 0, 0], period: 7}", "{sine: [0.1, 0, 0], period: 8}"},
     {"oscillations", "sine: [0.1, 0, 0]", "sine: [0.2, 0, 0]"},
+    {"series", "other_scene_s.csv", "other_scene_t.csv"},
+    {"file",
+     "components: [{amplitude: 0.1, period: 5, direction: 20, phase: 30}, {amplitude: 0.2, "
+     "frequency: 0.1, direction: 0}]",
+     "file: other_scene_w.csv"},
     {"damping", " damping: 5", " damping: 6"},
     {"diameter", "diameter: 0.1", "diameter: 0.11"},
     {"normal", ", normal: 1", ", normal: 1.1"},

@@ -282,6 +282,49 @@ static void friction_sets_and_zones_take_no_more(void **unused) {
     CHECK_INT(live, live_before);
 }
 
+/* A ball cut by a half-space, in which an end is; the end's set may go, and steps take no memory.
+ */
+static void an_end_in_a_set_takes_no_more(void **unused) {
+    (void)unused;
+    const int live_before = live;
+    CpsSet *ball = NULL, *half = NULL, *set = NULL;
+    assert_int_equal(cps_set_ball(3, (const double[3]){6.28, 0, 0}, 0.3, &ball, NULL), CPS_OK);
+    assert_int_equal(cps_set_half_space(3, (const double[3]){1, 0.5, 0.2}, 6.4, &half, NULL),
+                     CPS_OK);
+    assert_int_equal(cps_set_intersection(2, (const CpsSet *[]){ball, half}, &set, NULL), CPS_OK);
+    cps_set_release(ball);
+    cps_set_release(half);
+    CpsLine line = rope();
+    line.constraint[CPS_END_B] = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_SET, .set = set};
+    const CpsObstacle bed = rough();
+    const CpsScene s = scene(&bed, &line);
+    for (int k = 0;; k++) {
+        CpsEvolution *evolution = (CpsEvolution *)&stage;
+        CpsError err;
+        allocations = 0;
+        fail_at = k;
+        const CpsStatus status = cps_evolution_create(&s, &evolution, &err);
+        fail_at = -1;
+        if (status != CPS_OK) {
+            assert_int_equal(status, CPS_ERR_MEMORY);
+            assert_null(evolution);
+            continue;
+        }
+        assert_true(k > 5);
+        cps_set_release(set);
+        const int before = allocations;
+        while (cps_evolution_remaining_count(evolution) > 0) {
+            assert_int_equal(cps_evolution_step(evolution, NULL), CPS_OK);
+            assert_int_equal(cps_evolution_report(evolution).outcome, CPS_OUTCOME_SOLVED);
+        }
+        assert_true(cps_evolution_constraint_report(evolution, 0, CPS_END_B).is_active);
+        CHECK_INT(allocations, before);
+        cps_evolution_destroy(evolution);
+        break;
+    }
+    CHECK_INT(live, live_before);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stepping_allocates_nothing),
@@ -289,6 +332,7 @@ int main(void) {
         cmocka_unit_test(moving_allocates_once),
         cmocka_unit_test(every_failing_allocation_is_survived),
         cmocka_unit_test(friction_sets_and_zones_take_no_more),
+        cmocka_unit_test(an_end_in_a_set_takes_no_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Driven systems: what is refused and why, outcomes with their proofs, views; and the sparse factor
  * below them. */
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -373,6 +374,30 @@ static void sparse_limits(void **state) {
     cpsi_ldl_free(ldl);
 }
 
+/* the second pivot of 1e9 (1, 1/3)(1, 1/3)' is rounding: it is taken as large as that may be, in
+ * either direction, so that the next column does not grow by its ratio to a smaller one */
+static void sparse_rounded_pivot(void **state) {
+    (void)state;
+    const size_t start[] = {0, 1, 3};
+    const int index[] = {0, 0, 1};
+    const CpsiPattern pattern = {2, start, index};
+    size_t entries;
+    CpsiLdl *ldl = cpsi_ldl_new(&pattern, 4, &entries);
+    assert_non_null(ldl);
+    for (int direction = -1; direction <= 1; direction += 2) {
+        const double large = 1e9 * direction;
+        const double value[] = {large, large / 3, large / 9};
+        const signed char sign[] = {(signed char)direction, (signed char)direction};
+        assert_true(cpsi_ldl_factor(ldl, value, sign, 1e-13));
+        double x[] = {0, 1};
+        cpsi_ldl_solve(ldl, x);
+        /* 1/x[1] or, where the other unknown is eliminated last, 9 times that is the pivot */
+        const double pivot = direction / x[1], rounding = 1e9 * DBL_EPSILON / 9;
+        CHECK_BETWEEN(pivot, rounding, 100 * rounding);
+    }
+    cpsi_ldl_free(ldl);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(building_is_checked),    cmocka_unit_test(solving_is_checked),
@@ -380,6 +405,7 @@ int main(void) {
         cmocka_unit_test(one_sided_law_blocks),   cmocka_unit_test(unresisted_load),
         cmocka_unit_test(subspace_and_rest),      cmocka_unit_test(interior_missed),
         cmocka_unit_test(sparse_trees),           cmocka_unit_test(sparse_limits),
+        cmocka_unit_test(sparse_rounded_pivot),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -170,8 +170,11 @@ static const char SETS_SCENE[] =
                 IN_A_SET("e", "40", "disc: {centre: [6, 40, 0], radius: 1, normal: [0, 0, 2]}")
                     IN_A_SET("f", "50",
                              "box: {centre: [6, 50, 0], size: [1, 2, 3], rotation: {quaternion: "
-                             "[1, 0, 0, 0]}}") "history:\n"
-                                               "  - {name: pull, a.A: {move: [0, 0, 0.1]}}\n";
+                             "[1, 0, 0, 0]}}")
+                        IN_A_SET("g", "60",
+                                 "set: {translate: {by: [6, 60, 0], of: {ball: {radius: 9, "
+                                 "dimension: 3}}}}") "history:\n"
+                                                     "  - {name: pull, a.A: {move: [0, 0, 0.1]}}\n";
 
 static const char SHAPES_SCENE[] =
     "capstan: 1\n"
@@ -188,10 +191,13 @@ static const char SHAPES_SCENE[] =
     "history:\n"
     "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
 
-static const struct GroundFile {
+static const struct SideFile {
     const char *name, *text;
-} GROUND_FILE[] = {
+} SIDE_FILE[] = {
     {"other_scene_a.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n0 0\n0 1\n"},
+    {"other_scene_s.csv", "time,z\n0,0\n2,0.1\n"},
+    {"other_scene_t.csv", "time,z\n0,0\n2,0.2\n"},
+    {"other_scene_w.csv", "amplitude,period,direction\n0.1,5,20\n"},
     {"other_scene_b.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n1 1\n1 2\n"},
     {"other_scene_c.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n1 1\n1 3\n"},
     {"other_scene_d.obj", "v 0 -1 0\nv 2 -1 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n"},
@@ -434,6 +440,8 @@ static const struct Change SET_CHANGE[] = {
     {"disc", "normal: [0, 0, 2]", "normal: [0, 1, 2]"},
     {"box", "size: [1, 2, 3]", "size: [1, 2, 4]"},
     {"rotation", "quaternion: [1, 0, 0, 0]", "quaternion: [1, 0.1, 0, 0]"},
+    {"set", "radius: 9, dimension: 3", "radius: 8, dimension: 3"},
+    {"set", "by: [6, 60, 0]", "by: [6, 60.5, 0]"},
 };
 
 static const struct Change SHAPE_CHANGE[] = {
@@ -588,20 +596,29 @@ static void every_change_of_bodies_makes_another_scene(void **state) {
     expect_refused(&BODIES, 4, sizeof BODIES_SCENE);
 }
 
-static void every_change_of_files_makes_another_scene(void **state) {
+static int write_files(void **state) {
     (void)state;
-    for (size_t i = 0; i < sizeof GROUND_FILE / sizeof *GROUND_FILE; i++) {
-        FILE *out = fopen(GROUND_FILE[i].name, "w");
+    for (size_t i = 0; i < sizeof SIDE_FILE / sizeof *SIDE_FILE; i++) {
+        FILE *out = fopen(SIDE_FILE[i].name, "w");
         assert_non_null(out);
-        fputs(GROUND_FILE[i].text, out);
+        fputs(SIDE_FILE[i].text, out);
         assert_int_equal(fclose(out), 0);
     }
+    return 0;
+}
+
+static int remove_files(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof SIDE_FILE / sizeof *SIDE_FILE; i++) unlink(SIDE_FILE[i].name);
+    return 0;
+}
+
+static void every_change_of_files_makes_another_scene(void **state) {
+    (void)state;
     expect_refused(&GROUND, 0, place_of(GROUND_SCENE, "{name: pull"));
     expect_refused(&GROUND, 1, sizeof GROUND_SCENE);
     expect_refused(&MESH, 0, place_of(MESH_SCENE, "{name: pull"));
     expect_refused(&MESH, 1, sizeof MESH_SCENE);
-    for (size_t i = 0; i < sizeof GROUND_FILE / sizeof *GROUND_FILE; i++)
-        unlink(GROUND_FILE[i].name);
 }
 
 static void every_change_of_shapes_makes_another_scene(void **state) {
@@ -716,5 +733,5 @@ int main(void) {
         cmocka_unit_test(every_change_of_motions_makes_another_scene),
         cmocka_unit_test(flags_of_a_changed_state_are_flags),
         cmocka_unit_test(every_key_is_changed)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, write_files, remove_files);
 }

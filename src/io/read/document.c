@@ -99,6 +99,19 @@ CpsStatus cpsi_document_place(const CpsiDocument *d, const CpsiYaml *node, const
     return cpsi_document_fail(d, status, node, "'%.64s': %s", node->key, message);
 }
 
+CpsStatus cpsi_document_table(const CpsiDocument *d, const CpsiYaml *node, const char *name,
+                              const CpsiCsvColumn *column, int count, CpsiPool *pool,
+                              CpsiCsvTable *out, const char **path) {
+    if (!cpsi_is_beside(name))
+        return cpsi_document_fail(
+            d, CPS_ERR_INPUT, node,
+            "'%.64s': found '%.64s', expected the name of a file beside this one, without '/'",
+            node->key, name);
+    *path = cpsi_path_beside(pool, d->name, name);
+    if (!*path) return cpsi_document_no_memory(d);
+    return cpsi_csv_read(*path, d->limits->max_bytes, column, count, pool, out, d->err);
+}
+
 CpsStatus cpsi_document_no_memory(const CpsiDocument *d) {
     return cpsi_fail_at(d->err, CPS_ERR_MEMORY, d->name, 0, 0,
                         "out of memory while reading the file");

@@ -4,6 +4,7 @@
 #define CAPSTAN_SRC_IO_READ_DOCUMENT_H
 
 #include "capstan/io.h"
+#include "io/base/file/csv_table.h"
 #include "io/base/yaml/yaml.h"
 #include "io/schema/file_kind.h"
 
@@ -44,6 +45,12 @@ CpsStatus cpsi_document_wrong(const CpsiDocument *d, const CpsiYaml *node, const
 /* Give the error of a library call its position in the file: that of its own path, or that of the
  * node. Returns its status (ARGUMENT becomes INPUT). */
 CpsStatus cpsi_document_place(const CpsiDocument *d, const CpsiYaml *node, const CpsError *found);
+/* Read a table of columns from the CSV file that the text of a node names; its path, for messages,
+ * is
+ * `*path`. */
+CpsStatus cpsi_document_table(const CpsiDocument *d, const CpsiYaml *node, const char *name,
+                              const CpsiCsvColumn *column, int count, CpsiPool *pool,
+                              CpsiCsvTable *out, const char **path);
 CpsStatus cpsi_document_no_memory(const CpsiDocument *d);
 
 #endif

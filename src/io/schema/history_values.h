@@ -40,6 +40,7 @@ typedef struct CpsiChangeValues {
     double value[3];
     CpsiSwayValues sway;   /* given beside the value; of an end or point */
     CpsiList oscillations; /* CpsiSwayValues */
+    const char *series;    /* file of a time series; NULL: none */
     bool yes;              /* of `release` */
 } CpsiChangeValues;
 
@@ -50,6 +51,7 @@ typedef struct CpsiBodyChangeValues {
     CpsiRotationValues rotation;
     double force[3], moment[3], arm[3];
     CpsiList oscillations; /* CpsiSwayValues */
+    const char *series;    /* as of an end */
 } CpsiBodyChangeValues;
 
 /* A shift of an obstacle. */

@@ -121,9 +121,11 @@ static const char *const ALWAYS[] = {
 };
 
 static void write_form(Text *out, const CpsiKey *key, const char *unit) {
-    static const char *const COORDINATES[] = {"", "[x]", "[x, y]", "[x, y, z]", "[w, x, y, z]"};
-    static const char *const NUMBER[] = {"", "one number", "two numbers", "three numbers",
-                                         "four numbers"};
+    static const char *const COORDINATES[] = {
+        "", "[x]", "[x, y]", "[x, y, z]", "[w, x, y, z]", "", "[x, y, z, rx, ry, rz]"};
+    static const char *const NUMBER[] = {
+        "",           "one number", "two numbers", "three numbers", "four numbers", "five numbers",
+        "six numbers"};
     switch (key->type) {
     case CPSI_TEXT:
         put(out, "a text");

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/math.h"
+#include "base/status.h"
 #include "io/read/scene/scene_build.h"
 
 /* A duration that is a whole number of steps may be so but for rounding. */
@@ -155,13 +156,18 @@ static CpsStatus check_size(const CpsiHistoryBuild *b, const CpsiYaml *node) {
 /* Oscillations of an end or point: that beside its value, and those of its list. */
 static CpsStatus check_change_sways(const CpsiHistoryBuild *b, const CpsiChangeValues *values) {
     const CpsiYaml *period = cpsi_yaml_child(values->node, "period"),
-                   *list = cpsi_yaml_child(values->node, "oscillations");
+                   *list = cpsi_yaml_child(values->node, "oscillations"),
+                   *series = cpsi_yaml_child(values->node, "series");
     const CpsiSwayValues *sways = values->oscillations.item;
     if ((period || list) && values->kind == CPSI_CHANGE_RELEASE)
         return cpsi_document_fail(b->d, CPS_ERR_INPUT, period ? period : list,
                                   "'%s': found beside 'release': what is let go does not "
                                   "oscillate",
                                   period ? "period" : "oscillations");
+    if (series && values->kind == CPSI_CHANGE_RELEASE)
+        return cpsi_document_fail(b->d, CPS_ERR_INPUT, series,
+                                  "'series': found beside 'release': what is let go is led "
+                                  "nowhere");
     CpsStatus status = period ? check_size(b, values->node) : CPS_OK;
     for (int i = 0; i < values->oscillations.count && status == CPS_OK; i++)
         status = check_size(b, sways[i].node);
@@ -209,11 +215,57 @@ static void add_sway(CpsStage *stage, CpsSway *sway, const CpsiSwayValues *value
     stage->sway_count++;
 }
 
+/* Add a time series of a place or load from its file, of a body also of its rotation or moment. */
+static CpsStatus add_series(const CpsiHistoryBuild *b, const CpsiYaml *change, const char *name,
+                            bool held, CpsSway like, CpsStage *stage, CpsSway *sway,
+                            double after[6]) {
+    static const CpsiCsvColumn PLACE[] = {{"time", "s", true},  {"x", "m", false},
+                                          {"y", "m", false},    {"z", "m", false},
+                                          {"rx", "deg", false}, {"ry", "deg", false},
+                                          {"rz", "deg", false}};
+    static const CpsiCsvColumn LOAD[] = {{"time", "s", true},  {"fx", "N", false},
+                                         {"fy", "N", false},   {"fz", "N", false},
+                                         {"mx", "N m", false}, {"my", "N m", false},
+                                         {"mz", "N m", false}};
+    enum { OF_SERIES = 7, OF_VECTOR = 4 };
+    const CpsiYaml *node = cpsi_yaml_child(change, "series");
+    const int count = like.of == CPS_SWAY_OF_BODY ? OF_SERIES : OF_VECTOR;
+    CpsiCsvTable table;
+    const char *path;
+    CpsStatus status =
+        cpsi_document_table(b->d, node, name, held ? PLACE : LOAD, count, b->pool, &table, &path);
+    if (status != CPS_OK) return status;
+    double *row = CPSI_POOL_TAKE(b->pool, OF_SERIES * (size_t)table.rows, double), at[6];
+    if (!row) return cpsi_document_no_memory(b->d);
+    for (int k = 0; k < table.rows; k++)
+        for (int c = 0; c < count; c++)
+            row[OF_SERIES * k + c] =
+                table.value[count * k + c] * (held && c >= OF_VECTOR ? CPSI_DEGREE : 1);
+    for (int k = 1; k < table.rows; k++)
+        if (!(row[OF_SERIES * k] > row[OF_SERIES * (k - 1)]))
+            return cpsi_fail_at(b->d->err, CPS_ERR_INPUT, path, table.line[k], 1,
+                                "time: found %.9g s after %.9g s, expected times that increase",
+                                row[OF_SERIES * k], row[OF_SERIES * (k - 1)]);
+    bool any = false;
+    for (int c = 1; c < count; c++) any = any || table.has[c];
+    if (!any || table.rows < 2)
+        return cpsi_fail_at(b->d->err, CPS_ERR_INPUT, path, 0, 0,
+                            any ? "found one row, expected at least two"
+                                : "found times alone, expected a column beside them");
+    like.row_count = table.rows;
+    like.row = row;
+    sway[stage->sway_count++] = like;
+    cps_sway_at(&like, stage->duration, at);
+    for (int i = 0; i < 6; i++) after[i] += at[i];
+    return CPS_OK;
+}
+
 /* The oscillations of an end or point, which is then held elsewhere. */
 static CpsStatus build_change_sways(const CpsiHistoryBuild *b, const CpsiChangeValues *values,
                                     CpsSway like, double held[3], CpsStage *stage, CpsSway *sway) {
     const CpsiSwayValues *sways = values->oscillations.item;
-    const CpsStatus status = check_change_sways(b, values);
+    const bool place = values->kind != CPSI_CHANGE_FORCE;
+    CpsStatus status = check_change_sways(b, values);
     double after[6] = {0};
     if (status != CPS_OK) return status;
     for (int i = -1; i < values->oscillations.count; i++) {
@@ -221,8 +273,10 @@ static CpsStatus build_change_sways(const CpsiHistoryBuild *b, const CpsiChangeV
         sway[stage->sway_count] = like;
         add_sway(stage, &sway[stage->sway_count], i < 0 ? &values->sway : &sways[i], true, after);
     }
+    if (values->series)
+        status = add_series(b, values->node, values->series, place, like, stage, sway, after);
     for (int i = 0; i < 3; i++) held[i] += after[i];
-    return CPS_OK;
+    return status;
 }
 
 /* The oscillations of a body, which is then held in another pose. */
@@ -230,21 +284,25 @@ static CpsStatus build_body_sways(const CpsiHistoryBuild *b, const CpsiBodyChang
                                   const CpsBodyChange *change, CpsStage *stage, CpsSway *sway) {
     const CpsiSwayValues *sways = values->oscillations.item;
     const bool held = change->kind == CPS_BODY_KIND_HELD;
-    const CpsStatus status = check_body_sways(b, values, change);
+    CpsStatus status = check_body_sways(b, values, change);
     double after[6] = {0};
     if (status != CPS_OK) return status;
     for (int i = 0; i < values->oscillations.count; i++) {
         sway[stage->sway_count] = (CpsSway){.of = CPS_SWAY_OF_BODY, .owner = change->body};
         add_sway(stage, &sway[stage->sway_count], &sways[i], held, after);
     }
+    const CpsSway like = {.of = CPS_SWAY_OF_BODY, .owner = change->body};
+    if (values->series)
+        status = add_series(b, values->node, values->series, held, like, stage, sway, after);
     cpsi_held_pose_sway(&b->held.body[change->body], after);
-    return CPS_OK;
+    return status;
 }
 
 static int count_sways(const CpsiStageValues *values) {
     const CpsiChangeValues *end = values->changes.item, *point = values->point_changes.item;
     const CpsiBodyChangeValues *body = values->body_changes.item;
-    int count = values->changes.count + values->point_changes.count;
+    int count =
+        2 * (values->changes.count + values->point_changes.count) + values->body_changes.count;
     for (int k = 0; k < values->changes.count; k++) count += end[k].oscillations.count;
     for (int k = 0; k < values->point_changes.count; k++) count += point[k].oscillations.count;
     for (int k = 0; k < values->body_changes.count; k++) count += body[k].oscillations.count;

@@ -286,8 +286,7 @@ static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsS
 }
 
 /* A free end with the force and the set that it is held to. */
-static CpsStatus build_set(const Build *b, const CpsiOnValues *values, CpsEnd *end,
-                           CpsConstraint *on) {
+static CpsStatus build_set(Build *b, const CpsiOnValues *values, CpsEnd *end, CpsConstraint *on) {
     *on = values->on;
     on->kind = (CpsConstraintKind)(CPS_CONSTRAINT_KIND_RAIL + values->kind);
     end->kind = CPS_END_KIND_FREE;
@@ -300,6 +299,8 @@ static CpsStatus build_set(const Build *b, const CpsiOnValues *values, CpsEnd *e
                                       "rotation: it is (0, 0, 0, 0), expected a quaternion of any "
                                       "length but zero");
     }
+    if (on->kind == CPS_CONSTRAINT_KIND_SET)
+        return cpsi_build_set(&b->set, values->set, (CpsSet **)&on->set);
     if (on->kind != CPS_CONSTRAINT_KIND_RAIL) return CPS_OK;
     on->length = INFINITY;
     if (values->rail == 1) return CPS_OK;
@@ -314,7 +315,7 @@ static CpsStatus build_set(const Build *b, const CpsiOnValues *values, CpsEnd *e
 
 /* `held`: at its initial position, `free`: without force; or at a given position, or with a given
  * force; or at a point, or in a set. */
-static CpsStatus build_end(const Build *b, const CpsiEndValues *values, CpsEnd *end, int *point,
+static CpsStatus build_end(Build *b, const CpsiEndValues *values, CpsEnd *end, int *point,
                            CpsConstraint *on) {
     const bool is_free = values->word == CPSI_END_FREE;
     *end = (CpsEnd){.kind = CPS_END_KIND_AT_START};

@@ -12,7 +12,7 @@
 
 struct CpsSceneFile {
     CpsScene scene;
-    /* memory of everything that the scene refers to, except friction sets and ground, which are
+    /* memory of everything that the scene refers to, except sets and ground, which are
      * retained */
     CpsiPool pool;
 };
@@ -24,6 +24,9 @@ void cps_scene_file_destroy(CpsSceneFile *file) {
         cps_ground_release((CpsGround *)file->scene.obstacle[k].ground);
         cps_mesh_release((CpsMesh *)file->scene.obstacle[k].mesh);
     }
+    for (int i = 0; i < file->scene.line_count; i++)
+        for (int end = 0; end < 2; end++)
+            cps_set_release((CpsSet *)file->scene.line[i].constraint[end].set);
     cpsi_pool_free(&file->pool);
     free(file);
 }

@@ -47,7 +47,7 @@ void cpsi_netcdf_numbers(CpsiNetcdfFile *file, const char *name, size_t count,
 
 void cpsi_netcdf_flags(CpsiNetcdfFile *file, int variable, nc_type type, size_t count,
                        const int *value, const char *meanings) {
-    static const int FLAG[] = {0, 1, 2, 3, 4, 5};
+    static const int FLAG[] = {0, 1, 2, 3, 4, 5, 6};
     CALL(file, put_att_int, variable, "flag_values", type, count, value ? value : FLAG);
     cpsi_netcdf_text(file, variable, "flag_meanings", meanings);
 }

@@ -575,17 +575,66 @@ void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids
 
 enum { QUATERNION = 4 };
 
+/* The conic form {origin + P v : A v + b in K} of a set given by an expression, as attributes;
+ * without unknowns it is the origin alone. */
+static void define_form(CpsiNetcdfFile *file, const char *line, int end, const CpsConstraint *on,
+                        const double origin[3]) {
+    CpsSetConic form;
+    CpsSetFacts facts;
+    CpsSet *moved = NULL;
+    double middle[3] = {0}, back[3];
+    /* about a place of the set, so that its numbers are of its own size */
+    bool made = cps_set_facts(on->set, 0, &facts, middle, NULL, NULL) == CPS_OK;
+    for (int a = 0; a < 3; ++a) back[a] = -middle[a];
+    made = made && cps_set_translate(back, on->set, &moved, NULL) == CPS_OK &&
+           cps_set_conic(moved, &form, NULL) == CPS_OK;
+    cps_set_release(moved);
+    if (!made) {
+        cpsi_netcdf_keep(file, NC_ENOMEM);
+        return;
+    }
+    const size_t n = (size_t)form.unknown_count, m = (size_t)form.row_count;
+    double at[3], *cone = calloc(m + 1, sizeof *cone);
+    if (!cone) {
+        cpsi_netcdf_keep(file, NC_ENOMEM);
+        cps_set_conic_clear(&form);
+        return;
+    }
+    for (int a = 0; a < 3; ++a) at[a] = form.origin[a] + (middle[a] + (on->point[a] - origin[a]));
+    for (int k = 0, i = 0; k < form.cone_count; i += form.dim[k], ++k) cone[i] = form.dim[k];
+    const struct {
+        const char *what;
+        size_t count;
+        const double *value;
+    } part[] = {{"origin", 3, at},
+                {"map", 3 * n, form.p},
+                {"cone", m, cone},
+                {"rows", m * n, form.a},
+                {"offset", m, form.b}};
+    for (size_t i = 0; i < sizeof part / sizeof *part; ++i) {
+        char name[NC_MAX_NAME + 1];
+        snprintf(name, sizeof name, "%.200s_set_%c_%s", line, end == CPS_END_A ? 'A' : 'B',
+                 part[i].what);
+        if (n > 0 || i == 0) cpsi_netcdf_numbers(file, name, part[i].count, part[i].value);
+    }
+    free(cone);
+    cps_set_conic_clear(&form);
+}
+
 void cpsi_netcdf_define_sets(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const CpsLine *line,
-                             const int dimension[3]) {
+                             const int dimension[3], const double origin[3]) {
     const int *end = &dimension[1], *xyz = &dimension[1];
     const char *of = line->name;
     ids->is_there = cpsi_has_set(line);
     if (!ids->is_there) return;
+    for (int e = 0; e < 2; ++e)
+        if (line->constraint[e].kind == CPS_CONSTRAINT_KIND_SET)
+            define_form(file, of, e, &line->constraint[e], origin);
     char four[256];
     snprintf(four, sizeof four, "%.200s_set_quaternion", of);
     ids->kind = cpsi_netcdf_variable(file, of, "set_kind", NC_BYTE, 1, end,
                                      "set that the free end is held to", "1");
-    cpsi_netcdf_flags(file, ids->kind, NC_BYTE, 6, NULL, "none rail half_space ball disc box");
+    cpsi_netcdf_flags(file, ids->kind, NC_BYTE, 7, NULL, "none rail half_space ball disc box set");
     ids->point =
         cpsi_netcdf_variable(file, of, "set_point", NC_DOUBLE, 2, xyz,
                              "beginning or middle of the set, or a point of its plane", "m");

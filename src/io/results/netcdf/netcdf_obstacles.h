@@ -181,9 +181,9 @@ typedef struct CpsiNetcdfSets {
 } CpsiNetcdfSets;
 
 /* Define the variables of a line of the scene, none where it has no such end; the dimensions are
- * step, end, xyz. Write what does not change, about an origin; and what does in a step. */
+ * step, end, xyz. Both these and what is written once are relative to an origin. */
 void cpsi_netcdf_define_sets(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const CpsLine *line,
-                             const int dimension[3]);
+                             const int dimension[3], const double origin[3]);
 void cpsi_netcdf_write_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, const CpsLine *line,
                             const double origin[3]);
 void cpsi_netcdf_append_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size_t step,

@@ -618,7 +618,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
                                    (const int[]){nc->step, nc->end, nc->line[i].node,
                                                  nc->line[i].element});
         cpsi_netcdf_define_sets(&nc->file, &nc->line[i].sets, &scene->line[i],
-                                (const int[]){nc->step, nc->end, nc->xyz});
+                                (const int[]){nc->step, nc->end, nc->xyz}, first.origin);
         cpsi_netcdf_define_potential(&nc->file, &nc->line[i].potential, &scene->line[i],
                                      (const int[]){nc->step, nc->line[i].node, nc->xyz});
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,

@@ -131,6 +131,9 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
             results->line_constraint[i][e] = scene->line[i].constraint[e];
             for (int a = 0; a < 3; ++a)
                 results->line_constraint[i][e].point[a] -= results->origin[a];
+            const bool given = results->line_constraint[i][e].kind == CPS_CONSTRAINT_KIND_SET;
+            results->line_constraint[i][e].set =
+                given ? cps_set_retain(scene->line[i].constraint[e].set) : NULL;
         }
         results->begins_static |= scene->line[i].start.kind == CPS_START_STATIC;
         results->line_count = (int)i + 1;
@@ -475,6 +478,8 @@ void cps_results_destroy(CpsResults *results) {
     free(results->line_length);
     free(results->line_elements);
     free(results->line_point);
+    for (int i = 0; i < results->line_count; ++i)
+        for (int e = 0; e < 2; ++e) cps_set_release((CpsSet *)results->line_constraint[i][e].set);
     free(results->line_constraint);
     free(results->point);
     free(results->body);

@@ -86,8 +86,11 @@ static const CpsiMapping WAVE = {"component", KEYS(WAVE_KEYS), INTO(Wave), .begi
 static const CpsiKey WAVES_KEYS[] = {
     {"depth", REQUIRED, NUMBER(Waves, depth), 0, INFINITY, true, .unit = "m",
      .help = "of the water below water_surface; .inf: deep water"},
-    {"components", REQUIRED, LIST(Waves, components, 1), .inside = &WAVE,
+    {"components", REQUIRED, LIST(Waves, components, 1), .inside = &WAVE, .unless = "file",
      .help = "waves of one period each, whose motions add up; one is a regular wave"},
+    {"file", OPTIONAL, TEXT(Waves, file, 0), .unless = "components",
+     .help = "CSV file beside the scene with the components: columns amplitude, period or "
+             "frequency, direction and phase, in the units of these keys"},
     {"ramp", OPTIONAL, NUMBER(Waves, ramp), NOT_NEGATIVE, .unit = "s", .fallback = "0",
      .help = "time from the beginning of the history in which they grow to their amplitudes"},
 };

@@ -40,7 +40,8 @@ typedef struct CpsiWaveValues {
 typedef struct CpsiWavesValues {
     const CpsiYaml *node; /* NULL: none */
     double depth, ramp;   /* [m], [s] */
-    CpsiList components;  /* CpsiWaveValues */
+    CpsiList components;  /* CpsiWaveValues; or */
+    const char *file;     /* of a CSV file with them */
 } CpsiWavesValues;
 
 extern const CpsiMapping cpsi_spring_keys, cpsi_force_keys, cpsi_drag_keys, cpsi_current_keys,

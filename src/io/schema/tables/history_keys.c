@@ -30,6 +30,14 @@
             .help = "in an entry with a duration: several oscillations, which add up" \
     }
 
+#define SERIES(kind)                                                                             \
+    {                                                                                            \
+        "series", OPTIONAL, TEXT(kind, series, 0),                                               \
+            .help = "in an entry with a duration, beside the way to the value: CSV file beside " \
+                    "the scene with the columns time and x, y, z (m; of a body rx, ry, rz in "   \
+                    "degrees) of a place, fx, fy, fz (N; of a body mx, my, mz) of a load"        \
+    }
+
 static const CpsiKey SWAY_KEYS[] = {SINES(Sway, ), PERIOD(Sway, , REQUIRED)};
 static const CpsiMapping SWAY = {"oscillation", KEYS(SWAY_KEYS), INTO(Sway)};
 
@@ -61,6 +69,7 @@ static const CpsiKey CHANGE_KEYS[] = {
     SINES(Change, sway.),
     PERIOD(Change, sway., OPTIONAL),
     SEVERAL(Change, SWAY),
+    SERIES(Change),
 };
 
 static void begin_change(void *values) { ((CpsiChangeValues *)values)->sway.period = NAN; }
@@ -78,6 +87,7 @@ static const CpsiKey POINT_CHANGE_KEYS[] = {
     SINES(Change, sway.),
     PERIOD(Change, sway., OPTIONAL),
     SEVERAL(Change, SWAY),
+    SERIES(Change),
 };
 static const CpsiMapping POINT_CHANGE = {"change",
                                          KEYS(POINT_CHANGE_KEYS),
@@ -112,6 +122,7 @@ static const CpsiKey BODY_CHANGE_KEYS[] = {
      .help = "from its reference point to where the force acts, in the scene's axes, whatever its "
              "rotation: the moment gains arm x force"},
     SEVERAL(BodyChange, BODY_SWAY),
+    SERIES(BodyChange),
 };
 static const CpsiMapping BODY_CHANGE = {
     "change", KEYS(BODY_CHANGE_KEYS), INTO(BodyChange), .definition = "body_change",

@@ -235,6 +235,29 @@ DIAGONAL_OF(quadratic_damping, QUADRATIC_KEYS, "N s2/m2", "N m s2",
 /* directions of a body, in the order of CpsBody */
 #define DIRECTIONS "x y z rx ry rz"
 
+static const CpsiKey EXCITATION_KEYS[] = {
+    {"period", REQUIRED, NUMBER(Excitation, period), POSITIVE, .unless = "frequency", .unit = "s",
+     .help = "of the wave"},
+    {"frequency", OPTIONAL, NUMBER(Excitation, frequency), POSITIVE, .unless = "period",
+     .unit = "Hz", .help = "1 over the period, in its place"},
+    {"direction", REQUIRED, NUMBER(Excitation, direction), ANY, .unit = "degree",
+     .help = "of the wave, from the x axis towards the y axis"},
+    {"amplitude", REQUIRED, POINT(Excitation, amplitude, 6), NOT_NEGATIVE,
+     .help =
+         "[N/m, N] of force and moment about the reference point, along and about x, y and z of "
+         "the scene, per metre of the wave's amplitude"},
+    {"phase", OPTIONAL, POINT(Excitation, phase, 6), ANY, .unit = "degree",
+     .fallback = "[0, 0, 0, 0, 0, 0]",
+     .help = "by which each is largest before the crest is where the reference point begins"},
+};
+
+static void begin_excitation(void *values) {
+    CpsiExcitationValues *row = values;
+    row->period = row->frequency = NAN;
+}
+static const CpsiMapping EXCITATION = {"row of the excitation", KEYS(EXCITATION_KEYS),
+                                       INTO(Excitation), .begin = begin_excitation};
+
 static const CpsiKey SCENE_BODY_KEYS[] = {
     {"held", ONE_OF, POINT(SceneBody, body.position, 3), ANY, .unit = "m",
      .help = "held with its reference point, the origin of its own axes, at this position"},
@@ -293,6 +316,9 @@ static const CpsiKey SCENE_BODY_KEYS[] = {
              "rotation in its own axes, against them: 6 rows, or the diagonal by direction"},
     {"quadratic_damping", OPTIONAL, MAPPING(SceneBody, quadratic), .inside = &quadratic_damping,
      .fallback = "{}", .help = "the same per square of each velocity, by direction"},
+    {"excitation", OPTIONAL, LIST(SceneBody, excitation, 1), .inside = &EXCITATION,
+     .help = "force and moment of the scene's waves on it, by rows for periods and directions; "
+             "linear in the frequency between them"},
     {"velocity", OPTIONAL, POINT(SceneBody, velocity, 3), ANY, .unit = "m/s", .with = "free",
      .fallback = "[0, 0, 0]", .help = "of its reference point as the history begins"},
     {"turn_rate", OPTIONAL, POINT(SceneBody, turn_rate, 3), ANY, .unit = "rad/s", .with = "free",
@@ -434,6 +460,8 @@ static const CpsiKey ON_KEYS[] = {
     {"ball", ONE_OF, AROUND, .inside = &BALL, .help = "within a ball"},
     {"disc", ONE_OF, AROUND, .inside = &DISC, .help = "within a flat disc"},
     {"box", ONE_OF, AROUND, .inside = &ON_BOX, .help = "within a box"},
+    {"set", ONE_OF, EXPRESSION(On, set), .inside = &cpsi_set_words,
+     .help = "within any bounded set of space, in metres, in the words of law files"},
     {"force", OPTIONAL, POINT(On, force, 3), ANY, .unit = "N", .fallback = "[0, 0, 0]",
      .help = "on the end, beside the reaction of the set"},
 };

@@ -57,6 +57,14 @@ typedef struct CpsiDiagonalValues {
     double k[CPS_BODY_DIRECTIONS]; /* [N/m], [N m] */
 } CpsiDiagonalValues;
 
+/* The force of waves of one period and direction on a body. */
+typedef struct CpsiExcitationValues {
+    const CpsiYaml *node;
+    double period, frequency;                                          /* NaN: not given */
+    double direction;                                                  /* [degree] */
+    double amplitude[CPS_BODY_DIRECTIONS], phase[CPS_BODY_DIRECTIONS]; /* [N/m, N], [degree] */
+} CpsiExcitationValues;
+
 /* A rigid body of the scene. */
 typedef struct CpsiSceneBodyValues {
     const CpsiYaml *node; /* the key is the name */
@@ -66,6 +74,7 @@ typedef struct CpsiSceneBodyValues {
     CpsiNumberRows hydrostatics;        /* (6, 6) */
     CpsiDiagonalValues diagonal;        /* .. or these */
     CpsiNumberRows added_mass, damping; /* (6, 6) .. or these */
+    CpsiList excitation;                /* CpsiExcitationValues */
     CpsiDiagonalValues added_diagonal, damping_diagonal, quadratic;
     double moments[3], products[3];   /* [kg m2] */
     double velocity[3], turn_rate[3]; /* [m/s], [rad/s] */
@@ -156,6 +165,7 @@ typedef struct CpsiOnValues {
     int rail;             /* 0: to a place, 1: without ends */
     double to[3], force[3];
     CpsiRotationValues rotation;
+    const CpsiYaml *set; /* an expression */
 } CpsiOnValues;
 
 /* An end of a line: `held` or `free` as a word, or with its position or force; or at a point. */

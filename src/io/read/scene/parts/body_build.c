@@ -91,6 +91,23 @@ static void build_motion(const CpsiMaterials *m, const CpsiSceneBodyValues *valu
         memcpy(body->quadratic_damping, values->quadratic.k, sizeof body->quadratic_damping);
 }
 
+static CpsStatus build_excitation(const CpsiMaterials *m, const CpsiList *rows, CpsBody *body) {
+    const CpsiExcitationValues *values = rows->item;
+    CpsExcitation *row = CPSI_POOL_TAKE(m->pool, rows->count, CpsExcitation);
+    if (!row) return cpsi_document_no_memory(m->d);
+    for (int k = 0; k < rows->count; k++) {
+        row[k].period = isnan(values[k].period) ? 1 / values[k].frequency : values[k].period;
+        row[k].direction = values[k].direction * CPSI_DEGREE;
+        for (int j = 0; j < CPS_BODY_DIRECTIONS; j++) {
+            row[k].amplitude[j] = values[k].amplitude[j];
+            row[k].lead[j] = values[k].phase[j] * CPSI_DEGREE;
+        }
+    }
+    body->excitation = row;
+    body->excitation_count = rows->count;
+    return CPS_OK;
+}
+
 static CpsStatus build_body(const CpsiMaterials *m, const CpsiSceneBodyValues *values,
                             CpsBody *body) {
     const CpsiYaml *name = values->node;
@@ -105,7 +122,7 @@ static CpsStatus build_body(const CpsiMaterials *m, const CpsiSceneBodyValues *v
     build_matrix(&values->hydrostatics, &values->diagonal, body->hydrostatics);
     add_arm(values->arm, body->force, body->moment);
     build_motion(m, values, body);
-    return CPS_OK;
+    return values->excitation.count > 0 ? build_excitation(m, &values->excitation, body) : CPS_OK;
 }
 
 CpsStatus cpsi_bodies_build(const CpsiMaterials *m, const CpsiList *bodies, CpsScene *scene,

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/math.h"
+#include "base/status.h"
 
 static CpsSpring spring_of(const CpsiSpringValues *values, const CpsLine *line) {
     CpsSpring out = {.from = isnan(values->from) ? 0 : values->from,
@@ -44,21 +45,65 @@ CpsStatus cpsi_loads_build(const CpsiMaterials *m, const CpsiLineValues *values,
     return CPS_OK;
 }
 
-static const CpsWaves *waves_of(const CpsiMaterials *m, const CpsiWavesValues *values) {
+static CpsWave wave_of(const CpsiWaveValues *values) {
+    return (CpsWave){.amplitude = values->amplitude,
+                     .period = isnan(values->period) ? 1 / values->frequency : values->period,
+                     .direction = values->direction * CPSI_DEGREE,
+                     .phase = values->phase * CPSI_DEGREE};
+}
+
+enum { AMPLITUDE, PERIOD, FREQUENCY, DIRECTION, PHASE, COLUMNS };
+static const CpsiCsvColumn COLUMN[COLUMNS] = {[AMPLITUDE] = {"amplitude", "m", true},
+                                              [PERIOD] = {"period", "s", false},
+                                              [FREQUENCY] = {"frequency", "Hz", false},
+                                              [DIRECTION] = {"direction", "degree", true},
+                                              [PHASE] = {"phase", "degree", false}};
+
+/* The components of a file. */
+static CpsStatus read_waves(const CpsiMaterials *m, const CpsiWavesValues *values,
+                            CpsWaves *waves) {
+    CpsiCsvTable table;
+    const char *path;
+    const CpsStatus status =
+        cpsi_document_table(m->d, cpsi_yaml_child(values->node, "file"), values->file, COLUMN,
+                            COLUMNS, m->pool, &table, &path);
+    if (status != CPS_OK) return status;
+    const int timed = table.has[PERIOD] ? PERIOD : FREQUENCY;
+    if (table.has[PERIOD] == table.has[FREQUENCY])
+        return cpsi_fail_at(m->d->err, CPS_ERR_INPUT, path, 0, 0,
+                            "found %s, expected either the column period or the column frequency",
+                            table.has[PERIOD] ? "both" : "neither");
+    CpsWave *wave = CPSI_POOL_TAKE(m->pool, table.rows, CpsWave);
+    if (!wave) return cpsi_document_no_memory(m->d);
+    for (int k = 0; k < table.rows; k++) {
+        const double *row = &table.value[COLUMNS * k];
+        const int wrong = row[AMPLITUDE] > 0 ? timed : AMPLITUDE;
+        if (!(row[wrong] > 0))
+            return cpsi_fail_at(m->d->err, CPS_ERR_INPUT, path, table.line[k], 1,
+                                "%s: found %g, expected a number in %s, greater than 0",
+                                COLUMN[wrong].name, row[wrong], COLUMN[wrong].unit);
+        wave[k] = wave_of(&(CpsiWaveValues){.amplitude = row[AMPLITUDE],
+                                            .period = timed == PERIOD ? row[PERIOD] : NAN,
+                                            .frequency = row[FREQUENCY],
+                                            .direction = row[DIRECTION],
+                                            .phase = row[PHASE]});
+    }
+    waves->wave = wave;
+    waves->wave_count = table.rows;
+    return CPS_OK;
+}
+
+static CpsStatus build_waves(const CpsiMaterials *m, const CpsiWavesValues *values,
+                             CpsWaves *waves) {
     const CpsiWaveValues *component = values->components.item;
-    const int count = values->components.count;
-    CpsWaves *waves = CPSI_POOL_TAKE(m->pool, 1, CpsWaves);
-    CpsWave *wave = CPSI_POOL_TAKE(m->pool, count, CpsWave);
-    if (!waves || !wave) return NULL;
-    for (int k = 0; k < count; k++)
-        wave[k] = (CpsWave){.amplitude = component[k].amplitude,
-                            .period = isnan(component[k].period) ? 1 / component[k].frequency
-                                                                 : component[k].period,
-                            .direction = component[k].direction * CPSI_DEGREE,
-                            .phase = component[k].phase * CPSI_DEGREE};
-    *waves =
-        (CpsWaves){.depth = values->depth, .wave_count = count, .wave = wave, .ramp = values->ramp};
-    return waves;
+    *waves = (CpsWaves){.depth = values->depth, .ramp = values->ramp};
+    if (values->file) return read_waves(m, values, waves);
+    CpsWave *wave = CPSI_POOL_TAKE(m->pool, values->components.count, CpsWave);
+    if (!wave) return cpsi_document_no_memory(m->d);
+    for (int k = 0; k < values->components.count; k++) wave[k] = wave_of(&component[k]);
+    waves->wave = wave;
+    waves->wave_count = values->components.count;
+    return CPS_OK;
 }
 
 /* Waves without a current are those of water at rest. */
@@ -73,10 +118,12 @@ CpsStatus cpsi_current_build(const CpsiMaterials *m, const CpsiList *rows,
     for (int k = 0; k < rows->count; k++) row[k] = values[k].row;
     if (rows->count == 0) *row = (CpsCurrentRow){.z = 0};
     *current = (CpsCurrent){.density = m->water, .row_count = count, .row = row};
-    if (waves->node) current->waves = waves_of(m, waves);
-    if (waves->node && !current->waves) return cpsi_document_no_memory(m->d);
     scene->current = current;
-    return CPS_OK;
+    if (!waves->node) return CPS_OK;
+    CpsWaves *built = CPSI_POOL_TAKE(m->pool, 1, CpsWaves);
+    if (!built) return cpsi_document_no_memory(m->d);
+    current->waves = built;
+    return build_waves(m, waves, built);
 }
 
 CpsStatus cpsi_still_water_build(const CpsiMaterials *m, CpsScene *scene) {

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "io/base/file/csv_table.h"
 #include "io/base/file/text_rows.h"
 #include "io/base/yaml/yaml.h"
 
@@ -44,26 +45,9 @@ static CpsStatus no_memory(const Table *t) {
 
 /* ---- cells ---- */
 
-/* Divide `text` at commas into at most `capacity` cells without blanks around them. Returns their
- * number, capacity + 1 if there are more. */
-static int cut(char *text, char **cell, int capacity) {
-    int count = 0;
-    for (char *next = text; next;) {
-        char *begin = next + strspn(next, " \t");
-        next = strchr(begin, ',');
-        char *end = next ? next : begin + strlen(begin);
-        if (next) next++;
-        while (end > begin && strchr(" \t\r", end[-1])) end--;
-        *end = '\0';
-        if (count == capacity) return capacity + 1;
-        cell[count++] = begin;
-    }
-    return count;
-}
-
 static CpsStatus read_names(Table *t, char *text) {
     char *cell[COLUMNS];
-    const int count = cut(text, cell, COLUMNS);
+    const int count = cpsi_csv_cut(text, cell, COLUMNS);
     for (int k = 0; k < (count < COLUMNS ? count : COLUMNS); k++) {
         int c = 0;
         while (c < COLUMNS && strcmp(COLUMN[c].name, cell[k]) != 0) c++;
@@ -96,7 +80,7 @@ static bool are_units(const Table *t, char *const *cell, int count) {
 
 static CpsStatus read_row(Table *t, char *text) {
     char *cell[COLUMNS];
-    const int count = cut(text, cell, t->columns);
+    const int count = cpsi_csv_cut(text, cell, t->columns);
     if (t->rows == 0 && are_units(t, cell, count)) return CPS_OK;
     if (count != t->columns)
         return cpsi_fail_at(t->err, CPS_ERR_INPUT, t->path, t->line, 1,

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A CSV file of named columns of numbers: a line of names, optionally one of units, then the rows;
+ * empty lines and those that begin with # are skipped. */
+#ifndef CAPSTAN_SRC_IO_BASE_FILE_CSV_TABLE_H
+#define CAPSTAN_SRC_IO_BASE_FILE_CSV_TABLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "capstan/base.h"
+#include "io/base/yaml/pool.h"
+
+typedef struct CpsiCsvColumn {
+    const char *name, *unit;
+    bool required;
+} CpsiCsvColumn;
+
+enum { CPSI_CSV_COLUMNS = 16 }; /* at most */
+
+typedef struct CpsiCsvTable {
+    int rows;
+    double *value;              /* (rows, columns asked for), 0 of a column that the file has not */
+    int *line;                  /* (rows) its number in the file, from 1 */
+    bool has[CPSI_CSV_COLUMNS]; /* the columns that the file has */
+} CpsiCsvTable;
+
+/* Divide `text` at commas into at most `capacity` cells without blanks around them, which are
+ * terminated in place. Returns their number, capacity + 1 if there are more. */
+int cpsi_csv_cut(char *text, char **cell, int capacity);
+
+/* Read the file at `path`, which has some of `count` columns in any order, into memory of `pool`.
+ * The calling thread's locale must have a decimal point. A file of more than `max_bytes` is
+ * refused, and numbers that are not finite are. Returns CPS_OK, CPS_ERR_INPUT with line and column,
+ * CPS_ERR_IO, CPS_ERR_LIMIT or CPS_ERR_MEMORY. */
+CpsStatus cpsi_csv_read(const char *path, size_t max_bytes, const CpsiCsvColumn *column, int count,
+                        CpsiPool *pool, CpsiCsvTable *out, CpsError *err);
+
+#endif
