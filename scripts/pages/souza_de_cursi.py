@@ -295,7 +295,7 @@ GIVEN = ["Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "slack on 0.6 m of 1 m",
          "curves of length 6.28 m", "lifted by 0.1 mm", "pulled by 0.4 N of the 1 N", "T = (a - 0.6 m) N/m", "T = 0.4 a N/m", "pulled by 0.5 N on a bed",
          "mu w l = 0.3 N", "ends 1.2 m apart", "eta = 0.4 |", "t.u' = -(a - 0.6)", "beyond a = 0.6 m", "up to s = 0.6", "f = 0.3 e3 or 0.3 e2", "T = 0.4 N at A", "force 0.5 e3 N",
          "with 0.5 N;", "not carry over is 4.4 (i)", "| 11.1, through", "| 11.2, friction", "| 11.3, an equilibrium", "T = 0 of 11.1",
-         "50 random steps of five kinds", "scene alone, to 1e-8 of the sum", "has the solution u = 0.2 N/k", "in the one solution, to 1e-6 m"]
+         "50 random steps of five kinds", "50 random steps in a quadratic field", "scene alone, to 1e-8 of the sum", "has the solution u = 0.2 N/k", "in the one solution, to 1e-6 m"]
 
 
 # ---- pictures ----

@@ -104,7 +104,7 @@ SENTENCES = [
     ("It ends when the sum of the changes is below {} of the largest force", number("cable/flow.h", "CPSI_FOLLOWED")),
     ("are as forces, at most {}; within that", number("chain/active_set.c", "MOST_NOISE")),
     ("it is held by a stiffness of {} that pulls it to where", number("chain/active_system.c", "PULLING")),
-    ("du + rho + e dz with e = {} in", number("chain/constraint.c", "YIELD")),
+    ("du + rho + e dz with e = {} in", number("chain/constraints.h", "CPSI_YIELD")),
     ("an excess of less than {} of these releases nothing", number("chain/active_status.c", "SIGNIFICANT")),
     ("of all equations are rounding, {} eps (1 + |u|/l)", number("chain/active_set.c", "ROUNDINGS")),
     ("between nodes at rest is known to {} eps/l only", number("chain/active_set.c", "COORDINATE_ROUNDINGS")),

@@ -7,7 +7,10 @@
  *
  * Neighbouring columns often have their nonzeros in the same rows (a supernode), each its first one
  * in the next column. Up to four of them are used at once, so that each row is looked up once for
- * all four. */
+ * all four.
+ *
+ * The last columns, whose nonzeros are all rows below them, are a dense matrix once the columns
+ * before them have been eliminated from it. Where there are many, that is factorised by blocks. */
 #include "linalg/sparse_ldl.h"
 
 #include <float.h>
@@ -15,6 +18,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "linalg/dense_ldl.h"
 
 struct CpsiLdl {
     int n;
@@ -32,7 +37,14 @@ struct CpsiLdl {
     double *y;                /* (n) one row */
     int *count, *path, *mark; /* (n) */
     bool *joined; /* (n) the column before has its nonzeros in the same rows and in this one */
+    int dense;    /* the first of the columns that are factorised as a dense matrix; n: none are */
+    int size;     /* their number, rounded up */
+    double *last; /* (size, size) that matrix; then pivots, terms (size) and scratch */
+    signed char *last_sign; /* (size) */
 };
+
+/* The least number of columns for a dense matrix, and the most: 2 GB. */
+enum { DENSE = 160, MOST_DENSE = 16384 };
 
 /* A pivot is a difference of terms, each of them rounded, as often is what they are made of: it is
  * known to about this share of their sum. Taken from below that, it would be a number without
@@ -54,8 +66,8 @@ typedef struct Supernode {
 
 void cpsi_ldl_free(CpsiLdl *ldl) {
     if (!ldl) return;
-    void *part[] = {ldl->place, ldl->column, ldl->row,    ldl->value, ldl->order,
-                    ldl->start, ldl->index,  ldl->factor, ldl->pivot, ldl->joined};
+    void *part[] = {ldl->place, ldl->column, ldl->row,   ldl->value,  ldl->order, ldl->start,
+                    ldl->index, ldl->factor, ldl->pivot, ldl->joined, ldl->last,  ldl->last_sign};
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) free(part[k]);
     free(ldl);
 }
@@ -125,15 +137,32 @@ static bool allocate_matrix(CpsiLdl *ldl) {
     return true;
 }
 
+/* Find the columns whose nonzeros are all rows below them, and allocate their matrix. */
+static bool allocate_dense(CpsiLdl *ldl) {
+    int first = ldl->n > 0 ? ldl->n - 1 : 0;
+    while (first > 0 && ldl->parent[first - 1] == first &&
+           ldl->count[first - 1] == ldl->count[first] + 1)
+        first--;
+    ldl->dense = ldl->n;
+    if (ldl->n - first < DENSE) return true;
+    if (ldl->n - first > MOST_DENSE) first = ldl->n - MOST_DENSE;
+    ldl->dense = first;
+    ldl->size = (ldl->n - first + CPSI_DENSE_ROWS - 1) / CPSI_DENSE_ROWS * CPSI_DENSE_ROWS;
+    const size_t m = (size_t)ldl->size;
+    ldl->last = malloc((m + 2 + 2 * (size_t)CPSI_DENSE_PANEL) * m * sizeof *ldl->last);
+    ldl->last_sign = malloc(m);
+    return ldl->last && ldl->last_sign;
+}
+
 static bool allocate_factor(CpsiLdl *ldl) {
     if (ldl->factor_entries > SIZE_MAX / sizeof(double) - 1) return false;
     ldl->index = malloc((ldl->factor_entries + 1) * sizeof *ldl->index);
     ldl->factor = malloc((ldl->factor_entries + 1) * sizeof *ldl->factor);
-    if (!ldl->index || !ldl->factor) return false;
+    if (!ldl->index || !ldl->factor || !allocate_dense(ldl)) return false;
     ldl->start[0] = 0;
     for (int k = 0; k < ldl->n; k++) {
         ldl->start[k + 1] = ldl->start[k] + (size_t)ldl->count[k];
-        ldl->joined[k] = k > 0 && ldl->parent[k - 1] == k &&
+        ldl->joined[k] = k > 0 && k != ldl->dense && ldl->parent[k - 1] == k &&
                          ldl->count[k - 1] == ldl->count[k] + 1 && ldl->count[k] >= LONG;
     }
     return true;
@@ -214,6 +243,73 @@ static inline void eliminate(const Supernode *columns, double *y, double x[MOST_
                 (f[0][e] * x[0] + f[1][e] * x[1]) + (f[2][e] * x[2] + f[3][e] * x[3]);
 }
 
+/* Eliminate the columns before the dense ones from row k, which is in y. Returns what is left of
+ * its diagonal entry, and adds the terms of that to *terms. */
+static double eliminate_row(CpsiLdl *ldl, int k, int top, double diagonal, double *terms) {
+    *terms = fabs(diagonal);
+    while (top < ldl->n) {
+        const int i = ldl->path[top];
+        if (i >= ldl->dense) {
+            top++;
+            continue;
+        }
+        int width = 1;
+        while (width < MOST_TOGETHER && top + width < ldl->n && ldl->joined[i + width] &&
+               ldl->path[top + width] == i + width)
+            width++;
+        double y[MOST_TOGETHER];
+        const Supernode columns = columns_of(ldl, i, width, (size_t)ldl->count[i]);
+        eliminate(&columns, ldl->y, y);
+        for (int a = 0; a < width; a++) {
+            const double l = y[a] / ldl->pivot[i + a];
+            const size_t end = ldl->start[i + a] + (size_t)ldl->count[i + a]++;
+            ldl->y[i + a] = 0;
+            diagonal -= l * y[a];
+            *terms += fabs(l * y[a]);
+            ldl->index[end] = k;
+            ldl->factor[end] = l;
+        }
+        top += width;
+    }
+    return diagonal;
+}
+
+/* Row k of the dense matrix from y; `diagonal` and `terms` are those of its entry. */
+static void take_row(CpsiLdl *ldl, int k, double diagonal, double terms, signed char sign) {
+    const size_t m = (size_t)ldl->size, row = (size_t)(k - ldl->dense);
+    for (size_t j = 0; j < row; j++) {
+        ldl->last[j * m + row] = ldl->y[(size_t)ldl->dense + j];
+        ldl->y[(size_t)ldl->dense + j] = 0;
+    }
+    ldl->last[row * m + row] = diagonal;
+    ldl->last[(m + 1) * m + row] = terms;
+    ldl->last_sign[row] = sign;
+}
+
+/* Factorise the dense matrix, and store its columns as the others. */
+static bool factor_dense(CpsiLdl *ldl, double least) {
+    const int m = ldl->size, n = ldl->n - ldl->dense;
+    double *pivot = &ldl->last[(size_t)m * (size_t)m], *terms = pivot + m;
+    for (int k = n; k < m; k++) { /* what rounds its size up */
+        for (int j = 0; j < k; j++) ldl->last[(size_t)j * (size_t)m + (size_t)k] = 0;
+        ldl->last[(size_t)k * (size_t)m + (size_t)k] = terms[k] = 1;
+        ldl->last_sign[k] = 1;
+    }
+    if (!cpsi_dense_ldl(m, ldl->last, pivot, terms, ldl->last_sign, least, PIVOT_ROUNDING,
+                        terms + m))
+        return false;
+    for (int j = 0; j < n; j++) {
+        const double *column = &ldl->last[(size_t)j * (size_t)m];
+        size_t at = ldl->start[ldl->dense + j];
+        for (int i = j + 1; i < n; i++, at++) {
+            ldl->index[at] = ldl->dense + i;
+            ldl->factor[at] = column[i];
+        }
+        ldl->pivot[ldl->dense + j] = pivot[j];
+    }
+    return true;
+}
+
 bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign, double least) {
     for (size_t e = 0; e < ldl->entries; e++) ldl->value[ldl->place[e]] = values[e];
     for (int k = 0; k < ldl->n; k++) {
@@ -223,33 +319,19 @@ bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign
     }
     for (int k = 0; k < ldl->n; k++) {
         int top;
-        double pivot = scatter_row(ldl, k, &top), terms = fabs(pivot);
-        while (top < ldl->n) {
-            const int i = ldl->path[top];
-            int width = 1;
-            while (width < MOST_TOGETHER && top + width < ldl->n && ldl->joined[i + width] &&
-                   ldl->path[top + width] == i + width)
-                width++;
-            double y[MOST_TOGETHER];
-            const Supernode columns = columns_of(ldl, i, width, (size_t)ldl->count[i]);
-            eliminate(&columns, ldl->y, y);
-            for (int a = 0; a < width; a++) {
-                const double l = y[a] / ldl->pivot[i + a];
-                const size_t end = ldl->start[i + a] + (size_t)ldl->count[i + a]++;
-                ldl->y[i + a] = 0;
-                pivot -= l * y[a];
-                terms += fabs(l * y[a]);
-                ldl->index[end] = k;
-                ldl->factor[end] = l;
-            }
-            top += width;
+        double terms;
+        const double diagonal = scatter_row(ldl, k, &top),
+                     pivot = eliminate_row(ldl, k, top, diagonal, &terms);
+        const signed char s = sign[ldl->order[k]];
+        if (k >= ldl->dense) {
+            take_row(ldl, k, pivot, terms, s);
+            continue;
         }
-        const double s = sign[ldl->order[k]];
         if (!isfinite(pivot)) return false;
         const double smallest = fmax(least, PIVOT_ROUNDING * terms);
         ldl->pivot[k] = pivot * s >= smallest ? pivot : s * smallest;
     }
-    return true;
+    return ldl->dense == ldl->n || factor_dense(ldl, least);
 }
 
 /* As many columns as may be used at once from k on. */

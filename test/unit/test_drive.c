@@ -8,6 +8,7 @@
 #include "capstan/drive.h"
 #include "check.h"
 #include "linalg/sparse_ldl.h"
+#include "splitmix.h"
 
 static CpsError err;
 
@@ -374,6 +375,53 @@ static void sparse_limits(void **state) {
     cpsi_ldl_free(ldl);
 }
 
+/* a head of rays that all act on an end without zeros, which is factorised as a dense matrix where
+ * it is large, with pivots of both signs; b of x = 1, 2, 3, .. gives x */
+static void sparse_dense_end(void **state) {
+    (void)state;
+    enum { RAYS = 37 };
+    const int sizes[] = {100, 159, 160, 161, 200, 263};
+    uint64_t random = 1;
+    for (size_t c = 0; c < sizeof sizes / sizeof *sizes; c++) {
+        const int n = RAYS + sizes[c];
+        const size_t w = (size_t)n;
+        Sparse s = {n, calloc(w + 1, sizeof(size_t)), calloc(w * w, sizeof(int)),
+                    calloc(w * w, sizeof(double)), calloc(w, 1)};
+        double *b = calloc(w, sizeof *b);
+        size_t at = 0;
+        for (int j = 0; j < n; j++) {
+            s.start[j] = at;
+            s.sign[j] = j % 3 ? 1 : -1;
+            for (int i = 0; i <= j; i++) {
+                if (i < j && (j < RAYS || (i < RAYS && (i + j) % 4))) continue;
+                const double value = i == j ? 2.0 * n * s.sign[j] : splitmix(&random, -1, 1);
+                s.index[at] = i;
+                s.value[at++] = value;
+                b[i] += value * (j + 1);
+                if (i != j) b[j] += value * (i + 1);
+            }
+        }
+        s.start[n] = at;
+        const CpsiPattern pattern = {n, s.start, s.index};
+        size_t entries;
+        CpsiLdl *ldl = cpsi_ldl_new(&pattern, w * w, &entries);
+        assert_non_null(ldl);
+        for (int turn = 0; turn < 2; turn++) { /* the second factor does not depend on the first */
+            double *x = calloc(w, sizeof *x);
+            memcpy(x, b, w * sizeof *x);
+            assert_true(cpsi_ldl_factor(ldl, s.value, s.sign, 1e-12));
+            cpsi_ldl_solve(ldl, x);
+            for (int j = 0; j < n; j++) CHECK_NEAR(x[j], j + 1, 1e-11); /* rounding of sums */
+            free(x);
+        }
+        s.value[at - 1] = NAN;
+        assert_false(cpsi_ldl_factor(ldl, s.value, s.sign, 1e-12));
+        cpsi_ldl_free(ldl);
+        free(b);
+        free_sparse(&s);
+    }
+}
+
 /* the second pivot of 1e9 (1, 1/3)(1, 1/3)' is rounding: it is taken as large as that may be, in
  * either direction, so that the next column does not grow by its ratio to a smaller one */
 static void sparse_rounded_pivot(void **state) {
@@ -405,7 +453,7 @@ int main(void) {
         cmocka_unit_test(one_sided_law_blocks),   cmocka_unit_test(unresisted_load),
         cmocka_unit_test(subspace_and_rest),      cmocka_unit_test(interior_missed),
         cmocka_unit_test(sparse_trees),           cmocka_unit_test(sparse_limits),
-        cmocka_unit_test(sparse_rounded_pivot),
+        cmocka_unit_test(sparse_rounded_pivot),   cmocka_unit_test(sparse_dense_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
