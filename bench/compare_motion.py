@@ -3,9 +3,10 @@
 """A mooring line that moves in time: capstan beside MoorDyn.       usage: compare_motion.py [--bench MOTION_BENCH] [--only surge|hold]
 
 The line is that of bench/oc3-sway.yaml, 100 elements, with drag (1.6 across), the water that goes along (1.0 across) and the internal damping
-that MoorDyn makes of its -0.8.
-- surge: its fairlead goes 5 m to and fro with a period of 12 s, without friction, over a bed far below and on the bed of its anchor. The force
-  in x there as each program gives it, of the last three of eight periods, its mean subtracted, against MoorDyn at its finest step, by its
+that MoorDyn makes of its -0.8. In surge, where it is met,
+the bed gives by the stiffness 3e6 Pa/m and the damping 3e5 Pa s/m that are MoorDyn's own, over the diameter; in hold it is rigid.
+- surge: its fairlead goes to and fro with a period of 12 s, without friction: 5 m over a bed far below, and 3 m and 5 m on the bed of its
+  anchor; with 5 m the line goes slack there. The force in x as each program gives it, of the last three of eight periods, its mean subtracted, against MoorDyn at its finest step, by its
   amplitude. MoorDyn takes the fairlead's motion as uniform within a call, so the force is that of calls every 2 ms, the time that of 50 ms.
 - hold: its fairlead goes 20 m across in 100 s and stays there, friction coefficient 1, for an hour. The force across and how far the node at
   an eighth of the length from the anchor has crept since the fairlead stopped, for MoorDyn with its default friction and tuned.
@@ -26,14 +27,14 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from compare_moordyn import DECK, ROOT, quiet, with_packages  # noqa: E402
 
 AT, NODE = [848.67, 0.0, -70.0], 13  # the fairlead; the node at an eighth of 100 elements
-FAR, PERIOD, PERIODS, LAST = 5.0, 12.0, 8, 3  # m, s
+PERIOD, PERIODS, LAST = 12.0, 8, 3  # s
 ACROSS, OUT, HOUR = 20.0, 100.0, 3600.0  # m, s, s
 COUPLING, FINE = 0.05, 0.002  # s, of calls of MoorDyn
 SCENE = """capstan: 1
 gravity: [0, 0, -9.80665]
 water_density: 1025
 obstacles:
-  bed: {{plane: {{point: [0, 0, {bed}], normal: [0, 0, 1]}}, friction: {friction}}}
+  bed: {{plane: {{point: [0, 0, {bed}], normal: [0, 0, 1]}}, friction: {friction}{gives}}}
 lines:
   mooring:
     length: 902.2
@@ -42,6 +43,7 @@ lines:
     inertia: 77.7066
     stiffness: 384.243e6
     damping: 1.247e6
+    bearing_width: 0.09
     drag: {{diameter: 0.09, normal: 1.6, added_normal: 1.0}}
     start: static
     ends: {{A: {{held: [0, 0, -320]}}, B: {{held: [848.67, 0, -70]}}}}
@@ -58,7 +60,8 @@ def capstan(bench, friction, history, bed=-320):
     with tempfile.TemporaryDirectory() as folder:
         scene = os.path.join(folder, "scene.yaml")
         with open(scene, "w", encoding="ascii") as file:
-            file.write(SCENE.format(friction=friction, history=history, bed=bed))
+            gives = ", stiffness: 3e6, damping: 3e5" if bed == -320 and friction == 0 else ""  # Pa/m, Pa s/m
+            file.write(SCENE.format(friction=friction, history=history, bed=bed, gives=gives))
         lines = subprocess.run([bench, scene, str(NODE)], check=True, capture_output=True, text=True).stdout.splitlines()
     rows = [[float(x) for x in line.split(",")] for line in lines[1:-1]]
     told = lines[-1].split()
@@ -92,9 +95,9 @@ def moordyn(step, friction, damping, place, duration, every=1, coupling=COUPLING
     return rows, {"processor_s": spent}
 
 
-def surge(t):
+def surge_of(far):
     w = 2 * math.pi / PERIOD
-    return [AT[0] + FAR * math.sin(w * t), AT[1], AT[2]], [FAR * w * math.cos(w * t), 0.0, 0.0]
+    return lambda t: ([AT[0] + far * math.sin(w * t), AT[1], AT[2]], [far * w * math.cos(w * t), 0.0, 0.0])
 
 
 def aside(t):
@@ -119,7 +122,8 @@ def against(rows, truth):
             "rms_off": math.sqrt(sum(x * x for x in off) / len(off)) / amplitude}
 
 
-def surge_over(bench, bed):
+def surge_over(bench, where, bed, far):
+    surge = surge_of(far)
     duration, every = PERIODS * PERIOD, round(COUPLING / FINE)
     found, runs = {"MoorDyn": {}, "capstan": {}}, {}
     for step in ("0.00025", "0.0005", "0.001", "0.002"):
@@ -130,20 +134,21 @@ def surge_over(bench, bed):
     for step, rows in runs.items():
         found["MoorDyn"][step] |= against(rows, truth)
     for h in ("0.02", "0.05", "0.1", "0.2", "0.3"):
-        history = f"  - {{name: surge, duration: {duration}, time_step: {h}, mooring.B: {{move: [0, 0, 0], sine: [{FAR}, 0, 0], period: {PERIOD}}}}}\n"
+        history = f"  - {{name: surge, duration: {duration}, time_step: {h}, mooring.B: {{move: [0, 0, 0], sine: [{far}, 0, 0], period: {PERIOD}}}}}\n"
         rows, spent = capstan(bench, 0, history, bed)
         found["capstan"][h] = spent | against(rows, truth)
     for name, runs in found.items():
         for step, run in runs.items():
             run["per_second"] = run.pop("processor_s") / duration
-            print(f"| {'on the bed' if bed == -320 else 'above it'} | {name} | {step} s | {100 * run['most_off']:.2f} % | {100 * run['rms_off']:.2f} % | "
+            print(f"| {where} | {name} | {step} s | {100 * run['most_off']:.2f} % | {100 * run['rms_off']:.2f} % | "
                   f"{run['amplitude_N'] / 1e3:.1f} kN | {1e3 * run['per_second']:.1f} ms |"
                   + (f" {run['uncertified']} not certified" if "uncertified" in run else ""), flush=True)
     return found
 
 
 def compare_surge(bench):
-    return {"above": surge_over(bench, -600), "on the bed": surge_over(bench, -320)}
+    cases = {"above": (-600, 5.0), "on the bed, 3 m": (-320, 3.0), "on the bed": (-320, 5.0)}
+    return {where: surge_over(bench, where, *case) for where, case in cases.items()}
 
 
 def compare_hold(bench):

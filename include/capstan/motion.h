@@ -18,9 +18,10 @@
  * (docs/theory.md 9): friction stays a set, and the step has a certificate. The scheme is the
  * backward difference formula of second order, or the implicit Euler method; the first step in
  * time, and those at which an element is snatched taut, are Euler steps. A node that lands does not
- * rebound. It needs Coulomb's law, contact that is reached, and a scene without lines that part,
- * winches and anchors that drag. Beside free points and bodies lines are elastic, obstacles stay,
- * and points do not float. The path tolerance has no effect on lines with inertia. */
+ * rebound, but for what the ground gives (CpsObstacle). It needs Coulomb's law, contact that is
+ * reached, and a scene without lines that part, winches and anchors that drag. Beside free points
+ * and bodies lines are elastic, obstacles stay, and points do not float. The path tolerance has no
+ * effect on lines with inertia. */
 #ifndef CAPSTAN_MOTION_H
 #define CAPSTAN_MOTION_H
 

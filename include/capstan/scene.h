@@ -75,8 +75,8 @@ typedef struct CpsObstacle {
      * which turn it; default 0 0 0: the direction of the line, with which it turns */
     double grain[3];
     double stiffness; /* [N/m3] >= 0, default 0: rigid; else it gives, by pressure over depth */
-    /* it may be shifted, by stages and moves (CpsShift): needs Coulomb's law and contact that is
-     * reached. A turn about its own axis needs no flag. Default false */
+    double damping;   /* [N s/m3] >= 0, of what gives: its pressure over velocity; default 0 */
+    /* it may be shifted (shift.h), more than by turns about its own axis; default false */
     bool moves;
 } CpsObstacle;
 enum { CPS_END_A = 0, CPS_END_B = 1 };

@@ -23,8 +23,9 @@ extern "C" {
  *     about + s by + R(s turn) (x - about),
  *
  * R(v) the rotation by the angle |v| about v, right-hand rule. What sticks to the obstacle moves
- * with it, and what it meets is pushed. Held ends and nodes must not be in its way. A CpsTurn of
- * the same stage is about the obstacle's own axis, wherever that is. */
+ * with it, and what it meets is pushed. It needs Coulomb's law and contact that is reached. Held
+ * ends and nodes must not be in its way. A CpsTurn of the same stage is about the obstacle's own
+ * axis, wherever that is. */
 typedef struct CpsShift {
     int obstacle;    /* index in the scene */
     double by[3];    /* [m] in this stage */

@@ -63,6 +63,7 @@ PICTURES = {
     "run-soft-clay": of_example("soft-clay", "elevation.svg"),
     "run-dropped-chain": of_example("dropped-chain", "elevation.svg"),
     "run-oc3-decay": of_example("oc3-hywind-decay", "history.svg"),
+    "run-oc3-waves": of_example("oc3-hywind-waves", "history.svg"),
     "run-parting-lines": of_example("parting-lines", "step-00008-plan.svg"),
     "run-net": net,
     "run-moored-buoy": of_example("catenary-moored-buoy", "elevation.svg"),

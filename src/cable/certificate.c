@@ -12,9 +12,9 @@
  *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s); a given
  *                set's phi is its support
  *     contact    R (n.u + gap)
+ *                where the obstacle gives, with its spring of the stiffness k that begins at the
+ *                depth r (soft.h), d = -(n.u + gap + r),   (d^+ - R/k)^2 k/2 + R d^-
  *     end set    sup over y in K of -r.(y - x), r the reaction of a set K that holds an end
- *                where the obstacle gives, with k the stiffness of the node and d = -(n.u + gap),
- *                (d^+ - R/k)^2 k/2 + R d^-
  *     field      y'K y/2, its force being taken at x + y (field.h)
  *
  * where u and s of a contact of an element are those of its point, (1 - beta) u_j + beta u_{j+1},
@@ -252,12 +252,13 @@ static void add_segments(const CpsiLine *line, CpsCertificate *out) {
 }
 
 /* Add what contact c adds with an obstacle that gives, beside the terms of a rigid one: the energy
- * E of its spring, its conjugate R^2/(2 k), and the local gap E + E* + R (n.u + gap). */
-static void add_soft(const CpsiLine *line, int c, double gives, CpsCertificate *out) {
+ * E of its spring, its conjugate R^2/(2 k), and the local gap E + E* + R (n.u + gap + r). */
+static void add_soft(const CpsiLine *line, int c, CpsiSoft soft, CpsCertificate *out) {
     if (!isfinite(line->gap[c])) return;
     const Vec3 u = vec3_sub(cpsi_line_place(line, line->position, c),
                             cpsi_line_place(line, line->reference, c));
-    const double depth = -(vec3_dot(vec3_at(line->normal, c), u) + line->gap[c]),
+    const double gives = soft.stiffness,
+                 depth = -(vec3_dot(vec3_at(line->normal, c), u) + line->gap[c] + soft.rest),
                  reaction = line->reaction[c], sunk = fmax(0, depth), off = sunk - reaction / gives;
     out->primal += 0.5 * gives * sunk * sunk;
     out->dual -= 0.5 * reaction * (reaction / gives);
@@ -272,7 +273,7 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     const Vec3 n = vec3_load(&line->normal[3 * c]), f = vec3_load(&line->friction_force[3 * c]);
     const double w = line->friction_bound[c], reaction = line->reaction[c];
     const CpsiFrictionLaw *law = &line->friction_law[c];
-    const double gives = cpsi_soft_stiffness(line, c);
+    const CpsiSoft soft = cpsi_soft_spring(line, c);
     double force[3], slip[3];
     cpsi_line_local_slip(line, c, slip);
     cpsi_frame_to(force, cpsi_line_axes(line, c), &line->friction_force[3 * c]);
@@ -288,13 +289,13 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     if (reaction > 0) {
         /* the rounds move nodes onto the surface; an element may be on either side of it */
         const double distance = vec3_dot(n, vec3_sub(x, reference)) + line->gap[c];
-        if (!(gives > 0))
+        if (!(soft.stiffness > 0))
             out->contact_residual +=
                 reaction * (cpsi_line_element(line, c) >= 0 ? fabs(distance) : fmax(0, distance));
-        out->dual += reaction * (vec3_dot(n, reference) - line->gap[c]);
+        out->dual += reaction * (vec3_dot(n, reference) - line->gap[c] - soft.rest);
         raise_to(&out->largest_force, reaction);
     }
-    if (gives > 0) add_soft(line, c, gives, out);
+    if (soft.stiffness > 0) add_soft(line, c, soft, out);
     return vec3_axpy(reaction, n, f);
 }
 

@@ -159,7 +159,7 @@ bool cpsi_mesh_error(const CpsiLine *line, double *error) {
     *error = 0;
     for (int c = 0; c < cpsi_line_contacts(line); c++)
         if (line->state[c] == CPS_NODE_STATE_UNRESOLVED ||
-            (line->state[c] != CPS_NODE_STATE_FREE && cpsi_soft_stiffness(line, c) > 0))
+            (line->state[c] != CPS_NODE_STATE_FREE && cpsi_soft_spring(line, c).stiffness > 0))
             return false;
     double worst = 0, bends = 0, largest = 0;
     for (int e = 0; e + 1 < line->n; e++) largest = fmax(largest, vec3_norm(force_of(line, e)));

@@ -13,12 +13,73 @@ static double stiffness_at(const CpsiLine *line, const CpsiObstacle *o, int j) {
     return o->stiffness * line->bearing_width * cpsi_line_share(line, j);
 }
 
-double cpsi_soft_stiffness(const CpsiLine *line, int c) {
-    const CpsiObstacle *o = cpsi_line_obstacle(line, c);
+/* The node of contact c: a third contact of a node is that of the element before it. */
+static int node_at(const CpsiLine *line, int c) {
     const int e = cpsi_line_element(line, c);
-    if (!o || !(o->stiffness > 0)) return 0;
-    /* a third contact of a node is that of the element before it */
-    return stiffness_at(line, o, e < 0 ? cpsi_line_node(line, c) : e + 1);
+    return e < 0 ? cpsi_line_node(line, c) : e + 1;
+}
+
+/* [m] How far the ground below contact c rises in the span of the step. */
+static double rise_at(const CpsiLine *line, int c) {
+    const int k = line->obstacle_index[c];
+    if (!cpsi_line_is_shifted(line, k)) return 0;
+    const Vec3 x = vec3_at(line->position, node_at(line, c));
+    return vec3_dot(cpsi_shift_to(&line->shift[k], x), vec3_at(line->normal, c));
+}
+
+CpsiSoft cpsi_soft_spring(const CpsiLine *line, int c) {
+    const CpsiObstacle *o = cpsi_line_obstacle(line, c);
+    if (!o || !(o->stiffness > 0)) return (CpsiSoft){0};
+    const int j = node_at(line, c);
+    const double own = stiffness_at(line, o, j);
+    if (!(o->damping > 0) || !line->inertia.is_moving) return (CpsiSoft){own, 0};
+    const double viscous = own * (o->damping / o->stiffness) / line->inertia.span[j],
+                 all = own + viscous, past = fmax(0, -(line->gap[c] + rise_at(line, c)));
+    return (CpsiSoft){all, isfinite(past) ? viscous / all * past : 0};
+}
+
+/* The place of node j on the obstacle as it is now, of where it was before the step. */
+static Vec3 place_before(const CpsiLine *line, int k, int j, double length) {
+    const double ratio = length / line->inertia.span[j];
+    const CpsiShift whole = cpsi_shift_part(&line->shift[k], 1 - ratio, 1);
+    return cpsi_shift_carry(&whole, vec3_at(line->inertia.start, j));
+}
+
+static double depth_at(const CpsiObstacle *o, Vec3 x) { return fmax(0, -cpsi_obstacle_gap(o, x)); }
+
+bool cpsi_soft_is_crossed(const CpsiLine *line, int j, double length) {
+    bool crossed = false;
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const CpsiObstacle *o = &line->obstacle[k];
+        if (!(o->stiffness > 0)) continue;
+        const double now = depth_at(o, vec3_at(line->position, j)),
+                     was = depth_at(o, place_before(line, k, j, length));
+        crossed = crossed || (now > 0) != (was > 0);
+    }
+    return crossed;
+}
+
+double cpsi_soft_growth(const CpsiLine *line, double length) {
+    double sum = 0;
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const CpsiObstacle *o = &line->obstacle[k];
+        for (int j = 0; j < line->n && o->stiffness > 0; j++) {
+            if (cpsi_line_is_held(line, j)) continue;
+            const double now = depth_at(o, vec3_at(line->position, j)),
+                         was = depth_at(o, place_before(line, k, j, length));
+            sum += 0.5 * stiffness_at(line, o, j) * (now - was) * (now + was);
+        }
+    }
+    return sum;
+}
+
+double cpsi_soft_damped(const CpsiLine *line, int c, double length) {
+    const CpsiObstacle *o = cpsi_line_obstacle(line, c);
+    if (!o || !(o->damping > 0)) return 0;
+    const int j = node_at(line, c);
+    const double now = depth_at(o, vec3_at(line->position, j)),
+                 was = depth_at(o, place_before(line, line->obstacle_index[c], j, length));
+    return (line->reaction[c] - stiffness_at(line, o, j) * now) * (now - was);
 }
 
 double cpsi_soft_way_depth(const CpsiObstacle *obstacle, Vec3 x) {

@@ -12,8 +12,22 @@
 /* Does an obstacle of the line give? */
 bool cpsi_line_has_soft(const CpsiLine *line);
 
-/* [N/m] k of contact c; 0 where its obstacle is rigid, or there is none. */
-double cpsi_soft_stiffness(const CpsiLine *line, int c);
+/* What opposes a contact in the step under way, R = stiffness (d - rest)^+. In a step in time of a
+ * span s the obstacle damps the motion along its normal by c = damping x width x length, R = (k d +
+ * c d')^+, d' = (d - e)/s with the depth e >= 0 of the reference x* on ground that has moved along:
+ * a spring of the stiffness k + c/s that begins at the depth rest = e (c/s)/(k + c/s). */
+typedef struct CpsiSoft {
+    double stiffness; /* [N/m]; 0 where the obstacle is rigid, or there is none */
+    double rest;      /* [m] >= 0; 0 in a quasi-static step */
+} CpsiSoft;
+CpsiSoft cpsi_soft_spring(const CpsiLine *line, int c);
+
+/* Does node j go into or out of what gives in the step in time, whose length [s] is `length`? */
+bool cpsi_soft_is_crossed(const CpsiLine *line, int j, double length);
+/* [J] What the step in time has stored more in what gives below the nodes that are not held, and
+ * what it has lost to the damping of contact c; `length` [s] is that of the step. */
+double cpsi_soft_growth(const CpsiLine *line, double length);
+double cpsi_soft_damped(const CpsiLine *line, int c, double length);
 
 /* [m] How much deeper than the surface slip at x is measured. */
 double cpsi_soft_way_depth(const CpsiObstacle *obstacle, Vec3 x);

@@ -228,8 +228,9 @@ static void fill_unilateral(const CpsiLine *line, CpsiChainProgram *program, int
     unilateral->contact[k] = c;
     unilateral->second[k] = is_second(line, c);
     unilateral->weight[k] = share;
-    unilateral->gap[k] = open_gap(line, c) / scale->length;
-    const double gives = cpsi_soft_stiffness(line, c) * scale->length;
+    const CpsiSoft soft = cpsi_soft_spring(line, c);
+    unilateral->gap[k] = (open_gap(line, c) + soft.rest) / scale->length;
+    const double gives = soft.stiffness * scale->length;
     if (unilateral->compliance)
         unilateral->compliance[k] = gives > 0 ? share * scale->force / gives : 0;
     if (!line->has_local_axes) return;

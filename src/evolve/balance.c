@@ -350,21 +350,19 @@ static bool stays(CpsiBalance *balance) {
     return false;
 }
 
-/* The lines of a group with elements that are snatched taut, whose nodes are to be taken by Euler
+/* The lines of a group whose motion is rough (time_step.h), whose nodes are to be taken by Euler
  * steps: those lines are again as they were, and so is the next step of their nodes. Returns
  * whether there are any. */
-static bool restart_snatched(CpsiBalance *balance) {
+static bool restart_rough(CpsiBalance *balance) {
     CpsEvolution *evolution = balance->evolution;
     bool any = false;
     for (int item = 0; item < balance->line_count; item++)
-        any = cpsi_line_is_snatched_late(&evolution->line[balance->line[item]],
-                                         evolution->interval) ||
-              any;
+        any = cpsi_line_is_rough(&evolution->line[balance->line[item]], evolution->interval) || any;
     if (!any) return false;
     for (int item = 0; item < balance->line_count; item++) {
         const int i = balance->line[item];
         cpsi_trial_restore_line(balance, i);
-        cpsi_line_restart_snatched(&evolution->line[i]);
+        cpsi_line_restart_rough(&evolution->line[i]);
     }
     cpsi_point_motion_join(evolution);
     cpsi_point_motion_predict(evolution);
@@ -396,8 +394,8 @@ static void guess_motion(CpsiBalance *balance) {
             cpsi_body_motion_guess(&evolution->bodies.body[balance->rigid[k].body]);
 }
 
-/* Find the places of a group after a step in time; where an element is snatched taut in it, once
- * more. Where there are none its lines are not certified. */
+/* Find the places of a group after a step in time; where it is rough, once more. Where there are
+ * none its lines are not certified. */
 static void find_motion(CpsiBalance *balance, int group) {
     begin(balance, group);
     for (int i = 0; i < 2; i++) {
@@ -406,7 +404,7 @@ static void find_motion(CpsiBalance *balance, int group) {
             cpsi_begin_again(balance);
             (void)search_with(balance, MOST_TRIALS, PATIENCE_AT_LAST);
         }
-        if (i > 0 || is_over(balance) || !restart_snatched(balance)) break;
+        if (i > 0 || is_over(balance) || !restart_rough(balance)) break;
     }
     cpsi_report_found(balance);
 }

@@ -620,6 +620,7 @@ static void hash_obstacle(uint64_t *hash, const CpsiObstacle *obstacle,
                                         shape->angle, shape->size[0], shape->size[1],
                                         shape->size[2], side.x, side.y, side.z});
     if (obstacle->stiffness > 0) hash_numbers(hash, 1, &obstacle->stiffness);
+    if (obstacle->damping > 0) hash_numbers(hash, 1, &obstacle->damping);
     hash_ground(hash, obstacle);
     hash_mesh(hash, obstacle->mesh);
     if (set) hash_form(hash, cpsi_friction_set_conic(set), 2);

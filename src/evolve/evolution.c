@@ -326,6 +326,13 @@ static CpsStatus check_time(const CpsEvolution *evolution, const CpsStage *move,
                : CPS_OK;
 }
 
+static bool has_soft(const CpsEvolution *evolution) {
+    bool any = false;
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        any = any || evolution->obstacle[k].stiffness > 0;
+    return any;
+}
+
 CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsError *err) {
     if (!evolution || !move)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "evolution and move are both needed");
@@ -354,10 +361,12 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
                              "%s: body '%s' cannot be free: an obstacle's friction has directions",
                              what, evolution->bodies.body[move->body_change[i].body].name);
     for (int i = 0; i < move->point_change_count; i++)
-        if (move->point_change[i].kind == CPS_POINT_KIND_FREE && !evolution->points.balance)
-            return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                             "%s: point '%s' cannot be free: an obstacle's friction has directions",
-                             what, evolution->points.point[move->point_change[i].point].name);
+        if (move->point_change[i].kind == CPS_POINT_KIND_FREE &&
+            (!evolution->points.balance || has_soft(evolution)))
+            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: point '%s' cannot be free: an obstacle%s",
+                             what, evolution->points.point[move->point_change[i].point].name,
+                             evolution->points.balance ? " gives (stiffness)"
+                                                       : "'s friction has directions");
     if (cpsi_move_failed(evolution)) return_to_kept(evolution);
     cpsi_stage_fill(&evolution->live, move, evolution->origin);
     evolution->live.name = move->name ? move->name : "move";

@@ -4,7 +4,20 @@
 
 #include "base/status.h"
 #include "evolve/ranges.h"
-#include "evolve/time_check.h"
+
+/* Can a point be free in the history, or drag? Then it bears on the ground, by an area of its own
+ * that is not known; what is held, or on a body, does not. */
+static bool may_bear(const CpsScene *scene) {
+    bool any = false;
+    for (int i = 0; i < scene->point_count; i++)
+        any = any || scene->point[i].kind == CPS_POINT_KIND_FREE || scene->point[i].drags;
+    const int stages =
+        scene->stage ? scene->stage_count : 0; /* also asked before they are checked */
+    for (int k = 0; k < stages; k++)
+        for (int i = 0; i < scene->stage[k].point_change_count; i++)
+            any = any || scene->stage[k].point_change[i].kind == CPS_POINT_KIND_FREE;
+    return any;
+}
 
 CpsStatus cpsi_soft_obstacle_check(const CpsScene *scene, const CpsObstacle *o, CpsError *err) {
     const char *why = NULL;
@@ -12,15 +25,23 @@ CpsStatus cpsi_soft_obstacle_check(const CpsScene *scene, const CpsObstacle *o, 
         return CPSI_FAIL_AT("stiffness", err, CPS_ERR_ARGUMENT,
                             "obstacle '%s': stiffness is %g N/m3, expected a finite number >= 0",
                             o->name, o->stiffness);
+    if (!cpsi_is_not_negative(o->damping))
+        return CPSI_FAIL_AT("damping", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': damping is %g N s/m3, expected a finite number >= 0",
+                            o->name, o->damping);
+    if (o->damping > 0 && !(o->stiffness > 0))
+        return CPSI_FAIL_AT("damping", err, CPS_ERR_ARGUMENT,
+                            "obstacle '%s': damping: only an obstacle that gives has it: give its "
+                            "stiffness too, or leave it out",
+                            o->name);
     if (!(o->stiffness > 0)) return CPS_OK;
     if (scene->friction_policy != CPS_FRICTION_POLICY_CONSISTENT)
         why = "friction_policy is frozen: make it consistent";
     else if (scene->contact_policy != CPS_CONTACT_POLICY_REACHED)
         why = "contact_policy is reference: make it reached";
-    else if (cpsi_is_in_time(scene))
-        why = "a step of the history has a duration: leave that out";
-    else if (scene->point_count > 0 || scene->body_count > 0)
-        why = "there are points or bodies, of which no bearing area is known: hold the lines' ends";
+    else if (may_bear(scene))
+        why = "there are free points, or anchors that drag, of which no bearing area is known: "
+              "hold them";
     if (!why) return CPS_OK;
     return CPSI_FAIL_AT("stiffness", err, CPS_ERR_ARGUMENT,
                         "obstacle '%s': stiffness: it gives, but %s, or leave the stiffness out",

@@ -6,6 +6,7 @@
 
 #include "cable/damping.h"
 #include "cable/field.h"
+#include "cable/soft.h"
 
 /* What the sums need of the step. */
 typedef struct Sums {
@@ -124,8 +125,12 @@ static void add_contacts(Sums *sums, const unsigned char *state) {
                    way = vec3_sub(x, cpsi_line_place(line, line->inertia.start, c));
         const Vec3 ground = ground_way(line, c, x, sums->length);
         add_forces(sums, friction, reaction, way, ground);
-        if (c < cpsi_line_contacts(line) && state[c] == CPS_NODE_STATE_FREE &&
-            line->state[c] != CPS_NODE_STATE_FREE)
+        if (cpsi_soft_spring(line, c).stiffness > 0) {
+            const double damped = cpsi_soft_damped(line, c, sums->length);
+            sums->damping += damped;
+            sums->scheme -= damped;
+        } else if (c < cpsi_line_contacts(line) && state[c] == CPS_NODE_STATE_FREE &&
+                   line->state[c] != CPS_NODE_STATE_FREE)
             add_impact(sums, cpsi_line_node(line, c), c, ground);
     }
 }
@@ -153,6 +158,11 @@ void cpsi_time_ledger(CpsiLine *line, double length, const unsigned char *state)
     add_bodies(&sums);
     add_loads(&sums);
     add_contacts(&sums, state);
+    if (cpsi_line_has_soft(line)) {
+        const double stored = cpsi_soft_growth(line, length);
+        sums.ledger.elastic += stored;
+        sums.scheme -= stored;
+    }
     add_ends(&sums, &line->report);
     line->report.dissipated = sums.ledger.dissipated;
     line->report.ledger = sums.ledger;

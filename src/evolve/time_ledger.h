@@ -11,7 +11,8 @@
  *
  * where the second difference is at least 0 because E is convex. A node that begins to bear loses
  * the energy that it had, when the step began, along the normal of the ground, m (v_n . n)^2/2:
- * that is `impact`. What reactions take beyond that, -R n . D and what is lost where nodes that
+ * that is `impact`; one on an obstacle that gives does not, whose spring and damping are among E
+ * and what is damped. What reactions take beyond that, -R n . D and what is lost where nodes that
  * bear are stopped along their normals, belongs to the scheme: it is 0 for what rests or slides on
  * a plane.
  */

@@ -14,16 +14,19 @@
  * was before: after a step in which it bears, its motion along the normal is that of the ground in
  * the past as well, so that it does not rebound; after it has landed its next step is an Euler
  * step, for friction may have stopped it; a step in which an element is snatched taut is taken
- * again as an Euler step of its two nodes, and their next step is one too. */
+ * again as an Euler step of its two nodes, and their next step is one too; so is one in which a
+ * node goes into what gives, or out of it, which would fling it out with more than it had. */
 #include "evolve/time_step.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "cable/contact.h"
 #include "cable/damping.h"
 #include "cable/field.h"
 #include "cable/inertia_field.h"
 #include "cable/line_step.h"
+#include "cable/soft.h"
 #include "evolve/time_ledger.h"
 
 /* [-] An element shorter than its length by this share is slack. */
@@ -80,12 +83,18 @@ static double attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
     return share;
 }
 
-/* The elements that were slack and are taut. Their nodes are to be taken by Euler steps: returns
- * whether one was not. */
-static bool find_snatched(CpsiLine *line) {
+/* The elements that were slack and are taut, and the nodes that have gone into or out of what
+ * gives in a step of length h. Such nodes are to be taken by Euler steps: returns whether one was
+ * not. */
+static bool find_rough(CpsiLine *line, double h) {
     CpsiInertia *inertia = &line->inertia;
     bool found = false;
     inertia->snatched = 0;
+    for (int j = 0; j < line->n; j++) {
+        if (cpsi_line_is_held(line, j) || !cpsi_soft_is_crossed(line, j, h)) continue;
+        found = found || !inertia->restarts[j];
+        inertia->restarts[j] = true;
+    }
     for (int e = 0; e + 1 < line->n; e++) {
         if (!is_slack(line, inertia->start, e) || is_slack(line, line->position, e)) continue;
         inertia->snatched++;
@@ -118,13 +127,18 @@ static void stop_along(CpsiLine *line, int j, Vec3 n, double v, double h) {
     vec3_store(before, vec3_axpy(off, n, vec3_load(before)));
 }
 
+/* Does contact c bear on what is rigid? What gives slows a node down by its force alone. */
+static bool stops(const CpsiLine *line, int c) {
+    return line->state[c] != CPS_NODE_STATE_FREE && !(cpsi_soft_spring(line, c).stiffness > 0);
+}
+
 /* Stop node j along the normals of the contacts at which it bears. */
 static void stop_node(CpsiLine *line, int j, double h) {
     Vec3 first = vec3(0, 0, 0);
     bool any = false;
     if (cpsi_line_is_held(line, j)) return;
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
-        if (line->state[c] == CPS_NODE_STATE_FREE) continue;
+        if (!stops(line, c)) continue;
         Vec3 n = vec3_at(line->normal, c);
         const Vec3 ground = ground_velocity(line, c);
         if (any) {
@@ -144,7 +158,7 @@ static void stop_elements(CpsiLine *line) {
     CpsiInertia *inertia = &line->inertia;
     for (int c = cpsi_line_contacts(line); c < cpsi_line_all_contacts(line); c++) {
         const int e = cpsi_line_element(line, c);
-        if (e + 1 >= line->n || line->state[c] == CPS_NODE_STATE_FREE) continue;
+        if (e + 1 >= line->n || !stops(line, c)) continue;
         const Vec3 n = vec3_at(line->normal, c), ground = ground_velocity(line, c);
         double rate = -vec3_dot(n, ground), ease = 0, part[2];
         for (int i = 0; i < 2; i++) {
@@ -185,7 +199,7 @@ static void advance(CpsiLine *line, const CpsiTimeStep *step, const unsigned cha
     CpsiInertia *inertia = &line->inertia;
     const size_t places = 3 * (size_t)line->n * sizeof *inertia->before;
     memset(inertia->restarts, 0, (size_t)line->n * sizeof *inertia->restarts);
-    (void)find_snatched(line);
+    (void)find_rough(line, step->length);
     note_events(line, state);
     cpsi_time_ledger(line, step->length, state);
     memcpy(inertia->before, inertia->start, places);
@@ -224,11 +238,14 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     double share = attempt(line, program, options, move, scratch, step);
     int iterations = line->report.iteration_count;
     if (cps_outcome_is_certified(line->report.outcome) && step->scheme != CPS_TIME_SCHEME_EULER &&
-        !step->restarts && !step->once && find_snatched(line)) {
+        !step->restarts && !step->once && find_rough(line, step->length)) {
         cpsi_substeps_restore(line, scratch);
         share = attempt(line, program, options, move, scratch, step);
         iterations += line->report.iteration_count;
     }
+    /* the way of what went farther round an obstacle is not known: the steps are too long */
+    if (cps_outcome_is_certified(line->report.outcome) && cpsi_contact_turns_too_far(line))
+        line->report.outcome = CPS_OUTCOME_STALLED;
     line->report.iteration_count = iterations;
     line->report.places = CPS_PLACES_UNIQUE;
     line->report.substep_count = 1;
@@ -240,11 +257,14 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
         advance(line, step, scratch->state);
 }
 
-bool cpsi_line_is_snatched_late(CpsiLine *line, double h) {
+bool cpsi_line_is_rough(CpsiLine *line, double h) {
     CpsiInertia *inertia = &line->inertia;
     bool late = false;
     if (!line->has_inertia) return false;
-    memset(inertia->late, 0, (size_t)line->n * sizeof *inertia->late);
+    for (int j = 0; j < line->n; j++) {
+        inertia->late[j] = !cpsi_line_is_held(line, j) && cpsi_soft_is_crossed(line, j, h);
+        late = late || (inertia->late[j] && inertia->span[j] < h);
+    }
     for (int e = 0; e + 1 < line->n; e++) {
         if (!is_slack(line, inertia->start, e) || is_slack(line, line->position, e)) continue;
         for (int j = e; j <= e + 1; j++) {
@@ -255,7 +275,7 @@ bool cpsi_line_is_snatched_late(CpsiLine *line, double h) {
     return late;
 }
 
-void cpsi_line_restart_snatched(CpsiLine *line) {
+void cpsi_line_restart_rough(CpsiLine *line) {
     if (!line->has_inertia) return;
     for (int j = 0; j < line->n; j++)
         line->inertia.restarts[j] = line->inertia.restarts[j] || line->inertia.late[j];

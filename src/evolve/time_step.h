@@ -10,7 +10,7 @@ typedef struct CpsiTimeStep {
     double length; /* [s] h > 0 */
     CpsTimeScheme scheme;
     bool restarts; /* the obstacles have not moved at this rate before: an Euler step */
-    bool once; /* not again where an element is snatched: that is for the group of lines to do */
+    bool once;     /* not again where it is rough: that is for the group of lines to do */
 } CpsiTimeStep;
 
 /* Take the step; the line has mass. Its report is that of a step of one part, and its motion in
@@ -18,11 +18,11 @@ typedef struct CpsiTimeStep {
 void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                          const CpsiMove *move, CpsiSubsteps *scratch, const CpsiTimeStep *step);
 
-/* Has an element been snatched taut in the step of length h, of which a node was not taken by an
- * Euler step? If so, the nodes are noted, and after the line has been returned to where the step
- * began, are to be taken by one. */
-bool cpsi_line_is_snatched_late(CpsiLine *line, double h);
-void cpsi_line_restart_snatched(CpsiLine *line);
+/* Has an element been snatched taut in the step of length h, or a node gone into or out of what
+ * gives, of which a node was not taken by an Euler step? If so, the nodes are noted, and after the
+ * line has been returned to where the step began, are to be taken by one. */
+bool cpsi_line_is_rough(CpsiLine *line, double h);
+void cpsi_line_restart_rough(CpsiLine *line);
 
 /* The line is at rest, and its next step in time is an Euler step. */
 void cpsi_line_stop(CpsiLine *line);

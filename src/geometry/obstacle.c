@@ -38,6 +38,7 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
                         .radius = radius_of(def),
                         .form = def->shape,
                         .stiffness = def->stiffness,
+                        .damping = def->damping,
                         .shape = def->friction_shape,
                         .moves = def->moves,
                         .has_set = def->friction_set};

@@ -18,6 +18,7 @@ typedef struct CpsiObstacle {
     CpsSurface surface;      /* of a surface given as a function */
     const CpsMesh *mesh;     /* of a mesh, else NULL */
     double stiffness;        /* [N/m3] by which it gives; 0: it is rigid */
+    double damping;          /* [N s/m3] of what gives */
     double friction[2];      /* [-] along the first tangent of the contact and across it */
     CpsFrictionShape shape;
     bool has_set;   /* the friction forces are those of a set instead, which the line holds

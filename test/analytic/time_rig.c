@@ -91,6 +91,24 @@ static int moves(const CpsLineView *v, int j) {
     return (j > 0 && j < v->element_count) || v->end[end].kind == CPS_END_KIND_FREE;
 }
 
+/* [m] How much deeper node j lies than its reaction says, (k d + c d')^+, on a plane that gives; d'
+ * counts from the plane where the reference is above it. */
+static double off_bed(const TimeRun *run, int j) {
+    const CpsObstacle *bed = &run->rig->plane;
+    const CpsLineView *v = &run->view;
+    const double l = run->rig->line.length / v->element_count,
+                 part = j > 0 && j < v->element_count ? l : l / 2,
+                 area = run->rig->line.bearing_width * part,
+                 span = run->motion.is_moving ? run->motion.span[j] : INFINITY;
+    const double d = bed->point[2] - v->position[3 * j + 2],
+                 past = fmax(0, bed->point[2] - v->reference[3 * j + 2]),
+                 stiffness = area * (bed->stiffness + bed->damping / span);
+    const double force = area * (bed->stiffness * d + bed->damping * (d - past) / span);
+    /* the certificate leaves the spring open by stiffness x^2/2 <= gap */
+    return fabs(v->reaction[j] - fmax(0, force)) / stiffness -
+           sqrt(2 * run->report.certificate.gap / stiffness);
+}
+
 static void audit_node(TimeRun *run, int j, double largest) {
     const CpsLineView *v = &run->view;
     const CpsLineMotion *m = &run->motion;
@@ -116,9 +134,11 @@ static void audit_node(TimeRun *run, int j, double largest) {
     raise_to(&run->outside, (friction - bound) / largest);
     raise_to(&run->opposed, (dot(&v->friction_force[3 * j], slip) + bound * speed) * span /
                                 (largest * run->rig->line.length));
-    if (v->reaction[j] > 1e-9 * largest)
-        raise_to(&run->lifted,
-                 fabs(v->position[3 * j + 2] - run->rig->plane.point[2]) / run->rig->line.length);
+    const double above = v->position[3 * j + 2] - run->rig->plane.point[2];
+    if (run->rig->plane.stiffness > 0)
+        raise_to(&run->lifted, off_bed(run, j) / run->rig->line.length);
+    else if (v->reaction[j] > 1e-9 * largest)
+        raise_to(&run->lifted, fabs(above) / run->rig->line.length);
 }
 
 void time_step(TimeRun *run) {

@@ -4,7 +4,7 @@
  * The audit shares no code with the library. From positions before and after the step it knows the
  * velocity, from that the acceleration, and compares mass times acceleration with the forces on
  * each node; it asks of friction that it lies within mu R and is opposite to the velocity, and of a
- * node that bears that it is on the plane. */
+ * node that bears that it is on the plane, or as deep in it as the reaction says. */
 #ifndef CAPSTAN_TEST_TIME_RIG_H
 #define CAPSTAN_TEST_TIME_RIG_H
 
@@ -50,7 +50,8 @@ typedef struct TimeRun {
     double balance;   /* imbalance of a node over the largest force */
     double outside;   /* friction beyond its bound, over the largest force */
     double opposed;   /* work of friction and of its bound against the slip, over force x length */
-    double lifted;    /* height of a node that bears, over the length */
+    double lifted;    /* height of a node that bears, over the length; where the plane gives, how
+                         far a node is from the depth that belongs to its reaction */
     double remainder; /* what the ledger does not close by, over the sum of its turnover */
     double imbalance, turnover;           /* [J] sums */
     double kinetic, impact, scheme, lost; /* [J] sums; of friction */

@@ -103,6 +103,7 @@ void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s) 
     same(compare, "axis", o->name, axis, unit, 3, COMPUTED);
     same_number(compare, "radius", o->name, (double)s->radius, plane || flat ? 0 : o->radius);
     same_number(compare, "stiffness", o->name, (double)s->gives, o->stiffness);
+    same_number(compare, "damping", o->name, (double)s->damps, o->damping);
     compare_shape(compare, o, s, first);
     if (o->kind == CPS_OBSTACLE_GROUND && s->ground) compare_ground(compare, o, s->ground);
     if (o->kind == CPS_OBSTACLE_MESH && s->mesh) compare_mesh(compare, o, s->mesh);

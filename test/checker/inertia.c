@@ -13,7 +13,9 @@
 
 #include "damping.h"
 #include "elongation.h"
+#include "grasps.h"
 #include "loads.h"
+#include "soft.h"
 
 /* Rounding of places, per largest coordinate; of energies, per their sizes. */
 static const double PLACES = 1e-13, ENERGIES = 1e-9;
@@ -120,12 +122,12 @@ static Real take_off(const Real *n, Real *v) {
 }
 
 /* The part of the vector across the normals of the contacts at which node j bore, up to two, which
- * may have any angle. */
-static void across(const Record *r, size_t j, Real *v) {
+ * may have any angle; what gives stops no node. */
+static void across(const Source *source, const Record *r, size_t j, Real *v) {
     Real first[3];
     bool any = false;
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) {
-        if (!(r->reaction[c] > 0)) continue;
+        if (!(r->reaction[c] > 0) || source->surface[(size_t)r->obstacle[c]].gives > 0) continue;
         Real n[3] = {r->normal[c][0], r->normal[c][1], r->normal[c][2]};
         const Real sine = any ? take_off(first, n) : 1;
         for (int a = 0; a < 3; a++) {
@@ -142,14 +144,14 @@ static double size_of(const Real *v) {
 }
 
 /* How far the reference of node j is from that of its scheme; `euler`: k is the whole step. */
-static double off_scheme(const Record *r, const Record *before, const Record *older, size_t j,
-                         bool euler) {
+static double off_scheme(const Source *source, const Record *r, const Record *before,
+                         const Record *older, size_t j, bool euler) {
     Real off[3];
     for (int a = 0; a < 3; a++) {
         const Real x = before->position[j][a], past = older ? older->position[j][a] : x;
         off[a] = r->reference[j][a] - x - (euler ? 0 : (x - past) / 3);
     }
-    if (!euler) across(before, j, off);
+    if (!euler) across(source, before, j, off);
     return size_of(off);
 }
 
@@ -158,8 +160,8 @@ static bool is_at_point(const Record *r, size_t j) {
     return (j == 0 && r->end_point[0] >= 0) || (j == r->elements && r->end_point[1] >= 0);
 }
 
-static void check_scheme(const Record *r, const Record *before, const Record *older, double reach,
-                         InertiaFind *find, void *user) {
+static void check_scheme(const Source *source, const Record *r, const Record *before,
+                         const Record *older, double reach, InertiaFind *find, void *user) {
     const double h = r->time - before->time;
     double off = 0, span = 0;
     for (size_t j = 0; j < r->nodes; j++) {
@@ -167,7 +169,8 @@ static void check_scheme(const Record *r, const Record *before, const Record *ol
         if (!euler) span = fmax(span, fabs(r->span[j] - 2 * h / 3) / h);
         /* where the first step of the file began is not in it */
         const bool unknown = !euler && !older && in_time(before);
-        if (!is_at_point(r, j) && !unknown) off = fmax(off, off_scheme(r, before, older, j, euler));
+        if (!is_at_point(r, j) && !unknown)
+            off = fmax(off, off_scheme(source, r, before, older, j, euler));
     }
     /* times are sums of steps */
     if (!(span <= 1e-9 + 1e-15 * r->time / h)) find(user, "span of the scheme, off", span, 0);
@@ -183,7 +186,8 @@ static bool is_beside_element(const Record *r, size_t j) {
 }
 
 /* [J] of the velocities of the file; these are those of the positions but along normals. */
-static double kinetic_energy(const Record *r, double reach, InertiaFind *find, void *user) {
+static double kinetic_energy(const Source *source, const Record *r, double reach, InertiaFind *find,
+                             void *user) {
     Real sum = 0;
     double off = 0;
     for (size_t j = 0; j < r->nodes; j++) {
@@ -193,7 +197,7 @@ static double kinetic_energy(const Record *r, double reach, InertiaFind *find, v
             sum += own * own * r->mass[j] / 2;
             v[a] = (own - ((Real)r->position[j][a] - r->reference[j][a]) / r->span[j]);
         }
-        across(r, j, v);
+        across(source, r, j, v);
         if (!is_beside_element(r, j) && !is_at_point(r, j))
             off = fmax(off, size_of(v) * r->span[j]);
     }
@@ -203,7 +207,7 @@ static double kinetic_energy(const Record *r, double reach, InertiaFind *find, v
 
 /* [J] What the forces on the nodes do on their way, and the energies that are stored. */
 typedef struct Works {
-    double elastic, gravity, ends, drag, added, waves, loads, sizes;
+    double elastic, soft, gravity, ends, drag, added, waves, loads, sizes;
 } Works;
 
 static double stored(const Record *r, const Vector *x, size_t i) {
@@ -216,12 +220,14 @@ static double stored(const Record *r, const Vector *x, size_t i) {
                : 0;
 }
 
-static Works works_of(const Record *r, const Record *before) {
+static Works works_of(const Source *source, const Record *r, const Record *before) {
     Works w = {0};
     for (size_t i = 0; i < r->elements; i++)
         w.elastic += stored(r, (const Vector *)r->position, i) -
                      stored(r, (const Vector *)before->position, i);
     for (size_t j = 0; j < r->nodes; j++) {
+        if (!node_is_held(r, j))
+            w.soft += (double)soft_growth(source, r, j, before->position[j], 1);
         const Flow flow = loads_flow(r, j);
         for (int a = 0; a < 3; a++) {
             double load = r->load[j][a];
@@ -257,12 +263,11 @@ void inertia_check(const Source *source, const Record *r, const Record *before, 
                    InertiaFind *find, void *user) {
     const double given = r->loads ? r->loads->ledger : 0;
     double reach = 0, sizes = r->dissipated + fabs(given);
-    (void)source;
     if (!in_time(r) || !before || r->outcome > OUTCOME_TAUT) return;
     for (size_t j = 0; j < r->nodes; j++)
         for (int a = 0; a < 3; a++) reach = fmax(reach, fabs(r->position[j][a]));
-    check_scheme(r, before, in_time(before) ? older : NULL, reach, find, user);
-    const double kinetic = kinetic_energy(r, reach, find, user);
+    check_scheme(source, r, before, in_time(before) ? older : NULL, reach, find, user);
+    const double kinetic = kinetic_energy(source, r, reach, find, user);
     for (int k = 0; k < LEDGER_ENTRIES; k++) sizes += fabs(r->ledger[k]);
     for (int k = 0; k < TIME_ENTRIES; k++) sizes += fabs(r->time_entry[k]);
     /* works are known to the rounding of places under the forces */
@@ -282,16 +287,18 @@ void inertia_check(const Source *source, const Record *r, const Record *before, 
             spent, 1e-12 * sizes + 1e-300, find, user);
     compare("imbalance of the ledger in time", r->ledger[LEDGER_IMBALANCE], 0, noise, find, user);
     const Damped own = r->damping ? damping_measure(r, before, older) : (Damped){0};
-    compare("ledger_damping", r->time_entry[TIME_DAMPING], own.damped, noise, find, user);
+    compare("ledger_damping", r->time_entry[TIME_DAMPING],
+            own.damped + soft_damped(source, r, before), noise, find, user);
     if (!(own.elongation <= PLACES * reach))
         find(user, "elongation off that of the places, as a length", own.elongation, 0);
     if (!(own.rest <= PLACES)) find(user, "elongation_rest off that of the scheme", own.rest, 0);
     if (!(r->time_entry[TIME_IMPACT] >= 0))
         find(user, "energy lost by impact", r->time_entry[TIME_IMPACT], 0);
     if (r->grasps > 0) return;
-    Works w = works_of(r, before);
+    Works w = works_of(source, r, before);
     if (r->damping) w.elastic = own.stored;
-    compare("ledger_elastic in time", r->ledger[LEDGER_ELASTIC], w.elastic, noise, find, user);
+    compare("ledger_elastic in time", r->ledger[LEDGER_ELASTIC], w.elastic + w.soft, noise, find,
+            user);
     compare("ledger_gravity in time", r->ledger[LEDGER_GRAVITY], w.gravity,
             noise + ENERGIES * w.sizes, find, user);
     compare("ledger_ends in time", r->ledger[LEDGER_ENDS], w.ends, noise, find, user);

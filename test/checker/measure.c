@@ -393,7 +393,8 @@ static void measure_contact(const Where *where, const Record *r, size_t j, size_
     add(&s->dual, -R * gap);
     add(&s->magnitude, fabsl(R * gap));
     if (seat.surface && seat.surface->gives > 0) {
-        const Soft soft = soft_spring(r, seat.surface, j, distance, R);
+        const Soft soft = soft_spring(r, seat.surface, j, n, gap, distance, R);
+        add(&s->dual, -R * soft.begins);
         add(&s->primal, soft.energy);
         add(&s->scale, soft.energy);
         add(&s->dual, -soft.conjugate);
@@ -622,7 +623,7 @@ static void measure_load(const Record *r, size_t j, const Real *b, const Real *u
 static void measure_node(const Where *where, const Record *r, size_t j, Measures *m, Sums *s) {
     Triple b, x, arm, pull, u;
     measure_weight(r, j, s);
-    if (!held(r, j)) add(&s->elastic, soft_growth(where->source, r, j));
+    if (!held(r, j)) add(&s->elastic, soft_growth(where->source, r, j, r->reference[j], r->share));
     widen(r->load[j], b);
     widen(r->load[j], pull);
     widen(r->position[j], x);

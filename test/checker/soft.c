@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "grasps.h"
+#include "inertia.h"
 
 static int complain(FILE *log, const char *what) {
     if (log) fprintf(log, "a value that cannot be: %s\n", what);
@@ -21,8 +22,14 @@ int soft_read(const Source *source, size_t k, Surface *surface, FILE *log) {
     const bool good = all && nc_get_att_double(source->nc, NC_GLOBAL, NAME, all) == NC_NOERR &&
                       isfinite(all[k]) && all[k] >= 0;
     if (good) surface->gives = all[k];
+    const bool damps = nc_inq_attlen(source->nc, NC_GLOBAL, "obstacle_damping", &count) == NC_NOERR;
+    const bool sound =
+        !damps || (all && k < count &&
+                   nc_get_att_double(source->nc, NC_GLOBAL, "obstacle_damping", all) == NC_NOERR &&
+                   isfinite(all[k]) && all[k] >= 0 && (all[k] == 0 || surface->gives > 0));
+    if (damps && sound) surface->damps = all[k];
     free(all);
-    return good ? 0 : complain(log, NAME);
+    return good && sound ? 0 : complain(log, NAME);
 }
 
 int soft_create(const Source *source, const char *line, Record *record, FILE *log) {
@@ -46,11 +53,31 @@ static Real stiffness(const Record *r, const Surface *surface, size_t j) {
     return surface->gives * r->bearing_width * (before + after) / 2;
 }
 
-Soft soft_spring(const Record *r, const Surface *surface, size_t j, Real distance, Real R) {
-    const Real k = stiffness(r, surface, j), sunk = fmaxl(0, -distance), off = sunk - R / k;
+/* How far the ground below node j has risen along n since the reference. */
+static Real risen(const Record *r, const Surface *surface, size_t j, const Real *n) {
+    Real x[3], was[3], sum = 0;
+    for (int a = 0; a < 3; a++) x[a] = r->position[j][a];
+    surface_unshift(surface, x, r->share, was);
+    for (int a = 0; a < 3; a++) sum += (x[a] - was[a]) * n[a];
+    return sum;
+}
+
+Soft soft_spring(const Record *r, const Surface *surface, size_t j, const Real *n, Real gap,
+                 Real distance, Real R) {
+    const Real own = stiffness(r, surface, j);
+    Real k = own, begins = 0;
+    if (surface->damps > 0 && in_time(r)) {
+        /* k d + c (d - past)/s is k' (d - begins) with k' = k + c/s */
+        const Real c = own * surface->damps / surface->gives, s = r->span[j],
+                   past = fmaxl(0, -(gap + risen(r, surface, j, n)));
+        k = own + c / s;
+        begins = c / s * past / k;
+    }
+    const Real sunk = fmaxl(0, -distance - begins), off = sunk - R / k;
     return (Soft){.energy = k * sunk * sunk / 2,
                   .conjugate = R * R / (2 * k),
-                  .gap = k * off * off / 2 + R * fmaxl(0, distance)};
+                  .gap = k * off * off / 2 + R * fmaxl(0, distance + begins),
+                  .begins = begins};
 }
 
 Surface soft_level(const Surface *surface, const Real *x) {
@@ -69,20 +96,56 @@ bool soft_bears(const Record *r, size_t j, size_t k) {
     return r->has_elements && j > 0 && r->obstacle[r->contacts * r->nodes + j - 1] == (int)k;
 }
 
-Real soft_growth(const Source *source, const Record *r, size_t j) {
-    Real sum = 0, x[3], from[3];
+/* [m] The depth of node j at x in `on`. */
+static Real depth_of(const Surface *on, const Real *x) {
+    return fmaxl(0, -surface_distance(on, x));
+}
+
+Real soft_growth(const Source *source, const Record *r, size_t j, const double *from,
+                 double share) {
+    Real sum = 0, x[3], was_at[3];
     for (int a = 0; a < 3; a++) {
         x[a] = r->position[j][a];
-        from[a] = r->reference[j][a];
+        was_at[a] = from[a];
     }
     for (size_t k = 0; k < source->surfaces; k++) {
         const Surface *on = &source->surface[k];
         Real before[3];
         if (!(on->gives > 0)) continue;
-        surface_shift(on, from, r->share, before);
-        const Real now = fmaxl(0, -surface_distance(on, x)),
-                   was = fmaxl(0, -surface_distance(on, before));
+        surface_shift(on, was_at, share, before);
+        const Real now = depth_of(on, x), was = depth_of(on, before);
         sum += stiffness(r, on, j) * (now - was) * (now + was) / 2;
     }
     return sum;
+}
+
+/* [J] What the damping at contact c, of node j, took. */
+static Real damped_at(const Source *source, const Record *r, const Record *before, size_t j,
+                      size_t c) {
+    if (r->obstacle[c] < 0) return 0;
+    const Surface *on = &source->surface[(size_t)r->obstacle[c]];
+    if (!(on->damps > 0)) return 0;
+    Real x[3], from[3], moved[3];
+    for (int a = 0; a < 3; a++) {
+        x[a] = r->position[j][a];
+        from[a] = before->position[j][a];
+    }
+    surface_shift(on, from, 1, moved);
+    const Real now = depth_of(on, x), was = depth_of(on, moved);
+    return (r->reaction[c] - stiffness(r, on, j) * now) * (now - was);
+}
+
+double soft_damped(const Source *source, const Record *r, const Record *before) {
+    Real sum = 0;
+    bool any = false;
+    for (size_t k = 0; k < source->surfaces; k++) any = any || source->surface[k].damps > 0;
+    if (!any) return 0;
+    for (size_t j = 0; j < r->nodes; j++) {
+        if (node_is_held(r, j)) continue;
+        for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
+            sum += damped_at(source, r, before, j, c);
+        if (r->has_elements && j > 0)
+            sum += damped_at(source, r, before, j, r->contacts * r->nodes + j - 1);
+    }
+    return (double)sum;
 }

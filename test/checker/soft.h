@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Obstacles that give: a node at the depth d bears k d, k = pressure over depth x bearing width x
- * half of the elements beside the node; at no depth it bears nothing. */
+ * half of the elements beside the node; at no depth it bears nothing. In a step in time one with
+ * damping opposes c d' besides, c by pressure over velocity likewise, but never pulls. */
 #ifndef CAPSTAN_CHECKER_SOFT_H
 #define CAPSTAN_CHECKER_SOFT_H
 
@@ -10,12 +11,15 @@
 int soft_read(const Source *source, size_t k, Surface *surface, FILE *log);
 int soft_create(const Source *source, const char *line, Record *record, FILE *log);
 
-/* The spring below node j, `distance` above it, with the force R: its energy, the conjugate of that
- * at R, and their sum plus R x distance, each >= 0. */
+/* What is below node j, `distance` above it along the normal n, where the reference was `gap`, with
+ * the force R: its energy, the conjugate of that at R, and their sum plus R x distance, each >= 0.
+ * In a step in time the velocity is that from the reference, which begins in the ground or on it,
+ * less that of the ground; the energy is that of which the force is the derivative. */
 typedef struct Soft {
-    Real energy, conjugate, gap;
+    Real energy, conjugate, gap, begins; /* begins [m]: the depth at which it begins to press */
 } Soft;
-Soft soft_spring(const Record *r, const Surface *surface, size_t j, Real distance, Real R);
+Soft soft_spring(const Record *r, const Surface *surface, size_t j, const Real *n, Real gap,
+                 Real distance, Real R);
 
 /* The surface along which a node at x slips: in what is round and gives its parallel there, as long
  * as the depth is less than half of the radius. */
@@ -24,8 +28,10 @@ Surface soft_level(const Surface *surface, const Real *x);
 /* Is obstacle k that of a contact of node j? */
 bool soft_bears(const Record *r, size_t j, size_t k);
 
-/* [J] By how much what gives has stored more below node j since the reference, before which it
- * moved. */
-Real soft_growth(const Source *source, const Record *r, size_t j);
+/* [J] By how much what gives has stored more below node j since it was at `from`, before what gives
+ * took the last part, a share, of its motion. */
+Real soft_growth(const Source *source, const Record *r, size_t j, const double *from, double share);
+/* [J] What the damping below all nodes that are not held took in the step from that before it. */
+double soft_damped(const Source *source, const Record *r, const Record *before);
 
 #endif

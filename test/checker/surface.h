@@ -32,6 +32,7 @@ typedef struct Surface {
     bool inside;                                       /* lines are inside of it */
     Real length, main_radius, angle, size[3], side[3]; /* of capsule, torus, cone, box (shape.h) */
     Real gives;                                        /* [N/m3] pressure over depth; 0: rigid */
+    Real damps;                                        /* [N s/m3] of what gives */
     Real mu[2], grain[3];                              /* along the line or the grain, and across */
     /* shift of the last step: it turned by the vector `spin` about a point, which went by `by` */
     Real by[3], spin[3], about[3];

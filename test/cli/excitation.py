@@ -6,6 +6,7 @@ import cmath
 import csv
 import math
 import os
+import re
 import sys
 import tempfile
 
@@ -182,11 +183,45 @@ def moored(capstan, checker, folder):
         assert off < 0.01, name
 
 
+def spar(capstan, checker, folder):
+    """The OC3 spar of the examples in a small wave, on lines without inertia, beside the linear response of the hull on their stiffness."""
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../examples/oc3-hywind-waves.yaml")) as file:
+        text = file.read()
+    for old, new in (("amplitude: 3,", "amplitude: 0.03,"), ("friction: 0.5 ", "friction: 0 "), ("duration: 600, time_step: 0.5", "duration: %r, time_step: 0.125")):
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    text = re.sub(r"    inertia: .*\n", "    quasi_static: true\n", re.sub(r"    drag: .*\n", "", text))
+    h, w = 0.125, TAU/10
+    code, said = command(capstan, "run", write(folder, "rest.yaml", text.replace("%r", "0.125")), "-q", "--stiffness", "-o", os.path.join(folder, "spar"))
+    assert code == 0, said
+    rest = next(row for row in table(os.path.join(folder, "spar"), "body-stiffness.csv") if row["step"] == "0" and row["kind"] == "stick")
+    _, _, found = solve(capstan, checker, folder, text.replace("%r", "300"))
+    # surge, heave and pitch: the others stay, for the wave goes along x
+    names, m, c = ("x", "z", "ry"), 8066048, -78
+    K = [[float(rest[f"{i}_{j}"]) for j in names] for i in names]
+    M = [[m + 7.99e6, 0, m*c - 4.95e8], [0, m + 2.4e5, 0], [m*c - 4.95e8, 0, 2.0e10 + m*c*c + 3.8e10]]
+    F = [0.03*a*cmath.exp(-1j*math.radians(b)) for a, b in ((1.163e6, 90), (2.568e5, 180), (3.172e7, -90))]
+    D = [1e5, 1.3e5, 0]
+    a = solve_complex([[K[i][j] - w*w*M[i][j] - 1j*w*(D[i] if i == j else 0) for j in range(3)] for i in range(3)], F)
+    last = 1600  # twenty periods, with a window that takes the slow free motions out
+    times = [300 - (last - 1 - k)*h for k in range(last)]
+    window = [1 - math.cos(TAU*(k + 0.5)/last) for k in range(last)]
+    states = [found.get("position_of_body", found.steps - last + k) for k in range(last)]
+    turns = [found.get("rotation_of_body", found.steps - last + k) for k in range(last)]
+    for name, values, wanted in (("surge", [s[0] for s in states], a[0]), ("heave", [s[2] for s in states], a[1]),
+                                 ("pitch", [2*q[2]*q[0] for q in turns], a[2])):
+        got = harmonic([x*by for x, by in zip(values, window)], times, w)
+        off = abs(got - wanted)/abs(wanted)
+        print("excitation: %s of the OC3 spar: %.6g, linear %.6g, off by %.2g" % (name, abs(got), abs(wanted), off))
+        assert off < 0.01, name
+
+
 def main():
     capstan, checker = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         heave(capstan, checker, folder)
         moored(capstan, checker, folder)
+        spar(capstan, checker, folder)
 
 
 if __name__ == "__main__":

@@ -6,9 +6,10 @@ usage: random_soft.py CAPSTAN CHECKER [--count N] [--seed S] [--only CLASS] [--k
 
 Of each class N scenes. The shapes and grounds are those of random_shapes.py and random_grounds.py, given a stiffness; `beds` are planes, level
 or sloping, one or two of which one may be rigid, with a drum or a boulder now and then, on which lines lie or hang and are pulled, moved, let
-go, grasped and shifted. By its weight a line sinks by 1e-4 to 0.03 of its size. Of each class at least 99 of 100 steps must be certified, and
+go, grasped and shifted; `moving` and `moving round` are such beds and shapes with steps in time, on which obstacles may be damped. By its weight a line sinks by 1e-4 to 0.03 of its size. Of each class at least 99 of 100 steps must be certified, and
 the checker must refute none.
 """
+import math
 import os
 import random
 import re
@@ -22,8 +23,9 @@ import random_shapes  # noqa: E402
 
 
 STEPS = 16
+FINER, STIFFER = 10, 30  # times as many steps in time, times as stiff
 CERTIFIED = 0.99
-CLASSES = ["beds", "grounds"] + random_shapes.CLASSES
+CLASSES = ["beds", "grounds", "moving", "moving round"] + random_shapes.CLASSES
 
 
 def vector(values):
@@ -104,9 +106,29 @@ def softened(dice, folder, text):
     return write(folder, text)
 
 
+def moving(dice, folder, path):
+    """a scene with mass, of which entries have a duration"""
+    with open(path, encoding="ascii") as scene:
+        text = scene.read()
+    # inertia presses a line many times deeper than its weight, and it must not go through what is round
+    text = re.sub(r"(?<=[ ,]stiffness: )([^,}\s]+)(?=[^\n]*\n(?:  \w|lines|    damp))", lambda m: repr(STIFFER * float(m.group(1))), text)
+    weight, size = (float(re.search(rf"^    {key}: (\S+)$", text, re.M).group(1)) for key in ("weight", "length"))
+    swing = math.sqrt(size / 9.81)
+    time = lambda: swing * 10 ** dice.uniform(0.5, 1.5)  # noqa: E731
+    text = re.sub(r"^(    weight: .*)$", rf"\1\n    inertia: {weight / 9.81!r}", text, flags=re.M)
+    damped = lambda m: m.group(0) + (f", damping: {float(m.group(1)) * swing * 10 ** dice.uniform(-3, 0)!r}" if dice.random() < 0.5 else "")  # noqa: E731
+    text = re.sub(r"(?<=friction: )(?:[^\n]*), stiffness: ([^,}\n]+)", damped, text)
+    text = re.sub(r"(?<=\n)    stiffness: (\S+)(?=\n(?:  \w|lines))", lambda m: damped(m).replace(", damping", "\n    damping"), text)
+    return write(folder, re.sub(r"steps: (\d+)", lambda m: f"steps: {FINER * int(m.group(1))}, duration: {time()!r}", text))
+
+
 def write_scene(dice, folder, kind):
     if kind == "beds":
         return beds(dice, folder)
+    if kind == "moving":
+        return moving(dice, folder, beds(dice, folder))
+    if kind == "moving round":
+        return moving(dice, folder, write_scene(dice, folder, dice.choice(random_shapes.CLASSES)))
     path = random_grounds.write_scene(dice, folder) if kind == "grounds" else random_shapes.write_scene(dice, folder, kind)
     with open(path, encoding="ascii") as scene:
         return softened(dice, folder, scene.read())

@@ -183,7 +183,7 @@ static const char SHAPES_SCENE[] =
     "  ring: {torus: {centre: [0, 0, -9], axis: [0, 1, 0], main_radius: 3, radius: 1}}\n"
     "  tip: {cone: {tip: [0, 0, -9], axis: [0, 0, -1], angle: 30, radius: 1}}\n"
     "  quay: {box: {centre: [0, 0, -9], size: [2, 3, 4], radius: 0.5,"
-    " rotation: {quaternion: [1, 0, 0, 0]}}, stiffness: 900}\n"
+    " rotation: {quaternion: [1, 0, 0, 0]}}, stiffness: 900, damping: 5}\n"
     "  bowl: {sphere: {radius: 90, inside: true}}\n"
     "lines:\n"
     "  one: {length: 3, elements: 4, mass: 2, stiffness: 1000, bearing_width: 0.1,"
@@ -457,6 +457,7 @@ static const struct Change SHAPE_CHANGE[] = {
      "0, 0]}}",
      "sphere: {centre: [0, 0, -9], radius: 1}"},
     {"stiffness", "stiffness: 900", "stiffness: 901"},
+    {"damping", "damping: 5", "damping: 6"},
     {"bearing_width", "bearing_width: 0.1", "bearing_width: 0.2"},
     {"length", "length: 3, radius", "length: 4, radius"},
     {"inside", "{radius: 90, inside: true}", "{centre: [0, 0, -100], radius: 90}"},

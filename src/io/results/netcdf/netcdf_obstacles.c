@@ -417,6 +417,12 @@ void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene) {
         if (stiffness[k] > most) most = stiffness[k];
     }
     if (most > 0) cpsi_netcdf_numbers(file, "obstacle_stiffness", count, stiffness);
+    bool damps = false;
+    for (size_t k = 0; stiffness && k < count; ++k) {
+        stiffness[k] = scene->obstacle[k].damping;
+        damps = damps || stiffness[k] > 0;
+    }
+    if (damps) cpsi_netcdf_numbers(file, "obstacle_damping", count, stiffness);
     free(stiffness);
     const int lines = most > 0 ? scene->line_count : 0;
     for (int i = 0; i < lines; ++i) {

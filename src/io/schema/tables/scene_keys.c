@@ -177,6 +177,9 @@ static const CpsiKey OBSTACLE_KEYS[] = {
     {"stiffness", OPTIONAL, NUMBER(Obstacle, obstacle.stiffness), NOT_NEGATIVE, .unit = "N/m3",
      .fallback = "0",
      .help = "pressure over depth of an obstacle that gives; 0: rigid; lines need bearing_width"},
+    {"damping", OPTIONAL, NUMBER(Obstacle, obstacle.damping), NOT_NEGATIVE, .unit = "N s/m3",
+     .fallback = "0",
+     .help = "pressure over velocity of an obstacle that gives, in steps with a duration"},
 };
 
 static void begin_obstacle(void *values) {
