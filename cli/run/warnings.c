@@ -205,6 +205,12 @@ static void note_buoys(Warnings *warnings, const CpsScene *scene, int line, cons
     }
 }
 
+/* At its place on the line that the file has. */
+static void keep_bend(Warnings *warnings, const CpsBend *bend, double begins) {
+    warnings->bend = *bend;
+    warnings->bend.arc_length += begins;
+}
+
 void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport report = cps_evolution_report(evolution);
     const char *step = report.name;
@@ -212,47 +218,48 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineReport line = cps_evolution_line_report(evolution, i);
         const CpsLineView view = cps_evolution_line_view(evolution, i);
+        char name[NAME_SIZE];
+        const double begins = written_as(scene, i, name, sizeof name);
         const double length = view.arc_length[view.element_count],
                      pierced = line.certificate.element_penetration;
         if (line.has_pierced_obstacle && pierced > WARN_PIERCED * length)
-            note_at(&warnings->kind[WARNING_PIERCED], pierced, length, step, view.name,
+            note_at(&warnings->kind[WARNING_PIERCED], pierced, length, step, name,
                     scene->obstacle[line.pierced_obstacle].name);
         if (line.has_utilisation)
-            note(&warnings->utilisation, line.utilisation, line.utilisation_arc_length, step,
-                 view.name);
+            note(&warnings->utilisation, line.utilisation, begins + line.utilisation_arc_length,
+                 step, name);
         if (line.outcome != CPS_OUTCOME_SOLVED) continue;
-        note_energy(warnings, &report, &line, view.name);
+        note_energy(warnings, &report, &line, name);
         if (line.jump_count > 0)
-            note(&warnings->kind[WARNING_JUMPED], line.jump, length, step, view.name);
+            note(&warnings->kind[WARNING_JUMPED], line.jump, length, step, name);
         const double residual = line.certificate.friction_residual;
         double bounds;
         const double lifted = lifted_friction(&view, &bounds);
         if (scene->friction_policy == CPS_FRICTION_POLICY_FROZEN && lifted > WARN_LIFTED * bounds)
-            note(&warnings->kind[WARNING_LIFTED], lifted, bounds, step, view.name);
+            note(&warnings->kind[WARNING_LIFTED], lifted, bounds, step, name);
         if (scene->friction_policy == CPS_FRICTION_POLICY_FROZEN &&
             residual > WARN_BOUND * bounds && bounds > 0)
-            note(&warnings->kind[WARNING_BOUND], residual, bounds, step, view.name);
+            note(&warnings->kind[WARNING_BOUND], residual, bounds, step, name);
         if (scene->has_water_surface) note_buoys(warnings, scene, i, &view, step);
         note_dry(warnings, scene, i, &view, step);
         if (line.has_utilisation && line.utilisation > 1)
-            note(&warnings->kind[WARNING_BROKEN], line.utilisation, line.utilisation_arc_length,
-                 step, view.name);
+            note(&warnings->kind[WARNING_BROKEN], line.utilisation,
+                 begins + line.utilisation_arc_length, step, name);
         const CpsBend *bend = &line.bend;
         if (bend->turn > 0 && bend->ratio > (1 + WARN_BEND) * bend->coulomb &&
-            note_at(&warnings->kind[WARNING_BEND], bend->ratio / bend->coulomb, 1, step, view.name,
+            note_at(&warnings->kind[WARNING_BEND], bend->ratio / bend->coulomb, 1, step, name,
                     scene->obstacle[bend->obstacle].name))
-            warnings->bend = *bend;
+            keep_bend(warnings, bend, begins);
         if (scene->contact_policy == CPS_CONTACT_POLICY_REFERENCE &&
             line.certificate.penetration > WARN_SUNK * length)
-            note(&warnings->kind[WARNING_SUNK], line.certificate.penetration, length, step,
-                 view.name);
+            note(&warnings->kind[WARNING_SUNK], line.certificate.penetration, length, step, name);
         if (line.slack > WARN_SLACK * length && line.slipping > 0)
-            note(&warnings->kind[WARNING_SLACK], line.slack, length, step, view.name);
+            note(&warnings->kind[WARNING_SLACK], line.slack, length, step, name);
         if (line.places != CPS_PLACES_UNIQUE)
-            note(&warnings->kind[WARNING_PLACES], (double)line.places, 0, step, view.name);
+            note(&warnings->kind[WARNING_PLACES], (double)line.places, 0, step, name);
         const double rounded = rounded_tension(&view), force = line.certificate.largest_force;
         if (rounded > WARN_ROUNDED * force && force > 0)
-            note(&warnings->kind[WARNING_ROUNDED], rounded, force, step, view.name);
+            note(&warnings->kind[WARNING_ROUNDED], rounded, force, step, name);
     }
 }
 

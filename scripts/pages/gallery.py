@@ -58,6 +58,7 @@ PICTURES = {
     "run-oc3-hywind": of_example("oc3-hywind", "step-00004-elevation.svg"),
     "run-barge": of_example("barge", "step-00006-plan.svg"),
     "run-bollard-and-rail": of_example("bollard-and-rail", "plan.svg"),
+    "run-polyester": of_example("polyester-leg", "loop-mean-offset.svg"),
     "run-winch": of_example("winched-mooring", "tension.svg"),
     "run-riser": of_example("riser-in-a-current", "elevation.svg"),
     "run-soft-clay": of_example("soft-clay", "elevation.svg"),

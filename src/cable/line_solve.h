@@ -50,6 +50,10 @@ typedef struct CpsiJoined {
     CpsiStepScale scale;
     CpsiIpmReport ipm;
     double shift[3]; /* [N] to be added to the force of every element */
+    /* of a line with local axes: (n, 3) [m] the base on whose tangent planes the program is, and
+     * (contacts) the obstacles there; else NULL */
+    const double *base;
+    const int *obstacle_index;
 } CpsiJoined;
 
 /* How one program of a step is posed and solved. */

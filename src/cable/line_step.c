@@ -349,6 +349,14 @@ static void judge_loads(CpsiLine *line, const CpsiStepOptions *options) {
 static void take_joined(CpsiLine *line, const CpsiStepOptions *options) {
     const CpsiJoined *joined = line->joined;
     const CpsiChainProgram *program = joined->program;
+    if (joined->base) {
+        const size_t contacts = (size_t)cpsi_line_all_contacts(line);
+        memcpy(line->base, joined->base, 3 * (size_t)line->n * sizeof *line->base);
+        memcpy(line->obstacle_index, joined->obstacle_index,
+               contacts * sizeof *line->obstacle_index);
+        cpsi_contact_detect(line, false);
+        cpsi_contact_update_geometry(line);
+    }
     cpsi_step_program_unpack(line, program, &joined->scale);
     if (joined->scale.longer > 1) cpsi_line_straighten(line, joined->scale.longer - 1);
     for (int e = 0; e + 1 < line->n; e++) {
@@ -357,6 +365,10 @@ static void take_joined(CpsiLine *line, const CpsiStepOptions *options) {
     }
     line->report.iteration_count = joined->ipm.iterations;
     cpsi_places_as_found(line, program);
+    if (joined->base) {
+        cpsi_rounds_end(line, program, options, joined->scale.bounds, &joined->ipm);
+        return;
+    }
     cpsi_contact_plane_slip(line);
     if (joined->scale.bounds == CPSI_BOUNDS_COUPLED) cpsi_line_release_open_contacts(line, program);
     cpsi_line_certify(line, options, &joined->ipm);

@@ -23,6 +23,17 @@ static const double LEVEL = 1 - 1e-12;
 /* An anchor holds this many times the largest force across its plane. */
 static const double ACROSS = 1e3;
 
+static void place_bases(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count) {
+    CPSI_PLACE(arena, network->base, count);
+    CPSI_PLACE(arena, network->obstacle_index, count);
+    for (int k = 0; k < count; k++) {
+        double *none, **base = network->base ? &network->base[k] : &none;
+        int *no_index, **index = network->obstacle_index ? &network->obstacle_index[k] : &no_index;
+        CPSI_PLACE(arena, *base, 3 * (size_t)line[k].n);
+        CPSI_PLACE(arena, *index, cpsi_line_all_contacts(&line[k]));
+    }
+}
+
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
                         int joints, int bodies, const CpsiLinsysOps *ops,
                         const CpsiNetworkTools *tools) {
@@ -33,6 +44,7 @@ void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *
     cpsi_network_layout(&network->program, arena, count + joints, 2 * most, joints, bodies, tools);
     CPSI_PLACE(arena, network->chain, count + joints);
     CPSI_PLACE(arena, network->joined, count);
+    if (own_axes) place_bases(network, arena, line, count);
     for (int k = 0; k < count + joints; k++) {
         CpsiChainProgram none, *chain = network->chain ? &network->chain[k] : &none;
         if (k < count)
@@ -300,6 +312,21 @@ static CpsiJointState state_of(const CpsiChainProgram *chain) {
     return inside > disc->s[0][0] ? CPSI_JOINT_STICKS : CPSI_JOINT_SLIDES;
 }
 
+/* The part of the solution of line `item`. */
+static CpsiJoined part_of(const CpsiNetwork *network, const CpsiLine *line,
+                          const CpsiNetworkPart *part, int item, const CpsiStepScale *scale,
+                          const CpsiIpmReport *report) {
+    CpsiJoined out = {.program = &network->program.chain[item], .scale = *scale, .ipm = *report};
+    if (!line->has_local_axes) return out;
+    double *base = network->base[part->number[item]];
+    int *index = network->obstacle_index[part->number[item]];
+    memcpy(base, line->base, 3 * (size_t)line->n * sizeof *base);
+    memcpy(index, line->obstacle_index, (size_t)cpsi_line_all_contacts(line) * sizeof *index);
+    out.base = base;
+    out.obstacle_index = index;
+    return out;
+}
+
 /* Solve the program as `ipm` says, in units of its loads. */
 static bool solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
                   const CpsiStepOptions *options, CpsiIpmOptions ipm, const CpsiNetworkMove *out) {
@@ -320,7 +347,7 @@ static bool solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *p
     const CpsiIpmReport report = cpsi_ipm_solve(&network->program.base, &ipm);
     network->found = report.outcome;
     for (int k = 0; k < part->lines; k++)
-        network->joined[k] = (CpsiJoined){&network->program.chain[k], scale, report, {0, 0, 0}};
+        network->joined[k] = part_of(network, &line[part->number[k]], part, k, &scale, &report);
     for (int k = 0; k < part->own; k++) {
         cpsi_frame_from(&out->joint[3 * k], axes, &u[3 * k]);
         for (int a = 0; a < 3; a++) out->joint[3 * k + a] *= scale.length;
@@ -356,13 +383,38 @@ static void follow(CpsiLine *line, const CpsiJoined *joined, const CpsiStepOptio
     *turned = fmax(*turned, own);
 }
 
+/* Is a line inextensible? */
+static bool has_inextensible(const CpsiLine *line, const CpsiNetworkPart *part) {
+    for (int k = 0; k < part->lines; k++)
+        if (line[part->number[k]].compliance == 0) return true;
+    return false;
+}
+
+/* Solve the program as that of a line alone is solved. Of thousands of elastic lines rounding may
+ * end the loop before its target; then it has to come less near. */
+static bool solve_to_the_end(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
+                             const CpsiStepOptions *options, const CpsiNetworkMove *out) {
+    CpsiIpmOptions ipm = {.target = CPSI_TARGET,
+                          .max_iterations = ITERATIONS,
+                          .centering_steps = CPSI_CENTERING_STEPS,
+                          .sharpenings = CPSI_REFINEMENT_STEPS};
+    bool solved = solve(network, line, part, options, ipm, out);
+    while (network->found == CPSI_IPM_STALLED && ipm.target < ENOUGH &&
+           !has_inextensible(line, part)) {
+        ipm.target *= 10;
+        solved = solve(network, line, part, options, ipm, out);
+    }
+    return solved;
+}
+
 bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
                         const CpsiStepOptions *options, const CpsiNetworkMove *out) {
     const CpsiIpmOptions ipm = {.target = part->target,
                                 .max_iterations = ITERATIONS,
                                 .centering_steps = part->is_refined ? CPSI_CENTERING_STEPS : 0,
                                 .sharpenings = part->is_refined ? CPSI_REFINEMENT_STEPS : 0};
-    const bool solved = solve(network, line, part, options, ipm, out);
+    const bool solved = part->is_exact ? solve_to_the_end(network, line, part, options, out)
+                                       : solve(network, line, part, options, ipm, out);
     network->turned = 0;
     if (!solved) return false;
     for (int k = 0; k < part->lines; k++)
@@ -372,9 +424,5 @@ bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkP
 
 bool cpsi_network_solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
                         const CpsiStepOptions *options, const CpsiNetworkMove *out) {
-    const CpsiIpmOptions ipm = {.target = CPSI_TARGET,
-                                .max_iterations = ITERATIONS,
-                                .centering_steps = CPSI_CENTERING_STEPS,
-                                .sharpenings = CPSI_REFINEMENT_STEPS};
-    return solve(network, line, part, options, ipm, out);
+    return solve_to_the_end(network, line, part, options, out);
 }

@@ -43,6 +43,8 @@ typedef struct CpsiNetwork {
     CpsiIpmOutcome found;    /* how the last program ended */
     double turned;           /* [rad] by how much a guess has turned the axes of the lines' nodes */
     CpsiJoined *joined;      /* (lines) each line's part of the solution */
+    double **base;           /* (lines) of lines with local axes, the base of the last program, */
+    int **obstacle_index;    /* (lines) ... and the obstacles of its contacts */
 } CpsiNetwork;
 
 /* Place the arrays for the lines (count) and so many joints and bodies. */
@@ -57,6 +59,7 @@ typedef struct CpsiNetworkPart {
     double longer;               /* factor of the elements' lengths */
     double target;               /* relative gap of the solution */
     bool is_refined;             /* by steps in which what sticks moves ever less */
+    bool is_exact;               /* to the limit of the arithmetic, whatever is said above */
     bool continues;              /* on the tangent planes to which the last guess has led */
     const int *number;           /* (lines) of those that the network was laid out for */
     const int (*at)[2];          /* (lines, 2) the joint of each end, or CPSI_NO_JOINT */

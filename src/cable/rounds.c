@@ -133,7 +133,7 @@ static void accelerate(CpsiLine *line, bool sides, double turned) {
 }
 
 /* Compute the certificate of the last round; is it certified? */
-static bool certify_last_round(CpsiLine *line, CpsiChainProgram *program,
+static bool certify_last_round(CpsiLine *line, const CpsiChainProgram *program,
                                const CpsiStepOptions *options, CpsiBounds bounds,
                                const CpsiIpmReport *ipm) {
     if (bounds != CPSI_BOUNDS_FIXED) cpsi_rounds_couple_bounds(line);
@@ -145,6 +145,14 @@ static bool certify_last_round(CpsiLine *line, CpsiChainProgram *program,
     if (cps_outcome_is_certified(line->report.outcome) && cpsi_contact_bears_beyond(line))
         line->report.outcome = CPS_OUTCOME_STALLED;
     return cps_outcome_is_certified(line->report.outcome);
+}
+
+void cpsi_rounds_end(CpsiLine *line, const CpsiChainProgram *program,
+                     const CpsiStepOptions *options, CpsiBounds bounds, const CpsiIpmReport *ipm) {
+    double turned;
+    const bool arrived = cpsi_rounds_refresh_axes(line, !options->frictionless, &turned);
+    if (certify_last_round(line, program, options, bounds, ipm) && !arrived)
+        line->report.outcome = CPS_OUTCOME_STALLED;
 }
 
 /* The guess of the round after the one that was posed so. */

@@ -29,6 +29,11 @@ void cpsi_dragged_rounds(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
  * shortened. */
 bool cpsi_rounds_refresh_axes(CpsiLine *line, bool sides, double *turned);
 
+/* Take the solution of a last round, in the position, as the rounds end with it: axes and contacts
+ * of the position, bounds and certificate. */
+void cpsi_rounds_end(CpsiLine *line, const CpsiChainProgram *program,
+                     const CpsiStepOptions *options, CpsiBounds bounds, const CpsiIpmReport *ipm);
+
 /* Set the bounds to mu R, and scale friction back where it exceeds them. */
 void cpsi_rounds_couple_bounds(CpsiLine *line);
 

@@ -40,7 +40,9 @@ static const double TARGET = 1e-11;
  * the end, and so does a group that nothing holds as it turns with its loads. Trials in which a
  * line finds no answer take the most time by far: they are fewer. At last, where nothing was found,
  * it goes on for longer: in a net whose sides become taut one after the other what is left rises
- * and falls for thirty iterations before it vanishes. */
+ * and falls for thirty iterations before it vanishes. The answer as one program takes the time of
+ * some ten trials, and is asked last; of groups of MANY points, whose trials take long, after a
+ * first search with few of them. */
 enum {
     ITERATIONS = 100,
     PATIENCE = 6,
@@ -48,6 +50,8 @@ enum {
     PATIENCE_WITH_BODIES = 20,
     PATIENCE_UNHELD = 60,
     MOST_TRIALS = 200,
+    TRIALS_BESIDE = 30,
+    MANY = 200,
     FEW_TRIALS = 8,
     OPEN_TRIALS = 12
 };
@@ -301,12 +305,12 @@ void cpsi_balance_start(CpsEvolution *evolution) {
     }
 }
 
-/* Search once more, from a guess to the last digits; where there is none, things stay as they are.
- */
-static bool search_again(CpsiBalance *balance) {
+/* Search once more, from a guess, `refined` to the last digits; where there is none, things stay as
+ * they are. */
+static bool search_again(CpsiBalance *balance, bool refined) {
     const size_t bytes = (size_t)balance->count * sizeof *balance->at;
     memcpy(balance->best, balance->at, bytes);
-    if (cpsi_guess_places(balance, true)) {
+    if (cpsi_guess_places(balance, refined)) {
         for (int k = 0; k < balance->count; k++) {
             const CpsiFree *at = &balance->at[k];
             balance->at[k] =
@@ -444,8 +448,16 @@ static void find_places(CpsiBalance *balance, int group) {
     const bool guessed = cpsi_guess_places(balance, false);
     if (!guessed && cpsi_group_is_too_short(balance)) return;
     if (!guessed) cpsi_extrapolate_places(balance);
-    bool found = search(balance, MOST_TRIALS);
-    if (!found && !is_over(balance) && balance->body_count == 0) found = search_again(balance);
+    const bool joint = !cpsi_has_inextensible(balance) && cpsi_may_have_joint_answer(balance);
+    const bool early = joint && balance->count > MANY;
+    bool found = search(balance, early ? TRIALS_BESIDE : MOST_TRIALS);
+    if (!found && early && !is_interrupted(evolution) && cpsi_take_joint_answer(balance)) {
+        cpsi_report_found(balance);
+        return;
+    }
+    if (!found && early && !is_over(balance)) found = search_again(balance, false);
+    if (!found && !is_over(balance) && balance->body_count == 0)
+        found = search_again(balance, true);
     if (!found && !is_over(balance) && balance->body_count == 0)
         found = search_with(balance, MOST_TRIALS, PATIENCE_AT_LAST);
     if (!found && is_static && balance->body_count > 0) {
@@ -454,7 +466,7 @@ static void find_places(CpsiBalance *balance, int group) {
         found = cpsi_is_answer(balance);
     }
     if (found) cpsi_take_nearest_places(balance);
-    if (!found && !cpsi_has_inextensible(balance)) found = cpsi_take_joint_answer(balance);
+    if (!found && joint && !early) found = cpsi_take_joint_answer(balance);
     if (!found && !is_interrupted(evolution)) found = stays(balance);
     if (!found && (cpsi_group_is_too_short(balance) || (frozen && cpsi_group_falls(balance))))
         return;

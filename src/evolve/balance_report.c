@@ -258,6 +258,8 @@ void cpsi_report_no_place(CpsiBalance *balance) {
         rotation_store(body->report.rotation, rigid->pose.turn);
         store(body->report.load, &load);
         store(body->report.residual, &load);
+        body->report.is_stable =
+            cpsi_is_stable(body->report.stiffness, body->given.fixed, body->arm);
         for (int i = 0; i < 6; i++)
             if (body->given.fixed[i]) {
                 body->report.support[i] = -body->report.load[i];

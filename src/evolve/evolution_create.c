@@ -278,7 +278,7 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
         cpsi_start_end(def, end, line->end[end].value);
     }
     cpsi_constraints_fill(line, def);
-    if (cpsi_line_has_winch(line)) cpsi_line_put_held(line, line->position);
+    cpsi_line_put_held(line, line->position); /* a start is so near them as rounding */
     switch (def->start.kind) {
     case CPS_START_STATIC: move_to_free_side(line); break;
     case CPS_START_NODES: cpsi_node_start(line, def); break;

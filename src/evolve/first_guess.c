@@ -9,6 +9,7 @@
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/newton_step.h"
+#include "evolve/point_rounds.h"
 #include "evolve/points.h"
 
 /* The guess takes so many rounds, until no body turns by more than SETTLED [rad] in one, and no
@@ -19,6 +20,9 @@ static const double MOST_HELD = 1e9;
 /* What a guess moves by no more than this, per length, is at rest. */
 static const double AT_REST = 1e-6;
 static const double SETTLED = 1e-3, FARTHEST_TURN = 0.3, ON_ITS_PLANE = 1e-6;
+/* Axes that turn by no more than this [rad] are those of the solution, as in the rounds of a line,
+ * or by no more than this where they come no nearer. */
+static const double TURNS_NO_MORE = 1e-10, TURNS_BY_ROUNDING = 2e-9;
 /* Relative gap of a program whose planes are still to turn by more than NEAR [rad], and of the
  * others. A point touches a plane within this share of its longest line. */
 static const double ROUGH = 1e-5, FINE = 1e-10, REFINED = 1e-12, NEAR = 1e-2, TOUCHES = 1e-3;
@@ -188,10 +192,10 @@ typedef struct Turned {
     double bodies, points;
 } Turned;
 
-/* What is asked of a guess; `several`: the plane on which a point may lie depends on where it is.
- */
+/* What is asked of a guess; `several`: the plane on which a point may lie depends on where it is;
+ * `exact`: to the limit of the arithmetic, until no axes of points or lines turn any more. */
 typedef struct Guess {
-    bool several, refined;
+    bool several, refined, exact;
 } Guess;
 
 CpsiNetworkPart cpsi_network_part(CpsiBalance *balance, bool first) {
@@ -220,25 +224,20 @@ static void restore_lines(CpsiBalance *balance) {
         cpsi_trial_restore_line(balance, balance->line[item]);
 }
 
-void cpsi_solve_places(CpsiBalance *balance, double longer) {
-    CpsEvolution *evolution = balance->evolution;
-    const CpsiStepOptions options = cpsi_trial_options(evolution);
-    restore_lines(balance);
-    CpsiNetworkPart part = cpsi_network_part(balance, true);
-    part.longer = longer;
-    (void)cpsi_network_solve(&balance->network, evolution->line, &part, &options, &balance->guess);
-    restore_lines(balance);
-}
+/* How a round is solved: to a relative gap, with steps in which what sticks moves ever less, or to
+ * the limit of the arithmetic. */
+typedef enum Accuracy { TO_GAP, TO_REFINED_GAP, TO_THE_END } Accuracy;
 
 /* One program on the tangent planes of the last round, or where there is one plane of the
  * reference, from the poses of the trial; false where no solution is found. */
 static bool solve_round(CpsiBalance *balance, const CpsiStepOptions *options, bool first,
-                        double target, bool refined) {
+                        double target, Accuracy accuracy) {
     CpsEvolution *evolution = balance->evolution;
     if (first) restore_lines(balance);
     CpsiNetworkPart part = cpsi_network_part(balance, first);
     part.target = target;
-    part.is_refined = refined;
+    part.is_refined = accuracy != TO_GAP;
+    part.is_exact = accuracy == TO_THE_END;
     part.continues = !first;
     return cpsi_network_guess(&balance->network, evolution->line, &part, options, &balance->guess);
 }
@@ -250,9 +249,11 @@ static bool guess_round(CpsiBalance *balance, const CpsiStepOptions *options, in
     const bool first = round == 0 || !guess->several, rough = turned->points > NEAR;
     hold_bodies(balance, round > 0);
     if (rough || !guess->refined) {
-        if (!solve_round(balance, options, first, rough ? ROUGH : FINE, false)) return false;
-    } else if (!solve_round(balance, options, first, REFINED, true) &&
-               !solve_round(balance, options, first, FINE, true)) {
+        if (!solve_round(balance, options, first, rough ? ROUGH : FINE, TO_GAP)) return false;
+    } else if (guess->exact) {
+        if (!solve_round(balance, options, first, FINE, TO_THE_END)) return false;
+    } else if (!solve_round(balance, options, first, REFINED, TO_REFINED_GAP) &&
+               !solve_round(balance, options, first, FINE, TO_REFINED_GAP)) {
         return false; /* large nets, whose gap comes no nearer than FINE, are tried twice */
     }
     *turned = (Turned){.points = guess->several ? balance->network.turned : 0};
@@ -288,24 +289,58 @@ static void settle_points(CpsiBalance *balance) {
     }
 }
 
-/* Begin where the points and bodies go on the tangent planes of the reference, the bodies in rounds
- * about the poses of the round before; false where that has no solution. */
-bool cpsi_guess_places(CpsiBalance *balance, bool refined) {
-    CpsEvolution *evolution = balance->evolution;
-    const CpsiStepOptions options = cpsi_trial_options(evolution);
-    const Guess guess = {has_several_planes(evolution), refined};
+/* Rounds, until they have come as near as is asked; returns how many, 0 where the first has no
+ * solution. `settled`: they have come as near. */
+static int take_rounds(CpsiBalance *balance, Guess guess, bool *settled) {
+    const CpsiStepOptions options = cpsi_trial_options(balance->evolution);
     Turned turned = {0, guess.several ? INFINITY : 0};
+    double best = INFINITY;
     int rounds = 0;
+    *settled = false;
     while (rounds < POINT_ROUNDS) {
+        if (guess.several && balance->body_count == 0 && rounds > 0)
+            cpsi_point_rounds_accelerate(balance, rounds == 1 ? INFINITY : turned.points);
         const bool fine = turned.points <= NEAR;
         if (!guess_round(balance, &options, rounds, &guess, &turned)) break;
         rounds++;
-        const bool settled = turned.bodies <= SETTLED || rounds >= ROUNDS;
-        if (settled && fine && turned.points <= ON_ITS_PLANE) break;
+        const bool halved = turned.points <= 0.5 * best;
+        if (halved) best = turned.points;
+        const bool bodies = turned.bodies <= SETTLED || rounds >= ROUNDS,
+                   points = turned.points <= (guess.exact ? TURNS_NO_MORE : ON_ITS_PLANE) ||
+                            (guess.exact && !halved && turned.points <= TURNS_BY_ROUNDING);
+        *settled = bodies && fine && points;
+        if (*settled) break;
     }
     restore_lines(balance);
-    if (rounds > 0) settle_points(balance);
-    return rounds > 0;
+    return rounds;
+}
+
+/* Begin where the points and bodies go on the tangent planes of the reference, the bodies in rounds
+ * about the poses of the round before; false where that has no solution. */
+bool cpsi_guess_places(CpsiBalance *balance, bool refined) {
+    const Guess guess = {.several = has_several_planes(balance->evolution), .refined = refined};
+    bool settled;
+    if (take_rounds(balance, guess, &settled) == 0) return false;
+    settle_points(balance);
+    return true;
+}
+
+bool cpsi_solve_places(CpsiBalance *balance, double longer) {
+    CpsEvolution *evolution = balance->evolution;
+    const CpsiStepOptions options = cpsi_trial_options(evolution);
+    if (evolution->line[balance->line[0]].has_local_axes) {
+        const Guess guess = {.several = true, .refined = true, .exact = true};
+        bool settled;
+        (void)take_rounds(balance, guess, &settled);
+        return settled;
+    }
+    restore_lines(balance);
+    CpsiNetworkPart part = cpsi_network_part(balance, true);
+    part.longer = longer;
+    (void)cpsi_network_solve(&balance->network, evolution->line, &part, &options, &balance->guess);
+    restore_lines(balance);
+    return balance->network.found != CPSI_IPM_INFEASIBLE &&
+           balance->network.found != CPSI_IPM_UNBOUNDED;
 }
 
 /* Begin where the last step of the same stage leads. */

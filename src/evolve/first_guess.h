@@ -9,9 +9,11 @@
  * the poses of the round before; false where that has no solution. What is to touch is on the
  * surface, and what is to stick where it was. `refined`: to the last digits. */
 bool cpsi_guess_places(CpsiBalance *balance, bool refined);
-/* The same program, for lines longer by a factor, solved to the limit of the arithmetic:
- * balance->guess and balance->network.joined have the solution, as far as it was found. */
-void cpsi_solve_places(CpsiBalance *balance, double longer);
+/* The same program, for lines longer by a factor, solved to the limit of the arithmetic; lines with
+ * axes of their own in rounds, until these turn no more, and no longer. balance->guess,
+ * balance->joint and balance->network.joined have the solution, as far as it was found; false where
+ * there is none, or the rounds do not end. */
+bool cpsi_solve_places(CpsiBalance *balance, double longer);
 /* Where the last step of the same stage leads. */
 void cpsi_extrapolate_places(CpsiBalance *balance);
 

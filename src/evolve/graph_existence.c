@@ -16,6 +16,7 @@
 #include "cable/slopes.h"
 #include "evolve/balance_report.h"
 #include "evolve/bodies.h"
+#include "evolve/body_self_stress.h"
 #include "evolve/checkpoint.h"
 #include "evolve/first_guess.h"
 #include "evolve/points.h"
@@ -212,6 +213,18 @@ bool cpsi_group_falls(CpsiBalance *balance) {
 
 /* infeasible ----------------------------------------------------------------------------------- */
 
+/* The proof for a group with bodies; the places and poses of the trial stay. */
+static bool bodies_are_too_far(CpsiBalance *balance, double *missing) {
+    const size_t bytes = (size_t)balance->count * sizeof *balance->at,
+                 rigid = (size_t)balance->body_count * sizeof *balance->rigid;
+    memcpy(balance->best, balance->at, bytes);
+    memcpy(balance->rigid_best, balance->rigid, rigid);
+    const bool proven = cpsi_bodies_are_out_of_reach(balance, missing);
+    memcpy(balance->at, balance->best, bytes);
+    memcpy(balance->rigid, balance->rigid_best, rigid);
+    return proven;
+}
+
 bool cpsi_group_is_too_short(CpsiBalance *balance) {
     CpsEvolution *evolution = balance->evolution;
     if (!cpsi_has_inextensible(balance) || !cpsi_is_without_bounds(balance)) return false;
@@ -219,8 +232,10 @@ bool cpsi_group_is_too_short(CpsiBalance *balance) {
         cpsi_trial_restore_line(balance, balance->line[item]);
     const CpsiNetworkPart part = cpsi_network_part(balance, true);
     double missing;
-    const bool short_of = cpsi_network_is_too_short(&balance->network, evolution->line, &part,
-                                                    balance->node, &balance->guess, &missing);
+    const bool short_of = balance->body_count > 0
+                              ? bodies_are_too_far(balance, &missing)
+                              : cpsi_network_is_too_short(&balance->network, evolution->line, &part,
+                                                          balance->node, &balance->guess, &missing);
     for (int item = 0; item < balance->line_count; item++)
         cpsi_trial_restore_line(balance, balance->line[item]);
     cpsi_trial_use_blocks(balance);

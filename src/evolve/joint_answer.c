@@ -31,14 +31,27 @@ static const double CLEARLY = 1e-6;
 /* Lines that are pulled straight by loads of which their tension is more than this multiple get the
  * tension of slightly longer ones. */
 static const double STRAINED = 1e5;
+/* [N/m] With hardly any stiffness the friction of a point is what balances it, as in the solution,
+ * up to the bound; whether it is against the slip is asked all the same. The slip may be so small
+ * that its direction is known less well than that of the force. */
+static const double AS_FOUND = 1e-300;
 
-static bool is_for_it(const CpsiBalance *balance) {
+bool cpsi_may_have_joint_answer(const CpsiBalance *balance) {
     if (balance->body_count > 0 || !cpsi_is_without_bounds(balance)) return false;
     for (int item = 0; item < balance->line_count; item++) {
         const CpsiLine *line = &balance->evolution->line[balance->line[item]];
-        if (line->has_local_axes || line->grasp_count > 0) return false;
+        if ((line->has_local_axes && !balance->follows) || line->grasp_count > 0) return false;
     }
     return true;
+}
+
+/* Is the slip no more than what counts as none, or as the loop leaves where friction is below its
+ * bound: one that changes the forces of elastic lines by less than what balances to? */
+static bool is_short(const CpsiBalance *balance, const CpsiFree *at) {
+    const double slip = vec3_norm(at->slip);
+    return slip <= cpsi_trial_touch(balance, at) ||
+           (at->stiffness > AS_FOUND && !cpsi_has_inextensible(balance) &&
+            cpsi_is_balanced(balance, at->stiffness * slip));
 }
 
 /* The place of point k in the solution: on what it touches, and where it was if it rests there. */
@@ -47,15 +60,13 @@ static Vec3 place_of(const CpsiBalance *balance, int k) {
     const CpsiNetworkProgram *program = &balance->network.program;
     const CpsiChainProgram *chain = &program->chain[balance->line_count + k];
     CpsiFree at = balance->at[k];
-    at.place = vec3_add(vec3_load(evolution->points.point[at.point].before),
-                        vec3_load(&balance->guess.joint[3 * k]));
+    at.place = vec3_add(balance->joint[k].position, vec3_load(&balance->guess.joint[3 * k]));
     const bool touches =
         chain->unilateral.count > 0 && chain->unilateral.z[0] > chain->unilateral.s[0];
     if (!touches) return at.place;
     cpsi_trial_find_obstacle(evolution, &at);
     const double *z = chain->disc.z[0];
-    if (chain->disc.count > 0 && hypot(z[1], z[2]) < (1 - CLEARLY) * z[0] &&
-        vec3_norm(at.slip) <= cpsi_trial_touch(balance, &at))
+    if (chain->disc.count > 0 && hypot(z[1], z[2]) < (1 - CLEARLY) * z[0] && is_short(balance, &at))
         return at.start;
     return vec3_axpy(-at.gap, at.normal, at.place);
 }
@@ -184,14 +195,16 @@ static void join(CpsiBalance *balance, double longer) {
  * places of balance->from. */
 static bool try_solution(CpsiBalance *balance, double longer) {
     CpsEvolution *evolution = balance->evolution;
-    cpsi_solve_places(balance, longer);
-    const CpsiIpmOutcome outcome = balance->network.found;
-    if (outcome == CPSI_IPM_INFEASIBLE || outcome == CPSI_IPM_UNBOUNDED) return false;
+    if (!cpsi_solve_places(balance, longer)) return false;
     if (longer > 1)
         keep_still(balance);
     else
         for (int k = 0; k < balance->count; k++) balance->from[k].place = place_of(balance, k);
-    for (int k = 0; k < balance->count; k++) balance->at[k].place = balance->from[k].place;
+    const bool elastic = !cpsi_has_inextensible(balance);
+    for (int k = 0; k < balance->count; k++) {
+        balance->at[k].place = balance->from[k].place;
+        if (elastic) balance->at[k].stiffness = AS_FOUND;
+    }
     join(balance, longer);
     try_joined(balance);
     bool found = cpsi_is_answer(balance);
@@ -214,13 +227,16 @@ static bool try_solution(CpsiBalance *balance, double longer) {
 }
 
 bool cpsi_take_joint_answer(CpsiBalance *balance) {
-    if (!is_for_it(balance)) return false;
+    if (!cpsi_may_have_joint_answer(balance)) return false;
     const size_t bytes = (size_t)balance->count * sizeof *balance->at;
     memcpy(balance->best, balance->at, bytes);
     bool found = try_solution(balance, 1);
     const CpsiIpmOutcome outcome = balance->network.found;
-    if (outcome == CPSI_IPM_INFEASIBLE || outcome == CPSI_IPM_UNBOUNDED) return false;
-    if ((!found || balance->force > STRAINED * balance->acting) && has_straight(balance)) {
+    const bool in_rounds = balance->evolution->line[balance->line[0]].has_local_axes;
+    if (!in_rounds && (outcome == CPSI_IPM_INFEASIBLE || outcome == CPSI_IPM_UNBOUNDED))
+        return false;
+    if (!in_rounds && (!found || balance->force > STRAINED * balance->acting) &&
+        has_straight(balance)) {
         const bool exact = found;
         found = try_solution(balance, 1 + CPSI_TAUT_SLACK);
         if (!found && exact) found = try_solution(balance, 1);

@@ -5,10 +5,12 @@
 
 #include "evolve/trial.h"
 
+/* Is the group one of those that have such a program: without free bodies, without forces of a
+ * bounded size, without grasped nodes, and on curved obstacles without frozen friction? */
+bool cpsi_may_have_joint_answer(const CpsiBalance *balance);
 /* Take places and forces of all lines and points from the program of the first guess, solved to its
  * end (docs/theory.md 6d). Returns whether every line is certified there and the points are
- * balanced; the trial is that of this answer then, and otherwise as before. For groups without free
- * bodies whose lines have axes of their own nowhere: no obstacle, or one plane. */
+ * balanced; the trial is that of this answer then, and otherwise as before. */
 bool cpsi_take_joint_answer(CpsiBalance *balance);
 
 #endif

@@ -21,7 +21,7 @@ static const double MOST_HELD = 1e6;
 /* Of a buoyancy, and of a place on a curve, to the last digits. */
 enum { BISECTIONS = 60, NEWTON = 4 };
 
-static CpsiJointMap map_of(const CpsiBalance *balance, int point) {
+CpsiJointMap cpsi_joint_map(const CpsiBalance *balance, int point) {
     CpsiJointMap out = {.by = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     if (point == CPSI_NO_POINT) return out;
     const int k = balance->number[point], body = balance->rigid_of[point];
@@ -75,7 +75,8 @@ void cpsi_fill_matrix(CpsiBalance *balance) {
     cpsi_graph_matrix_clear(balance->matrix);
     for (int item = 0; item < balance->line_count; item++) {
         const int *tie = &evolution->points.tie[2 * (size_t)balance->line[item]];
-        const CpsiJointMap end[2] = {map_of(balance, tie[0]), map_of(balance, tie[1])};
+        const CpsiJointMap end[2] = {cpsi_joint_map(balance, tie[0]),
+                                     cpsi_joint_map(balance, tie[1])};
         for (int to = 0; to < 2; to++)
             for (int from = 0; from < 2; from++)
                 cpsi_graph_matrix_add(

@@ -9,6 +9,8 @@
  */
 #define CPSI_LEAST_HELD 1e-3
 
+/* How a point follows from the unknowns of the group. */
+CpsiJointMap cpsi_joint_map(const CpsiBalance *balance, int point);
 /* The stiffness of the lines and bodies at the unknowns, in balance->matrix; and the block of body
  * k in it. */
 void cpsi_fill_matrix(CpsiBalance *balance);

@@ -24,6 +24,15 @@ static const double ROUNDINGS = 16;
 /* Of a buoyancy at an obstacle, to the last digits. */
 enum { BISECTIONS = 60 };
 
+/* Arrays of the points and of the inner nodes of all lines. */
+static void place_rounds(const CpsEvolution *evolution, CpsiArena *arena, CpsiPointRounds *rounds) {
+    int count = evolution->points.count;
+    for (int i = 0; i < evolution->line_count; i++) count += evolution->line[i].n - 2;
+    CPSI_PLACE(arena, rounds->place, 3 * (size_t)count);
+    CPSI_PLACE(arena, rounds->weight, count);
+    cpsi_anderson_layout(&rounds->anderson, arena, count);
+}
+
 CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
     const size_t points = (size_t)evolution->points.count, lines = (size_t)evolution->line_count,
                  bodies = (size_t)evolution->bodies.count, unknowns = 3 * points + 6 * bodies;
@@ -63,6 +72,8 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->guess.pull, 6 * lines);
         cpsi_network_place(&to->network, &arena, evolution->line, (int)lines, (int)points,
                            (int)bodies, evolution->workspace[0].program.ops, &tools);
+        if (lines > 0 && evolution->line[0].has_local_axes)
+            place_rounds(evolution, &arena, &to->rounds);
         size_t all = 0;
         for (size_t i = 0; i < lines; i++) {
             if (placed) to->offset[i] = all;

@@ -42,6 +42,13 @@ typedef struct CpsiRigid {
     CpsiWrench lines, rest, left; /* rest: all but supports; left: of that in its free directions */
 } CpsiRigid;
 
+/* Places of the points and of the lines' nodes in rounds (point_rounds.h), where these are taken.
+ */
+typedef struct CpsiPointRounds {
+    double *place, *weight; /* (points and nodes, 3) [m], (points and nodes) */
+    CpsiAnderson anderson;
+} CpsiPointRounds;
+
 struct CpsiBalance {
     int count;                  /* free points */
     CpsiFree *at, *from, *best; /* (count) of the trial, before it, and of the best one */
@@ -67,6 +74,7 @@ struct CpsiBalance {
     CpsiNetworkBody *held;   /* (body_count) */
     CpsiNetworkMove guess;
     CpsiNetwork network;
+    CpsiPointRounds rounds;
     double force;    /* [N] the largest of the trial */
     double acting;   /* [N] ... without the tensions of inextensible lines, which follow from it */
     double rounding; /* [N] of the forces of the lines by that of places */

@@ -210,17 +210,22 @@ static void tension_follows_the_potential(void **state) {
     }
 }
 
+/* A line of 10 m that hangs onto the bed, and is moved over it. */
+static void begin_on_the_bed(Case *c, int elements, double weight, double friction) {
+    begin(c, elements, 10, weight, 5000);
+    c->scene.obstacle_count = 1;
+    c->bed.friction = friction;
+    hold(c, CPS_END_A, 0, 0, 0.3);
+    hold(c, CPS_END_B, 8, 0, 0.5);
+    stage(c, 8.5, 1.5, 0.4);
+    stage(c, 7, 0.5, 0.6);
+}
+
 /* A quadratic function is springs. */
 static void quadratic_function_is_springs(void **state) {
     (void)state;
     Case c;
-    begin(&c, 60, 10, 20, 5000);
-    c.scene.obstacle_count = 1;
-    c.bed.friction = 0.3;
-    hold(&c, CPS_END_A, 0, 0, 0.3);
-    hold(&c, CPS_END_B, 8, 0, 0.5);
-    stage(&c, 8.5, 1.5, 0.4);
-    stage(&c, 7, 0.5, 0.6);
+    begin_on_the_bed(&c, 60, 20, 0.3);
     c.field = (Field){.stiffness = {3, 60, 8}};
     CpsSpring spring = {.from = 2, .to = 7, .stiffness = {3, 60, 8}};
     const CpsLineLoads springs = {.spring_count = 1, .spring = &spring};
@@ -346,13 +351,7 @@ static void senseless_functions_are_not_certified(void **state) {
 static void state_goes_on_with_the_same_bits(void **state) {
     (void)state;
     Case c;
-    begin(&c, 40, 10, 5, 5000);
-    c.scene.obstacle_count = 1;
-    c.bed.friction = 0.4;
-    hold(&c, CPS_END_A, 0, 0, 0.3);
-    hold(&c, CPS_END_B, 8, 0, 0.5);
-    stage(&c, 8.5, 1.5, 0.4);
-    stage(&c, 7, 0.5, 0.6);
+    begin_on_the_bed(&c, 40, 5, 0.4);
     c.field = (Field){.size = {10}, .length = {2}, .centre = {{4, 3, 0}}};
     CpsEvolution *one = made(&c), *other = made(&c);
     CpsError err;

@@ -240,9 +240,52 @@ static void where_the_history_begins(void **unused) {
     rig_close(&run);
 }
 
+/* A line pulled up from the bed by a force at its end has the tension H on the bed, and touches
+ * down where its weight from there on is the vertical force V, at x elements from the node where it
+ * lifts off. Its elements have the vertical forces of the closed form at their middles, so its
+ * height is Z(s) = int_0^s g(w t) dt,   g(v) = v/sqrt(H^2 + v^2) + c v, by the midpoint rule, begun
+ * at that node: with g = (1/H + c) v + O(v^3) below and g' above it differs by (w h^2/H)(1/24 -
+ * x^2/2) - c w x^2 h^2/2 - w h^2 H^2/(24 (H^2 + V^2)^(3/2)), and the next term is of fourth order.
+ * No series in h has it, since x jumps as meshes do. */
+static void height_by_touchdown(void **unused) {
+    (void)unused;
+    static Rig rig;
+    double largest = 0, least = 0, worst = 0;
+    for (int i = 0; i < 24; i++) {
+        const int elements = 200 << (i % 2);
+        const double length = 40, w = 30, h = length / elements, pull = i % 3 ? 60 : 25,
+                     c = i % 4 ? 1e-7 : 2e-5, x = (i + 0.5) / 24 - 0.5, lies = 15 * 0.2 + x * h,
+                     s = length - lies, v = w * s;
+        rig_begin(&rig, elements, w, 1 / c);
+        rig_length(&rig, length);
+        rig_obstacle(&rig, CPS_OBSTACLE_PLANE, 0);
+        rig_point(&rig, 0, 0, 0);
+        rig_point(&rig, length, 0, 0);
+        rig_end(&rig, CPS_END_B, CPS_END_KIND_HELD, length, 0, 0);
+        rig_stage(&rig, 1);
+        rig_change(&rig, CPS_END_B, CPS_END_KIND_FREE, pull, 0, v);
+        RigRun run = rig_open(&rig);
+        rig_next(&run);
+        const double z = pull / w * (sqrt(1 + pow(v / pull, 2)) - 1) + c * w * s * s / 2,
+                     unit = w * h * h / pull, off = run.report.end[CPS_END_B].position[2] - z;
+        const double expected = unit * (1 / 24.0 - x * x / 2) - c * w * x * x * h * h / 2 -
+                                w * h * h / 24 * pull * pull / pow(hypot(pull, v), 3);
+        worst = fmax(worst, fabs(off - expected) / (unit * pow(w * h / pull, 2)));
+        largest = fmax(largest, off / unit);
+        least = fmin(least, off / unit);
+        rig_close(&run);
+    }
+    rig_show("height", "largest and least difference [w h^2/H]", largest, least);
+    rig_show("height", "left of it [w h^2/H (w h/H)^2]", 0, worst);
+    CHECK_LESS(worst, 0.02);
+    CHECK_GREATER(largest, 0.04); /* of 1/24, at x = 0 */
+    CHECK_LESS(least, -0.07);     /* of -1/12, at x = 1/2 */
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(against_the_catenary),
+        cmocka_unit_test(height_by_touchdown),
         cmocka_unit_test(swept_over_the_bed),
         cmocka_unit_test(where_the_history_begins),
     };

@@ -242,8 +242,7 @@ int bodies_read(const Source *source, const Bodies *bodies, size_t step, BodySta
 
 /* ---- rotations ---- */
 
-/* The matrix of a quaternion of any length but 0. */
-static void matrix_of(const double q[FOUR], Real m[3][3]) {
+void body_matrix(const double q[FOUR], Real m[3][3]) {
     const Real w = q[0], x = q[1], y = q[2], z = q[3], s = 2 / (w * w + x * x + y * y + z * z);
     const Real rows[3][3] = {{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
                              {s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
@@ -258,7 +257,7 @@ static void apply(Real m[3][3], const double *v, Real out[3]) {
 void body_place(const Vector position, const double rotation[FOUR], const Vector on_body,
                 Real place[3]) {
     Real m[3][3];
-    matrix_of(rotation, m);
+    body_matrix(rotation, m);
     apply(m, on_body, place);
     for (int i = 0; i < 3; i++) place[i] += position[i];
 }
@@ -310,7 +309,7 @@ void body_load(const BodyData *data, const Vector position, const double rotatio
                const double gravity[3], Real load[SIX]) {
     Real m[3][3], arm[3], force[3];
     memset(load, 0, SIX * sizeof *load);
-    matrix_of(rotation, m);
+    body_matrix(rotation, m);
     for (int i = 0; i < 3; i++) force[i] = (Real)data->weight * gravity[i];
     apply(m, data->centre_of_gravity, arm);
     add_force(load, force, arm);
@@ -392,7 +391,7 @@ static void check_places(const Check *c, const BodyState *at) {
 static void check_lines(const Check *c, const BodyState *at) {
     Real sum[SIX] = {0}, m[3][3];
     double forces = 0, moments = 0;
-    matrix_of(at->rotation, m);
+    body_matrix(at->rotation, m);
     for (size_t i = 0; i < c->source->lines; i++)
         for (int e = 0; e < 2; e++) {
             const int k = c->line[i].end_point[e];

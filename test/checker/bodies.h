@@ -43,6 +43,9 @@ void bodies_close(Bodies *bodies); /* accepts a zeroed struct */
 void body_load(const BodyData *data, const Vector position, const double rotation[FOUR],
                const double gravity[3], Real load[SIX]);
 
+/* The matrix of a rotation, a quaternion of any length but 0. */
+void body_matrix(const double rotation[FOUR], Real m[3][3]);
+
 /* Where a point of the body's axes is. */
 void body_place(const Vector position, const double rotation[FOUR], const Vector on_body,
                 Real place[3]);

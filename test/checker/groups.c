@@ -5,7 +5,10 @@
  * point. With x the places in the file, and y any others, sum p.(y_B - y_A) = sum p.(x_B - x_A) +
  * what is left at the free points times y - x. No line allows more than |p| l; so there are no
  * places if the first sum exceeds sum |p| l by more than the second can bring, no point being
- * farther from where the file has it than the lines reach.
+ * farther from where the file has it than the lines reach. Through a free body, turned by Q, the
+ * sum depends on Q by -tr(Q' N), N = -sum of p s' over the ends there (p at end A with the other
+ * sign), s their place on the body; the largest tr(Q' N) of any rotation is the sum of the singular
+ * values of N, the least of them with the sign of det N.
  *
  * Unbounded: a translation v of all that falls, where nothing is held. */
 #include "groups.h"
@@ -23,11 +26,19 @@ static const double TOUCH = 1e-9;
 
 typedef Real Triple[3];
 
+/* What the forces of a proof bring to a free body. */
+typedef struct BodySum {
+    Triple left, column[3]; /* their sum; N, by columns */
+    bool any;
+    Real size; /* of the farthest of its points with a force */
+} BodySum;
+
 typedef struct Group {
     const GroupStep *at;
     size_t first, root;    /* the line that is looked at, and the group's name */
     const size_t *root_of; /* (lines) */
     Triple *left;          /* (points) */
+    BodySum *on;           /* (bodies) */
 } Group;
 
 __attribute__((format(printf, 2, 3))) static void find(const Group *g, const char *format, ...) {
@@ -106,10 +117,79 @@ static void place_of_end(const GroupStep *at, const Record *r, int e, Real *out)
         widen(r->held_position[e], out);
 }
 
+/* Turn two columns of a matrix in their plane so that they are orthogonal. */
+static void make_orthogonal(Real *a, Real *b) {
+    const Real product = dot(a, b), zeta = (dot(b, b) - dot(a, a)) / (2 * product),
+               t = (zeta < 0 ? -1 : 1) / (fabsl(zeta) + hypotl(zeta, 1)), c = 1 / hypotl(t, 1);
+    if (product == 0) return;
+    for (int k = 0; k < 3; k++) {
+        const Real x = a[k], y = b[k];
+        a[k] = c * (x - t * y);
+        b[k] = c * (t * x + y);
+    }
+}
+
+/* The largest tr(Q' N) of any rotation Q (Hestenes' method). */
+static Real largest_trace(const Triple n[3]) {
+    enum { SWEEPS = 40 };
+    Triple c[3], cross;
+    Real sum = 0, least = INFINITY;
+    for (int k = 0; k < 9; k++) c[k / 3][k % 3] = n[k / 3][k % 3];
+    for (int k = 0; k < 3; k++)
+        cross[k] = n[0][(k + 1) % 3] * n[1][(k + 2) % 3] - n[0][(k + 2) % 3] * n[1][(k + 1) % 3];
+    for (int i = 0; i < SWEEPS; i++)
+        for (int k = 0; k < 3; k++) make_orthogonal(c[k], c[(k + 1) % 3]);
+    for (int k = 0; k < 3; k++) {
+        sum += size(c[k]);
+        least = fminl(least, size(c[k]));
+    }
+    return dot(cross, n[2]) < 0 ? sum - 2 * least : sum;
+}
+
+static void add_to_body(const Group *g, int point, int e, const Real *p) {
+    const int body = free_body(g->at, point);
+    if (body < 0) return;
+    BodySum *on = &g->on[body];
+    Triple s;
+    widen(g->at->bodies->place[point], s);
+    on->any = true;
+    on->size = fmaxl(on->size, size(s));
+    for (int k = 0; k < 3; k++) {
+        on->left[k] += e == 0 ? p[k] : -p[k];
+        for (int c = 0; c < 3; c++) on->column[c][k] += (e == 0 ? p[k] : -p[k]) * s[c];
+    }
+}
+
+/* By how much other rotations of the bodies shorten the ways along the forces; what is left on
+ * them, and how far they reach. */
+static Real check_bodies(const Group *g, Real *imbalance, Real *reach) {
+    const GroupStep *at = g->at;
+    Real gained = 0;
+    for (size_t k = 0; k < at->bodies->count; k++) {
+        const BodyData *data = &at->bodies->data[k];
+        BodySum *on = &g->on[k];
+        Real now = 0;
+        if (!on->any) continue;
+        for (int a = 0; a < 3; a++) {
+            Triple x, axis;
+            const Vector unit = {a == 0, a == 1, a == 2};
+            body_place((Vector){0, 0, 0}, at->body[k].rotation, unit, axis);
+            for (int i = 0; i < 3; i++) x[i] = on->column[a][i];
+            now += dot(axis, x);
+            if (!data->fixed[a]) *imbalance += fabsl(on->left[a]);
+        }
+        *reach += 4 * on->size;
+        if (data->fixed[3] && data->fixed[4] && data->fixed[5]) continue;
+        gained += largest_trace((const Triple *)on->column) - now;
+    }
+    return gained;
+}
+
 static void check_infeasible(const Group *g) {
     const GroupStep *at = g->at;
     Real sum = 0, most = 0, reach = 0, sizes = 0, imbalance = 0;
     for (size_t i = 0; i < at->source->points; i++) widen((double[]){0, 0, 0}, g->left[i]);
+    for (size_t k = 0; k < at->bodies->count; k++) g->on[k] = (BodySum){.any = false};
     for (size_t i = 0; i < at->source->lines; i++) {
         const Record *r = &at->line[i];
         if (g->root_of[i] != g->root) continue;
@@ -122,9 +202,9 @@ static void check_infeasible(const Group *g) {
         for (int e = 0; e < 2; e++) {
             if (r->end_point[e] < 0 && r->end_kind[e] != END_HELD)
                 find(g, "infeasible by a force in a line with a free end");
-            if (r->end_point[e] >= 0 &&
-                (free_body(at, r->end_point[e]) >= 0 || at->gives[r->end_point[e]]))
-                find(g, "infeasible by a force at a body that is free, or a point that gives way");
+            if (r->end_point[e] >= 0 && at->gives[r->end_point[e]])
+                find(g, "infeasible by a force at a point that gives way");
+            if (r->end_point[e] >= 0) add_to_body(g, r->end_point[e], e, p);
             if (!is_free(at, r->end_point[e])) continue;
             for (int k = 0; k < 3; k++) g->left[r->end_point[e]][k] += e == 0 ? p[k] : -p[k];
         }
@@ -136,12 +216,14 @@ static void check_infeasible(const Group *g) {
         reach += length + size(span);
     }
     for (size_t i = 0; i < at->source->points; i++) imbalance += size(g->left[i]);
+    sum -= check_bodies(g, &imbalance, &reach);
     if (!(sum > imbalance * reach && sum > 0))
         find(g, "infeasible, but the self-stress lacks %.6g m, of which %.3g m are its imbalance",
              (double)sum, (double)(imbalance * reach));
     if (!(fabsl(most - 1) <= UNIT)) find(g, "the largest force of the proof is %.9g", (double)most);
     const double claimed = at->line[g->first].proof_length;
-    if (!(fabsl(claimed - sum) <= COPIED * sum + 1e-15L * sizes))
+    /* claimed for other places, by which the sum differs by no more than the imbalance brings */
+    if (!(fabsl(claimed - sum) <= COPIED * sum + imbalance * reach + 1e-15L * sizes))
         find(g, "claimed proof_length %.9g, recomputed %.9g", claimed, (double)sum);
 }
 
@@ -276,11 +358,11 @@ static void check_agreement(const Group *g) {
     }
 }
 
-static void check_all(const GroupStep *at, size_t *root, Triple *left, bool *seen) {
+static void check_all(const GroupStep *at, size_t *root, Triple *left, BodySum *on, bool *seen) {
     name_groups(at, root);
     for (size_t i = 0; i < at->source->lines; i++) {
         if (!groups_claim(&at->line[i]) || seen[root[i]]) continue;
-        const Group g = {at, i, root[i], root, left};
+        const Group g = {at, i, root[i], root, left, on};
         seen[root[i]] = true;
         check_agreement(&g);
         if (at->line[i].outcome == OUTCOME_INFEASIBLE)
@@ -293,12 +375,14 @@ static void check_all(const GroupStep *at, size_t *root, Triple *left, bool *see
 int groups_check(const GroupStep *at, FILE *log) {
     size_t *root = calloc(at->source->lines, sizeof *root);
     Triple *left = calloc(at->source->points, sizeof *left);
+    BodySum *on = calloc(at->bodies->count + 1, sizeof *on);
     bool *seen = calloc(at->source->lines, sizeof *seen);
-    const int bad = !root || !left || !seen ? -1 : 0;
+    const int bad = !root || !left || !on || !seen ? -1 : 0;
     if (bad && log) fprintf(log, "no memory for the groups of lines\n");
-    if (!bad) check_all(at, root, left, seen);
+    if (!bad) check_all(at, root, left, on, seen);
     free(root);
     free(left);
+    free(on);
     free(seen);
     return bad;
 }

@@ -226,14 +226,6 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
 
 /* ---- bodies ---- */
 
-static void matrix_of(const double q[FOUR], Real m[3][3]) {
-    const Real w = q[0], x = q[1], y = q[2], z = q[3], s = 2 / (w * w + x * x + y * y + z * z);
-    const Real rows[3][3] = {{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
-                             {s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
-                             {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}};
-    memcpy(m, rows, sizeof rows);
-}
-
 static void turn(Real m[3][3], const Real *v, bool back, Real *out) {
     for (int i = 0; i < 3; i++)
         out[i] = back ? m[0][i] * v[0] + m[1][i] * v[1] + m[2][i] * v[2]
@@ -278,7 +270,7 @@ static void mean_rotation(const Real t[3], const Real v[3], Real out[3]) {
         double q[FOUR] = {(double)cosl(half), 0, 0, 0};
         Real m[3][3], turned[3];
         for (int i = 0; i < 3; i++) q[1 + i] = angle > 0 ? (double)(sinl(half) * t[i] / angle) : 0;
-        matrix_of(q, m);
+        body_matrix(q, m);
         turn(m, v, false, turned);
         for (int i = 0; i < 3; i++) out[i] += weight * turned[i];
     }
@@ -294,7 +286,7 @@ static Momenta momenta_of(const BodyMotion *m, const double rotation[FOUR]) {
     Momenta out;
     Real r[3][3], u[SIX], w[3], p[SIX] = {0};
     const double *j = m->moments, *o = m->products;
-    matrix_of(rotation, r);
+    body_matrix(rotation, r);
     widen(m->rate, w);
     turn(r, w, true, &u[3]);
     widen(m->velocity, w);
@@ -398,7 +390,7 @@ static void check_damping(const BodySteps *s, MotionFind *find, void *user) {
     const BodyMotion *m = s->motion;
     Real r[3][3], u[SIX], f[SIX], wide[3], out[SIX], off[2][3];
     double sizes[2] = {0, 0};
-    matrix_of(s->now->rotation, r);
+    body_matrix(s->now->rotation, r);
     widen(m->velocity, wide);
     turn(r, wide, true, u);
     widen(m->rate, wide);

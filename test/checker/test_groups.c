@@ -79,6 +79,55 @@ static void too_short_a_rope_is_told(void **state) {
     }
 }
 
+/* Two anchors, a body between them with two eyes at the ends of a diameter of any direction, begun
+ * turned by any rotation, and a line from each eye: what they lack is the distance of the anchors
+ * less both lengths and the diameter. */
+static void too_short_a_line_with_a_body_is_told(void **state) {
+    (void)state;
+    uint64_t random = 11;
+    for (int i = 0; i < CASES; i++) {
+        char text[1500];
+        const double size = pow(10, splitmix(&random, -2, 3)),
+                     x = size * splitmix(&random, -20, 20), one = size * splitmix(&random, 0.2, 1),
+                     two = size * splitmix(&random, 0.2, 1),
+                     lacking = size * pow(10, splitmix(&random, -5, 0)),
+                     eye[3] = {size * splitmix(&random, -0.3, 0.3),
+                               size * splitmix(&random, -0.3, 0.3),
+                               size * splitmix(&random, 0.05, 0.3)},
+                     across = 2 * sqrt(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]);
+        snprintf(
+            text, sizeof text,
+            "capstan: 1\nbodies: {buoy: {free: [%.17g, %.17g, 0], rotation: {quaternion: [%.17g, "
+            "%.17g, %.17g, %.17g]}, fixed: [%s], weight: 3}}\npoints:\n"
+            "  west: {held: [%.17g, 0, 0]}\n  east: {held: [%.17g, 0, 0]}\n"
+            "  left: {body: buoy, at: [%.17g, %.17g, %.17g]}\n"
+            "  right: {body: buoy, at: [%.17g, %.17g, %.17g]}\nlines:\n"
+            "  a: {length: %.17g, elements: 3, weight: 2, stiffness: .inf, start: static, "
+            "ends: {A: {point: west}, B: {point: left}}}\n"
+            "  b: {length: %.17g, elements: 2, weight: 1, stiffness: .inf, start: static, "
+            "ends: {A: {point: east}, B: {point: right}}}\n",
+            x + one, size * splitmix(&random, -1, 1), splitmix(&random, -1, 1),
+            splitmix(&random, -1, 1), splitmix(&random, -1, 1), splitmix(&random, 0.1, 1),
+            i % 3 == 2 ? "rx" : "", x, x + one + two + across + lacking, eye[0], eye[1], eye[2],
+            -eye[0], -eye[1], -eye[2], one, two);
+        write_scene(text);
+        const CpsLineReport line = run_scene();
+        CHECK_INT(strcmp(cps_outcome_name(line.outcome), "infeasible"), 0);
+        CHECK_INT(refuted(), 0);
+        CHECK_NEAR(line.proof[0], 1, 1e-9);
+        CHECK_NEAR(hypot(line.proof[1], line.proof[2]), 0, 1e-6);
+        CHECK_NEAR(line.proof_length / lacking, 1, 1e-6 + 1e-13 * size / lacking * 20);
+        refuse("a_proof", 1, 0.5, line.proof[1]);
+        refuse("a_proof", 0, 1 - 2 * lacking / (one + two), line.proof[0]);
+        refuse("a_proof", 0, -1, line.proof[0]);
+        refuse("a_proof_length", 0, 1.001 * lacking, line.proof_length);
+        refuse("b_outcome", 0, 4, 5);
+        refuse("place_on_body_of_point", 6, 1.1 * eye[0] + 1.1 * lacking, eye[0]);
+        refuse("position_of_point", 3, x + one + two + across, x + one + two + across + lacking);
+        CHECK_INT(refuted(), 0);
+    }
+}
+
 /* Two lines and three points that nothing holds, above a rough bed or on it, pulled along it by
  * more than friction holds, or lifted. */
 static void what_nothing_holds_is_told(void **state) {
@@ -129,6 +178,7 @@ static void what_nothing_holds_is_told(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(too_short_a_rope_is_told),
+        cmocka_unit_test(too_short_a_line_with_a_body_is_told),
         cmocka_unit_test(what_nothing_holds_is_told),
     };
     return cmocka_run_group_tests(tests, make_scene_directory, remove_scene_directory);

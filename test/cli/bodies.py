@@ -315,6 +315,19 @@ def killed_and_resumed(scene, whole):
     expect("bodies.csv of the resumed run", read("killed/bodies.csv") == whole)
 
 
+# 5e-11 m beside the point, in time
+NEAR = """
+capstan: 1
+bodies: {b: {held: [0, 0, 10]}}
+points: {p: {body: b, at: [1, 0, 0]}}
+lines:
+  a: {length: 10, elements: 10, mass: 1, stiffness: 1e5, start: {straight: {from: [11, 0, 10], to: [1.00000000005, 0, 10]}},
+      ends: {A: held, B: {point: p}}}
+history:
+  - {name: s, duration: 0.5, steps: 5}
+"""
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
@@ -379,6 +392,12 @@ def main():
         run("groups.yaml", "-o", "groups", code=5)
         checked = subprocess.run([sys.argv[2], "groups/result.nc", "groups.yaml"], capture_output=True, text=True, check=False)
         expect("the checker, two groups", checked.returncode == 0, checked.stdout)
+
+        # a start as near to its point as it may be begins at the point
+        write("near.yaml", NEAR)
+        run("near.yaml", "-o", "near")
+        checked = subprocess.run([sys.argv[2], "near/result.nc", "near.yaml"], capture_output=True, text=True, check=False)
+        expect("the checker, a start beside its point", checked.returncode == 0, checked.stdout)
 
         # the methods of 1990
         for arguments in (["run", "scene.yaml", "--method", "regularized"], ["study", "scene.yaml", "--history"]):

@@ -6,10 +6,19 @@
  * where these meet, and lines between the bodies. Both begin in the same pose. Of two systems in a
  * row the first hangs in all its lines: what differs from the closed form has a series in h^2, and
  * its extrapolation over three meshes is 0. The second lies on a bed: the nodes touch down one by
- * one, so it has no series, but is below C h^2. A line turns up from the bed with the radius H/w,
- * so elements resolve it by h w/H: a line that is all but slack needs C larger by the square of w
- * L/H. Bodies that several equilibria hold may be found in another one: then the closed form, begun
- * there, must agree with it. */
+ * one, so it has no series, but is below C h^2.
+ *
+ * What C is made of on a bed: let a line touch down at the distance x h from the node where it
+ * lifts off, -1/2 <= x <= 1/2. The elements above it have the closed form's vertical forces at
+ * their middles, so their rise is its rise by the midpoint rule, begun at that node: too high by (w
+ * h^2/H)(1/24 - x^2/2), per length w L/H (1/24 - x^2/2)/N^2. So C grows with w L/H where all
+ * elements are alike. With elements as long as sqrt(s^2 + L H/w), s the distance along the line
+ * from touchdown, it does not: these meshes have the same C for all lines.
+ *
+ * At an anchor on the bed the half element of the end hangs on the anchor, not on the bed: its
+ * weight w h/2 is taken off before forces are compared. Bodies that several equilibria hold may be
+ * found in another one: then the closed form, begun there, must agree with it.
+ */
 #include "mooring_newton.h"
 
 #include <math.h>
@@ -24,7 +33,7 @@ enum { MESHES = 6, MOST_ELEMENTS = 1600, MEASURES = 6 * NEWTON_BODIES + 2 * NEWT
 
 /* Of places per size, of rotations in radians, of forces at ends per largest one. */
 static const double SUSPENDED = 1e-7, GROUNDED = 1e-5;
-/* [-] w L/H of a grounded line from which on it counts as nearly slack. */
+/* [-] w L/H of a grounded line from which on C may grow with it, where all elements are alike. */
 static const double SLACK = 100;
 /* Poses as far apart as this are two equilibria. */
 static const double APART = 0.02;
@@ -32,7 +41,8 @@ static const double APART = 0.02;
 typedef struct Tally {
     int systems, on_bed, slack, bodies, lines, sections, clumps, heeled, resting, apart, wrong;
     int unsolved, unstable, outside, loose; /* not compared */
-    double suspended, c, slack_c, coarsest, finest;
+    double suspended, c, finest, slackest;
+    double alike_c, slack_c; /* of elements that are alike, per w L/(100 H) of nearly slack lines */
 } Tally;
 
 /* the system ----------------------------------------------------------------------------------- */
@@ -153,10 +163,68 @@ typedef struct Model {
     CpsScene scene;
 } Model;
 
+/* A mesh of a line that rests, dense where it touches down: arc length s from end A of its pieces,
+ * s = touchdown + size sinh(u), in equal steps of u within each piece. */
+typedef struct Grading {
+    double touchdown, size;
+} Grading;
+
+static Grading grading_of(const NewtonLine *line) {
+    double lifts = 0, weight = 0, length = 0;
+    for (int k = 0; k < line->count; k++) length += line->piece[k].length;
+    for (int k = 0; k < line->count && lifts < length - line->grounded; k++) {
+        weight = line->piece[k].weight;
+        lifts += line->piece[k].length;
+    }
+    return (Grading){line->grounded, sqrt(line->h / weight * length)};
+}
+
+static double to_u(const Grading *g, double s) { return asinh((s - g->touchdown) / g->size); }
+static double to_s(const Grading *g, double u) { return g->touchdown + g->size * sinh(u); }
+
+/* The number of elements of each piece, of the n of the line. */
+static void share_elements(const System *s, int i, int n, bool graded, int count[NEWTON_PIECES]) {
+    const NewtonLine *line = &s->m.line[i];
+    if (!graded) {
+        for (int k = 0; k < line->count; k++) count[k] = s->fiftieths[i][k] * n / 50;
+        return;
+    }
+    const Grading g = grading_of(line);
+    double top = 0, all = 0;
+    int left = n;
+    for (int k = 0; k < line->count; k++) top += line->piece[k].length;
+    all = to_u(&g, top) - to_u(&g, 0);
+    for (int k = 0; k < line->count; k++) {
+        const double foot = top - line->piece[k].length;
+        const int most = left - (line->count - 1 - k),
+                  own = (int)fmax(1, round((to_u(&g, top) - to_u(&g, foot)) / all * n));
+        count[k] = k + 1 == line->count || own > most ? most : own;
+        left -= count[k];
+        top = foot;
+    }
+}
+
+/* The lengths of the elements of piece k, from its upper end to its lower one. */
+static void grade(const NewtonLine *line, int k, int count, double element[]) {
+    const Grading g = grading_of(line);
+    double foot = 0;
+    for (int j = k + 1; j < line->count; j++) foot += line->piece[j].length;
+    const double top = foot + line->piece[k].length, u = to_u(&g, top),
+                 step = (u - to_u(&g, foot)) / count;
+    double last = top;
+    for (int j = 1; j <= count; j++) {
+        const double next = j == count ? foot : to_s(&g, u - j * step);
+        element[j - 1] = last - next;
+        last = next;
+    }
+}
+
 /* Line i in n elements. */
-static void model_line(const System *s, int i, int n, Model *out) {
+static void model_line(const System *s, int i, int n, bool graded, Model *out) {
     const NewtonLine *from = &s->m.line[i];
     CpsLine *line = &out->line[i];
+    int count[NEWTON_PIECES];
+    graded = graded && from->grounded > 0;
     *line = cps_line_default();
     line->name = out->name[i];
     line->start.kind = CPS_START_STATIC;
@@ -166,12 +234,16 @@ static void model_line(const System *s, int i, int n, Model *out) {
     line->section = out->section[i];
     line->point_weight = out->clump[i];
     line->length = 0;
+    share_elements(s, i, n, graded, count);
     for (int k = 0, e = 0; k < from->count; k++) {
         /* pieces go from B to A */
         const int own = s->backwards[i] ? k : from->count - 1 - k;
         const NewtonPiece *p = &from->piece[own];
-        const int elements = s->fiftieths[i][own] * n / 50;
-        for (int j = 0; j < elements; j++) out->element[i][e++] = p->length / elements;
+        double element[MOST_ELEMENTS];
+        for (int j = 0; j < count[own]; j++) element[j] = p->length / count[own];
+        if (graded) grade(from, own, count[own], element);
+        for (int j = 0; j < count[own]; j++)
+            out->element[i][e++] = element[s->backwards[i] ? j : count[own] - 1 - j];
         out->section[i][k] =
             (CpsSection){.length = p->length, .weight = p->weight, .stiffness = p->stiffness};
         line->length += p->length;
@@ -209,13 +281,13 @@ static void model_body(const NewtonBody *from, const char *name, CpsBody *to) {
     memcpy(to->moment, &from->load[3], sizeof to->moment);
 }
 
-static void model(const System *s, int n, Model *out) {
+static void model(const System *s, int n, bool graded, Model *out) {
     memset(out, 0, sizeof *out);
     for (int i = 0; i < 3 * NEWTON_LINES + NEWTON_BODIES; i++)
         snprintf(out->name[i], sizeof out->name[0], "n%d", i);
     out->bed = cps_obstacle_default();
     out->bed.name = "bed";
-    for (int i = 0; i < s->m.lines; i++) model_line(s, i, n, out);
+    for (int i = 0; i < s->m.lines; i++) model_line(s, i, n, graded, out);
     for (int k = 0; k < s->m.bodies; k++)
         model_body(&s->m.body[k], out->name[3 * NEWTON_LINES + k], &out->body[k]);
     out->scene = cps_scene_default();
@@ -238,12 +310,18 @@ typedef struct Found {
     bool certified, stable;
 } Found;
 
-static Found find(const System *s, int n) {
+/* [N] The weight of half an element at end A of the pieces of a line. */
+static double half_element(const System *s, int i, const Model *scene) {
+    const int e = s->backwards[i] ? scene->line[i].element_count - 1 : 0;
+    return s->m.line[i].piece[s->m.line[i].count - 1].weight * scene->element[i][e] / 2;
+}
+
+static Found find(const System *s, int n, bool graded) {
     static Model scene;
     CpsEvolution *evolution = NULL;
     CpsError err;
     Found out = {.stable = true};
-    model(s, n, &scene);
+    model(s, n, graded, &scene);
     if (cps_evolution_create(&scene.scene, &evolution, &err) != CPS_OK ||
         cps_evolution_step(evolution, &err) != CPS_OK) {
         printf("%s: %s\n", err.where, err.message);
@@ -259,6 +337,7 @@ static Found find(const System *s, int n) {
         for (int e = 0; e < 2; e++)
             for (int a = 0; a < 3; a++)
                 out.force[i][e][a] = -line.end[s->backwards[i] ? 1 - e : e].force[a];
+        if (s->m.line[i].grounded > 0) out.force[i][0][2] += half_element(s, i, &scene);
     }
     cps_evolution_destroy(evolution);
     return out;
@@ -350,7 +429,7 @@ static double extrapolated(const NewtonMooring *m, const Found found[3]) {
 
 static bool compare_suspended(System *s, uint64_t seed, Tally *tally) {
     Found found[3];
-    for (int k = 0; k < 3; k++) found[k] = find(s, 100 << k);
+    for (int k = 0; k < 3; k++) found[k] = find(s, 100 << k, false);
     if (!same_equilibrium(s, &found[2], seed, tally)) return false;
     const double left = extrapolated(&s->m, found);
     tally->suspended = fmax(tally->suspended, left);
@@ -375,33 +454,45 @@ static double slackness(const NewtonMooring *m) {
     return most;
 }
 
-static bool compare_grounded(System *s, uint64_t seed, Tally *tally) {
+/* The differences on all meshes, and the smallest C; false: a step is not certified, or another
+ * equilibrium is found that is not the closed form's. */
+static bool find_c(System *s, bool graded, uint64_t seed, Tally *tally, double *c, double *finest) {
     Found found[MESHES];
-    double off[MESHES], c = 0, d[MEASURES];
+    double d[MEASURES];
     bool sound = true;
-    for (int k = 0; k < MESHES; k++) found[k] = find(s, 50 << k);
+    *c = 0;
+    for (int k = 0; k < MESHES; k++) found[k] = find(s, 50 << k, graded);
     if (!same_equilibrium(s, &found[MESHES - 1], seed, tally)) return false;
-    printf("seed %llu: on a bed, %d bodies, %d lines:", (unsigned long long)seed, s->m.bodies,
-           s->m.lines);
+    printf("seed %llu: on a bed, %d bodies, %d lines, %s elements:", (unsigned long long)seed,
+           s->m.bodies, s->m.lines, graded ? "graded" : "equal");
     for (int k = 0; k < MESHES; k++) {
-        off[k] = most_of(differences(&s->m, &found[k], d), d);
-        c = fmax(c, off[k] * pow(50 << k, 2));
+        *finest = most_of(differences(&s->m, &found[k], d), d);
+        *c = fmax(*c, *finest * pow(50 << k, 2));
         sound = sound && found[k].certified;
-        printf(" %.2g", off[k]);
+        printf(" %.2g", *finest);
     }
-    const double loose = slackness(&s->m) / SLACK;
-    printf(", C %.3g, w L/H %.3g\n", c, SLACK * loose);
+    printf(", C %.3g, w L/H %.3g\n", *c, slackness(&s->m));
+    return sound;
+}
+
+static bool compare_grounded(System *s, uint64_t seed, Tally *tally) {
+    double c, alike, finest, unused;
+    const double most = GROUNDED * pow(MOST_ELEMENTS, 2);
+    const bool sound =
+        find_c(s, true, seed, tally, &c, &finest) && find_c(s, false, seed, tally, &alike, &unused);
+    if (!sound) return false;
+    const double slack = slackness(&s->m), loose = fmax(1, slack / SLACK);
     tally->on_bed++;
-    if (loose > 1) {
-        tally->slack++;
-        tally->slack_c = fmax(tally->slack_c, c / (loose * loose));
-    } else {
-        tally->c = fmax(tally->c, c);
-        tally->coarsest = fmax(tally->coarsest, off[0]);
-        tally->finest = fmax(tally->finest, off[MESHES - 1]);
-    }
+    tally->slack += loose > 1;
+    tally->c = fmax(tally->c, c);
+    tally->finest = fmax(tally->finest, finest);
+    tally->slackest = fmax(tally->slackest, slack);
+    if (loose > 1)
+        tally->slack_c = fmax(tally->slack_c, alike / loose);
+    else
+        tally->alike_c = fmax(tally->alike_c, alike);
     for (int i = 0; i < s->m.lines; i++) tally->resting += s->m.line[i].grounded > 0;
-    return sound && c <= GROUNDED * pow(MOST_ELEMENTS * fmax(1, loose), 2);
+    return c <= most && alike <= most * loose;
 }
 
 static void note(const System *s, Tally *tally) {
@@ -462,9 +553,9 @@ int main(int argc, char **argv) {
            "Newton's method does not find, %d unstable, %d below the bed, %d with a loose line\n",
            t.systems, t.on_bed, t.bodies, t.lines, t.sections, t.clumps, t.heeled, t.resting,
            t.unsolved, t.unstable, t.outside, t.loose);
-    printf("suspended to %.2g; on a bed within C h^2, C = %.3g, %.2g at 50 and %.2g at 1600 "
-           "elements; %d with a line nearly slack, C = %.3g (w L/(100 H))^2; %d in another "
-           "equilibrium; %d wrong\n",
-           t.suspended, t.c, t.coarsest, t.finest, t.slack, t.slack_c, t.apart, t.wrong);
+    printf("suspended to %.2g; on a bed within C h^2, C = %.3g, %.2g at 1600 elements, w L/H up to "
+           "%.3g; with equal elements C = %.3g, or C = %.3g w L/(100 H) in %d with a line nearly "
+           "slack; %d in another equilibrium; %d wrong\n",
+           t.suspended, t.c, t.finest, t.slackest, t.alike_c, t.slack_c, t.slack, t.apart, t.wrong);
     return t.wrong > 0 || t.systems < systems;
 }
