@@ -33,6 +33,8 @@ static const Option OPTIONS[] = {
      "write no .vtp and .pvd files"},
     {"stiffness", 0, NULL, FOR_RUN, offsetof(CliOptions, stiffness), false,
      "write stiffness.csv: stiffness of the ends of all lines after each step"},
+    {"out-table", 0, NULL, FOR_RUN, offsetof(CliOptions, out_table), false,
+     "write history.out: of a history in time, tensions, places and motions with MoorDyn's names"},
     {"fields", 0, "NAME,..", FOR_RUN, offsetof(CliOptions, fields), false,
      "fields along the lines in result.nc, or none (default: all, which the checker needs)"},
     {"sync", 0, "WHEN", FOR_RUN, offsetof(CliOptions, sync), false,

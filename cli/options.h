@@ -33,6 +33,7 @@ typedef struct CliOptions {
     const char *path_tolerance; /* run: path tolerance, NULL: the scene's */
     bool no_paraview;           /* run: no .vtp and .pvd files */
     bool stiffness;             /* run: stiffness.csv */
+    bool out_table;             /* run: history.out */
     const char *fields;         /* run: variables of result.nc, NULL: all */
     const char *sync;           /* run: step or end, NULL: step */
     const char *threads;        /* run: number of threads, NULL: 1 */

@@ -8,7 +8,7 @@
 
 #include "printable.h"
 
-enum { BAR_WIDTH = 30, NAME_WIDTH = 24, SHORT_TABLE = 40 };
+enum { BAR_WIDTH = 30, SHORT_BAR = 10, NAME_WIDTH = 24, SHORT_TABLE = 40 };
 
 /* smallest time between two drawings of the bar [s]; more frequent ones would only cost time */
 static const double REDRAW = 0.05;
@@ -37,12 +37,46 @@ Progress progress_begin(int steps, bool quiet) {
                       .begun = cli_now()};
 }
 
-static void draw_bar(const Progress *progress, int done, const char *name, double elapsed) {
-    const int full = (int)((int64_t)BAR_WIDTH * done / progress->steps);
+void progress_in_time(Progress *progress, double end) { progress->end = end; }
+
+void progress_time(Progress *progress, double time) {
+    if (time > progress->time) progress->interval = time - progress->time;
+    progress->time = time;
+}
+
+void progress_computes(Progress *progress, int known) {
+    progress->known = known;
+    progress->computing = cli_now();
+}
+
+/* [s] until all steps are done; negative: not known */
+static double remaining(const Progress *progress, int done, double now) {
+    if (done <= progress->known) return -1;
+    return (now - progress->computing) / (done - progress->known) * (progress->steps - done);
+}
+
+/* "t = 12 of 600 s, h = 0.5 s, about 30 s remain", each as far as it is known */
+static void print_times(const Progress *progress, int done, double now) {
+    fprintf(stderr, "t = %.6g of %.6g s", progress->time, progress->end);
+    if (progress->interval > 0) fprintf(stderr, ", h = %.4g s", progress->interval);
+    const double rest = remaining(progress, done, now);
+    if (rest >= 0) fprintf(stderr, ", about %.*f s remain", rest < 10 ? 1 : 0, rest);
+}
+
+/* With times a short bar and no name, so that a line of 80 characters holds them. */
+static void draw_bar(const Progress *progress, int done, const char *name, double now) {
+    const bool in_time = progress->end > 0;
+    const int width = in_time ? SHORT_BAR : BAR_WIDTH;
+    const int full = (int)((int64_t)width * done / progress->steps);
     fputs("\r[", stderr);
-    for (int i = 0; i < BAR_WIDTH; ++i) fputc(i < full ? '#' : '.', stderr);
-    fprintf(stderr, "] %d/%d  %.1f s  ", done, progress->steps, elapsed);
-    cli_print_text(stderr, name, NAME_WIDTH, true);
+    for (int i = 0; i < width; ++i) fputc(i < full ? '#' : '.', stderr);
+    fprintf(stderr, "] %d/%d  %.1f s  ", done, progress->steps, now - progress->begun);
+    if (in_time) {
+        print_times(progress, done, now);
+        fputs("\033[K", stderr); /* the times before may have been longer */
+    } else {
+        cli_print_text(stderr, name, NAME_WIDTH, true);
+    }
     fflush(stderr);
 }
 
@@ -52,13 +86,18 @@ void progress_step(Progress *progress, int done, const char *name) {
     if (progress->terminal) {
         if (now - progress->drawn < REDRAW && done < progress->steps) return;
         progress->drawn = now;
-        draw_bar(progress, done, name, now - progress->begun);
+        draw_bar(progress, done, name, now);
         return;
     }
     const int tenths = (int)((int64_t)10 * done / progress->steps);
     if (tenths == progress->tenths) return;
     progress->tenths = tenths;
-    fprintf(stderr, "step %d of %d, %.1f s: ", done, progress->steps, now - progress->begun);
+    fprintf(stderr, "step %d of %d, %.1f s", done, progress->steps, now - progress->begun);
+    if (progress->end > 0) {
+        fputs(", ", stderr);
+        print_times(progress, done, now);
+    }
+    fputs(": ", stderr);
     cli_print_text(stderr, name, 80, false);
     fputc('\n', stderr);
 }

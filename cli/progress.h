@@ -13,7 +13,11 @@ typedef struct Progress {
     int steps;
     int tenths;   /* number of tenths already reported */
     double begun; /* [s] beginning of the run */
-    double drawn; /* [s] when the bar was last drawn */
+    /* of a history in time, see progress_in_time; `end` 0: of none */
+    double end, time, interval; /* [s] simulated: whole history, so far, length of the last step */
+    int known;                  /* steps that were not computed by this program */
+    double computing;           /* [s] when it began to compute */
+    double drawn;               /* [s] when the bar was last drawn */
 } Progress;
 
 /* Monotonic time [s]. */
@@ -24,6 +28,12 @@ double cli_now(void);
 bool cli_is_shown(const CpsScene *scene, int steps, int index);
 
 Progress progress_begin(int steps, bool quiet);
+/* A history in time, of so many simulated seconds in all: each progress_step is preceded by
+ * progress_time, and progress_computes is called after the steps that are only read back. The time
+ * remaining is that which the steps to come take if they take as long as those computed so far. */
+void progress_in_time(Progress *progress, double end);
+void progress_time(Progress *progress, double time);
+void progress_computes(Progress *progress, int known);
 void progress_step(Progress *progress, int done, const char *name);
 /* Remove the bar. */
 void progress_end(Progress *progress);

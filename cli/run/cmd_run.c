@@ -356,6 +356,7 @@ static CpsResultsOptions wanted_results(const CliOptions *options) {
     CpsResultsOptions wanted = cps_results_options_default();
     wanted.no_paraview = options->no_paraview;
     wanted.stiffness = options->stiffness;
+    wanted.out_table = options->out_table;
     wanted.sync_at_end = options->sync && strcmp(options->sync, "end") == 0;
     wanted.fields = options->fields;
     return wanted;
@@ -401,6 +402,7 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     if (status) return status;
     const CpsStepReport report = cps_evolution_report(run->evolution);
     run->progress.steps = cps_evolution_step_count(run->evolution); /* breaks add to them */
+    progress_time(&run->progress, cps_evolution_time(run->evolution));
     progress_step(&run->progress, report.step_count, report.name);
     warnings_note_step(&run->warnings, run->scene, run->evolution);
     if (!extremes_note_step(&run->extremes, run->evolution)) {
@@ -438,6 +440,7 @@ static CpsStatus replay(Run *run, CpsError *err) {
 
 /* Solve all steps, or until a signal. */
 static CpsStatus take_steps(Run *run, CpsError *err) {
+    progress_computes(&run->progress, cps_evolution_report(run->evolution).step_count);
     while (cps_evolution_remaining_count(run->evolution) > 0 && !cli_interrupted()) {
         CpsStatus status = cps_evolution_step(run->evolution, err);
         if (status == CPS_ERR_INTERRUPTED) break;
@@ -467,6 +470,13 @@ static bool was_stopped(const CpsEvolution *evolution) {
     return cli_interrupted() && cps_evolution_remaining_count(evolution) > 0;
 }
 
+/* [s] How long the history is in simulated time. */
+static double simulated_time(const CpsScene *scene) {
+    double sum = 0;
+    for (int i = 0; i < scene->stage_count; i++) sum += scene->stage[i].duration;
+    return sum;
+}
+
 /* Open the results, solve the steps, finish. */
 static CpsStatus execute(Run *run, const char *directory, const CliOptions *options,
                          CpsError *err) {
@@ -483,6 +493,7 @@ static CpsStatus execute(Run *run, const char *directory, const CliOptions *opti
     if (status) return status;
     if (wanted.sync_at_end) cps_journal_sync_late(run->journal);
     run->progress = progress_begin(cps_evolution_step_count(run->evolution), options->quiet);
+    progress_in_time(&run->progress, simulated_time(run->scene));
     if (options->resume) status = replay(run, err);
     if (!status) status = take_steps(run, err);
     progress_end(&run->progress);
@@ -514,8 +525,9 @@ static void print_where(const char *directory, const CpsEvolution *evolution,
            "          mesh, nor of what earlier steps have left. mesh: estimated error by the "
            "elements' length, of the step as well\n");
     const bool bodies = cps_evolution_body_count(evolution) > 0;
-    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s%s%s%s\n",
-               directory, cps_evolution_point_count(evolution) > 0 ? ", points.csv" : "",
+    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s%s%s%s%s\n",
+               directory, options->out_table ? ", history.out" : "",
+               cps_evolution_point_count(evolution) > 0 ? ", points.csv" : "",
                bodies ? ", bodies.csv" : "", options->stiffness ? ", stiffness.csv" : "",
                options->stiffness && bodies ? ", body-stiffness.csv" : "",
                options->no_paraview ? "" : ", result.pvd (ParaView)");
@@ -608,9 +620,9 @@ static bool is_sound(const CliOptions *options, bool *regularized) {
                    options->method);
     else if (!*regularized && regularized_options_given(options))
         fputs("capstan run: --lambda, --n and --delta are those of --method regularized\n", stderr);
-    else if (*regularized &&
-             (options->resume || options->path_tolerance || options->no_paraview ||
-              options->stiffness || options->fields || options->sync || options->threads))
+    else if (*regularized && (options->resume || options->path_tolerance || options->no_paraview ||
+                              options->stiffness || options->out_table || options->fields ||
+                              options->sync || options->threads))
         fputs("capstan run: --method regularized: takes the steps as given, without "
               "--path-tolerance, "
               "--threads and --resume, and writes no fields and no stiffness\n",

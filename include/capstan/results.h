@@ -25,6 +25,7 @@ typedef struct CpsResultsOptions {
     uint32_t cookie;  /* of cps_results_options_default(): options made otherwise are refused */
     bool no_paraview; /* no .vtp and .pvd files */
     bool stiffness;   /* stiffness.csv: both stiffnesses of all ends after each step */
+    bool out_table;   /* history.out: columns of MoorDyn; only of a history with a duration */
     /* files are synced at the end only: a power cut, though not a kill, may lose the whole run, and
      * result.nc cannot be read before the end */
     bool sync_at_end;
@@ -32,18 +33,18 @@ typedef struct CpsResultsOptions {
      * separated by commas. "none": numbers only; NULL: all arrays, which the checker needs */
     const char *fields;
 } CpsResultsOptions;
-CPS_API CpsResultsOptions cps_results_options_default(void); /* everything */
+CPS_API CpsResultsOptions cps_results_options_default(void); /* without these two tables */
 
 /* Whether the options are valid and name existing fields: CPS_OK or CPS_ERR_ARGUMENT. */
 CPS_API CpsStatus cps_results_check_options(const CpsResultsOptions *options, CpsError *err);
 
 /* Open `directory`, which is created if missing (one level), for the results of `evolution`. Files
- * that are there remain until cps_results_finish renames each finished file into place. The file
- * .capstan in the directory lists what capstan has written there: a directory that is not empty and
- * has no such file is refused, as is one in which a name of the results is taken by a directory or
- * by an unlisted file, and only listed files are replaced or removed. `options` NULL: everything;
- * the caller destroys *out. Returns CPS_OK, CPS_ERR_ARGUMENT (also for a field that there is not),
- * CPS_ERR_IO or CPS_ERR_MEMORY. */
+ * that are there remain until cps_results_finish renames each finished file into place. Its file
+ * .capstan lists what capstan has written there: a directory that is not empty and has none is
+ * refused, as is one where a directory or an unlisted file has a name of the results, and only
+ * listed files are replaced or removed. `options` NULL: the default; the caller destroys *out.
+ * Returns CPS_OK, CPS_ERR_ARGUMENT (also for a field that there is not, and out_table without a
+ * step in time), CPS_ERR_IO or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
                                    const CpsEvolution *evolution, const CpsResultsOptions *options,
                                    CpsResults **out, CpsError *err);

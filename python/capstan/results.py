@@ -237,12 +237,13 @@ class Results(_Files):
             yield self._replay[name]
 
     def save(self, directory: Directory, *, force: bool = False, paraview: bool = True, stiffness: bool = False,
-             fields: Optional[str] = None) -> SavedResults:
+             out_table: bool = False, fields: Optional[str] = None) -> SavedResults:
         """Write the files of `capstan run` into a directory, which is made if missing (one level).
 
         force:     files in it that have names of results may be replaced
         paraview:  write files for ParaView
         stiffness: write stiffness.csv
+        out_table: write history.out, of a history in time
         fields:    arrays of result.nc, as for `capstan run --fields`; None: all
         """
         _netcdf.load_with_its_own()
@@ -250,7 +251,7 @@ class Results(_Files):
         options = ffi.new("CpsResultsOptions *", lib.cps_results_options_default())
         named = ffi.new("char[]", fields.encode()) if fields is not None else ffi.NULL
         options.no_paraview, options.stiffness, options.fields = not paraview, stiffness, named
-        options.sync_at_end = True
+        options.out_table, options.sync_at_end = out_table, True
         lines = len(self._replay.lines)
         check(lib.cps_results_check_options(options, err), err)
         check(lib.cps_results_prepare(path, lib.CPS_RESULTS_KIND_RUN, lines, force, err), err)

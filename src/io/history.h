@@ -98,6 +98,7 @@ struct CpsResults {
     locale_t locale;
     bool paraview;  /* .vtp and .pvd files are written */
     bool stiffness; /* ... and stiffness.csv */
+    bool out_table; /* ... and history.out */
     bool failed;    /* a call has failed, so nothing may be committed */
 
     char *title; /* "" when the scene has none */

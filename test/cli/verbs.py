@@ -110,7 +110,7 @@ def options():
     for option in ("--n=x", "--h=x", "--h=inf"):
         expect(option, option.split("=")[0] in run("study", "two.yaml", option, "-q", "-o", "none", code=2).stderr)
     run("study", "two.yaml", "--history", "--n=x", "-q", "-o", "none", code=2)
-    for option in ("--resume", "--fields=none", "--sync=end", "--path-tolerance=0", "--no-paraview", "--stiffness"):
+    for option in ("--resume", "--fields=none", "--sync=end", "--path-tolerance=0", "--no-paraview", "--stiffness", "--out-table"):
         says(option, run("run", "two.yaml", "-m", "regularized", option, "-q", "-o", "none", code=2).stderr, "takes the steps as given")
     for option in ("x", "1e-400", "0.1x", "2", "1e-10", "-1", "nan"):
         says(option, run("run", "equilibrium.yaml", "--path-tolerance=" + option, "-q", "-o", "none", code=2).stderr, "0 or 1e-9 to 1")

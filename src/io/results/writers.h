@@ -21,6 +21,8 @@ void cpsi_summary_write(const CpsResults *results, double wall, FILE *out);
 /* The same with the list of the run's files. */
 CpsStatus cpsi_summary_file(const CpsResults *results, double wall, FILE *out, CpsError *err);
 void cpsi_history_write(const CpsResults *results, FILE *out);
+/* out_table.c: of a history in time, the columns of MoorDyn */
+void cpsi_out_table_write(const CpsResults *results, FILE *out);
 /* stiffness_csv.c, points_csv.c: of lines and of bodies, of points and of bodies */
 void cpsi_stiffness_write(const CpsResults *results, FILE *out);
 void cpsi_body_stiffness_write(const CpsResults *results, FILE *out);

@@ -194,10 +194,15 @@ CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
                          "directory, scene and evolution are all needed to open results");
     CpsStatus status = cps_results_check_options(options, err);
     if (status) return status;
+    if (options->out_table && !cpsi_has_duration(scene))
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "history.out is a table over time, but no step of the history has a "
+                         "duration: give an entry of the history one, or take history.csv");
     CpsResults *results = calloc(1, sizeof *results);
     if (!results) return fail_memory(err);
     results->paraview = !options->no_paraview;
     results->stiffness = options->stiffness;
+    results->out_table = options->out_table;
     results->locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     if (!results->locale || !copy_scene(results, scene, evolution)) status = fail_memory(err);
     if (!status) status = open_files(results, directory, scene, evolution, options, err);
@@ -417,6 +422,8 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
     if (!status && results->paraview) status = cpsi_paraview_sets(results, err);
     if (!status) status = cpsi_pictures_write(results, err);
     if (!status) status = write_table(results, "history.csv", cpsi_history_write, err);
+    if (!status && results->out_table)
+        status = write_table(results, "history.out", cpsi_out_table_write, err);
     if (!status && results->point_count > 0)
         status = write_table(results, "points.csv", cpsi_points_write, err);
     if (!status && results->body_count > 0)
