@@ -227,13 +227,14 @@ enum { CPS_NO_OBSTACLE = -1 }; /* in an array of obstacles' indices: there is no
 
 /* All arrays of one line after a step or its last substep, until the next. n = element_count +
  * 1 nodes; forces act on the line. In an array over contacts entry j is the contact of node j with
- * its nearest obstacle, entry n + j its second. */
+ * its nearest obstacle, entry n + j its second. Beside a concave edge of a mesh both may be with
+ * it. */
 typedef struct CpsLineView {
     const char *name;
     int element_count;
-    int contact_count;        /* of a node: 2 where the scene has more than one obstacle, else 1 */
-    bool one_plane;           /* one isotropic plane or none, no grasp, drum, load or mass */
-    const double *arc_length; /* (n) [m] natural, of the nodes from end A, drums included */
+    int contact_count; /* of a node: 2 with several obstacles, or a mesh that is not convex */
+    bool one_plane;    /* one isotropic plane or none, no grasp, drum, load or mass */
+    const double *arc_length;     /* (n) [m] natural, of the nodes from end A, drums included */
     const double *element_length; /* (element_count) [m]; on a drum the whole */
     double compliance; /* [1/N] 1/EA at T = 0, of sections the mean; 0 of an inextensible line */
     bool uniform;      /* without sections and point weights */

@@ -19,6 +19,7 @@
 #include <string.h>
 
 #include "cable/contact_detection.h"
+#include "cable/contact_surface.h"
 #include "cable/obstacle_side.h"
 #include "cable/soft.h"
 #include "cable/winch.h"
@@ -57,8 +58,9 @@ static void update_contact(CpsiLine *line, int c) {
     double *axes = &line->axes[9 * c];
     if (line->obstacle_index[c] >= 0) {
         const double *along = keeps_tangents(line, c) ? line->reference : line->base;
-        cpsi_obstacle_axes(&line->obstacle[line->obstacle_index[c]], x,
-                           direction_at(line, along, c), axes, &line->curvature[3 * c]);
+        CpsiObstacle seen;
+        cpsi_obstacle_axes(cpsi_contact_surface(line, c, &seen), x, direction_at(line, along, c),
+                           axes, &line->curvature[3 * c]);
         memcpy(&line->normal[3 * c], &axes[6], 3 * sizeof *axes);
         return;
     }
@@ -79,8 +81,10 @@ static void set_reference_axes(CpsiLine *line, int c) {
         const Vec3 a = vec3_at(line->reference, e), b = vec3_at(line->reference, e + 1);
         x = vec3_axpy(share, vec3_sub(b, a), a);
     }
-    cpsi_obstacle_axes(&line->obstacle[line->obstacle_index[c]], x,
-                       direction_at(line, line->reference, c), axes, curvature);
+    CpsiObstacle seen = *cpsi_line_obstacle(line, c);
+    if (cpsi_contact_has_face(line, c))
+        seen.face = cpsi_obstacle_face_towards(&seen, x, vec3_at(line->normal, c));
+    cpsi_obstacle_axes(&seen, x, direction_at(line, line->reference, c), axes, curvature);
 }
 
 /* The reference position of contact c, carried along by its obstacle as that turns. */
@@ -93,8 +97,8 @@ static Vec3 carried_along(const CpsiLine *line, int c) {
 /* The displacement to x from the carried-along reference of contact c, projected onto the plane of
  * friction. */
 static Vec3 plane_slip(const CpsiLine *line, int c, Vec3 x) {
+    if (line->obstacle_index[c] < 0) return vec3(0, 0, 0);
     const Vec3 u = vec3_sub(x, carried_along(line, c));
-    if (line->obstacle_index[c] < 0) return u;
     const Vec3 n = vec3_load(&cpsi_line_axes(line, c)[6]);
     return vec3_reject(u, n);
 }
@@ -109,7 +113,8 @@ static double allowance(const CpsiLine *line, int c) {
 }
 
 Vec3 cpsi_contact_slip_between(const CpsiLine *line, int c, Vec3 from, Vec3 to) {
-    const CpsiObstacle *obstacle = &line->obstacle[line->obstacle_index[c]];
+    CpsiObstacle seen;
+    const CpsiObstacle *obstacle = cpsi_contact_surface(line, c, &seen);
     if (obstacle->kind == CPS_OBSTACLE_PLANE) return cpsi_obstacle_slip(obstacle, from, to);
     const double depth =
         obstacle->stiffness > 0 ? cpsi_soft_way_depth(obstacle, to) : allowance(line, c);
@@ -137,6 +142,23 @@ void cpsi_contact_clear(CpsiLine *line, int c) {
     for (int a = 0; a < 3; a++) line->friction_force[3 * c + a] = 0;
 }
 
+/* The normal of the obstacle of contact c where a way from one point to another begins on it. */
+static Vec3 first_normal(const CpsiLine *line, int c, Vec3 from, Vec3 to) {
+    CpsiObstacle seen;
+    const CpsiObstacle *obstacle = cpsi_contact_surface(line, c, &seen);
+    return cpsi_contact_has_face(line, c) ? cpsi_obstacle_first_normal(obstacle, from, to)
+                                          : cpsi_obstacle_normal(obstacle, from);
+}
+
+/* ... from the reference, shifted along, to the point `to`. */
+static Vec3 reference_normal(const CpsiLine *line, int c, Vec3 to) {
+    const int k = line->obstacle_index[c];
+    const Vec3 from =
+        cpsi_obstacle_carry(&line->obstacle[k], cpsi_line_place(line, line->reference, c),
+                            &line->shift[k], 0);
+    return first_normal(line, c, from, to);
+}
+
 /* Update the angle by which contact c has moved round its obstacle; its normal was `before` at the
  * last base. For an element, whose point of contact changes from base to base, it is the angle from
  * the reference, as on a ball. */
@@ -146,7 +168,8 @@ static void update_winding(CpsiLine *line, int c, Vec3 before) {
     const CpsiObstacle *obstacle = &line->obstacle[k];
     const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER &&
                         cpsi_obstacle_is_round(obstacle) && cpsi_line_element(line, c) < 0;
-    const Vec3 from = summed ? before : cpsi_contact_reference_normal(line, k, c);
+    const Vec3 from =
+        summed ? before : reference_normal(line, c, cpsi_line_place(line, line->base, c));
     const double angle = cpsi_obstacle_angle(obstacle, from, vec3_at(line->normal, c));
     line->winding[c] = summed ? line->winding[c] + angle : angle;
     if (summed && fabs(angle) > CPSI_QUARTER)
@@ -181,8 +204,10 @@ void cpsi_contact_update_geometry(CpsiLine *line) {
         const Vec3 x = cpsi_line_place(line, line->base, c), n = vec3_at(line->normal, c);
         vec3_store(&line->slip[3 * c], slip_to(line, c, x));
         const Vec3 u = vec3_sub(x, cpsi_line_place(line, line->reference, c));
+        CpsiObstacle seen;
         const double gap =
-            k < 0 ? INFINITY : cpsi_obstacle_gap(&line->obstacle[k], x) + allowance(line, c);
+            k < 0 ? INFINITY
+                  : cpsi_obstacle_gap(cpsi_contact_surface(line, c, &seen), x) + allowance(line, c);
         line->gap[c] = cpsi_contact_is_watched(line, c, gap) ? gap - vec3_dot(n, u) : INFINITY;
         if (!isfinite(line->gap[c])) cpsi_contact_clear(line, c);
     }
@@ -200,7 +225,8 @@ static void set_reference(CpsiLine *line, int c, bool frictionless) {
         line->gap[c] = INFINITY;
         return;
     }
-    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    CpsiObstacle seen;
+    const CpsiObstacle *obstacle = cpsi_contact_surface(line, c, &seen);
     const Vec3 x = cpsi_line_place(line, line->reference, c);
     double gap = obstacle ? cpsi_obstacle_gap(obstacle, x) + allowance(line, c) : INFINITY;
     /* [m] by which the obstacle has come nearer since */
@@ -230,6 +256,9 @@ static void set_reference(CpsiLine *line, int c, bool frictionless) {
 
 void cpsi_contact_reset(CpsiLine *line) {
     memcpy(line->base, line->reference, 3 * (size_t)line->n * sizeof *line->base);
+    /* contacts go on at the faces that their normals tell */
+    for (int c = 0; c < cpsi_line_all_contacts(line) && line->has_folds; c++)
+        line->face[c] = CPSI_NO_FACE;
     cpsi_contact_detect(line, false);
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         update_contact(line, c);
@@ -274,8 +303,9 @@ void cpsi_contact_plane_slip(CpsiLine *line) {
             vec3_store(&line->slip[3 * c], plane_slip(line, c, to));
             const int k = line->obstacle_index[c];
             if (k < 0) continue;
-            const Vec3 from = cpsi_contact_reference_normal(line, k, c),
-                       there = cpsi_obstacle_normal(&line->obstacle[k], to);
+            CpsiObstacle seen;
+            const Vec3 from = reference_normal(line, c, to),
+                       there = cpsi_obstacle_normal(cpsi_contact_surface(line, c, &seen), to);
             line->winding[c] = cpsi_obstacle_angle(&line->obstacle[k], from, there);
         }
 }
@@ -283,9 +313,10 @@ void cpsi_contact_plane_slip(CpsiLine *line) {
 /* [rad] The angle from the carried-along reference to the position of contact c, on the shorter
  * path. */
 static double angle_from_reference(const CpsiLine *line, int c) {
-    const CpsiObstacle *obstacle = &line->obstacle[line->obstacle_index[c]];
-    const Vec3 from = cpsi_obstacle_normal(obstacle, carried_along(line, c)),
-               to = cpsi_line_place(line, line->position, c);
+    CpsiObstacle seen;
+    const CpsiObstacle *obstacle = cpsi_contact_surface(line, c, &seen);
+    const Vec3 to = cpsi_line_place(line, line->position, c),
+               from = first_normal(line, c, carried_along(line, c), to);
     return fabs(cpsi_obstacle_angle(obstacle, from, cpsi_obstacle_normal(obstacle, to)));
 }
 
@@ -337,7 +368,8 @@ static void move_along_surface(CpsiLine *line, int j) {
     const Vec3 from = vec3_at(line->base, j), to = vec3_at(line->position, j);
     const int c =
         line->contacts > 1 && line->reaction[j + line->n] > line->reaction[j] ? j + line->n : j;
-    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    CpsiObstacle seen;
+    const CpsiObstacle *obstacle = cpsi_contact_surface(line, c, &seen);
     if (!obstacle || !line->active[c] || obstacle->stiffness > 0) return;
     vec3_store(&line->position[3 * j], cpsi_obstacle_move(obstacle, from, vec3_sub(to, from)));
 }
@@ -355,9 +387,11 @@ static double node_clearance(const CpsiLine *line, int j) {
         cpsi_line_nearest_rigid(line, to, &least);
         least = fmin(least, cpsi_soft_missed(line, j));
     }
-    for (int c = j; c < cpsi_line_contacts(line) && !line->contact_everywhere; c += line->n)
+    for (int c = j; c < cpsi_line_contacts(line) && !line->contact_everywhere; c += line->n) {
+        CpsiObstacle seen;
         if (isfinite(line->gap[c]))
-            least = fmin(least, cpsi_obstacle_gap(cpsi_line_obstacle(line, c), to));
+            least = fmin(least, cpsi_obstacle_gap(cpsi_contact_surface(line, c, &seen), to));
+    }
     return least < 0 && least >= -held_depth(line) && cpsi_line_is_held(line, j) ? 0 : least;
 }
 
@@ -380,8 +414,17 @@ static double turn_of_axes(const CpsiLine *line, int c, const double now[9]) {
     return fmax(normal, line->friction_law[c].given ? along : fmin(along, against));
 }
 
+bool cpsi_contact_bears_beyond(const CpsiLine *line) {
+    for (int c = 0; c < cpsi_line_all_contacts(line) && line->has_folds; c++)
+        if ((line->reaction[c] > 0 || line->friction_bound[c] > 0) &&
+            cpsi_contact_is_beyond(line, c, cpsi_line_place(line, line->position, c)))
+            return true;
+    return false;
+}
+
 /* How far the axes of node j turn from its base to its position. INFINITY where it has penetrated
- * an obstacle: of three equally near obstacles only two are its contacts. */
+ * an obstacle: of three equally near obstacles only two are its contacts; or has gone over a fold
+ * from what bears it. */
 static double axes_turn_of_node(const CpsiLine *line, int j) {
     const Vec3 to = vec3_at(line->position, j);
     double turned = 0;
@@ -389,8 +432,10 @@ static double axes_turn_of_node(const CpsiLine *line, int j) {
     for (int i = 0; i < line->contacts; i++) {
         const int c = j + i * line->n;
         if (!line->active[c]) continue;
+        if (cpsi_contact_is_beyond(line, c, to)) return INFINITY;
         double now[9], curvature[3];
-        cpsi_obstacle_axes(&line->obstacle[line->obstacle_index[c]], to,
+        CpsiObstacle seen;
+        cpsi_obstacle_axes(cpsi_contact_surface(line, c, &seen), to,
                            direction(line, line->position, j), now, curvature);
         turned = fmax(turned, turn_of_axes(line, c, now));
     }
@@ -402,7 +447,16 @@ static double axes_turn_of_node(const CpsiLine *line, int j) {
 static double axes_turn_of_element(const CpsiLine *line, int e) {
     const int c = cpsi_line_contacts(line) + e, k = line->obstacle_index[c];
     double share, gap, now[9], curvature[3];
-    if (!line->active[c] || k < 0 || cpsi_line_is_third(line, c)) return 0;
+    if (!line->active[c] || k < 0) return 0;
+    if (cpsi_line_is_third(line, c)) {
+        const Vec3 to = vec3_at(line->position, e + 1);
+        CpsiObstacle seen;
+        if (!cpsi_contact_has_face(line, c)) return 0;
+        if (cpsi_contact_is_beyond(line, c, to)) return INFINITY;
+        cpsi_obstacle_axes(cpsi_contact_surface(line, c, &seen), to,
+                           direction_at(line, line->position, c), now, curvature);
+        return turn_of_axes(line, c, now);
+    }
     if (!cpsi_contact_clearance(line, line->position, e, k, &share, &gap)) return INFINITY;
     const Vec3 a = vec3_at(line->position, e), along = direction_at(line, line->position, c);
     cpsi_obstacle_axes(&line->obstacle[k], vec3_axpy(share, along, a), along, now, curvature);

@@ -32,6 +32,10 @@ double cpsi_contact_depth(const CpsiLine *line);
  * for an element on the obstacle shrunk by the allowance of its chord. */
 Vec3 cpsi_contact_slip_between(const CpsiLine *line, int c, Vec3 from, Vec3 to);
 
+/* Does a contact bear, or rub, whose node is beyond a fold, where the face of the contact is not?
+ */
+bool cpsi_contact_bears_beyond(const CpsiLine *line);
+
 /* Is there a reaction between an obstacle and an element? */
 bool cpsi_contact_holds_element(const CpsiLine *line);
 

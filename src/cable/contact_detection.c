@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Detection of contacts (contact_detection.h): of a node with the two nearest obstacles and, where
- * three bear it, with a plane as the third; of an element with a round obstacle that it penetrates.
- * A contact that stays with its obstacle keeps its data. */
+/* Detection of contacts (contact_detection.h): of a node with the two nearest obstacles, or faces
+ * beside a fold, and, where three bear it, with a plane or face as the third; of an element with a
+ * round obstacle that it penetrates. A contact that stays with its obstacle keeps its data. */
 #include "cable/contact_detection.h"
 
 #include <string.h>
 
+#include "geometry/folds.h"
+
+/* [-] Two normals whose product is this near to 1 are those of one foot. */
+static const double ALIKE = 1e-14;
 /* A second contact is considered up to this distance, in radii of its obstacle. */
 static const double SECOND_RANGE = 0.5;
 
@@ -17,53 +21,10 @@ static bool is_kept(const CpsiLine *line, int c) {
                                     : isfinite(line->gap[c]);
 }
 
-static bool node_keeps(const CpsiLine *line, int j, int k, bool keep_active) {
-    for (int c = j; c < cpsi_line_contacts(line); c += line->n)
-        if (line->obstacle_index[c] == k && (is_kept(line, c) || (keep_active && line->active[c])))
-            return true;
-    return false;
-}
-
 /* The third contact of node j: that of the element before it, where elements have contacts; -1:
  * none. */
 static int third_contact(const CpsiLine *line, int j) {
     return line->element_contacts > 0 && j > 0 ? cpsi_line_contacts(line) + j - 1 : -1;
-}
-
-/* Is obstacle k that of a third contact of node j that stays with it? */
-static bool third_keeps(const CpsiLine *line, int j, int k, bool keep_active) {
-    const int c = third_contact(line, j);
-    return c >= 0 && line->obstacle_index[c] == k && cpsi_line_is_third(line, c) &&
-           (is_kept(line, c) || (keep_active && line->active[c]));
-}
-
-/* The first two obstacles of node j at x: those that it keeps, else the nearest, in the order of
- * distance. */
-static void nearest(const CpsiLine *line, int j, Vec3 x, bool keep_active, int on[2]) {
-    double gap[2] = {INFINITY, INFINITY};
-    on[0] = on[1] = CPS_NO_OBSTACLE;
-    for (int k = 0; k < line->obstacle_count; k++) {
-        if (third_keeps(line, j, k, keep_active)) continue;
-        const double distance = node_keeps(line, j, k, keep_active)
-                                    ? -INFINITY
-                                    : cpsi_obstacle_gap(&line->obstacle[k], x);
-        const int place = distance < gap[0] ? 0 : distance < gap[1] ? 1 : 2;
-        if (place == 0) {
-            gap[1] = gap[0];
-            on[1] = on[0];
-        }
-        if (place < 2) {
-            gap[place] = distance;
-            on[place] = k;
-        }
-    }
-    if (isfinite(gap[0]) || on[1] < 0) return;
-    const int first = on[0];
-    if (cpsi_obstacle_gap(&line->obstacle[first], x) <=
-        cpsi_obstacle_gap(&line->obstacle[on[1]], x))
-        return;
-    on[0] = on[1];
-    on[1] = first;
 }
 
 bool cpsi_contact_is_watched(const CpsiLine *line, int c, double gap) {
@@ -82,18 +43,23 @@ typedef struct SavedContact {
     double reaction, bound, gap, winding, force[3], normal[3];
     unsigned char state;
     bool active;
+    int face;   /* with folds */
+    bool keeps; /* it stays with its obstacle */
 } SavedContact;
 
-static SavedContact save_contact(const CpsiLine *line, int c) {
+static SavedContact save_contact(const CpsiLine *line, int c, bool keep_active) {
     SavedContact saved = {.obstacle_index = line->obstacle_index[c],
                           .reaction = line->reaction[c],
                           .bound = line->friction_bound[c],
                           .gap = line->gap[c],
                           .winding = line->winding[c],
                           .state = line->state[c],
-                          .active = line->active[c]};
+                          .active = line->active[c],
+                          .face = CPSI_NO_FACE,
+                          .keeps = is_kept(line, c) || (keep_active && line->active[c])};
     memcpy(saved.force, &line->friction_force[3 * c], sizeof saved.force);
     memcpy(saved.normal, &line->normal[3 * c], sizeof saved.normal);
+    if (line->has_folds) saved.face = line->face[c];
     return saved;
 }
 
@@ -107,6 +73,7 @@ static void restore_contact(CpsiLine *line, int c, const SavedContact *saved) {
     line->active[c] = saved->active;
     memcpy(&line->friction_force[3 * c], saved->force, sizeof saved->force);
     memcpy(&line->normal[3 * c], saved->normal, sizeof saved->normal);
+    if (line->has_folds) line->face[c] = saved->face;
 }
 
 Vec3 cpsi_contact_reference_normal(const CpsiLine *line, int k, int c) {
@@ -118,68 +85,244 @@ Vec3 cpsi_contact_reference_normal(const CpsiLine *line, int k, int c) {
                                                           &line->shift[k], 0));
 }
 
-/* The contact with obstacle k as it was among the `count` contacts `before`, or a new one, at
- * node j. */
-static SavedContact contact_with(const CpsiLine *line, int j, int k, const SavedContact before[],
-                                 int count) {
-    SavedContact now = {.obstacle_index = k, .gap = INFINITY, .state = CPS_NODE_STATE_FREE};
-    vec3_store(now.normal, cpsi_contact_reference_normal(line, k, j));
-    for (int i = 0; i < count; i++)
-        if (before[i].obstacle_index == k && k >= 0) now = before[i];
-    return now;
+/* What node j may touch: an obstacle, or one of its feet on an obstacle with folds. */
+typedef struct Candidate {
+    int obstacle;  /* CPS_NO_OBSTACLE: none */
+    int before;    /* which of the contacts that the node had goes on here, -1: none */
+    bool keeps;    /* ... and stays with its obstacle */
+    bool active;   /* ... and has borne */
+    double gap;    /* [m] */
+    CpsiFoot foot; /* with folds, else with CPSI_NO_FACE */
+} Candidate;
+
+enum { MOST_CANDIDATES = CPSI_MOST_FEET + 3 };
+
+/* The contacts that node j had: two, and perhaps a third. */
+typedef struct Had {
+    SavedContact contact[3];
+} Had;
+
+static void continue_as(Candidate *candidate, const Had *had, int i) {
+    candidate->before = i;
+    candidate->keeps = had->contact[i].keeps;
+    candidate->active = had->contact[i].active;
 }
 
-/* The plane with which node j has a third contact beside the obstacles `on`, -1: none. It is one
- * that the node would leave without a contact although it was active, or lies below. Third contacts
- * are with planes: if the obstacle left out is round, it takes the place of a plane in `on`. */
-static int third_obstacle(const CpsiLine *line, int j, const SavedContact before[3], int on[2]) {
-    const Vec3 x = vec3_at(line->base, j);
-    int left_out = -1;
-    double least = 0;
-    for (int k = 0; k < line->obstacle_count; k++) {
-        bool active = false;
-        for (int i = 0; i < 3; i++) active |= before[i].active && before[i].obstacle_index == k;
-        const double gap = cpsi_obstacle_gap(&line->obstacle[k], x);
-        if (k == on[0] || k == on[1] || !(active || gap < -0.1 * CPS_TOUCH * line->length) ||
-            (left_out >= 0 && gap >= least))
-            continue;
-        left_out = k;
-        least = gap;
+/* Obstacle k, which has no folds. */
+static Candidate plain_candidate(const CpsiLine *line, int k, Vec3 x, const Had *had) {
+    Candidate out = {.obstacle = k,
+                     .before = -1,
+                     .gap = cpsi_obstacle_gap(&line->obstacle[k], x),
+                     .foot.face = CPSI_NO_FACE};
+    for (int i = 0; i < 3; i++)
+        if (had->contact[i].obstacle_index == k) continue_as(&out, had, i);
+    return out;
+}
+
+/* Which of the candidates has the normal nearest to n, no farther than `least` says; -1: none. With
+ * `all` also those at which another contact goes on. */
+static int nearest_to(const Candidate *of, int count, Vec3 n, double least, bool all) {
+    int best = -1;
+    for (int i = 0; i < count; i++) {
+        const double near = vec3_dot(of[i].foot.normal, n);
+        if ((of[i].before >= 0 && !all) || !(near > least)) continue;
+        least = near;
+        best = i;
     }
-    if (left_out < 0 || line->obstacle[left_out].kind == CPS_OBSTACLE_PLANE) return left_out;
-    for (int i = 2; i-- > 0;)
-        if (on[i] >= 0 && line->obstacle[on[i]].kind == CPS_OBSTACLE_PLANE) {
-            const int plane = on[i];
-            on[i] = left_out;
-            return plane;
+    return best;
+}
+
+/* Let contact i go on, whose foot has moved with x. */
+static int follow_foot(const CpsiObstacle *obstacle, Vec3 x, double touch, const Had *had, int i,
+                       int count, Candidate out[MOST_CANDIDATES]) {
+    const SavedContact *contact = &had->contact[i];
+    CpsiObstacle seen = *obstacle;
+    seen.face = contact->face;
+    const CpsiFoot moved = cpsi_obstacle_foot(&seen, x);
+    const int at = nearest_to(out, count, moved.normal, 1 - ALIKE, true);
+    if (at >= 0 && out[at].before < 0) {
+        continue_as(&out[at], had, i);
+    } else if (at >= 0 && !contact->keeps) {
+        /* two feet have become one */
+    } else if (contact->keeps || (contact->active && (out[0].gap < -touch || moved.gap > touch))) {
+        out[count] =
+            (Candidate){.obstacle = contact->obstacle_index, .gap = moved.gap, .foot = moved};
+        continue_as(&out[count++], had, i);
+    }
+    return count;
+}
+
+/* Let contact i go on, whose face is not known. */
+static int place_by_normal(const Had *had, int i, int count, Candidate out[MOST_CANDIDATES]) {
+    const SavedContact *contact = &had->contact[i];
+    const Vec3 n = vec3_load(contact->normal);
+    const int at = nearest_to(out, count, n, -INFINITY, false);
+    if (at >= 0) {
+        continue_as(&out[at], had, i);
+    } else if (contact->keeps) {
+        out[count] = out[nearest_to(out, count, n, -INFINITY, true)];
+        continue_as(&out[count++], had, i);
+    }
+    return count;
+}
+
+/* The feet of x on obstacle k, which has folds. A contact goes on at the foot to which its own has
+ * moved; where its face is not known, at that with the normal nearest to its own. One that has
+ * borne in the round before goes on with the plane of its face where the node has gone over a fold;
+ * not if it lies on that plane without being below another face, for then nothing is there that
+ * bears it. Returns their number. */
+static int folded_candidates(const CpsiLine *line, int k, Vec3 x, const Had *had,
+                             Candidate out[MOST_CANDIDATES]) {
+    const CpsiObstacle *obstacle = &line->obstacle[k];
+    const double touch = 0.1 * CPS_TOUCH * line->length;
+    CpsiFoot foot[CPSI_MOST_FEET];
+    int count = cpsi_obstacle_feet(obstacle, x, foot);
+    for (int i = 0; i < count; i++)
+        out[i] = (Candidate){.obstacle = k, .before = -1, .gap = foot[i].gap, .foot = foot[i]};
+    for (int pass = 0; pass < 2; pass++) /* first those that stay */
+        for (int i = 0; i < 3; i++)
+            if (had->contact[i].obstacle_index == k && had->contact[i].keeps == (pass == 0))
+                count = had->contact[i].face == CPSI_NO_FACE
+                            ? place_by_normal(had, i, count, out)
+                            : follow_foot(obstacle, x, touch, had, i, count, out);
+    return count;
+}
+
+/* The candidates on obstacle k; returns their number. */
+static int candidates_on(const CpsiLine *line, int k, Vec3 x, const Had *had,
+                         Candidate out[MOST_CANDIDATES]) {
+    if (line->has_folds && cpsi_obstacle_has_folds(&line->obstacle[k]))
+        return folded_candidates(line, k, x, had, out);
+    out[0] = plain_candidate(line, k, x, had);
+    return 1;
+}
+
+/* What stays with its obstacle comes first, then what is nearer; what has borne beside a fold is as
+ * near as what the node lies on. */
+static double rank(const Candidate *of) {
+    if (of->keeps) return -INFINITY;
+    return of->active && of->foot.face != CPSI_NO_FACE ? fmin(of->gap, 0) : of->gap;
+}
+
+/* Keep the two of lowest rank. */
+static void keep_nearest(Candidate on[2], const Candidate *now) {
+    const bool first = on[0].obstacle < 0 || rank(now) < rank(&on[0]);
+    if (!first && on[1].obstacle >= 0 && !(rank(now) < rank(&on[1]))) return;
+    if (first) on[1] = on[0];
+    on[first ? 0 : 1] = *now;
+}
+
+/* Would the node be without a contact that it needs? It is one that was active, or that it lies
+ * below. */
+static bool is_needed(const CpsiLine *line, const Candidate *of) {
+    return of->active || of->gap < -0.1 * CPS_TOUCH * line->length;
+}
+
+static bool is_same(const Candidate *a, const Candidate *b) {
+    return a->obstacle == b->obstacle && a->foot.face == b->foot.face && a->before == b->before;
+}
+
+/* The first two contacts of a node at x: those that stay, else the nearest, in the order of
+ * distance; not the third if that stays, which is then *third. Returns how many others are
+ * needed. */
+static int find_nearest(const CpsiLine *line, Vec3 x, const Had *had, Candidate on[2],
+                        Candidate *third) {
+    Candidate some[MOST_CANDIDATES];
+    int needed = 0;
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const int count = candidates_on(line, k, x, had, some);
+        for (int i = 0; i < count; i++) {
+            if (some[i].before == 2 && some[i].keeps) {
+                *third = some[i];
+                continue;
+            }
+            needed += is_needed(line, &some[i]);
+            keep_nearest(on, &some[i]);
         }
-    return CPS_NO_OBSTACLE;
+    }
+    for (int i = 0; i < 2; i++) needed -= on[i].obstacle >= 0 && is_needed(line, &on[i]);
+    if (on[1].obstacle >= 0 && !(on[0].gap <= on[1].gap)) {
+        const Candidate first = on[0];
+        on[0] = on[1];
+        on[1] = first;
+    }
+    return needed;
+}
+
+/* Of the candidates that are needed beside `on`, the one with the least gap. */
+static Candidate find_left_out(const CpsiLine *line, Vec3 x, const Had *had,
+                               const Candidate on[2]) {
+    Candidate some[MOST_CANDIDATES], out = {.obstacle = CPS_NO_OBSTACLE};
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const int count = candidates_on(line, k, x, had, some);
+        for (int i = 0; i < count; i++) {
+            if (is_same(&some[i], &on[0]) || is_same(&some[i], &on[1]) ||
+                !is_needed(line, &some[i]) || (out.obstacle >= 0 && some[i].gap >= out.gap))
+                continue;
+            out = some[i];
+        }
+    }
+    return out;
+}
+
+static bool is_plane(const CpsiLine *line, const Candidate *of) {
+    return of->obstacle >= 0 && line->obstacle[of->obstacle].kind == CPS_OBSTACLE_PLANE;
+}
+
+/* The third contact of a node beside `on`: with a plane or, else, with a mesh that has folds. If
+ * what is left out is none, it takes the place of one in `on`. */
+static Candidate find_third(const CpsiLine *line, Vec3 x, const Had *had, Candidate on[2]) {
+    const Candidate left_out = find_left_out(line, x, had, on);
+    if (left_out.obstacle < 0 || is_plane(line, &left_out)) return left_out;
+    int place = -1;
+    for (int i = 2; i-- > 0;)
+        if (place < 0 && is_plane(line, &on[i])) place = i;
+    if (place < 0 && left_out.foot.face != CPSI_NO_FACE) return left_out;
+    for (int i = 2; i-- > 0;)
+        if (place < 0 && on[i].obstacle >= 0 && on[i].foot.face != CPSI_NO_FACE) place = i;
+    if (place < 0) return (Candidate){.obstacle = CPS_NO_OBSTACLE};
+    const Candidate third = on[place];
+    on[place] = left_out;
+    return third;
+}
+
+/* Contact c of node j is the candidate from now on, with its data if it goes on. */
+static void become(CpsiLine *line, int j, int c, const Candidate *now, const Had *had) {
+    const bool goes_on = now->obstacle >= 0 && now->before >= 0,
+               has_face = now->obstacle >= 0 && now->foot.face != CPSI_NO_FACE;
+    SavedContact contact = {.obstacle_index = now->obstacle,
+                            .gap = INFINITY,
+                            .state = CPS_NODE_STATE_FREE};
+    if (goes_on)
+        contact = had->contact[now->before];
+    else
+        vec3_store(contact.normal, has_face
+                                       ? now->foot.normal
+                                       : cpsi_contact_reference_normal(line, now->obstacle, j));
+    contact.face = has_face ? now->foot.face : CPSI_NO_FACE;
+    restore_contact(line, c, &contact);
 }
 
 /* Detect the contacts of node j at its base; those with the same obstacle as before keep their
  * data. */
 static void detect(CpsiLine *line, int j, bool keep_active) {
-    const int n = line->n, third = third_contact(line, j);
+    static const SavedContact NONE = {.obstacle_index = CPS_NO_OBSTACLE};
+    const int third = third_contact(line, j);
     const bool had_third = third >= 0 && cpsi_line_is_third(line, third);
-    SavedContact before[3] = {{.obstacle_index = CPS_NO_OBSTACLE},
-                              {.obstacle_index = CPS_NO_OBSTACLE},
-                              {.obstacle_index = CPS_NO_OBSTACLE}};
-    int on[2], plane = -1;
-    nearest(line, j, vec3_at(line->base, j), keep_active, on);
-    for (int i = 0; i < line->contacts; i++) before[i] = save_contact(line, j + i * n);
-    if (had_third) before[2] = save_contact(line, third);
-    if (had_third && third_keeps(line, j, before[2].obstacle_index, keep_active))
-        plane = before[2].obstacle_index;
-    else if (third >= 0 && line->obstacle_count > 2 && !cpsi_line_is_held(line, j) &&
-             (had_third || line->obstacle_index[third] < 0))
-        plane = third_obstacle(line, j, before, on);
-    for (int i = 0; i < line->contacts; i++) {
-        const SavedContact now = contact_with(line, j, on[i], before, 3);
-        restore_contact(line, j + i * n, &now);
-    }
-    if (!had_third && plane < 0) return;
-    const SavedContact now = contact_with(line, j, plane, before, 3);
-    restore_contact(line, third, &now);
+    const Vec3 x = vec3_at(line->base, j);
+    Had had = {{NONE, NONE, NONE}};
+    Candidate on[2] = {{.obstacle = CPS_NO_OBSTACLE}, {.obstacle = CPS_NO_OBSTACLE}},
+              other = {.obstacle = CPS_NO_OBSTACLE};
+    for (int i = 0; i < line->contacts; i++)
+        had.contact[i] = save_contact(line, j + i * line->n, keep_active);
+    if (had_third) had.contact[2] = save_contact(line, third, keep_active);
+    const int needed = find_nearest(line, x, &had, on, &other);
+    if (other.obstacle < 0 && needed > 0 && third >= 0 && !cpsi_line_is_held(line, j) &&
+        (had_third || line->obstacle_index[third] < 0))
+        other = find_third(line, x, &had, on);
+    for (int i = 0; i < line->contacts; i++) become(line, j, j + i * line->n, &on[i], &had);
+    if (!had_third && other.obstacle < 0) return;
+    become(line, j, third, &other, &had);
     line->beta[j - 1] = 1;
 }
 
@@ -200,7 +343,7 @@ static void detect_element(CpsiLine *line, int e) {
     SavedContact now = {.obstacle_index = CPS_NO_OBSTACLE,
                         .gap = INFINITY,
                         .state = CPS_NODE_STATE_FREE};
-    const SavedContact before = save_contact(line, c);
+    const SavedContact before = save_contact(line, c, false);
     double least = INFINITY;
     if (is_kept(line, c)) return;
     for (int k = 0; k < line->obstacle_count; k++) {

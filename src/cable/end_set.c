@@ -225,7 +225,8 @@ bool cpsi_line_set_distance(const CpsiLine *line, double *distance, double *leng
     return found;
 }
 
-/* Projections to and fro between two cones, until they stay. */
+/* Projections to and fro between two cones, until they stay: between lines that meet at a small
+ * angle they take longer, and where they stay is in one of them alone. */
 enum { PROJECTIONS = 200 };
 
 Vec3 cpsi_line_sets_let(const CpsiLine *line, Vec3 v) {
@@ -233,5 +234,11 @@ Vec3 cpsi_line_sets_let(const CpsiLine *line, Vec3 v) {
     for (int i = 0; i < PROJECTIONS && cpsi_line_has_sets(line); i++)
         for (int end = 0; end < 2; end++)
             if (line->on[end].is_there) v = cpsi_place_set_recedes(&line->on[end].set, v);
-    return vec3_norm(v) > ROUNDING * size ? v : vec3(0, 0, 0);
+    bool lets = vec3_norm(v) > ROUNDING * size;
+    for (int end = 0; end < 2; end++) {
+        if (!line->on[end].is_there) continue;
+        const Vec3 along = cpsi_place_set_recedes(&line->on[end].set, v);
+        lets = lets && vec3_norm(vec3_sub(v, along)) <= ROUNDING * vec3_norm(v);
+    }
+    return lets ? v : vec3(0, 0, 0);
 }

@@ -120,6 +120,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         CPSI_PLACE(arena, line->reference_axes, 9 * contacts);
         CPSI_PLACE(arena, line->curvature, 3 * contacts);
         CPSI_PLACE(arena, line->obstacle_index, contacts);
+        if (line->has_folds) CPSI_PLACE(arena, line->face, contacts);
         CPSI_PLACE(arena, line->node_reaction, n);
         CPSI_PLACE(arena, line->watched, 6 * n);
         cpsi_anderson_layout(&line->anderson, arena, line->n);

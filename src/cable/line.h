@@ -4,7 +4,7 @@
  * n): contact c < n is the first contact of node c, contact n <= c < 2 n is the second contact of
  * node c - n. Where there are round obstacles, or more than two, and contact is not that of the
  * reference, elements touch as well: the contact of element e has the number `contacts` * n + e, at
- * the point of it nearest to the axis or centre; with a plane it is the third of node e + 1. */
+ * its point nearest to the axis or centre; with a plane or a mesh it is the third of node e + 1. */
 #ifndef CAPSTAN_SRC_CABLE_LINE_H
 #define CAPSTAN_SRC_CABLE_LINE_H
 
@@ -41,8 +41,8 @@ typedef struct CpsiLine {
     bool has_field, has_node_loads, has_potential; /* the arrays of `field` are there */
     bool has_sections; /* weight and compliance may, and there may be point masses */
     bool has_breaking_load, has_break_at; /* an element has one */
-    bool has_local_axes;   /* each contact has its own axes: not on one plane with a disc */
-    int contacts;          /* of a node: 2 where there is more than one obstacle, else 1 */
+    bool has_local_axes, has_folds;       /* contacts have their own axes; an obstacle has folds */
+    int contacts;          /* of a node: 2 with folds or more than one obstacle, else 1 */
     int element_contacts;  /* of an element, 0 or 1: so many more rows have arrays (contacts, n) */
     double bearing_width;  /* [m] on what gives */
     double common_axes[9]; /* axes of the whole line: those of the one plane, or of the world */
@@ -96,9 +96,8 @@ typedef struct CpsiLine {
     bool *active;   /* (contacts, n) the last solution's reaction, without unit, exceeds its gap */
     bool *at_bound; /* (contacts, n) friction is at its bound in it (warm_step.h) */
     /* with has_local_axes, else NULL: the geometry of the contacts at `base` */
-    /* (contacts, n) [rad] angle by which the node has moved round the obstacle in this step: on a
-     * cylinder the sum over the rounds, perhaps beyond a turn; on a ball that of the great circle
-     */
+    /* (contacts, n) [rad] by which the node has moved round the obstacle in this step: on a ball
+     * that of the great circle, on a cylinder the sum over the rounds, perhaps beyond a turn */
     double *winding;
     double *base;           /* (n, 3) [m] */
     double *axes;           /* (contacts, n, 9) rows first tangent, second tangent, normal */
@@ -106,6 +105,7 @@ typedef struct CpsiLine {
     double *curvature;      /* (contacts, n, 3) [1/m] xx, xy, yy of the surface in these axes */
     int *obstacle_index; /* (contacts, n) the obstacle of each contact: the nearest and the next; of
                             an element the one with which it is in contact; -1: none */
+    int *face;    /* (contacts, n) with has_folds: of each contact, in a step (geometry/folds.h) */
     double *beta; /* (n) share of element e at which it touches; NULL without such contacts */
     double *node_reaction;     /* (n) [N] sum of the reactions on the node and on its elements */
     bool is_rough;             /* the program was solved to a hundredth of the tolerance only */
@@ -194,10 +194,10 @@ static inline int cpsi_line_element(const CpsiLine *line, int c) {
     return c < cpsi_line_contacts(line) ? -1 : c - cpsi_line_contacts(line);
 }
 
-/* Is c the third contact of a node, the end of its element? Elements have no others with planes. */
+/* Is c the third contact of a node, at the end of its element? */
 static inline bool cpsi_line_is_third(const CpsiLine *line, int c) {
     return c >= cpsi_line_contacts(line) && line->obstacle_index[c] >= 0 &&
-           line->obstacle[line->obstacle_index[c]].kind == CPS_OBSTACLE_PLANE;
+           cpsi_obstacle_may_be_third(&line->obstacle[line->obstacle_index[c]]);
 }
 
 /* Share of the force of a contact of element e that acts on its node j. */

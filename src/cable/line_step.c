@@ -575,7 +575,8 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     else if (cpsi_line_loads_follow(line) && !line->joined)
         follow_loads(line, program, options);
     judge_loads(line, options);
-    if (!is_finite(line) || !cpsi_line_is_near(line)) reset_to_reference(line, options);
+    if (!is_finite(line) || !cpsi_line_is_near(line) || cpsi_contact_bears_beyond(line))
+        reset_to_reference(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
     report_piercing(line);
     classify(line, line->joined ? line->joined->program : program);

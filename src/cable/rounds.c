@@ -142,6 +142,8 @@ static bool certify_last_round(CpsiLine *line, const CpsiChainProgram *program,
     if (bounds != CPSI_BOUNDS_FIXED || line->keeps_reference_axes || smooth)
         cpsi_line_release_open_contacts(line, program);
     cpsi_line_certify(line, options, ipm);
+    if (cps_outcome_is_certified(line->report.outcome) && cpsi_contact_bears_beyond(line))
+        line->report.outcome = CPS_OUTCOME_STALLED;
     return cps_outcome_is_certified(line->report.outcome);
 }
 

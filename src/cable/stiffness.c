@@ -21,6 +21,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/contact_surface.h"
 #include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/soft.h"
@@ -58,9 +59,10 @@ typedef struct Tangent {
 static bool is_nearly_open(const CpsiLine *line, int c) {
     if (cpsi_line_element(line, c) >= 0 || !cpsi_line_obstacle(line, c)) return false;
     const int j = cpsi_line_node(line, c);
+    CpsiObstacle seen;
     const double weight = vec3_norm(cpsi_line_load_at(line, j)) * cpsi_line_share(line, j);
     return line->reaction[c] <= LEFT_OPEN * weight &&
-           cpsi_obstacle_gap(cpsi_line_obstacle(line, c), vec3_at(line->position, j)) >
+           cpsi_obstacle_gap(cpsi_contact_surface(line, c, &seen), vec3_at(line->position, j)) >
                CPS_TOUCH * line->length;
 }
 
@@ -152,7 +154,8 @@ static Surface surface_of(const Tangent *t, int c) {
     if (line->has_local_axes) {
         const Vec3 before = vec3_at(line->position, j > 0 ? j - 1 : j),
                    after = vec3_at(line->position, j + 1 < line->n ? j + 1 : j);
-        cpsi_obstacle_axes(cpsi_line_obstacle(line, c), vec3_at(line->position, j),
+        CpsiObstacle seen;
+        cpsi_obstacle_axes(cpsi_contact_surface(line, c, &seen), vec3_at(line->position, j),
                            vec3_sub(after, before), out.axes, out.curvature);
     }
     vec3_store(slip, slip_of(t, c));

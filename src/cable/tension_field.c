@@ -79,6 +79,8 @@ static void use_unconstrained_optimum(CpsiForceSet *set) {
 /* [N] The reaction before the step of the obstacle that contact c touches. */
 static double reaction_before(const CpsiLine *line, int c) {
     const int j = cpsi_line_node(line, c);
+    if (line->has_folds && line->obstacle_index_before[c] == line->obstacle_index[c])
+        return line->reaction_before[c]; /* the other one may be with the same obstacle */
     for (int b = j; b < cpsi_line_contacts(line); b += line->n)
         if (!line->has_local_axes || line->obstacle_index_before[b] == line->obstacle_index[c])
             return line->reaction_before[b];

@@ -29,6 +29,7 @@
 #include "evolve/trial.h"
 #include "evolve/view.h"
 #include "evolve/waves.h"
+#include "geometry/folds.h"
 
 static char *copy_name(CpsiArena *arena, const char *name) {
     const size_t size = strlen(name) + 1;
@@ -44,6 +45,18 @@ static bool scene_needs_local_axes(const CpsScene *scene) {
     return cpsi_obstacle_needs_local_axes(&only);
 }
 
+/* May a node touch an obstacle in two places, beside a fold? Contact of the reference is with the
+ * nearest one. */
+static bool scene_has_folds(const CpsScene *scene) {
+    bool folds = false;
+    for (int k = 0;
+         k < scene->obstacle_count && scene->contact_policy == CPS_CONTACT_POLICY_REACHED; k++) {
+        const CpsiObstacle o = cpsi_obstacle(&scene->obstacle[k]);
+        folds = folds || cpsi_obstacle_has_folds(&o);
+    }
+    return folds;
+}
+
 /* Do elements have contacts, beside the nodes? With what is convex somewhere they do, and where a
  * node may need a third contact; contact of the reference is that of S90, where only nodes touch.
  */
@@ -53,8 +66,19 @@ static bool scene_has_element_contacts(const CpsScene *scene) {
         const CpsiObstacle o = cpsi_obstacle(&scene->obstacle[k]);
         round = round || cpsi_obstacle_faces_lines(&o);
     }
-    return (round || scene->obstacle_count > 2) &&
+    return (round || scene->obstacle_count > 2 || scene_has_folds(scene)) &&
            scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
+}
+
+static int contact_count(const CpsScene *scene) {
+    return scene->obstacle_count > 1 || scene_has_folds(scene) ? 2 : 1;
+}
+
+static void take_contacts(CpsiLine *line, const CpsiWorkspaceSize *size, bool has_folds) {
+    line->has_local_axes = size->has_local_axes;
+    line->has_folds = has_folds;
+    line->contacts = size->contacts;
+    line->element_contacts = size->element_contacts;
 }
 
 /* More threads than lines would have nothing to do. */
@@ -105,7 +129,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     layout_water(evolution, arena, scene);
     layout_given(evolution, arena, scene, real);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
-                              .contacts = scene->obstacle_count > 1 ? 2 : 1,
+                              .contacts = contact_count(scene),
                               .element_contacts = scene_has_element_contacts(scene) ? 1 : 0,
                               .has_local_axes = scene_needs_local_axes(scene),
                               .has_path_tolerance = scene->solver.path_tolerance > 0,
@@ -118,9 +142,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         CpsiLine *line = real ? &evolution->line[i] : &any;
         line->name = copy_name(arena, scene->line[i].name);
         line->n = scene->line[i].element_count + 1;
-        line->has_local_axes = size.has_local_axes;
-        line->contacts = size.contacts;
-        line->element_contacts = size.element_contacts;
+        take_contacts(line, &size, scene_has_folds(scene));
         line->has_zones = scene->line[i].zone_count > 0;
         line->has_sections = cpsi_has_sections(&scene->line[i]);
         for (int end = 0; end < 2; end++) line->drums.on[end] = scene->line[i].winch[end].is_there;
@@ -241,6 +263,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
     if (line->has_local_axes)
         for (int c = 0; c < cpsi_line_all_contacts(line); c++)
             line->obstacle_index[c] = CPS_NO_OBSTACLE;
+    if (line->has_folds)
+        for (int c = 0; c < cpsi_line_all_contacts(line); c++) line->face[c] = CPSI_NO_FACE;
     cpsi_start_place(def, line->position);
     if (def->loads)
         cpsi_line_loads_fill(line, scene, def, evolution->origin, evolution->current_row,

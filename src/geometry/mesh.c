@@ -356,16 +356,19 @@ static CpsStatus make(CpsMesh *mesh, const CpsMeshTriangles *given, CpsError *er
     if (status != CPS_OK) return status;
     mesh->depth = cpsi_mesh_depth(mesh->triangle_count);
     double *angle = malloc((size_t)mesh->vertex_count * sizeof *angle);
-    if (!angle || !complete(mesh) || !cpsi_mesh_plant(mesh))
+    int *piece = malloc(2 * (size_t)mesh->triangle_count * sizeof *piece);
+    if (!angle || !piece || !complete(mesh) || !cpsi_mesh_plant(mesh))
         status = cpsi_fail(err, CPS_ERR_MEMORY, "no memory for %d triangles of a mesh",
                            mesh->triangle_count);
     if (status == CPS_OK) status = link_faces(mesh, err);
     if (status == CPS_OK) {
         sum_normals(mesh, angle);
         find_ranges(mesh);
+        cpsi_mesh_find_folds(mesh, piece);
         measure(mesh);
     }
     free(angle);
+    free(piece);
     return status;
 }
 

@@ -24,6 +24,8 @@ struct CpsMesh {
     int depth;      /* of the tree: it has 2^depth leaves */
     CpsiBox *box;   /* (2^(depth + 1) - 1) of node i, whose halves are 2 i + 1 and 2 i + 2 */
     bool two_sided;
+    bool has_folds; /* a concave edge, of a sheet with two sides any edge between two planes; or
+                       it is not all in one piece: a place may have several feet */
     CpsMeshReport report;
     atomic_int refcount;
 };
@@ -52,5 +54,27 @@ typedef struct CpsiMeshFoot {
 } CpsiMeshFoot;
 
 CpsiMeshFoot cpsi_mesh_nearest(const CpsMesh *mesh, Vec3 x);
+/* The nearest point of one triangle; its distance is not negative, and it has no normal. */
+CpsiMeshFoot cpsi_mesh_nearest_of(const CpsMesh *mesh, int triangle, Vec3 x);
+/* Give such a point the sign of its distance and its normal. */
+void cpsi_mesh_orient(const CpsMesh *mesh, Vec3 x, CpsiMeshFoot *at);
+/* Call `take` with the nearest point, without sign, of every triangle within a distance. */
+void cpsi_mesh_each_within(const CpsMesh *mesh, Vec3 x, double within,
+                           void (*take)(void *into, const CpsiMeshFoot *foot), void *into);
+
+/* Several feet (mesh_feet.c). */
+
+/* Set has_folds; `scratch` has memory for 2 triangle_count numbers. */
+void cpsi_mesh_find_folds(CpsMesh *mesh, int *scratch);
+/* The nearest foot of x and, if x is on the free side, the other points of the triangles that are
+ * the nearest of those around them, up to a distance; at most `most`, the nearest first. Where x is
+ * behind a concave edge or corner they are its feet on the planes of the faces there, the deepest
+ * first, and *beyond is set. Returns their number, at least 1. */
+int cpsi_mesh_feet(const CpsMesh *mesh, Vec3 x, double within, int most, CpsiMeshFoot out[],
+                   bool *beyond);
+/* The foot that is reached from a face by going to nearer points of the faces around, but over no
+ * concave edge. *beyond: it would go on over one; the foot is that on the plane of the last face.
+ */
+CpsiMeshFoot cpsi_mesh_foot_from(const CpsMesh *mesh, int face, Vec3 x, bool *beyond);
 
 #endif

@@ -253,32 +253,67 @@ static void join_flat(const CpsMesh *mesh, CpsiMeshFoot *at) {
         at->part = CPSI_MESH_FACE;
 }
 
-CpsiMeshFoot cpsi_mesh_nearest(const CpsMesh *mesh, Vec3 x) {
-    CpsiMeshFoot out = {.foot = x, .normal = vec3(0, 0, 1)};
-    const double distance = sqrt(search(mesh, x, &out));
-    if (!isfinite(distance)) { /* no place: as if deep inside, so that nothing here is certified */
-        out.distance =
-            -vec3_norm(vec3_sub(vec3_load(mesh->report.high), vec3_load(mesh->report.low)));
-        return out;
-    }
-    join_flat(mesh, &out);
-    const Vec3 side = side_of(mesh, &out), arm = vec3_sub(x, out.foot);
+void cpsi_mesh_orient(const CpsMesh *mesh, Vec3 x, CpsiMeshFoot *at) {
+    const double distance = at->distance;
+    join_flat(mesh, at);
+    const Vec3 side = side_of(mesh, at), arm = vec3_sub(x, at->foot);
     const bool below = !mesh->two_sided && vec3_dot(arm, side) < 0;
-    if (out.part == CPSI_MESH_FACE) {
-        const double height = vec3_dot(vec3_sub(x, cpsi_mesh_corner(mesh, out.triangle, 0)), side);
-        out.distance = mesh->two_sided ? fabs(height) : height;
-        out.normal = mesh->two_sided && height < 0 ? vec3_scale(-1, side) : side;
-        return out;
+    if (at->part == CPSI_MESH_FACE) {
+        const double height = vec3_dot(vec3_sub(x, cpsi_mesh_corner(mesh, at->triangle, 0)), side);
+        at->distance = mesh->two_sided ? fabs(height) : height;
+        at->normal = mesh->two_sided && height < 0 ? vec3_scale(-1, side) : side;
+        return;
     }
     const double size = vec3_norm(side);
-    out.distance = below ? -distance : distance;
+    at->distance = below ? -distance : distance;
     if (distance > 0)
-        out.normal = vec3_scale(1 / out.distance, arm);
+        at->normal = vec3_scale(1 / at->distance, arm);
     else if (size > 0)
-        out.normal = vec3_scale(1 / size, side);
+        at->normal = vec3_scale(1 / size, side);
     else
-        out.normal = cpsi_mesh_normal(mesh, out.triangle);
+        at->normal = cpsi_mesh_normal(mesh, at->triangle);
+}
+
+CpsiMeshFoot cpsi_mesh_nearest(const CpsMesh *mesh, Vec3 x) {
+    CpsiMeshFoot out = {.foot = x, .normal = vec3(0, 0, 1)};
+    out.distance = sqrt(search(mesh, x, &out));
+    if (isfinite(out.distance))
+        cpsi_mesh_orient(mesh, x, &out);
+    else /* no place: as if deep inside, so that nothing here is certified */
+        out.distance =
+            -vec3_norm(vec3_sub(vec3_load(mesh->report.high), vec3_load(mesh->report.low)));
     return out;
+}
+
+CpsiMeshFoot cpsi_mesh_nearest_of(const CpsMesh *mesh, int t, Vec3 x) {
+    CpsiMeshFoot out = {0};
+    out.distance = sqrt(nearest_of(mesh, t, x, &out));
+    return out;
+}
+
+void cpsi_mesh_each_within(const CpsMesh *mesh, Vec3 x, double within,
+                           void (*take)(void *into, const CpsiMeshFoot *foot), void *into) {
+    const double at[3] = {x.x, x.y, x.z};
+    Visit open[DEEPEST + 2];
+    int count = 0;
+    open[count++] =
+        (Visit){0, 0, mesh->triangle_count, mesh->depth, square_to_box(&mesh->box[0], at)};
+    while (count > 0) {
+        const Visit now = open[--count];
+        if (!(now.square <= within * within)) continue;
+        if (now.depth > 0) {
+            const int half = now.count / 2, child = 2 * now.node + 1;
+            open[count++] = (Visit){child + 1, now.first + half, now.count - half, now.depth - 1,
+                                    square_to_box(&mesh->box[child + 1], at)};
+            open[count++] = (Visit){child, now.first, half, now.depth - 1,
+                                    square_to_box(&mesh->box[child], at)};
+            continue;
+        }
+        for (int t = now.first; t < now.first + now.count; t++) {
+            const CpsiMeshFoot found = cpsi_mesh_nearest_of(mesh, t, x);
+            if (found.distance <= within) take(into, &found);
+        }
+    }
 }
 
 double cps_mesh_distance(const CpsMesh *mesh, const double x[3], double foot[3]) {

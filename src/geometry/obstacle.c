@@ -2,6 +2,7 @@
 /* Obstacles (obstacle.h): what all shapes share. The shapes themselves are in shape_*.c. */
 #include "geometry/obstacle.h"
 
+#include "geometry/folds.h"
 #include "geometry/ground.h"
 
 /* A vector this short beside a unit vector has lost its direction to rounding. */
@@ -41,6 +42,7 @@ CpsiObstacle cpsi_obstacle(const CpsObstacle *def) {
                         .damping = def->damping,
                         .shape = def->friction_shape,
                         .moves = def->moves,
+                        .face = CPSI_NO_FACE,
                         .has_set = def->friction_set};
     if (def->kind == CPS_OBSTACLE_GROUND) out.ground = def->ground;
     if (def->kind == CPS_OBSTACLE_SURFACE) out.surface = def->surface;

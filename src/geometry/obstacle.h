@@ -36,6 +36,11 @@ bool cpsi_obstacle_is_rounded(const CpsiObstacle *obstacle);
 /* May a straight element between two points of its free side cut into it, so that
  * cpsi_obstacle_faces is of use? */
 bool cpsi_obstacle_faces_lines(const CpsiObstacle *obstacle);
+/* Do elements touch it at their nodes only, so that the contact of one may be the third of a node?
+ */
+static inline bool cpsi_obstacle_may_be_third(const CpsiObstacle *obstacle) {
+    return obstacle->kind == CPS_OBSTACLE_PLANE || obstacle->kind == CPS_OBSTACLE_MESH;
+}
 /* Is what lies inside it convex? */
 bool cpsi_obstacle_is_convex(const CpsiObstacle *obstacle);
 /* Is there an obstacle below or above x? Not beyond the edge of a grid that is not extended, but

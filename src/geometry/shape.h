@@ -17,6 +17,7 @@ typedef struct CpsiObstacle {
     const CpsGround *ground; /* of a ground, else NULL */
     CpsSurface surface;      /* of a surface given as a function */
     const CpsMesh *mesh;     /* of a mesh, else NULL */
+    int face;                /* of a mesh with folds: see folds.h; CPSI_NO_FACE */
     double stiffness;        /* [N/m3] by which it gives; 0: it is rigid */
     double damping;          /* [N s/m3] of what gives */
     double friction[2];      /* [-] along the first tangent of the contact and across it */

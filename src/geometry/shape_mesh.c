@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mesh inflated by a radius (shape.h; docs/theory.md 2.3): distance d to the nearest triangle
- * less the radius r. Where the foot is on an edge the level of d through x is a cylinder of radius
- * d round it, at a corner a ball, on a face a plane. The way between two feet is their chord, laid
- * into the tangent plane where it arrives: right to second order where the surface turns little,
- * and to first order across an edge. */
+/* A mesh inflated by a radius (shape.h, folds.h; docs/theory.md 2.3): distance d to the nearest
+ * triangle less the radius r. Where the foot is on an edge the level of d through x is a cylinder
+ * of radius d round it, at a corner a ball, on a face a plane. The way between two feet is their
+ * chord, laid into the tangent plane where it arrives: right to second order where the surface
+ * turns little, and to first order across an edge. Across a fold it is that of the plane where it
+ * arrives. */
 #include <math.h>
 
+#include "geometry/folds.h"
 #include "geometry/mesh.h"
-#include "geometry/shape.h"
 
 /* Corrections after which a point is at its height. */
 enum { CORRECTIONS = 40 };
 /* Places at which a path is examined at most. */
 enum { PLACES = 2000 };
+/* [-] Of the radius: the gap up to which feet beside the nearest are looked for. */
+static const double RANGE = 0.25;
 /* [-] Of the radius: the least step along a path. */
 static const double STEP = 0.05;
 /* [-] A correction smaller than this, relative to the places, is rounding. */
@@ -29,11 +32,64 @@ static Vec3 outwards(const CpsiObstacle *o, Vec3 v) {
                      vec3_axpy(v.y, o->frame.axis[1], vec3_scale(v.z, o->frame.axis[2])));
 }
 
+/* x in the axes of the mesh. */
+static Vec3 inside_of(const CpsiObstacle *o, Vec3 x) {
+    return inwards(o, vec3_sub(x, o->frame.point));
+}
+
 /* The foot of x, with the normal in the axes of the world. */
 static CpsiMeshFoot foot_of(const CpsiObstacle *o, Vec3 x) {
-    CpsiMeshFoot at = cpsi_mesh_nearest(o->mesh, inwards(o, vec3_sub(x, o->frame.point)));
+    bool beyond;
+    CpsiMeshFoot at = o->face == CPSI_NO_FACE
+                          ? cpsi_mesh_nearest(o->mesh, inside_of(o, x))
+                          : cpsi_mesh_foot_from(o->mesh, o->face, inside_of(o, x), &beyond);
     at.normal = outwards(o, at.normal);
     return at;
+}
+
+bool cpsi_obstacle_has_folds(const CpsiObstacle *o) {
+    return o->mesh && o->mesh->has_folds && !(o->stiffness > 0);
+}
+
+static CpsiFoot as_seen(const CpsiObstacle *o, const CpsiMeshFoot *at, bool beyond) {
+    return (CpsiFoot){.face = at->triangle,
+                      .beyond = beyond,
+                      .gap = at->distance - o->radius,
+                      .normal = outwards(o, at->normal)};
+}
+
+int cpsi_obstacle_feet(const CpsiObstacle *o, Vec3 x, CpsiFoot out[CPSI_MOST_FEET]) {
+    CpsiMeshFoot at[CPSI_MOST_FEET];
+    bool beyond;
+    const int count = cpsi_mesh_feet(o->mesh, inside_of(o, x), (1 + RANGE) * o->radius,
+                                     CPSI_MOST_FEET, at, &beyond);
+    for (int i = 0; i < count; i++) out[i] = as_seen(o, &at[i], beyond);
+    return count;
+}
+
+/* Of several feet of x the one whose normal is nearest to n; behind a fold the nearest. */
+static CpsiMeshFoot foot_towards(const CpsiObstacle *o, Vec3 x, Vec3 n) {
+    CpsiMeshFoot at[CPSI_MOST_FEET];
+    bool beyond;
+    int best = 0;
+    const int count = cpsi_mesh_feet(o->mesh, inside_of(o, x), (1 + RANGE) * o->radius,
+                                     CPSI_MOST_FEET, at, &beyond);
+    if (beyond) at[0] = cpsi_mesh_nearest(o->mesh, inside_of(o, x));
+    for (int i = 0; i < (beyond ? 1 : count); i++) {
+        at[i].normal = outwards(o, at[i].normal);
+        if (vec3_dot(at[i].normal, n) > vec3_dot(at[best].normal, n)) best = i;
+    }
+    return at[best];
+}
+
+int cpsi_obstacle_face_towards(const CpsiObstacle *o, Vec3 x, Vec3 n) {
+    return foot_towards(o, x, n).triangle;
+}
+
+CpsiFoot cpsi_obstacle_foot(const CpsiObstacle *o, Vec3 x) {
+    bool beyond;
+    const CpsiMeshFoot at = cpsi_mesh_foot_from(o->mesh, o->face, inside_of(o, x), &beyond);
+    return as_seen(o, &at, beyond);
 }
 
 static double gap(const CpsiObstacle *o, Vec3 x) { return foot_of(o, x).distance - o->radius; }
@@ -91,13 +147,36 @@ static double angle(const CpsiObstacle *o, Vec3 from, Vec3 to) {
     return atan2(vec3_norm(vec3_cross(from, to)), vec3_dot(from, to));
 }
 
+/* A way from foot to foot. */
+typedef struct Way {
+    Vec3 from, to, first, last; /* the feet on the surface, and the normals there */
+    bool folds;                 /* the normals turn towards each other on the way */
+} Way;
+
+static Way way_between(const CpsiObstacle *o, Vec3 from, Vec3 to) {
+    const CpsiMeshFoot last = foot_of(o, to), first = o->face == CPSI_NO_FACE
+                                                          ? foot_of(o, from)
+                                                          : foot_towards(o, from, last.normal);
+    Way way = {.from = vec3_axpy(o->radius - first.distance, first.normal, from),
+               .to = vec3_axpy(o->radius - last.distance, last.normal, to),
+               .first = first.normal,
+               .last = last.normal};
+    way.folds = o->face != CPSI_NO_FACE &&
+                vec3_dot(vec3_sub(way.to, way.from), vec3_sub(last.normal, first.normal)) < 0;
+    return way;
+}
+
 static Vec3 slip(const CpsiObstacle *o, Vec3 from, Vec3 to) {
-    const CpsiMeshFoot first = foot_of(o, from), last = foot_of(o, to);
-    const Vec3 a = vec3_axpy(o->radius - first.distance, first.normal, from),
-               chord = vec3_sub(vec3_axpy(o->radius - last.distance, last.normal, to), a),
-               flat = vec3_reject(chord, last.normal);
+    const Way way = way_between(o, from, to);
+    if (way.folds) return vec3_reject(vec3_sub(to, from), way.last);
+    const Vec3 chord = vec3_sub(way.to, way.from), flat = vec3_reject(chord, way.last);
     const double size = vec3_norm(flat);
     return size > 0 ? vec3_scale(vec3_norm(chord) / size, flat) : vec3(0, 0, 0);
+}
+
+Vec3 cpsi_obstacle_first_normal(const CpsiObstacle *o, Vec3 from, Vec3 to) {
+    const Way way = way_between(o, from, to);
+    return way.folds ? way.last : way.first;
 }
 
 /* What turns by a radian over the distance of its faces is as good as round; what turns at one edge

@@ -110,6 +110,34 @@ static void a_rail_is_normal_to_the_pull(void **state) {
         }
 }
 
+/* Both ends on rails without ends that lie across each other: no direction is free for both, so the
+ * line is drawn along them by a load only until it is taut between them. */
+static void rails_across_each_other(void **state) {
+    (void)state;
+    static const double ANGLE[] = {1, 0.3, 0.1, 0.03};
+    for (int k = 0; k < 8; k++) {
+        const double c = cos(ANGLE[k / 2]), s = sin(ANGLE[k / 2]);
+        CpsLine line = hung(4, 12, k % 2 ? 3e4 : INFINITY);
+        static const double ACROSS[] = {0, 0, 0, 0, -4, 0};
+        line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = ACROSS};
+        line.end[CPS_END_A].kind = CPS_END_KIND_FREE;
+        line.end[CPS_END_B].value[0] = 5;
+        for (int end = 0; end < 2; end++)
+            line.constraint[end] = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
+                                                   .point = {0, end ? -4 : 0, 0},
+                                                   .axis = {c, end ? -s : s, 0},
+                                                   .length = INFINITY};
+        CpsEvolution *evolution = solve(&line, CPS_OUTCOME_SOLVED);
+        for (int end = 0; end < 2; end++) {
+            const CpsConstraintReport on = cps_evolution_constraint_report(evolution, 0, end);
+            const double *u = line.constraint[end].axis;
+            assert_true(on.is_active);
+            CHECK_NEAR(on.reaction[0] * u[0] + on.reaction[1] * u[1], 0, 1e-9);
+        }
+        cps_evolution_destroy(evolution);
+    }
+}
+
 /* Hold the end where the set has it: the same configuration and force. */
 static CpsConstraintReport is_as_held(const CpsLine *line, CpsLineReport *report) {
     /* what small programs leave of the nearest place and of the support, docs/sets.md */
@@ -547,6 +575,7 @@ int main(void) {
         cmocka_unit_test(a_reaction_does_no_work),
         cmocka_unit_test(reach),
         cmocka_unit_test(no_equilibrium),
+        cmocka_unit_test(rails_across_each_other),
         cmocka_unit_test(both_constraints_of_the_remark),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

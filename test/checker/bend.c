@@ -84,7 +84,7 @@ static void bend_on(const Source *source, const Record *r, bool reached, size_t 
     *turn = *friction = 0;
     if (!(r->obstacle[c] >= 0) || !(r->reaction[c] > 0) || !(r->friction_bound[c] > 0)) return;
     const Surface *surface = &source->surface[(size_t)r->obstacle[c]];
-    if (surface->kind == SURFACE_PLANE) return; // the third contact of a node
+    if (surface_may_be_third(surface)) return; // the third contact of a node
     const Real t = r->share_of[i];
     Real before[3], after[3], n[3], line[3], chord[3], plane[3], place[3];
     double first[3], last[3];

@@ -610,8 +610,7 @@ static void check_element_bound(const Record *r, const Record *before, size_t c,
                                 double shared, bool all, Findings *findings) {
     const bool third = r->share_of[c - r->contacts * r->nodes] == 1;
     const double w = r->friction_bound[c],
-                 R = third ? places_reaction_on(before, c - r->contacts * r->nodes + 1,
-                                                r->obstacle[c])
+                 R = third ? places_reaction_on(before, r, c - r->contacts * r->nodes + 1, c)
                      : before->obstacle[c] == r->obstacle[c] ? before->reaction[c]
                                                              : 0;
     // with the zone's factor at the point where that reaction was
@@ -679,7 +678,7 @@ static void check_bounds(const Source *source, const Record *r, const Record *be
         bool held = node_is_held(r, j), was_held = node_is_held(before, j);
         // rounding of a mean over zones; a coefficient above 1 goes with both
         double noise = r->factor_noise ? r->factor_noise[j] * fmax(1, r->mu[c]) : 0;
-        double w = r->friction_bound[c], R = places_reaction_on(before, j, r->obstacle[c]),
+        double w = r->friction_bound[c], R = places_reaction_on(before, r, j, c),
                mu = ground_coefficient(source, r, c, &noise), expected = mu * R;
         bool free = was_held || !known || R <= 1e-3 * largest + NOTHING;
         if (held || (w == 0 && isinf(r->gap[c]))) continue;

@@ -20,6 +20,7 @@
 #include "grasps.h"
 #include "loads.h"
 #include "missing.h"
+#include "seen.h"
 #include "sets.h"
 #include "shape.h"
 
@@ -132,15 +133,6 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     raise_to(&m->tension_least, -T);
 }
 
-/* Where contact is seen from: the configuration reached, or the reference. */
-typedef struct Where {
-    const Source *source;
-    Vector *place;
-    bool reached, frozen; /* frozen: friction is that of the reference whatever place */
-    /* [m] largest coordinate, radius and obstacle coordinate: what rounding goes with */
-    Real reach;
-} Where;
-
 /* What a contact sees of its obstacle. */
 typedef struct Seat {
     const Surface *surface; /* NULL without any */
@@ -151,72 +143,22 @@ typedef struct Seat {
     bool has_axes;
 } Seat;
 
-/* Where the contacts of node j are seen from: a held end on which an obstacle pushes is where it
- * came to. */
-static void place_of(const Where *where, const Record *r, size_t j, Triple x) {
-    widen(held(r, j) && r->reaction[j] > 0 ? r->position[j] : where->place[j], x);
-}
-
-/* The obstacle of contact c of node j, which the file says where there are several; a held node's
- * may be that of either place, so it is the nearest here. */
-static const Surface *surface_of(const Where *where, const Record *r, size_t j, size_t c) {
-    const Source *source = where->source;
-    if (source->surfaces == 0) return NULL;
-    if (c >= r->nodes || !held(r, j)) return &source->surface[(size_t)r->obstacle[c]];
-    Triple x;
-    place_of(where, r, j, x);
-    size_t best = 0;
-    for (size_t k = 1; k < source->surfaces; k++)
-        if (surface_distance(&source->surface[k], x) < surface_distance(&source->surface[best], x))
-            best = k;
-    return &source->surface[best];
-}
-
-/* Does contact c stay with its obstacle through the step, whichever are near where it ends? Frozen
- * friction does, and what contact of the reference keeps out. */
-static bool stays(const Where *where, const Record *r, size_t c) {
-    if (where->source->touching_only) return where->reached && isfinite(r->gap[c]);
-    return where->frozen && r->friction_bound[c] > 0;
-}
-
-/* Is surface k, a plane, that of the third contact of node j, at the end of the element before
- * it? */
-static bool is_third(const Where *where, const Record *r, size_t j, size_t k) {
-    return r->has_elements && j > 0 && r->obstacle[r->contacts * r->nodes + j - 1] == (int)k &&
-           where->source->surface[k].kind == SURFACE_PLANE;
-}
-
-/* Is the obstacle of contact c the nearest but for those before it, within a margin? One that stays
- * is so at the reference, and the other contact of its node is with the nearest of the rest. */
-static bool in_place(const Where *where, const Record *r, size_t j, size_t c, Real margin) {
-    const Source *source = where->source;
-    const size_t mine = (size_t)r->obstacle[c], first = (size_t)r->obstacle[j];
-    const size_t other = c == j ? (size_t)r->obstacle[j + r->nodes] : first;
-    const bool kept = stays(where, r, c), beside = stays(where, r, c == j ? j + r->nodes : j);
-    Triple x;
-    widen(kept ? r->reference[j] : where->place[j], x);
-    if (mine == other) return false;
-    const Real distance = surface_distance(&source->surface[mine], x);
-    size_t nearer = 0;
-    for (size_t k = 0; k < source->surfaces; k++)
-        if (k != mine && !is_third(where, r, j, k) && (kept || k != other || (c == j && !beside)))
-            nearer += distance > surface_distance(&source->surface[k], x) + margin;
-    return nearer <= kept;
-}
-
-static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c) {
-    Seat seat = {.surface = surface_of(where, r, j, c), .gap = INFINITY};
+/* What contact c of node j sees of its obstacle; *seen is that obstacle as it sees it. */
+static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c, Surface *seen) {
+    const Surface *on = seen_surface(where, r, j, c);
+    *seen = seen_by(where, r, j, c);
+    Seat seat = {.surface = on ? seen : NULL, .gap = INFINITY};
     if (!seat.surface) return seat;
     Triple x, reference, place, carried, u, along;
     Vector *nodes =
         where->frozen ? r->reference : where->place; /* whose direction friction takes */
     widen(r->position[j], x);
     widen(r->reference[j], reference);
-    place_of(where, r, j, place);
+    seen_from(where, r, j, place);
     subtract(r->position[j], r->reference[j], u);
     surface_normal(seat.surface, place, seat.normal);
     surface_normal(seat.surface, where->frozen ? reference : place, seat.plane);
-    const Real turn = (Real)r->turn[seat.surface - where->source->surface];
+    const Real turn = (Real)r->turn[on - where->source->surface];
     const bool moves = turn != 0 || surface_moves(seat.surface);
     surface_carry(seat.surface, reference, r->share, turn, carried);
     const Surface at = soft_level(seat.surface, x);
@@ -303,7 +245,7 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
     Triple shifted;
     surface_shift(seat->surface, from, r->share, shifted);
     if (acts) raise_to(&m->gone_quarters, surface_angle(seat->surface, shifted, x) / QUARTER);
-    if (r->contacts > 1 && !in_place(where, r, j, c, margin)) m->misplaced++;
+    if (r->contacts > 1 && !seen_in_place(where, r, j, c, margin)) m->misplaced++;
     // a second obstacle that is round is looked for up to half its radius away
     Triple place, reference;
     widen(where->place[j], place);
@@ -369,7 +311,8 @@ static void measure_contact(const Where *where, const Record *r, size_t j, size_
     subtract(r->position[j], r->reference[j], u);
     Real R = r->reaction[c], gap = r->gap[c], force = size(F), has_normal = size(n);
     bool active = !held(r, j);
-    const Seat seat = seat_of(where, r, j, c);
+    Surface seen;
+    const Seat seat = seat_of(where, r, j, c, &seen);
     measure_seat(where, r, j, c, &seat, PLACE_MARGIN * total(&s->length), m);
     if (R < m->reaction_least) m->reaction_least = (double)R;
     // at a held end the obstacle may share the load with the support, which needs no friction
@@ -422,7 +365,7 @@ void measure_element_plane(const Record *r, const Surface *on, size_t i, bool fr
     subtract(nodes[i + 1], nodes[i], along);
     widen(nodes[i], a);
     widen(nodes[i + 1], b);
-    const Real facing = surface_facing(on, a, b);
+    const Real facing = surface_may_be_third(on) ? t : surface_facing(on, a, b);
     point_of(nodes, i, facing > 0 && facing < 1 ? facing : t, from);
     surface_normal(on, frozen ? from : x, plane);
 }
@@ -443,12 +386,11 @@ static bool is_nearest(const Surface *on, const Real *a, const Real *b, Real t, 
 }
 
 /* What the point x of element i at the share t, with its reference, sees of surface `on`, in which
- * it may lie by `depth`. */
-static Seat element_seat(const Where *where, const Record *r, const Surface *on, size_t i, Real t,
-                         const Real *x, const Real *reference, Real depth) {
+ * it may lie by `depth`, and which turns about its axis. */
+static Seat element_seat(const Where *where, const Record *r, const Surface *on, Real turn,
+                         size_t i, Real t, const Real *x, const Real *reference, Real depth) {
     Seat seat = {.surface = on};
     Triple carried, u, along;
-    const Real turn = (Real)r->turn[on - where->source->surface];
     for (int k = 0; k < 3; k++) u[k] = x[k] - reference[k];
     surface_normal(on, x, seat.normal);
     measure_element_plane(r, on, i, where->frozen, t, x, seat.plane, along);
@@ -470,6 +412,15 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     return seat;
 }
 
+/* Are two contacts with one obstacle and, of a mesh, on one face of it? */
+static bool is_same_contact(const Record *r, bool on_mesh, size_t a, size_t b) {
+    Real off = 0;
+    if (r->obstacle[a] != r->obstacle[b]) return false;
+    if (!on_mesh) return true;
+    for (int k = 0; k < 3; k++) off += fabsl((Real)r->normal[a][k] - r->normal[b][k]);
+    return off < 1e-8L;
+}
+
 /* Contact of element i: the laws of a node's contact, for its point. */
 static void measure_element_contact(const Where *where, const Record *r, size_t i, Measures *m,
                                     Sums *s) {
@@ -482,7 +433,8 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
         raise_to(&m->stray_force, fabsl(r->reaction[c]) + size(none) + fabsl(r->friction_bound[c]));
         return;
     }
-    const Surface *on = &where->source->surface[(size_t)r->obstacle[c]];
+    const size_t on_file = (size_t)r->obstacle[c];
+    const Surface seen = surface_seen(&where->source->surface[on_file], r->normal[c]), *on = &seen;
     const Real t = r->share_of[i], R = r->reaction[c], gap = r->gap[c];
     Triple x, reference, along, a, b, n, F, slip, start;
     point_of(r->position, i, t, x);
@@ -493,16 +445,16 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
     widen(r->normal[c], n);
     widen(r->friction[c], F);
     widen(r->slip[c], slip);
-    const Seat seat =
-        element_seat(where, r, on, i, t, x, reference,
-                     on->kind == SURFACE_PLANE ? 0 : surface_allowance(on, r->element_length[i]));
+    // a plane, or a face of a mesh, is touched by the node at the end of the element, beside two
+    // other obstacles or faces
+    const bool third = surface_may_be_third(on);
+    const Seat seat = element_seat(where, r, on, (Real)r->turn[on_file], i, t, x, reference,
+                                   third ? 0 : surface_allowance(on, r->element_length[i]));
     const Real factor = r->factor ? (1 - t) * r->factor[i] + t * r->factor[i + 1] : 1;
     r->mu[c] = (double)(factor * surface_friction(on));
     // where it is, against what it says
-    // a plane is touched by the node at the end of the element, beside two other obstacles
-    const bool third = on->kind == SURFACE_PLANE;
-    if (third && (r->contacts < 2 || held(r, i + 1) || r->obstacle[i + 1] == r->obstacle[c] ||
-                  r->obstacle[r->nodes + i + 1] == r->obstacle[c]))
+    if (third && (r->contacts < 2 || held(r, i + 1) || is_same_contact(r, on->mesh, i + 1, c) ||
+                  is_same_contact(r, on->mesh, r->nodes + i + 1, c)))
         m->misplaced++;
     // frozen friction acts on what has left the surface as well, where it last was
     const Real facing = third ? 1 : surface_facing(on, a, b);
@@ -515,7 +467,8 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
         slip[k] -= seat.slip[k];
         start[k] = x[k] - seat.slip[k];
     }
-    raise_to(&m->normal_error, size(n) / (1 + (third ? 0 : where->reach / on->radius)));
+    raise_to(&m->normal_error,
+             size(n) / (1 + (on->kind == SURFACE_PLANE ? 0 : where->reach / on->radius)));
     raise_to(&m->slip_error, size(slip));
     Triple shifted;
     surface_shift(on, reference, r->share, shifted);

@@ -42,6 +42,31 @@ void name_of_obstacle(int nc, size_t k, char name[201]) {
     free(text);
 }
 
+size_t mesh_contacts(int nc, const char *line, size_t obstacles) {
+    char name[300];
+    int id;
+    snprintf(name, sizeof name, "%.200s_obstacle_second", line);
+    return obstacles > 1 || nc_inq_varid(nc, name, &id) == NC_NOERR ? 2 : 1;
+}
+
+bool mesh_is_index(double index, size_t obstacles, bool second) {
+    return index >= (second && obstacles == 1 ? -1 : 0) && index < (double)obstacles;
+}
+
+/* Has any line contacts of elements? */
+static bool has_elements(int nc) {
+    static const char LAST[] = "_element_obstacle";
+    int count = 0;
+    char name[NC_MAX_NAME + 1];
+    if (nc_inq_nvars(nc, &count)) return false;
+    for (int id = 0; id < count; id++) {
+        if (nc_inq_varname(nc, id, name)) return false;
+        const size_t size = strlen(name);
+        if (size >= sizeof LAST && strcmp(&name[size - sizeof LAST + 1], LAST) == 0) return true;
+    }
+    return false;
+}
+
 /* The rows of a variable with three columns; its dimension has its name. */
 static int find_rows(int nc, const char *name, const char *what, size_t *rows) {
     char label[300];
@@ -134,8 +159,10 @@ Mesh *mesh_read(int nc, size_t k, FILE *log) {
         mesh->corner = malloc(3 * mesh->triangles * sizeof *mesh->corner);
         mesh->rim = malloc(3 * mesh->triangles * sizeof *mesh->rim);
         mesh->ball = malloc(4 * mesh->triangles * sizeof *mesh->ball);
+        mesh->near = malloc(mesh->triangles * sizeof *mesh->near);
         mesh->two_sided = is_two_sided(nc, corner);
-        good = mesh->vertex && mesh->corner && mesh->rim && mesh->ball &&
+        mesh->has_elements = has_elements(nc);
+        good = mesh->vertex && mesh->corner && mesh->rim && mesh->ball && mesh->near &&
                nc_get_var_double(nc, vertex, mesh->vertex) == NC_NOERR &&
                nc_get_var_int(nc, corner, mesh->corner) == NC_NOERR && is_whole(mesh) &&
                find_rim(mesh);
@@ -155,6 +182,7 @@ void mesh_free(Mesh *mesh) {
     free(mesh->corner);
     free(mesh->rim);
     free(mesh->ball);
+    free(mesh->near);
     free(mesh);
 }
 
@@ -171,13 +199,6 @@ static void normal_of(Real p[3][3], Real *n) {
     for (int k = 0; k < 3; k++) n[k] /= length;
 }
 
-typedef struct Nearest {
-    Real square, foot[3];
-    size_t triangle;
-    int edge;   /* -1: on the face */
-    Real share; /* of the edge */
-} Nearest;
-
 /* Is the point y of the triangle's plane inside it? */
 static bool holds(Real p[3][3], const Real *n, const Real *y) {
     for (int i = 0; i < 3; i++) {
@@ -192,16 +213,16 @@ static bool holds(Real p[3][3], const Real *n, const Real *y) {
     return true;
 }
 
-static void keep_nearer(const Real *x, const Nearest *other, Nearest *best) {
-    Nearest now = *other;
+static void keep_nearer(const Real *x, const MeshNear *other, MeshNear *best) {
+    MeshNear now = *other;
     now.square = 0;
     for (int k = 0; k < 3; k++) now.square += (x[k] - now.foot[k]) * (x[k] - now.foot[k]);
     if (now.square < best->square) *best = now;
 }
 
-static void look_at(const Mesh *mesh, size_t t, const Real *x, Nearest *best) {
+static void look_at(const Mesh *mesh, size_t t, const Real *x, MeshNear *best) {
     Real p[3][3], n[3], arm[3];
-    Nearest now = {.triangle = t, .edge = -1};
+    MeshNear now = {.triangle = t, .edge = -1};
     corners(mesh, t, p);
     normal_of(p, n);
     for (int k = 0; k < 3; k++) arm[k] = x[k] - p[0][k];
@@ -224,8 +245,8 @@ static void look_at(const Mesh *mesh, size_t t, const Real *x, Nearest *best) {
     }
 }
 
-static Nearest nearest(const Mesh *mesh, const Real *x) {
-    Nearest best = {.square = INFINITY};
+static MeshNear nearest(const Mesh *mesh, const Real *x) {
+    MeshNear best = {.square = INFINITY};
     Real reach = INFINITY;
     for (size_t t = 0; t < mesh->triangles; t++) {
         const double *ball = &mesh->ball[4 * t];
@@ -241,7 +262,7 @@ static Nearest nearest(const Mesh *mesh, const Real *x) {
 /* ---- side ---- */
 
 /* The corners of the foot's part: one or two vertices. */
-static int part_of(const Mesh *mesh, const Nearest *at, int vertex[2]) {
+static int part_of(const Mesh *mesh, const MeshNear *at, int vertex[2]) {
     const int *c = &mesh->corner[3 * at->triangle];
     const int a = c[at->edge], b = c[(at->edge + 1) % 3];
     vertex[0] = at->share < 1 ? a : b;
@@ -274,7 +295,7 @@ static Real meets(const Mesh *mesh, size_t t, const Real *x, const Real *to, boo
 }
 
 /* Is x, whose foot is on an edge or a vertex, on the free side? Beyond a rim it is. */
-static bool is_free(const Mesh *mesh, const Real *x, const Nearest *at) {
+static bool is_free(const Mesh *mesh, const Real *x, const MeshNear *at) {
     int vertex[2];
     const int count = part_of(mesh, at, vertex);
     Real p[3][3], to[3], first = INFINITY;
@@ -301,24 +322,77 @@ static bool is_free(const Mesh *mesh, const Real *x, const Nearest *at) {
     return free_side;
 }
 
+/* The distance from the nearest point of a triangle, or of several, and the normal there. */
+static Real look_from(const Mesh *mesh, const Real *x, const MeshNear *at, Real *normal) {
+    Real p[3][3], n[3], arm[3], distance = sqrtl(at->square);
+    corners(mesh, at->triangle, p);
+    normal_of(p, n);
+    for (int k = 0; k < 3; k++) arm[k] = x[k] - at->foot[k];
+    const bool flat = at->edge < 0;
+    const bool below = flat ? dot(arm, n) < 0 : !mesh->two_sided && !is_free(mesh, x, at);
+    const Real sign = below ? -1 : 1;
+    if (!mesh->two_sided) distance *= sign;
+    for (int k = 0; k < 3; k++)
+        normal[k] = flat             ? (mesh->two_sided ? sign : 1) * n[k]
+                    : at->square > 0 ? arm[k] / distance
+                                     : n[k];
+    return distance;
+}
+
 static MeshAnswer ask(const Mesh *mesh, const Real *x) {
     MeshAnswer out = {.is_there = true};
-    const Nearest at = nearest(mesh, x);
-    Real p[3][3], n[3], arm[3];
+    const MeshNear at = nearest(mesh, x);
     memcpy(out.x, x, sizeof out.x);
-    corners(mesh, at.triangle, p);
-    normal_of(p, n);
-    for (int k = 0; k < 3; k++) arm[k] = x[k] - at.foot[k];
-    out.distance = sqrtl(at.square);
-    const bool flat = at.edge < 0;
-    const bool below = flat ? dot(arm, n) < 0 : !mesh->two_sided && !is_free(mesh, x, &at);
-    const Real sign = below ? -1 : 1;
-    if (!mesh->two_sided) out.distance *= sign;
-    for (int k = 0; k < 3; k++)
-        out.normal[k] = flat            ? (mesh->two_sided ? sign : 1) * n[k]
-                        : at.square > 0 ? arm[k] / out.distance
-                                        : n[k];
+    out.distance = look_from(mesh, x, &at, out.normal);
     return out;
+}
+
+/* ---- all that are the nearest of those around them ---- */
+
+/* Is no point of a triangle that has the foot's edge or corner nearer? Such a triangle is among
+ * those that are looked at, as near as the foot. */
+static bool is_least(const Mesh *mesh, const MeshNear *at, size_t count) {
+    int vertex[2];
+    if (at->edge < 0) return true;
+    const int corners_of_it = part_of(mesh, at, vertex);
+    for (size_t i = 0; i < count; i++) {
+        const MeshNear *other = &mesh->near[i];
+        if (other->square < at->square * (1 - 1e-11L) &&
+            has_vertex(mesh, other->triangle, vertex[0]) &&
+            (corners_of_it == 1 || has_vertex(mesh, other->triangle, vertex[1])))
+            return false;
+    }
+    return true;
+}
+
+/* Are two normals those of one point, which belongs to several triangles? */
+static bool are_one(const Real *n, const Real *m) {
+    const Real d[3] = {n[0] - m[0], n[1] - m[1], n[2] - m[2]};
+    return dot(d, d) < 1e-14L;
+}
+
+size_t mesh_feet(Mesh *mesh, const Real *x, Real within, MeshFoot out[MESH_FEET]) {
+    size_t count = 0, feet = 1;
+    out[0].distance = mesh_distance(mesh, x, out[0].normal);
+    if (!(out[0].distance > 0 && out[0].distance <= within)) return 1;
+    for (size_t t = 0; t < mesh->triangles; t++) {
+        const double *ball = &mesh->ball[4 * t];
+        const Real a = x[0] - ball[0], b = x[1] - ball[1], c = x[2] - ball[2];
+        MeshNear *at = &mesh->near[count];
+        if (a * a + b * b + c * c > (within + ball[3]) * (within + ball[3])) continue;
+        at->square = INFINITY;
+        look_at(mesh, t, x, at);
+        count += at->square <= within * within;
+    }
+    for (size_t i = 0; i < count && feet < MESH_FEET; i++) {
+        MeshFoot *foot = &out[feet];
+        if (!is_least(mesh, &mesh->near[i], count)) continue;
+        foot->distance = look_from(mesh, x, &mesh->near[i], foot->normal);
+        bool is_new = foot->distance > 0;
+        for (size_t k = 0; k < feet; k++) is_new &= !are_one(out[k].normal, foot->normal);
+        feet += is_new;
+    }
+    return feet;
 }
 
 Real mesh_distance(Mesh *mesh, const Real *x, Real *normal) {

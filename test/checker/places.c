@@ -146,12 +146,33 @@ Real places_work(const Source *source, const Record *r, const Record *before) {
     return before ? (after + push(source, before, true)) / 2 : after;
 }
 
-double places_reaction_on(const Record *r, size_t j, double obstacle) {
+/* The contacts of node j with an obstacle; returns their number. */
+static size_t contacts_with(const Record *r, size_t j, double obstacle, size_t out[3]) {
+    size_t count = 0;
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes)
-        if (r->obstacle[c] == obstacle) return r->reaction[c];
-    if (r->has_elements && j > 0 && r->share_of[j - 1] == 1) {
-        const size_t third = r->contacts * r->nodes + j - 1;
-        if (r->obstacle[third] == obstacle) return r->reaction[third];
-    }
+        if (r->obstacle[c] == obstacle) out[count++] = c;
+    const size_t third = r->contacts * r->nodes + j - 1;
+    if (r->has_elements && j > 0 && r->share_of[j - 1] == 1 && r->obstacle[third] == obstacle)
+        out[count++] = third;
+    return count;
+}
+
+static double rank_of(const double *values, const size_t *contact, size_t count, size_t c) {
+    double larger = 0;
+    for (size_t i = 0; i < count; i++)
+        larger +=
+            values[contact[i]] > values[c] || (values[contact[i]] == values[c] && contact[i] < c);
+    return larger;
+}
+
+double places_reaction_on(const Record *before, const Record *r, size_t j, size_t c) {
+    size_t now[3], then[3];
+    if (before == r) return r->reaction[c];
+    const size_t count = contacts_with(r, j, r->obstacle[c], now),
+                 had = contacts_with(before, j, r->obstacle[c], then);
+    const double place = rank_of(r->friction_bound, now, count, c);
+    for (size_t i = 0; i < had; i++)
+        if (rank_of(before->reaction, then, had, then[i]) == place)
+            return before->reaction[then[i]];
     return 0;
 }

@@ -17,8 +17,10 @@ void places_close(Source *source);
  * NULL: on what the shifts move where the nodes are then, the mean of before and after. */
 Real places_work(const Source *source, const Record *r, const Record *before);
 
-/* The reaction of an obstacle on node j: it may have been another contact of the node, of which
- * the third is that of the element before it, at its end. */
-double places_reaction_on(const Record *r, size_t j, double obstacle);
+/* The reaction that contact c of node j had in the step before, 0 if it was none: it may have been
+ * another contact of the node, of which the third is that of the element before it, at its end. Of
+ * several contacts with one mesh the largest goes with the largest friction bound, and so on: they
+ * may have followed the mesh to other faces. */
+double places_reaction_on(const Record *before, const Record *r, size_t j, size_t c);
 
 #endif

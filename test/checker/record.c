@@ -511,7 +511,7 @@ int record_create(const Source *source, const char *line, Record *record, FILE *
     if (record->nodes != record->elements + 1)
         return complain(log, "nodes are not elements + 1 in line", line, 0);
 
-    record->contacts = source->surfaces > 1 ? 2 : 1;
+    record->contacts = mesh_contacts(source->nc, line, source->surfaces);
     size_t n = record->contacts * record->nodes + record->elements;
     Vector **vectors[] = {&record->reference,     &record->position, &record->load,
                           &record->normal,        &record->friction, &record->slip,
@@ -645,8 +645,7 @@ static int read_contact(const Source *source, const char *line, size_t step, boo
     for (size_t k = 0; k < known; k++)
         bad |= read_step(source, line, NAME[second][k], step, n, k < 3 ? 3 : 0, to[k], log);
     for (size_t c = from; c < from + n && !bad; c++)
-        if (record->contacts > 1 &&
-            !(record->obstacle[c] >= 0 && record->obstacle[c] < (double)source->surfaces))
+        if (record->contacts > 1 && !mesh_is_index(record->obstacle[c], source->surfaces, second))
             bad = complain(log, "unknown obstacle in", NAME[second][6], 0);
     return bad;
 }
@@ -670,7 +669,8 @@ static int read_elements(const Source *source, const char *line, size_t step, Re
     int bad = 0;
     for (size_t k = 0; k < source->surfaces; k++)
         record->has_elements |=
-            (surface_is_cut(&source->surface[k]) || source->surfaces > 2) && !source->touching_only;
+            (surface_has_elements(&source->surface[k]) || source->surfaces > 2) &&
+            !source->touching_only;
     if (record->has_elements)
         for (size_t k = 0; k < 8; k++)
             bad |= read_step(source, line, NAME[k], step, n, k < 3 ? 3 : 0, to[k], log);

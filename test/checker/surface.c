@@ -39,6 +39,14 @@ bool surface_is_cut(const Surface *s) {
     return surface_is_round(s) || (shape_is(s) && (!s->inside || s->kind == SURFACE_TORUS));
 }
 
+bool surface_may_be_third(const Surface *s) {
+    return s->kind == SURFACE_PLANE || s->kind == SURFACE_MESH;
+}
+
+bool surface_has_elements(const Surface *s) {
+    return surface_is_cut(s) || (s->mesh && s->mesh->has_elements);
+}
+
 Surface surface_within(const Surface *s, Real depth) {
     Surface within = *s;
     within.radius += s->inside ? depth : -depth;
@@ -70,17 +78,85 @@ static Real above_ground(const Surface *s, const Real *x, Real *n) {
     return height * cosine;
 }
 
-/* The same above a mesh, in its axes where it is now. */
-static Real above_mesh(const Surface *s, const Real *x, Real *n) {
-    Real second[3], from[3], inside[3], m[3];
+/* x in the axes of a mesh, where it is now, and a normal out of them. */
+static void into_mesh(const Surface *s, const Real *x, Real *inside) {
+    Real second[3], from[3];
     cross(s->axis, s->side, second);
     for (int k = 0; k < 3; k++) from[k] = x[k] - s->point[k];
     inside[0] = dot(from, s->side);
     inside[1] = dot(from, second);
     inside[2] = dot(from, s->axis);
-    const Real distance = mesh_distance(s->mesh, inside, m);
+}
+
+static void out_of_mesh(const Surface *s, const Real *m, Real *n) {
+    Real second[3];
+    cross(s->axis, s->side, second);
     for (int k = 0; k < 3; k++) n[k] = m[0] * s->side[k] + m[1] * second[k] + m[2] * s->axis[k];
+}
+
+/* [-] Of its radius: how far above a mesh a place may have other feet than the nearest. */
+static const Real OTHER_FEET = 0.25L;
+
+size_t surface_feet(const Surface *s, const Real *x, Real gap[MESH_FEET],
+                    Real normal[MESH_FEET][3]) {
+    MeshFoot foot[MESH_FEET];
+    Real inside[3];
+    if (!s->mesh || s->gives > 0) {
+        gap[0] = surface_distance(s, x);
+        surface_normal(s, x, normal[0]);
+        return 1;
+    }
+    into_mesh(s, x, inside);
+    const size_t count = mesh_feet(s->mesh, inside, (1 + OTHER_FEET) * s->radius, foot);
+    for (size_t i = 0; i < count; i++) {
+        gap[i] = foot[i].distance - s->radius;
+        out_of_mesh(s, foot[i].normal, normal[i]);
+    }
+    return count;
+}
+
+Surface surface_seen(const Surface *s, const double *normal) {
+    Surface seen = *s;
+    seen.faces =
+        s->mesh && !(s->gives > 0) && !(normal[0] == 0 && normal[1] == 0 && normal[2] == 0);
+    for (int k = 0; k < 3; k++) seen.facing[k] = normal[k];
+    return seen;
+}
+
+/* Height and normal of x above a mesh: of the nearest foot, or of that with the normal nearest to
+ * `facing`. */
+static Real above_mesh_from(const Surface *s, const Real *x, const Real *facing, Real *n) {
+    Real inside[3], m[3];
+    if (facing) {
+        Real gap[MESH_FEET], normal[MESH_FEET][3];
+        const size_t count = surface_feet(s, x, gap, normal);
+        size_t best = 0;
+        for (size_t i = 1; i < count; i++)
+            if (dot(normal[i], facing) > dot(normal[best], facing)) best = i;
+        for (int k = 0; k < 3; k++) n[k] = normal[best][k];
+        return gap[best];
+    }
+    into_mesh(s, x, inside);
+    const Real distance = mesh_distance(s->mesh, inside, m);
+    out_of_mesh(s, m, n);
     return distance - s->radius;
+}
+
+static Real above_mesh(const Surface *s, const Real *x, Real *n) {
+    return above_mesh_from(s, x, s->faces ? s->facing : NULL, n);
+}
+
+/* The feet of a way on a mesh as vectors, and the normals there. Does the surface turn towards the
+ * line on it: do the normals at its ends come nearer to each other? */
+static bool way_on_mesh(const Surface *s, const Real *from, const Real *to, Real *chord, Real *n0,
+                        Real *n1) {
+    const Real g1 = above_mesh(s, to, n1), g0 = above_mesh_from(s, from, s->faces ? n1 : NULL, n0);
+    Real closing = 0;
+    for (int k = 0; k < 3; k++) {
+        chord[k] = (to[k] - g1 * n1[k]) - (from[k] - g0 * n0[k]);
+        closing += chord[k] * (n1[k] - n0[k]);
+    }
+    return s->faces && closing < 0;
 }
 
 Real surface_distance(const Surface *s, const Real *x) {
@@ -214,13 +290,16 @@ static void slip_on_ground(const Surface *s, const Real *from, const Real *to, R
     for (int k = 0; k < 3; k++) out[k] = flat > 0 ? out[k] * (longer * size(chord) / flat) : 0;
 }
 
-/* The chord from foot to foot, turned into the tangent plane at its end. */
+/* The chord from foot to foot, turned into the tangent plane at its end; where the surface turns
+ * towards the line, the way in that plane. */
 static void slip_on_mesh(const Surface *s, const Real *from, const Real *to, Real *out) {
     Real n0[3], n1[3], chord[3];
-    const Real g0 = above_mesh(s, from, n0), g1 = above_mesh(s, to, n1);
-    for (int k = 0; k < 3; k++) chord[k] = (to[k] - g1 * n1[k]) - (from[k] - g0 * n0[k]);
+    const bool closes = way_on_mesh(s, from, to, chord, n0, n1);
+    if (closes)
+        for (int k = 0; k < 3; k++) chord[k] = to[k] - from[k];
     const Real rise = dot(chord, n1);
     for (int k = 0; k < 3; k++) out[k] = chord[k] - rise * n1[k];
+    if (closes) return;
     const Real flat = size(out);
     for (int k = 0; k < 3; k++) out[k] = flat > 0 ? out[k] * (size(chord) / flat) : 0;
 }
@@ -265,8 +344,12 @@ void surface_slip(const Surface *s, const Real *from, const Real *to, Real *out)
 Real surface_angle(const Surface *s, const Real *a, const Real *b) {
     Real n[3], m[3], less[3], sum[3];
     if (s->kind == SURFACE_PLANE) return 0;
-    surface_normal(s, a, n);
-    surface_normal(s, b, m);
+    if (s->mesh) {
+        if (way_on_mesh(s, a, b, less, n, m)) return 0;
+    } else {
+        surface_normal(s, a, n);
+        surface_normal(s, b, m);
+    }
     for (int k = 0; k < 3; k++) {
         less[k] = n[k] - m[k];
         sum[k] = n[k] + m[k];

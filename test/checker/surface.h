@@ -38,6 +38,8 @@ typedef struct Surface {
     Real by[3], spin[3], about[3];
     Ground *ground; /* of ground, else NULL */
     Mesh *mesh;     /* of a mesh, else NULL */
+    bool faces;     /* of several feet of a place on the mesh the one whose normal is nearest to */
+    Real facing[3]; /* ... this is meant, not the nearest */
     Conic *set;     /* forces per unit normal force in place of the coefficients, or NULL */
 } Surface;
 
@@ -45,10 +47,21 @@ typedef struct Surface {
 void surface_free(Surface *surface);
 /* Is it a cylinder or a ball, with the lines outside? */
 bool surface_is_round(const Surface *surface);
+/* Has a file contacts of elements with it, be they the third ones of nodes? */
+bool surface_has_elements(const Surface *surface);
+/* Do elements touch it at their nodes alone, so that the contact of one may be a node's third? */
+bool surface_may_be_third(const Surface *surface);
 /* May an element whose ends are outside cut into it? */
 bool surface_is_cut(const Surface *surface);
 /* The surface that is deeper by `depth`. */
 Surface surface_within(const Surface *surface, Real depth);
+/* The surface as a contact with this normal sees it: of several feet of a place on a rigid mesh,
+ * that with the normal nearest to it. */
+Surface surface_seen(const Surface *surface, const double *normal);
+/* The heights of x above its feet and the normals there: one, but for meshes. Returns their
+ * number. */
+size_t surface_feet(const Surface *surface, const Real *x, Real gap[MESH_FEET],
+                    Real normal[MESH_FEET][3]);
 /* By which its friction is multiplied at x. */
 Real surface_factor(const Surface *surface, const Real *x);
 /* Does what is known of it end before x, but for `rounding`? */

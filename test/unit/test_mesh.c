@@ -74,24 +74,34 @@ static Vec3 corner_of(const CpsMeshTriangles *of, int t, int i) {
     return vec3_at(of->vertex, of->triangle[3 * t + i]);
 }
 
-/* [m] The least distance from a triangle, over barycentric coordinates that are improved from
- * corner, middles and edges: the minimum of a convex function of two, by halving. */
-static double distance_of(const CpsMeshTriangles *of, int t, Vec3 x) {
+/* The nearest point of a triangle, by barycentric coordinates and by its edges; *part: -1 on the
+ * face, i on the edge from corner i, 3 + i at corner i. */
+static Vec3 nearest_point(const CpsMeshTriangles *of, int t, Vec3 x, int *part) {
     const Vec3 a = corner_of(of, t, 0), u = vec3_sub(corner_of(of, t, 1), a),
                v = vec3_sub(corner_of(of, t, 2), a), w = vec3_sub(x, a);
     const double uu = vec3_dot(u, u), uv = vec3_dot(u, v), vv = vec3_dot(v, v), uw = vec3_dot(u, w),
                  vw = vec3_dot(v, w), det = uu * vv - uv * uv;
     const double s = (vv * uw - uv * vw) / det, r = (uu * vw - uv * uw) / det;
     double least = INFINITY;
-    if (s >= 0 && r >= 0 && s + r <= 1)
-        return vec3_norm(vec3_sub(w, vec3_axpy(s, u, vec3_scale(r, v))));
+    Vec3 nearest = a;
+    *part = -1;
+    if (s >= 0 && r >= 0 && s + r <= 1) return vec3_add(a, vec3_axpy(s, u, vec3_scale(r, v)));
     for (int i = 0; i < 3; i++) {
         const Vec3 p = corner_of(of, t, i), e = vec3_sub(corner_of(of, t, (i + 1) % 3), p),
                    from = vec3_sub(x, p);
         const double k = fmin(1, fmax(0, vec3_dot(from, e) / vec3_dot(e, e)));
-        least = fmin(least, vec3_norm(vec3_sub(from, vec3_scale(k, e))));
+        const double distance = vec3_norm(vec3_sub(from, vec3_scale(k, e)));
+        if (!(distance < least)) continue;
+        least = distance;
+        nearest = vec3_axpy(k, e, p);
+        *part = k <= 0 ? 3 + i : k >= 1 ? 3 + (i + 1) % 3 : i;
     }
-    return least;
+    return nearest;
+}
+
+static double distance_of(const CpsMeshTriangles *of, int t, Vec3 x) {
+    int part;
+    return vec3_norm(vec3_sub(x, nearest_point(of, t, x, &part)));
 }
 
 /* The solid angle of a triangle seen from x, positive from behind (van Oosterom and Strackee). */
@@ -270,6 +280,163 @@ static void depth_of_paths(void **state) {
     }
 }
 
+/* ---- several feet ---- */
+
+static bool has_vertex(const CpsMeshTriangles *of, int t, int v) {
+    return of->triangle[3 * t] == v || of->triangle[3 * t + 1] == v || of->triangle[3 * t + 2] == v;
+}
+
+/* Is no point of the triangles that have the part of triangle t nearer? */
+static bool is_foot(const CpsMeshTriangles *of, int t, int part, double distance, Vec3 x) {
+    if (part < 0) return true;
+    const int first = of->triangle[3 * t + part % 3],
+              last = part < 3 ? of->triangle[3 * t + (part + 1) % 3] : first;
+    for (int s = 0; s < of->triangle_count; s++)
+        if (has_vertex(of, s, first) && has_vertex(of, s, last) &&
+            distance_of(of, s, x) < distance - 1e-12)
+            return false;
+    return true;
+}
+
+/* [sr] By which all triangles are seen from x: 0 outside. */
+static double seen_from(const CpsMeshTriangles *of, Vec3 x) {
+    double sum = 0;
+    for (int t = 0; t < of->triangle_count; t++) sum += solid_angle(of, t, x);
+    return fabs(sum);
+}
+
+enum { MANY = 60 };
+
+/* The distances of the feet of x that are seen from the free side, each once; returns their number.
+ */
+static int all_feet(const CpsMeshTriangles *of, Vec3 x, double within, Vec3 out[MANY]) {
+    int count = 0;
+    for (int t = 0; t < of->triangle_count; t++) {
+        int part;
+        const Vec3 y = nearest_point(of, t, x, &part), arm = vec3_sub(x, y);
+        const double distance = vec3_norm(arm);
+        bool is_new = true;
+        if (distance > within || !is_foot(of, t, part, distance, x) ||
+            seen_from(of, vec3_axpy(1e-6, arm, y)) > 1)
+            continue;
+        for (int i = 0; i < count; i++) is_new &= vec3_norm(vec3_sub(out[i], y)) > 1e-9;
+        assert_true(count < MANY);
+        if (is_new) out[count++] = y;
+    }
+    return count;
+}
+
+static void several_feet(void **state) {
+    (void)state;
+    uint64_t random = 41;
+    int several = 0;
+    for (int trial = 0; trial < 400; trial++) {
+        const CpsMeshTriangles of = body_of(&random, splitmix(&random, 0.1, 0.6));
+        CpsMesh *mesh = made(&of);
+        const Vec3 x = anywhere(&random, 1.2);
+        CpsiMeshFoot foot[MANY];
+        Vec3 expected[MANY];
+        bool beyond;
+        const double within = cpsi_mesh_nearest(mesh, x).distance * splitmix(&random, 1, 3);
+        assert_true(mesh->has_folds);
+        if (within > 0) {
+            const int count = cpsi_mesh_feet(mesh, x, within, MANY, foot, &beyond),
+                      all = all_feet(&of, x, within, expected);
+            assert_false(beyond);
+            assert_int_equal(count, all);
+            several += count > 1;
+            for (int i = 0; i < count; i++) {
+                double least = INFINITY;
+                for (int k = 0; k < all; k++)
+                    least = fmin(least, vec3_norm(vec3_sub(expected[k], foot[i].foot)));
+                CHECK_LESS(least, 1e-9);
+                const CpsiMeshFoot same = cpsi_mesh_foot_from(mesh, foot[i].triangle, x, &beyond);
+                assert_false(beyond);
+                CHECK_NEAR(same.distance, foot[i].distance, 1e-12);
+                if (i > 0) assert_true(foot[i].distance >= foot[i - 1].distance);
+            }
+            assert_int_equal(cpsi_mesh_feet(mesh, x, within, 1, foot, &beyond), 1);
+        }
+        cps_mesh_release(mesh);
+    }
+    assert_true(several > 40);
+}
+
+/* A groove along x whose sides have the slopes 1 and 1/2, of four triangles. */
+static CpsMesh *groove(bool two_sided) {
+    static const double at[18] = {-1, 0, 0, 1, 0, 0, 1, 1, 1, -1, 1, 1, 1, -1, 0.5, -1, -1, 0.5};
+    static const int corner[12] = {0, 1, 2, 0, 2, 3, 0, 5, 4, 0, 4, 1};
+    CpsMeshTriangles of = cps_mesh_triangles_default();
+    of.vertex_count = 6;
+    of.vertex = at;
+    of.triangle_count = 4;
+    of.triangle = corner;
+    of.two_sided = two_sided;
+    return made(&of);
+}
+
+/* A foot is followed to its neighbours, and over a fold to the plane of its face. */
+static void over_a_fold(void **state) {
+    (void)state;
+    for (int sides = 0; sides < 2; sides++) {
+        CpsMesh *mesh = groove(sides == 1);
+        const double root = sqrt(2), other = sqrt(1.25);
+        CpsiMeshFoot foot[4];
+        bool beyond;
+        const Vec3 low = vec3(0.2, 0.01, 0.3), right = vec3(-0.4, 0.9, 1.1);
+        assert_true(mesh->has_folds);
+        assert_int_equal(cpsi_mesh_feet(mesh, low, 1, 4, foot, &beyond), 2);
+        assert_false(beyond);
+        CHECK_NEAR(foot[0].distance, (0.3 - 0.01) / root, 1e-15);
+        CHECK_NEAR(foot[1].distance, (0.3 + 0.005) / other, 1e-15);
+        /* on the right the left side has no foot any more; from there it is that on its plane */
+        assert_int_equal(cpsi_mesh_feet(mesh, right, 1, 4, foot, &beyond), 1);
+        CHECK_NEAR(foot[0].distance, 0.2 / root, 1e-15);
+        int left = 0;
+        while (cpsi_mesh_nearest_of(mesh, left, vec3(0, -0.5, 0.25)).distance > 1e-12) left++;
+        const CpsiMeshFoot plane = cpsi_mesh_foot_from(mesh, left, right, &beyond);
+        assert_true(beyond);
+        CHECK_NEAR(plane.distance, (1.1 + 0.45) / other, 1e-15);
+        CHECK_NEAR(plane.normal.y, 0.5 / other, 1e-15);
+        /* behind the fold both planes, the deeper first; of a sheet that is its other side */
+        const int behind = cpsi_mesh_feet(mesh, vec3(0.3, 0.001, -0.1), 1, 4, foot, &beyond);
+        assert_int_equal(behind, sides == 1 ? 1 : 2);
+        assert_int_equal(beyond, sides == 0);
+        CHECK_NEAR(foot[0].distance, sides == 1 ? hypot(0.001, 0.1) : -0.0995 / other, 1e-15);
+        cps_mesh_release(mesh);
+    }
+}
+
+/* A convex body has none; two of them may be touched at once. */
+static void without_folds(void **state) {
+    (void)state;
+    double at[24];
+    const int four[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    int corner[24];
+    const double first[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    for (int k = 0; k < 12; k++) {
+        at[k] = first[k];
+        at[12 + k] = first[k] + (k % 3 == 0 ? 2 : 0);
+        corner[k] = four[k];
+        corner[12 + k] = four[k] + 4;
+    }
+    CpsMeshTriangles of = cps_mesh_triangles_default();
+    of.vertex_count = 8;
+    of.vertex = at;
+    of.triangle_count = 4;
+    of.triangle = corner;
+    CpsMesh *one = made(&of);
+    assert_false(one->has_folds);
+    of.triangle_count = 8;
+    CpsMesh *two = made(&of);
+    assert_true(two->has_folds);
+    CpsiMeshFoot foot[4];
+    bool beyond;
+    assert_int_equal(cpsi_mesh_feet(two, vec3(1.5, 0.01, 0.01), 1, 4, foot, &beyond), 2);
+    cps_mesh_release(one);
+    cps_mesh_release(two);
+}
+
 /* ---- what is refused, left out and joined ---- */
 
 static void expect(const CpsMeshTriangles *of, CpsStatus status, const char *message) {
@@ -375,6 +542,9 @@ int main(void) {
         cmocka_unit_test(rims),
         cmocka_unit_test(is_an_obstacle),
         cmocka_unit_test(depth_of_paths),
+        cmocka_unit_test(several_feet),
+        cmocka_unit_test(over_a_fold),
+        cmocka_unit_test(without_folds),
         cmocka_unit_test(refusals),
         cmocka_unit_test(left_out),
     };
