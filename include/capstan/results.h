@@ -38,13 +38,12 @@ CPS_API CpsResultsOptions cps_results_options_default(void); /* without these tw
 /* Whether the options are valid and name existing fields: CPS_OK or CPS_ERR_ARGUMENT. */
 CPS_API CpsStatus cps_results_check_options(const CpsResultsOptions *options, CpsError *err);
 
-/* Open `directory`, which is created if missing (one level), for the results of `evolution`. Files
- * that are there remain until cps_results_finish renames each finished file into place. Its file
- * .capstan lists what capstan has written there: a directory that is not empty and has none is
- * refused, as is one where a directory or an unlisted file has a name of the results, and only
- * listed files are replaced or removed. `options` NULL: the default; the caller destroys *out.
- * Returns CPS_OK, CPS_ERR_ARGUMENT (also for a field that there is not, and out_table without a
- * step in time), CPS_ERR_IO or CPS_ERR_MEMORY. */
+/* Open `directory`, made if missing (one level), for the results of `evolution`. Files there remain
+ * until cps_results_finish renames each finished one into place. The .capstan there lists what
+ * capstan has written: a directory that is not empty and has none is refused, as is one where a
+ * directory or an unlisted file has a name of the results; only listed files are replaced or
+ * removed. `options` NULL: the default; the caller destroys *out. CPS_OK, CPS_ERR_ARGUMENT (also
+ * for an unknown field, or out_table without a step in time), CPS_ERR_IO or CPS_ERR_MEMORY. */
 CPS_API CpsStatus cps_results_open(const char *directory, const CpsScene *scene,
                                    const CpsEvolution *evolution, const CpsResultsOptions *options,
                                    CpsResults **out, CpsError *err);
