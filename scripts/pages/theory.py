@@ -115,12 +115,15 @@ SENTENCES = [
     ("Up to {} points it is dense.", number("linalg/graph_matrix.c", "DENSE")),
     ("First rounds stop at a gap of {}, the others at {}, until no normal of a point that touches turns by more than {}.",
      numbers(*(("evolve/first_guess.c", n) for n in ("ROUGH", "FINE", "ON_ITS_PLANE")))),
+    ("of its rounds, in which no axes turn by more than {}, as of a line", number("evolve/first_guess.c", "TURNS_NO_MORE")),
+    ("where the search fails, of groups of more than {} points where it has not", number("evolve/balance.c", "MANY")),
+    ("those with d_i up to {} r take part", lambda p: f"{1 + float(number('geometry/shape_mesh.c', 'RANGE')(p)):g}"),
     ("from a guess to {} with the refinement of", number("evolve/first_guess.c", "REFINED")),
     ("its friction is at its bound to {};", number("cable/report.c", "AT_BOUND")),
     ("= 0.0255 x 1 x 9.81 = {} N/m", lambda p: f"{0.0255 * 9.81:.6f}"),
     ("and {} eps of all terms are added", number("drive/certificate.c", "ROUNDING")),
 ]
 # data of the papers, exponents of formulas, and what double precision is
-GIVEN = ["The curvature of rounds (2.4)", "said of round obstacles in 2.7", "across the middle (2.7)", "**Contacts of elements** (2.7) are like", "the term R K of 2.4", "less (length/R)^2/24 of it", "between +1/24 and -1/12 of w h^2/H", "up to 29 % shorter", "below (length/r)^2/18", "A value is a sum of 16 points", "is counted beside it (2.9)", "Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a path of 350 degrees is not taken for one of -10",
+GIVEN = ["as if these were two obstacles (2.8), each", "beside a fold of a mesh (2.3), as do", "flung it out with up to 0.06 % more energy", "The curvature of rounds (2.4)", "said of round obstacles in 2.7", "across the middle (2.7)", "**Contacts of elements** (2.7) are like", "the term R K of 2.4", "less (length/R)^2/24 of it", "between +1/24 and -1/12 of w h^2/H", "up to 29 % shorter", "below (length/r)^2/18", "A value is a sum of 16 points", "is counted beside it (2.9)", "Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a path of 350 degrees is not taken for one of -10",
          "d^3/12 and more", "positions and reactions (1e-16)", "lie 1e-7 beside", "lemma 9.6 for 7.6", "\"A = 0.25 N\"",
          "slack on 0.6 of its length", "120 degrees apart, and three lines of 0.9 to one point", "and lack 0.3 m all the same"]

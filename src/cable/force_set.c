@@ -228,8 +228,24 @@ typedef struct Relation {
     double ratio; /* change of the tension after over that before */
 } Relation;
 
-/* The condition of balance orthogonal to the span on the tensions before and after the node. */
-static Relation relate(const Node *node) {
+/* [rad] To what the places tell the directions of the two elements at node j. The forces in them
+ * balance to rounding and are along them to the root of twice the gap over its scale; so a line
+ * that runs straight between two nodes may be bent by the angles of its forces to its elements. */
+static double known_angle(const CpsiForceSet *set, const CpsiLine *line, int j) {
+    const CpsCertificate *certificate = &line->report.certificate;
+    double sum = 0;
+    if (!(certificate->gap > 0 && certificate->scale > 0)) return ANGLE;
+    for (int e = j > 0 ? j - 1 : 0; e <= j && e + 1 < line->n; e++) {
+        const Vec3 t = vec3_at(set->tangent, e), force = vec3_at(line->segment_force, e);
+        const double across = vec3_norm(vec3_axpy(-set->tension[e], t, force));
+        if (set->tension[e] > 0) sum += across / set->tension[e];
+    }
+    return fmax(ANGLE, fmin(sum, sqrt(2 * certificate->gap / certificate->scale)));
+}
+
+/* The condition of balance orthogonal to the span on the tensions before and after the node, whose
+ * directions are one where they differ by no more than an angle. */
+static Relation relate(const Node *node, double angle) {
     const double a = sqrt(dot(node->rest_count, node->left_rest, node->left_rest));
     const double b = sqrt(dot(node->rest_count, node->right_rest, node->right_rest));
     if (a <= ANGLE || b <= ANGLE)
@@ -238,7 +254,7 @@ static Relation relate(const Node *node) {
     double off = 0;
     for (int k = 0; k < node->rest_count; k++)
         off += pow(node->left_rest[k] - ratio * node->right_rest[k], 2);
-    if (!(sqrt(off) <= ANGLE * a)) return (Relation){.left_stays = true, .right_stays = true};
+    if (!(sqrt(off) <= angle * a)) return (Relation){.left_stays = true, .right_stays = true};
     return (Relation){.linked = true, .ratio = ratio};
 }
 
@@ -269,12 +285,12 @@ static int number_scalars(CpsiForceSet *set, const CpsiLine *line, const CpsiFor
         set->gain[first] = 1;
         if (!cpsi_line_is_held(line, first)) {
             build_node(set, line, law, first, &node);
-            stays = relate(&node).right_stays || stays;
+            stays = relate(&node, known_angle(set, line, first)).right_stays || stays;
         }
         for (;; last++) {
             if (cpsi_line_is_held(line, last + 1)) break;
             build_node(set, line, law, last + 1, &node);
-            const Relation relation = relate(&node);
+            const Relation relation = relate(&node, known_angle(set, line, last + 1));
             stays = stays || relation.left_stays;
             if (last + 2 >= line->n || !relation.linked) break;
             gain *= relation.ratio;

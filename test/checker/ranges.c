@@ -70,10 +70,13 @@ static bool value_is_wrong(const RestLine *line, size_t element, int sign, doubl
     return !(sign * (claimed - rest_tension_about(line, element, sign)) <= close);
 }
 
-/* [N] To what the places tell the tension: the forces are along the elements to no better than the
- * root of twice the gap over the scale, an angle, and it takes what turns the line to tell them. */
-static double told_by_places(const Record *r, double force) {
-    const double angle = sqrt(2 * fmax(0, r->claim[CLAIM_GAP]) / r->claim[CLAIM_SCALE]);
+/* [rad] To what the forces are along the elements: the root of twice the gap over the scale. */
+static double known_angle(const Record *r) {
+    return sqrt(2 * fmax(0, r->claim[CLAIM_GAP]) / r->claim[CLAIM_SCALE]);
+}
+
+/* [rad] By how much the line turns between its ends. */
+static double turn_of(const Record *r) {
     double turn = 0;
     for (size_t i = 0; i + 1 < r->elements; i++) {
         Real first[3], second[3], sine = 0;
@@ -89,10 +92,38 @@ static double told_by_places(const Record *r, double force) {
         }
         turn += (double)sqrtl(sine);
     }
+    return turn;
+}
+
+/* [N] To what the places tell the tension: it takes what turns the line to tell the directions of
+ * forces. */
+static double told_by_places(const Record *r, double force) {
+    const double angle = known_angle(r), turn = turn_of(r);
     return angle < turn ? force * angle / turn : 0; /* a straight line tells nothing so */
 }
 
-/* Do the values by rest.c say otherwise?  False where they are not asked or not found. */
+/* Are the two values of a line of these places wrong? */
+static bool values_are_wrong(const RestLine *line, size_t element, const double claimed[2],
+                             double close, double found[2]) {
+    const bool low = value_is_wrong(line, element, -1, claimed[0], close, &found[0]);
+    return value_is_wrong(line, element, 1, claimed[1], close, &found[1]) || low;
+}
+
+/* The nodes on the straight way between the ends. */
+static void straighten(const Record *r, double (*out)[3]) {
+    Real length = 0, at = 0;
+    for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
+    for (size_t j = 0; j < r->nodes; j++) {
+        for (int k = 0; k < 3; k++)
+            out[j][k] = (double)(r->position[0][k] +
+                                 at / length * (r->position[r->elements][k] - r->position[0][k]));
+        if (j < r->elements) at += r->element_length[j];
+    }
+}
+
+/* Do the values by rest.c say otherwise?  False where they are not asked or not found. A line that
+ * turns by less than is known of its directions may be straight as well, and the values are then
+ * those of either. */
 static bool is_other(const Source *source, const Record *r, size_t element, double force,
                      const double claimed[2], double found[2]) {
     const size_t all = r->contacts * r->nodes;
@@ -100,27 +131,34 @@ static bool is_other(const Source *source, const Record *r, size_t element, doub
     double *friction = calloc(all, sizeof *friction), length = 0;
     for (size_t i = 0; i < r->elements; i++) length += r->element_length[i];
     bool *held = calloc(r->nodes, sizeof *held);
-    bool wrong = contact && friction && held && r->elements <= MOST_ELEMENTS && force > 0 &&
-                 !taut_in_doubt(r, force) &&
+    double(*straight)[3] = calloc(r->nodes, sizeof *straight);
+    bool wrong = contact && friction && held && straight && r->elements <= MOST_ELEMENTS &&
+                 force > 0 && !taut_in_doubt(r, force) &&
                  contacts_of(source, r, length, force, contact, friction);
     if (wrong) {
         for (size_t j = 0; j < r->nodes; j++) held[j] = node_is_held(r, j);
-        const RestLine line = {.elements = r->elements,
-                               .contacts = r->contacts,
-                               .element_length = r->element_length,
-                               .position = (const double(*)[3])r->position,
-                               .load = (const double(*)[3])r->load,
-                               .normal = (const double(*)[3])r->normal,
-                               .slip = (const double(*)[3])r->slip,
-                               .friction = friction,
-                               .contact = contact,
-                               .frozen = !source->consistent,
-                               .held = held,
-                               .force = force};
+        RestLine line = {.elements = r->elements,
+                         .contacts = r->contacts,
+                         .element_length = r->element_length,
+                         .position = (const double(*)[3])r->position,
+                         .load = (const double(*)[3])r->load,
+                         .normal = (const double(*)[3])r->normal,
+                         .slip = (const double(*)[3])r->slip,
+                         .friction = friction,
+                         .contact = contact,
+                         .frozen = !source->consistent,
+                         .held = held,
+                         .force = force};
         const double close = FOUND * force + told_by_places(r, force);
-        const bool low = value_is_wrong(&line, element, -1, claimed[0], close, &found[0]);
-        wrong = value_is_wrong(&line, element, 1, claimed[1], close, &found[1]) || low;
+        wrong = values_are_wrong(&line, element, claimed, close, found);
+        if (wrong && turn_of(r) <= known_angle(r)) {
+            double other[2];
+            straighten(r, straight);
+            line.position = (const double(*)[3])straight;
+            wrong = values_are_wrong(&line, element, claimed, FOUND * force, other);
+        }
     }
+    free(straight);
     free(held);
     free(contact);
     free(friction);

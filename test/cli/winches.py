@@ -167,8 +167,8 @@ def histories(folder, first, last):
     return last - first
 
 
-# a body on two inextensible lines, which winches haul straight and shorter than the way between their anchors, and pay out again
-TOO_SHORT = """capstan: 1
+# a body on two inextensible lines, which winches haul as short as the way between their anchors, where no force holds it, and pay out again
+STRAIGHT = """capstan: 1
 gravity: [0, 0, -10]
 bodies: {hull: {free: [5, 0, -3], mass: 10}}
 points: {left: {body: hull, at: [-0.5, 0, 0.3]}, right: {body: hull, at: [0.5, 0, 0.3]}}
@@ -176,24 +176,31 @@ lines:
   a: {length: 8, elements: 8, weight: 5, stiffness: .inf, start: static, ends: {A: {held: [0, 0, 0], stored: 1.5}, B: {point: left}}}
   b: {length: 8, elements: 8, weight: 5, stiffness: .inf, start: static, ends: {A: {held: [10, 0, 0], stored: 1.5}, B: {point: right}}}
 history:
-  - {name: haul, steps: 3, a.pay_out_A: -3, b.pay_out_A: -3}
-  - {name: pay, steps: 2, a.pay_out_A: 4, b.pay_out_A: 4}
+  - {name: haul, steps: 2, a.pay_out_A: -2, b.pay_out_A: -2}
+  - {name: pay, steps: 2, a.pay_out_A: 3, b.pay_out_A: 3}
 """
+# the same hauled shorter: there is a proof that no pose is left, with which the run ends
+TOO_SHORT = STRAIGHT.replace("steps: 2, a.pay_out_A: -2, b.pay_out_A: -2", "steps: 3, a.pay_out_A: -3, b.pay_out_A: -3")
 
 
 def stalls(folder):
     """Where no pose is found the winches wind all the same, the lines and the body are where they were, and the checker refutes nothing; the
-    history goes on, and its last steps are certified."""
-    scene, out = write(folder, "short.yaml", TOO_SHORT), os.path.join(folder, "short")
+    history goes on, and its last steps are certified. Where there is none the run ends with its proof."""
+    scene, out = write(folder, "straight.yaml", STRAIGHT), os.path.join(folder, "straight")
     code, said = command(CAPSTAN, "run", scene, "-q", "-o", out)
     assert code == 1 and "no pose found" in said, (code, said)
     results = Results(os.path.join(out, "result.nc"))
     stored = [results.get("a_stored", step)[0] for step in range(results.steps)]
-    assert all(abs(a - b) < 1e-12 for a, b in zip(stored, [1.5, 2.5, 3.5, 4.5, 2.5, 0.5])), stored
+    assert all(abs(a - b) < 1e-12 for a, b in zip(stored, [1.5, 2.5, 3.5, 2, 0.5])), stored
     places = [list(results.get("has_place_of_body", step)) == [1] for step in range(results.steps)]
-    assert places == [True, True, False, False, True, True], places
+    assert places == [True, True, False, True, True], places
     _, found = command(CHECKER, os.path.join(out, "result.nc"), scene, "-v")
-    assert "records 12, certified 8, not certified 4, refuted 0, not finite 0" in found and "against the scene: 0 findings" in found, found
+    assert "records 10, certified 8, not certified 2, refuted 0, not finite 0" in found and "against the scene: 0 findings" in found, found
+    scene, out = write(folder, "short.yaml", TOO_SHORT), os.path.join(folder, "short")
+    code, said = command(CAPSTAN, "run", scene, "-q", "-o", out)
+    assert code == 5 and "too short (by 2 m" in said, (code, said)
+    _, found = command(CHECKER, os.path.join(out, "result.nc"), scene, "-v")
+    assert "refuted 0, not finite 0" in found and "against the scene: 0 findings" in found, found
 
 
 def mistakes(folder):
