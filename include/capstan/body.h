@@ -36,6 +36,28 @@ typedef struct CpsExcitation {
     double lead[CPS_BODY_DIRECTIONS];      /* [rad] */
 } CpsExcitation;
 
+enum { CPS_MAX_MEMBERS = 200, CPS_MAX_STRIPS = 1000, CPS_MEMBER_STRIPS = 20 };
+
+/* A straight cylinder of a body, on which the water acts by Morison's formula as far as it is below
+ * the surface, in steps in time that of the waves: per length
+ *
+ *     (rho/2) d (normal |u_n| u_n + pi tangential |u_t| u_t) + rho (pi/4) d^2 (1 + added_normal)
+ * a_n,
+ *
+ * u the velocity of the water (CpsCurrent, CpsWaves) less that of the cylinder, a the acceleration
+ * of the water in waves, across (n) and along it (t). The part of the body's own acceleration,
+ * -rho (pi/4) d^2 added_normal times that across, is an added mass of the body that stays what it
+ * is where the scene begins, in water at rest. Buoyancy and what is at the ends of the cylinder are
+ * no part of it. In a quasi-static step there is the drag of the current alone. It needs the water
+ * of CpsScene.current. */
+typedef struct CpsMember {
+    double from[3], to[3];                   /* [m] apart, in the body's axes */
+    double diameter;                         /* [m] d > 0 */
+    double normal, tangential, added_normal; /* [-] >= 0 */
+    int strip_count; /* 1..CPS_MAX_STRIPS of equal length, each with the load of the middle of what
+                        of it is wet; 0, the default: CPS_MEMBER_STRIPS */
+} CpsMember;
+
 typedef struct CpsBody {
     uint32_t cookie;
     const char *name;
@@ -70,9 +92,16 @@ typedef struct CpsBody {
      * direction. Memory of radiation, drift and the second order are not in it */
     int excitation_count;
     const CpsExcitation *excitation;
+    int member_count; /* <= CPS_MAX_MEMBERS, default 0 */
+    const CpsMember *member;
 } CpsBody;
 
 CPS_API CpsBody cps_body_default(void);
+
+struct CpsScene;
+/* (6, 6) The added mass of a body of a scene with that of its members, as steps in time have it; 0
+ * of what is none. The scene has been checked. NULL: nothing is done. */
+CPS_API void cps_body_added_mass(const struct CpsScene *scene, int body, double added[36]);
 
 /* What a stage changes at a body, in equal increments over the stage: the pose of one that is held
  * then, its reference point on a straight line and its axes about one direction; or the load on one
@@ -91,7 +120,7 @@ typedef struct CpsBodyReport {
     double position[3]; /* [m] in the coordinates of the scene */
     double rotation[4];
     double lines[CPS_BODY_DIRECTIONS];    /* of all lines at its points */
-    double load[CPS_BODY_DIRECTIONS];     /* weight, buoyancy, hydrostatics, waves, given load */
+    double load[CPS_BODY_DIRECTIONS];     /* weight, hydrostatics, all of the water, given load */
     double support[CPS_BODY_DIRECTIONS];  /* of what holds it, or its fixed directions */
     double inertia[CPS_BODY_DIRECTIONS];  /* of its mass and added mass, in a step in time */
     double damping[CPS_BODY_DIRECTIONS];  /* likewise */

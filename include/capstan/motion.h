@@ -148,7 +148,7 @@ typedef struct CpsBodyMotion {
     double span;                /* [s] k */
     double kinetic;             /* [J] with that of the added mass */
     double dissipated;          /* [J] by damping */
-    CpsMotionLedger ledger;     /* kinetic, scheme and turnover; no body lands */
+    CpsMotionLedger ledger;     /* no body lands; drag and waves are those on members */
 } CpsBodyMotion;
 
 /* The motion of a point, or of a body; of what is none one of zeros. */

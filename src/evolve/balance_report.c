@@ -98,7 +98,7 @@ static void report_body(CpsiBalance *balance, int k) {
     const CpsiRigid *rigid = &balance->rigid[k];
     CpsiBody *body = &evolution->bodies.body[rigid->body];
     CpsBodyReport *report = &body->report;
-    const CpsiWrench load = cpsi_body_load(body, &rigid->pose, evolution->gravity);
+    const CpsiWrench load = cpsi_body_whole_load(evolution, body, &rigid->pose);
     *report = (CpsBodyReport){.kind = CPS_BODY_KIND_FREE, .trial_count = balance->trials};
     vec3_store(report->position, rigid->pose.place);
     rotation_store(report->rotation, rigid->pose.turn);
@@ -132,7 +132,7 @@ static void report_held_body(CpsEvolution *evolution, int index) {
     CpsiBody *body = &evolution->bodies.body[index];
     CpsBodyReport *report = &body->report;
     CpsiWrench lines = {vec3(0, 0, 0), vec3(0, 0, 0)};
-    const CpsiWrench load = cpsi_body_load(body, &body->pose, evolution->gravity);
+    const CpsiWrench load = cpsi_body_whole_load(evolution, body, &body->pose);
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++) {
             const int point = evolution->points.tie[2 * i + end];
@@ -252,7 +252,7 @@ void cpsi_report_no_place(CpsiBalance *balance) {
     for (int k = 0; k < balance->body_count; k++) {
         CpsiRigid *rigid = &balance->rigid[k];
         CpsiBody *body = &evolution->bodies.body[rigid->body];
-        const CpsiWrench load = cpsi_body_load(body, &rigid->pose, evolution->gravity);
+        const CpsiWrench load = cpsi_body_whole_load(evolution, body, &rigid->pose);
         body->report = (CpsBodyReport){.kind = CPS_BODY_KIND_FREE, .trial_count = balance->trials};
         vec3_store(body->report.position, rigid->pose.place);
         rotation_store(body->report.rotation, rigid->pose.turn);

@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "base/rotation.h"
+#include "cable/node_field.h"
 #include "capstan/evolve.h"
 #include "evolve/joint_inertia.h"
 
@@ -19,6 +20,16 @@ typedef struct CpsiWrench {
     Vec3 force, moment;
 } CpsiWrench;
 
+/* A cylinder on which the water acts (members.h). */
+typedef struct CpsiMember {
+    Vec3 from, axis; /* [m], unit: in the axes of the body */
+    double length;   /* [m] */
+    double each;     /* [m] of a strip */
+    double surface;  /* [m] z of that of the water at rest; infinite: none */
+    int strips;
+    CpsiFlow flow; /* about it, with its drag */
+} CpsiMember;
+
 typedef struct CpsiBody {
     const char *name;
     CpsBodyKind kind; /* now */
@@ -30,6 +41,8 @@ typedef struct CpsiBody {
     CpsiWrench waves;         /* of the waves in the step (excitation.h) */
     int wave_count;           /* of those that act on it */
     const double *excitation; /* (wave_count, 12) */
+    int member_count;
+    const CpsiMember *member; /* (member_count) */
     CpsBody given;            /* with the name above */
     double mass, lift;        /* [kg] weight and buoyancy per gravity */
     double length;            /* [m] of the longest line at its points */

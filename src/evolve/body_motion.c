@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "evolve/bodies.h"
+#include "evolve/members.h"
 #include "evolve/points.h"
 
 /* [rad] Below this angle the series of the rate of rotation is used: its error is the fourth
@@ -173,19 +174,45 @@ CpsiWrench cpsi_body_damping(const CpsiBody *body, const CpsiPose *pose) {
     return damping_of(body, &at);
 }
 
-/* Inertia and damping together. */
+static CpsiWrench sum_of(CpsiWrench a, CpsiWrench b) {
+    return (CpsiWrench){vec3_add(a.force, b.force), vec3_add(a.moment, b.moment)};
+}
+
+/* Inertia, damping and the loads on members together. */
 static CpsiWrench resistance_in(const CpsiBody *body, const CpsiPose *pose) {
     const CpsiBodyPhase at = phase_in(body, pose);
-    const CpsiWrench inertia = inertia_of(body, &at), damping = damping_of(body, &at);
-    return (CpsiWrench){vec3_add(inertia.force, damping.force),
-                        vec3_add(inertia.moment, damping.moment)};
+    const CpsiMemberLoad members = cpsi_members_load(body, pose, &at);
+    return sum_of(sum_of(inertia_of(body, &at), damping_of(body, &at)),
+                  sum_of(members.drag, members.waves));
 }
 
 void cpsi_body_motion_stiffness(const CpsiBody *body, const CpsiPose *pose, double stiffness[36]) {
     cpsi_body_add_stiffness_of(resistance_in, body, pose, stiffness);
 }
 
+CpsiWrench cpsi_body_whole_load(const CpsEvolution *evolution, const CpsiBody *body,
+                                const CpsiPose *pose) {
+    const CpsiWrench load = cpsi_body_load(body, pose, evolution->gravity);
+    if (body->member_count == 0) return load;
+    if (!(evolution->interval > 0)) return sum_of(load, cpsi_members_load(body, pose, NULL).drag);
+    const CpsiBodyPhase at = phase_in(body, pose);
+    const CpsiMemberLoad members = cpsi_members_load(body, pose, &at);
+    return sum_of(load, sum_of(members.drag, members.waves));
+}
+
+void cpsi_body_whole_stiffness(const CpsEvolution *evolution, const CpsiBody *body,
+                               const CpsiPose *pose, double stiffness[36]) {
+    cpsi_body_stiffness(body, pose, evolution->gravity, stiffness);
+    if (!(evolution->interval > 0)) cpsi_members_stiffness(body, pose, stiffness);
+}
+
 /* ledger --------------------------------------------------------------------------------------- */
+
+/* [J] Of a force and a moment on a motion. */
+static double work_of(CpsiWrench wrench, const double motion[6]) {
+    return vec3_dot(wrench.force, vec3_load(motion)) +
+           vec3_dot(wrench.moment, vec3_load(&motion[3]));
+}
 
 /* What forces do in the step by their values after it on the motion d and t, beyond what they do on
  * the way of the place at which they act: that place turns on a circle. */
@@ -214,8 +241,7 @@ static double beyond_all(const CpsEvolution *evolution, const CpsiBody *body, Ro
         const Vec3 pull = vec3_scale(-1, vec3_load(evolution->line[i / 2].report.end[i % 2].force));
         sum += beyond(pull, rotation_apply(body->pose.turn, vec3_load(given->position)), step);
     }
-    const CpsiWrench water = cpsi_body_water(body, &body->pose);
-    sum += vec3_dot(water.force, vec3_load(motion)) + vec3_dot(water.moment, vec3_load(&motion[3]));
+    sum += work_of(cpsi_body_water(body, &body->pose), motion);
     return sum + cpsi_body_water_energy(body, &body->pose) - cpsi_body_water_energy(body, &from);
 }
 
@@ -224,6 +250,7 @@ static void advance(const CpsEvolution *evolution, CpsiBody *body) {
     const CpsiBodyPhase at = phase_in(body, &body->pose);
     const Rotation step = rotation_after(body->pose.turn, rotation_inverse(inertia->now.turn));
     const double kinetic = kinetic_energy(&body->given, &at);
+    const CpsiMemberLoad members = cpsi_members_load(body, &body->pose, &at);
     double motion[6], work[2] = {0, 0};
     vec3_store(motion, vec3_sub(at.place, inertia->now.place));
     vec3_store(&motion[3], rotation_vector(step));
@@ -232,10 +259,13 @@ static void advance(const CpsEvolution *evolution, CpsiBody *body) {
         work[1] -= body->report.damping[i] * motion[i];
     }
     CpsMotionLedger *ledger = &inertia->ledger;
-    *ledger = (CpsMotionLedger){.kinetic = kinetic - inertia->kinetic};
+    *ledger = (CpsMotionLedger){.kinetic = kinetic - inertia->kinetic,
+                                .drag = -work_of(members.drag, motion),
+                                .waves = work_of(members.waves, motion)};
     ledger->scheme = work[0] - ledger->kinetic - beyond_all(evolution, body, step, motion);
     inertia->dissipated = work[1];
-    ledger->turnover = fabs(ledger->kinetic) + fabs(ledger->scheme) + fabs(work[1]);
+    ledger->turnover = fabs(ledger->kinetic) + fabs(ledger->scheme) + fabs(work[1]) +
+                       fabs(ledger->drag) + fabs(ledger->waves);
     inertia->kinetic = kinetic;
     inertia->before = inertia->now;
     inertia->now = at;

@@ -21,11 +21,19 @@ void cpsi_body_motion_predict(CpsEvolution *evolution);
 /* Where a body is after the step if nothing acts on it. */
 CpsiPose cpsi_body_motion_guess(const CpsiBody *body);
 
-/* Inertia and damping in a pose, force and moment about the reference point; and minus their
- * derivative by the pose, added to a stiffness (6, 6). */
+/* Inertia and damping in a pose, force and moment about the reference point; and minus the
+ * derivative of these and of the loads on members by the pose, added to a stiffness (6, 6). */
 CpsiWrench cpsi_body_inertia(const CpsiBody *body, const CpsiPose *pose);
 CpsiWrench cpsi_body_damping(const CpsiBody *body, const CpsiPose *pose);
 void cpsi_body_motion_stiffness(const CpsiBody *body, const CpsiPose *pose, double stiffness[36]);
+
+/* What acts on a body in a pose beside lines, supports, inertia and damping, that on its members in
+ * the step with it; and, added, its stiffness (cpsi_body_stiffness), without what in a step in time
+ * comes of its velocities there. */
+CpsiWrench cpsi_body_whole_load(const CpsEvolution *evolution, const CpsiBody *body,
+                                const CpsiPose *pose);
+void cpsi_body_whole_stiffness(const CpsEvolution *evolution, const CpsiBody *body,
+                               const CpsiPose *pose, double stiffness[36]);
 
 /* The step has been taken, and the bodies are reported on. */
 void cpsi_body_motion_advance(CpsEvolution *evolution);

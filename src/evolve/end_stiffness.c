@@ -6,6 +6,7 @@
 #include "base/words.h"
 #include "cable/stiffness.h"
 #include "evolve/bodies.h"
+#include "evolve/body_motion.h"
 #include "evolve/state.h"
 
 static const CpsiWords KIND[] = {CPS_STIFFNESS_LIST(CPSI_WORDS_WITH_KEY)},
@@ -127,8 +128,8 @@ CpsStatus cps_evolution_body_stiffness(const CpsEvolution *evolution, int body,
         found = add_line(evolution, i, body, kind, out);
     found = found && out->outcome == CPS_STIFFNESS_OUTCOME_FOUND;
     if (found) {
-        cpsi_body_stiffness(of, &of->pose, evolution->gravity, out->matrix);
-        cpsi_body_stiffness(of, &of->pose, evolution->gravity, out->smooth);
+        cpsi_body_whole_stiffness(evolution, of, &of->pose, out->matrix);
+        cpsi_body_whole_stiffness(evolution, of, &of->pose, out->smooth);
     }
     out->has_smooth = found && out->has_smooth;
     for (int i = 0; i < 36; i++) {

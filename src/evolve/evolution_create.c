@@ -17,6 +17,7 @@
 #include "evolve/failure.h"
 #include "evolve/friction_zone.h"
 #include "evolve/loads.h"
+#include "evolve/members.h"
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
 #include "evolve/point_motion.h"
@@ -189,6 +190,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     }
     cpsi_bodies_layout(&evolution->bodies, arena, scene);
     cpsi_excitation_layout(evolution, arena, scene);
+    cpsi_members_layout(evolution, arena, scene);
     CPSI_PLACE(arena, evolution->given_body, scene->body_count);
     for (int i = 0; i < scene->body_count; i++) {
         const char *name = copy_name(arena, scene->body[i].name);
@@ -361,6 +363,7 @@ static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, con
     cpsi_points_fill(&evolution->points, scene, local);
     cpsi_bodies_fill(&evolution->bodies, scene, local);
     cpsi_excitation_fill(evolution, local);
+    cpsi_members_fill(evolution, local);
     for (int i = 0; i < scene->body_count; i++)
         evolution->given_body[i] = evolution->bodies.body[i].given;
     cpsi_body_motion_start(evolution);

@@ -8,6 +8,7 @@
 #include "cable/winch.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
+#include "evolve/body_motion.h"
 #include "evolve/newton_step.h"
 #include "evolve/point_rounds.h"
 #include "evolve/points.h"
@@ -126,11 +127,11 @@ static void hold_bodies(CpsiBalance *balance, bool turns) {
     for (int k = 0; k < balance->body_count; k++) {
         const CpsiRigid *rigid = &balance->rigid[k];
         const CpsiBody *body = &evolution->bodies.body[rigid->body];
-        const CpsiWrench load = cpsi_body_load(body, &rigid->pose, evolution->gravity);
+        const CpsiWrench load = cpsi_body_whole_load(evolution, body, &rigid->pose);
         CpsiNetworkBody *held = &balance->held[k];
         *held = (CpsiNetworkBody){.force = load.force, .moment = load.moment};
         double *m = held->stiffness;
-        cpsi_body_stiffness(body, &rigid->pose, evolution->gravity, m);
+        cpsi_body_whole_stiffness(evolution, body, &rigid->pose, m);
         if (turns) add_pulls(balance, k, m);
         const double acts = vec3_norm(load.force) + vec3_norm(load.moment) / body->arm +
                             body->mass * vec3_norm(vec3_load(evolution->gravity)),

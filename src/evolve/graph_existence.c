@@ -16,6 +16,7 @@
 #include "cable/slopes.h"
 #include "evolve/balance_report.h"
 #include "evolve/bodies.h"
+#include "evolve/body_motion.h"
 #include "evolve/body_self_stress.h"
 #include "evolve/checkpoint.h"
 #include "evolve/first_guess.h"
@@ -85,9 +86,9 @@ static void add_load(Loads *loads, Vec3 load) {
 static void add_body_load(const CpsiBalance *balance, const CpsiRigid *rigid, Loads *loads) {
     const CpsEvolution *evolution = balance->evolution;
     const CpsiBody *body = &evolution->bodies.body[rigid->body];
-    add_load(loads, cpsi_body_load(body, &rigid->pose, evolution->gravity).force);
+    add_load(loads, cpsi_body_whole_load(evolution, body, &rigid->pose).force);
     for (int a = 0; a < 3; a++) {
-        loads->stopped[a] = loads->stopped[a] || body->given.fixed[a];
+        loads->stopped[a] = loads->stopped[a] || body->given.fixed[a] || body->member_count > 0;
         for (int b = 0; b < 6; b++)
             loads->stopped[a] = loads->stopped[a] || body->given.hydrostatics[6 * a + b] != 0;
     }

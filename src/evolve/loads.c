@@ -244,6 +244,13 @@ static void fill_potential(CpsiLine *line, const CpsLine *def, const double orig
     cpsi_potential_settle(line);
 }
 
+void cpsi_current_fill(const CpsCurrent *current, const double origin[3], CpsCurrentRow *row) {
+    for (int k = 0; k < current->row_count; k++) {
+        row[k] = current->row[k];
+        row[k].z -= origin[2];
+    }
+}
+
 void cpsi_line_loads_fill(CpsiLine *line, const CpsScene *scene, const CpsLine *def,
                           const double origin[3], CpsCurrentRow *row, CpsiFlow *flow) {
     CpsiNodeField *field = &line->field;
@@ -272,10 +279,7 @@ void cpsi_line_loads_fill(CpsiLine *line, const CpsScene *scene, const CpsLine *
     fill_potential(line, def, origin);
     if (!cpsi_has_drag(scene, def)) return;
     const CpsCurrent *current = scene->current;
-    for (int k = 0; k < current->row_count; k++) {
-        row[k] = current->row[k];
-        row[k].z -= origin[2];
-    }
+    cpsi_current_fill(current, origin, row);
     *flow = (CpsiFlow){.density = current->density,
                        .drag = loads->drag,
                        .row_count = current->row_count,

@@ -19,6 +19,8 @@ bool cpsi_has_drag(const CpsScene *scene, const CpsLine *line);
 
 /* Fill the arrays of the line, which is where it starts, with coordinates from `origin`; `row`
  * (row_count of the current) is where the current is kept, and `flow` what drag needs. */
+/* The rows of the current about an origin. */
+void cpsi_current_fill(const CpsCurrent *current, const double origin[3], CpsCurrentRow *row);
 void cpsi_line_loads_fill(CpsiLine *line, const CpsScene *scene, const CpsLine *def,
                           const double origin[3], CpsCurrentRow *row, CpsiFlow *flow);
 

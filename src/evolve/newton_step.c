@@ -47,8 +47,7 @@ static void add_body(CpsiBalance *balance, int k) {
     const CpsEvolution *evolution = balance->evolution;
     const CpsiRigid *rigid = &balance->rigid[k];
     double own[36] = {0};
-    cpsi_body_stiffness(&evolution->bodies.body[rigid->body], &rigid->pose, evolution->gravity,
-                        own);
+    cpsi_body_whole_stiffness(evolution, &evolution->bodies.body[rigid->body], &rigid->pose, own);
     for (int item = 0; item < balance->line_count; item++)
         for (int end = 0; end < 2; end++) {
             const int i = balance->line[item], point = evolution->points.tie[2 * i + end];

@@ -14,6 +14,7 @@
 #include "evolve/constraints.h"
 #include "evolve/excitation.h"
 #include "evolve/loads.h"
+#include "evolve/members.h"
 #include "evolve/names.h"
 #include "evolve/node_start.h"
 #include "evolve/origin.h"
@@ -606,6 +607,7 @@ CpsStatus cps_scene_check(const CpsScene *scene, CpsError *err) {
     if (status == CPS_OK) status = cpsi_time_check(scene, err);
     if (status == CPS_OK) status = cpsi_waves_check(scene, err);
     if (status == CPS_OK) status = cpsi_excitation_check(scene, err);
+    if (status == CPS_OK) status = cpsi_members_check(scene, err);
     if (status == CPS_OK) status = cpsi_path_check(&held.scene, err);
     if (status == CPS_OK) status = cpsi_path_check_points(scene, err);
     free(held.block);

@@ -107,7 +107,7 @@ static double spent_by(const CpsMotionLedger *ledger) {
 }
 
 static void add_in_time(const CpsEvolution *evolution, double pushed, CpsStepReport *step) {
-    double outside = 0, spent = 0;
+    double outside = 0, spent = 0, water = 0;
     for (int i = 0; i < evolution->line_count; i++)
         if (!evolution->line[i].has_inertia) spent += spent_by(&evolution->line[i].inertia.ledger);
     for (int i = 0; i < evolution->points.count; i++) {
@@ -120,12 +120,13 @@ static void add_in_time(const CpsEvolution *evolution, double pushed, CpsStepRep
         const double damped = body->inertia.dissipated;
         outside += work_on_body(evolution, body);
         spent += damped + spent_by(&body->inertia.ledger);
+        water += body->inertia.ledger.waves - body->inertia.ledger.drag;
         step->dissipated += damped;
         step->ledger.dissipated += damped;
     }
     const double more = outside - work_inside(evolution);
     step->ledger.ends += more;
-    step->ledger.imbalance += more + pushed - spent;
+    step->ledger.imbalance += more + pushed + water - spent;
 }
 
 void cpsi_step_ledger(const CpsEvolution *evolution, CpsStepReport *step) {

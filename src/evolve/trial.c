@@ -334,7 +334,7 @@ static void add_body_motion(CpsiBalance *balance, CpsiRigid *rigid) {
 /* What nothing balances on a free body: nothing in its fixed directions. */
 static void find_rest(CpsiBalance *balance, CpsiRigid *rigid) {
     const CpsiBody *body = &balance->evolution->bodies.body[rigid->body];
-    const CpsiWrench load = cpsi_body_load(body, &rigid->pose, balance->evolution->gravity);
+    const CpsiWrench load = cpsi_body_whole_load(balance->evolution, body, &rigid->pose);
     rigid->rest = (CpsiWrench){vec3_add(rigid->lines.force, load.force),
                                vec3_add(rigid->lines.moment, load.moment)};
     rigid->inertia = rigid->damping = (CpsiWrench){vec3(0, 0, 0), vec3(0, 0, 0)};

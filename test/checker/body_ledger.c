@@ -12,9 +12,8 @@
 /* Rounding of places counts by this part of them among sizes of works. */
 static const Real PLACES = 1e-4L;
 
-/* The rotation vector from one quaternion to another, by the product of the second with the
- * conjugate of the first. */
-static void turned(const double p[FOUR], const double q[FOUR], Real out[3]) {
+/* By the product of the second with the conjugate of the first. */
+void body_turn(const double p[FOUR], const double q[FOUR], Real out[3]) {
     const Real w = (Real)p[0] * q[0] + (Real)p[1] * q[1] + (Real)p[2] * q[2] + (Real)p[3] * q[3];
     Real sine = 0;
     for (int i = 0; i < 3; i++) {
@@ -45,7 +44,7 @@ static Real on_place(const BodyLedger *of, const Real force[3], const Vector pla
 static Real water_energy(const BodyData *data, const BodyState *at) {
     Real q[SIX], sum = 0;
     for (int i = 0; i < 3; i++) q[i] = (Real)at->position[i] - data->start_position[i];
-    turned(data->start_rotation, at->rotation, &q[3]);
+    body_turn(data->start_rotation, at->rotation, &q[3]);
     for (int i = 0; i < SIX; i++)
         for (int k = 0; k < SIX; k++) sum += 0.5L * q[i] * data->hydrostatics[SIX * i + k] * q[k];
     return sum;
@@ -69,7 +68,7 @@ Real body_ledger_work(const BodyLedger *of, double *sizes) {
     work += stored[0] - stored[1];
     *sizes += (double)(fabsl(stored[0]) + fabsl(stored[1]));
     body_load(data, of->now->position, of->now->rotation, of->gravity, own);
-    turned(of->before->rotation, of->now->rotation, t);
+    body_turn(of->before->rotation, of->now->rotation, t);
     for (int i = 0; i < SIX; i++) {
         const Real way = i < 3 ? (Real)of->now->position[i] - of->before->position[i] : t[i - 3],
                    given = of->now->load[i] - own[i];

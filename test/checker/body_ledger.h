@@ -16,6 +16,9 @@ typedef struct BodyLedger {
     size_t k;
 } BodyLedger;
 
+/* The rotation vector from one quaternion to another. */
+void body_turn(const double from[FOUR], const double to[FOUR], Real out[3]);
+
 /* [J] The work of lines, weight, water, load and support on body k; and the sizes of its terms. */
 Real body_ledger_work(const BodyLedger *of, double *sizes);
 

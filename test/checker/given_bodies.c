@@ -17,6 +17,7 @@
 #include "body_ledger.h"
 #include "body_stiffness.h"
 #include "excitation.h"
+#include "members.h"
 #include "oscillation.h"
 
 /* Numbers that are copied; poses on their way; loads: sums of a few products, and the turning
@@ -28,6 +29,10 @@ static const double STIFFNESS = 1e-6;
 
 /* A work, per the sizes of its terms. */
 static const double WORKS = 1e-9;
+
+/* Loads on members, per the sizes of their terms: rounding of places and of phases far from the
+ * origin, and of velocities, which are places over k. */
+static const double MEMBERS = 1e-9;
 
 /* What the scene imposes on a body. */
 typedef struct Imposed {
@@ -224,6 +229,38 @@ static bool has_duration(const Compare *c, size_t step) {
     return time_after(c, step) > (step > 0 ? time_after(c, step - 1) : 0);
 }
 
+/* The water on the members of a body after a step. */
+static MemberLoad on_members(const Compare *c, size_t k, size_t step, const BodyState *at) {
+    const BodyMotion *motion = &c->motion[k];
+    MemberBody of = {.rotation = at->rotation,
+                     .velocity = motion->velocity,
+                     .rate = motion->rate,
+                     .time = has_duration(c, step) ? time_after(c, step) : -1};
+    for (int i = 0; i < 3; i++) of.position[i] = (Real)at->position[i] + c->source->origin[i];
+    return members_load(c->scene, (int)k, &of);
+}
+
+/* What the ledger says of them. */
+static void compare_members(Compare *c, size_t k, size_t step, const BodyState *before,
+                            const BodyState *now) {
+    const BodyMotion *motion = &c->motion[k];
+    if (step == 0 || !(motion->span > 0)) return;
+    const MemberLoad load = on_members(c, k, step, now);
+    Real t[3], work[2] = {0, 0}, sizes = 0;
+    body_turn(before->rotation, now->rotation, t);
+    for (int i = 0; i < SIX; i++) {
+        const Real way = i < 3 ? (Real)now->position[i] - before->position[i] : t[i - 3];
+        work[0] -= load.drag[i] * way;
+        work[1] += load.waves[i] * way;
+        sizes += load.sizes[i / 3] * (fabsl(way) + 1e-6L * (i < 3 ? size(now->position) : 1));
+    }
+    const double said[2] = {motion->drag, motion->waves};
+    for (int i = 0; i < 2; i++)
+        if (!(fabs(said[i] - (double)work[i]) <= WORKS * (double)sizes + 1e-300))
+            find(c, "ledger_%s of body %s, step %zu: %.9g J, expected %.9g J", i ? "waves" : "drag",
+                 c->bodies.data[k].name, step, said[i], (double)work[i]);
+}
+
 static void compare_state(Compare *c, size_t k, const Imposed *body, const double g[3], size_t step,
                           const BodyState *at) {
     const BodyData *data = &c->bodies.data[k];
@@ -250,7 +287,10 @@ static void compare_state(Compare *c, size_t k, const Imposed *body, const doubl
     body_load(data, at->position, at->rotation, per, load);
     double waves[SIX] = {0}, known[SIX] = {0};
     if (has_duration(c, step)) excitation(c->scene, (int)k, time_after(c, step), waves, known);
-    for (int i = 0; i < SIX; i++) wanted[i] = (double)load[i] + body->load[i] + waves[i];
+    const MemberLoad members = on_members(c, k, step, at);
+    for (int i = 0; i < SIX; i++)
+        wanted[i] =
+            (double)(load[i] + members.drag[i] + members.waves[i]) + body->load[i] + waves[i];
     /* sizes of what the sums are made of; of rotations, up to half a turn */
     for (int i = 0; i < 3; i++)
         q[i] = fabs(at->position[i]) + fabs(data->start_position[i]) + size(c->source->origin);
@@ -263,9 +303,9 @@ static void compare_state(Compare *c, size_t k, const Imposed *body, const doubl
     for (int i = 0; i < SIX; i++)
         for (int j = 0; j < SIX; j++) noise[i / 3] += fabs(data->hydrostatics[SIX * i + j]) * q[j];
     same(c, "load_of_body", of, at->load, wanted, 3,
-         LOADS * noise[0] + size(body->noise) + size(known));
+         LOADS * noise[0] + MEMBERS * members.sizes[0] + size(body->noise) + size(known));
     same(c, "moment of load_of_body", of, &at->load[3], &wanted[3], 3,
-         LOADS * noise[1] + size(&body->noise[3]) + size(&known[3]));
+         LOADS * noise[1] + MEMBERS * members.sizes[1] + size(&body->noise[3]) + size(&known[3]));
 }
 
 /* [m] How far the farthest point of body k is from its reference point; else 1. */
@@ -274,6 +314,28 @@ static double arm_of(const Compare *c, size_t k) {
     for (size_t i = 0; i < c->source->points; i++)
         if (c->bodies.of_point[i] == (int)k) arm = fmax(arm, size(c->bodies.place[i]));
     return arm > 0 ? arm : 1;
+}
+
+/* Add to a stiffness what the water on members at rest loses, by differences: its second derivative
+ * jumps where a strip begins to be wet, so that they are small. */
+static void add_members(const Compare *c, size_t k, const BodyState *at, double arm,
+                        Real stiffness[SIX * SIX]) {
+    static const double STEP = 1e-5;
+    const double rest[3] = {0, 0, 0};
+    if (c->scene->body[k].member_count == 0) return;
+    for (int i = 0; i < SIX; i++)
+        for (int side = -1; side <= 1; side += 2) {
+            const double by = side * (i < 3 ? STEP * arm : STEP);
+            double rotation[FOUR], turn[3] = {0, 0, 0};
+            MemberBody of = {.rotation = rotation, .velocity = rest, .rate = rest, .time = -1};
+            memcpy(rotation, at->rotation, sizeof rotation);
+            if (i >= 3) turn[i - 3] = by;
+            turn_further(turn, rotation);
+            for (int a = 0; a < 3; a++)
+                of.position[a] = (Real)at->position[a] + c->source->origin[a] + (a == i ? by : 0);
+            const MemberLoad load = members_load(c->scene, (int)k, &of);
+            for (int a = 0; a < SIX; a++) stiffness[SIX * a + i] -= load.drag[a] / (2 * by);
+        }
 }
 
 /* The stiffness of a free body against that of its lines, weight and water, where that is known. */
@@ -285,6 +347,7 @@ static void compare_stiffness(Compare *c, size_t k, const double g[3], size_t st
     for (int i = 0; i < 3; i++) per[i] = pull > 0 ? g[i] / pull : 0;
     const StiffnessStep of = {c->source, &c->bodies, c->line, per, false};
     if (at->kind != BODY_FREE || !at->has_place || !body_stiffness(&of, k, at, arm, own)) return;
+    if (!has_duration(c, step)) add_members(c, k, at, arm, own);
     for (int i = 0; i < SIX * SIX; i++) {
         const double unit = (i / SIX < 3 ? 1 : arm) * (i % SIX < 3 ? 1 : arm);
         most = fmax(most, fabs((double)own[i]) / unit);
@@ -312,6 +375,14 @@ static void compare_ledger(Compare *c, size_t k, const double g[3], size_t step,
              step, work, spent);
 }
 
+/* The added mass in the file, with that of members. */
+static void compare_added(Compare *c, size_t k) {
+    double wanted[SIX * SIX];
+    members_added(c->scene, (int)k, wanted);
+    same(c, "added_mass of body", c->bodies.data[k].name, c->motion[k].added, wanted, SIX * SIX,
+         LOADS * largest(wanted, SIX * SIX));
+}
+
 static void compare_step(Compare *c, const GivenStep *given, size_t step, Imposed *imposed,
                          const BodyState *before, const BodyState *now) {
     const int changes = given->stage ? given->stage->body_change_count : 0;
@@ -324,6 +395,8 @@ static void compare_step(Compare *c, const GivenStep *given, size_t step, Impose
         compare_state(c, k, &imposed[k], given->gravity, step, &now[k]);
         compare_stiffness(c, k, given->gravity, step, &now[k]);
         compare_ledger(c, k, given->gravity, step, &before[k], &now[k]);
+        compare_members(c, k, step, &before[k], &now[k]);
+        if (step == 0 && c->motion[k].mass > 0) compare_added(c, k);
     }
 }
 

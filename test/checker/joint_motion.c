@@ -124,7 +124,9 @@ int body_motions_read(const Source *source, size_t n, size_t step, BodyMotion *a
         read_all(source, "kinetic_of_body", s, n, 1, &all->kinetic, each) ||
         read_all(source, "damped_of_body", s, n, 1, &all->lost, each) ||
         read_all(source, "ledger_kinetic_of_body", s, n, 1, &all->growth, each) ||
-        read_all(source, "ledger_scheme_of_body", s, n, 1, &all->scheme, each))
+        read_all(source, "ledger_scheme_of_body", s, n, 1, &all->scheme, each) ||
+        read_all(source, "ledger_drag_of_body", s, n, 1, &all->drag, each) ||
+        read_all(source, "ledger_waves_of_body", s, n, 1, &all->waves, each))
         return complain(log, "bodies");
     return 0;
 }

@@ -17,7 +17,7 @@ typedef struct BodyMotion {
     double mass, moments[3], products[3], added[SIX * SIX], damping[SIX * SIX], quadratic[SIX];
     double inertia[SIX], damped[SIX];
     Vector velocity, rate, centre_velocity;
-    double span, kinetic, lost, growth, scheme;
+    double span, kinetic, lost, growth, scheme, drag, waves; /* the last two of members */
 } BodyMotion;
 
 /* Read the points, or the bodies, of a step. Return 0, or -1 after a sentence on log. */

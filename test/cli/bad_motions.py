@@ -95,7 +95,7 @@ waves:
     - {amplitude: 1, period: 9, direction: 0}
     - {amplitude: 0.5, period: 6, direction: 30, phase: 40}
 bodies:
-  hull: {free: [9, 5, 0], mass: 200, moments_of_inertia: [9, 9, 9], excitation: [{frequency: 0.2, direction: 390, amplitude: [1, 1, 1, 0, 0, 0]}, {frequency: 0.15, direction: 390, amplitude: [1, 2, 1, 0, 0, 0]}, {frequency: 0.11111111111111, direction: 360, amplitude: [1, 0, 1, 0, 1, 0], phase: [90, 0, 0, 0, -90, 0]}]}
+  hull: {free: [9, 5, 0], mass: 200, moments_of_inertia: [9, 9, 9], excitation: [{frequency: 0.2, direction: 390, amplitude: [1, 1, 1, 0, 0, 0]}, {frequency: 0.15, direction: 390, amplitude: [1, 2, 1, 0, 0, 0]}, {frequency: 0.11111111111111, direction: 360, amplitude: [1, 0, 1, 0, 1, 0], phase: [90, 0, 0, 0, -90, 0]}], members: [{from: [0, 0, -1], to: [0, 0, 1], diameter: 0.5, normal: 1}]}
 points:
   knot: {free: [9, 0, 0], mass: 5, force: [0, 0, 100]}
   eye: {body: hull, at: [0, 0, 0]}
@@ -107,6 +107,7 @@ history:
 """
 ONE, TWO = "{amplitude: 1, period: 9, direction: 0}", "{amplitude: 0.5, period: 6, direction: 30, phase: 40}"
 NEEDED = "waves: they are those of a surface, which the water has not: give water_surface"
+MEMBER = "members: [{from: [0, 0, -1], to: [0, 0, 1], diameter: 0.5, normal: 1}]"
 WAVE_CHANGES = [
     ("waves without depth", "  depth: 20\n", "", INPUT, "4:1: 'waves': 'depth' is missing: [m] of the water below water_surface; .inf: deep water"),
     ("depth 0", "depth: 20", "depth: 0", INPUT, "5:3: 'depth': found '0', expected a number in m, greater than 0, or .inf"),
@@ -155,6 +156,30 @@ WAVE_CHANGES = [
     ("excitation for other periods", "frequency: 0.15", "frequency: 0.18", INPUT, "11:69: body 'hull': excitation: no rows for the direction 30 degrees have the period 6 s of wave 2 between them"),
     ("excitation for another direction", "direction: 360", "direction: 10", INPUT, "11:69: body 'hull': excitation: no rows for the direction 0 degrees have the period 9 s of wave 1 between them"),
     ("excitation in falling periods", "frequency: 0.15", "frequency: 0.25", INPUT, "11:147: body 'hull': excitation: row 2 has the period 4 s, after 5 s for the same direction: give rows of one direction with periods that increase"),
+    ("a member in words", MEMBER, "members: [long]", INPUT, "11:332: member: found 'long', expected a mapping with from, to, diameter, normal, tangential, added_normal, strips"),
+    ("members in words", MEMBER, "members: all", INPUT, "11:322: 'members': found 'all', expected a list, as in [{...}, {...}]"),
+    ("no member", MEMBER, "members: []", INPUT, "11:322: 'members': found a list of 0, expected a list, as in [{...}, {...}]"),
+    ("a member without an end", ", to: [0, 0, 1]", "", INPUT, "11:332: member: 'to' is missing: [m] the other end"),
+    ("a member without a diameter", "diameter: 0.5, ", "", INPUT, "11:332: member: 'diameter' is missing: [m] of the cylinder, that the coefficients are for"),
+    ("a member without a coefficient", ", normal: 1}]}", "}]}", INPUT, "11:332: member: 'normal' is missing: coefficient of drag across it, on its diameter"),
+    ("a member of no length", "to: [0, 0, 1]", "to: [0, 0, -1]", INPUT, "11:332: body 'hull': members: number 1 goes from (0, 0, -1) m to (0, 0, -1) m, expected two places apart from each other"),
+    ("an end of two numbers", "to: [0, 0, 1]", "to: [0, 1]", INPUT, "11:351: 'to': found a list of 2, expected three numbers in m, as in [x, y, z]"),
+    ("NaN in an end", "to: [0, 0, 1]", "to: [0, .nan, 1]", INPUT, "11:359: 'to': found '.nan', expected a number in m, finite and at most 1e100"),
+    ("an endless member", "to: [0, 0, 1]", "to: [0, 0, .inf]", INPUT, "11:362: 'to': found '.inf', expected a number in m, finite and at most 1e100"),
+    ("a member of no diameter", "diameter: 0.5", "diameter: 0", INPUT, "11:366: 'diameter': found '0', expected a number in m, greater than 0"),
+    ("a negative diameter", "diameter: 0.5", "diameter: -0.5", INPUT, "11:366: 'diameter': found '-0.5', expected a number in m, greater than 0"),
+    ("a diameter with a unit", "diameter: 0.5", "diameter: 0.5 m", INPUT, "11:366: 'diameter': found '0.5 m', expected a number in m, greater than 0: write the number alone, without a unit"),
+    ("a negative coefficient across", "normal: 1}]}", "normal: -1}]}", INPUT, "11:381: 'normal': found '-1', expected a number, at least 0"),
+    ("a negative coefficient along", "normal: 1}]}", "normal: 1, tangential: -0.1}]}", INPUT, "11:392: 'tangential': found '-0.1', expected a number, at least 0"),
+    ("a negative added mass of a member", "normal: 1}]}", "normal: 1, added_normal: -1}]}", INPUT, "11:392: 'added_normal': found '-1', expected a number, at least 0"),
+    ("an endless added mass of a member", "normal: 1}]}", "normal: 1, added_normal: .inf}]}", INPUT, "11:392: 'added_normal': found '.inf', expected a number, at least 0, finite and at most 1e100"),
+    ("an added mass along a member", "normal: 1}]}", "normal: 1, added_tangential: 1}]}", INPUT, "11:392: member: unknown key 'added_tangential', expected a mapping with from, to, diameter, normal, tangential, added_normal, strips"),
+    ("no strips", "normal: 1}]}", "normal: 1, strips: 0}]}", INPUT, "11:392: 'strips': found '0', expected a whole number, from 1 to 1000"),
+    ("half a strip", "normal: 1}]}", "normal: 1, strips: 2.5}]}", INPUT, "11:392: 'strips': found '2.5', expected a whole number, from 1 to 1000"),
+    ("too many strips", "normal: 1}]}", "normal: 1, strips: 1001}]}", INPUT, "11:392: 'strips': found '1001', expected a whole number, from 1 to 1000"),
+    ("a misspelt member", MEMBER, MEMBER.replace("members", "member"), INPUT, "11:322: body 'hull': unknown key 'member'; did you mean 'members'?"),
+    ("a misspelt end of a member", "from: [0, 0, -1]", "form: [0, 0, -1]", INPUT, "11:333: member: unknown key 'form'; did you mean 'from'?"),
+    ("too many members", MEMBER, "members: [" + ", ".join([MEMBER[10:-1]]*201) + "]", LIMIT, "11:322: body 'hull': members: found 201, the limit is 200"),
     ("memory of radiation", "moments_of_inertia: [9, 9, 9]", "moments_of_inertia: [9, 9, 9], radiation: [[0, 1]]", INPUT, "11:69: body 'hull': unknown key 'radiation'"),
 ]
 

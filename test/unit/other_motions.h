@@ -35,21 +35,23 @@ static const char ADRIFT_SCENE[] =
     " quadratic_damping: {z: 7}, velocity: [0.1, 0, 0], turn_rate: [0, 0, 0.2],"
     " excitation: [{period: 4, direction: 20, amplitude: [1, 2, 3, 4, 5, 6]}, {period: 6, "
     "direction: 20,"
-    " amplitude: [1, 2, 3, 4, 5, 7], phase: [10, 20, 30, 40, 50, 60]}]},"
+    " amplitude: [1, 2, 3, 4, 5, 7], phase: [10, 20, 30, 40, 50, 60]}],"
+    " members: [{from: [0, 0, -3], to: [0, 1, 2], diameter: 0.4, normal: 0.9, tangential: 0.3,"
+    " added_normal: 0.7, strips: 9}, {from: [1, 0, 0], to: [2, 0, 0], diameter: 1, normal: 1}]},"
     " quay: {held: [0, 0, 3]}}\n"
     "points: {eye: {body: raft, at: [0, 0, 0.5]}, ring: {body: quay, at: [0, 0, 0.5]}}\n"
     "lines:\n"
     "  one: {length: 3, elements: 4, mass: 2, stiffness: 10000, quasi_static: true,"
     " start: {straight: {from: [0, 0, 3.5], to: [0, 0, 0.5]}},"
     " ends: {A: {point: ring}, B: {point: eye}}}\n"
+    "water_density: 10\n"
+    "water_surface: 9\n"
+    "waves: {depth: 30, components: [{amplitude: 0.1, period: 5, direction: 20, phase: 30}]}\n"
     "history:\n"
     "  - {name: pull, duration: 0.2, time_step: 0.1,"
     " raft.body: {force: [0, 0, 0], oscillations: [{moment_sine: [0, 1, 0],"
     " moment_cosine: [0, 2, 0], period: 5}]}, quay.body: {move: [0, 0, 0],"
-    " oscillations: [{rotation_sine: [0, 3, 0], rotation_cosine: [0, 4, 0], period: 5}]}}\n"
-    "water_density: 10\n"
-    "water_surface: 9\n"
-    "waves: {depth: 30, components: [{amplitude: 0.1, period: 5, direction: 20, phase: 30}]}\n";
+    " oscillations: [{rotation_sine: [0, 3, 0], rotation_cosine: [0, 4, 0], period: 5}]}}\n";
 
 static const struct Change ADRIFT_CHANGE[] = {
     {"moment_sine", "moment_sine: [0, 1, 0]", "moment_sine: [1, 1, 0]"},
@@ -68,6 +70,16 @@ static const struct Change ADRIFT_CHANGE[] = {
      "[{period: 3, direction: 20, amplitude: [1, 2, 3, 4, 5, 6]}, "},
     {"amplitude", "[1, 2, 3, 4, 5, 7]", "[1, 2, 3, 4, 5, 8]"},
     {"phase", "phase: [10", "phase: [11"},
+    {"members", ", {from: [1, 0, 0], to: [2, 0, 0], diameter: 1, normal: 1}", ""},
+    {"from", "from: [0, 0, -3]", "from: [0, 0, -3.1]"},
+    {"to", "to: [0, 1, 2]", "to: [0, 1, 2.1]"},
+    {"diameter", "diameter: 0.4", "diameter: 0.5"},
+    {"normal", "normal: 0.9", "normal: 0.8"},
+    {"tangential", "tangential: 0.3", "tangential: 0.2"},
+    {"added_normal", "added_normal: 0.7", "added_normal: 0.8"},
+    {"strips", "strips: 9", "strips: 10"},
+    {"water_surface", "water_surface: 9", "water_surface: 8"},
+    {"ramp", "waves: {depth: 30,", "waves: {depth: 30, ramp: 3,"},
 };
 
 static const struct Change MOTION_CHANGE[] = {

@@ -120,6 +120,13 @@ static void motion_allocates_nothing(void **unused) {
     body.position[0] = AT[2][0];
     body.position[2] = AT[2][2];
     for (int i = 0; i < 3; i++) body.inertia[i] = 2;
+    const CpsMember member = {.to = {1, 0, 1}, .diameter = 0.1, .normal = 1, .added_normal = 1};
+    const CpsWave wave = {.amplitude = 0.2, .period = 3};
+    const CpsWaves waves = {.depth = 20, .wave_count = 1, .wave = &wave};
+    const CpsCurrentRow still = {.z = 0};
+    const CpsCurrent water = {.density = 1000, .row_count = 1, .row = &still, .waves = &waves};
+    body.member_count = 1;
+    body.member = &member;
     for (int i = 0; i < 3; i++) {
         point[i] = cps_point_default();
         point[i].name = NAME[2 + i];
@@ -148,6 +155,9 @@ static void motion_allocates_nothing(void **unused) {
     s.line = line;
     s.point_count = 3;
     s.point = point;
+    s.current = &water;
+    s.has_water_surface = true;
+    s.water_surface = 1.3;
     s.body_count = s.stage_count = 1;
     s.body = &body;
     s.stage = &swing;

@@ -380,7 +380,9 @@ static void reads_bodies(void **state) {
     (void)state;
     CpsSceneFile *file = read_good(
         "capstan: 1\nwater_density: 1000\ngravity: [0, 0, -10]\nbodies:\n"
-        "  zulu: {held: [1, 2, 3], fixed: [y, rz]}\n"
+        "  zulu: {held: [1, 2, 3], fixed: [y, rz], members: [{from: [1, 2, 3], to: [4, 5, 6],"
+        " diameter: 0.7, normal: 0.8, tangential: 0.9, added_normal: 1.1, strips: 12},"
+        " {from: [1, 2, 3], to: [4, 5, 7], diameter: 0.6, normal: 1}]}\n"
         "  spar: {free: [4, 5, 6], rotation: {quaternion: [1, 2, 3, 4]}, mass: 5, volume: 0.02,"
         " centre_of_gravity: [1, 0, 2], centre_of_buoyancy: [0, 3, 4], force: [7, 8, 9],"
         " moment: [1, 1, 1], arm: [2, 0, -1], hydrostatics: {z: 3, ry: -5}}\n"
@@ -411,6 +413,15 @@ static void reads_bodies(void **state) {
     }
     CHECK_VECTOR(body[0].position, ((double[]){1, 2, 3}), 0);
     CHECK_VECTOR(body[1].position, ((double[]){4, 5, 6}), 0);
+    const CpsMember *member = body[0].member;
+    assert_true(body[0].member_count == 2 && body[1].member_count == 0);
+    CHECK_VECTOR(member[0].from, ((double[]){1, 2, 3}), 0);
+    CHECK_VECTOR(member[0].to, ((double[]){4, 5, 6}), 0);
+    assert_true(member[0].diameter == 0.7 && member[0].normal == 0.8 &&
+                member[0].strip_count == 12);
+    assert_true(member[0].tangential == 0.9 && member[0].added_normal == 1.1);
+    assert_true(member[1].tangential == 0 && member[1].added_normal == 0 && member[1].to[2] == 7);
+    assert_true(member[1].strip_count == 0);
     assert_true(body[0].rotation[0] == 1 && body[0].weight == 0 && body[0].buoyancy == 0);
     CHECK_VECTOR(&body[1].rotation[1], ((double[]){2, 3, 4}), 0);
     assert_true(body[1].weight == 50 && body[1].buoyancy == 200);

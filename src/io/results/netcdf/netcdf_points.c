@@ -346,6 +346,10 @@ static const BodyField BODY_MOTION[CPSI_BODY_MOTIONS] = {
      offsetof(CpsBodyMotion, ledger.kinetic), NUMBER_OF},
     {"ledger_scheme_of_body", "energy lost by the scheme in time", "J",
      offsetof(CpsBodyMotion, ledger.scheme), NUMBER_OF},
+    {"ledger_drag_of_body", "work done on the water against the drag of members", "J",
+     offsetof(CpsBodyMotion, ledger.drag), NUMBER_OF},
+    {"ledger_waves_of_body", "work of the water's own acceleration in waves on members", "J",
+     offsetof(CpsBodyMotion, ledger.waves), NUMBER_OF},
 };
 
 typedef enum BodyInt { BODY_STATE, BODY_TRIALS, BODY_STABLE, BODY_HAS_PLACE } BodyInt;
@@ -459,9 +463,11 @@ void cpsi_netcdf_write_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodi
         for (int i = 0; i < CPSI_BODY_CONSTANTS; ++i)
             write_field(file, bodies->constant[i], &CONSTANT[i], at, 1, body,
                         CONSTANT[i].offset == offsetof(CpsBody, position) ? origin : NULL);
+        CpsBody whole = *body;
+        cps_body_added_mass(scene, (int)k, whole.added_mass);
         if (bodies->in_time)
             for (int i = 0; i < CPSI_BODY_MASSES; ++i)
-                write_field(file, bodies->mass[i], &MASS[i], at, 1, body, NULL);
+                write_field(file, bodies->mass[i], &MASS[i], at, 1, &whole, NULL);
     }
 }
 

@@ -57,6 +57,23 @@ static const CpsiKey DRAG_KEYS[] = {
 };
 const CpsiMapping cpsi_drag_keys = {"drag", KEYS(DRAG_KEYS), INTO(Drag)};
 
+static const CpsiKey MEMBER_KEYS[] = {
+    {"from", REQUIRED, POINT(Member, member.from, 3), ANY, .unit = "m",
+     .help = "one end, in the axes of the body"},
+    {"to", REQUIRED, POINT(Member, member.to, 3), ANY, .unit = "m", .help = "the other end"},
+    {"diameter", REQUIRED, NUMBER(Member, member.diameter), POSITIVE, .unit = "m",
+     .help = "of the cylinder, that the coefficients are for"},
+    {"normal", REQUIRED, NUMBER(Member, member.normal), NOT_NEGATIVE,
+     .help = "coefficient of drag across it, on its diameter"},
+    {"tangential", OPTIONAL, NUMBER(Member, member.tangential), NOT_NEGATIVE, .fallback = "0",
+     .help = "of drag along it, on its circumference"},
+    {"added_normal", OPTIONAL, NUMBER(Member, member.added_normal), NOT_NEGATIVE, .fallback = "0",
+     .help = "in time: mass of water that goes along across it, over that displaced"},
+    {"strips", OPTIONAL, INTEGER(Member, member.strip_count), 1, CPS_MAX_STRIPS, false,
+     .fallback = "20", .help = "pieces of equal length, each with the load of its middle"},
+};
+const CpsiMapping cpsi_member_keys = {"member", KEYS(MEMBER_KEYS), INTO(Member)};
+
 static const CpsiKey CURRENT_KEYS[] = {
     {"z", REQUIRED, NUMBER(Current, row.z), ANY, .unit = "m", .help = "height"},
     {"velocity", REQUIRED, POINT(Current, row.velocity, 3), ANY, .unit = "m/s",

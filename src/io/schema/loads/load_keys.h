@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on lines beside their weight, and the water: the structs into which its keys of a scene
- * file are read, and their tables. */
+/* What acts on lines and members of bodies beside their weight, and the water: the structs into
+ * which its keys of a scene file are read, and their tables. */
 #ifndef CAPSTAN_SRC_IO_SCHEMA_LOADS_LOAD_KEYS_H
 #define CAPSTAN_SRC_IO_SCHEMA_LOADS_LOAD_KEYS_H
 
@@ -25,6 +25,12 @@ typedef struct CpsiDragValues {
     CpsDrag drag;
 } CpsiDragValues;
 
+/* A member of a body. */
+typedef struct CpsiMemberValues {
+    const CpsiYaml *node;
+    CpsMember member;
+} CpsiMemberValues;
+
 typedef struct CpsiCurrentValues {
     const CpsiYaml *node;
     CpsCurrentRow row;
@@ -45,6 +51,6 @@ typedef struct CpsiWavesValues {
 } CpsiWavesValues;
 
 extern const CpsiMapping cpsi_spring_keys, cpsi_force_keys, cpsi_drag_keys, cpsi_current_keys,
-    cpsi_waves_keys;
+    cpsi_waves_keys, cpsi_member_keys;
 
 #endif

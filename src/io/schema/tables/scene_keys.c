@@ -322,6 +322,9 @@ static const CpsiKey SCENE_BODY_KEYS[] = {
     {"excitation", OPTIONAL, LIST(SceneBody, excitation, 1), .inside = &EXCITATION,
      .help = "force and moment of the scene's waves on it, by rows for periods and directions; "
              "linear in the frequency between them"},
+    {"members", OPTIONAL, LIST(SceneBody, members, 1), .inside = &cpsi_member_keys,
+     .help = "straight cylinders on which the water acts by Morison's formula up to the surface: "
+             "drag of the current, in time also the motion of the body and the waves"},
     {"velocity", OPTIONAL, POINT(SceneBody, velocity, 3), ANY, .unit = "m/s", .with = "free",
      .fallback = "[0, 0, 0]", .help = "of its reference point as the history begins"},
     {"turn_rate", OPTIONAL, POINT(SceneBody, turn_rate, 3), ANY, .unit = "rad/s", .with = "free",
@@ -741,7 +744,8 @@ static const CpsiKey SCENE_KEYS[] = {
      .help = "velocity of the water over the height, from the lowest row to the highest; linear "
              "between, constant beyond"},
     {"waves", OPTIONAL, MAPPING(Scene, waves), .inside = &cpsi_waves_keys, .with = "water_surface",
-     .help = "waves of small height, which move the water about lines with drag in time"},
+     .help =
+         "waves of small height, which move the water about lines with drag and bodies in time"},
     {"types", OPTIONAL, NAMED(Scene, types), .inside = &TYPE, .fallback = "{}",
      .help = "what sections of lines are made of, by name"},
     {"obstacles", OPTIONAL, NAMED(Scene, obstacles), .inside = &OBSTACLE, .fallback = "{}",

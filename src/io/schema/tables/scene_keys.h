@@ -75,6 +75,7 @@ typedef struct CpsiSceneBodyValues {
     CpsiDiagonalValues diagonal;        /* .. or these */
     CpsiNumberRows added_mass, damping; /* (6, 6) .. or these */
     CpsiList excitation;                /* CpsiExcitationValues */
+    CpsiList members;                   /* CpsiMemberValues */
     CpsiDiagonalValues added_diagonal, damping_diagonal, quadratic;
     double moments[3], products[3];   /* [kg m2] */
     double velocity[3], turn_rate[3]; /* [m/s], [rad/s] */

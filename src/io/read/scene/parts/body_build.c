@@ -108,6 +108,16 @@ static CpsStatus build_excitation(const CpsiMaterials *m, const CpsiList *rows, 
     return CPS_OK;
 }
 
+static CpsStatus build_members(const CpsiMaterials *m, const CpsiList *members, CpsBody *body) {
+    const CpsiMemberValues *values = members->item;
+    CpsMember *member = CPSI_POOL_TAKE(m->pool, members->count, CpsMember);
+    if (!member) return cpsi_document_no_memory(m->d);
+    for (int k = 0; k < members->count; k++) member[k] = values[k].member;
+    body->member = member;
+    body->member_count = members->count;
+    return CPS_OK;
+}
+
 static CpsStatus build_body(const CpsiMaterials *m, const CpsiSceneBodyValues *values,
                             CpsBody *body) {
     const CpsiYaml *name = values->node;
@@ -122,6 +132,10 @@ static CpsStatus build_body(const CpsiMaterials *m, const CpsiSceneBodyValues *v
     build_matrix(&values->hydrostatics, &values->diagonal, body->hydrostatics);
     add_arm(values->arm, body->force, body->moment);
     build_motion(m, values, body);
+    if (values->members.count > 0) {
+        const CpsStatus built = build_members(m, &values->members, body);
+        if (built != CPS_OK) return built;
+    }
     return values->excitation.count > 0 ? build_excitation(m, &values->excitation, body) : CPS_OK;
 }
 

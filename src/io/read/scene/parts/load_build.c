@@ -132,6 +132,7 @@ CpsStatus cpsi_still_water_build(const CpsiMaterials *m, CpsScene *scene) {
     for (int k = 0; k < scene->stage_count; k++) in_time = in_time || scene->stage[k].duration > 0;
     for (int i = 0; i < scene->line_count; i++)
         drag = drag || (scene->line[i].loads && scene->line[i].loads->drag.diameter > 0);
+    for (int i = 0; i < scene->body_count; i++) drag = drag || scene->body[i].member_count > 0;
     if (scene->current || !in_time || !drag || !(m->water > 0)) return CPS_OK;
     CpsCurrent *current = CPSI_POOL_TAKE(m->pool, 1, CpsCurrent);
     CpsCurrentRow *row = CPSI_POOL_TAKE(m->pool, 1, CpsCurrentRow);

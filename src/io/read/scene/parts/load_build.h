@@ -9,7 +9,8 @@
 CpsStatus cpsi_loads_build(const CpsiMaterials *materials, const CpsiLineValues *values,
                            CpsLine *line);
 
-/* Still water, for lines with drag that move in time where there is no current. */
+/* Still water, for lines with drag and members of bodies that move in time where there is no
+ * current. */
 CpsStatus cpsi_still_water_build(const CpsiMaterials *materials, CpsScene *scene);
 CpsStatus cpsi_current_build(const CpsiMaterials *materials, const CpsiList *rows,
                              const CpsiWavesValues *waves, CpsScene *scene);
