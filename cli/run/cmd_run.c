@@ -20,6 +20,7 @@
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
+#include "run/end_table.h"
 #include "run/extremes.h"
 #include "run/regularized_options.h"
 #include "run/regularized_run.h"
@@ -380,6 +381,7 @@ typedef struct Run {
     Progress progress;
     Warnings warnings;
     Extremes extremes;
+    EndTable ends;
     FILE *table, *solutions;
     CpsOutcome worst;
     bool refused; /* a step could not begin; the steps before it are kept */
@@ -412,8 +414,10 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     const int steps = cps_evolution_step_count(run->evolution);
     if (cli_is_shown(run->scene, steps, report.step_count - 1) ||
         report.outcome != CPS_OUTCOME_SOLVED || cli_interrupted() ||
-        cps_evolution_break(run->evolution).is_break)
+        cps_evolution_break(run->evolution).is_break) {
         print_rows(run->table, run->solutions, run->scene, run->evolution);
+        end_table_add(&run->ends, run->evolution);
+    }
     print_break(run->solutions, run->evolution);
     if (report.outcome != CPS_OUTCOME_SOLVED) {
         progress_end(&run->progress);
@@ -550,7 +554,8 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     Run run = {.scene = scene,
                .table = open_memstream(&text, &size),
                .solutions = open_memstream(&said, &length)};
-    if (!run.table || !run.solutions) {
+    if (!end_table_begin(&run.ends) || !run.table || !run.solutions) {
+        end_table_free(&run.ends);
         if (run.table) fclose(run.table);
         if (run.solutions) fclose(run.solutions);
         free(text);
@@ -564,6 +569,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     const bool whole = table && solutions;
     if (whole && !status && !options->json && !options->quiet) {
         fwrite(text, 1, size, stdout);
+        end_table_print(&run.ends, stdout);
         if (length > 0) printf("\n%s", said);
         extremes_print(&run.extremes, run.evolution, stdout);
         print_utilisation(&run.warnings.utilisation);
@@ -574,6 +580,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
                                                   : exit_code(run.worst);
     free(text);
     free(said);
+    end_table_free(&run.ends);
     extremes_free(&run.extremes);
     cps_journal_destroy(run.journal);
     cps_results_destroy(run.results);
