@@ -529,14 +529,16 @@ static void print_where(const char *directory, const CpsEvolution *evolution,
            "          mesh, nor of what earlier steps have left. mesh: estimated error by the "
            "elements' length, of the step as well\n");
     const bool bodies = cps_evolution_body_count(evolution) > 0;
-    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s%s%s%s%s\n",
-               directory, options->out_table ? ", history.out" : "",
-               cps_evolution_point_count(evolution) > 0 ? ", points.csv" : "",
+    const bool points = cps_evolution_point_count(evolution) > 0;
+    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s%s%s%s%s%s\n",
+               directory, options->out_table ? ", history.out" : "", points ? ", points.csv" : "",
                bodies ? ", bodies.csv" : "", options->stiffness ? ", stiffness.csv" : "",
+               options->stiffness && points ? ", point-stiffness.csv" : "",
                options->stiffness && bodies ? ", body-stiffness.csv" : "",
                options->no_paraview ? "" : ", result.pvd (ParaView)");
     cli_printf(stdout,
                "pictures  %s: plan.svg, elevation.svg, tension.svg, history.svg, step-*.svg; "
+               "planes.svg of up to 12 lines at points; "
                "loop-*.svg where a held end goes round a closed cycle\n",
                directory);
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
