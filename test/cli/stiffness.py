@@ -80,10 +80,10 @@ def against_history(folder, out):
 TWO = """
 capstan: 1
 obstacles: {bed: {plane: {}, friction: 0.4}}
-points: {"knot, east": {free: [40, 0, 0], mass: 500}, anchor: {held: [0, 0, 0]}, top: {held: [88, 0, 40]}}
+points: {knot: {free: [40, 0, 0], mass: 500}, anchor: {held: [0, 0, 0]}, top: {held: [88, 0, 40]}}
 lines:
-  chain: {length: 45, elements: 20, weight: 200, stiffness: 1e6, start: static, ends: {A: {point: anchor}, B: {point: "knot, east"}}}
-  rope: {length: 62, elements: 20, weight: 30, stiffness: 1e6, start: static, ends: {A: {point: "knot, east"}, B: {point: top}}}
+  chain: {length: 45, elements: 20, weight: 200, stiffness: 1e6, start: static, ends: {A: {point: anchor}, B: {point: knot}}}
+  rope: {length: 62, elements: 20, weight: 30, stiffness: 1e6, start: static, ends: {A: {point: knot}, B: {point: top}}}
 history:
   - {name: out, steps: 2, top.point: {position: [91, 2, 40]}}
 """
@@ -91,7 +91,7 @@ history:
 
 def of_points():
     """point-stiffness.csv is the sum of stiffness.csv over the ends at the point."""
-    at = {"knot, east": [("chain", "B"), ("rope", "A")], "anchor": [("chain", "A")], "top": [("rope", "B")]}
+    at = {"knot": [("chain", "B"), ("rope", "A")], "anchor": [("chain", "A")], "top": [("rope", "B")]}
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "scene.yaml"), "w", encoding="utf-8") as file:
             file.write(TWO)
