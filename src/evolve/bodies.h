@@ -21,14 +21,14 @@ typedef struct CpsiWrench {
 } CpsiWrench;
 
 /* A cylinder on which the water acts (members.h). */
-typedef struct CpsiMember {
+typedef struct CpsiCylinder {
     Vec3 from, axis; /* [m], unit: in the axes of the body */
     double length;   /* [m] */
     double each;     /* [m] of a strip */
     double surface;  /* [m] z of that of the water at rest; infinite: none */
     int strips;
     CpsiFlow flow; /* about it, with its drag */
-} CpsiMember;
+} CpsiCylinder;
 
 typedef struct CpsiBody {
     const char *name;
@@ -42,7 +42,7 @@ typedef struct CpsiBody {
     int wave_count;           /* of those that act on it */
     const double *excitation; /* (wave_count, 12) */
     int member_count;
-    const CpsiMember *member; /* (member_count) */
+    const CpsiCylinder *member; /* (member_count) */
     CpsBody given;            /* with the name above */
     double mass, lift;        /* [kg] weight and buoyancy per gravity */
     double length;            /* [m] of the longest line at its points */

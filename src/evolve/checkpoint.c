@@ -676,7 +676,7 @@ static void hash_body(uint64_t *hash, const CpsiBody *body) {
     hash_numbers(hash, 6, given->velocity);
     hash_numbers(hash, 12 * (size_t)body->wave_count, body->excitation);
     for (int i = 0; i < body->member_count; i++) {
-        hash_bytes(hash, &body->member[i], offsetof(CpsiMember, strips)); /* numbers only */
+        hash_bytes(hash, &body->member[i], offsetof(CpsiCylinder, strips)); /* numbers only */
         hash_flow(hash, &body->member[i].flow);
     }
 }

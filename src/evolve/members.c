@@ -24,11 +24,11 @@
 #include "evolve/time_check.h"
 
 /* A member. */
-static CpsiMember member_of(const CpsScene *scene, const CpsMember *given) {
+static CpsiCylinder member_of(const CpsScene *scene, const CpsMember *given) {
     const Vec3 from = vec3_load(given->from), way = vec3_sub(vec3_load(given->to), from);
     const double length = vec3_norm(way);
     const int strips = given->strip_count > 0 ? given->strip_count : CPS_MEMBER_STRIPS;
-    return (CpsiMember){.from = from,
+    return (CpsiCylinder){.from = from,
                         .axis = vec3_scale(1 / length, way),
                         .length = length,
                         .each = length / strips,
@@ -42,7 +42,7 @@ static CpsiMember member_of(const CpsScene *scene, const CpsMember *given) {
 }
 
 /* [kg/m] of the water in its place. */
-static double displaced(const CpsiMember *member) {
+static double displaced(const CpsiCylinder *member) {
     const double d = member->flow.drag.diameter;
     return member->flow.density * 0.25 * CPSI_PI * d * d;
 }
@@ -132,7 +132,7 @@ static void add_mass(double mass, Vec3 arm, Vec3 axis, double out[36]) {
 
 /* Add that of a member in the axes of its body, in the pose in which it begins: by Gauss's formula
  * with two places, which is exact for squares of them. */
-static void add_member_mass(const CpsiMember *member, const CpsiPose *begin, double out[36]) {
+static void add_member_mass(const CpsiCylinder *member, const CpsiPose *begin, double out[36]) {
     const double gauss = 0.5 / sqrt(3.0), up = rotation_apply(begin->turn, member->axis).z,
                  z = begin->place.z + rotation_apply(begin->turn, member->from).z;
     double share[2];
@@ -155,7 +155,7 @@ void cps_body_added_mass(const CpsScene *scene, int body, double added[36]) {
     const CpsiPose begin = cpsi_body_begin(given);
     for (int i = 0; i < 36; i++) added[i] = given->added_mass[i];
     for (int k = 0; k < given->member_count; k++) {
-        const CpsiMember member = member_of(scene, &given->member[k]);
+        const CpsiCylinder member = member_of(scene, &given->member[k]);
         add_member_mass(&member, &begin, added);
     }
 }
@@ -169,7 +169,7 @@ void cpsi_members_layout(CpsEvolution *evolution, CpsiArena *arena, const CpsSce
 }
 
 void cpsi_members_fill(CpsEvolution *evolution, const CpsScene *local) {
-    CpsiMember *next = evolution->member;
+    CpsiCylinder *next = evolution->member;
     for (int i = 0; i < local->body_count; i++) {
         const CpsBody *given = &local->body[i];
         CpsiBody *body = &evolution->bodies.body[i];
@@ -193,7 +193,7 @@ void cpsi_members_fill(CpsEvolution *evolution, const CpsScene *local) {
 
 /* A member in a pose, and the motion of its body. */
 typedef struct Site {
-    const CpsiMember *member;
+    const CpsiCylinder *member;
     Vec3 place, from, axis; /* of the reference point; of the member's beginning from it */
     Vec3 velocity, rate;
     const CpsiWaves *waves; /* NULL: none in the step */
@@ -233,7 +233,7 @@ static void add_force(CpsiWrench *to, Vec3 force, Vec3 arm) {
 }
 
 static void add_part(const Site *site, const double part[2], CpsiMemberLoad *out) {
-    const CpsiMember *member = site->member;
+    const CpsiCylinder *member = site->member;
     const CpsiFlow *flow = &member->flow;
     const double middle = 0.5 * (part[0] + part[1]), length = part[1] - part[0];
     const Vec3 x = place_at(site, middle), arm = vec3_axpy(middle, site->axis, site->from);
@@ -251,7 +251,7 @@ CpsiMemberLoad cpsi_members_load(const CpsiBody *body, const CpsiPose *pose,
     const Vec3 none = vec3(0, 0, 0);
     CpsiMemberLoad out = {{none, none}, {none, none}};
     for (int k = 0; k < body->member_count; k++) {
-        const CpsiMember *member = &body->member[k];
+        const CpsiCylinder *member = &body->member[k];
         Site site = {.member = member,
                      .place = pose->place,
                      .from = rotation_apply(pose->turn, member->from),
@@ -259,8 +259,8 @@ CpsiMemberLoad cpsi_members_load(const CpsiBody *body, const CpsiPose *pose,
                      .velocity = phase ? phase->velocity : none,
                      .rate = phase ? phase->rate : none,
                      .waves = phase ? member->flow.waves : NULL};
-        for (int w = 0; site.waves && w < site.waves->count; w++)
-            site.reach += site.waves->wave[w].amplitude;
+        const int waves = site.waves ? site.waves->count : 0;
+        for (int w = 0; w < waves; w++) site.reach += site.waves->wave[w].amplitude;
         for (int i = 0; i < member->strips; i++) {
             double part[2];
             if (find_part(&site, i * member->each, (i + 1) * member->each, part))

@@ -60,7 +60,7 @@ struct CpsEvolution {
     CpsiWave *wave; /* (waves of the scene), and what is known of them; NULL: none */
     CpsiWaves waves;
     double *excitation; /* of all bodies (excitation.h) */
-    CpsiMember *member; /* of all bodies (members.h) */
+    CpsiCylinder *member; /* of all bodies (members.h) */
     CpsiPoints points;
     CpsiBodies bodies;
     CpsiEvolutionStage *stage; /* (stage_count) */

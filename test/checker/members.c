@@ -38,7 +38,8 @@ static Real surface_at(const CpsScene *scene, const Real *x, Real time) {
     const CpsWaves *waves = scene->current->waves;
     Real z = scene->water_surface;
     if (!scene->has_water_surface) return INFINITY;
-    for (int i = 0; waves && time >= 0 && i < waves->wave_count; i++) {
+    if (!waves || time < 0) return z;
+    for (int i = 0; i < waves->wave_count; i++) {
         const CpsWave *of = &waves->wave[i];
         const Real w = TAU / of->period, k = sea_number(w, -(Real)scene->gravity[2], waves->depth),
                    way = x[0] * cosl(of->direction) + x[1] * sinl(of->direction);
@@ -61,7 +62,8 @@ static void water_at(const CpsScene *scene, const Real *x, Real time, Real *u, R
         a[i] = 0;
     }
     const CpsWaves *waves = current->waves;
-    for (int i = 0; waves && time >= 0 && i < waves->wave_count; i++) {
+    if (!waves || time < 0) return;
+    for (int i = 0; i < waves->wave_count; i++) {
         const CpsWave *of = &waves->wave[i];
         const Real w = TAU / of->period;
         Wave wave = {.amplitude = of->amplitude,
@@ -140,7 +142,8 @@ MemberLoad members_load(const CpsScene *scene, int index, const MemberBody *at) 
     MemberLoad out = {.sizes = {0, 0}};
     Real m[3][3];
     body_matrix(at->rotation, m);
-    for (int k = 0; scene->current && k < body->member_count; k++) {
+    if (!scene->current) return out;
+    for (int k = 0; k < body->member_count; k++) {
         const CpsMember *member = &body->member[k];
         const int strips = member->strip_count > 0 ? member->strip_count : CPS_MEMBER_STRIPS;
         for (int s = 0; s < strips; s++) {
@@ -176,7 +179,8 @@ void members_added(const CpsScene *scene, int index, double added[SIX * SIX]) {
     Real m[3][3];
     body_matrix(body->rotation, m);
     for (int i = 0; i < SIX * SIX; i++) added[i] = body->added_mass[i];
-    for (int k = 0; scene->current && k < body->member_count; k++) {
+    if (!scene->current) return;
+    for (int k = 0; k < body->member_count; k++) {
         const CpsMember *member = &body->member[k];
         Real axis[3], z[2], low = 0, high = 1;
         for (int i = 0; i < 3; i++) axis[i] = (Real)member->to[i] - member->from[i];
