@@ -43,11 +43,11 @@ typedef struct CpsiBody {
     const double *excitation; /* (wave_count, 12) */
     int member_count;
     const CpsiCylinder *member; /* (member_count) */
-    CpsBody given;            /* with the name above */
-    double mass, lift;        /* [kg] weight and buoyancy per gravity */
-    double length;            /* [m] of the longest line at its points */
-    double arm;               /* [m] of its farthest point */
-    CpsBodyReport report;     /* its position relative to the origin */
+    CpsBody given;              /* with the name above */
+    double mass, lift;          /* [kg] weight and buoyancy per gravity */
+    double length;              /* [m] of the longest line at its points */
+    double arm;                 /* [m] of its farthest point */
+    CpsBodyReport report;       /* its position relative to the origin */
     CpsiBodyInertia inertia;
 } CpsiBody;
 

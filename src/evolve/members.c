@@ -29,16 +29,16 @@ static CpsiCylinder member_of(const CpsScene *scene, const CpsMember *given) {
     const double length = vec3_norm(way);
     const int strips = given->strip_count > 0 ? given->strip_count : CPS_MEMBER_STRIPS;
     return (CpsiCylinder){.from = from,
-                        .axis = vec3_scale(1 / length, way),
-                        .length = length,
-                        .each = length / strips,
-                        .surface = scene->has_water_surface ? scene->water_surface : INFINITY,
-                        .strips = strips,
-                        .flow = {.density = scene->current ? scene->current->density : 0,
-                                 .drag = {.diameter = given->diameter,
-                                          .normal = given->normal,
-                                          .tangential = given->tangential,
-                                          .added_normal = given->added_normal}}};
+                          .axis = vec3_scale(1 / length, way),
+                          .length = length,
+                          .each = length / strips,
+                          .surface = scene->has_water_surface ? scene->water_surface : INFINITY,
+                          .strips = strips,
+                          .flow = {.density = scene->current ? scene->current->density : 0,
+                                   .drag = {.diameter = given->diameter,
+                                            .normal = given->normal,
+                                            .tangential = given->tangential,
+                                            .added_normal = given->added_normal}}};
 }
 
 /* [kg/m] of the water in its place. */
