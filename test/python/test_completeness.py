@@ -264,7 +264,7 @@ NOT_CALLED = {
         "studies and journals: `python -m capstan study`, `offset`, `run`",
     r"cps_solution_(complete|judge|slack)": "all solutions of a step: `python -m capstan study`",
     r"cps_(line_resize|scene_length_for)": "the key `pretension`, and scipy (examples/python/line_length.py)",
-    r"cps_law_load|cps_resistance_(conjugate|function|is_dry|residual)|cps_outcome_is_final|cps_body_angles|cps_set_project": "can be had otherwise",
+    r"cps_law_load|cps_resistance_(conjugate|function|is_dry|residual)|cps_outcome_is_final|cps_body_(angles|added_mass)|cps_set_project": "can be had otherwise",
 }
 
 
