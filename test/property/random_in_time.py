@@ -254,7 +254,10 @@ class Scene:
 
     def wave(self):
         while True:
-            text = Swim(random.Random(self.dice.random()), random.Random(self.dice.random()), "bed").text()
+            swim = Swim(random.Random(self.dice.random()), random.Random(self.dice.random()), "bed")
+            # the phase of a short wave is known to its rounding far away
+            swim.origin = [self.dice.choice([0, 100, -300]) * swim.size for _ in range(2)] + [0.0]
+            text = swim.text()
             if "waves:" in text:
                 return text
 
