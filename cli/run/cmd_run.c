@@ -20,6 +20,7 @@
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
+#include "run/end_table.h"
 #include "run/extremes.h"
 #include "run/regularized_options.h"
 #include "run/regularized_run.h"
@@ -380,6 +381,7 @@ typedef struct Run {
     Progress progress;
     Warnings warnings;
     Extremes extremes;
+    EndTable ends;
     FILE *table, *solutions;
     CpsOutcome worst;
     bool refused; /* a step could not begin; the steps before it are kept */
@@ -412,8 +414,10 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     const int steps = cps_evolution_step_count(run->evolution);
     if (cli_is_shown(run->scene, steps, report.step_count - 1) ||
         report.outcome != CPS_OUTCOME_SOLVED || cli_interrupted() ||
-        cps_evolution_break(run->evolution).is_break)
+        cps_evolution_break(run->evolution).is_break) {
         print_rows(run->table, run->solutions, run->scene, run->evolution);
+        end_table_add(&run->ends, run->evolution);
+    }
     print_break(run->solutions, run->evolution);
     if (report.outcome != CPS_OUTCOME_SOLVED) {
         progress_end(&run->progress);
@@ -525,14 +529,16 @@ static void print_where(const char *directory, const CpsEvolution *evolution,
            "          mesh, nor of what earlier steps have left. mesh: estimated error by the "
            "elements' length, of the step as well\n");
     const bool bodies = cps_evolution_body_count(evolution) > 0;
-    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s%s%s%s%s\n",
-               directory, options->out_table ? ", history.out" : "",
-               cps_evolution_point_count(evolution) > 0 ? ", points.csv" : "",
+    const bool points = cps_evolution_point_count(evolution) > 0;
+    cli_printf(stdout, "\nresults   %s: summary.json, history.csv, result.nc%s%s%s%s%s%s%s\n",
+               directory, options->out_table ? ", history.out" : "", points ? ", points.csv" : "",
                bodies ? ", bodies.csv" : "", options->stiffness ? ", stiffness.csv" : "",
+               options->stiffness && points ? ", point-stiffness.csv" : "",
                options->stiffness && bodies ? ", body-stiffness.csv" : "",
                options->no_paraview ? "" : ", result.pvd (ParaView)");
     cli_printf(stdout,
                "pictures  %s: plan.svg, elevation.svg, tension.svg, history.svg, step-*.svg; "
+               "planes.svg of up to 12 lines at points; "
                "loop-*.svg where a held end goes round a closed cycle\n",
                directory);
     const CpsLineView view = cps_evolution_line_view(evolution, 0);
@@ -550,7 +556,8 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     Run run = {.scene = scene,
                .table = open_memstream(&text, &size),
                .solutions = open_memstream(&said, &length)};
-    if (!run.table || !run.solutions) {
+    if (!end_table_begin(&run.ends) || !run.table || !run.solutions) {
+        end_table_free(&run.ends);
         if (run.table) fclose(run.table);
         if (run.solutions) fclose(run.solutions);
         free(text);
@@ -564,6 +571,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
     const bool whole = table && solutions;
     if (whole && !status && !options->json && !options->quiet) {
         fwrite(text, 1, size, stdout);
+        end_table_print(&run.ends, stdout);
         if (length > 0) printf("\n%s", said);
         extremes_print(&run.extremes, run.evolution, stdout);
         print_utilisation(&run.warnings.utilisation);
@@ -574,6 +582,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
                                                   : exit_code(run.worst);
     free(text);
     free(said);
+    end_table_free(&run.ends);
     extremes_free(&run.extremes);
     cps_journal_destroy(run.journal);
     cps_results_destroy(run.results);

@@ -137,27 +137,27 @@ CPS_API int cps_evolution_line_count(const CpsEvolution *evolution);
 CPS_API CpsLineReport cps_evolution_line_report(const CpsEvolution *evolution, int line);
 CPS_API CpsLineView cps_evolution_line_view(const CpsEvolution *evolution, int line);
 
-/* The points of the scene (point.h): how many there are, and the report on one after the last step,
- * of what is no point one of zeros. */
+/* The points (point.h): their number, and the report on one, of what is no point one of zeros. */
 CPS_API int cps_evolution_point_count(const CpsEvolution *evolution);
 CPS_API CpsPointReport cps_evolution_point_report(const CpsEvolution *evolution, int point);
 
-/* The same of the bodies (body.h). */
+/* The same of the bodies (body.h), and of the obstacles (shift.h). */
 CPS_API int cps_evolution_body_count(const CpsEvolution *evolution);
 CPS_API CpsBodyReport cps_evolution_body_report(const CpsEvolution *evolution, int body);
-
-/* The same of the obstacles (shift.h). */
 CPS_API int cps_evolution_obstacle_count(const CpsEvolution *evolution);
 CPS_API CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution, int k);
 
 /* The stiffness of an end of a line after the last step, all else as in that step: the other end
  * stays, or keeps its force. An end with a given force is taken as one that is held where the step
  * has left it. A step of several substeps (CpsLineReport) is that of its last one. Sliding forces
- * on a sphere are those at the arc slid in the step. Allocates nothing and changes nothing that
- * another call can see. Returns CPS_OK, also where nothing is found, or CPS_ERR_ARGUMENT. */
+ * on a sphere are those at the arc slid in the step. Allocates nothing, changes nothing that can be
+ * seen. Returns CPS_OK, also where nothing is found, or CPS_ERR_ARGUMENT. */
 CPS_API CpsStatus cps_evolution_stiffness(const CpsEvolution *evolution, int line, int end,
                                           CpsStiffnessKind kind, CpsStiffness *out, CpsError *err);
-
+/* The same of a point, of all lines that end there. */
+CPS_API CpsStatus cps_evolution_point_stiffness(const CpsEvolution *evolution, int point,
+                                                CpsStiffnessKind kind, CpsStiffness *out,
+                                                CpsError *err);
 /* The same of a body in its pose, of all lines at its points. */
 CPS_API CpsStatus cps_evolution_body_stiffness(const CpsEvolution *evolution, int body,
                                                CpsStiffnessKind kind, CpsBodyStiffness *out,

@@ -125,7 +125,7 @@ typedef struct CpsEndReport {
     double tension;     /* [N] |force|, the tension at this end */
     double work;        /* [J] of that force in this step; the two ends' are `ends` of the ledger */
     double friction_force[3]; /* [N] on the half element beside a held end on an obstacle */
-    double uplift; /* [N] vertical part of the line's force on what holds this end, up positive */
+    double uplift; /* [N] vertical part of the line's force on what holds this end (docs), up > 0 */
     double angle;  /* [rad] at which the line leaves this end, above the horizontal; 0: no force */
     double suspended;      /* [m] natural length from this end to the first contact; all, if none */
     double touchdown[3];   /* [m] where the line is at that length, with the line's flag */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/stiffness.h: how the force at an end of a line changes with the place of that end, after
- * a load step (theory 6c); cps_evolution_stiffness of evolve.h finds it. Summed over the lines of a
- * mooring it is the stiffness that holds what they are tied to.
+ * a load step (theory 6c); cps_evolution_stiffness of evolve.h finds it, and of a point where lines
+ * meet cps_evolution_point_stiffness. Summed over the lines of a mooring it is the stiffness that
+ * holds what they are tied to.
  *
  *     CpsStiffness found;
  *     cps_evolution_stiffness(evolution, 0, CPS_END_B, CPS_STIFFNESS_STEP, &found, &err);
@@ -64,7 +65,8 @@ CPS_API const char *cps_stiffness_outcome_text(CpsStiffnessOutcome outcome);
 typedef struct CpsStiffness {
     CpsStiffnessOutcome outcome;
     /* [N/m] d(force[i])/d(position[j]) at 3 i + j, force and position as in CpsEndReport: what it
-     * takes to move the end, positive where the line pulls it back; all 0 unless found */
+     * takes to move the end, positive where the line pulls it back; of a point against all its
+     * lines, whose other ends stay unless they are there too; all 0 unless found */
     double matrix[9];
     /* the same with touchdown points on planes that move along the elements (theory 6c): of second
      * order in the mesh, where `matrix` changes by jumps. Not given where the line turns up from

@@ -352,6 +352,14 @@ class Evolution:
         """Whether the next step is a break: a line is above its break_at."""
         return self._ask(lib.cps_evolution_breaks)
 
+    def point_stiffness(self, point: str, kind: str = "step", smooth: bool = False) -> np.ndarray:
+        """[N/m] (3, 3) of a point against all lines that end there: the derivative of force by position."""
+        index = self._index("points", point)
+        out = ffi.new("CpsStiffness *")
+        kind_ = self._stiffness_kind(kind)
+        self._call(lib.cps_evolution_point_stiffness, index, kind_, out)
+        return _stiffness_matrix(out, 3, smooth)
+
     def body_stiffness(self, body: str, kind: str = "step", smooth: bool = False) -> np.ndarray:
         """[N/m, N, N m] (6, 6) of a body in its pose: the derivative of force and moment by position and rotation."""
         index = self._index("bodies", body)

@@ -2,10 +2,9 @@
 """The pictures of docs/gallery.md: of the first scene of README.md, of a bridle, of a bollard that is moved, of a cable on ground, of lines on a quay and in a bore, of an anchor line, of a net, of a buoy, of a spar and a barge on lines, and of driven systems."""
 import os
 import re
-import subprocess
-import sys
 
 from marks import read
+from net import drape, run_of
 
 
 def driven(name, *arguments):
@@ -33,10 +32,7 @@ def of_example(name, picture):
 
 def net(program):
     """The plan of the last step of the scene that examples/net.py writes of 20 x 20 meshes."""
-    maker = os.path.join(program.root, "examples", "net.py")
-    scene = subprocess.run([sys.executable, maker, "20"], capture_output=True, text=True, check=True).stdout
-    _, place = program.run("run", program.file("net.yaml", scene))
-    return os.path.join(place, "step-00004-plan.svg")
+    return os.path.join(run_of(program, 20), "step-00004-plan.svg")
 
 
 def offset(program):
@@ -66,7 +62,7 @@ PICTURES = {
     "run-oc3-decay": of_example("oc3-hywind-decay", "history.svg"),
     "run-oc3-waves": of_example("oc3-hywind-waves", "history.svg"),
     "run-parting-lines": of_example("parting-lines", "step-00008-plan.svg"),
-    "run-net": net,
+    "run-net": net, "run-net-drape": lambda program: drape(program, 20), "run-oc3-planes": of_example("oc3-hywind", "planes.svg"),
     "run-moored-buoy": of_example("catenary-moored-buoy", "elevation.svg"),
     "drive-wheel-maps": driven("braked-wheel"),
     "drive-wheel-reduced": driven("braked-wheel", "--eliminate", "--velocity", "1,0.2", "--velocity", "0,1", "--velocity", "0.5,2"),

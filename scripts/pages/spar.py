@@ -70,8 +70,9 @@ def lifts(program):
         scene = program.file(f"spar-lifts-{elements}.yaml", text.replace("elements: 100", f"elements: {elements}"))
         _, place = program.run("run", scene, "--no-paraview")
         rows = [{**a, **b} for a, b in zip(table(os.path.join(place, "bodies.csv")), table(os.path.join(place, "history.csv")))]
-        k = next(k for k in range(1, len(rows)) if float(rows[k]["first.A.uplift"]) >= 0)
-        before, after = float(rows[k - 1]["first.A.uplift"]), float(rows[k]["first.A.uplift"])
+        # the anchor's uplift is without what the bed bears: of the whole force on the line there
+        k = next(k for k in range(1, len(rows)) if float(rows[k]["first.A.fz"]) <= 0)
+        before, after = -float(rows[k - 1]["first.A.fz"]), -float(rows[k]["first.A.fz"])
         share = -before/(after - before)
 
         def at(name):

@@ -15,6 +15,7 @@
 #include "cable/anderson.h"
 #include "cable/drums.h"
 #include "cable/elasticity.h"
+#include "cable/end_ground.h"
 #include "cable/friction_law.h"
 #include "cable/in_set.h"
 #include "cable/inertia.h"
@@ -33,8 +34,7 @@ typedef struct CpsiLine {
     int obstacle_count;
     const CpsiObstacle *obstacle; /* (obstacle_count) */
     const CpsiFrictionSet *const
-        *friction_set;  /* (obstacle_count) general friction sets; an entry NULL: a set that is {0},
-                           or none; NULL: no obstacle has one */
+        *friction_set;  /* (obstacle_count) general; an entry NULL: {0} or none; NULL: all are */
     const double *turn; /* (obstacle_count) [rad] by which each turns in this substep, and */
     CpsiShift *shift;   /* how each has been shifted in it */
     bool has_zones, has_inertia; /* friction differs along it; it may move in time */
@@ -49,14 +49,14 @@ typedef struct CpsiLine {
     CpsEnd end[2], end_before[2]; /* imposed now, and at the beginning of the substep */
     CpsiEndSet on[2];             /* that free ends are held to */
     CpsiDrums drums;              /* what is on winches at the ends */
-    bool is_at_point[2];    /* held at a point, which bears what obstacles do to the half element */
-    double *arc_length;     /* (n) [m] */
-    double *element_length; /* (n - 1) [m] at rest, element e joins nodes e and e + 1 */
-    double *natural_length; /* (n - 1) the same, but for `two` and internal damping */
+    bool is_at_point[2]; /* held at a point, which bears what obstacles do to the half element */
+    CpsiEndGround ground[2];          /* under it */
+    double *arc_length;               /* (n) [m] */
+    double *element_length;           /* (n - 1) [m] at rest, element e joins nodes e and e + 1 */
+    double *natural_length;           /* (n - 1) the same, but for `two` and internal damping */
     double *breaking_load, *break_at; /* (n - 1) [N] INFINITY: none; NULL: none anywhere */
-    /* of a line of sections or with point masses, else NULL */
-    double *weight_factor;     /* (n - 1) weight per length of element e over `weight` */
-    double *compliance_factor; /* (n - 1) compliance of element e over `compliance`, at T = 0 */
+    /* of element e over `weight` and `compliance` at T = 0; NULL: no sections or point masses */
+    double *weight_factor, *compliance_factor; /* (n - 1) */
     /* springs beside the elements (base/element_law.h), spring_at[e]..spring_at[e + 1] - 1 of e */
     int spring_count;         /* 0: none, and the arrays are NULL */
     double spring_compliance; /* [1/N] `compliance` as given, not as statics use it */

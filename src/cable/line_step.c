@@ -422,7 +422,7 @@ static void store_forces_before(CpsiLine *line) {
 /* Free, stick and slip, and the sums that go with them. */
 static void classify(CpsiLine *line, const CpsiChainProgram *program) {
     CpsLineReport *report = &line->report;
-    report->grounded = report->slipping = report->slack = 0;
+    report->slack = 0;
     cpsi_line_classify(line, program);
 }
 

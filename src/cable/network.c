@@ -221,14 +221,21 @@ static void fill_map(const CpsiNetworkPart *part, int k, const double axes[9],
     const CpsiJoint *joint = &part->joint[k];
     *map = (CpsiJointMap){.first = 3 * k, .width = 3, .by = {{1}, {0, 1}, {0, 0, 1}}};
     if (k < part->own) return;
-    double arm[3], a[3];
+    const bool *fixed = part->body[joint->body].fixed;
+    double arm[3], a[3], free[2][9] = {{0}};
     vec3_store(arm, vec3_scale(1 / scale->length, joint->arm));
     cpsi_frame_to(a, axes, arm);
-    *map = (CpsiJointMap){.first = 3 * part->own + 6 * joint->body,
-                          .width = 6,
-                          .by = {{1, 0, 0, 0, a[2], -a[1]},
-                                 {0, 1, 0, -a[2], 0, a[0]},
-                                 {0, 0, 1, a[1], -a[0], 0}}};
+    const double across[3][3] = {{0, a[2], -a[1]}, {-a[2], 0, a[0]}, {a[1], -a[0], 0}};
+    for (int half = 0; half < 2; half++) {
+        for (int i = 0; i < 3; i++) free[half][4 * i] = !fixed[3 * half + i];
+        cpsi_frame_turn(free[half], axes, free[half]);
+    }
+    *map = (CpsiJointMap){.first = 3 * part->own + 6 * joint->body, .width = 6};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            map->by[i][j] = free[0][3 * i + j];
+            for (int l = 0; l < 3; l++) map->by[i][3 + j] += across[i][l] * free[1][3 * l + j];
+        }
 }
 
 /* A stiffness (6, 6) in the common axes and the units of the program. */
@@ -400,7 +407,7 @@ static bool solve_to_the_end(CpsiNetwork *network, CpsiLine *line, const CpsiNet
                           .sharpenings = CPSI_REFINEMENT_STEPS};
     bool solved = solve(network, line, part, options, ipm, out);
     while (network->found == CPSI_IPM_STALLED && ipm.target < ENOUGH &&
-           !has_inextensible(line, part)) {
+           (part->bodies > 0 || !has_inextensible(line, part))) {
         ipm.target *= 10;
         solved = solve(network, line, part, options, ipm, out);
     }

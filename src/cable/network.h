@@ -34,6 +34,7 @@ typedef struct CpsiJoint {
 typedef struct CpsiNetworkBody {
     Vec3 force, moment;
     double stiffness[36];
+    bool fixed[6]; /* its directions in which its joints do not move */
 } CpsiNetworkBody;
 
 typedef struct CpsiNetwork {

@@ -178,7 +178,12 @@ void cpsi_line_report_uplift(CpsiLine *line, const double gravity[3]) {
     const Vec3 up = upwards(gravity);
     for (int end = 0; end < 2; end++) {
         CpsEndReport *out = &line->report.end[end];
-        const Vec3 pull = vec3_scale(-1, vec3_load(out->force));
+        const CpsiEndGround *ground = &line->ground[end];
+        const Vec3 normal = vec3_load(ground->normal);
+        Vec3 pull = vec3_scale(-1, vec3_load(out->force));
+        /* the ground under an anchor bears what presses on it */
+        if (ground->obstacle && vec3_dot(pull, normal) < 0)
+            pull = vec3_axpy(-ground->borne * vec3_dot(pull, normal), normal, pull);
         out->uplift = vec3_dot(pull, up);
         out->angle = atan2(out->uplift, vec3_norm(vec3_reject(pull, up)));
     }
@@ -219,6 +224,14 @@ static bool touches(const CpsiLine *line, int j, const CpsiObstacle *k, double *
     return false;
 }
 
+/* The ground under the point at which node j ends the line, or NULL. */
+static const CpsiEndGround *ground_at(const CpsiLine *line, int j) {
+    for (int end = 0; end < 2; end++)
+        if (line->ground[end].obstacle && j == cpsi_line_end_node(line, end))
+            return &line->ground[end];
+    return NULL;
+}
+
 /* The share of its length with which a touching node lies on the obstacle of contact c. Inside a
  * piece that lies there it is 1. At the end of a piece it is the ratio of its reaction to that of a
  * node that lies there with its whole length: on a plane the weight, on a curved obstacle the
@@ -226,9 +239,12 @@ static bool touches(const CpsiLine *line, int j, const CpsiObstacle *k, double *
 static double grounded_part(const CpsiLine *line, int c) {
     const int j = cpsi_line_node(line, c);
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    const CpsiEndGround *first = ground_at(line, j - 1), *last = ground_at(line, j + 1);
     double density = 0, other = 0;
-    const bool before = touches(line, j - 1, obstacle, &density),
-               after = touches(line, j + 1, obstacle, &density);
+    const bool before = touches(line, j - 1, obstacle, &density) ||
+                        (first && first->obstacle == obstacle),
+               after =
+                   touches(line, j + 1, obstacle, &density) || (last && last->obstacle == obstacle);
     if (before && after) return 1;
     if (obstacle->kind == CPS_OBSTACLE_PLANE)
         density = -vec3_dot(cpsi_line_load_at(line, j), vec3_at(line->normal, c));
@@ -249,7 +265,8 @@ static bool has_slipped(const CpsiLine *line, int c) {
 
 /* The share of its length with which node j lies on any obstacle; 0 of a node without contact. */
 static double touching_part(const CpsiLine *line, int j) {
-    double part = 0;
+    const CpsiEndGround *ground = ground_at(line, j);
+    double part = ground ? ground->part : 0;
     for (int c = j; c < cpsi_line_contacts(line); c += line->n)
         if (line->state[c] != CPS_NODE_STATE_FREE) part = fmax(part, grounded_part(line, c));
     return part;
@@ -341,9 +358,11 @@ void cpsi_line_report_sweep(CpsiLine *line, const double gravity[3]) {
 
 void cpsi_line_report_lengths(CpsiLine *line) {
     line->report.has_slipping = true;
+    line->report.grounded = line->report.slipping = 0;
     for (int j = 0; j < line->n; j++) {
         const double part = touching_part(line, j);
-        bool slips = false;
+        const CpsiEndGround *ground = ground_at(line, j);
+        bool slips = ground && ground->slips;
         for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
             if (line->state[c] == CPS_NODE_STATE_FREE) continue;
             slips = slips || has_slipped(line, c);

@@ -413,6 +413,17 @@ static void find_motion(CpsiBalance *balance, int group) {
     cpsi_report_found(balance);
 }
 
+/* Take the answer as one program; of bodies also from poses within reach of their lines, since the
+ * places of its rounds are linear in their rotations. */
+static bool take_joint_answer_within_reach(CpsiBalance *balance) {
+    if (cpsi_take_joint_answer(balance)) return true;
+    if (balance->body_count == 0 || is_interrupted(balance->evolution)) return false;
+    cpsi_bring_bodies_within_reach(balance);
+    if (cpsi_take_joint_answer(balance)) return true;
+    cpsi_begin_again(balance);
+    return false;
+}
+
 /* Find the places of a group. In a history a body hardly moves in a step, and a few trials from
  * where it is take less time than the rounds of a first guess. */
 static void find_places(CpsiBalance *balance, int group) {
@@ -441,14 +452,15 @@ static void find_places(CpsiBalance *balance, int group) {
         cpsi_begin_again(balance);
     }
     /* their tension is no function of the places */
-    if (cpsi_has_inextensible(balance) && cpsi_take_joint_answer(balance)) {
+    if (cpsi_has_inextensible(balance) && take_joint_answer_within_reach(balance)) {
         cpsi_report_found(balance);
         return;
     }
     const bool guessed = cpsi_guess_places(balance, false);
     if (!guessed && cpsi_group_is_too_short(balance)) return;
     if (!guessed) cpsi_extrapolate_places(balance);
-    const bool joint = !cpsi_has_inextensible(balance) && cpsi_may_have_joint_answer(balance);
+    const bool joint = balance->body_count == 0 && !cpsi_has_inextensible(balance) &&
+                       cpsi_may_have_joint_answer(balance);
     const bool early = joint && balance->count > MANY;
     bool found = search(balance, early ? TRIALS_BESIDE : MOST_TRIALS);
     if (!found && early && !is_interrupted(evolution) && cpsi_take_joint_answer(balance)) {

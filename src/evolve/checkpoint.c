@@ -7,7 +7,6 @@
  * only valid for the same program on the same kind of machine. Structs are copied field by field:
  * the bytes contain no padding and no address, and are the same in every run. */
 #include "evolve/checkpoint.h"
-#include "evolve/hash.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stiffness of the ends of lines, and of bodies (capstan/stiffness.h). */
+/* The stiffness of the ends of lines, of points and of bodies (capstan/stiffness.h). */
 #include "capstan/evolve.h"
 
 #include "base/status.h"
@@ -20,6 +20,24 @@ const char *cps_stiffness_outcome_text(CpsStiffnessOutcome outcome) {
     return CPSI_WORDS(OUTCOME, outcome).text;
 }
 
+static CpsStatus check_kind(CpsStiffnessKind kind, CpsError *err) {
+    if (kind == CPS_STIFFNESS_STEP || kind == CPS_STIFFNESS_STICK) return CPS_OK;
+    return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                     "kind %d, expected CPS_STIFFNESS_STEP or CPS_STIFFNESS_STICK", (int)kind);
+}
+
+/* Is there a step of which there may be a stiffness? */
+static bool has_step(const CpsEvolution *evolution) {
+    return evolution->done + evolution->move_count > 0 && !cpsi_move_failed(evolution);
+}
+
+static CpsiLineStiffness stiffness_of_line(const CpsEvolution *evolution, int line,
+                                           CpsStiffnessKind kind, const bool moves[2]) {
+    cpsi_workspace_attach(&evolution->workspace[0], &evolution->line[line]);
+    return cpsi_line_stiffness(&evolution->line[line], &evolution->workspace[0].program,
+                               &evolution->options, kind, moves);
+}
+
 /* Where entry i of a block (3, 3) of two ends is in their matrix (6, 6). */
 static int block_entry(int to, int from, int i) { return 6 * (3 * to + i / 3) + 3 * from + i % 3; }
 
@@ -33,20 +51,59 @@ CpsStatus cps_evolution_stiffness(const CpsEvolution *evolution, int line, int e
                          evolution->line_count);
     if (end != CPS_END_A && end != CPS_END_B)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "end %d, expected CPS_END_A or CPS_END_B", end);
-    if (kind != CPS_STIFFNESS_STEP && kind != CPS_STIFFNESS_STICK)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "kind %d, expected CPS_STIFFNESS_STEP or CPS_STIFFNESS_STICK", (int)kind);
-    if (evolution->done + evolution->move_count == 0 || cpsi_move_failed(evolution)) return CPS_OK;
-    cpsi_workspace_attach(&evolution->workspace[0], &evolution->line[line]);
+    const CpsStatus status = check_kind(kind, err);
+    if (status || !has_step(evolution)) return status;
     const CpsiLineStiffness found =
-        cpsi_line_stiffness(&evolution->line[line], &evolution->workspace[0].program,
-                            &evolution->options, kind,
-                            (const bool[2]){end == CPS_END_A, end == CPS_END_B});
+        stiffness_of_line(evolution, line, kind,
+                          (const bool[2]){end == CPS_END_A, end == CPS_END_B});
     out->outcome = found.outcome;
     out->has_smooth = found.has_smooth;
     for (int i = 0; i < 9; i++) {
         out->matrix[i] = found.matrix[block_entry(end, end, i)];
         out->smooth[i] = found.smooth[block_entry(end, end, i)];
+    }
+    return CPS_OK;
+}
+
+/* Add what a line brings at its ends at a point; false, with the outcome, where it has none. */
+static bool add_to_point(const CpsEvolution *evolution, int line, int point, CpsStiffnessKind kind,
+                         CpsStiffness *out) {
+    const int *tie = &evolution->points.tie[2 * line];
+    const bool moves[2] = {tie[0] == point, tie[1] == point};
+    if (!moves[0] && !moves[1]) return true;
+    const CpsiLineStiffness found = stiffness_of_line(evolution, line, kind, moves);
+    out->outcome = found.outcome;
+    out->has_smooth = out->has_smooth && found.has_smooth;
+    if (found.outcome != CPS_STIFFNESS_OUTCOME_FOUND) return false;
+    for (int k = 0; k < 4; k++) /* blocks of an end that does not move are 0 */
+        for (int i = 0; i < 9; i++) {
+            out->matrix[i] += found.matrix[block_entry(k / 2, k % 2, i)];
+            out->smooth[i] += found.smooth[block_entry(k / 2, k % 2, i)];
+        }
+    return true;
+}
+
+CpsStatus cps_evolution_point_stiffness(const CpsEvolution *evolution, int point,
+                                        CpsStiffnessKind kind, CpsStiffness *out, CpsError *err) {
+    if (!evolution || !out)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s is NULL", evolution ? "out" : "evolution");
+    *out = (CpsStiffness){.outcome = CPS_STIFFNESS_OUTCOME_NO_STEP};
+    if (point < 0 || point >= evolution->points.count)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT, "point %d: the scene has %d", point,
+                         evolution->points.count);
+    const CpsStatus status = check_kind(kind, err);
+    if (status || !has_step(evolution)) return status;
+    out->has_smooth = true;
+    if (cps_outcome_is_certified(cps_evolution_report(evolution).outcome))
+        out->outcome = CPS_STIFFNESS_OUTCOME_FOUND; /* also of a point without lines */
+    bool found = true;
+    for (int i = 0; found && i < evolution->line_count; i++)
+        found = add_to_point(evolution, i, point, kind, out);
+    found = found && out->outcome == CPS_STIFFNESS_OUTCOME_FOUND;
+    out->has_smooth = found && out->has_smooth;
+    for (int i = 0; i < 9; i++) {
+        if (!found) out->matrix[i] = 0;
+        if (!out->has_smooth) out->smooth[i] = 0;
     }
     return CPS_OK;
 }
@@ -84,9 +141,7 @@ static bool add_line(const CpsEvolution *evolution, int line, int body, CpsStiff
                            body_of(evolution, line, 1) == body};
     Vec3 arm[2] = {{0}};
     if (!moves[0] && !moves[1]) return true;
-    cpsi_workspace_attach(&evolution->workspace[0], &evolution->line[line]);
-    const CpsiLineStiffness found =
-        cpsi_line_stiffness(of, &evolution->workspace[0].program, &evolution->options, kind, moves);
+    const CpsiLineStiffness found = stiffness_of_line(evolution, line, kind, moves);
     out->outcome = found.outcome;
     out->has_smooth = out->has_smooth && found.has_smooth;
     if (found.outcome != CPS_STIFFNESS_OUTCOME_FOUND) return false;
@@ -114,10 +169,8 @@ CpsStatus cps_evolution_body_stiffness(const CpsEvolution *evolution, int body,
     if (body < 0 || body >= evolution->bodies.count)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "body %d: the scene has %d", body,
                          evolution->bodies.count);
-    if (kind != CPS_STIFFNESS_STEP && kind != CPS_STIFFNESS_STICK)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "kind %d, expected CPS_STIFFNESS_STEP or CPS_STIFFNESS_STICK", (int)kind);
-    if (evolution->done + evolution->move_count == 0 || cpsi_move_failed(evolution)) return CPS_OK;
+    const CpsStatus status = check_kind(kind, err);
+    if (status || !has_step(evolution)) return status;
     const CpsiBody *of = &evolution->bodies.body[body];
     bool found = true;
     out->has_smooth = true;

@@ -19,6 +19,7 @@
 #include "cable/tension_field.h"
 #include "evolve/balance.h"
 #include "evolve/checkpoint.h"
+#include "evolve/end_grounds.h"
 #include "evolve/failure.h"
 #include "evolve/ledger.h"
 #include "evolve/stage_check.h"
@@ -71,6 +72,7 @@ static void step_line(void *data, int workspace_index, int i) {
     CpsiStepOptions options = evolution->options;
     options.least = &workspace->least;
     cpsi_workspace_attach(workspace, line);
+    memset(line->ground, 0, sizeof line->ground);
     if (evolution->has_static && evolution->done == 0 && evolution->is_static[i]) {
         options.frictionless = true;
         CpsiStepOptions placing = options;
@@ -222,6 +224,7 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
                          "the load step was interrupted, and is not taken");
     }
     evolution->time += evolution->interval;
+    cpsi_end_grounds_report(evolution);
     report_sweep(evolution, stage == NULL && !parts->is_break);
     const CpsStatus covered = check_cover(evolution, err);
     if (covered != CPS_OK) {

@@ -60,18 +60,14 @@ static bool scene_has_folds(const CpsScene *scene) {
 /* Do elements have contacts, beside the nodes? With what is convex somewhere they do, and where a
  * node may need a third contact; contact of the reference is that of S90, where only nodes touch.
  */
-static bool scene_has_element_contacts(const CpsScene *scene) {
+static bool scene_has_element_contacts(const CpsScene *scene, bool has_folds) {
     bool round = false;
     for (int k = 0; k < scene->obstacle_count; k++) {
         const CpsiObstacle o = cpsi_obstacle(&scene->obstacle[k]);
         round = round || cpsi_obstacle_faces_lines(&o);
     }
-    return (round || scene->obstacle_count > 2 || scene_has_folds(scene)) &&
+    return (round || scene->obstacle_count > 2 || has_folds) &&
            scene->contact_policy == CPS_CONTACT_POLICY_REACHED;
-}
-
-static int contact_count(const CpsScene *scene) {
-    return scene->obstacle_count > 1 || scene_has_folds(scene) ? 2 : 1;
 }
 
 static void take_contacts(CpsiLine *line, const CpsiWorkspaceSize *size, bool has_folds) {
@@ -128,9 +124,11 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     CPSI_PLACE(arena, evolution->release, 2 * scene->line_count);
     layout_water(evolution, arena, scene);
     layout_given(evolution, arena, scene, real);
+    const bool has_folds = scene_has_folds(scene);
     CpsiWorkspaceSize size = {.obstacles = scene->obstacle_count,
-                              .contacts = contact_count(scene),
-                              .element_contacts = scene_has_element_contacts(scene) ? 1 : 0,
+                              .contacts = scene->obstacle_count > 1 || has_folds ? 2 : 1,
+                              .element_contacts =
+                                  scene_has_element_contacts(scene, has_folds) ? 1 : 0,
                               .has_local_axes = scene_needs_local_axes(scene),
                               .has_path_tolerance = scene->solver.path_tolerance > 0,
                               .has_soft = cpsi_soft_obstacle(scene) != NULL,
@@ -142,7 +140,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         CpsiLine *line = real ? &evolution->line[i] : &any;
         line->name = copy_name(arena, scene->line[i].name);
         line->n = scene->line[i].element_count + 1;
-        take_contacts(line, &size, scene_has_folds(scene));
+        take_contacts(line, &size, has_folds);
         line->has_zones = scene->line[i].zone_count > 0;
         line->has_sections = cpsi_has_sections(&scene->line[i]);
         for (int end = 0; end < 2; end++) line->drums.on[end] = scene->line[i].winch[end].is_there;

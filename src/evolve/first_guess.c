@@ -11,21 +11,23 @@
 #include "evolve/newton_step.h"
 #include "evolve/point_rounds.h"
 #include "evolve/points.h"
+#include "linalg/symmetric.h"
 
-/* The guess takes so many rounds, until no body turns by more than SETTLED [rad] in one, and no
- * normal of a point by more than ON_ITS_PLANE; no body turns farther than FARTHEST_TURN in one. */
+/* The guess takes so many rounds, until no body turns by more than CPSI_SETTLED [rad] in one, and
+ * no normal of a point by more than ON_ITS_PLANE; no body turns farther than CPSI_FARTHEST_TURN in
+ * one. */
 enum { ROUNDS = 12, POINT_ROUNDS = 200 };
-/* A stiffness is made positive definite by no more than this share of the forces. */
-static const double MOST_HELD = 1e9;
 /* What a guess moves by no more than this, per length, is at rest. */
 static const double AT_REST = 1e-6;
-static const double SETTLED = 1e-3, FARTHEST_TURN = 0.3, ON_ITS_PLANE = 1e-6;
+static const double ON_ITS_PLANE = 1e-6;
 /* Axes that turn by no more than this [rad] are those of the solution, as in the rounds of a line,
  * or by no more than this where they come no nearer. */
-static const double TURNS_NO_MORE = 1e-10, TURNS_BY_ROUNDING = 2e-9;
-/* Relative gap of a program whose planes are still to turn by more than NEAR [rad], and of the
+static const double TURNS_NO_MORE = 1e-10;
+/* Relative gap of a program whose planes are still to turn by more than CPSI_NEAR [rad], and of the
  * others. A point touches a plane within this share of its longest line. */
-static const double ROUGH = 1e-5, FINE = 1e-10, REFINED = 1e-12, NEAR = 1e-2, TOUCHES = 1e-3;
+static const double ROUGH = 1e-5, FINE = 1e-10, REFINED = 1e-12, TOUCHES = 1e-3;
+/* Bodies that turn by more than this [rad] in a round are far from where they go. */
+static const double FAR = 0.1;
 
 void cpsi_impose_plan(CpsiBalance *balance, int item) {
     CpsEvolution *evolution = balance->evolution;
@@ -118,10 +120,26 @@ static void add_pulls(const CpsiBalance *balance, int k, double stiffness[36]) {
         }
 }
 
+/* Add to a symmetric stiffness, of so much as unit against displacements and rotations, what makes
+ * its negative eigenvalues 0, or in rough steps as large as they were; in the fixed directions
+ * nothing. */
+static void make_definite(double m[36], const bool fixed[6], double along, double about,
+                          bool rough) {
+    double own[36], vectors[36], unit[6];
+    for (int i = 0; i < 6; i++) unit[i] = sqrt(i < 3 ? along : about);
+    for (int i = 0; i < 36; i++)
+        own[i] = fixed[i / 6] || fixed[i % 6] ? 0 : m[i] / (unit[i / 6] * unit[i % 6]);
+    cpsi_symmetric_diagonalise(6, own, vectors);
+    for (int k = 0; k < 6; k++)
+        for (int i = 0; i < 36; i++)
+            m[i] += (rough ? 2 : 1) * fmax(0, -own[7 * k]) * unit[i / 6] *
+                    vectors[6 * (i / 6) + k] * vectors[6 * (i % 6) + k] * unit[i % 6];
+}
+
 /* What acts on the bodies, and their stiffness: with `turns` that by which the pulls of the last
  * round turn with them; as much more as makes it positive definite, and far more in fixed
  * directions. */
-static void hold_bodies(CpsiBalance *balance, bool turns) {
+static void hold_bodies(CpsiBalance *balance, bool turns, double back, bool rough) {
     CpsEvolution *evolution = balance->evolution;
     for (int k = 0; k < balance->body_count; k++) {
         const CpsiRigid *rigid = &balance->rigid[k];
@@ -129,6 +147,7 @@ static void hold_bodies(CpsiBalance *balance, bool turns) {
         const CpsiWrench load = cpsi_body_load(body, &rigid->pose, evolution->gravity);
         CpsiNetworkBody *held = &balance->held[k];
         *held = (CpsiNetworkBody){.force = load.force, .moment = load.moment};
+        memcpy(held->fixed, body->given.fixed, sizeof held->fixed);
         double *m = held->stiffness;
         cpsi_body_stiffness(body, &rigid->pose, evolution->gravity, m);
         if (turns) add_pulls(balance, k, m);
@@ -140,11 +159,9 @@ static void hold_bodies(CpsiBalance *balance, bool turns) {
             for (int j = 0; j < i; j++)
                 m[6 * i + j] = m[6 * j + i] = 0.5 * (m[6 * i + j] + m[6 * j + i]);
         for (int i = 3; i < 6; i++) most = fmax(most, fabs(m[7 * i]));
+        make_definite(m, body->given.fixed, force / body->length, most, rough);
         for (int i = 0; i < 6; i++)
-            m[7 * i] += CPSI_REGULAR * (i < 3 ? force / body->length : most);
-        for (double share = CPSI_LEAST_HELD;
-             share < MOST_HELD && !cpsi_is_definite(m, body->given.fixed, body->arm); share *= 10)
-            for (int i = 0; i < 6; i++) m[7 * i] += share * (i < 3 ? force / body->length : most);
+            m[7 * i] += (CPSI_REGULAR + back) * (i < 3 ? force / body->length : most);
         for (int i = 0; i < 6; i++)
             if (body->given.fixed[i])
                 m[7 * i] += (i < 3 ? force / body->length : most) / CPSI_REGULAR;
@@ -187,17 +204,6 @@ static double move_point(CpsiBalance *balance, int k) {
                 touches ? vec3_norm(vec3_sub(cpsi_obstacle_normal(on, at->place), at->normal)) : 0);
 }
 
-/* How far a round has turned bodies and the normals of points and of the lines' nodes [rad]. */
-typedef struct Turned {
-    double bodies, points;
-} Turned;
-
-/* What is asked of a guess; `several`: the plane on which a point may lie depends on where it is;
- * `exact`: to the limit of the arithmetic, until no axes of points or lines turn any more. */
-typedef struct Guess {
-    bool several, refined, exact;
-} Guess;
-
 CpsiNetworkPart cpsi_network_part(CpsiBalance *balance, bool first) {
     const CpsiNetworkPart part = {.lines = balance->line_count,
                                   .joints = cpsi_place_joints(balance, first),
@@ -219,11 +225,6 @@ CpsiNetworkPart cpsi_network_part(CpsiBalance *balance, bool first) {
     return part;
 }
 
-static void restore_lines(CpsiBalance *balance) {
-    for (int item = 0; item < balance->line_count; item++)
-        cpsi_trial_restore_line(balance, balance->line[item]);
-}
-
 /* How a round is solved: to a relative gap, with steps in which what sticks moves ever less, or to
  * the limit of the arithmetic. */
 typedef enum Accuracy { TO_GAP, TO_REFINED_GAP, TO_THE_END } Accuracy;
@@ -233,37 +234,43 @@ typedef enum Accuracy { TO_GAP, TO_REFINED_GAP, TO_THE_END } Accuracy;
 static bool solve_round(CpsiBalance *balance, const CpsiStepOptions *options, bool first,
                         double target, Accuracy accuracy) {
     CpsEvolution *evolution = balance->evolution;
-    if (first) restore_lines(balance);
+    if (first) cpsi_trial_restore_lines(balance);
     CpsiNetworkPart part = cpsi_network_part(balance, first);
     part.target = target;
     part.is_refined = accuracy != TO_GAP;
     part.is_exact = accuracy == TO_THE_END;
     part.continues = !first;
-    return cpsi_network_guess(&balance->network, evolution->line, &part, options, &balance->guess);
+    const bool solved =
+        cpsi_network_guess(&balance->network, evolution->line, &part, options, &balance->guess);
+    /* whether a last round that rounding has ended is an answer is asked of its lines */
+    return solved || (accuracy == TO_THE_END && balance->body_count > 0 &&
+                      balance->network.found == CPSI_IPM_STALLED);
 }
 
-/* A round, after which points and bodies are where it leads. */
-static bool guess_round(CpsiBalance *balance, const CpsiStepOptions *options, int round,
-                        const Guess *guess, Turned *turned) {
+bool cpsi_guess_round(CpsiBalance *balance, const CpsiStepOptions *options, int round,
+                      const CpsiRoundAim *guess, CpsiTurned *turned) {
     CpsEvolution *evolution = balance->evolution;
-    const bool first = round == 0 || !guess->several, rough = turned->points > NEAR;
-    hold_bodies(balance, round > 0);
+    const bool first = round == 0 || !guess->several,
+               rough =
+                   turned->points > CPSI_NEAR || (guess->exact && turned->bodies > CPSI_SETTLED);
+    hold_bodies(balance, round > 0, guess->back, !guess->exact || turned->bodies > FAR);
     if (rough || !guess->refined) {
-        if (!solve_round(balance, options, first, rough ? ROUGH : FINE, TO_GAP)) return false;
+        const double target = turned->points > CPSI_NEAR ? ROUGH : FINE;
+        if (!solve_round(balance, options, first, target, TO_GAP)) return false;
     } else if (guess->exact) {
         if (!solve_round(balance, options, first, FINE, TO_THE_END)) return false;
     } else if (!solve_round(balance, options, first, REFINED, TO_REFINED_GAP) &&
                !solve_round(balance, options, first, FINE, TO_REFINED_GAP)) {
         return false; /* large nets, whose gap comes no nearer than FINE, are tried twice */
     }
-    *turned = (Turned){.points = guess->several ? balance->network.turned : 0};
+    *turned = (CpsiTurned){.points = guess->several ? balance->network.turned : 0};
     for (int k = 0; k < balance->count; k++)
         turned->points = fmax(turned->points, move_point(balance, k));
     for (int k = 0; k < balance->body_count; k++) {
         double *move = &balance->guess.body[6 * k];
-        turned->bodies = fmax(turned->bodies, vec3_norm(vec3_load(&move[3])));
-        cpsi_limit(&move[3], FARTHEST_TURN);
         keep_fixed(&evolution->bodies.body[balance->rigid[k].body], move);
+        turned->bodies = fmax(turned->bodies, vec3_norm(vec3_load(&move[3])));
+        cpsi_limit(&move[3], CPSI_FARTHEST_TURN);
         balance->rigid[k].pose = cpsi_pose_after(balance, k, &balance->rigid[k].pose, move, 1);
     }
     return true;
@@ -291,34 +298,35 @@ static void settle_points(CpsiBalance *balance) {
 
 /* Rounds, until they have come as near as is asked; returns how many, 0 where the first has no
  * solution. `settled`: they have come as near. */
-static int take_rounds(CpsiBalance *balance, Guess guess, bool *settled) {
+static int take_rounds(CpsiBalance *balance, CpsiRoundAim guess, bool *settled) {
     const CpsiStepOptions options = cpsi_trial_options(balance->evolution);
-    Turned turned = {0, guess.several ? INFINITY : 0};
+    CpsiTurned turned = {0, guess.several ? INFINITY : 0};
     double best = INFINITY;
     int rounds = 0;
     *settled = false;
     while (rounds < POINT_ROUNDS) {
         if (guess.several && balance->body_count == 0 && rounds > 0)
             cpsi_point_rounds_accelerate(balance, rounds == 1 ? INFINITY : turned.points);
-        const bool fine = turned.points <= NEAR;
-        if (!guess_round(balance, &options, rounds, &guess, &turned)) break;
+        const bool fine = turned.points <= CPSI_NEAR;
+        if (!cpsi_guess_round(balance, &options, rounds, &guess, &turned)) break;
         rounds++;
         const bool halved = turned.points <= 0.5 * best;
         if (halved) best = turned.points;
-        const bool bodies = turned.bodies <= SETTLED || rounds >= ROUNDS,
+        const bool bodies = turned.bodies <= CPSI_SETTLED || rounds >= ROUNDS,
                    points = turned.points <= (guess.exact ? TURNS_NO_MORE : ON_ITS_PLANE) ||
-                            (guess.exact && !halved && turned.points <= TURNS_BY_ROUNDING);
+                            (guess.exact && !halved && turned.points <= CPSI_TURNS_BY_ROUNDING);
         *settled = bodies && fine && points;
         if (*settled) break;
     }
-    restore_lines(balance);
+    cpsi_trial_restore_lines(balance);
     return rounds;
 }
 
 /* Begin where the points and bodies go on the tangent planes of the reference, the bodies in rounds
  * about the poses of the round before; false where that has no solution. */
 bool cpsi_guess_places(CpsiBalance *balance, bool refined) {
-    const Guess guess = {.several = has_several_planes(balance->evolution), .refined = refined};
+    const CpsiRoundAim guess = {.several = has_several_planes(balance->evolution),
+                                .refined = refined};
     bool settled;
     if (take_rounds(balance, guess, &settled) == 0) return false;
     settle_points(balance);
@@ -328,17 +336,18 @@ bool cpsi_guess_places(CpsiBalance *balance, bool refined) {
 bool cpsi_solve_places(CpsiBalance *balance, double longer) {
     CpsEvolution *evolution = balance->evolution;
     const CpsiStepOptions options = cpsi_trial_options(evolution);
-    if (evolution->line[balance->line[0]].has_local_axes) {
-        const Guess guess = {.several = true, .refined = true, .exact = true};
+    const bool several = evolution->line[balance->line[0]].has_local_axes;
+    if (several) {
+        const CpsiRoundAim guess = {.several = true, .refined = true, .exact = true};
         bool settled;
         (void)take_rounds(balance, guess, &settled);
         return settled;
     }
-    restore_lines(balance);
+    cpsi_trial_restore_lines(balance);
     CpsiNetworkPart part = cpsi_network_part(balance, true);
     part.longer = longer;
     (void)cpsi_network_solve(&balance->network, evolution->line, &part, &options, &balance->guess);
-    restore_lines(balance);
+    cpsi_trial_restore_lines(balance);
     return balance->network.found != CPSI_IPM_INFEASIBLE &&
            balance->network.found != CPSI_IPM_UNBOUNDED;
 }

@@ -197,8 +197,7 @@ bool cpsi_group_falls(CpsiBalance *balance) {
     bool falls = slips_off(balance, &fall) && fall.power > least && !is_stopped(&loads, fall.v);
     if (!falls && vec3_norm(fall.sum) > least) falls = falls_freely(balance, &fall);
     if (!falls) {
-        for (int item = 0; item < balance->line_count; item++)
-            cpsi_trial_restore_line(balance, balance->line[item]);
+        cpsi_trial_restore_lines(balance);
         cpsi_begin_again(balance);
         return false;
     }
@@ -213,6 +212,18 @@ bool cpsi_group_falls(CpsiBalance *balance) {
 
 /* infeasible ----------------------------------------------------------------------------------- */
 
+/* The lines of the group as for a guess. */
+static CpsiNetworkPart plan_lines(CpsiBalance *balance) {
+    cpsi_trial_restore_lines(balance);
+    return cpsi_network_part(balance, true);
+}
+
+/* ... and again as before the step. */
+static void leave_lines(CpsiBalance *balance) {
+    cpsi_trial_restore_lines(balance);
+    cpsi_trial_use_blocks(balance);
+}
+
 /* The proof for a group with bodies; the places and poses of the trial stay. */
 static bool bodies_are_too_far(CpsiBalance *balance, double *missing) {
     const size_t bytes = (size_t)balance->count * sizeof *balance->at,
@@ -225,20 +236,24 @@ static bool bodies_are_too_far(CpsiBalance *balance, double *missing) {
     return proven;
 }
 
+void cpsi_bring_bodies_within_reach(CpsiBalance *balance) {
+    double missing;
+    cpsi_begin_again(balance);
+    (void)plan_lines(balance);
+    (void)cpsi_bodies_are_out_of_reach(balance, &missing);
+    leave_lines(balance);
+}
+
 bool cpsi_group_is_too_short(CpsiBalance *balance) {
     CpsEvolution *evolution = balance->evolution;
     if (!cpsi_has_inextensible(balance) || !cpsi_is_without_bounds(balance)) return false;
-    for (int item = 0; item < balance->line_count; item++)
-        cpsi_trial_restore_line(balance, balance->line[item]);
-    const CpsiNetworkPart part = cpsi_network_part(balance, true);
+    const CpsiNetworkPart part = plan_lines(balance);
     double missing;
     const bool short_of = balance->body_count > 0
                               ? bodies_are_too_far(balance, &missing)
                               : cpsi_network_is_too_short(&balance->network, evolution->line, &part,
                                                           balance->node, &balance->guess, &missing);
-    for (int item = 0; item < balance->line_count; item++)
-        cpsi_trial_restore_line(balance, balance->line[item]);
-    cpsi_trial_use_blocks(balance);
+    leave_lines(balance);
     if (!short_of) return false;
     report_proof(balance, CPS_OUTCOME_INFEASIBLE);
     for (int item = 0; item < balance->line_count; item++) {

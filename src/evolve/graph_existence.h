@@ -15,6 +15,10 @@ bool cpsi_group_falls(CpsiBalance *balance);
  * likewise, as infeasible. */
 bool cpsi_group_is_too_short(CpsiBalance *balance);
 
+/* Bring bodies from where the step began to poses within reach of their inextensible lines, as far
+ * as these reach. */
+void cpsi_bring_bodies_within_reach(CpsiBalance *balance);
+
 /* Where the last trial has left a line with a proof of its own, which would depend on the places
  * tried, leave all where it was before the step, not certified; else false. */
 bool cpsi_group_is_left(CpsiBalance *balance);

@@ -23,6 +23,7 @@
 
 #include "cable/line_solve.h"
 #include "cable/winch.h"
+#include "evolve/body_rounds.h"
 #include "evolve/first_guess.h"
 #include "evolve/points.h"
 
@@ -31,13 +32,15 @@ static const double CLEARLY = 1e-6;
 /* Lines that are pulled straight by loads of which their tension is more than this multiple get the
  * tension of slightly longer ones. */
 static const double STRAINED = 1e5;
+/* A line's part of the solution is poor if its gap is more than this share of the tolerance. */
+static const double POOR = 1e-2;
 /* [N/m] With hardly any stiffness the friction of a point is what balances it, as in the solution,
  * up to the bound; whether it is against the slip is asked all the same. The slip may be so small
  * that its direction is known less well than that of the force. */
 static const double AS_FOUND = 1e-300;
 
 bool cpsi_may_have_joint_answer(const CpsiBalance *balance) {
-    if (balance->body_count > 0 || !cpsi_is_without_bounds(balance)) return false;
+    if (!cpsi_is_without_bounds(balance)) return false;
     for (int item = 0; item < balance->line_count; item++) {
         const CpsiLine *line = &balance->evolution->line[balance->line[item]];
         if ((line->has_local_axes && !balance->follows) || line->grasp_count > 0) return false;
@@ -192,11 +195,37 @@ static void join(CpsiBalance *balance, double longer) {
     }
 }
 
-/* Try the places of the solution, in which lines are longer by a factor; `longer` > 1: with the
- * places of balance->from. */
-static bool try_solution(CpsiBalance *balance, double longer) {
+/* Is a line's part of the solution poor: has it a gap that is a good part of the tolerance, as
+ * where it hangs slack by less than the gap of the whole program tells? */
+static bool is_poor(const CpsiBalance *balance, const CpsiLine *line) {
+    const CpsCertificate *found = &line->report.certificate;
+    return line->joined &&
+           found->gap > POOR * balance->evolution->options.solver.tolerance * found->scale;
+}
+
+/* Solve such lines of an answer alone, if it is still one then. */
+static void solve_poor(CpsiBalance *balance) {
     CpsEvolution *evolution = balance->evolution;
-    if (!cpsi_solve_places(balance, longer)) return false;
+    int count = 0;
+    for (int item = 0; item < balance->line_count; item++) {
+        CpsiLine *line = &evolution->line[balance->line[item]];
+        if (!is_poor(balance, line)) continue;
+        line->joined = NULL;
+        balance->ends[count++][0] = item;
+    }
+    if (count == 0) return;
+    try_joined(balance);
+    if (cpsi_is_answer(balance)) return;
+    while (count-- > 0) {
+        const int item = balance->ends[count][0];
+        evolution->line[balance->line[item]].joined = &balance->network.joined[item];
+    }
+    try_joined(balance);
+}
+
+/* Try the places of the solution found, as try_solution says. */
+static bool try_parts(CpsiBalance *balance, double longer) {
+    CpsEvolution *evolution = balance->evolution;
     if (longer > 1)
         keep_still(balance);
     else
@@ -222,18 +251,37 @@ static bool try_solution(CpsiBalance *balance, double longer) {
         try_joined(balance);
         found = cpsi_is_answer(balance);
     }
+    if (found) solve_poor(balance);
     for (int item = 0; item < balance->line_count; item++)
         evolution->line[balance->line[item]].joined = NULL;
     return found;
 }
 
+/* Try the places of the solution, in which lines are longer by a factor; `longer` > 1: with the
+ * places of balance->from. */
+static bool try_solution(CpsiBalance *balance, double longer) {
+    return cpsi_solve_places(balance, longer) && try_parts(balance, longer);
+}
+
+/* Try the poses to which rounds lead, once they hardly turn the bodies any more. */
+static bool try_rounds(CpsiBalance *balance) {
+    CpsiBodyRounds rounds = cpsi_body_rounds(balance);
+    bool near;
+    while (cpsi_body_round(balance, &rounds, &near))
+        if (near && try_parts(balance, 1)) return true;
+    return false;
+}
+
 bool cpsi_take_joint_answer(CpsiBalance *balance) {
     if (!cpsi_may_have_joint_answer(balance)) return false;
-    const size_t bytes = (size_t)balance->count * sizeof *balance->at;
+    const size_t bytes = (size_t)balance->count * sizeof *balance->at,
+                 rigid = (size_t)balance->body_count * sizeof *balance->rigid;
     memcpy(balance->best, balance->at, bytes);
-    bool found = try_solution(balance, 1);
+    memcpy(balance->rigid_best, balance->rigid, rigid);
+    bool found = balance->body_count > 0 ? try_rounds(balance) : try_solution(balance, 1);
     const CpsiIpmOutcome outcome = balance->network.found;
-    const bool in_rounds = balance->evolution->line[balance->line[0]].has_local_axes;
+    const bool in_rounds =
+        balance->evolution->line[balance->line[0]].has_local_axes || balance->body_count > 0;
     if (!in_rounds && (outcome == CPSI_IPM_INFEASIBLE || outcome == CPSI_IPM_UNBOUNDED))
         return false;
     if (!in_rounds && (!found || balance->force > STRAINED * balance->acting) &&
@@ -244,6 +292,7 @@ bool cpsi_take_joint_answer(CpsiBalance *balance) {
     }
     if (found) return true;
     memcpy(balance->at, balance->best, bytes);
+    memcpy(balance->rigid, balance->rigid_best, rigid);
     cpsi_try_places(balance);
     return false;
 }

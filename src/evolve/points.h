@@ -11,6 +11,14 @@
 #include "evolve/joint_inertia.h"
 #include "evolve/ties.h"
 
+/* What the ends at a point press on it after a step, along the normal of what it touches. */
+typedef struct CpsiPressed {
+    double weight; /* [N] of their half elements and of the point */
+    double force;  /* [N] of the ends that press; others pull */
+    double on,
+        off; /* [m] half elements of lines that touch the obstacle beside the point, or not */
+} CpsiPressed;
+
 /* A point; positions are relative to the origin of the evolution. */
 typedef struct CpsiPoint {
     const char *name;
@@ -27,6 +35,7 @@ typedef struct CpsiPoint {
     double displaced_mass;  /* [kg] of water; 0 where it cannot leave the water */
     double length;          /* [m] of the longest line that ends here */
     CpsPointReport report;  /* its position relative to the origin */
+    CpsiPressed pressed;
     CpsiPointInertia inertia;
 } CpsiPoint;
 

@@ -53,12 +53,14 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->rigid, bodies);
         CPSI_PLACE(&arena, to->rigid_from, bodies);
         CPSI_PLACE(&arena, to->rigid_best, bodies);
+        CPSI_PLACE(&arena, to->rigid_now, bodies);
         CPSI_PLACE(&arena, to->rigid_of, points);
         CPSI_PLACE(&arena, to->line, lines);
         CPSI_PLACE(&arena, to->iterations, lines);
         CPSI_PLACE(&arena, to->offset, lines + 1);
         CPSI_PLACE(&arena, to->tangent, 36 * lines);
         CPSI_PLACE(&arena, to->kept, 6 * bodies);
+        CPSI_PLACE(&arena, to->turned, 3 * bodies);
         CPSI_PLACE(&arena, to->node, points + 2 * bodies);
         CPSI_PLACE(&arena, to->right, unknowns);
         CPSI_PLACE(&arena, to->step, unknowns);
@@ -331,6 +333,16 @@ static void add_body_motion(CpsiBalance *balance, CpsiRigid *rigid) {
                   spin / (span * span * body->arm), 1);
 }
 
+/* Weight and buoyancy may cancel, to so many roundings of each. */
+static void count_rounding(CpsiBalance *balance, const CpsiBody *body) {
+    const double pull = vec3_norm(vec3_load(balance->evolution->gravity)),
+                 low = vec3_norm(vec3_load(body->given.centre_of_gravity)),
+                 high = vec3_norm(vec3_load(body->given.centre_of_buoyancy)),
+                 size =
+                     body->mass * fmax(1, low / body->arm) + body->lift * fmax(1, high / body->arm);
+    balance->rounding = cpsi_max_nan(balance->rounding, ROUNDINGS * DBL_EPSILON * pull * size);
+}
+
 /* What nothing balances on a free body: nothing in its fixed directions. */
 static void find_rest(CpsiBalance *balance, CpsiRigid *rigid) {
     const CpsiBody *body = &balance->evolution->bodies.body[rigid->body];
@@ -345,6 +357,7 @@ static void find_rest(CpsiBalance *balance, CpsiRigid *rigid) {
     for (int i = 0; i < 6; i++)
         if (body->given.fixed[i]) left[i] = 0;
     rigid->left = (CpsiWrench){vec3_load(left), vec3_load(&left[3])};
+    count_rounding(balance, body);
     count_force(balance, vec3_norm(body->load.force) + vec3_norm(body->waves.force));
     count_force(balance,
                 (vec3_norm(body->load.moment) + vec3_norm(body->waves.moment)) / body->arm);
@@ -389,6 +402,11 @@ void cpsi_begin_again(CpsiBalance *balance) {
 
 void cpsi_trial_restore_line(CpsiBalance *balance, int line) {
     cpsi_line_restore(&balance->evolution->line[line], &balance->state[balance->offset[line]]);
+}
+
+void cpsi_trial_restore_lines(CpsiBalance *balance) {
+    for (int item = 0; item < balance->line_count; item++)
+        cpsi_trial_restore_line(balance, balance->line[item]);
 }
 
 void cpsi_step_lines(CpsiBalance *balance) {

@@ -54,7 +54,7 @@ struct CpsiBalance {
     CpsiFree *at, *from, *best; /* (count) of the trial, before it, and of the best one */
     int *number;                /* (points) of a free point, else -1 */
     int body_count;             /* free bodies */
-    CpsiRigid *rigid, *rigid_from, *rigid_best; /* (body_count) */
+    CpsiRigid *rigid, *rigid_from, *rigid_best, *rigid_now; /* (body_count) */
     int *rigid_of;           /* (points) the free body that a point is on, else -1 */
     int unknowns;            /* 3 count + 6 body_count */
     int line_count;          /* lines at free points, or at points on free bodies */
@@ -66,6 +66,7 @@ struct CpsiBalance {
     double *tangent;         /* (line_count, 36) */
     CpsiGraphMatrix *matrix; /* of the unknowns */
     double *kept;            /* (body_count, 6) of its diagonal */
+    double *turned;          /* (body_count, 3) [rad] by the last round */
     int *node;               /* (count + 2 body_count) their blocks in the matrix of the scene */
     double *right, *step;    /* (unknowns) */
     int (*ends)[2];          /* (line_count, 2) the joints at their ends, or CPSI_NO_JOINT */
@@ -118,8 +119,9 @@ void cpsi_begin_again(CpsiBalance *balance);
 /* Do no forces of a bounded size act on its points but friction: does none float, and no anchor
  * drag? Otherwise it has no proof, and no answer as one program. */
 bool cpsi_is_without_bounds(const CpsiBalance *balance);
-/* The line as it was before the step. */
+/* The line as it was before the step; all lines of the search. */
 void cpsi_trial_restore_line(CpsiBalance *balance, int line);
+void cpsi_trial_restore_lines(CpsiBalance *balance);
 /* Take the step of the lines of the search, as it is imposed on them. */
 void cpsi_step_lines(CpsiBalance *balance);
 /* Solve the lines for the places of the points and bodies. */

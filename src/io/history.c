@@ -94,9 +94,26 @@ bool cpsi_lets_go(const CpsScene *scene) {
     return found;
 }
 
+enum { LINES_IN_PLANES = 12 };
+
 int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end) {
     const bool is_there = row->line[line].failure.release[end] == CPS_RELEASE_NONE;
     return is_there ? results->line_point[line][end] : CPSI_AT_NO_POINT;
+}
+
+bool cpsi_results_is_on_body(const CpsResults *results, const CpsiRow *row, int line, int body) {
+    for (int end = 0; end < 2; ++end) {
+        const int point = cpsi_results_point_of(results, row, line, end);
+        if (point != CPSI_AT_NO_POINT && results->point[point].kind == CPS_POINT_KIND_ON_BODY &&
+            results->point[point].body == body)
+            return true;
+    }
+    return false;
+}
+
+bool cpsi_results_has_planes(const CpsResults *results) {
+    return results->point_count > 0 && results->line_count >= 2 &&
+           results->line_count <= LINES_IN_PLANES;
 }
 
 CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obstacle) {

@@ -57,10 +57,11 @@ typedef struct CpsiRow {
     double open_reaction; /* [N] largest over the lines */
     CpsiMotionRow motion;
     CpsiLineRow *line;
-    CpsPointReport *point;           /* (points) NULL without points */
-    CpsiBodyRow *body;               /* (bodies) NULL without bodies */
-    CpsiObstacleRow *place;          /* (obstacles) NULL without obstacles */
-    CpsStiffness (*stiffness)[2][2]; /* (lines) of ends A and B, by kind; NULL: not asked for */
+    CpsPointReport *point;              /* (points) NULL without points */
+    CpsiBodyRow *body;                  /* (bodies) NULL without bodies */
+    CpsiObstacleRow *place;             /* (obstacles) NULL without obstacles */
+    CpsStiffness (*stiffness)[2][2];    /* (lines) of ends A and B, by kind; NULL: not asked for */
+    CpsStiffness (*point_stiffness)[2]; /* (points) by kind; likewise */
 } CpsiRow;
 
 /* Of an end that is at no point. */
@@ -166,6 +167,10 @@ typedef struct CpsiOutlineWalk {
 bool cpsi_next_outline(const CpsResults *results, CpsiOutlineWalk *walk);
 /* The point of an end of a line after a step; CPSI_AT_NO_POINT: none. */
 int cpsi_results_point_of(const CpsResults *results, const CpsiRow *row, int line, int end);
+/* Does a line end on the body then? */
+bool cpsi_results_is_on_body(const CpsResults *results, const CpsiRow *row, int line, int body);
+/* Is there a picture of each line in its own vertical plane: of a few that meet at points? */
+bool cpsi_results_has_planes(const CpsResults *results);
 
 /* An obstacle as it is after a step; of step -1 at the start. */
 CpsObstacle cpsi_results_obstacle(const CpsResults *results, int step, int obstacle);

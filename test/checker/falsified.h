@@ -29,14 +29,17 @@ typedef struct DataFile {
 /* All that is tried of a scene. */
 typedef struct Falsified {
     const char *scene;    /* its text */
+    int records;          /* of its result file, all of which are certified */
     const DataFile *file; /* (files) that it names */
     size_t files;
-    int records; /* of its result file, all of which are certified */
     const FalseNumber *number;
     size_t numbers;
     const OtherScene *other;
     size_t others;
 } Falsified;
+
+/* A table and the number of its rows, for a member of Falsified and the one after it. */
+#define FALSIFIED_ROWS(table) table, sizeof(table) / sizeof *(table)
 
 /* Try it, as the main function of a program does; returns the number of tests that failed. */
 int falsified_main(const Falsified *given);

@@ -188,6 +188,8 @@ static Real check_bodies(const Group *g, Real *imbalance, Real *reach) {
 static void check_infeasible(const Group *g) {
     const GroupStep *at = g->at;
     Real sum = 0, most = 0, reach = 0, sizes = 0, imbalance = 0;
+    Triple origin;
+    widen(at->source->origin, origin);
     for (size_t i = 0; i < at->source->points; i++) widen((double[]){0, 0, 0}, g->left[i]);
     for (size_t k = 0; k < at->bodies->count; k++) g->on[k] = (BodySum){.any = false};
     for (size_t i = 0; i < at->source->lines; i++) {
@@ -213,6 +215,9 @@ static void check_infeasible(const Group *g) {
         for (int k = 0; k < 3; k++) span[k] = to[k] - from[k];
         sum += dot(p, span) - force * length;
         sizes += force * (length + size(from) + size(to));
+        /* the file has the places of points to the rounding of the scene's coordinates */
+        for (int e = 0; e < 2; e++)
+            if (r->end_point[e] >= 0) sizes += force * size(origin);
         reach += length + size(span);
     }
     for (size_t i = 0; i < at->source->points; i++) imbalance += size(g->left[i]);

@@ -91,7 +91,6 @@ static const FalseNumber FALSE[] = {
 int main(void) {
     static const Falsified FALSIFIED = {.scene = SCENE,
                                         .records = LINES * STEPS,
-                                        .number = FALSE,
-                                        .numbers = sizeof FALSE / sizeof *FALSE};
+                                        .number = FALSIFIED_ROWS(FALSE)};
     return falsified_main(&FALSIFIED);
 }

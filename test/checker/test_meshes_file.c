@@ -72,11 +72,8 @@ static const OtherScene OTHER[] = {
 int main(void) {
     static const Falsified FALSIFIED = {.scene = SCENE,
                                         .records = STEPS,
-                                        .number = FALSE,
-                                        .numbers = sizeof FALSE / sizeof *FALSE,
-                                        .other = OTHER,
-                                        .others = sizeof OTHER / sizeof *OTHER,
-                                        .file = FILES,
-                                        .files = sizeof FILES / sizeof *FILES};
+                                        .number = FALSIFIED_ROWS(FALSE),
+                                        .other = FALSIFIED_ROWS(OTHER),
+                                        .file = FALSIFIED_ROWS(FILES)};
     return falsified_main(&FALSIFIED);
 }

@@ -73,9 +73,7 @@ static const OtherScene OTHER[] = {
 int main(void) {
     static const Falsified FALSIFIED = {.scene = SCENE,
                                         .records = 4 * STEPS,
-                                        .number = FALSE,
-                                        .numbers = sizeof FALSE / sizeof *FALSE,
-                                        .other = OTHER,
-                                        .others = sizeof OTHER / sizeof *OTHER};
+                                        .number = FALSIFIED_ROWS(FALSE),
+                                        .other = FALSIFIED_ROWS(OTHER)};
     return falsified_main(&FALSIFIED);
 }

@@ -38,6 +38,64 @@ def expected(rows, column):
             "greatest": greatest, "greatest_step": min(i for v, i in values if v == greatest)}
 
 
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def less_ground(pull, place, step):
+    """A pull on a held point that lies on an obstacle: what presses on that is borne there, of several ends in the proportion in which they press."""
+    for point in step.get("points", {}).values():
+        if point["position_m"] != place or point["state"] != "held" or not point.get("reaction_N"):
+            continue
+        normal = point["normal"]
+        pressed = [max(0, dot(line[end]["force_N"], normal)) for line in step["lines"].values() for end in "AB" if line[end]["position_m"] == place]
+        if abs(sum(pressed) - point["reaction_N"]) > 1e-9 * sum(pressed) + 1e-6 and len(pressed) == 1:
+            faults.append(f"an anchor's reaction is {point['reaction_N']}, pressed by {pressed}")
+        borne = point["reaction_N"] / sum(pressed) * min(0, dot(pull, normal))
+        return [p - borne * n for p, n in zip(pull, normal)]
+    return pull
+
+
+def check_ends(name, text, rows, summary):
+    """The table of the ends has the numbers of history.csv, and says where a line lies and where it touches nothing."""
+    if "touchdown from B" not in text:
+        faults.append(f"{name}: no table of the ends")
+        return
+    step, seen = "", 0
+    for row in text[text.index("touchdown from B"):].split("\n\n")[0].splitlines()[2:]:
+        step, line = row[:18].strip() or step, row[19:29].strip()
+        values = next(r for r in rows if r["name"][:18] == step)
+        line = next(full for full in summary["extremes"] if full[:10] == line)
+        force = 1e-9 * max(float(values[f"{line}.{end}.tension"]) for end in "AB")
+        for k, end in enumerate("AB"):
+            angle, uplift = float(row[29 + 23 * k:39 + 23 * k]), float(row[39 + 23 * k:52 + 23 * k])
+            if abs(uplift - float(values[f"{line}.{end}.uplift"])) > 1e-5 * abs(uplift) + 10 * force:
+                faults.append(f"{name}: {step}, {line}.{end}: uplift {uplift} in the table")
+            if uplift and abs(math.radians(angle) - float(values[f"{line}.{end}.angle"])) > 1e-3 * abs(math.radians(angle)):
+                faults.append(f"{name}: {step}, {line}.{end}: angle {angle} in the table")
+            words = row[93 + 31 * k:124 + 31 * k].strip() if k == 0 else row[124:].strip()
+            place = [values[f"{line}.{end}.touchdown_{axis}"] for axis in AXES]
+            if place[0] == "":
+                expected_words = "-"
+            elif float(values[f"{line}.{end}.suspended"]) == 0:
+                expected_words = "lies there"
+            else:
+                expected_words = None
+                if any(abs(float(a) - float(b)) > 1e-5 * abs(float(b)) + 1e-8 * max(abs(float(c)) for c in place) for a, b in zip(words.split(","), place)):
+                    faults.append(f"{name}: {step}, {line}.{end}: touchdown {words} in the table, {place}")
+            if expected_words and words != expected_words:
+                faults.append(f"{name}: {step}, {line}.{end}: touchdown '{words}' in the table, expected '{expected_words}'")
+        sweep, use = float(row[75:86]), row[86:93].strip()
+        if abs(sweep - float(values[f"{line}.sweep"])) > 1e-3 * sweep:
+            faults.append(f"{name}: {step}, {line}: sweep {sweep} in the table")
+        expected_use = values[f"{line}.utilisation"]
+        if (use == "-") != (expected_use == "") or (expected_use and abs(float(use) - float(expected_use)) > 6e-4):
+            faults.append(f"{name}: {step}, {line}: utilisation {use} in the table, {expected_use}")
+        seen += 1
+    if seen < len(summary["extremes"]):
+        faults.append(f"{name}: the table of the ends has {seen} rows")
+
+
 def compare(name, out, up):
     rows, summary = read(out)
     for line, found in summary["extremes"].items():
@@ -54,8 +112,8 @@ def compare(name, out, up):
                         faults.append(f"{name}: step {i}, {line}.{end}.touchdown_{column} is not that of summary.json")
                 if (at is None) != (entry["grounded_m"] == 0):
                     faults.append(f"{name}: step {i}, {line}.{end}: touchdown {at} with {entry['grounded_m']} m on the ground")
-                # the line's force on what holds it is the opposite of the force on the line
-                force = [-f for f in entry[end]["force_N"]]
+                # the line's force on what holds it is the opposite of the force on the line, less what the ground under an anchor bears
+                force = less_ground([-f for f in entry[end]["force_N"]], entry[end]["position_m"], summary["steps"][i])
                 uplift = sum(f * u for f, u in zip(force, up))
                 level = math.sqrt(max(0, sum(f * f for f in force) - uplift * uplift))
                 if abs(uplift - entry[end]["uplift_N"]) > 1e-12 * entry[end]["tension_N"]:
@@ -107,13 +165,15 @@ def summary_size(summary):
 
 
 with tempfile.TemporaryDirectory() as folder:
-    for name in ("chain-wire-chain", "oc3-hywind-line", "lay-curve", "bollard"):
+    for name in ("chain-wire-chain", "oc3-hywind-line", "lay-curve", "bollard", "oc3-hywind", "barge", "parting-lines", "catenary-moored-buoy"):
         out = os.path.join(folder, name)
         done = run(os.path.join(ROOT, "examples", name + ".yaml"), out)
         if done.returncode != 0:
             faults.append(f"{name}: exit {done.returncode}: {done.stderr[-200:]}")
             continue
-        check_table(name, done.stdout, *compare(name, out, (0, 0, 1)))
+        numbers = compare(name, out, (0, 0, 1))
+        check_table(name, done.stdout, *numbers)
+        check_ends(name, done.stdout, *numbers)
 
     # gravity to the side; the last step has no equilibrium, so it does not count
     scene = os.path.join(folder, "scene.yaml")

@@ -77,7 +77,45 @@ def against_history(folder, out):
     check("compared", compared >= 6, compared)
 
 
+TWO = """
+capstan: 1
+obstacles: {bed: {plane: {}, friction: 0.4}}
+points: {knot: {free: [40, 0, 0], mass: 500}, anchor: {held: [0, 0, 0]}, top: {held: [88, 0, 40]}}
+lines:
+  chain: {length: 45, elements: 20, weight: 200, stiffness: 1e6, start: static, ends: {A: {point: anchor}, B: {point: knot}}}
+  rope: {length: 62, elements: 20, weight: 30, stiffness: 1e6, start: static, ends: {A: {point: knot}, B: {point: top}}}
+history:
+  - {name: out, steps: 2, top.point: {position: [91, 2, 40]}}
+"""
+
+
+def of_points():
+    """point-stiffness.csv is the sum of stiffness.csv over the ends at the point."""
+    at = {"knot": [("chain", "B"), ("rope", "A")], "anchor": [("chain", "A")], "top": [("rope", "B")]}
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "scene.yaml"), "w", encoding="utf-8") as file:
+            file.write(TWO)
+        done = run(folder, "--stiffness", "-o", "out")
+        check("said", "point-stiffness.csv" in done.stdout, done.stdout[-400:])
+        units, points = table(os.path.join(folder, "out", "point-stiffness.csv"))
+        _, lines = table(os.path.join(folder, "out", "stiffness.csv"))
+        ends = {(row["step"], row["line"], row["end"], row["kind"]): row for row in lines}
+        check("units of points", units["xx"] == "N/m" and units["smooth_zz"] == "N/m" and units["step"] == "1", units)
+        check("rows of points", len(points) == 3 * 2 * 3, len(points))
+        for row in points:
+            check("found", row["outcome"] == "found", row)
+            for column in (smooth + i + j for smooth in ("", "smooth_") for i in "xyz" for j in "xyz"):
+                terms = [ends[row["step"], line, end, row["kind"]][column] for line, end in at[row["point"]]]
+                check(column, (row[column] == "") == ("" in terms), (row, terms))
+                if row[column]:
+                    values = [float(t) for t in terms]
+                    check(column, abs(float(row[column]) - sum(values)) <= 1e-12 * sum(map(abs, values)) + 1e-9, (row["point"], row[column], values))
+        check("another run has none", "point-stiffness.csv" not in os.listdir(os.path.join(folder, "out")) or run(folder, "-o", "out") and
+              "point-stiffness.csv" not in os.listdir(os.path.join(folder, "out")), "it is still there")
+
+
 def main():
+    of_points()
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "scene.yaml"), "w", encoding="utf-8") as file:
             file.write(SCENE)

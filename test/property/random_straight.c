@@ -198,6 +198,6 @@ int main(int argc, char **argv) {
         cps_evolution_destroy(evolution);
     }
     printf("%d scenes, %d steps, %d certified, %d wrong\n", scenes, steps, certified, wrong);
-    /* ... and most are to have an answer */
-    return wrong > 0 || certified < 0.95 * steps;
+    /* one in 200 may have no answer, of few a few more */
+    return wrong > 0 || steps - certified > fmax(6, 0.005 * steps);
 }

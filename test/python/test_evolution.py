@@ -243,6 +243,85 @@ def test_stiffness_is_the_difference_of_forces():
     assert np.allclose(evolution["rope"].stiffness("A"), evolution["rope"].stiffness("B"), rtol=1e-9)
 
 
+def springs(rng, count):
+    """Taut weightless lines from a point at 0 to places around it, and the stiffness that straight springs have there."""
+    lines, points, known = {}, {"knot": {"held": [0, 0, 0]}}, np.zeros((3, 3))
+    for k in range(count):
+        far = rng.normal(size=3) * 10 ** rng.uniform(0, 1)
+        distance = np.linalg.norm(far)
+        length, stiffness = distance / (1 + 10 ** rng.uniform(-4, -2)), 10 ** rng.uniform(4, 6)
+        along = np.outer(far, far) / distance ** 2
+        # extended by a strain e it pulls with EA e
+        known += stiffness / length * along + stiffness * (distance / length - 1) / distance * (np.eye(3) - along)
+        points[f"far_{k}"] = {"held": list(far)}
+        ends = [{"point": f"far_{k}"}, {"point": "knot"}]
+        a, b = ends if k % 2 else ends[::-1]
+        lines[f"line_{k}"] = {"length": float(length), "elements": 1 + int(rng.integers(5)), "weight": 0, "stiffness": float(stiffness),
+                              "start": "static", "ends": {"A": a, "B": b}}
+    return {"gravity": [0, 0, 0], "points": points, "lines": lines}, known
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 7])
+def test_stiffness_of_a_point_between_taut_springs(count):
+    rng = np.random.default_rng(count)
+    scene, known = springs(rng, count)
+    evolution = after(scene, 1)
+    for kind in ("step", "stick"):
+        found = evolution.point_stiffness("knot", kind)
+        assert np.abs(found - known).max() < 1e-8 * np.abs(known).max()
+        assert np.abs(evolution.point_stiffness("knot", kind, smooth=True) - known).max() < 1e-8 * np.abs(known).max()
+
+
+def test_a_loop_has_no_stiffness_at_its_point():
+    # both its ends go with the point: the line is carried along
+    evolution = after({"points": {"hook": {"held": [3, -2, 5]}}, "lines": {"loop": {
+        "length": 2, "elements": 20, "mass": 1, "stiffness": 1e4, "start": "static", "ends": {"A": {"point": "hook"}, "B": {"point": "hook"}}}},
+        "history": [{"name": "aside", "gravity": [1, 2, -9]}]}, 2)
+    alone = evolution["loop"].stiffness("A")
+    assert np.abs(evolution.point_stiffness("hook")).max() < 1e-6 * np.abs(alone).max()
+
+
+KNOT = {"obstacles": {"bed": {"plane": {"point": [0, 0, -30]}, "friction": 0.4}},
+        "points": {"knot": {"held": [0, 0, -4]}, "east": {"held": [80, 5, -30]}, "west": {"held": [-40, 70, -30]}, "south": {"held": [-45, -60, -30]},
+                   "buoy": {"held": [10, 0, 6]}},
+        "lines": {"to_" + name: {"length": length, "elements": 40, "weight": 300, "stiffness": 1e6, "start": "static",
+                         "ends": {"A": {"point": name}, "B": {"point": "knot"}}}
+                  for name, length in (("east", 88), ("west", 88), ("south", 84), ("buoy", 15))}}
+
+
+def test_stiffness_of_a_point_is_the_difference_of_forces():
+    """K of the step against the same step with its target moved: three lines with friction on the bed, of which one is dragged, and one that hangs."""
+    evolution = after(KNOT, 1)
+    evolution.move({"knot.point": {"position": [1.5, 0.7, -3.6]}})
+    target, before, step = np.array([1.8, 0.9, -3.5]), evolution.save(), 1e-4
+
+    def force(place):
+        evolution.load(before)
+        evolution.move({"knot.point": {"position": [float(x) for x in place]}})
+        return evolution.points["knot"].lines
+
+    differences = np.array([(force(target + step * e) - force(target - step * e)) / (2 * step) for e in np.eye(3)]).T
+    force(target)
+    found = evolution.point_stiffness("knot")
+    # the lines pull back: K is minus the change of what they do to the point; forces are known to 1e-6 N
+    assert np.abs(found + differences).max() < 1e-4 * np.abs(found).max()
+    moored = [evolution["to_" + name] for name in ("east", "west", "south")]
+    assert min(line.report.grounded for line in moored) > 1 and max(line.report.slipping for line in moored) > 0
+    for kind in ("step", "stick"):
+        whole = evolution.point_stiffness("knot", kind)
+        assert np.allclose(whole, sum(line.stiffness("B", kind) for line in moored + [evolution["to_buoy"]]), rtol=1e-12, atol=1e-6)
+    assert np.abs(evolution.point_stiffness("knot", "stick") - found).max() > 1e-3 * np.abs(found).max()
+    # what the bed does to an anchor is not in its stiffness
+    assert np.allclose(evolution.point_stiffness("east"), evolution["to_east"].stiffness("A"), rtol=1e-12, atol=1e-6)
+
+
+def test_no_point_stiffness_says_why():
+    evolution = capstan.Evolution(KNOT)
+    with pytest.raises(capstan.NoAnswer) as caught:
+        evolution.point_stiffness("knot")
+    assert caught.value.outcome == "no_step"
+
+
 def test_no_stiffness_says_why(rope):
     evolution = capstan.Evolution(rope)
     with pytest.raises(capstan.NoAnswer) as found:

@@ -53,6 +53,7 @@ def cases():
         yield "stiffness end", lambda e, v=value: e["rope"].stiffness(end=v)
         yield "stiffness kind", lambda e, v=value: e["rope"].stiffness(kind=v)
         yield "body", lambda e, v=value: e.body_stiffness(v)
+        yield "point", lambda e, v=value: e.point_stiffness(v)
         yield "line", lambda e, v=value: e[v]["rope" if v == "rope" else 0]
         yield "scene", lambda e, v=value: capstan.Evolution(v)
         yield "run", lambda e, v=value: capstan.run(v)

@@ -45,9 +45,8 @@ CpsStatus cpsi_document_wrong(const CpsiDocument *d, const CpsiYaml *node, const
 /* Give the error of a library call its position in the file: that of its own path, or that of the
  * node. Returns its status (ARGUMENT becomes INPUT). */
 CpsStatus cpsi_document_place(const CpsiDocument *d, const CpsiYaml *node, const CpsError *found);
-/* Read a table of columns from the CSV file that the text of a node names; its path, for messages,
- * is
- * `*path`. */
+/* Read a table of columns from the CSV file `name` that the text of a node names, which lies beside
+ * the document; its path, for messages, is `*path`. */
 CpsStatus cpsi_document_table(const CpsiDocument *d, const CpsiYaml *node, const char *name,
                               const CpsiCsvColumn *column, int count, CpsiPool *pool,
                               CpsiCsvTable *out, const char **path);

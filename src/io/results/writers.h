@@ -23,8 +23,9 @@ CpsStatus cpsi_summary_file(const CpsResults *results, double wall, FILE *out, C
 void cpsi_history_write(const CpsResults *results, FILE *out);
 /* out_table.c: of a history in time, the columns of MoorDyn */
 void cpsi_out_table_write(const CpsResults *results, FILE *out);
-/* stiffness_csv.c, points_csv.c: of lines and of bodies, of points and of bodies */
+/* stiffness_csv.c, points_csv.c: of lines, of points and of bodies, of points and of bodies */
 void cpsi_stiffness_write(const CpsResults *results, FILE *out);
+void cpsi_point_stiffness_write(const CpsResults *results, FILE *out);
 void cpsi_body_stiffness_write(const CpsResults *results, FILE *out);
 void cpsi_points_write(const CpsResults *results, FILE *out);
 void cpsi_bodies_write(const CpsResults *results, FILE *out);

@@ -39,14 +39,17 @@ static bool ends_with(const char *name, const char *end) {
 }
 
 bool cpsi_marker_knows(const char *name) {
-    static const char *const PLAIN[] = {
-        "summary.json",  "history.csv",    "result.nc",       "result.pvd",         "obstacles.vtp",
-        "sets.vtp",      "plan.svg",       "elevation.svg",   "tension.svg",        "history.svg",
-        "stiffness.csv", "points.csv",     "bodies.csv",      "body-stiffness.csv", "study.csv",
-        "study.svg",     "study.json",     "first-order.csv", "first-order.svg",    "relaxed.svg",
-        "methods.csv",   "methods.svg",    "methods.json",    "completed.csv",      "completed.svg",
-        "history.out",   "completed.json", "offset.csv",      "offset.svg",         "broken.csv",
-        "offset.json"};
+    static const char *const PLAIN[] = {"summary.json", "history.csv",        "result.nc",
+                                        "result.pvd",   "obstacles.vtp",      "sets.vtp",
+                                        "plan.svg",     "elevation.svg",      "tension.svg",
+                                        "history.svg",  "stiffness.csv",      "points.csv",
+                                        "bodies.csv",   "body-stiffness.csv", "point-stiffness.csv",
+                                        "planes.svg",   "study.csv",          "study.svg",
+                                        "study.json",   "first-order.csv",    "first-order.svg",
+                                        "relaxed.svg",  "methods.csv",        "methods.svg",
+                                        "methods.json", "completed.csv",      "completed.svg",
+                                        "history.out",  "completed.json",     "offset.csv",
+                                        "offset.svg",   "broken.csv",         "offset.json"};
     for (size_t i = 0; i < sizeof PLAIN / sizeof *PLAIN; ++i)
         if (strcmp(name, PLAIN[i]) == 0) return true;
     if (strlen(name) + sizeof "..part" > CPSI_NAME_SIZE || strchr(name, '/')) return false;

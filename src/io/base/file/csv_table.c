@@ -21,7 +21,9 @@ typedef struct TableReader {
     CpsiCsvTable table;
 } TableReader;
 
-int cpsi_csv_cut(char *text, char **cell, int capacity) {
+/* Divide `text` at commas into at most `capacity` cells without blanks around them, which are
+ * terminated in place. Returns their number, capacity + 1 if there are more. */
+static int cut(char *text, char **cell, int capacity) {
     int count = 0;
     for (char *next = text; next;) {
         char *begin = next + strspn(next, " \t");
@@ -41,14 +43,14 @@ static void list_names(const TableReader *r, char *out, size_t size) {
     size_t at = 0;
     for (int k = 0; k < r->count && at < size; k++)
         at += (size_t)snprintf(out + at, size - at, "%s%s%s", k > 0 ? ", " : "", r->column[k].name,
-                               r->column[k].required ? "" : " (optional)");
+                               r->column[k].need == CPSI_CSV_REQUIRED ? "" : " (optional)");
 }
 
 static CpsStatus read_names(TableReader *r, char *text) {
     char *cell[CPSI_CSV_COLUMNS], names[400];
     bool *has = r->table.has;
     list_names(r, names, sizeof names);
-    const int found = cpsi_csv_cut(text, cell, CPSI_CSV_COLUMNS),
+    const int found = cut(text, cell, CPSI_CSV_COLUMNS),
               most = found < CPSI_CSV_COLUMNS ? found : CPSI_CSV_COLUMNS;
     for (int k = 0; k < most; k++) {
         int c = 0;
@@ -65,8 +67,9 @@ static CpsStatus read_names(TableReader *r, char *text) {
         r->meaning[k] = c;
     }
     r->columns = found;
+    r->table.names = r->line;
     for (int c = 0; c < r->count; c++)
-        if (r->column[c].required && !has[c])
+        if (r->column[c].need == CPSI_CSV_REQUIRED && !has[c])
             return cpsi_fail_at(r->err, CPS_ERR_INPUT, r->path, r->line, 1,
                                 "the column '%s' is missing, expected a line of names: %s",
                                 r->column[c].name, names);
@@ -82,7 +85,7 @@ static bool are_units(const TableReader *r, char *const *cell, int count) {
 
 static CpsStatus read_row(TableReader *r, char *text) {
     char *cell[CPSI_CSV_COLUMNS];
-    const int count = cpsi_csv_cut(text, cell, r->columns), row = r->table.rows;
+    const int count = cut(text, cell, r->columns), row = r->table.rows;
     if (row == 0 && are_units(r, cell, count)) return CPS_OK;
     if (count != r->columns)
         return cpsi_fail_at(r->err, CPS_ERR_INPUT, r->path, r->line, 1,
@@ -92,6 +95,12 @@ static CpsStatus read_row(TableReader *r, char *text) {
     for (int k = 0; k < count; k++) {
         const CpsiCsvColumn *column = &r->column[r->meaning[k]];
         double x = 0;
+        if (column->need == CPSI_CSV_NOT_FIRST && row == 0) {
+            if (*cell[k] == '\0') continue;
+            return cpsi_fail_at(r->err, CPS_ERR_INPUT, r->path, r->line, (int)(cell[k] - text) + 1,
+                                "%s: found '%.40s', expected nothing in the first row",
+                                column->name, cell[k]);
+        }
         if (!cpsi_yaml_number(cell[k], &x) || !(fabs(x) <= 1e100))
             return cpsi_fail_at(r->err, CPS_ERR_INPUT, r->path, r->line, (int)(cell[k] - text) + 1,
                                 "%s: found '%.40s', expected a number in %s", column->name, cell[k],

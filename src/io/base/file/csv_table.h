@@ -10,23 +10,26 @@
 #include "capstan/base.h"
 #include "io/base/yaml/pool.h"
 
+/* Whether a file has a column. */
+typedef enum CpsiCsvNeed {
+    CPSI_CSV_OPTIONAL,
+    CPSI_CSV_REQUIRED,
+    CPSI_CSV_NOT_FIRST /* optional, and its cell of the first row is empty */
+} CpsiCsvNeed;
+
 typedef struct CpsiCsvColumn {
     const char *name, *unit;
-    bool required;
+    CpsiCsvNeed need;
 } CpsiCsvColumn;
 
 enum { CPSI_CSV_COLUMNS = 16 }; /* at most */
 
 typedef struct CpsiCsvTable {
-    int rows;
+    int names, rows;            /* number of the line of names, from 1; rows */
     double *value;              /* (rows, columns asked for), 0 of a column that the file has not */
     int *line;                  /* (rows) its number in the file, from 1 */
     bool has[CPSI_CSV_COLUMNS]; /* the columns that the file has */
 } CpsiCsvTable;
-
-/* Divide `text` at commas into at most `capacity` cells without blanks around them, which are
- * terminated in place. Returns their number, capacity + 1 if there are more. */
-int cpsi_csv_cut(char *text, char **cell, int capacity);
 
 /* Read the file at `path`, which has some of `count` columns in any order, into memory of `pool`.
  * The calling thread's locale must have a decimal point. A file of more than `max_bytes` is

@@ -24,6 +24,7 @@ typedef struct CpsiView {
 
 CpsiView cpsi_view_plan(const CpsResults *results);
 CpsiView cpsi_view_elevation(const CpsResults *results);
+CpsiView cpsi_view_line(const CpsResults *results, int line); /* in its own vertical plane */
 
 /* The obstacles, under everything else, as after a step, or for all steps (-1). */
 void cpsi_picture_obstacles(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
@@ -87,6 +88,9 @@ void cpsi_label_put(CpsiLabels *labels, const CpsiFrame *frame, double x, double
 void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
                        const CpsiSnapshot *snapshot, FILE *out);
 void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *out);
+
+/* All steps of each line in its own vertical plane, one below the other. */
+void cpsi_picture_planes(const CpsResults *results, FILE *out);
 
 /* Tension along the lines, all steps. */
 void cpsi_picture_tension(const CpsResults *results, FILE *out);

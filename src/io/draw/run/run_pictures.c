@@ -49,6 +49,13 @@ CpsStatus cpsi_pictures_write(CpsResults *results, CpsError *err) {
     if (status) return status;
 
     FILE *out = NULL;
+    if (cpsi_results_has_planes(results)) {
+        status = cpsi_directory_create(results->directory, "planes.svg", &out, err);
+        if (status) return status;
+        cpsi_picture_planes(results, out);
+        status = cpsi_directory_close_file(results->directory, out, err);
+        if (status) return status;
+    }
     status = cpsi_directory_create(results->directory, "tension.svg", &out, err);
     if (status) return status;
     cpsi_picture_tension(results, out);

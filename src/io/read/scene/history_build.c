@@ -219,14 +219,20 @@ static void add_sway(CpsStage *stage, CpsSway *sway, const CpsiSwayValues *value
 static CpsStatus add_series(const CpsiHistoryBuild *b, const CpsiYaml *change, const char *name,
                             bool held, CpsSway like, CpsStage *stage, CpsSway *sway,
                             double after[6]) {
-    static const CpsiCsvColumn PLACE[] = {{"time", "s", true},  {"x", "m", false},
-                                          {"y", "m", false},    {"z", "m", false},
-                                          {"rx", "deg", false}, {"ry", "deg", false},
-                                          {"rz", "deg", false}};
-    static const CpsiCsvColumn LOAD[] = {{"time", "s", true},  {"fx", "N", false},
-                                         {"fy", "N", false},   {"fz", "N", false},
-                                         {"mx", "N m", false}, {"my", "N m", false},
-                                         {"mz", "N m", false}};
+    static const CpsiCsvColumn PLACE[] = {{"time", "s", CPSI_CSV_REQUIRED},
+                                          {"x", "m", CPSI_CSV_OPTIONAL},
+                                          {"y", "m", CPSI_CSV_OPTIONAL},
+                                          {"z", "m", CPSI_CSV_OPTIONAL},
+                                          {"rx", "deg", CPSI_CSV_OPTIONAL},
+                                          {"ry", "deg", CPSI_CSV_OPTIONAL},
+                                          {"rz", "deg", CPSI_CSV_OPTIONAL}};
+    static const CpsiCsvColumn LOAD[] = {{"time", "s", CPSI_CSV_REQUIRED},
+                                         {"fx", "N", CPSI_CSV_OPTIONAL},
+                                         {"fy", "N", CPSI_CSV_OPTIONAL},
+                                         {"fz", "N", CPSI_CSV_OPTIONAL},
+                                         {"mx", "N m", CPSI_CSV_OPTIONAL},
+                                         {"my", "N m", CPSI_CSV_OPTIONAL},
+                                         {"mz", "N m", CPSI_CSV_OPTIONAL}};
     enum { OF_SERIES = 7, OF_VECTOR = 4 };
     const CpsiYaml *node = cpsi_yaml_child(change, "series");
     const int count = like.of == CPS_SWAY_OF_BODY ? OF_SERIES : OF_VECTOR;

@@ -124,17 +124,6 @@ static CpsStatus build_elements(Build *b, const CpsiLineValues *values, CpsLine 
 
 /* ---- a start from nodes ---- */
 
-static CpsStatus read_nodes(const Build *b, const CpsiStartValues *start, CpsiNodeFile *file) {
-    if (!cpsi_is_beside(start->nodes))
-        return cpsi_document_fail(
-            b->d, CPS_ERR_INPUT, cpsi_yaml_child(start->node, "nodes"),
-            "'nodes': found '%.64s', expected the name of a file beside this one, without '/'",
-            start->nodes);
-    const char *path = cpsi_path_beside(b->pool, b->d->name, start->nodes);
-    if (!path) return cpsi_document_no_memory(b->d);
-    return cpsi_node_file_read(path, b->d->limits->max_bytes, b->pool, file, b->d->err);
-}
-
 /* The elements of the file where the scene gives none; otherwise both must have the same. */
 static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const CpsiNodeFile *file,
                                CpsLine *line) {
@@ -173,7 +162,8 @@ static CpsStatus read_elements(Build *b, const CpsiLineValues *values, const Cps
 
 static CpsStatus build_nodes(Build *b, const CpsiLineValues *values, CpsLine *line) {
     CpsiNodeFile file = {0};
-    CpsStatus status = read_nodes(b, &values->start, &file);
+    CpsStatus status = cpsi_node_file_read(b->d, cpsi_yaml_child(values->start.node, "nodes"),
+                                           values->start.nodes, b->pool, &file);
     if (status == CPS_OK) status = read_elements(b, values, &file, line);
     line->start = (CpsStart){.kind = CPS_START_NODES,
                              .point_count = file.nodes,

@@ -244,6 +244,7 @@ static void free_row(CpsiRow *row) {
     free(row->body);
     free(row->place);
     free(row->stiffness);
+    free(row->point_stiffness);
 }
 
 /* Both stiffnesses of both ends of line i. */
@@ -263,6 +264,15 @@ static bool is_held(const CpsResults *results, const CpsiRow *row, const CpsLine
     if (row->point[point].state != CPS_POINT_STATE_ON_BODY)
         return row->point[point].state == CPS_POINT_STATE_HELD;
     return row->body[results->point[point].body].report.kind == CPS_BODY_KIND_HELD;
+}
+
+/* Memory of what was asked for of stiffness. */
+static bool reserve_stiffness(const CpsResults *results, CpsiRow *row) {
+    if (!results->stiffness) return true;
+    row->stiffness = calloc((size_t)results->line_count, sizeof *row->stiffness);
+    if (results->point_count > 0)
+        row->point_stiffness = calloc((size_t)results->point_count, sizeof *row->point_stiffness);
+    return row->stiffness && (row->point_stiffness || results->point_count == 0);
 }
 
 /* Memory of a row beside its lines. */
@@ -302,15 +312,17 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
     row.name = copy_text(row.report.name);
     row.report.name = row.name;
     row.line = calloc((size_t)results->line_count, sizeof *row.line);
-    if (results->stiffness)
-        row.stiffness = calloc((size_t)results->line_count, sizeof *row.stiffness);
-    if (!reserve_points(results, &row) || !row.name || !row.line ||
-        (results->stiffness && !row.stiffness)) {
+    if (!reserve_points(results, &row) || !reserve_stiffness(results, &row) || !row.name ||
+        !row.line) {
         free_row(&row);
         return false;
     }
     for (int i = 0; i < results->point_count; ++i)
         row.point[i] = cps_evolution_point_report(evolution, i);
+    for (int i = 0; i < results->point_count && row.point_stiffness; ++i)
+        for (int kind = 0; kind < 2; ++kind)
+            cps_evolution_point_stiffness(evolution, i, (CpsStiffnessKind)kind,
+                                          &row.point_stiffness[i][kind], NULL);
     for (int i = 0; i < results->body_count; ++i)
         cpsi_body_row(evolution, i, results->stiffness, &row.body[i]);
     cpsi_obstacle_rows(results, evolution, row.place);
@@ -430,6 +442,8 @@ static CpsStatus finish(CpsResults *results, double wall, CpsError *err) {
         status = write_table(results, "bodies.csv", cpsi_bodies_write, err);
     if (!status && results->stiffness)
         status = write_table(results, "stiffness.csv", cpsi_stiffness_write, err);
+    if (!status && results->stiffness && results->point_count > 0)
+        status = write_table(results, "point-stiffness.csv", cpsi_point_stiffness_write, err);
     if (!status && results->stiffness && results->body_count > 0)
         status = write_table(results, "body-stiffness.csv", cpsi_body_stiffness_write, err);
     /* last: when there is a new summary, all files that it lists are in place */

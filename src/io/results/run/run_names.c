@@ -64,10 +64,13 @@ bool cpsi_results_writes(const void *run, const char *name) {
     const CpsResults *results = run;
     if (is_plain(CPS_RESULTS_KIND_RUN, name)) return true;
     if (strcmp(name, "history.svg") == 0) return results->planned_steps > 1;
+    if (strcmp(name, "planes.svg") == 0) return cpsi_results_has_planes(results);
     if (strcmp(name, "history.out") == 0) return results->out_table;
     if (strcmp(name, "points.csv") == 0) return results->point_count > 0;
     if (strcmp(name, "bodies.csv") == 0) return results->body_count > 0;
     if (strcmp(name, "stiffness.csv") == 0) return results->stiffness;
+    if (strcmp(name, "point-stiffness.csv") == 0)
+        return results->stiffness && results->point_count > 0;
     if (strcmp(name, "body-stiffness.csv") == 0)
         return results->stiffness && results->body_count > 0;
     if (strcmp(name, "result.pvd") == 0) return results->paraview;
@@ -77,11 +80,18 @@ bool cpsi_results_writes(const void *run, const char *name) {
 }
 
 bool cpsi_results_replaces(const char *name) {
-    static const char *const BEGINNING[] = {"obstacles.vtp", "result.pvd",
-                                            "history.svg",   "history.out",
-                                            "stiffness.csv", "points.csv",
-                                            "bodies.csv",    "body-stiffness.csv",
-                                            "loop-",         "step-",
+    static const char *const BEGINNING[] = {"obstacles.vtp",
+                                            "result.pvd",
+                                            "history.svg",
+                                            "history.out",
+                                            "stiffness.csv",
+                                            "points.csv",
+                                            "bodies.csv",
+                                            "body-stiffness.csv",
+                                            "point-stiffness.csv",
+                                            "planes.svg",
+                                            "loop-",
+                                            "step-",
                                             "line-"};
     for (size_t i = 0; i < sizeof BEGINNING / sizeof *BEGINNING; ++i)
         if (strncmp(name, BEGINNING[i], strlen(BEGINNING[i])) == 0) return true;

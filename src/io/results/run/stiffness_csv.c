@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stiffness of the ends, and of bodies, as CSV (RFC 4180): a row of names, a row of units, then
- * a row per step, line, end and kind, or step, body and kind. Without a matrix its cells are empty,
- * and the outcome says why. */
+/* The stiffness of the ends, of points and of bodies as CSV (RFC 4180): a row of names, a row of
+ * units, then a row per step, line, end and kind, or step, point or body, and kind. Without a
+ * matrix its cells are empty, and the outcome says why. */
 #include <math.h>
 
 #include "io/base/text/columns.h"
@@ -34,25 +34,47 @@ static void write_line(FILE *out, const CpsResults *results, int r, int l) {
         }
 }
 
-void cpsi_stiffness_write(const CpsResults *results, FILE *out) {
-    fputs("step,name,line,end,kind,outcome", out);
+/* Names and units of two matrices (3, 3), behind the names of other columns and their units. */
+static void write_heads(FILE *out, const char *names, const char *units) {
+    fputs(names, out);
     for (int i = 0; i < 18; ++i)
         fprintf(out, ",%s%c%c", i < 9 ? "" : "smooth_", "xyz"[i % 9 / 3], "xyz"[i % 3]);
-    fputs("\n1,,,,,", out);
+    fprintf(out, "\n%s", units);
     for (int i = 0; i < 18; ++i) fputs(",N/m", out);
     fputc('\n', out);
+}
+
+void cpsi_stiffness_write(const CpsResults *results, FILE *out) {
+    write_heads(out, "step,name,line,end,kind,outcome", "1,,,,,");
     for (int r = 0; r < results->row_count; ++r)
         for (int l = 0; l < results->line_count; ++l) write_line(out, results, r, l);
+}
+
+/* The first cells of a row of a point or body. */
+static void write_owner(FILE *out, const CpsiRow *row, const char *name, int kind) {
+    fprintf(out, "%d,", row->report.step_count - 1);
+    cpsi_write_csv(out, row->name);
+    fputc(',', out);
+    cpsi_write_csv(out, name);
+    fprintf(out, ",%s", cps_stiffness_name((CpsStiffnessKind)kind));
+}
+
+void cpsi_point_stiffness_write(const CpsResults *results, FILE *out) {
+    write_heads(out, "step,name,point,kind,outcome", "1,,,,");
+    for (int r = 0; r < results->row_count; ++r)
+        for (int i = 0; i < results->point_count; ++i)
+            for (int kind = 0; kind < 2; ++kind) {
+                const CpsStiffness *found = &results->row[r].point_stiffness[i][kind];
+                write_owner(out, &results->row[r], results->point[i].name, kind);
+                write_matrices(out, found->outcome, 9, found->matrix,
+                               found->has_smooth ? found->smooth : NULL);
+            }
 }
 
 static void write_body(FILE *out, const CpsResults *results, const CpsiRow *row, int body) {
     for (int kind = 0; kind < 2; ++kind) {
         const CpsBodyStiffness *found = &row->body[body].stiffness[kind];
-        fprintf(out, "%d,", row->report.step_count - 1);
-        cpsi_write_csv(out, row->name);
-        fputc(',', out);
-        cpsi_write_csv(out, results->body[body].name);
-        fprintf(out, ",%s", cps_stiffness_name((CpsStiffnessKind)kind));
+        write_owner(out, row, results->body[body].name, kind);
         write_matrices(out, found->outcome, CPS_BODY_DIRECTIONS * CPS_BODY_DIRECTIONS,
                        found->matrix, found->has_smooth ? found->smooth : NULL);
     }

@@ -334,18 +334,11 @@ static const double *start_of(const CpsResults *results, const CpsiSnapshot *sna
                                                          : snapshot->shape[line].reference;
 }
 
-/* axes, obstacles, subtitle: the beginning of both kinds of sheet; step as for
- * cpsi_picture_obstacles */
-static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFrame *frame, int step,
-                        const char *what, FILE *out) {
-    char subtitle[300], label[256], more[64] = "";
-    const double factor = fit(view, frame);
-    if (factor > 1) snprintf(more, sizeof more, ", heights \xC3\x97 %.8g", factor);
-    snprintf(subtitle, sizeof subtitle, "%s%s%s", view->plan ? "Plan view" : "Elevation", more,
-             what);
-    cpsi_svg_begin(out, CPSI_SHEET_WIDTH, frame->top + frame->height + 88,
-                   *results->title ? results->title : "capstan", subtitle);
-    cpsi_frame_begin(out, frame, 0);
+/* Obstacles and axes; `more` is said of the heights. */
+static void begin_frame(const CpsResults *results, const CpsiView *view, const CpsiFrame *frame,
+                        int id, int step, const char *more, FILE *out) {
+    char label[256];
+    cpsi_frame_begin(out, frame, id);
     fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#fdfdfd\"/>\n",
             frame->left, frame->top, frame->width, frame->height);
     cpsi_picture_obstacles(results, view, frame, step, out);
@@ -353,6 +346,25 @@ static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFra
     cpsi_frame_end(out);
     snprintf(label, sizeof label, "%s%s", view->y_label, more);
     cpsi_frame_axes(out, frame, view->x_label, label);
+}
+
+/* By how much heights are exaggerated, as it is said beside them. */
+static void say_factor(double factor, char more[64]) {
+    snprintf(more, 64, "%s", "");
+    if (factor > 1) snprintf(more, 64, ", heights \xC3\x97 %.8g", factor);
+}
+
+/* axes, obstacles, subtitle: the beginning of both kinds of sheet; step as for
+ * cpsi_picture_obstacles */
+static void begin_sheet(const CpsResults *results, const CpsiView *view, CpsiFrame *frame, int step,
+                        const char *what, FILE *out) {
+    char subtitle[300], more[64];
+    say_factor(fit(view, frame), more);
+    snprintf(subtitle, sizeof subtitle, "%s%s%s", view->plan ? "Plan view" : "Elevation", more,
+             what);
+    cpsi_svg_begin(out, CPSI_SHEET_WIDTH, frame->top + frame->height + 88,
+                   *results->title ? results->title : "capstan", subtitle);
+    begin_frame(results, view, frame, 0, step, more, out);
 }
 
 static void draw_lines(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot,
@@ -398,23 +410,34 @@ void cpsi_picture_step(const CpsResults *results, const CpsiView *view,
     cpsi_svg_finish(out);
 }
 
-/* Where the points are after each step, with their names at the last one. */
-static void draw_points_of_steps(const Pen *pen, const CpsResults *results) {
+/* Is a point at an end of the line, or is it of all lines (-1)? */
+static bool is_of(const CpsResults *results, const CpsiRow *row, int line, int point) {
+    if (line < 0) return true;
+    return cpsi_results_point_of(results, row, line, CPS_END_A) == point ||
+           cpsi_results_point_of(results, row, line, CPS_END_B) == point;
+}
+
+/* Where the points are after each step, with their names at the last one; those of one line, or of
+ * all (-1). */
+static void draw_points_of_steps(const Pen *pen, const CpsResults *results, int line) {
     for (int s = 0; s < results->snapshot_count; ++s) {
         const bool last = s + 1 == results->snapshot_count;
+        const CpsiRow *row = &results->row[results->snapshot[s].step];
         for (int i = 0; i < results->point_count; ++i)
-            draw_meeting_point(pen, results, i,
-                               results->row[results->snapshot[s].step].point[i].position,
-                               cpsi_step_colour(results, s).hex, 3, 0.6,
-                               last && results->point_count <= NAMED_POINTS);
+            if (is_of(results, row, line, i))
+                draw_meeting_point(pen, results, i, row->point[i].position,
+                                   cpsi_step_colour(results, s).hex, 3, 0.6,
+                                   last && (line >= 0 || results->point_count <= NAMED_POINTS));
     }
 }
 
 /* Where the bodies are after each step, in the same way. */
-static void draw_bodies_of_steps(const Pen *pen, const CpsResults *results) {
+static void draw_bodies_of_steps(const Pen *pen, const CpsResults *results, int line) {
     for (int s = 0; s < results->snapshot_count; ++s)
         for (int i = 0; i < results->body_count; ++i) {
-            const CpsBodyReport *report = &results->row[results->snapshot[s].step].body[i].report;
+            const CpsiRow *row = &results->row[results->snapshot[s].step];
+            const CpsBodyReport *report = &row->body[i].report;
+            if (line >= 0 && !cpsi_results_is_on_body(results, row, line, i)) continue;
             const bool last = s + 1 == results->snapshot_count;
             char style[80];
             snprintf(style, sizeof style, "fill=\"none\" stroke=\"%s\" stroke-width=\"1.2\"",
@@ -422,16 +445,18 @@ static void draw_bodies_of_steps(const Pen *pen, const CpsResults *results) {
             cpsi_picture_outline(results, pen->view, pen->frame, report, i, style, pen->out);
             if (!last) continue;
             cpsi_picture_axes(results, pen->view, pen->frame, report, pen->out);
-            if (results->body_count <= NAMED_POINTS) name_body(pen, results, i, report);
+            if (line >= 0 || results->body_count <= NAMED_POINTS)
+                name_body(pen, results, i, report);
         }
 }
 
-static void draw_lines_of_steps(const Pen *pen, const CpsResults *results) {
-    for (int l = 0; l < results->line_count; ++l)
+/* Lines from `first` to before `end`. */
+static void draw_lines_of_steps(const Pen *pen, const CpsResults *results, int first, int end) {
+    for (int l = first; l < end; ++l)
         draw_polyline(pen, start_of(results, &results->snapshot[0], l), 0,
                       results->snapshot[0].shape[l].points - 1, COLOUR_START, 3, "");
     for (int s = 0; s < results->snapshot_count; ++s)
-        for (int l = 0; l < results->line_count; ++l)
+        for (int l = first; l < end; ++l)
             draw_polyline(pen, results->snapshot[s].shape[l].position, 0,
                           results->snapshot[s].shape[l].points - 1,
                           cpsi_step_colour(results, s).hex, cpsi_step_width(results, s), "");
@@ -463,9 +488,9 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
     if (results->line_count > FEW_LINES)
         draw_nets_of_steps(&pen, results);
     else
-        draw_lines_of_steps(&pen, results);
-    draw_bodies_of_steps(&pen, results);
-    if (results->line_count <= FEW_LINES) draw_points_of_steps(&pen, results);
+        draw_lines_of_steps(&pen, results, 0, results->line_count);
+    draw_bodies_of_steps(&pen, results, -1);
+    if (results->line_count <= FEW_LINES) draw_points_of_steps(&pen, results, -1);
     cpsi_frame_end(out);
     cpsi_step_list(results, &frame, out);
     double x = CPSI_FRAME_LEFT;
@@ -475,5 +500,51 @@ void cpsi_picture_steps(const CpsResults *results, const CpsiView *view, FILE *o
     if (results->point_count > 0 && results->line_count <= FEW_LINES)
         cpsi_legend(out, &x, frame.top + frame.height + 68, SQUARE("#fff"),
                     "points where lines meet");
+    cpsi_svg_finish(out);
+}
+
+/* A line in its frame, which `y` is above. */
+static void draw_plane(const CpsResults *results, const CpsiView *view, int line, double y,
+                       FILE *out) {
+    CpsiFrame frame;
+    char more[64], title[160];
+    say_factor(fit(view, &frame), more);
+    frame.top = y;
+    begin_frame(results, view, &frame, 2 * line, -1, more, out);
+    CpsiLabels labels = {0};
+    const Pen pen = {view, &frame, out, &labels};
+    cpsi_frame_begin(out, &frame, 2 * line + 1);
+    draw_lines_of_steps(&pen, results, line, line + 1);
+    draw_bodies_of_steps(&pen, results, line);
+    draw_points_of_steps(&pen, results, line);
+    cpsi_frame_end(out);
+    snprintf(title, sizeof title, "line %.80s%s", results->line_name[line], more);
+    cpsi_svg_text(out, frame.left, y - 8, CPSI_START, "font-size=\"12\" font-weight=\"bold\"",
+                  title);
+    if (line == 0) cpsi_step_list(results, &frame, out);
+}
+
+enum { BESIDE_PLANES = 76 }; /* above a frame and below it, in pixels */
+
+void cpsi_picture_planes(const CpsResults *results, FILE *out) {
+    double height = CPSI_FRAME_TOP + 18;
+    CpsiFrame frame;
+    char note[64], subtitle[160];
+    for (int l = 0; l < results->line_count; ++l) {
+        const CpsiView view = cpsi_view_line(results, l);
+        fit(&view, &frame);
+        height += frame.height + BESIDE_PLANES;
+    }
+    cpsi_step_note(results, note, sizeof note);
+    snprintf(subtitle, sizeof subtitle, "Each line in its own vertical plane  \xC2\xB7  %s", note);
+    cpsi_svg_begin(out, CPSI_SHEET_WIDTH, height, *results->title ? results->title : "capstan",
+                   subtitle);
+    double y = CPSI_FRAME_TOP + 18;
+    for (int l = 0; l < results->line_count; ++l) {
+        const CpsiView view = cpsi_view_line(results, l);
+        draw_plane(results, &view, l, y, out);
+        fit(&view, &frame);
+        y += frame.height + BESIDE_PLANES;
+    }
     cpsi_svg_finish(out);
 }

@@ -2,7 +2,8 @@
 /* The directions of view of the pictures: plan views against gravity; elevations across the
  * direction in which bodies move, or the lines spread most, along a slope, which is then a straight
  * line, or along the axis of a cylinder, which is then a circle. All pictures of a run have the
- * same ones, so that steps can be compared. */
+ * same ones, so that steps can be compared; and one picture has each line in the vertical plane in
+ * which its ends are after the first step. */
 #include <math.h>
 #include <string.h>
 
@@ -14,6 +15,9 @@ static const double SNAP_COSINE = 0.985; /* 10 degrees */
 
 /* A plane with a smaller slope is drawn as level: the slope is not visible in a picture. */
 static const double LEVEL = 1e-3;
+
+/* A direction with no larger part along another one is across it. */
+static const double ACROSS = 1e-9;
 
 /* A cylinder counts as horizontal when its axis is at least this long as seen from above: at most
  * 25 degrees from the horizontal. */
@@ -105,8 +109,11 @@ static void include_round(const CpsResults *results, CpsiView *view) {
         include_round_at(results, results->snapshot[s].step, spread, view);
 }
 
-static void include_bodies(const CpsResults *results, const CpsiRow *row, CpsiView *view) {
+/* Of one line, or of all (-1) the bodies at which it ends. */
+static void include_bodies(const CpsResults *results, const CpsiRow *row, int line,
+                           CpsiView *view) {
     for (int i = 0; i < results->body_count; ++i) {
+        if (line >= 0 && !cpsi_results_is_on_body(results, row, line, i)) continue;
         const int corners = cpsi_body_corner_count(results, i);
         for (int k = 0; k < corners; ++k) {
             const Vec3 place = cpsi_body_corner(results, &row->body[i].report, i, k);
@@ -116,13 +123,14 @@ static void include_bodies(const CpsResults *results, const CpsiRow *row, CpsiVi
     }
 }
 
-/* ranges over all snapshots, of the configurations and of the initial ones of their steps */
-static void measure(const CpsResults *results, CpsiView *view) {
+/* ranges over all snapshots, of the configurations and of the initial ones of their steps, of one
+ * line or of all (-1) */
+static void measure(const CpsResults *results, int line, CpsiView *view) {
     view->x[0] = view->y[0] = INFINITY;
     view->x[1] = view->y[1] = -INFINITY;
     double sum = 0, count = 0;
     for (int s = 0; s < results->snapshot_count; ++s) {
-        for (int l = 0; l < results->line_count; ++l) {
+        for (int l = line < 0 ? 0 : line; l < (line < 0 ? results->line_count : line + 1); ++l) {
             const CpsiShape *shape = &results->snapshot[s].shape[l];
             for (size_t i = 0; i < (size_t)shape->points; ++i) {
                 const Vec3 place = vec3_load(shape->position + 3 * i),
@@ -135,7 +143,7 @@ static void measure(const CpsResults *results, CpsiView *view) {
                 count += 1;
             }
         }
-        include_bodies(results, &results->row[results->snapshot[s].step], view);
+        include_bodies(results, &results->row[results->snapshot[s].step], line, view);
     }
     view->cut = sum / count;
     if (results->has_water_surface && !view->plan)
@@ -149,7 +157,7 @@ CpsiView cpsi_view_plan(const CpsResults *results) {
     view.up = vec3_cross(view.toward, view.right);
     label_axis(view.x_label, sizeof view.x_label, view.right, "along");
     label_axis(view.y_label, sizeof view.y_label, view.up, "along");
-    measure(results, &view);
+    measure(results, -1, &view);
     return view;
 }
 
@@ -233,6 +241,24 @@ CpsiView cpsi_view_elevation(const CpsResults *results) {
     view.toward = vec3_cross(view.right, view.up);
     label_axis(view.x_label, sizeof view.x_label, view.right, "distance along");
     label_axis(view.y_label, sizeof view.y_label, view.up, "height along");
-    measure(results, &view);
+    measure(results, -1, &view);
+    return view;
+}
+
+CpsiView cpsi_view_line(const CpsResults *results, int line) {
+    CpsiView view = {.up = upward(results)};
+    const Vec3 east = horizontal_x(view.up), north = vec3_cross(view.up, east);
+    const CpsiShape *shape = &results->snapshot[0].shape[line];
+    const Vec3 chord = vec3_sub(vec3_load(shape->position + 3 * (size_t)(shape->points - 1)),
+                                vec3_load(shape->position)),
+               level = vec3_reject(chord, view.up);
+    view.right = vec3_norm(level) > LEVEL * vec3_norm(chord) ? unit(level) : east;
+    const double e = vec3_dot(view.right, east);
+    if (e < -ACROSS || (e < ACROSS && vec3_dot(view.right, north) < 0))
+        view.right = vec3_scale(-1, view.right);
+    view.toward = vec3_cross(view.right, view.up);
+    label_axis(view.x_label, sizeof view.x_label, view.right, "distance along");
+    label_axis(view.y_label, sizeof view.y_label, view.up, "height along");
+    measure(results, line, &view);
     return view;
 }

@@ -53,11 +53,12 @@ static CpsWave wave_of(const CpsiWaveValues *values) {
 }
 
 enum { AMPLITUDE, PERIOD, FREQUENCY, DIRECTION, PHASE, COLUMNS };
-static const CpsiCsvColumn COLUMN[COLUMNS] = {[AMPLITUDE] = {"amplitude", "m", true},
-                                              [PERIOD] = {"period", "s", false},
-                                              [FREQUENCY] = {"frequency", "Hz", false},
-                                              [DIRECTION] = {"direction", "degree", true},
-                                              [PHASE] = {"phase", "degree", false}};
+static const CpsiCsvColumn COLUMN[COLUMNS] = {[AMPLITUDE] = {"amplitude", "m", CPSI_CSV_REQUIRED},
+                                              [PERIOD] = {"period", "s", CPSI_CSV_OPTIONAL},
+                                              [FREQUENCY] = {"frequency", "Hz", CPSI_CSV_OPTIONAL},
+                                              [DIRECTION] = {"direction", "degree",
+                                                             CPSI_CSV_REQUIRED},
+                                              [PHASE] = {"phase", "degree", CPSI_CSV_OPTIONAL}};
 
 /* The components of a file. */
 static CpsStatus read_waves(const CpsiMaterials *m, const CpsiWavesValues *values,
@@ -70,7 +71,7 @@ static CpsStatus read_waves(const CpsiMaterials *m, const CpsiWavesValues *value
     if (status != CPS_OK) return status;
     const int timed = table.has[PERIOD] ? PERIOD : FREQUENCY;
     if (table.has[PERIOD] == table.has[FREQUENCY])
-        return cpsi_fail_at(m->d->err, CPS_ERR_INPUT, path, 0, 0,
+        return cpsi_fail_at(m->d->err, CPS_ERR_INPUT, path, table.names, 1,
                             "found %s, expected either the column period or the column frequency",
                             table.has[PERIOD] ? "both" : "neither");
     CpsWave *wave = CPSI_POOL_TAKE(m->pool, table.rows, CpsWave);

@@ -4,8 +4,7 @@
 #ifndef CAPSTAN_SRC_IO_READ_SCENE_NODE_FILE_H
 #define CAPSTAN_SRC_IO_READ_SCENE_NODE_FILE_H
 
-#include "capstan/base.h"
-#include "io/base/yaml/pool.h"
+#include "io/read/document.h"
 
 /* The content of the file, one row per node from end A to end B; a missing column is NULL. The
  * value of an element is in the row of the node at its end. */
@@ -18,16 +17,13 @@ typedef struct CpsiNodeFile {
     double *friction_bound; /* (nodes) [N] */
 } CpsiNodeFile;
 
-/* Read the CSV file at `path`: a line of names, optionally one of units, then the rows; empty lines
- * and those that begin with # are skipped. The calling thread's locale must have a decimal
- * point.
+/* Read the CSV file `name` beside the document, which the text of `node` names (csv_table.h).
  *
- *   max_bytes  a larger file is refused
- *   pool       memory of all arrays
+ *   pool  memory of all arrays
  *
  * Returns CPS_OK, CPS_ERR_INPUT with line and column, CPS_ERR_IO, CPS_ERR_LIMIT or
  * CPS_ERR_MEMORY. */
-CpsStatus cpsi_node_file_read(const char *path, size_t max_bytes, CpsiPool *pool, CpsiNodeFile *out,
-                              CpsError *err);
+CpsStatus cpsi_node_file_read(const CpsiDocument *d, const CpsiYaml *node, const char *name,
+                              CpsiPool *pool, CpsiNodeFile *out);
 
 #endif
