@@ -191,9 +191,14 @@ static void print_body(FILE *table, const char *name, const CpsBodyReport *body,
     }
     fputs("body ", table);
     cli_print_text(table, name, 80, false);
-    fprintf(table, ": at (%.6g, %.6g, %.6g) m, roll %.4g, pitch %.4g, yaw %.4g degrees%s\n",
-            tidy(x[0]), tidy(x[1]), tidy(x[2]), tidy(DEGREES * angle[0]), tidy(DEGREES * angle[1]),
-            tidy(DEGREES * angle[2]), body->is_stable ? "" : "; not stable");
+    fprintf(table, ": at (%.6g, %.6g, %.6g) m, roll %.4g, pitch %.4g, yaw %.4g degrees", tidy(x[0]),
+            tidy(x[1]), tidy(x[2]), tidy(DEGREES * angle[0]), tidy(DEGREES * angle[1]),
+            tidy(DEGREES * angle[2]));
+    const double *f = body->lines, size = sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+    for (int a = 0; a < 3; ++a)
+        fprintf(table, "%s%.6g", a == 0 ? ", lines pull by (" : ", ",
+                fabs(f[a]) < 1e-9 * size ? 0 : f[a]);
+    fprintf(table, ") N%s\n", body->is_stable ? "" : "; not stable");
 }
 
 static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
@@ -573,7 +578,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
         fwrite(text, 1, size, stdout);
         end_table_print(&run.ends, stdout);
         if (length > 0) printf("\n%s", said);
-        extremes_print(&run.extremes, run.evolution, stdout);
+        extremes_print(&run.extremes, run.scene, run.evolution, stdout);
         print_utilisation(&run.warnings.utilisation);
         print_where(directory, run.evolution, options);
     }

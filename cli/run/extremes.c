@@ -27,10 +27,40 @@ static bool grow(Extremes *extremes) {
     return true;
 }
 
-bool extremes_note_step(Extremes *extremes, const CpsEvolution *evolution) {
-    const int lines = cps_evolution_line_count(evolution);
+static void widen(CpsExtreme *extreme, double value, int step) {
+    if (!extreme->has_values || value < extreme->least) {
+        extreme->least = value;
+        extreme->least_step = step;
+    }
+    if (!extreme->has_values || value > extreme->greatest) {
+        extreme->greatest = value;
+        extreme->greatest_step = step;
+    }
+    extreme->has_values = true;
+}
+
+/* A body without a place has no pose to count. */
+static void note_body(CpsExtreme *of, const CpsBodyReport *body, int step) {
+    if (!body->has_place) return;
+    double angle[4];
+    cps_body_angles(body, angle, &angle[3]);
+    for (int a = 0; a < 3; ++a) widen(&of[a], body->position[a], step);
+    for (int a = 0; a < 4; ++a) widen(&of[3 + a], DEGREES * angle[a], step);
+    for (int a = 0; a < 3; ++a) widen(&of[7 + a], body->lines[a], step);
+}
+
+/* Memory of the first step. */
+static bool begin(Extremes *extremes, int lines, int bodies) {
     if (!extremes->line) extremes->line = calloc((size_t)lines, sizeof *extremes->line);
-    if (!extremes->line) return false;
+    if (!extremes->body && bodies > 0)
+        extremes->body = calloc((size_t)bodies * EXTREMES_OF_BODY, sizeof *extremes->body);
+    return extremes->line && (extremes->body || bodies == 0);
+}
+
+bool extremes_note_step(Extremes *extremes, const CpsEvolution *evolution) {
+    const int lines = cps_evolution_line_count(evolution),
+              bodies = cps_evolution_body_count(evolution);
+    if (!begin(extremes, lines, bodies)) return false;
     if (extremes->step_count == extremes->capacity && !grow(extremes)) return false;
     const CpsStepReport step = cps_evolution_report(evolution);
     snprintf(extremes->step_name[extremes->step_count], sizeof extremes->step_name[0], "%s",
@@ -38,6 +68,10 @@ bool extremes_note_step(Extremes *extremes, const CpsEvolution *evolution) {
     for (int i = 0; i < lines; ++i) {
         const CpsLineReport report = cps_evolution_line_report(evolution, i);
         cps_extremes_add(&extremes->line[i], &report, extremes->step_count);
+    }
+    for (int i = 0; i < bodies; ++i) {
+        const CpsBodyReport report = cps_evolution_body_report(evolution, i);
+        note_body(&extremes->body[i * EXTREMES_OF_BODY], &report, extremes->step_count);
     }
     extremes->step_count++;
     return true;
@@ -104,19 +138,46 @@ static void print_line(const Columns *table, const CpsExtremes *of) {
     print_row(table, "sweep", "", "m", &of->sweep, 1, ROUNDING * of->grounded.greatest);
 }
 
-void extremes_print(const Extremes *extremes, const CpsEvolution *evolution, FILE *out) {
-    const int lines = cps_evolution_line_count(evolution);
-    if (extremes->step_count < 2 || lines > LISTED_LINES) return;
+static void print_head(FILE *out, const char *of) {
     fprintf(out, "\n%-*s %-*s %12s  %-*s %12s  step\n", QUANTITY_WIDTH, "over all steps",
-            LINE_WIDTH, "line", "least", STEP_WIDTH, "step", "greatest");
+            LINE_WIDTH, of, "least", STEP_WIDTH, "step", "greatest");
+}
+
+/* Where a body was, and the force of its lines on it. */
+static void print_body(const Columns *table, const CpsExtreme *of) {
+    static const char *const NAME[] = {"x",   "y",    "z",       "roll",    "pitch",
+                                       "yaw", "heel", "lines x", "lines y", "lines z"};
+    double force = 0;
+    for (int k = 7; k < EXTREMES_OF_BODY; ++k)
+        force = fmax(force, fmax(fabs(of[k].least), fabs(of[k].greatest)));
+    for (int k = 0; k < EXTREMES_OF_BODY; ++k)
+        print_row(table, NAME[k], "",
+                  k < 3   ? "m"
+                  : k < 7 ? "degrees"
+                          : "N",
+                  &of[k], 1, k < 7 ? ROUNDING : ROUNDING * force);
+}
+
+void extremes_print(const Extremes *extremes, const CpsScene *scene, const CpsEvolution *evolution,
+                    FILE *out) {
+    const int lines = cps_evolution_line_count(evolution),
+              bodies = cps_evolution_body_count(evolution);
+    if (extremes->step_count < 2 || lines > LISTED_LINES) return;
+    print_head(out, "line");
     for (int i = 0; i < lines; ++i) {
         const Columns table = {out, extremes, cps_evolution_line_view(evolution, i).name};
         print_line(&table, &extremes->line[i]);
+    }
+    if (bodies > 0) print_head(out, "body");
+    for (int i = 0; i < bodies; ++i) {
+        const Columns table = {out, extremes, scene->body[i].name};
+        print_body(&table, &extremes->body[i * EXTREMES_OF_BODY]);
     }
 }
 
 void extremes_free(Extremes *extremes) {
     free(extremes->line);
+    free(extremes->body);
     free(extremes->step_name);
     memset(extremes, 0, sizeof *extremes);
 }

@@ -59,6 +59,12 @@ def colour(of, level):
     return "#" + "".join(f"{round((1 - t) * a + t * b):02x}" for a, b in zip(*of))
 
 
+def outline(corners):
+    """A path round whole places, each from the one before."""
+    steps = [c - b for p, q in zip(corners, corners[1:]) for b, c in zip(p, q)]
+    return f"M{corners[0][0]} {corners[0][1]}l" + " ".join(map(str, steps)).replace(" -", "-") + "z"
+
+
 def picture(scene, path, meshes):
     place, touches = last_places(path, meshes)
     balls = [([float(v) for v in c.split(",")], float(r)) for c, r in re.findall(r"sphere: \{centre: \[(.*?)\], radius: ([\d.]+)\}", scene)]
@@ -81,14 +87,15 @@ def picture(scene, path, meshes):
     for centre, radius in sorted(balls, key=lambda ball: dot(EYE, ball[0])):
         x, y = at(centre)
         out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{scale * radius:.1f}" fill="url(#ball)" stroke="#8d8471" stroke-width="0.8"/>')
-    paper = [[at(p) for p in row] for row in place]
+    # in tenths of a pixel, from corner to corner: whole numbers are short
+    paper = [[tuple(round(10 * float(f"{c:.1f}")) for c in at(p)) for p in row] for row in place]
+    out.append(f'<g transform="scale(0.1)" fill-opacity="0.93" stroke-width="{min(8, 160 / meshes):.1f}" stroke-linejoin="round">')
     run, begun = None, []
 
     def finish():
         if begun:
             of, level = run
-            out.append(f'<path fill="{colour(of, level)}" fill-opacity="0.93" stroke="{colour(of, LEVELS - 1)}" '
-                       f'stroke-width="{min(0.8, 16 / meshes):.2f}" stroke-linejoin="round" d="{"".join(begun)}"/>')
+            out.append(f'<path fill="{colour(of, level)}" stroke="{colour(of, LEVELS - 1)}" d="{"".join(begun)}"/>')
     for i in range(meshes):
         for j in range(meshes):
             keys = ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
@@ -97,8 +104,9 @@ def picture(scene, path, meshes):
             if style != run:
                 finish()
                 run, begun = style, []
-            begun.append("M" + " ".join(f"{x:.1f} {y:.1f}" for x, y in (paper[a][b] for a, b in keys)) + "z")
+            begun.append(outline([paper[a][b] for a, b in keys]))
     finish()
+    out.append("</g>")
     for k, (of, words) in enumerate(((HANGS, "hangs"), (LIES, "all four corners of a mesh lie on the ball or a peg"))):
         x = 24 + 90 * k
         out.append(f'<rect x="{x}" y="{height - 30:.0f}" width="16" height="12" fill="{colour(of, LEVELS // 3)}" stroke="{colour(of, LEVELS - 1)}"/>')

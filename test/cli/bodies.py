@@ -336,7 +336,7 @@ def main():
         write("plain.yaml", PLAIN)
         said = run("scene.yaml", "--stiffness", "-o", "out").stdout
         expect("said", "bodies.csv" in said and "body-stiffness.csv" in said, said)
-        expect("told in the table", len(re.findall(r"^ +body spar: at \([^)]*\) m, roll [-0-9.e]+, pitch [-0-9.e]+, yaw [-0-9.e]+ degrees$", said, re.M)) == STEPS, said)
+        expect("told in the table", len(re.findall(r"^ +body spar: at \([^)]*\) m, roll [-0-9.e]+, pitch [-0-9.e]+, yaw [-0-9.e]+ degrees, lines pull by \([^)]*\) N$", said, re.M)) == STEPS, said)
         results = Results("out/result.nc")
         rows = csv_is_result("out", results)
         forces_balance(results)

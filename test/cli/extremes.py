@@ -5,6 +5,7 @@ import csv
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -160,6 +161,41 @@ def check_table(name, text, rows, summary):
                 faults.append(f"{name}: no row for the tension of {line}.{end}")
 
 
+def check_bodies(name, text, rows, summary):
+    """What the table says of bodies: at each step where they are and what the lines do to them, and the extremes of that."""
+    bodies = summary.get("bodies", {})
+    shown = re.findall(r"^ +body (\S+): at \(([^)]*)\) m, roll (\S+), pitch (\S+), yaw (\S+) degrees, lines pull by \(([^)]*)\) N", text, re.M)
+    if len(shown) % max(1, len(bodies)) or (bodies and not shown):
+        faults.append(f"{name}: {len(shown)} rows of {len(bodies)} bodies")
+    if len(rows) * len(bodies) == len(shown):
+        for k, (body, place, roll, pitch, yaw, pull) in enumerate(shown):
+            row = rows[k // len(bodies)]
+            found = [*place.split(","), roll, pitch, yaw, *pull.split(",")]
+            for value, column in zip(found, ("x", "y", "z", "roll", "pitch", "yaw", "fx", "fy", "fz")):
+                exact, size = float(row[f"{body}.{column}"]), max(abs(float(row[f"{body}.f{c}"])) for c in AXES) if column[0] == "f" else 1
+                if abs(float(value) - exact) > 1e-3 * abs(exact) + 1.1e-9 * size:
+                    faults.append(f"{name}: step {k // len(bodies)}, {body}: {column} {value} in the table, {exact}")
+    heads = [m.start() for m in re.finditer("over all steps", text)]
+    if len(heads) != (2 if bodies else 1):
+        faults.append(f"{name}: {len(heads)} tables of extremes")
+        return
+    printed = set()
+    for row in text[heads[1]:].split("\n\n")[0].splitlines()[1:] if bodies else []:
+        quantity, unit, body = row[:18].split("[")[0].strip(), row[:18].split("[")[1].split("]")[0], row[19:33].strip()
+        key = quantity.replace(" ", "_") + ("_" + unit)
+        extreme = bodies[body]["extremes"][key]
+        for value, which in zip((float(row[33:46]), float(row[64:77])), ("least", "greatest")):
+            if abs(value - extreme[which]) > 1e-5 * abs(value) + 1e-9 * max(1, abs(extreme["least"]), abs(extreme["greatest"])):
+                faults.append(f"{name}: the table says {value}, summary.json {extreme[which]}: {row}")
+            if rows[extreme[which + "_step"]]["name"][:16] not in row and "throughout" not in row:
+                faults.append(f"{name}: the table lacks the step {rows[extreme[which + '_step']]['name']}: {row}")
+        printed.add((body, key))
+    for body, entry in bodies.items():
+        for key, extreme in entry["extremes"].items():
+            if max(abs(extreme["least"]), abs(extreme["greatest"])) > (1e-3 if key.startswith("lines") else 1e-8) and (body, key) not in printed:
+                faults.append(f"{name}: no row for {body}, {key}")
+
+
 def summary_size(summary):
     return max(abs(entry[end]["tension_N"]["greatest"]) for entry in summary["extremes"].values() for end in "AB")
 
@@ -174,6 +210,7 @@ with tempfile.TemporaryDirectory() as folder:
         numbers = compare(name, out, (0, 0, 1))
         check_table(name, done.stdout, *numbers)
         check_ends(name, done.stdout, *numbers)
+        check_bodies(name, done.stdout, *numbers)
 
     # gravity to the side; the last step has no equilibrium, so it does not count
     scene = os.path.join(folder, "scene.yaml")
