@@ -4,13 +4,14 @@
  *
  * On a bed, a line of weight w and tension T placed with curvature kappa is held as long as its
  * friction, T' along and T kappa across the line, lies in its set: (T'/mu_a)^2 + (T kappa/mu_t)^2
- * <= w^2. With uniform tension that is T <= mu_t w r; on a slope of angle b, where the weight pulls the
- * same way as the tension at the highest place of the curve, T <= (mu cos(b) - sin(b)) w r. Pulled at the end of an arc of angle theta, T
- * = mu_t w r sin(mu_a theta/mu_t) up to a quarter turn of the sine, then mu_t w r. A line that
- * slides across itself without axial friction takes the shape of a circle, r = T/(mu w). On a
- * sphere a taut line of uniform tension on a circle of latitude lambda presses with T cos(lambda)/r
- * and pulls sideways with T sin(lambda)/r: it holds if and only if tan(lambda) <= mu, whatever its
- * tension, and otherwise slides towards the great circle. */
+ * <= w^2. With uniform tension that is T <= mu_t w r; on a slope of angle b, where the weight pulls
+ * the same way as the tension at the highest place of the curve, T <= (mu cos(b) - sin(b)) w r.
+ * Pulled at the end of an arc of angle theta, T = mu_t w r sin(mu_a theta/mu_t) up to a quarter
+ * turn of the sine, then mu_t w r. A line that slides across itself without axial friction takes
+ * the shape of a circle, r = T/(mu w). On a sphere a taut line of uniform tension on a circle of
+ * latitude lambda presses with T cos(lambda)/r and pulls sideways with T sin(lambda)/r: it holds if
+ * and only if tan(lambda) <= mu, whatever its tension, and otherwise slides towards the great
+ * circle. */
 #include <stdio.h>
 
 #include "rig.h"
@@ -106,9 +107,10 @@ static void critical_radius_on_a_slope(void **state) {
                                  tension, slope),
                      narrower = lay(exact * (1 - BESIDE), BED[i][0], CPS_FRICTION_SHAPE_ELLIPSE,
                                     tension, slope);
-        printf("lay, mu %g, slope %g rad: moves by %.1e m at 1 + %g of the radius, by %.1e m at 1 - "
-               "%g\n",
-               BED[i][0], slope, wider, BESIDE, narrower, BESIDE);
+        printf(
+            "lay, mu %g, slope %g rad: moves by %.1e m at 1 + %g of the radius, by %.1e m at 1 - "
+            "%g\n",
+            BED[i][0], slope, wider, BESIDE, narrower, BESIDE);
         CHECK_LESS(wider, 1e-7); /* rounding of a certified line, as above */
         CHECK_GREATER(narrower, 1e-6);
     }
@@ -364,10 +366,10 @@ static void sphere_latitude(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(critical_radius),
-        cmocka_unit_test(critical_radius_on_a_slope), cmocka_unit_test(pulled_arc),
-        cmocka_unit_test(lateral_slip),    cmocka_unit_test(normality),
-        cmocka_unit_test(sphere_geodesic), cmocka_unit_test(sphere_latitude),
+        cmocka_unit_test(critical_radius), cmocka_unit_test(critical_radius_on_a_slope),
+        cmocka_unit_test(pulled_arc),      cmocka_unit_test(lateral_slip),
+        cmocka_unit_test(normality),       cmocka_unit_test(sphere_geodesic),
+        cmocka_unit_test(sphere_latitude),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
