@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Solve random second-order cone programs with capstan's sparse solver and with Clarabel and QOCO, and compare.
 
-    compare_conic.py [--bench CONIC_BENCH] [--unknowns 100,1000,...] [--kinds banded,random] [--seeds 3] [--limit SECONDS] [--csv FILE]
+    compare_conic.py [--bench CONIC_BENCH] [--unknowns 100,1000,...] [--kinds banded,random] [--seeds 3] [--solvers clarabel,qoco] [--limit SECONDS] [--csv FILE]
 
 The programs are those of `conic_bench` (test/property/random_program.h), handed on by its --dump:
 
@@ -146,6 +146,7 @@ def main():
     parser.add_argument("--unknowns", default="100,1000,10000,100000")
     parser.add_argument("--kinds", default="banded,random")
     parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--solvers", default=",".join(SOLVERS))
     parser.add_argument("--limit", type=float, default=60)
     parser.add_argument("--csv")
     args = parser.parse_args()
@@ -165,7 +166,7 @@ def main():
                         continue
                     program = Program(path)
                 own = {"error": program.error, "iterations": int(program.iterations), "seconds": program.seconds, "note": ""}
-                for name, row in [("capstan", own)] + [(name, first_to_reach(name, program, args.limit)) for name in SOLVERS]:
+                for name, row in [("capstan", own)] + [(name, first_to_reach(name, program, args.limit)) for name in args.solvers.split(",")]:
                     ratio = row["seconds"]/own["seconds"]
                     print(f"{kind:>8} {unknowns:8d} {seed:4d} {name:>9} {row['iterations']:10d} {row['error']:9.1e} "
                           f"{1e3*row['seconds']:10.3f} {ratio:12.2f}  {row['note']}", flush=True)

@@ -18,6 +18,7 @@ typedef struct CpsiArena {
     void *block;   /* as allocated */
     size_t used;   /* bytes taken so far */
     bool overflow; /* a size did not fit into size_t */
+    int width;     /* of registers, as cpsi_width_once keeps it (width.h) */
 } CpsiArena;
 
 /* Memory for count items of `size` bytes, aligned to a cache line; NULL while measuring. */

@@ -4,7 +4,7 @@
 #ifndef CAPSTAN_SRC_BASE_LARGER_H
 #define CAPSTAN_SRC_BASE_LARGER_H
 
-/* One comparison per choice, so that loops over lanes (ipm/lanes.h) may contain it. */
+/* One comparison per choice, so that loops over lanes (base/lanes.h) may contain it. */
 static inline double cpsi_max_nan(double a, double b) {
     const double other = a != a ? a : b;
     return a > b ? a : other;

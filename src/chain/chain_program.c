@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/lanes.h"
 #include "base/larger.h"
 #include "chain/frame.h"
-#include "ipm/lanes.h"
 
 static void layout_segment(CpsiSegment *st, CpsiArena *arena, int n) {
     CPSI_PLACE(arena, st->length, n);
@@ -267,7 +267,7 @@ void cpsi_chain_program_layout(CpsiChainProgram *program, CpsiArena *arena, int 
                                const CpsiLinsysOps *ops) {
     const int places = points ? 2 * n : n, stops = stops_of(n, contacts, points);
     *program = (CpsiChainProgram){
-        .base = {.kind = cpsi_chain_kinds(),
+        .base = {.kind = cpsi_chain_kinds(arena),
                  .kind_count = largest ? CPSI_CHAIN_KINDS : CPSI_KIND_FRICTION_CONIC}};
     if (largest) cpsi_friction_conic_layout(&program->conic, arena, places, stops, largest);
     if (largest) CPSI_PLACE(arena, program->disc.shape, 2 * (size_t)stops);

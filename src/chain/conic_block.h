@@ -8,8 +8,8 @@
 
 #include <string.h>
 
+#include "base/lanes.h"
 #include "chain/elements.h"
-#include "ipm/lanes.h"
 
 /* The arrays of the elements first + from .. first + to - 1. */
 typedef struct CpsiConicBlock {

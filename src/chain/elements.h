@@ -259,7 +259,7 @@ void cpsi_friction_conic_turn_back(CpsiFrictionConic *conic, double *du);
  * R. */
 void cpsi_friction_conic_predict_bounds(CpsiFrictionConic *conic, const CpsiUnilateral *unilateral);
 
-/* The kinds of a chain; those with loops over lanes once for each width (ipm/width.h). */
+/* The kinds of a chain; those with loops over lanes once for each width (base/width.h). */
 extern const CpsiKind cpsi_segment_128, cpsi_segment_256, cpsi_segment_512;
 extern const CpsiKind cpsi_unilateral_128, cpsi_unilateral_256, cpsi_unilateral_512;
 extern const CpsiKind cpsi_friction_disc_128, cpsi_friction_disc_256, cpsi_friction_disc_512;
@@ -281,6 +281,6 @@ enum {
 };
 
 /* The kinds for the width of this processor (CPSI_CHAIN_KINDS). */
-const CpsiKind *const *cpsi_chain_kinds(void);
+const CpsiKind *const *cpsi_chain_kinds(CpsiArena *arena);
 
 #endif

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The passes of the interior-point loop over friction conics (friction_conic.c), eight side by side
- * in lanes. Compiled once per width (ipm/width.h). */
+ * in lanes. Compiled once per width (base/width.h). */
 #include <string.h>
 
 #include "base/larger.h"
+#include "base/width.h"
 #include "chain/cone_lanes.h"
 #include "chain/conic_block.h"
 #include "chain/qr_lanes.h"
 #include "ipm/cones.h"
-#include "ipm/width.h"
 
 /* The element whose numbers stand in lane l; lanes beside the run repeat one of it. */
 static inline int element_at(const CpsiConicBlock *block, int l) {

@@ -24,10 +24,10 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/width.h"
 #include "chain/elements.h"
 #include "ipm/cone.h"
 #include "ipm/lane_sums.h"
-#include "ipm/width.h"
 
 /* B where map is NULL. */
 static const double PLAIN[6] = {1, 0, 0, 0, 1, 0};

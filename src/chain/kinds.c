@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The kinds of element of a chain, for each width of the processor's registers (ipm/width.h). */
+/* The kinds of element of a chain, for each width of the processor's registers (base/width.h). */
+#include "base/width.h"
 #include "chain/elements.h"
-#include "ipm/width.h"
 
 #define KINDS(width)                                                                     \
     {                                                                                    \
@@ -13,15 +13,16 @@
         [CPSI_KIND_FRICTION_CONIC] = &cpsi_friction_conic_##width                        \
     }
 
-const CpsiKind *const *cpsi_chain_kinds(void) {
+const CpsiKind *const *cpsi_chain_kinds(CpsiArena *arena) {
 #ifdef CPSI_HAS_WIDTHS
     static const CpsiKind *const kinds[CPSI_WIDTHS][CPSI_CHAIN_KINDS] = {
         [CPSI_WIDTH_128] = KINDS(128),
         [CPSI_WIDTH_256] = KINDS(256),
         [CPSI_WIDTH_512] = KINDS(512)};
-    return kinds[cpsi_width()];
+    return kinds[cpsi_width_once(&arena->width)];
 #else
     static const CpsiKind *const kinds[CPSI_CHAIN_KINDS] = KINDS(128);
+    (void)arena;
     return kinds;
 #endif
 }

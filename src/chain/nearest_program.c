@@ -43,7 +43,7 @@ static const CpsiKind spring = {.measure = measure, .scale = scale};
 void cpsi_nearest_program_layout(CpsiNearestProgram *program, CpsiArena *arena, int n, int halves,
                                  const CpsiLinsysOps *ops) {
     /* the spring comes last: it clears the residuals of axes that are not free */
-    const CpsiKind *const *kinds = cpsi_chain_kinds();
+    const CpsiKind *const *kinds = cpsi_chain_kinds(arena);
     program->kind[0] = kinds[CPSI_KIND_SEGMENT];
     program->kind[1] = kinds[CPSI_KIND_UNILATERAL];
     program->kind[2] = &spring;

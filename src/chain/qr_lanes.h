@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Q R of eight small matrices (m, n), m >= n, side by side in lanes (ipm/lanes.h), with rows sorted
- * by size and columns by what remains of them. With both orders a row keeps its relative accuracy,
- * however small it is beside the others (Cox and Higham 1998). So each lane has orders of its own;
- * the lanes `from` to `to` - 1 count, the others hold anything. */
+/* Q R of eight small matrices (m, n), m >= n, side by side in lanes (base/lanes.h), with rows
+ * sorted by size and columns by what remains of them. With both orders a row keeps its relative
+ * accuracy, however small it is beside the others (Cox and Higham 1998). So each lane has orders of
+ * its own; the lanes `from` to `to` - 1 count, the others hold anything. */
 #ifndef CAPSTAN_SRC_CHAIN_QR_LANES_H
 #define CAPSTAN_SRC_CHAIN_QR_LANES_H
 
 #include <string.h>
 
-#include "ipm/lanes.h"
+#include "base/lanes.h"
 
 typedef struct CpsiLanesQr {
     int m, n, from, to;

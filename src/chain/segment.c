@@ -21,11 +21,11 @@
  * An element with springs beside it (springs.c) has a c and a rho of its own in each pass. */
 #include <string.h>
 
+#include "base/width.h"
 #include "chain/elements.h"
 #include "chain/frame.h"
 #include "ipm/cone.h"
 #include "ipm/lane_sums.h"
-#include "ipm/width.h"
 
 /* 1 - c g is kept this far from 0, so that a stays finite: the step is inexact by as much. */
 static const double LEAST_STIFFENING = 1e-13;

@@ -13,10 +13,10 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "base/width.h"
 #include "chain/elements.h"
 #include "ipm/cone.h"
 #include "ipm/lane_sums.h"
-#include "ipm/width.h"
 
 static void start(CpsiProgram *base, double mu, double margin) {
     CpsiChainProgram *program = cpsi_chain(base);

@@ -13,7 +13,9 @@ CpsiActive cpsi_active(const double *s, const double *z, int d) {
 }
 
 CpsiActive cpsi_active_corrected(CpsiActive kind, const double *z, int d) {
-    const bool curved = d > 1, pressed = z[0] + cpsi_norm(d - 1, z + 1) > 0;
+    /* of a ray both terms of the sum are as large */
+    const bool curved = d > 1,
+               pressed = kind == CPSI_RAY ? z[0] > 0 : z[0] + cpsi_norm(d - 1, z + 1) > 0;
     if (kind == CPSI_FREE) return curved ? CPSI_RAY : CPSI_TIP;
     if (!curved || !pressed) return CPSI_FREE;
     return kind == CPSI_TIP ? CPSI_RAY : CPSI_TIP;

@@ -32,8 +32,13 @@ static const double EASE[] = {1e-10, 3e-8};
 /* A step that leaves more than it is to remove is not one. One that leaves less than this share is
  * good; those between are taken where the other number does no better, since along weak constraints
  * Newton's next steps remove what refinement has left. */
-static const double ROUGH = 1, GOOD = 0.1;
+static const double ROUGH = 1, GOOD = 1e-3;
 enum { STEPS = 4, ROUNDS = 6 };
+/* How often the active cones are chosen, and of a hasty polish. */
+enum { TRIALS = 4, FEW_TRIALS = 2 };
+/* Refinement ends at this relative residual, below which Newton's method does not converge faster.
+ */
+static const double REFINED = 1e-12;
 /* Residuals of this many roundings of the largest unknown are as good as any. */
 static const double ROUNDING = 1e-15;
 /* Steps that stay inside their cones and come to this many of them have converged: rounding of the
@@ -51,7 +56,7 @@ typedef struct Polish {
     /* (cones) activity according to the side on which the steps have left the cone */
     CpsiActive *other;
     bool left_some;        /* whether the steps have left a cone */
-    bool hasty;            /* then there are no more of them */
+    bool hasty;            /* then there are no more of them with these activities */
     bool rounded;          /* whether they have come to the rounding of the residual */
     double enough, best;   /* the residual that is good enough, and the smallest accepted so far */
     double unit;           /* 1 + the largest unknown */
@@ -287,15 +292,17 @@ static double largest_of(int n, const double *x) {
 static double refine(Polish *p) {
     const size_t size = (size_t)p->size;
     const double whole = largest_of(p->size, p->left);
+    double unsolved = whole > 0 ? 1 : 0;
     memset(p->step, 0, size * sizeof *p->step);
     memcpy(p->fix, p->left, size * sizeof *p->fix);
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < ROUNDS && !(unsolved <= REFINED); round++) {
         cpsi_ldl_solve(p->ldl, p->fix);
         for (int i = 0; i < p->size; i++) p->step[i] += p->fix[i];
         memcpy(p->fix, p->left, size * sizeof *p->fix);
         subtract_product(p, p->step, p->fix);
+        unsolved = largest_of(p->size, p->fix) / whole;
     }
-    return whole > 0 ? largest_of(p->size, p->fix) / whole : 0;
+    return unsolved;
 }
 
 /* step = matrix^-1 left; false where no regularisation gives one, or when memory does not
@@ -308,7 +315,7 @@ static bool solve(Polish *p) {
         if (!p->ldl) {
             const CpsiPattern pattern = {.n = p->size, .start = p->start, .index = p->index};
             size_t entries;
-            p->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &entries);
+            p->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &p->program->arena.width, &entries);
         }
         if (!p->ldl) return false;
         if (!cpsi_ldl_factor(p->ldl, p->value, p->sign, 1e-3 * p->ease)) continue;
@@ -342,10 +349,11 @@ static bool polish_steps(Polish *p) {
             memcpy(program->core.cones.z, p->z, (size_t)program->core.cones.rows * sizeof *p->z);
         }
         if (in && now <= p->enough) so_far = fmin(so_far, now);
-        p->rounded |=
+        const bool rounded =
             in && before <= ROUNDED * p->unit && p->unsolved <= GOOD && now > 0.5 * before;
+        p->rounded |= rounded;
         before = in ? now : INFINITY;
-        if (p->hasty && !in) break;
+        if ((p->hasty && !in) || rounded || (in && now <= ROUNDING * p->unit)) break;
         if (k == STEPS || !isfinite(now) || (k > 1 && now > so_far) || !solve(p)) break;
         for (int i = 0; i < p->size; i++) p->at[i] += i < d->unknowns ? p->step[i] : -p->step[i];
     }
@@ -369,9 +377,10 @@ static void doubt(Polish *p) {
     p->left_some = true;
 }
 
-CpsiPolished cpsi_sparse_polish(CpsiSparseProgram *program, double merit, int trials) {
+CpsiPolished cpsi_sparse_polish(CpsiSparseProgram *program, double merit, bool hasty) {
+    const int trials = hasty ? FEW_TRIALS : TRIALS;
     const CpsiCones *cones = &program->core.cones;
-    Polish p = {.program = program, .hasty = trials == 1, .best = INFINITY, .unit = 1};
+    Polish p = {.program = program, .hasty = hasty, .best = INFINITY, .unit = 1};
     for (int j = 0; j < program->data.unknowns; j++)
         p.unit = fmax(p.unit, 1 + fabs(program->core.base.u[j]));
     p.enough = fmax(merit, ROUNDING * p.unit);
@@ -382,7 +391,8 @@ CpsiPolished cpsi_sparse_polish(CpsiSparseProgram *program, double merit, int tr
         p.active[k] = cpsi_active(&cones->s[i], &cones->z[i], cones->dim[k]);
     for (int trial = 0; trial < trials; trial++) {
         const bool done = polish_steps(&p), converged = p.best <= ROUNDING * p.unit;
-        if (done && !p.left_some && !p.rounded && !(p.best <= CONVERGED * p.unit)) doubt(&p);
+        if (done && !hasty && !p.left_some && !p.rounded && !(p.best <= CONVERGED * p.unit))
+            doubt(&p);
         release(&p);
         if (!done || converged || !p.left_some) break;
         memcpy(p.active, p.other, (size_t)cones->count * sizeof *p.active);

@@ -18,8 +18,6 @@ static const double TARGET = 1e-16;
  * the digits with each factor where the loop adds one or two. Where it does not reach rounding, the
  * loop goes on. */
 static const double EARLY = 1e-8;
-/* How often the polished answer's active cones may be chosen at the end of the loop. */
-enum { TRIALS = 4 };
 static const int MAX_ITERATIONS = 100;
 /* The regularisation added to the diagonals, in the order tried. Blocks and equations: small
  * against data of order one, but with a square above rounding, so that an order in which it is a
@@ -145,7 +143,7 @@ static CpsStatus analyse(CpsiSparseProgram *program, size_t entries, CpsError *e
     if (start && index) {
         write_pattern(d, start, index);
         const CpsiPattern pattern = {.n = size, .start = start, .index = index};
-        program->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &factor_entries);
+        program->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &program->arena.width, &factor_entries);
     }
     free(start);
     free(index);
@@ -215,10 +213,10 @@ static void regularise(CpsiSparseProgram *program, const Regular *with) {
 
 /* Replace a solution by the polished one, where there is one. Returns whether its residual is
  * rounding. */
-static bool polish(CpsiSparseProgram *program, CpsiConicResult *result, int trials) {
+static bool polish(CpsiSparseProgram *program, CpsiConicResult *result, bool hasty) {
     if (result->outcome != CPSI_CONIC_SOLVED) return false;
     const CpsiPolished polished =
-        cpsi_sparse_polish(program, result->gap + result->residual, trials);
+        cpsi_sparse_polish(program, result->gap + result->residual, hasty);
     if (!isfinite(polished.residual)) return false;
     const CpsiHomogeneous *core = &program->core;
     result->residual = polished.residual;
@@ -258,7 +256,7 @@ static bool solve_early(CpsiSparseProgram *program, CpsiConicResult *result) {
     if (run(program, EARLY, false) != CPSI_IPM_SOLVED) return false; /* it has ended before */
     *result = cpsi_homogeneous_result(core);
     const double enough = sound_residual(result, core->unknowns);
-    const bool rounded = polish(program, result, 1);
+    const bool rounded = polish(program, result, true);
     if (result->outcome == CPSI_CONIC_SOLVED && is_sound(result, enough, rounded)) return true;
     cpsi_homogeneous_return(core);
     run(program, TARGET, true);
@@ -281,7 +279,7 @@ CpsiConicResult cpsi_sparse_program_solve(CpsiSparseProgram *program, double acc
         const double enough = sound_residual(&result, core->unknowns);
         sound = is_sound(&result, enough, false);
         accepted = is_within(&result, accept);
-        const bool rounded = polish(program, &result, TRIALS);
+        const bool rounded = polish(program, &result, false);
         sound |= is_sound(&result, enough, rounded);
         accepted = accepted || is_within(&result, accept);
     }

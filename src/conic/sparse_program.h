@@ -95,8 +95,8 @@ typedef struct CpsiPolished {
 /* Improve a solution in base.u and cones of the core (sparse_polish.c). It is replaced where
  * Newton's method on the active constraints ends with residuals no worse than `merit`, gap plus
  * residual of the solution, or rounding; otherwise, and when memory does not suffice, it remains
- * unchanged. `trials`: how often the active constraints may be chosen; 1: as the iterate shows
- * them, and a step that contradicts that is the last. */
-CpsiPolished cpsi_sparse_polish(CpsiSparseProgram *program, double merit, int trials);
+ * unchanged. `hasty`: of an iterate whose active constraints may not show yet, so that less is
+ * tried where steps contradict them. */
+CpsiPolished cpsi_sparse_polish(CpsiSparseProgram *program, double merit, bool hasty);
 
 #endif

@@ -19,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "ipm/lanes.h"
+#include "base/lanes.h"
 #include "linalg/dense.h"
 
 /* Smaller pivots are rounding. */

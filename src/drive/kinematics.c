@@ -137,7 +137,8 @@ static CpsStatus factorise(CpsiKinematics *k, CpsError *err) {
         }
         start[all] = at;
         const CpsiPattern pattern = {.n = (int)all, .start = start, .index = index};
-        k->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &found);
+        int width = 0;
+        k->ldl = cpsi_ldl_new(&pattern, MOST_ENTRIES, &width, &found);
         done = k->ldl && cpsi_ldl_factor(k->ldl, value, sign, 0.1 * REGULAR);
     }
     free(start);

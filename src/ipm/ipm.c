@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/lanes.h"
 #include "base/larger.h"
-#include "ipm/lanes.h"
 
 /* Initial complementarity, and distance of the initial point from the boundary of the cones; all
  * data are of order one. */

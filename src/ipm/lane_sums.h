@@ -4,7 +4,7 @@
 #ifndef CAPSTAN_SRC_IPM_LANE_SUMS_H
 #define CAPSTAN_SRC_IPM_LANE_SUMS_H
 
-#include "ipm/lanes.h"
+#include "base/lanes.h"
 #include "ipm/program.h"
 
 /* As in CpsiSums; a pass leaves at 0 what it has none of. */

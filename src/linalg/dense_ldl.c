@@ -1,75 +1,86 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Panels of columns, each eliminated within itself and then, packed by four rows, from all columns
- * behind it: so most of the work are products of small blocks that stay in registers. */
+/* Memory and rows of a large dense matrix (dense_ldl.h), and the width of its loops. */
 #include "linalg/dense_ldl.h"
 
-#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
-enum { ROWS = CPSI_DENSE_ROWS, PANEL = CPSI_DENSE_PANEL };
+#include "base/lanes.h"
+#include "base/width.h"
 
-/* What all steps share. */
-typedef struct DenseLdl {
-    int n;
-    double *m, *pivot, *terms;
-    const signed char *sign;
-    double least, share;
-} DenseLdl;
+enum { LANES = CPSI_LANES, PANEL = CPSI_DENSE_PANEL };
 
-/* Subtract from column j what the panel's columns from `first` on contribute, and find its pivot.
- */
-static bool finish_column(const DenseLdl *a, int first, int j) {
-    const size_t n = (size_t)a->n;
-    double *own = &a->m[(size_t)j * n];
-    for (int b = first; b < j; b++) {
-        const double *column = &a->m[(size_t)b * n], l = column[j], y = l * a->pivot[b];
-        for (int i = j; i < a->n; i++) own[i] -= column[i] * y;
-        a->terms[j] += fabs(l * y);
-    }
-    const double s = a->sign[j], smallest = fmax(a->least, a->share * a->terms[j]);
-    if (!isfinite(own[j])) return false;
-    const double pivot = own[j] * s >= smallest ? own[j] : s * smallest;
-    a->pivot[j] = pivot;
-    for (int i = j + 1; i < a->n; i++) own[i] /= pivot;
+/* Eight numbers that registers take at once lie within one line of the cache. */
+enum { LINE = 64 };
+
+static const CpsiDenseLoops *loops_of_width(int *width) {
+#ifdef CPSI_HAS_WIDTHS
+    static const CpsiDenseLoops *const loops[CPSI_WIDTHS] = {
+        [CPSI_WIDTH_128] = &cpsi_dense_loops_128,
+        [CPSI_WIDTH_256] = &cpsi_dense_loops_256,
+        [CPSI_WIDTH_512] = &cpsi_dense_loops_512};
+    return loops[cpsi_width_once(width)];
+#else
+    (void)width;
+    return &cpsi_dense_loops_128;
+#endif
+}
+
+bool cpsi_dense_ldl_new(CpsiDenseLdl *ldl, int size, int *width) {
+    const size_t n = ((size_t)size + LANES - 1) / LANES * LANES, panel = PANEL;
+    const size_t entries = n * (n + panel) / 2 + panel * panel;
+    *ldl = (CpsiDenseLdl){.given = size, .n = (int)n, .loops = loops_of_width(width)};
+    ldl->block = malloc((entries + 2 * n + panel * panel) * sizeof(double) + LINE);
+    ldl->sign = malloc(n + 1);
+    if (!ldl->block || !ldl->sign) return false;
+    ldl->matrix = (double *)(((uintptr_t)ldl->block + LINE - 1) / LINE * LINE);
+    ldl->scratch = ldl->matrix + entries;
+    ldl->pivot = ldl->scratch + panel * panel;
+    ldl->terms = ldl->pivot + n;
     return true;
 }
 
-/* The rows of the panel from `end` on: L four rows at a time, and D L' alike. */
-static void pack(const DenseLdl *a, int first, int end, double *l, double *y) {
-    const size_t n = (size_t)a->n;
-    for (int i = end; i < a->n; i += ROWS)
-        for (int b = first; b < end; b++)
-            for (int r = 0; r < ROWS; r++) {
-                *l = a->m[(size_t)b * n + (size_t)(i + r)];
-                *y = *l * a->pivot[b];
-                a->terms[i + r] += fabs(*l++ * *y++);
-            }
+void cpsi_dense_ldl_free(CpsiDenseLdl *ldl) {
+    free(ldl->block);
+    free(ldl->sign);
 }
 
-/* out -= the product of four rows and four columns of a packed panel of `width`. */
-static inline void subtract_block(int width, const double *restrict l, const double *restrict y,
-                                  double *restrict out, size_t n) {
-    double sum[ROWS][ROWS] = {{0}};
-    for (int b = 0; b < width; b++, l += ROWS, y += ROWS)
-        for (int c = 0; c < ROWS; c++)
-            for (int r = 0; r < ROWS; r++) sum[c][r] += l[r] * y[c];
-    for (int c = 0; c < ROWS; c++)
-        for (int r = 0; r < ROWS; r++) out[(size_t)c * n + (size_t)r] -= sum[c][r];
+/* Where row i of the panel that begins with column `first` has that column's entry; those of the
+ * next columns follow, LANES apart. */
+static double *row_of(const CpsiDenseLdl *ldl, int i, int first) {
+    const size_t below = (size_t)(i - first), lane = below % LANES;
+    return cpsi_dense_panel(ldl, first) + (below - lane) * (size_t)cpsi_dense_width(ldl, first) +
+           lane;
 }
 
-bool cpsi_dense_ldl(int n, double *m, double *pivot, double *terms, const signed char *sign,
-                    double least, double share, double *scratch) {
-    const DenseLdl a = {n, m, pivot, terms, sign, least, share};
-    double *l = scratch, *y = scratch + (size_t)PANEL * (size_t)n;
-    for (int first = 0; first < n; first += PANEL) {
-        const int end = first + PANEL < n ? first + PANEL : n, width = end - first;
-        for (int j = first; j < end; j++)
-            if (!finish_column(&a, first, j)) return false;
-        pack(&a, first, end, l, y);
-        for (int j = end; j < n; j += ROWS)
-            for (int i = j; i < n; i += ROWS)
-                subtract_block(width, &l[(size_t)(i - end) * (size_t)width],
-                               &y[(size_t)(j - end) * (size_t)width],
-                               &m[(size_t)j * (size_t)n + (size_t)i], (size_t)n);
+void cpsi_dense_ldl_row(CpsiDenseLdl *ldl, int i, const double *row, double terms,
+                        signed char sign) {
+    for (int first = 0; first <= i; first += PANEL) {
+        const int width = cpsi_dense_width(ldl, first), rest = i + 1 - first;
+        double *out = row_of(ldl, i, first);
+        for (int j = 0; j < width && j < rest; j++) out[j * LANES] = row[first + j];
     }
-    return true;
+    ldl->terms[i] = terms;
+    ldl->sign[i] = sign;
 }
+
+/* A row that rounds the size up: that of the unit matrix. */
+static void unit_row(CpsiDenseLdl *ldl, int i) {
+    for (int j = 0; j <= i; j++)
+        row_of(ldl, i, j / PANEL * PANEL)[j % PANEL * LANES] = j == i ? 1 : 0;
+    ldl->terms[i] = 1;
+    ldl->sign[i] = 1;
+}
+
+bool cpsi_dense_ldl_factor(CpsiDenseLdl *ldl, double least, double share) {
+    for (int i = ldl->given; i < ldl->n; i++) unit_row(ldl, i);
+    return ldl->loops->factor(ldl, least, share);
+}
+
+void cpsi_dense_ldl_forward(const CpsiDenseLdl *ldl, double *x) {
+    for (int i = ldl->given; i < ldl->n; i++) x[i] = 0; /* an overflow before may have left NaN */
+    ldl->loops->forward(ldl, x);
+}
+
+void cpsi_dense_ldl_backward(const CpsiDenseLdl *ldl, double *x) { ldl->loops->backward(ldl, x); }

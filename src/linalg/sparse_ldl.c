@@ -9,8 +9,9 @@
  * in the next column. Up to four of them are used at once, so that each row is looked up once for
  * all four.
  *
- * The last columns, whose nonzeros are all rows below them, are a dense matrix once the columns
- * before them have been eliminated from it. Where there are many, that is factorised by blocks. */
+ * The last columns have their nonzeros in nearly all rows below them. Once the columns before them
+ * have been eliminated from them, they are taken as a dense matrix (dense_ldl.c), with what zeros
+ * they have, from the column on from which that is the least work. */
 #include "linalg/sparse_ldl.h"
 
 #include <float.h>
@@ -19,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/lanes.h"
 #include "linalg/dense_ldl.h"
 
 struct CpsiLdl {
@@ -38,13 +40,13 @@ struct CpsiLdl {
     int *count, *path, *mark; /* (n) */
     bool *joined; /* (n) the column before has its nonzeros in the same rows and in this one */
     int dense;    /* the first of the columns that are factorised as a dense matrix; n: none are */
-    int size;     /* their number, rounded up */
-    double *last; /* (size, size) that matrix; then pivots, terms (size) and scratch */
-    signed char *last_sign; /* (size) */
+    CpsiDenseLdl end;
 };
 
-/* The least number of columns for a dense matrix, and the most: 2 GB. */
-enum { DENSE = 160, MOST_DENSE = 16384 };
+/* A product in the columns before the dense matrix takes as long as so many in it. The least number
+ * of columns for a dense matrix. */
+static const double SLOWER = 12;
+enum { LEAST_DENSE = 64 };
 
 /* A pivot is a difference of terms, each of them rounded, as often is what they are made of: it is
  * known to about this share of their sum. Taken from below that, it would be a number without
@@ -66,8 +68,9 @@ typedef struct Supernode {
 
 void cpsi_ldl_free(CpsiLdl *ldl) {
     if (!ldl) return;
-    void *part[] = {ldl->place, ldl->column, ldl->row,   ldl->value,  ldl->order, ldl->start,
-                    ldl->index, ldl->factor, ldl->pivot, ldl->joined, ldl->last,  ldl->last_sign};
+    cpsi_dense_ldl_free(&ldl->end);
+    void *part[] = {ldl->place, ldl->column, ldl->row,    ldl->value, ldl->order,
+                    ldl->start, ldl->index,  ldl->factor, ldl->pivot, ldl->joined};
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) free(part[k]);
     free(ldl);
 }
@@ -124,7 +127,7 @@ static bool allocate_matrix(CpsiLdl *ldl) {
     ldl->value = malloc((m + 1) * sizeof *ldl->value);
     ldl->start = malloc((n + 1) * sizeof *ldl->start);
     ldl->order = malloc((5 * n + 1) * sizeof *ldl->order);
-    ldl->pivot = calloc(2 * n + 1, sizeof *ldl->pivot);
+    ldl->pivot = calloc(2 * n + CPSI_LANES, sizeof *ldl->pivot); /* y to whole lanes */
     ldl->joined = calloc(n + 1, sizeof *ldl->joined);
     if (!ldl->place || !ldl->column || !ldl->row || !ldl->value || !ldl->start || !ldl->order ||
         !ldl->pivot || !ldl->joined)
@@ -137,38 +140,43 @@ static bool allocate_matrix(CpsiLdl *ldl) {
     return true;
 }
 
-/* Find the columns whose nonzeros are all rows below them, and allocate their matrix. */
-static bool allocate_dense(CpsiLdl *ldl) {
-    int first = ldl->n > 0 ? ldl->n - 1 : 0;
-    while (first > 0 && ldl->parent[first - 1] == first &&
-           ldl->count[first - 1] == ldl->count[first] + 1)
-        first--;
-    ldl->dense = ldl->n;
-    if (ldl->n - first < DENSE) return true;
-    if (ldl->n - first > MOST_DENSE) first = ldl->n - MOST_DENSE;
-    ldl->dense = first;
-    ldl->size = (ldl->n - first + CPSI_DENSE_ROWS - 1) / CPSI_DENSE_ROWS * CPSI_DENSE_ROWS;
-    const size_t m = (size_t)ldl->size;
-    ldl->last = malloc((m + 2 + 2 * (size_t)CPSI_DENSE_PANEL) * m * sizeof *ldl->last);
-    ldl->last_sign = malloc(m);
-    return ldl->last && ldl->last_sign;
+/* The first of the columns that are taken as a dense matrix: the one from which on the products of
+ * all columns take the least time. */
+static int first_dense(const CpsiLdl *ldl) {
+    double before = 0, behind = 0, least = INFINITY;
+    int first = ldl->n;
+    for (int k = 0; k < ldl->n; k++) before += SLOWER * ldl->count[k] * (double)ldl->count[k];
+    for (int k = ldl->n; k >= 0; k--) {
+        const double below = ldl->n - k;
+        if (before + behind < least && (k == ldl->n || below >= LEAST_DENSE)) {
+            least = before + behind;
+            first = k;
+        }
+        if (k == 0) break;
+        before -= SLOWER * ldl->count[k - 1] * (double)ldl->count[k - 1];
+        behind += below * below;
+    }
+    return first;
 }
 
-static bool allocate_factor(CpsiLdl *ldl) {
+static bool allocate_factor(CpsiLdl *ldl, int *width) {
     if (ldl->factor_entries > SIZE_MAX / sizeof(double) - 1) return false;
-    ldl->index = malloc((ldl->factor_entries + 1) * sizeof *ldl->index);
-    ldl->factor = malloc((ldl->factor_entries + 1) * sizeof *ldl->factor);
-    if (!ldl->index || !ldl->factor || !allocate_dense(ldl)) return false;
+    ldl->dense = first_dense(ldl);
     ldl->start[0] = 0;
     for (int k = 0; k < ldl->n; k++) {
-        ldl->start[k + 1] = ldl->start[k] + (size_t)ldl->count[k];
-        ldl->joined[k] = k > 0 && k != ldl->dense && ldl->parent[k - 1] == k &&
+        const bool sparse = k < ldl->dense;
+        ldl->start[k + 1] = ldl->start[k] + (sparse ? (size_t)ldl->count[k] : 0);
+        ldl->joined[k] = sparse && k > 0 && ldl->parent[k - 1] == k &&
                          ldl->count[k - 1] == ldl->count[k] + 1 && ldl->count[k] >= LONG;
     }
-    return true;
+    const size_t entries = ldl->start[ldl->n];
+    ldl->index = malloc((entries + 1) * sizeof *ldl->index);
+    ldl->factor = malloc((entries + 1) * sizeof *ldl->factor);
+    return ldl->index && ldl->factor &&
+           (ldl->dense == ldl->n || cpsi_dense_ldl_new(&ldl->end, ldl->n - ldl->dense, width));
 }
 
-CpsiLdl *cpsi_ldl_new(const CpsiPattern *pattern, size_t most, size_t *entries) {
+CpsiLdl *cpsi_ldl_new(const CpsiPattern *pattern, size_t most, int *width, size_t *entries) {
     *entries = 0;
     CpsiLdl *ldl = calloc(1, sizeof *ldl);
     if (!ldl) return NULL;
@@ -179,7 +187,7 @@ CpsiLdl *cpsi_ldl_new(const CpsiPattern *pattern, size_t most, size_t *entries) 
         permute(ldl, pattern, ldl->path);
         *entries = ldl->factor_entries = count_factor(ldl);
         done = *entries <= most;
-        if (done && !allocate_factor(ldl)) {
+        if (done && !allocate_factor(ldl, width)) {
             *entries = 0;
             done = false;
         }
@@ -189,8 +197,8 @@ CpsiLdl *cpsi_ldl_new(const CpsiPattern *pattern, size_t most, size_t *entries) 
     return NULL;
 }
 
-/* The nonzeros of row k in path[top ..], each after those that it depends on; the row's right-hand
- * side in y. Returns the diagonal entry. */
+/* The nonzeros of row k before the dense columns in path[top ..], each after those that it depends
+ * on; the row's right-hand side in y. Returns the diagonal entry. */
 static double scatter_row(CpsiLdl *ldl, int k, int *top) {
     double diagonal = 0;
     *top = ldl->n;
@@ -202,7 +210,7 @@ static double scatter_row(CpsiLdl *ldl, int k, int *top) {
             continue;
         }
         ldl->y[i] += ldl->value[e];
-        for (; ldl->mark[i] != k; i = ldl->parent[i]) {
+        for (; i < ldl->dense && ldl->mark[i] != k; i = ldl->parent[i]) {
             ldl->path[length++] = i;
             ldl->mark[i] = k;
         }
@@ -249,10 +257,6 @@ static double eliminate_row(CpsiLdl *ldl, int k, int top, double diagonal, doubl
     *terms = fabs(diagonal);
     while (top < ldl->n) {
         const int i = ldl->path[top];
-        if (i >= ldl->dense) {
-            top++;
-            continue;
-        }
         int width = 1;
         while (width < MOST_TOGETHER && top + width < ldl->n && ldl->joined[i + width] &&
                ldl->path[top + width] == i + width)
@@ -274,42 +278,6 @@ static double eliminate_row(CpsiLdl *ldl, int k, int top, double diagonal, doubl
     return diagonal;
 }
 
-/* Row k of the dense matrix from y; `diagonal` and `terms` are those of its entry. */
-static void take_row(CpsiLdl *ldl, int k, double diagonal, double terms, signed char sign) {
-    const size_t m = (size_t)ldl->size, row = (size_t)(k - ldl->dense);
-    for (size_t j = 0; j < row; j++) {
-        ldl->last[j * m + row] = ldl->y[(size_t)ldl->dense + j];
-        ldl->y[(size_t)ldl->dense + j] = 0;
-    }
-    ldl->last[row * m + row] = diagonal;
-    ldl->last[(m + 1) * m + row] = terms;
-    ldl->last_sign[row] = sign;
-}
-
-/* Factorise the dense matrix, and store its columns as the others. */
-static bool factor_dense(CpsiLdl *ldl, double least) {
-    const int m = ldl->size, n = ldl->n - ldl->dense;
-    double *pivot = &ldl->last[(size_t)m * (size_t)m], *terms = pivot + m;
-    for (int k = n; k < m; k++) { /* what rounds its size up */
-        for (int j = 0; j < k; j++) ldl->last[(size_t)j * (size_t)m + (size_t)k] = 0;
-        ldl->last[(size_t)k * (size_t)m + (size_t)k] = terms[k] = 1;
-        ldl->last_sign[k] = 1;
-    }
-    if (!cpsi_dense_ldl(m, ldl->last, pivot, terms, ldl->last_sign, least, PIVOT_ROUNDING,
-                        terms + m))
-        return false;
-    for (int j = 0; j < n; j++) {
-        const double *column = &ldl->last[(size_t)j * (size_t)m];
-        size_t at = ldl->start[ldl->dense + j];
-        for (int i = j + 1; i < n; i++, at++) {
-            ldl->index[at] = ldl->dense + i;
-            ldl->factor[at] = column[i];
-        }
-        ldl->pivot[ldl->dense + j] = pivot[j];
-    }
-    return true;
-}
-
 bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign, double least) {
     for (size_t e = 0; e < ldl->entries; e++) ldl->value[ldl->place[e]] = values[e];
     for (int k = 0; k < ldl->n; k++) {
@@ -324,20 +292,24 @@ bool cpsi_ldl_factor(CpsiLdl *ldl, const double *values, const signed char *sign
                      pivot = eliminate_row(ldl, k, top, diagonal, &terms);
         const signed char s = sign[ldl->order[k]];
         if (k >= ldl->dense) {
-            take_row(ldl, k, pivot, terms, s);
+            double *row = &ldl->y[ldl->dense];
+            const int i = k - ldl->dense;
+            row[i] = pivot;
+            cpsi_dense_ldl_row(&ldl->end, i, row, terms, s);
+            memset(row, 0, ((size_t)i + 1) * sizeof *row);
             continue;
         }
         if (!isfinite(pivot)) return false;
         const double smallest = fmax(least, PIVOT_ROUNDING * terms);
         ldl->pivot[k] = pivot * s >= smallest ? pivot : s * smallest;
     }
-    return ldl->dense == ldl->n || factor_dense(ldl, least);
+    return ldl->dense == ldl->n || cpsi_dense_ldl_factor(&ldl->end, least, PIVOT_ROUNDING);
 }
 
 /* As many columns as may be used at once from k on. */
 static inline Supernode columns_from(const CpsiLdl *ldl, int k) {
     int width = 1;
-    while (width < MOST_TOGETHER && k + width < ldl->n && ldl->joined[k + width]) width++;
+    while (width < MOST_TOGETHER && k + width < ldl->dense && ldl->joined[k + width]) width++;
     return columns_of(ldl, k, width, ldl->start[k + 1] - ldl->start[k]);
 }
 
@@ -365,13 +337,17 @@ void cpsi_ldl_solve(const CpsiLdl *ldl, double *x) {
     const int n = ldl->n;
     double *y = ldl->y, own[MOST_TOGETHER];
     for (int k = 0; k < n; k++) y[k] = x[ldl->order[k]];
-    for (int k = 0; k < n;) {
+    for (int k = 0; k < ldl->dense;) {
         const Supernode columns = columns_from(ldl, k);
         eliminate(&columns, y, own);
         for (int a = 0; a < columns.width; a++) y[k + a] = own[a];
         k += columns.width;
     }
-    for (int k = n; k > 0;) {
+    if (ldl->dense < n) {
+        cpsi_dense_ldl_forward(&ldl->end, &y[ldl->dense]);
+        cpsi_dense_ldl_backward(&ldl->end, &y[ldl->dense]);
+    }
+    for (int k = ldl->dense; k > 0;) {
         int first = k - 1;
         while (k - first < MOST_TOGETHER && ldl->joined[first]) first--;
         const Supernode columns =

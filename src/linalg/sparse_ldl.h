@@ -26,10 +26,10 @@ bool cpsi_sparse_order(const CpsiPattern *pattern, int *order);
 /* Analysis and factor. */
 typedef struct CpsiLdl CpsiLdl;
 
-/* Order and analyse a pattern once for all its matrices. Returns NULL with *entries = 0 when memory
- * does not suffice, and NULL with *entries > most where the factor would have more than `most`
- * entries. */
-CpsiLdl *cpsi_ldl_new(const CpsiPattern *pattern, size_t most, size_t *entries);
+/* Order and analyse a pattern once for all its matrices. *width: that of registers, as
+ * cpsi_width_once keeps it. Returns NULL with *entries = 0 when memory does not suffice, and NULL
+ * with *entries > most where the factor would have more than `most` entries. */
+CpsiLdl *cpsi_ldl_new(const CpsiPattern *pattern, size_t most, int *width, size_t *entries);
 void cpsi_ldl_free(CpsiLdl *ldl);
 
 /* Factorise the matrix of the pattern with these values. Unknown j's pivot should have the sign of

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Each step of a random scene has the same bits at every width of registers that the processor has
- * (ipm/width.h).
+/* Each step of a random scene, and the solution of each random conic program, has the same bits at
+ * every width of registers that the processor has (base/width.h).
  *     usage: random_widths [--scenes N] [--seed S]
  *
  * Random scenes of all classes (random_scene.h); the number of elements varies, so that the last
- * lanes are filled to any number. With one width alone there is nothing to compare: exit status
- * 77. */
+ * lanes are filled to any number. Of every six scenes one conic program (random_program.h), with
+ * 200 to 700 unknowns that fill the end of its factor. With one width alone there is nothing to
+ * compare: exit status 77. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "ipm/width.h"
+#include "base/width.h"
+#include "random_program.h"
 #include "random_scene.h"
 #include "splitmix.h"
 
@@ -108,6 +110,33 @@ static int compare(const CpsScene *scene, int widths, const char *class_name, ui
     return steps;
 }
 
+/* Whether the solutions of a random program are the same. */
+static bool same_solutions(int widths, uint64_t seed) {
+    uint64_t state = seed;
+    const RandomProgramKind kind = {.unknowns = 200 + (int)splitmix(&state, 0, 500)};
+    RandomProgram made = random_program_new(&kind, seed);
+    CpsiSparseProgram *program[CPSI_WIDTHS];
+    CpsiConicResult found[CPSI_WIDTHS];
+    bool all = true;
+    for (int k = 0; k < widths; k++) {
+        CpsError err;
+        use_width((CpsiWidth)k);
+        if (cpsi_sparse_program_new(&made.data, &program[k], &err) != CPS_OK) {
+            fprintf(stderr, "%s\n", err.message);
+            exit(1);
+        }
+        found[k] = cpsi_sparse_program_solve(program[k], 1e-7);
+        all = all && found[k].outcome == CPSI_CONIC_SOLVED &&
+              found[k].iterations == found[0].iterations &&
+              same(found[k].x, found[0].x, made.data.unknowns) &&
+              same(found[k].y, found[0].y, made.data.equations) &&
+              same(found[k].z, found[0].z, made.rows);
+    }
+    for (int k = 0; k < widths; k++) cpsi_sparse_program_free(program[k]);
+    random_program_free(&made);
+    return all;
+}
+
 int main(int argc, char **argv) {
     static RandomScene random;
     const RandomSceneRange range = random_scene_range(argc, argv);
@@ -135,8 +164,15 @@ int main(int argc, char **argv) {
         }
         for (int i = 0; i < SCENE_OBSTACLES; i++) cps_set_release(set[i]);
     }
-    printf("%d of %d scenes valid, %d with sets, %d steps, %d widths, %d failures\n", valid,
-           range.count, with_sets, steps, widths, failures);
+    const int programs = 1 + range.count / 6;
+    for (int k = 0; k < programs; k++)
+        if (!same_solutions(widths, range.seed + (uint64_t)k)) {
+            failures++;
+            fprintf(stderr, "conic program, seed %llu: other bits\n",
+                    (unsigned long long)range.seed + (unsigned)k);
+        }
+    printf("%d of %d scenes valid, %d with sets, %d steps, %d programs, %d widths, %d failures\n",
+           valid, range.count, with_sets, steps, programs, widths, failures);
     /* most scenes must be valid, or nothing is tested */
     return failures > 0 || 2 * valid < range.count;
 }

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Passes over elements take eight at a time: the numbers of eight elements stand side by side in
  * lanes, and a plain loop over the lanes is what the compiler makes wide instructions of. Files
- * with such loops are compiled once per width of the processor's registers (ipm/width.h). No
+ * with such loops are compiled once per width of the processor's registers (base/width.h). No
  * operation joins two lanes but a maximum and, at the end of a pass, the sums of the eight lanes in
- * their order (lane_sums.h), so every width gives the same bits.
+ * their order (ipm/lane_sums.h), so every width gives the same bits.
  *
  * What a loop over lanes may contain: arithmetic, square roots and a choice between two numbers by
  * one comparison. Indices by an array, and what differs from element to element in kind, stand in
  * loops of their own before or after it. */
-#ifndef CAPSTAN_SRC_IPM_LANES_H
-#define CAPSTAN_SRC_IPM_LANES_H
+#ifndef CAPSTAN_SRC_BASE_LANES_H
+#define CAPSTAN_SRC_BASE_LANES_H
 
 #include <math.h>
 #include <stddef.h>
