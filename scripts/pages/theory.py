@@ -53,6 +53,8 @@ def strategy(field, begins):
 
 FIGURES = {}
 SENTENCES = [
+    ("and h becomes h max(1/5, min(2, {} (E/e)^(1/3)))", lambda p: [number("evolve/pace.c", "CAUTION")(p)]),
+    ("are no longer than asked for, and no shorter than {} of that", lambda p: [number("evolve/pace.c", "LEAST")(p)]),
     ("or not finite, the residual is {} N", number("cable/potential.c", "NOT_USABLE")),
     ("psi(x_R) = 0 }, to {} of the length", number(".h", "CPS_TOUCH")),
     ("at mu theta = 6 pi, a ratio of tensions of {}", lambda p: short(math.exp(6 * math.pi))),
@@ -91,6 +93,9 @@ SENTENCES = [
     ("Where the tensions found are more than {} times what acts on the group", number("evolve/joint_answer.c", "STRAINED")),
     ("the forces are those of lines longer by one part in {}, as for a single line", lambda p: f"{1 / float(number('cable/held.h', 'CPSI_TAUT_SLACK')(p)):.0e}".replace("+0", "")),
     ("a point that is as near as {} of its longest line", lambda p: f"{float(number('cable/held.h', 'CPSI_TAUT_SLACK')(p))**0.5:.0e}".replace("e-0", "e-")),
+    ("turns a body by more than {} taken with the other sign", number("evolve/first_guess.c", "FAR")),
+    ("a round that turns no body by more than {}, of which the square", number("evolve/body_rounds.c", "LINEAR")),
+    ("longer than their ways by one part in {}, with tensions", lambda p: "1e" + p.constant("random_taut_bodies.c", r"share = pow\(10, uniform\(-(\d+),")),
     ("To this comes what {} roundings of coordinates", number("evolve/trial.c", "ROUNDINGS")),
     ("nor turns by more than {} rad: a displacement", number("evolve/newton_step.c", "FARTHEST_TURN")),
     ("at places at most {} rad apart where it turns", number("evolve/shifts.c", "PATH_ANGLE")),
