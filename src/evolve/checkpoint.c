@@ -670,21 +670,19 @@ static void hash_body(uint64_t *hash, const CpsiBody *body) {
     hash_numbers(hash, 4, given->rotation);
     hash_numbers(hash, 3, given->centre_of_gravity);
     hash_numbers(hash, 3, given->centre_of_buoyancy);
-    hash_numbers(hash, 2, (const double[2]){given->weight, given->buoyancy});
+    hash_numbers(hash, 3, (const double[3]){given->weight, given->buoyancy, given->mass});
     hash_numbers(hash, 36, given->hydrostatics);
     hash_numbers(hash, 3, given->force);
     hash_numbers(hash, 3, given->moment);
-    hash_numbers(hash, 1, &given->mass);
     hash_numbers(hash, 6, given->inertia);
     hash_numbers(hash, 36, given->added_mass);
     hash_numbers(hash, 36, given->damping);
     hash_numbers(hash, 6, given->quadratic_damping);
     hash_numbers(hash, 6, given->velocity);
     hash_numbers(hash, 12 * (size_t)body->wave_count, body->excitation);
-    for (int i = 0; i < body->member_count; i++) {
-        hash_bytes(hash, &body->member[i], offsetof(CpsiCylinder, strips)); /* numbers only */
-        hash_flow(hash, &body->member[i].flow);
-    }
+    for (int i = 0; i < body->member_count; i++) /* numbers only */
+        hash_bytes(hash, &body->member[i], offsetof(CpsiCylinder, strips));
+    for (int i = 0; i < body->member_count; i++) hash_flow(hash, &body->member[i].flow);
 }
 
 uint64_t cpsi_evolution_fingerprint(const CpsEvolution *evolution) {
