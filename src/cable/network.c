@@ -16,7 +16,8 @@ enum { ITERATIONS = 100 };
 /* A solution that has come so near is one, whether or not it was to be better. */
 static const double ENOUGH = 1e-10;
 /* Bounded forces that are far larger than those of the lines slow the first iterations, in which
- * their joints hardly move. */
+ * their joints hardly move; and so does the slack of nets, most of whose sides are not to be taut.
+ */
 enum { PATIENT = 40 };
 /* The cosine of the angle at which planes are the same. */
 static const double LEVEL = 1 - 1e-12;
@@ -350,7 +351,7 @@ static bool solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *p
         scale_of(line, part, coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED);
     const double loads = fill(network, line, part, &scale);
     ipm.scale = loads > 0 ? loads : 1;
-    ipm.patience = network->program.hinges.count > 0 ? PATIENT : 0;
+    ipm.patience = PATIENT;
     const CpsiIpmReport report = cpsi_ipm_solve(&network->program.base, &ipm);
     network->found = report.outcome;
     for (int k = 0; k < part->lines; k++)

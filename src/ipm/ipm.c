@@ -26,6 +26,8 @@ static const double FRACTION = 0.98;
  * gap. */
 static const double LEAST_STEP = 1e-6;
 static const int PATIENCE = 8;
+/* The gap and residuals together above which CpsiIpmOptions.patience counts. */
+static const double EARLY = 1e-2;
 /* Centring steps go at most this share of the distance to the boundary, since the remaining
  * distance must stay above rounding. */
 static const double CLOSE = 0.9;
@@ -149,7 +151,6 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
     CpsiIpmReport report = {.outcome = CPSI_IPM_ITERATION_LIMIT};
     double best = INFINITY, alpha = 0;
     int waited = 0;
-    const int patience = options->patience > 0 ? options->patience : PATIENCE;
     if (!options->goes_on) start(program);
     for (;; report.iterations++) {
         /* move and measure the iterate, and stop where it is good enough */
@@ -176,7 +177,7 @@ CpsiIpmReport cpsi_ipm_solve(CpsiProgram *program, const CpsiIpmOptions *options
         if (report.iterations >= options->max_iterations) break;
         waited = merit < 0.5 * best ? 0 : waited + 1;
         if (waited == 0) best = merit;
-        if (waited > patience) {
+        if (waited > (options->patience > 0 && merit > EARLY ? options->patience : PATIENCE)) {
             report.outcome = CPSI_IPM_STALLED;
             break;
         }

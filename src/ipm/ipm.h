@@ -20,8 +20,8 @@ typedef struct CpsiIpmOptions {
     double target; /* relative complementarity gap to reach */
     double scale;  /* > 0: smallest energy that the gap is compared with */
     int max_iterations;
-    /* steps without halving the best gap after which the loop gives up; 0: the default, which suits
-     * most programs */
+    /* steps without halving the best gap after which the loop gives up while it is far from the
+     * solution; 0: as later, which suits most programs */
     int patience;
     /* Centring steps after the target is reached. They align each dual with its primal, which the
      * gap does not measure. */
