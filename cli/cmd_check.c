@@ -326,9 +326,14 @@ static void print_scene(const CpsScene *scene) {
     int steps = 0;
     for (int i = 0; i < scene->line_count; i++)
         if (scene->line[i].start.kind == CPS_START_STATIC) steps = 1;
-    for (int i = 0; i < scene->stage_count; i++) steps += scene->stage[i].step_count;
-    printf("history: %d entr%s, %d load step%s in all\nThe scene is valid.\n", scene->stage_count,
-           scene->stage_count == 1 ? "y" : "ies", steps, steps == 1 ? "" : "s");
+    bool has_pace = false;
+    for (int i = 0; i < scene->stage_count; i++) {
+        steps += scene->stage[i].step_count;
+        has_pace = has_pace || scene->stage[i].error > 0;
+    }
+    printf("history: %d entr%s, %s%d load step%s in all\nThe scene is valid.\n", scene->stage_count,
+           scene->stage_count == 1 ? "y" : "ies", has_pace ? "at least " : "", steps,
+           steps == 1 ? "" : "s");
 }
 
 int cmd_check(int argc, char **argv) {

@@ -112,6 +112,12 @@ typedef struct CpsBodyReport {
  * between the z axes of body and scene, 0 .. pi. NULL: nothing is done. */
 CPS_API void cps_body_angles(const CpsBodyReport *report, double roll_pitch_yaw[3], double *heel);
 
+struct CpsEvolution;
+
+/* cps_evolution_body_report (evolve.h) with places relative to the origin of the views
+ * (CpsLineView), from which they lose no digits far from 0. */
+CPS_API CpsBodyReport cps_evolution_body_view(const struct CpsEvolution *evolution, int body);
+
 #ifdef __cplusplus
 }
 #endif

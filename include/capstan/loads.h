@@ -77,8 +77,8 @@ typedef struct CpsLineLoads {
     int force_count;
     const CpsLineForce *force; /* (force_count) the same */
     CpsDrag drag;
-    /* of a line whose ends are not at points; the elements add up U at their nodes by half of their
-     * lengths */
+    /* of a line that is elastic, or whose ends are not at points; the elements add up U at their
+     * nodes by half of their lengths */
     CpsPotential potential;
 } CpsLineLoads;
 

@@ -155,9 +155,27 @@ typedef struct CpsBodyMotion {
 CPS_API CpsPointMotion cps_evolution_point_motion(const struct CpsEvolution *evolution, int point);
 CPS_API CpsBodyMotion cps_evolution_body_motion(const struct CpsEvolution *evolution, int body);
 
+/* The same with `reference` relative to the origin of the views (CpsLineView), from which it loses
+ * no digits far from 0. */
+CPS_API CpsPointMotion cps_evolution_point_motion_view(const struct CpsEvolution *evolution,
+                                                       int point);
+
 /* The motion of a line; of what is no line one of zeros. Arrays belong to the evolution, until its
  * next step. */
 CPS_API CpsLineMotion cps_evolution_line_motion(const struct CpsEvolution *evolution, int line);
+
+/* How long the last step was. Of a stage with an `error` (CpsStage) steps have different lengths,
+ * at most duration / step_count: such that by its own estimate no step moves anything by more than
+ * that beyond where it belongs (docs/theory.md 9). A step that would is taken back, and a shorter
+ * one is tried; so is one that is not certified. No step is shorter than 1e-4 of the longest: there
+ * it is kept, with its error here, as it is. */
+typedef struct CpsPace {
+    double length; /* [s] 0: quasi-static */
+    double error;  /* [m] by its estimate, in steps of a stage with an `error`; else 0 */
+    int rejected;  /* tries that were taken back */
+} CpsPace;
+
+CPS_API CpsPace cps_evolution_pace(const struct CpsEvolution *evolution);
 
 /* [s] The time since the history began: the sum of the durations of the steps taken. */
 CPS_API double cps_evolution_time(const struct CpsEvolution *evolution);

@@ -126,6 +126,12 @@ typedef struct CpsPointReport {
     bool has_place; /* the residual is no larger than 100 tolerances of the group's largest force */
 } CpsPointReport;
 
+struct CpsEvolution;
+
+/* cps_evolution_point_report (evolve.h) with places relative to the origin of the views
+ * (CpsLineView), from which they lose no digits far from 0. */
+CPS_API CpsPointReport cps_evolution_point_view(const struct CpsEvolution *evolution, int point);
+
 #ifdef __cplusplus
 }
 #endif

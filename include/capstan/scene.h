@@ -200,8 +200,8 @@ typedef struct CpsStage {
     const char *name;
     int step_count;  /* >= 1 */
     double duration; /* [s] >= 0, default 0: quasi-static; else in time (motion.h) */
-    /* lines stretch by their static stiffness; default false: those that have a dynamic one by it,
-     * about what was reached before (elasticity.h) */
+    double error;    /* [m] >= 0, default 0: equal steps; else no longer ones (CpsPace) */
+    /* lines stretch by their static stiffness; default false: a dynamic one (elasticity.h) */
     bool static_stiffness;
     int change_count;
     const CpsChange *change;

@@ -45,6 +45,13 @@ typedef struct CpsObstacleReport {
     double turned; /* [rad] by which it turned about its own axis in the last step */
 } CpsObstacleReport;
 
+struct CpsEvolution;
+
+/* cps_evolution_obstacle_report (evolve.h) with places relative to the origin of the views
+ * (CpsLineView), from which they lose no digits far from 0. */
+CPS_API CpsObstacleReport cps_evolution_obstacle_view(const struct CpsEvolution *evolution,
+                                                      int obstacle);
+
 #ifdef __cplusplus
 }
 #endif

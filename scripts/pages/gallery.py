@@ -51,6 +51,7 @@ PICTURES = {
     "run-ridge-plan": of_example("ridge", "plan.svg"),
     "run-quay": of_example("quay", "plan.svg"),
     "run-bore": of_example("bore", "plan.svg"),
+    "run-lay-on-slope": of_example("lay-on-slope", "plan.svg"),
     "run-oc3-hywind": of_example("oc3-hywind", "step-00004-elevation.svg"),
     "run-barge": of_example("barge", "step-00006-plan.svg"),
     "run-bollard-and-rail": of_example("bollard-and-rail", "plan.svg"),

@@ -53,6 +53,8 @@ def strategy(field, begins):
 
 FIGURES = {}
 SENTENCES = [
+    ("and h becomes h max(1/5, min(2, {} (E/e)^(1/3)))", lambda p: [number("evolve/pace.c", "CAUTION")(p)]),
+    ("are no longer than asked for, and no shorter than {} of that", lambda p: [number("evolve/pace.c", "LEAST")(p)]),
     ("or not finite, the residual is {} N", number("cable/potential.c", "NOT_USABLE")),
     ("psi(x_R) = 0 }, to {} of the length", number(".h", "CPS_TOUCH")),
     ("at mu theta = 6 pi, a ratio of tensions of {}", lambda p: short(math.exp(6 * math.pi))),

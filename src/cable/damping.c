@@ -25,7 +25,7 @@ static double span_of(const CpsiLine *line, int e, double *before) {
     const CpsiDamping *damping = &inertia->damping;
     const bool euler = inertia->is_euler[e] || inertia->is_euler[e + 1];
     const double d = damping->elongation[e];
-    *before = euler ? d : fmax(0, d + (d - damping->before[e]) / 3);
+    *before = euler ? d : fmax(0, d + inertia->formula.back * (d - damping->before[e]));
     return fmax(inertia->span[e], inertia->span[e + 1]);
 }
 

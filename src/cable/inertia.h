@@ -20,6 +20,24 @@ typedef struct CpsiDamping {
     double *own_factor; /* (n) line->compliance_factor without damping */
 } CpsiDamping;
 
+/* The backward difference formula of second order for a step of length h, w = h over the length of
+ * the step before:
+ *
+ *     x* = x_n + back (x_n - x_{n-1}),    back = w^2/(1 + 2 w),    k = h (1 + w)/(1 + 2 w),
+ *
+ * 1/3 and 2 h/3 after a step as long. Of an implicit Euler step back = 0 and k = h. */
+typedef struct CpsiFormula {
+    double length; /* [s] h > 0 */
+    double ratio;  /* [-] w > 0 */
+    double back;   /* [-] */
+    double span;   /* [s] k */
+} CpsiFormula;
+
+static inline CpsiFormula cpsi_formula(double length, double ratio) {
+    const double all = 1 + 2 * ratio;
+    return (CpsiFormula){length, ratio, ratio * ratio / all, length * (1 + ratio) / all};
+}
+
 typedef struct CpsiInertia {
     bool is_moving; /* the last step, or the one under way, is one in time */
     double *mass;   /* (n) [kg] of the nodes */
@@ -34,6 +52,8 @@ typedef struct CpsiInertia {
     bool *restarts;          /* (n) the next step of the node is an Euler step */
     bool *late;              /* (n) scratch: this step was to be one */
     bool *is_euler;          /* (n) ... and whether it is one */
+    CpsiFormula formula;     /* of the nodes that take no Euler step */
+    double error;            /* [m] that the step makes by itself, by its estimate (pace.h) */
     CpsiDamping damping;
     double kinetic;        /* [J] */
     double position_bound; /* [m] */

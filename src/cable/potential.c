@@ -85,6 +85,13 @@ double cpsi_potential_change(const CpsiLine *line) {
     return changed;
 }
 
+void cpsi_potential_stiffness(const CpsiLine *line, int j, double out[6]) {
+    memcpy(out, &line->field.stiffness[6 * j], 6 * sizeof *out);
+    if (!line->has_potential) return;
+    const Local at = local(line, j, vec3_at(line->position, j));
+    for (int i = 0; i < 6; i++) out[i] += at.stiffness[i];
+}
+
 double cpsi_potential_energy(const CpsiLine *line, const double *x) {
     double sum = 0;
     if (!line->has_potential) return 0;

@@ -18,6 +18,9 @@ void cpsi_potential_settle(CpsiLine *line);
 /* [N] The sum of what its forces at the position and those of the model there differ by; 0 without
  * a potential, and 1e300 where it is concave or not finite. */
 double cpsi_potential_change(const CpsiLine *line);
+/* [N/m] Of node j at its position, where the forces are settled: its springs and the second
+ * derivatives of the potential, xx, xy, yy, xz, yz, zz. For a line with a field. */
+void cpsi_potential_stiffness(const CpsiLine *line, int j, double out[6]);
 /* [J] Its energy at the positions x (n, 3). */
 double cpsi_potential_energy(const CpsiLine *line, const double *x);
 

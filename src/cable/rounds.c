@@ -33,6 +33,10 @@ static const double AXES_SCATTERED = 0.5;
 static const double AXES_SETTLED = 1e-5;
 /* ... and trial bounds differ by no more than this share, in sum, from mu R. */
 static const double BOUND_TOL = 1e-11;
+/* Trial bounds that have not come nearer to mu R by this share in so many rounds that hardly turn
+ * the axes any more do not: of a node that is jammed there may be none. */
+static const double BOUND_NEARER = 0.9;
+enum { BOUND_PATIENCE = 6 };
 /* [-] The drag changes by factors of 4. The least value has an effect on a line with a tension of
  * order one over its length; with the largest the line hardly moves in all these rounds. */
 static const double LEAST_DRAG = 0.25, MOST_DRAG = 1e4;
@@ -132,6 +136,22 @@ static void accelerate(CpsiLine *line, bool sides, double turned) {
         memcpy(line->base, line->position, 3 * (size_t)line->n * sizeof *line->base);
 }
 
+/* Rounds with trial bounds whose axes rest. */
+typedef struct BoundWatch {
+    double best; /* least error of the bounds */
+    int waited;  /* rounds since it came down */
+} BoundWatch;
+
+/* Do the bounds no longer come nearer to mu R? */
+static bool is_stuck(BoundWatch *watch, double off, double turned) {
+    if (off <= BOUND_TOL || turned > AXES_SETTLED || off < BOUND_NEARER * watch->best) {
+        watch->best = fmin(watch->best, off);
+        watch->waited = 0;
+        return false;
+    }
+    return ++watch->waited >= BOUND_PATIENCE;
+}
+
 /* Compute the certificate of the last round; is it certified? */
 static bool certify_last_round(CpsiLine *line, const CpsiChainProgram *program,
                                const CpsiStepOptions *options, CpsiBounds bounds,
@@ -180,7 +200,12 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
     double turned = line->has_local_axes ? INFINITY : 0, off = 0, best = INFINITY;
     /* a line placed by statics may pass obstacles */
     const bool sides = !options->frictionless && !strategy->across;
-    bool arrived = true, scattered = line->has_local_axes;
+    /* in statics the loop alone finds a place, and Newton's method what is left of it once the axes
+     * rest: in a groove, where nothing but tension holds a node along it, the loop's gap is the
+     * square of an error of the place */
+    const bool placed = options->frictionless && line->has_local_axes;
+    bool arrived = true, scattered = line->has_local_axes, was_still = false;
+    BoundWatch bounds_watch = {.best = INFINITY};
     int since = 0;
     if (posed.guess == CPSI_GUESS_EXTRAPOLATED && line->has_local_axes &&
         !line->keeps_reference_axes)
@@ -192,6 +217,8 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
             cpsi_contact_detect(line, false);
             cpsi_contact_update_geometry(line);
         }
+        const bool is_last = !placed || turned <= AXES_SETTLED;
+        if (placed) posed.guess = is_last ? CPSI_GUESS_LATER : CPSI_GUESS_NONE;
         ipm = solve_round(line, program, options, &posed);
         posed.guess = next_guess(line, &posed, &ipm);
         if (posed.bounds == CPSI_BOUNDS_COUPLED && !cpsi_line_is_clean(&ipm)) {
@@ -209,7 +236,12 @@ bool cpsi_tangent_plane_rounds(CpsiLine *line, CpsiChainProgram *program,
         if (line->has_local_axes) arrived = cpsi_rounds_refresh_axes(line, sides, &turned);
         scattered &= turned > AXES_SCATTERED && isfinite(turned);
         if (cpsi_interrupt_seen(program->base.interrupt)) break;
-        if (turned <= AXES_TOL && off <= BOUND_TOL && cpsi_line_is_clean(&ipm)) break;
+        /* a program that cannot be solved to the last digits is not solved better again: the
+         * certificate decides */
+        const bool still = turned <= AXES_TOL && off <= BOUND_TOL;
+        if (still && (was_still || (is_last && cpsi_line_is_clean(&ipm)))) break;
+        was_still = still;
+        if (posed.bounds == CPSI_BOUNDS_TRIAL && is_stuck(&bounds_watch, off, turned)) break;
         /* a guess that led nowhere: the step is taken again without it */
         if (strategy->guess >= CPSI_GUESS_REFERENCE && line->newton.failed >= GIVEN_UP &&
             turned > AXES_CONVERGING)

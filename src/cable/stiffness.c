@@ -24,6 +24,7 @@
 #include "cable/contact_surface.h"
 #include "cable/end_set.h"
 #include "cable/field.h"
+#include "cable/potential.h"
 #include "cable/soft.h"
 #include "chain/frame.h"
 
@@ -216,9 +217,9 @@ static void load_field(Tangent *t, int j) {
     static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5}, FROM[6] = {0, 1, 4, 2, 5, 8};
     const CpsiLine *line = t->line;
     const double *axes = t->program->frame ? &t->program->frame[9 * j] : line->common_axes;
-    double given[9], own[9];
-    for (int i = 0; i < 9; i++)
-        given[i] = line->field.stiffness[6 * j + AT[i]] * line->length / t->force;
+    double k[6], given[9], own[9];
+    cpsi_potential_stiffness(line, j, k);
+    for (int i = 0; i < 9; i++) given[i] = k[AT[i]] * line->length / t->force;
     cpsi_frame_turn(own, axes, given);
     for (int i = 0; i < 6; i++) t->matrix->diagonal[6 * j + i] += own[FROM[i]];
 }
@@ -362,7 +363,8 @@ static void solve(const Tangent *t, int end, int a, double column[6]) {
 static void add_field_of_end(const CpsiLine *line, int end, double out[36]) {
     static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5};
     if (!cpsi_line_has_field(line)) return;
-    const double *own = &line->field.stiffness[6 * cpsi_line_end_node(line, end)];
+    double own[6];
+    cpsi_potential_stiffness(line, cpsi_line_end_node(line, end), own);
     for (int i = 0; i < 9; i++) out[6 * (3 * end + i / 3) + 3 * end + i % 3] += own[AT[i]];
 }
 

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "evolve/bodies.h"
+#include "evolve/pace.h"
 #include "evolve/points.h"
 
 /* [rad] Below this angle the series of the rate of rotation is used: its error is the fourth
@@ -83,32 +84,34 @@ void cpsi_body_motion_start(CpsEvolution *evolution) {
     }
 }
 
-/* a, or (4 a - b)/3 */
-static Vec3 star(bool euler, Vec3 a, Vec3 b) {
-    return euler ? a : vec3_axpy(1.0 / 3, vec3_sub(a, b), a);
+/* a + back (a - b) */
+static Vec3 star(double back, Vec3 a, Vec3 b) {
+    return back > 0 ? vec3_axpy(back, vec3_sub(a, b), a) : a;
 }
 
 void cpsi_body_motion_predict(CpsEvolution *evolution) {
+    const CpsiFormula *formula = &evolution->formula;
     for (int i = 0; i < evolution->bodies.count; i++) {
         CpsiBodyInertia *inertia = &evolution->bodies.body[i].inertia;
         const CpsiBodyPhase *a = &inertia->now, *b = &inertia->before;
         const bool euler = evolution->time_scheme == CPS_TIME_SCHEME_EULER || evolution->restarts ||
                            inertia->restarts;
+        const double by = euler ? 0 : formula->back;
         const Vec3 back = euler
                               ? vec3(0, 0, 0)
                               : rotation_vector(rotation_after(b->turn, rotation_inverse(a->turn)));
         inertia->is_moving = true;
-        inertia->span = euler ? evolution->interval : 2 * evolution->interval / 3;
+        inertia->span = euler ? formula->length : formula->span;
         inertia->rest =
-            (CpsiBodyPhase){.place = star(euler, a->place, b->place),
-                            .centre = star(euler, a->centre, b->centre),
+            (CpsiBodyPhase){.place = star(by, a->place, b->place),
+                            .centre = star(by, a->centre, b->centre),
                             .turn = a->turn,
-                            .velocity = star(euler, a->velocity, b->velocity),
-                            .centre_velocity = star(euler, a->centre_velocity, b->centre_velocity),
-                            .rate = vec3_scale(-1.0 / 3, back),
-                            .angular = star(euler, a->angular, b->angular),
-                            .water = star(euler, a->water, b->water),
-                            .water_angular = star(euler, a->water_angular, b->water_angular)};
+                            .velocity = star(by, a->velocity, b->velocity),
+                            .centre_velocity = star(by, a->centre_velocity, b->centre_velocity),
+                            .rate = vec3_scale(-by, back),
+                            .angular = star(by, a->angular, b->angular),
+                            .water = star(by, a->water, b->water),
+                            .water_angular = star(by, a->water_angular, b->water_angular)};
     }
 }
 
@@ -219,9 +222,30 @@ static double beyond_all(const CpsEvolution *evolution, const CpsiBody *body, Ro
     return sum + cpsi_body_water_energy(body, &body->pose) - cpsi_body_water_energy(body, &from);
 }
 
+/* [m] The error of a free body: of its reference point and centre of gravity, and of its rotation
+ * at the radius of gyration. */
+static double error_of(const CpsEvolution *evolution, const CpsiBody *body,
+                       const CpsiBodyPhase *next) {
+    const CpsiBodyInertia *inertia = &body->inertia;
+    const CpsiBodyPhase *before = &inertia->before, *now = &inertia->now;
+    const CpsiFormula *formula = &evolution->formula;
+    const double *moment = body->given.inertia;
+    if (body->kind != CPS_BODY_KIND_FREE) return 0;
+    const bool euler = inertia->span == formula->length;
+    const double most = fmax(moment[0], fmax(moment[1], moment[2])),
+                 radius = body->given.mass > 0 ? sqrt(most / body->given.mass) : 0;
+    const Vec3 off[] = {
+        cpsi_step_error(formula, euler, before->velocity, now->velocity, next->velocity),
+        cpsi_step_error(formula, euler, before->centre_velocity, now->centre_velocity,
+                        next->centre_velocity),
+        vec3_scale(radius, cpsi_step_error(formula, euler, before->rate, now->rate, next->rate))};
+    return fmax(vec3_norm(off[0]), fmax(vec3_norm(off[1]), vec3_norm(off[2])));
+}
+
 static void advance(const CpsEvolution *evolution, CpsiBody *body) {
     CpsiBodyInertia *inertia = &body->inertia;
     const CpsiBodyPhase at = phase_in(body, &body->pose);
+    inertia->error = error_of(evolution, body, &at);
     const Rotation step = rotation_after(body->pose.turn, rotation_inverse(inertia->now.turn));
     const double kinetic = kinetic_energy(&body->given, &at);
     double motion[6], work[2] = {0, 0};

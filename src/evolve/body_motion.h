@@ -6,9 +6,10 @@
  *
  *     w = (I + (1 - cos |t|)/|t|^2 [t] + (|t| - sin |t|)/|t|^3 [t]^2) (t - t*)/k
  *
- * t* = 0, or -t_{n-1}/3 with t_{n-1} that of Q_{n-1} Q_n'. With the momenta P = m v and L = Q J Q'
- * w about the centre of gravity, force and moment there are (P - P*)/k and (L - L*)/k. The water's
- * momenta are (p, l) = A (u, w) about the reference point, with the moment l' + u x p (Kirchhoff).
+ * t* = 0, or -back t_{n-1} with t_{n-1} that of Q_{n-1} Q_n'. With the momenta P = m v and L = Q J
+ * Q' w about the centre of gravity, force and moment there are (P - P*)/k and (L - L*)/k. The
+ * water's momenta are (p, l) = A (u, w) about the reference point, with the moment l' + u x p
+ * (Kirchhoff).
  */
 #ifndef CAPSTAN_SRC_EVOLVE_BODY_MOTION_H
 #define CAPSTAN_SRC_EVOLVE_BODY_MOTION_H

@@ -32,7 +32,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '1'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '2'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -398,6 +398,11 @@ static size_t pass_state(Tape *tape, CpsEvolution *evolution) {
     PASS(tape, evolution->gravity_from);
     PASS(tape, evolution->time);
     PASS(tape, evolution->interval);
+    PASS(tape, evolution->elapsed);
+    PASS(tape, evolution->next);
+    PASS(tape, evolution->pace.length);
+    PASS(tape, evolution->pace.error);
+    PASS(tape, evolution->pace.rejected);
     pass_flag(tape, &evolution->ground_moved);
     for (int i = 0; i < 2 * evolution->line_count; i++) pass_end(tape, &evolution->from[i]);
     pass(tape, evolution->release, 2 * (size_t)evolution->line_count * sizeof *evolution->release);
@@ -518,6 +523,7 @@ static void hash_line(uint64_t *hash, const CpsiLine *line) {
 static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
     hash_bytes(hash, stage->name, strlen(stage->name) + 1);
     hash_bytes(hash, &stage->steps, sizeof stage->steps);
+    if (stage->error > 0) hash_numbers(hash, 1, &stage->error);
     const int gravity_changes = stage->gravity_changes;
     hash_bytes(hash, &gravity_changes, sizeof gravity_changes);
     if (stage->static_stiffness) hash_bytes(hash, "static", 6);

@@ -22,6 +22,7 @@
 #include "evolve/end_grounds.h"
 #include "evolve/failure.h"
 #include "evolve/ledger.h"
+#include "evolve/pace.h"
 #include "evolve/stage_check.h"
 #include "evolve/stages.h"
 #include "evolve/statics.h"
@@ -33,13 +34,13 @@
 
 int cps_evolution_step_count(const CpsEvolution *evolution) {
     if (!evolution) return 0;
-    return evolution->step_count + evolution->move_count + evolution->break_count +
-           cpsi_break_due(evolution).is_break;
+    return evolution->done + cpsi_steps_left(evolution) + evolution->move_count +
+           evolution->break_count + cpsi_break_due(evolution).is_break;
 }
 
 int cps_evolution_remaining_count(const CpsEvolution *evolution) {
     if (!evolution || evolution->ended) return 0;
-    return evolution->step_count - evolution->done + cpsi_break_due(evolution).is_break;
+    return cpsi_steps_left(evolution) + cpsi_break_due(evolution).is_break;
 }
 
 /* The ranges of the tensions at the ends, after the last step of a stage and after statics. */
@@ -56,7 +57,7 @@ static void find_range(CpsiLine *line, const CpsiStepOptions *options) {
 static void move_line(const CpsEvolution *evolution, CpsiWorkspace *workspace, CpsiLine *line,
                       const CpsiMove *move) {
     const int index = (int)(line - evolution->line);
-    const CpsiTimeStep step = {evolution->interval, evolution->time_scheme, evolution->restarts,
+    const CpsiTimeStep step = {evolution->formula, evolution->time_scheme, evolution->restarts,
                                cpsi_group_of_line(&evolution->points, index) != CPSI_NO_POINT};
     CpsiStepOptions options = evolution->options;
     options.least = NULL;
@@ -198,14 +199,35 @@ static void plan_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, 
                       const CpsBreak *parts) {
     if (parts->is_break)
         cpsi_stage_plan_break(evolution, parts);
-    else if (stage)
-        cpsi_stage_plan(evolution, stage, is_move ? 0 : evolution->part);
-    else
+    else if (!stage)
         cpsi_stage_plan_statics(evolution);
-    if (stage && !is_move && ++evolution->part == stage->steps) {
-        evolution->part = 0;
-        evolution->current++;
+    if (!stage || parts->is_break) return;
+    const CpsiPortion portion = cpsi_portion_next(evolution, stage, is_move);
+    cpsi_stage_plan(evolution, stage, &portion);
+    if (!is_move) cpsi_portion_advance(evolution, stage, &portion);
+}
+
+/* Plan a step and solve it, of a stage with an error as long as that allows. False: it was
+ * interrupted. */
+static bool solve_step(CpsEvolution *evolution, const CpsiEvolutionStage *stage, bool is_move,
+                       const CpsBreak *parts) {
+    const bool has_pace = stage && stage->error > 0;
+    int rejected = 0;
+    for (bool again = true; again;) {
+        plan_step(evolution, stage, is_move, parts);
+        evolution->pace = (CpsPace){.length = evolution->interval};
+        cpsi_balance_step(evolution, step_line);
+        if (was_interrupted(evolution)) return false;
+        double shorter = 0;
+        again = has_pace && cpsi_pace_rejects(evolution, stage, &shorter);
+        if (again) {
+            cpsi_evolution_restore(evolution, evolution->before);
+            evolution->next = shorter;
+            rejected++;
+        }
     }
+    evolution->pace.rejected = rejected;
+    return true;
 }
 
 /* Take a step (plan_step). */
@@ -213,12 +235,12 @@ static CpsStatus take_step(CpsEvolution *evolution, const CpsiEvolutionStage *st
                            const CpsBreak *parts, CpsError *err) {
     const double begin = seconds();
     const CpsiInterrupt *interrupt = &evolution->workspace[0].interrupt;
-    if (interrupt->asked || is_move) cpsi_evolution_keep(evolution, evolution->before);
+    if (interrupt->asked || is_move || (stage && stage->error > 0))
+        cpsi_evolution_keep(evolution, evolution->before);
     set_interrupt(evolution, (CpsiInterrupt){.asked = interrupt->asked, .user = interrupt->user});
-    plan_step(evolution, stage, is_move, parts);
-    cpsi_balance_step(evolution, step_line);
+    const bool solved = solve_step(evolution, stage, is_move, parts);
     evolution->is_kept = is_move;
-    if (was_interrupted(evolution)) {
+    if (!solved) {
         return_to_kept(evolution);
         return cpsi_fail(err, CPS_ERR_INTERRUPTED,
                          "the load step was interrupted, and is not taken");
@@ -288,8 +310,7 @@ static CpsStatus prepare_move(CpsEvolution *evolution, CpsError *err) {
     if (evolution->part > 0)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
                          "stage '%.64s' of the history is under way: take its other %d steps first",
-                         evolution->stage[evolution->current].name,
-                         evolution->stage[evolution->current].steps - evolution->part);
+                         evolution->stage[evolution->current].name, cpsi_steps_left_now(evolution));
     const CpsBreak due = cpsi_break_due(evolution);
     if (due.is_break)
         return cpsi_fail(err, CPS_ERR_ARGUMENT,
@@ -354,6 +375,10 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
         status =
             cpsi_fail(err, CPS_ERR_ARGUMENT,
                       "%s: a move is one step, and has no time series: impose its place", what);
+    if (status == CPS_OK && move->error > 0)
+        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
+                           "%s: error is %g m: a move is one step of its own length, expected 0",
+                           what, move->error);
     if (status == CPS_OK && move->duration > 0) status = check_time(evolution, move, what, err);
     if (status == CPS_OK && evolution->wave) status = cpsi_waves_check_stage(move, what, err);
     if (status == CPS_OK) status = prepare_move(evolution, err);
@@ -435,7 +460,7 @@ CpsLineMotion cps_evolution_line_motion(const CpsEvolution *evolution, int line)
                            .rest = inertia->damping.rest};
 }
 
-CpsPointMotion cps_evolution_point_motion(const CpsEvolution *evolution, int point) {
+CpsPointMotion cps_evolution_point_motion_view(const CpsEvolution *evolution, int point) {
     if (point < 0 || point >= cps_evolution_point_count(evolution)) return (CpsPointMotion){0};
     const CpsiPointInertia *inertia = &evolution->points.point[point].inertia;
     CpsPointMotion out = {.is_moving = inertia->is_moving,
@@ -446,8 +471,19 @@ CpsPointMotion cps_evolution_point_motion(const CpsEvolution *evolution, int poi
                           .landed = inertia->landed};
     memcpy(out.velocity, inertia->velocity, sizeof out.velocity);
     memcpy(out.rest_velocity, inertia->rest_velocity, sizeof out.rest_velocity);
-    if (!inertia->is_moving) return out;
-    for (int a = 0; a < 3; a++) out.reference[a] = inertia->reference[a] + evolution->origin[a];
+    if (inertia->is_moving) memcpy(out.reference, inertia->reference, sizeof out.reference);
+    return out;
+}
+
+/* A place in the coordinates of the scene. */
+static void to_scene(const CpsEvolution *evolution, double place[3]) {
+    for (int a = 0; a < 3; a++)
+        if (evolution->origin[a] != 0) place[a] += evolution->origin[a]; /* 0 keeps its sign */
+}
+
+CpsPointMotion cps_evolution_point_motion(const CpsEvolution *evolution, int point) {
+    CpsPointMotion out = cps_evolution_point_motion_view(evolution, point);
+    if (out.is_moving) to_scene(evolution, out.reference);
     return out;
 }
 
@@ -466,26 +502,38 @@ CpsBodyMotion cps_evolution_body_motion(const CpsEvolution *evolution, int body)
     return out;
 }
 
+CpsPace cps_evolution_pace(const CpsEvolution *evolution) {
+    return evolution ? evolution->pace : (CpsPace){0};
+}
+
 double cps_evolution_time(const CpsEvolution *evolution) { return evolution ? evolution->time : 0; }
 
 int cps_evolution_obstacle_count(const CpsEvolution *evolution) {
     return evolution ? evolution->obstacle_count : 0;
 }
 
-CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution, int obstacle) {
+CpsObstacleReport cps_evolution_obstacle_view(const CpsEvolution *evolution, int obstacle) {
     CpsObstacleReport report = {.turned = 0};
     if (obstacle < 0 || obstacle >= cps_evolution_obstacle_count(evolution)) return report;
     const CpsiObstacle *now = &evolution->obstacle[obstacle];
     const CpsiShift *shift = &evolution->shift[obstacle];
-    vec3_store(report.point, vec3_add(now->frame.point, vec3_load(evolution->origin)));
+    vec3_store(report.point, now->frame.point);
     vec3_store(report.axis, now->frame.axis[2]);
     vec3_store(report.side, now->frame.axis[0]);
     vec3_store(report.grain, now->grain);
     vec3_store(report.by, shift->by);
     vec3_store(report.turn, shift->turn);
-    if (!cpsi_vec3_is_zero(shift->turn))
-        vec3_store(report.about, vec3_add(shift->about, vec3_load(evolution->origin)));
+    if (!cpsi_vec3_is_zero(shift->turn)) vec3_store(report.about, shift->about);
     report.turned = evolution->angle[obstacle];
+    return report;
+}
+
+CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution, int obstacle) {
+    CpsObstacleReport report = cps_evolution_obstacle_view(evolution, obstacle);
+    if (obstacle < 0 || obstacle >= cps_evolution_obstacle_count(evolution)) return report;
+    to_scene(evolution, report.point);
+    if (report.turn[0] != 0 || report.turn[1] != 0 || report.turn[2] != 0)
+        to_scene(evolution, report.about);
     return report;
 }
 
@@ -493,12 +541,16 @@ int cps_evolution_point_count(const CpsEvolution *evolution) {
     return evolution ? evolution->points.count : 0;
 }
 
-CpsPointReport cps_evolution_point_report(const CpsEvolution *evolution, int point) {
+CpsPointReport cps_evolution_point_view(const CpsEvolution *evolution, int point) {
     if (point < 0 || point >= cps_evolution_point_count(evolution))
         return (CpsPointReport){.obstacle = CPS_NO_OBSTACLE};
-    CpsPointReport report = evolution->points.point[point].report;
-    for (int a = 0; a < 3; a++)
-        if (evolution->origin[a] != 0) report.position[a] += evolution->origin[a];
+    return evolution->points.point[point].report;
+}
+
+CpsPointReport cps_evolution_point_report(const CpsEvolution *evolution, int point) {
+    CpsPointReport report = cps_evolution_point_view(evolution, point);
+    if (point >= 0 && point < cps_evolution_point_count(evolution))
+        to_scene(evolution, report.position);
     return report;
 }
 
@@ -506,10 +558,14 @@ int cps_evolution_body_count(const CpsEvolution *evolution) {
     return evolution ? evolution->bodies.count : 0;
 }
 
-CpsBodyReport cps_evolution_body_report(const CpsEvolution *evolution, int body) {
+CpsBodyReport cps_evolution_body_view(const CpsEvolution *evolution, int body) {
     if (body < 0 || body >= cps_evolution_body_count(evolution)) return (CpsBodyReport){0};
-    CpsBodyReport report = evolution->bodies.body[body].report;
-    for (int a = 0; a < 3; a++)
-        if (evolution->origin[a] != 0) report.position[a] += evolution->origin[a];
+    return evolution->bodies.body[body].report;
+}
+
+CpsBodyReport cps_evolution_body_report(const CpsEvolution *evolution, int body) {
+    CpsBodyReport report = cps_evolution_body_view(evolution, body);
+    if (body >= 0 && body < cps_evolution_body_count(evolution))
+        to_scene(evolution, report.position);
     return report;
 }

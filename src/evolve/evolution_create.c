@@ -312,16 +312,14 @@ static void fill(CpsEvolution *evolution, const CpsScene *scene) {
     }
     for (int i = 0; i < scene->stage_count; i++) {
         cpsi_stage_fill(&evolution->stage[i], &scene->stage[i], (const double[3]){0, 0, 0});
-        evolution->step_count += scene->stage[i].step_count;
     }
     memcpy(evolution->gravity, scene->gravity, sizeof evolution->gravity);
     memcpy(evolution->gravity_given, scene->gravity, sizeof evolution->gravity_given);
-    if (evolution->has_static) evolution->step_count++;
-    if (evolution->step_count == 0) {
+    if (!evolution->has_static && scene->stage_count == 0) {
         /* no history: one step to the equilibrium under the initial ends */
         evolution->stage[0] =
             (CpsiEvolutionStage){.name = "equilibrium", .steps = 1, .static_stiffness = true};
-        evolution->stage_count = evolution->step_count = 1;
+        evolution->stage_count = 1;
     }
     for (int i = 0; i < evolution->workspace_count; i++)
         cpsi_workspace_connect(&evolution->workspace[i]);
@@ -409,6 +407,17 @@ static CpsStatus place(const CpsiLocalScene *local, const CpsiConicSet *largest,
     return CPS_OK;
 }
 
+/* Memory for the state before a step that may be taken back, where a stage has an error. */
+static CpsStatus make_room_before(CpsEvolution *evolution, CpsError *err) {
+    bool any = false;
+    for (int k = 0; k < evolution->stage_count; k++) any = any || evolution->stage[k].error > 0;
+    if (!any) return CPS_OK;
+    evolution->before = malloc(cps_evolution_state_size(evolution));
+    return evolution->before
+               ? CPS_OK
+               : cpsi_fail(err, CPS_ERR_MEMORY, "out of memory for the state before a step");
+}
+
 CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsError *err) {
     if (!out)
         return cpsi_fail(err, CPS_ERR_ARGUMENT, "out is NULL, expected a place for the handle");
@@ -434,6 +443,7 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
                 status = cpsi_constraints_make(evolution, &local.scene, err);
                 if (status == CPS_OK) status = fill_points(evolution, scene, &local.scene, err);
                 evolution->fingerprint = cpsi_evolution_fingerprint(evolution);
+                if (status == CPS_OK) status = make_room_before(evolution, err);
             }
         }
         cpsi_local_scene_free(&local);

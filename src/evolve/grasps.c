@@ -133,11 +133,10 @@ CpsStatus cpsi_grasps_check(const CpsEvolution *evolution, const CpsScene *scene
 
 /* plan ----------------------------------------------------------------------------------------- */
 
-CpsEnd cpsi_stage_value(const CpsEnd *from, const CpsEnd *to, int part, int steps) {
-    if (part == 0) return *from;
-    if (part == steps) return *to;
+CpsEnd cpsi_stage_value(const CpsEnd *from, const CpsEnd *to, double share) {
+    if (!(share > 0)) return *from;
+    if (!(share < 1)) return *to;
     CpsEnd at = *to;
-    const double share = (double)part / steps;
     for (int a = 0; a < 3; a++)
         at.value[a] = from->value[a] + share * (to->value[a] - from->value[a]);
     return at;
@@ -203,11 +202,12 @@ static void begin_list(CpsiLine *line, const CpsiEvolutionStage *stage, int inde
     }
 }
 
-void cpsi_grasps_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+void cpsi_grasps_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                      const CpsiPortion *portion) {
     for (int i = 0; i < evolution->line_count; i++) {
         CpsiLine *line = &evolution->line[i];
         CpsiMove *move = &evolution->move[i];
-        if (part == 0 && (line->grasp_count > 0 || stage->grasp_change_count > 0))
+        if (portion->part == 0 && (line->grasp_count > 0 || stage->grasp_change_count > 0))
             begin_list(line, stage, i);
         move->grasp_count = line->grasp_count;
         for (int k = 0; k < line->grasp_count; k++) {
@@ -215,8 +215,8 @@ void cpsi_grasps_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, 
             const CpsEnd *from = &line->grasp_from[k];
             CpsEnd to = *from;
             if (change && !change->stays) memcpy(to.value, change->value, sizeof to.value);
-            move->grasp_from[k] = cpsi_stage_value(from, &to, part, stage->steps);
-            move->grasp_to[k] = cpsi_stage_value(from, &to, part + 1, stage->steps);
+            move->grasp_from[k] = cpsi_stage_value(from, &to, portion->from);
+            move->grasp_to[k] = cpsi_stage_value(from, &to, portion->to);
         }
     }
 }

@@ -16,10 +16,11 @@ CpsStatus cpsi_grasps_check(const CpsEvolution *evolution, const CpsScene *scene
                             const CpsiEvolutionStage *stage, const char *what, CpsError *err);
 
 /* What is imposed at `part` of the `steps` of a stage, from one value to another of its kind. */
-CpsEnd cpsi_stage_value(const CpsEnd *from, const CpsEnd *to, int part, int steps);
+CpsEnd cpsi_stage_value(const CpsEnd *from, const CpsEnd *to, double share);
 
 /* What is imposed on nodes in step `part` of a stage. */
-void cpsi_grasps_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part);
+void cpsi_grasps_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                      const CpsiPortion *portion);
 
 /* Is what a saved state says of the nodes of a line sound? */
 bool cpsi_grasps_are_sound(const CpsiLine *line);

@@ -44,6 +44,7 @@ bool cpsi_may_have_joint_answer(const CpsiBalance *balance) {
     for (int item = 0; item < balance->line_count; item++) {
         const CpsiLine *line = &balance->evolution->line[balance->line[item]];
         if ((line->has_local_axes && !balance->follows) || line->grasp_count > 0) return false;
+        if (line->has_potential) return false; /* it is followed line by line */
     }
     return true;
 }

@@ -18,6 +18,7 @@ typedef struct CpsiPointInertia {
     double before_velocity[3]; /* [m/s] v_{n-1}, likewise */
     bool bore;                 /* it touched an obstacle when the step began */
     bool landed;
+    double error;   /* [m] of the step by its estimate (pace.h) */
     double kinetic; /* [J] */
     CpsMotionLedger ledger;
 } CpsiPointInertia;
@@ -37,6 +38,7 @@ typedef struct CpsiBodyInertia {
     CpsiBodyPhase now, before; /* of the steps n and n - 1 */
     /* x*, t*, v* and momenta of the scheme; the turn is Q_n, the rate's place is t* */
     CpsiBodyPhase rest;
+    double error;               /* [m] of the step by its estimate (pace.h) */
     double kinetic, dissipated; /* [J] */
     CpsMotionLedger ledger;
 } CpsiBodyInertia;

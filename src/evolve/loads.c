@@ -12,6 +12,7 @@
 #include "cable/flow.h"
 #include "cable/potential.h"
 #include "evolve/ranges.h"
+#include "evolve/sections.h"
 #include "evolve/time_check.h"
 
 bool cpsi_has_springs(const CpsLine *line) { return line->loads && line->loads->spring_count > 0; }
@@ -100,15 +101,17 @@ static CpsStatus check_potential(const CpsLine *line, CpsError *err) {
     return CPS_OK;
 }
 
+/* The tension of an inextensible line is no function of the places of its ends, and the program of
+ * all lines at once, which finds both, has no potential. */
 CpsStatus cpsi_potential_ends_check(const CpsScene *scene, CpsError *err) {
     for (int i = 0; i < scene->line_count; i++)
         for (int end = 0; end < 2; end++)
-            if (cpsi_has_potential(&scene->line[i]) &&
+            if (cpsi_has_potential(&scene->line[i]) && !cpsi_is_elastic(&scene->line[i]) &&
                 scene->line[i].end[end].kind == CPS_END_KIND_POINT)
                 return CPSI_FAIL_AT("potential", err, CPS_ERR_ARGUMENT,
-                                    "line '%s': potential: end %c is at a point, expected ends "
-                                    "that are held or free: hold the end, or leave the potential "
-                                    "out",
+                                    "line '%s': potential: end %c is at a point, and the line is "
+                                    "inextensible: give it a finite stiffness, hold the end, or "
+                                    "leave the potential out",
                                     scene->line[i].name, "AB"[end]);
     return CPS_OK;
 }

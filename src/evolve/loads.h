@@ -8,7 +8,7 @@
 
 CpsStatus cpsi_line_loads_check(const CpsScene *scene, const CpsLine *line, CpsError *err);
 CpsStatus cpsi_current_check(const CpsScene *scene, CpsError *err);
-/* No line with a potential ends at a point. */
+/* No inextensible line with a potential ends at a point. */
 CpsStatus cpsi_potential_ends_check(const CpsScene *scene, CpsError *err);
 
 /* Has the line springs; given forces; a potential; drag in the scene's current? */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "evolve/bodies.h"
+#include "evolve/pace.h"
 #include "evolve/points.h"
 
 /* The end of a line with inertia that is at a point. */
@@ -70,18 +71,19 @@ void cpsi_point_motion_join(CpsEvolution *evolution) {
 }
 
 void cpsi_point_motion_predict(CpsEvolution *evolution) {
-    const double h = evolution->interval;
+    const CpsiFormula *formula = &evolution->formula;
     for (int i = 0; i < evolution->points.count; i++) {
         CpsiPoint *point = &evolution->points.point[i];
         CpsiPointInertia *inertia = &point->inertia;
         const bool euler = evolution->time_scheme == CPS_TIME_SCHEME_EULER || evolution->restarts ||
                            inertia->restarts;
         inertia->is_moving = true;
-        inertia->span = euler ? h : 2 * h / 3;
+        inertia->span = euler ? formula->length : formula->span;
         for (int a = 0; a < 3; a++) {
             const double x = point->before[a], v = inertia->velocity[a];
-            inertia->reference[a] = euler ? x : x + (x - inertia->before[a]) / 3;
-            inertia->rest_velocity[a] = euler ? v : v + (v - inertia->before_velocity[a]) / 3;
+            inertia->reference[a] = euler ? x : x + formula->back * (x - inertia->before[a]);
+            inertia->rest_velocity[a] =
+                euler ? v : v + formula->back * (v - inertia->before_velocity[a]);
         }
     }
 }
@@ -163,6 +165,18 @@ static void follow(const LineEnd *end) {
     of->restarts[end->node] = of->restarts[end->node] || inertia->restarts;
 }
 
+/* [m] The error of a point that moves freely or with a body, along a normal 0. */
+static double error_of(const CpsEvolution *evolution, const CpsiPoint *point, Vec3 normal,
+                       const double velocity[3]) {
+    const CpsiPointInertia *inertia = &point->inertia;
+    const CpsiFormula *formula = &evolution->formula;
+    if (point->kind == CPS_POINT_KIND_HELD) return 0;
+    const Vec3 off = cpsi_step_error(formula, inertia->span == formula->length,
+                                     vec3_load(inertia->before_velocity),
+                                     vec3_load(inertia->velocity), vec3_load(velocity));
+    return vec3_norm(vec3_reject(off, normal));
+}
+
 void cpsi_point_motion_advance(CpsEvolution *evolution) {
     for (int i = 0; i < evolution->points.count; i++) {
         CpsiPoint *point = &evolution->points.point[i];
@@ -174,6 +188,7 @@ void cpsi_point_motion_advance(CpsEvolution *evolution) {
         for (int a = 0; a < 3; a++)
             velocity[a] = (point->position[a] - inertia->reference[a]) / inertia->span;
         inertia->landed = bears && !inertia->bore;
+        inertia->error = error_of(evolution, point, bears ? n : vec3(0, 0, 0), velocity);
         close_ledger(point, velocity);
         memcpy(inertia->before, point->before, sizeof inertia->before);
         memcpy(inertia->before_velocity, inertia->velocity, sizeof inertia->before_velocity);

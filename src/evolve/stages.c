@@ -11,6 +11,7 @@
 #include "evolve/excitation.h"
 #include "evolve/failure.h"
 #include "evolve/grasps.h"
+#include "evolve/pace.h"
 #include "evolve/path_check.h"
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
@@ -20,6 +21,9 @@
 
 /* Steps whose lengths differ by no more than this share are of one length: rounding. */
 static const double SAME_STEP = 1e-12;
+/* After a step so many times shorter the next one is an Euler step: the formula of the second order
+ * is stable where steps grow by less than 1 + sqrt 2. */
+static const double MOST_GROWTH = 2;
 
 void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes, int points,
                        int bodies, int turns, int grasps, int shifts, int sways, size_t rows,
@@ -38,6 +42,7 @@ void cpsi_stage_layout(CpsiEvolutionStage *stage, CpsiArena *arena, int changes,
 void cpsi_stage_fill(CpsiEvolutionStage *stage, const CpsStage *from, const double origin[3]) {
     stage->steps = from->step_count;
     stage->duration = from->duration;
+    stage->error = from->error;
     stage->change_count = from->change_count;
     for (int k = 0; k < from->change_count; k++) {
         CpsChange *change = &stage->change[k];
@@ -148,10 +153,9 @@ CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolut
     return cpsi_grasps_check(evolution, &scene, stage, what, err);
 }
 
-/* A value at `part` of the `steps` of its stage. */
-static void value_at(const double from[3], const double to[3], int part, int steps, double at[3]) {
-    const double share = (double)part / steps;
-    for (int a = 0; a < 3; a++) at[a] = part < steps ? from[a] + share * (to[a] - from[a]) : to[a];
+/* A value at a share of its stage. */
+static void value_at(const double from[3], const double to[3], double share, double at[3]) {
+    for (int a = 0; a < 3; a++) at[a] = share < 1 ? from[a] + share * (to[a] - from[a]) : to[a];
 }
 
 /* Let an end go at once, without a force. */
@@ -161,20 +165,19 @@ static void release(CpsEvolution *evolution, int line, int end, CpsRelease by) {
     move->from[end] = move->to[end] = (CpsEnd){.kind = CPS_END_KIND_FREE};
 }
 
-/* What oscillations have become at `part` of a stage. */
-static void sway_at(const CpsiEvolutionStage *stage, CpsSwayOf of, int owner, int end, int part,
+/* What oscillations have become `time` [s] after a stage began. */
+static void sway_at(const CpsiEvolutionStage *stage, CpsSwayOf of, int owner, int end, double time,
                     double out[6]) {
-    cpsi_sways_at(stage->sway_count, stage->sway, of, owner, end,
-                  part * (stage->duration / stage->steps), out);
+    cpsi_sways_at(stage->sway_count, stage->sway, of, owner, end, time, out);
 }
 
-/* An end of a line at `part` of a stage. */
+/* An end of a line at a share of a stage, at a time since it began. */
 static CpsEnd end_at(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
-                     const CpsChange *change, int part) {
+                     const CpsChange *change, double share, double time) {
     const CpsEnd *from = &evolution->from[2 * change->line + change->end];
-    CpsEnd at = cpsi_stage_value(from, &change->to, part, stage->steps);
+    CpsEnd at = cpsi_stage_value(from, &change->to, share);
     double sway[6];
-    sway_at(stage, CPS_SWAY_OF_END, change->line, change->end, part, sway);
+    sway_at(stage, CPS_SWAY_OF_END, change->line, change->end, time, sway);
     for (int a = 0; a < 3; a++) at.value[a] += sway[a];
     return at;
 }
@@ -192,13 +195,14 @@ static void sway_pose(CpsiPose *pose, const double sway[6]) {
     pose->turn = rotation_after(rotation_of(vec3_load(&sway[3])), pose->turn);
 }
 
-/* What is imposed on the bodies at the end of step `part`. */
-static void plan_bodies(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+/* What is imposed on the bodies at the end of a step. */
+static void plan_bodies(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                        const CpsiPortion *portion) {
+    const double share = portion->to;
     for (int k = 0; k < stage->body_change_count; k++) {
         const CpsBodyChange *change = &stage->body_change[k];
         CpsiBody *body = &evolution->bodies.body[change->body];
-        const double share = (double)(part + 1) / stage->steps;
-        if (part == 0) {
+        if (portion->part == 0) {
             const double *support = body->report.support;
             body->from = body->pose;
             body->load_from = body->kind == CPS_BODY_KIND_FREE
@@ -207,7 +211,7 @@ static void plan_bodies(CpsEvolution *evolution, const CpsiEvolutionStage *stage
             body->kind = change->kind;
         }
         double sway[6];
-        sway_at(stage, CPS_SWAY_OF_BODY, change->body, 0, part + 1, sway);
+        sway_at(stage, CPS_SWAY_OF_BODY, change->body, 0, portion->end, sway);
         if (change->kind == CPS_BODY_KIND_HELD) {
             const CpsiPose to = {vec3_load(change->position), rotation_load(change->rotation)};
             body->pose = cpsi_pose_between(&body->from, &to, share);
@@ -222,20 +226,21 @@ static void plan_bodies(CpsEvolution *evolution, const CpsiEvolutionStage *stage
     }
 }
 
-/* What is imposed on the points at the end of step `part`, and on the ends at those that are held
- * or on a body. */
-static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+/* What is imposed on the points at the end of a step, and on the ends at those that are held or on
+ * a body. */
+static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                        const CpsiPortion *portion) {
     CpsiPoints *points = &evolution->points;
     for (int i = 0; i < points->count; i++) {
         CpsiPoint *point = &points->point[i];
         memcpy(point->before, point->position, sizeof point->before);
-        point->is_moving = part > 0 && point->report.has_place;
+        point->is_moving = portion->part > 0 && point->report.has_place;
     }
     for (int k = 0; k < stage->point_change_count; k++) {
         const CpsPointChange *change = &stage->point_change[k];
         CpsiPoint *point = &points->point[change->point];
         const bool held = change->kind == CPS_POINT_KIND_HELD;
-        if (part == 0) {
+        if (portion->part == 0) {
             const bool was_free = point->kind == CPS_POINT_KIND_FREE;
             const double lift = cpsi_buoyancy_at(points, point, evolution->gravity_from);
             for (int a = 0; a < 3; a++) {
@@ -248,8 +253,8 @@ static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage
             point->kind = change->kind;
         }
         double *value = held ? point->position : point->force, sway[6];
-        value_at(point->from, change->value, part + 1, stage->steps, value);
-        sway_at(stage, CPS_SWAY_OF_POINT, change->point, 0, part + 1, sway);
+        value_at(point->from, change->value, portion->to, value);
+        sway_at(stage, CPS_SWAY_OF_POINT, change->point, 0, portion->end, sway);
         for (int a = 0; a < 3; a++) value[a] += sway[a];
     }
     for (int i = 0; i < points->count; i++) {
@@ -267,13 +272,14 @@ static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage
         }
 }
 
-/* [N/m] The weights of the lines at `part` of a stage. */
-static void plan_weights(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+/* [N/m] The weights of the lines in a step. */
+static void plan_weights(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                         const CpsiPortion *portion) {
     const double *from = evolution->gravity_from,
                  *to = stage->gravity_changes ? stage->gravity : from;
     double before[3], after[3];
-    value_at(from, to, part, stage->steps, before);
-    value_at(from, to, part + 1, stage->steps, after);
+    value_at(from, to, portion->from, before);
+    value_at(from, to, portion->to, after);
     for (int i = 0; i < evolution->line_count; i++)
         for (int a = 0; a < 3; a++) {
             evolution->move[i].weight_from[a] = evolution->mass[i] * before[a];
@@ -283,16 +289,17 @@ static void plan_weights(CpsEvolution *evolution, const CpsiEvolutionStage *stag
 }
 
 /* Shift the obstacles to where they are at the end of the step. */
-static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                        const CpsiPortion *portion) {
+    const double share = cpsi_portion_of(stage, portion, 1);
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->shift[k] = (CpsiShift){0};
     for (int k = 0; k < stage->shift_count; k++) {
         const CpsShift *given = &stage->shift[k];
         const CpsiShift whole = {vec3_load(given->by), vec3_load(given->turn),
                                  vec3_load(given->about)};
         CpsiShift *now = &evolution->shift[given->obstacle];
-        const double share = 1.0 / stage->steps;
         *now = (CpsiShift){vec3_scale(share, whole.by), vec3_scale(share, whole.turn),
-                           vec3_axpy(part * share, whole.by, whole.about)};
+                           vec3_axpy(portion->from, whole.by, whole.about)};
         cpsi_obstacle_shift(&evolution->obstacle[given->obstacle], now);
     }
     for (int i = 0; i < evolution->line_count; i++) {
@@ -301,24 +308,29 @@ static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage
     }
 }
 
-/* The time that the step takes. Obstacles go on at the rate of the step before within a stage. */
-static void plan_time(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+/* The time that the step takes, and its formula. Obstacles go on at the rate of the step before
+ * within a stage. */
+static void plan_time(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                      const CpsiPortion *portion) {
     const bool moves = stage->turn_count > 0 || stage->shift_count > 0;
-    const double before = evolution->interval;
-    evolution->interval = stage->duration / stage->steps;
-    evolution->waves.time = evolution->time + evolution->interval;
-    /* the scheme is one of equal steps */
-    const bool other = fabs(evolution->interval - before) > SAME_STEP * before;
-    evolution->restarts = part == 0 && (moves || evolution->ground_moved || other);
+    const double before = evolution->interval, length = cpsi_portion_length(stage, portion),
+                 ratio = fabs(length - before) > SAME_STEP * before ? length / before : 1;
+    evolution->interval = length;
+    evolution->waves.time = evolution->time + length;
+    evolution->restarts = !(ratio <= MOST_GROWTH * (1 + SAME_STEP)) ||
+                          (portion->part == 0 && (moves || evolution->ground_moved));
+    evolution->formula = cpsi_formula(length, evolution->restarts ? 1 : ratio);
     evolution->ground_moved = moves;
     cpsi_excite_bodies(evolution);
 }
 
-void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part) {
+void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                     const CpsiPortion *portion) {
+    const int part = portion->part;
     for (int i = 0; i < evolution->line_count; i++)
         cpsi_line_use_stiffness(&evolution->line[i], !stage->static_stiffness);
     if (part == 0) memcpy(evolution->gravity_from, evolution->gravity, sizeof evolution->gravity);
-    plan_weights(evolution, stage, part);
+    plan_weights(evolution, stage, portion);
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++)
             evolution->move[i].from[end] = evolution->move[i].to[end] =
@@ -336,19 +348,22 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, i
             evolution->from[2 * change->line + change->end] =
                 end_now(&evolution->line[change->line], change->end, change->to.kind);
         CpsiMove *move = &evolution->move[change->line];
-        move->from[change->end] = end_at(evolution, stage, change, part);
-        move->to[change->end] = end_at(evolution, stage, change, part + 1);
+        move->from[change->end] = end_at(evolution, stage, change, portion->from, portion->begin);
+        move->to[change->end] = end_at(evolution, stage, change, portion->to, portion->end);
     }
-    cpsi_grasps_plan(evolution, stage, part);
+    cpsi_grasps_plan(evolution, stage, portion);
     cpsi_pay_outs_plan(evolution, stage);
-    plan_bodies(evolution, stage, part);
-    plan_points(evolution, stage, part);
+    plan_bodies(evolution, stage, portion);
+    plan_points(evolution, stage, portion);
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int k = 0; k < stage->turn_count; k++)
-        evolution->angle[stage->turn[k].obstacle] = stage->turn[k].angle / stage->steps;
-    plan_shifts(evolution, stage, part);
-    plan_time(evolution, stage, part);
-    if (stage->steps == 1)
+        evolution->angle[stage->turn[k].obstacle] =
+            cpsi_portion_of(stage, portion, stage->turn[k].angle);
+    plan_shifts(evolution, stage, portion);
+    plan_time(evolution, stage, portion);
+    if (stage->error > 0)
+        snprintf(evolution->step_name, CPSI_STEP_NAME, "%.64s %d", stage->name, part + 1);
+    else if (stage->steps == 1)
         snprintf(evolution->step_name, CPSI_STEP_NAME, "%s", stage->name);
     else
         snprintf(evolution->step_name, CPSI_STEP_NAME, "%.64s %d/%d", stage->name, part + 1,
@@ -371,9 +386,11 @@ static void plan_rest(CpsEvolution *evolution) {
             move->grasp_from[k] = move->grasp_to[k] = line->grasp[k].imposed;
         for (int a = 0; a < 3; a++) move->weight_from[a] = move->weight_to[a] = line->weight[a];
     }
-    cpsi_pay_outs_plan(evolution, &(CpsiEvolutionStage){.steps = 1});
-    plan_shifts(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);
-    plan_points(evolution, &(CpsiEvolutionStage){.steps = 1}, 0);
+    const CpsiEvolutionStage none = {.steps = 1};
+    const CpsiPortion whole = {.to = 1, .is_last = true};
+    cpsi_pay_outs_plan(evolution, &none);
+    plan_shifts(evolution, &none, &whole);
+    plan_points(evolution, &none, &whole);
 }
 
 void cpsi_stage_plan_statics(CpsEvolution *evolution) {

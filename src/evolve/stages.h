@@ -32,9 +32,10 @@ CpsScene cpsi_stage_scene(const CpsEvolution *evolution);
 CpsStatus cpsi_stage_check_paths(const CpsEvolution *evolution, const CpsiEvolutionStage *stage,
                                  bool all, const char *what, CpsError *err);
 
-/* Set what the lines and obstacles do in step `part` of a stage, and the name of the step. The
- * first step finds where everything is. */
-void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage, int part);
+/* Set what the lines and obstacles do in a portion of a stage, and the name of the step. The first
+ * step finds where everything is. */
+void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
+                     const CpsiPortion *portion);
 
 /* The same of the step that places lines by statics: nothing changes. */
 void cpsi_stage_plan_statics(CpsEvolution *evolution);

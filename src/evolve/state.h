@@ -30,8 +30,17 @@ typedef struct CpsiEvolutionStage {
     bool gravity_changes;
     double gravity[3]; /* [m/s2] at its end, with the flag */
     double duration;   /* [s] 0: quasi-static */
+    double error;      /* [m] that a step may make; 0: its steps are of equal length */
     uint64_t hash;     /* of this stage and all before it */
 } CpsiEvolutionStage;
+
+/* What a step is of its stage. */
+typedef struct CpsiPortion {
+    int part;          /* its number, from 0 */
+    double from, to;   /* [-] shares of the stage where it begins and ends; of the last step 1 */
+    double begin, end; /* [s] since the stage began */
+    bool is_last;
+} CpsiPortion;
 
 /* Arrays of equal entries for what a line does not have; shared by all lines, whose largest number
  * of nodes is n. */
@@ -47,7 +56,7 @@ struct CpsEvolution {
     CpsStepReport report;
     char step_name[CPSI_STEP_NAME];
     CpsiStepOptions options;
-    int line_count, stage_count, step_count;
+    int line_count, stage_count;
     int obstacle_count;
     CpsiObstacle *obstacle; /* (obstacle_count) */
     CpsiShift *shift;       /* (obstacle_count) how each is shifted in the step */
@@ -78,6 +87,10 @@ struct CpsEvolution {
     bool in_time;                       /* a step may have a duration */
     CpsTimeScheme time_scheme;
     double time, interval; /* [s] now, and of the last step, 0: quasi-static */
+    CpsiFormula formula;   /* of the step under way, in time */
+    double elapsed;        /* [s] since the stage under way began, where it has an `error` */
+    double next;           /* [s] length of its next step; 0: its longest */
+    CpsPace pace;          /* of the last step */
     bool ground_moved;     /* an obstacle turned or moved in it */
     bool restarts;         /* the step under way is an Euler step (time_step.h) */
     bool has_static;       /* the first step places lines by statics */

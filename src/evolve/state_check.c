@@ -49,14 +49,28 @@ static bool is_end(const CpsEnd *end) {
            all_finite(end->value, 3);
 }
 
-/* Do `current` and `part` agree with the number of steps taken? */
+/* Do `current`, `part` and `elapsed` agree with the number of steps taken? A stage with an error
+ * has any number of them, at least one. */
 static bool is_place_in_history(const CpsEvolution *evolution) {
-    if (!within(evolution->done, 0, evolution->step_count)) return false;
-    int left = evolution->done - (evolution->has_static && evolution->done > 0 ? 1 : 0),
-        current = 0;
-    while (current < evolution->stage_count && left >= evolution->stage[current].steps)
-        left -= evolution->stage[current++].steps;
-    return evolution->current == current && evolution->part == left;
+    const int statics = evolution->has_static && evolution->done > 0;
+    int64_t least = 0;
+    bool any = false;
+    if (!within(evolution->current, 0, evolution->stage_count)) return false;
+    for (int k = 0; k < evolution->current; k++) {
+        const CpsiEvolutionStage *stage = &evolution->stage[k];
+        any = any || stage->error > 0;
+        least += stage->error > 0 ? 1 : stage->steps;
+    }
+    const int64_t before = (int64_t)evolution->done - statics - evolution->part;
+    if (!(any ? before >= least : before == least) || evolution->part < 0) return false;
+    if (!(evolution->next >= 0 && isfinite(evolution->next))) return false;
+    const CpsiEvolutionStage none = {.steps = 1}, *now = evolution->current < evolution->stage_count
+                                                             ? &evolution->stage[evolution->current]
+                                                             : &none;
+    if (now->error > 0)
+        return evolution->part == 0 ? evolution->elapsed == 0
+                                    : evolution->elapsed > 0 && evolution->elapsed < now->duration;
+    return evolution->part < now->steps && evolution->elapsed == 0;
 }
 
 static bool is_step_report(const CpsEvolution *evolution) {

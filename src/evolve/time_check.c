@@ -230,6 +230,15 @@ CpsStatus cpsi_stage_time_check(const CpsStage *stage, const char *what, CpsErro
         return CPSI_FAIL_AT("duration", err, CPS_ERR_ARGUMENT,
                             "%s: duration is %g s, expected a finite number >= 0", what,
                             stage->duration);
+    if (!cpsi_is_not_negative(stage->error) ||
+        (stage->error > 0 && !cpsi_is_positive(stage->error * stage->error)))
+        return CPSI_FAIL_AT("error", err, CPS_ERR_ARGUMENT,
+                            "%s: error is %g m, expected a finite number >= 0", what, stage->error);
+    if (stage->error > 0 && !(stage->duration > 0))
+        return CPSI_FAIL_AT("error", err, CPS_ERR_ARGUMENT,
+                            "%s: error is that of steps in time: give a duration as well, or leave "
+                            "it out",
+                            what);
     return CPS_OK;
 }
 

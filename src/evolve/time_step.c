@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A step in time of one line (time_step.h).
  *
- * By the backward difference formula of second order, with steps of equal length h,
+ * By the backward difference formula of second order (CpsiFormula), after a step of the same length
+ * h
  *
  *     x* = (4 x_n - x_{n-1})/3,   v* = (4 v_n - v_{n-1})/3,   k = 2 h/3
  *
@@ -27,6 +28,7 @@
 #include "cable/inertia_field.h"
 #include "cable/line_step.h"
 #include "cable/soft.h"
+#include "evolve/pace.h"
 #include "evolve/time_ledger.h"
 
 /* [-] An element shorter than its length by this share is slack. */
@@ -42,12 +44,13 @@ static bool is_slack(const CpsiLine *line, const double *x, int e) {
 /* The reference of node j, v* and k, and its inertia. */
 static void predict(CpsiLine *line, int j, const CpsiTimeStep *step, bool euler) {
     CpsiInertia *inertia = &line->inertia;
-    inertia->span[j] = euler ? step->length : 2 * step->length / 3;
+    const CpsiFormula *formula = &step->formula;
+    inertia->span[j] = euler ? formula->length : formula->span;
     inertia->is_euler[j] = euler;
     for (int i = 3 * j; i < 3 * j + 3; i++) {
         const double x = inertia->start[i], v = inertia->start_velocity[i];
-        const double place = euler ? x : x + (x - inertia->before[i]) / 3,
-                     velocity = euler ? v : v + (v - inertia->before_velocity[i]) / 3;
+        const double place = euler ? x : x + formula->back * (x - inertia->before[i]),
+                     velocity = euler ? v : v + formula->back * (v - inertia->before_velocity[i]);
         line->position[i] = place;
         inertia->rest_velocity[i] = velocity;
     }
@@ -70,9 +73,11 @@ static double attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
     if (ground_moves(line, move))
         for (int j = 0; j < line->n; j++) all = all || line->inertia.restarts[j];
     cpsi_line_field_clear(line);
+    line->inertia.formula = step->formula;
     for (int j = 0; j < line->n; j++) predict(line, j, step, all || line->inertia.restarts[j]);
     if (cpsi_line_has_damping(line)) cpsi_line_damp(line);
-    const double share = all || !ground_moves(line, move) ? 1 : 2.0 / 3;
+    const double share =
+        all || !ground_moves(line, move) ? 1 : step->formula.span / step->formula.length;
     cpsi_substeps_impose(line, move, scratch, 1 - share, 1);
     memcpy(line->weight_before, move->weight_from, sizeof line->weight_before);
     cpsi_line_step(line, program, options);
@@ -176,6 +181,24 @@ static void stop_elements(CpsiLine *line) {
     }
 }
 
+/* [m] The largest error of a node by its estimate (pace.h). What bears on something rigid is there,
+ * and its error lies in the tangent plane. */
+static double error_of(const CpsiLine *line) {
+    const CpsiInertia *inertia = &line->inertia;
+    double largest = 0;
+    for (int j = 0; j < line->n; j++) {
+        if (cpsi_line_is_held(line, j)) continue;
+        Vec3 off =
+            cpsi_step_error(&inertia->formula, inertia->is_euler[j],
+                            vec3_at(inertia->before_velocity, j),
+                            vec3_at(inertia->start_velocity, j), vec3_at(inertia->velocity, j));
+        for (int c = j; c < cpsi_line_contacts(line); c += line->n)
+            if (stops(line, c)) off = vec3_reject(off, vec3_at(line->normal, c));
+        largest = fmax(largest, vec3_norm(off));
+    }
+    return largest;
+}
+
 /* Count what changed at contacts. Friction may stop at once what lands: the next step of its nodes
  * is an Euler step. */
 static void note_events(CpsiLine *line, const unsigned char *state) {
@@ -199,14 +222,15 @@ static void advance(CpsiLine *line, const CpsiTimeStep *step, const unsigned cha
     CpsiInertia *inertia = &line->inertia;
     const size_t places = 3 * (size_t)line->n * sizeof *inertia->before;
     memset(inertia->restarts, 0, (size_t)line->n * sizeof *inertia->restarts);
-    (void)find_rough(line, step->length);
+    (void)find_rough(line, step->formula.length);
     note_events(line, state);
-    cpsi_time_ledger(line, step->length, state);
+    cpsi_time_ledger(line, step->formula.length, state);
+    inertia->error = error_of(line);
     memcpy(inertia->before, inertia->start, places);
     memcpy(inertia->before_velocity, inertia->start_velocity, places);
     if (cpsi_line_has_damping(line)) cpsi_line_advance_damping(line);
     const double energy = cpsi_kinetic_energy(line);
-    for (int j = 0; j < line->n; j++) stop_node(line, j, step->length);
+    for (int j = 0; j < line->n; j++) stop_node(line, j, step->formula.length);
     stop_elements(line);
     cpsi_time_ledger_close(line, energy - cpsi_kinetic_energy(line));
     double stiffness = 0;
@@ -224,6 +248,7 @@ static void stay(CpsiLine *line) {
     memcpy(inertia->velocity, inertia->start_velocity, places);
     inertia->ledger = (CpsMotionLedger){0};
     inertia->landed = inertia->changed = inertia->snatched = 0;
+    inertia->error = 0;
 }
 
 void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
@@ -238,7 +263,7 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     double share = attempt(line, program, options, move, scratch, step);
     int iterations = line->report.iteration_count;
     if (cps_outcome_is_certified(line->report.outcome) && step->scheme != CPS_TIME_SCHEME_EULER &&
-        !step->restarts && !step->once && find_rough(line, step->length)) {
+        !step->restarts && !step->once && find_rough(line, step->formula.length)) {
         cpsi_substeps_restore(line, scratch);
         share = attempt(line, program, options, move, scratch, step);
         iterations += line->report.iteration_count;

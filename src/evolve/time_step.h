@@ -7,7 +7,7 @@
 #include "evolve/substeps.h"
 
 typedef struct CpsiTimeStep {
-    double length; /* [s] h > 0 */
+    CpsiFormula formula;
     CpsTimeScheme scheme;
     bool restarts; /* the obstacles have not moved at this rate before: an Euler step */
     bool once;     /* not again where it is rough: that is for the group of lines to do */

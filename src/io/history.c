@@ -18,8 +18,26 @@ static bool is_break(const CpsResults *results, int step) {
     return step < results->row_count && results->row[step].parted.is_break;
 }
 
+bool cpsi_results_passes(const CpsResults *results, int step, int parts) {
+    const double all = results->stage_count > 0 ? results->stage[results->stage_count - 1].end : 0;
+    if (step < 1 || step >= results->row_count || !(all > 0)) return false;
+    const double share = parts / all;
+    return floor(results->row[step].motion.time * share) >
+           floor(results->row[step - 1].motion.time * share);
+}
+
+/* ... of a run whose number of steps is not known before: evenly in time, and where a stage ends.
+ */
+static bool is_pictured_in_time(const CpsResults *results, int step) {
+    const int stages = results->stage_count <= SHORT_HISTORY ? results->stage_count : 0;
+    bool is_last = step == 0 || cpsi_results_passes(results, step, EVEN_SELECTION);
+    for (int i = 0; i < stages; ++i) is_last = is_last || results->stage[i].last == step;
+    return is_last;
+}
+
 bool cpsi_results_pictured(const CpsResults *results, int step) {
     const int steps = results->planned_steps;
+    if (results->has_pace) return is_pictured_in_time(results, step);
     if (steps <= SHORT_HISTORY || step == 0 || step == steps - 1 || is_break(results, step))
         return true;
     if (results->stage_count < 4 || results->stage_count > SHORT_HISTORY)
@@ -48,7 +66,9 @@ static void add_motion(const CpsMotionLedger *ledger, double kinetic, CpsiMotion
 }
 
 CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution) {
-    CpsiMotionRow sum = {.time = cps_evolution_time(evolution)};
+    CpsiMotionRow sum = {.time = cps_evolution_time(evolution),
+                         .pace = cps_evolution_pace(evolution)};
+    sum.rejected = sum.pace.rejected;
     for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
         const CpsLineMotion motion = cps_evolution_line_motion(evolution, i);
         add_motion(&motion.ledger, motion.kinetic, &sum);
@@ -144,7 +164,7 @@ bool cpsi_results_moves(const CpsResults *results, int step, int obstacle) {
 void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution,
                         CpsiObstacleRow *out) {
     for (int k = 0; k < results->obstacle_count; ++k) {
-        const CpsObstacleReport report = cps_evolution_obstacle_report(evolution, k);
+        const CpsObstacleReport report = cps_evolution_obstacle_view(evolution, k);
         out[k] = (CpsiObstacleRow){.turn = report.turned, .turned = report.turned};
         memcpy(out[k].axis, report.axis, sizeof report.axis);
         const CpsiRow *last = results->row_count > 0 ? &results->row[results->row_count - 1] : NULL;
@@ -153,7 +173,7 @@ void cpsi_obstacle_rows(const CpsResults *results, const CpsEvolution *evolution
                        rotation_after(rotation_of(vec3_load(report.turn)),
                                       rotation_load(last ? last->place[k].rotation : NONE)));
         for (int a = 0; a < 3; ++a) {
-            out[k].point[a] = report.point[a] - results->origin[a];
+            out[k].point[a] = report.point[a];
             out[k].moved = out[k].moved || report.by[a] != 0 || report.turn[a] != 0;
         }
         if (results->row_count > 0)

@@ -45,6 +45,8 @@ typedef struct CpsiObstacleRow {
 /* The motion in time of all lines, points and bodies together; 0 in quasi-static steps. */
 typedef struct CpsiMotionRow {
     double time, kinetic; /* [s] since the history began, [J] */
+    CpsPace pace;
+    double rejected; /* as there */
     CpsMotionLedger ledger;
     double position_bound;            /* [m] the largest of the lines */
     double landed, changed, snatched; /* sums (CpsLineMotion) */
@@ -89,7 +91,10 @@ typedef struct CpsiSnapshot {
 typedef struct CpsiStage {
     char *name;
     int first, last;
-    bool moves; /* an obstacle turns or moves in it */
+    bool moves;    /* an obstacle turns or moves in it */
+    bool has_pace; /* its steps have the lengths that an error allows: `last` is known when it ends
+                    */
+    double end;    /* [s] the time when it ends, with the durations that the scene gives */
 } CpsiStage;
 
 struct CpsResults {
@@ -123,7 +128,8 @@ struct CpsResults {
     CpsBody *body; /* (body_count) */
     int stage_count;
     CpsiStage *stage;
-    int planned_steps;  /* with the breaks so far */
+    int planned_steps;  /* with the breaks so far; with a pace a guess until the end */
+    bool has_pace;      /* a stage has one */
     bool lets_go;       /* cpsi_lets_go */
     bool in_time;       /* a step may have a duration */
     bool winds;         /* a line has a winch */
@@ -137,6 +143,8 @@ struct CpsResults {
     CpsiSnapshot *snapshot;
 };
 
+/* Does the time pass a multiple of 1/parts of that of the whole history in the step? */
+bool cpsi_results_passes(const CpsResults *results, int step, int parts);
 /* Whether this step has its own plan view and elevation. All steps of a short history have; of a
  * long one the ends of its stages, or an even selection, and always the first and the last step,
  * and those in which a line parts. */

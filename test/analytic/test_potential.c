@@ -413,8 +413,172 @@ static void misplaced_ones_are_refused(void **state) {
     c.scene.point = &knot;
     c.scene.point_count = 1;
     c.line.end[CPS_END_B].kind = CPS_END_KIND_POINT;
+    c.line.stiffness = INFINITY;
     assert_int_equal(cps_evolution_create(&c.scene, &evolution, &err), CPS_ERR_ARGUMENT);
-    if (!strstr(err.message, "potential: end B is at a point")) fail_msg("%s", err.message);
+    if (!strstr(err.message, "end B is at a point, and the line is inextensible"))
+        fail_msg("%s", err.message);
+}
+
+/* A line cut in two at a node, where a free point joins the pieces: in the scene that has the
+ * pieces, of which each has its part of the potential. */
+typedef struct Pieces {
+    CpsScene scene;
+    CpsLine line[2];
+    CpsLineLoads loads[2];
+    CpsPoint knot;
+    CpsChange change[STAGES];
+    CpsStage stage[STAGES];
+} Pieces;
+
+static void cut(const Case *c, int node, Pieces *out) {
+    const double element = c->line.length / c->line.element_count, at = element * node;
+    const CpsPotential *whole = &c->loads.potential;
+    out->scene = c->scene;
+    out->knot = cps_point_default();
+    out->knot.name = "knot";
+    out->knot.kind = CPS_POINT_KIND_FREE;
+    for (int a = 0; a < 3; a++)
+        out->knot.position[a] =
+            c->line.end[0].value[a] +
+            at / c->line.length * (c->line.end[1].value[a] - c->line.end[0].value[a]);
+    for (int i = 0; i < 2; i++) {
+        CpsLine *piece = &out->line[i];
+        CpsPotential *part = &out->loads[i].potential;
+        *piece = c->line;
+        piece->name = i == 0 ? "one" : "two";
+        piece->element_count = i == 0 ? node : c->line.element_count - node;
+        piece->length = element * piece->element_count;
+        piece->end[1 - i] = (CpsEnd){.kind = CPS_END_KIND_POINT};
+        piece->end_point[1 - i] = 0;
+        out->loads[i] = c->loads;
+        part->from = fmin(fmax(whole->from - i * at, 0), piece->length);
+        part->to = fmin(fmax(whole->to - i * at, 0), piece->length);
+        if (!(part->from < part->to)) part->function = NULL;
+        piece->loads = &out->loads[i];
+    }
+    for (int k = 0; k < c->scene.stage_count; k++) {
+        out->change[k] = c->change[k];
+        out->change[k].line = 1;
+        out->stage[k] = c->stage[k];
+        out->stage[k].change = &out->change[k];
+    }
+    out->scene.line = out->line;
+    out->scene.line_count = 2;
+    out->scene.point = &out->knot;
+    out->scene.point_count = 1;
+    out->scene.stage = out->stage;
+}
+
+/* [-] How far the pieces are from the line, per its length; the force on the point per the largest.
+ */
+static double apart_in_steps(const Case *c, int node, int *steps) {
+    static Pieces pieces;
+    cut(c, node, &pieces);
+    CpsError err;
+    CpsEvolution *whole = made(c), *parts = NULL;
+    if (cps_evolution_create(&pieces.scene, &parts, &err)) fail_msg("%s", err.message);
+    double off = 0;
+    while (cps_evolution_remaining_count(whole) > 0) {
+        const CpsOutcome one = step(whole), other = step(parts);
+        if (!cps_outcome_is_certified(one) || !cps_outcome_is_certified(other)) {
+            print_message("step %d: outcomes %d and %d\n", *steps, one, other);
+            break;
+        }
+        const CpsLineView a = cps_evolution_line_view(whole, 0);
+        for (int i = 0; i < 2; i++) {
+            const CpsLineView b = cps_evolution_line_view(parts, i);
+            const double *from = &a.position[i == 0 ? 0 : 3 * node];
+            for (int k = 0; k < 3 * (pieces.line[i].element_count + 1); k++)
+                off = fmax(off, fabs(from[k] - b.position[k] + a.origin[k % 3] - b.origin[k % 3]) /
+                                    c->line.length);
+        }
+        const CpsPointReport knot = cps_evolution_point_report(parts, 0);
+        const double largest = cps_evolution_line_report(whole, 0).certificate.largest_force;
+        assert_true(knot.has_place);
+        for (int k = 0; k < 3; k++) CHECK_LESS(fabs(knot.residual[k]), 1e-6 * largest);
+        ++*steps;
+    }
+    cps_evolution_destroy(whole);
+    cps_evolution_destroy(parts);
+    return off;
+}
+
+/* A point between two pieces of a line in a potential is where the node of the line is; all steps
+ * are certified, also on a rough bed. Places are compared where they are unique: without friction,
+ * and in the potential all along where the line may lie on the bed. */
+static void pieces_at_a_point_are_the_line(void **state) {
+    (void)state;
+    double off = 0;
+    int steps = 0, due = 0, compared = 0;
+    for (uint64_t seed = 1; seed <= 100; seed++) {
+        uint64_t dice = seed;
+        Case c;
+        const double size = pow(10, splitmix(&dice, -1, 2)), load = pow(10, splitmix(&dice, -1, 2)),
+                     far = splitmix(&dice, 0, 1) < 0.2 ? 1e3 : 0;
+        const int elements = 8 + (int)splitmix(&dice, 0, 30);
+        begin(&c, elements, size, splitmix(&dice, 0, 1) < 0.2 ? 0 : load,
+              load * size * pow(10, splitmix(&dice, 1.5, 4)));
+        for (int i = 0; i < TERMS; i++) {
+            c.field.length[i] = size * pow(10, splitmix(&dice, -0.5, 0.5));
+            c.field.size[i] = load * c.field.length[i] * pow(10, splitmix(&dice, -1, 0.3));
+            for (int a = 0; a < 3; a++)
+                c.field.centre[i][a] = size * (splitmix(&dice, -1, 1) + (a == 0 ? far : 0));
+        }
+        c.scene.obstacle_count = splitmix(&dice, 0, 1) < 0.4 ? 1 : 0;
+        c.bed.point[2] = -0.1 * size;
+        c.bed.friction = splitmix(&dice, 0, 1) < 0.5 ? splitmix(&dice, 0, 0.5) : 0;
+        const double x = far * size;
+        hold(&c, CPS_END_A, x - 0.4 * size, 0, 0);
+        hold(&c, CPS_END_B, x + 0.4 * size, 0, 0.1 * size);
+        for (int k = 0; k < 2; k++)
+            stage(&c, x + splitmix(&dice, 0.2, 0.5) * size, splitmix(&dice, -0.2, 0.2) * size,
+                  splitmix(&dice, 0, 0.2) * size);
+        if (splitmix(&dice, 0, 1) < 0.4) c.loads.potential.to = splitmix(&dice, 0.1, 1) * size;
+        if (splitmix(&dice, 0, 1) < 0.3) c.loads.potential.from = 0.09 * size;
+        const int before = steps, node = 1 + (int)splitmix(&dice, 0, elements - 2);
+        const double now = apart_in_steps(&c, node, &steps);
+        const bool whole = c.loads.potential.from == 0 && c.loads.potential.to == size,
+                   unique = c.scene.obstacle_count == 0 || (c.bed.friction == 0 && whole);
+        due += 5;
+        compared += unique ? steps - before : 0;
+        if (steps < before + 5 || (unique && now > 1e-7))
+            print_message("seed %d: %d steps, %.1e apart\n", (int)seed, steps - before, now);
+        if (unique) off = fmax(off, now);
+    }
+    print_message("pieces at a point: %d of %d steps certified; in %d at most %.1e of the length "
+                  "apart\n",
+                  steps, due, compared, off);
+    CHECK_LESS(off, 1e-7);
+    CHECK_GREATER(compared, 200);
+    CHECK_GREATER(steps, 0.99 * due - 1);
+}
+
+/* The stiffness of an end in a quadratic function is that in its springs, end node included. */
+static void stiffness_has_the_second_derivatives(void **state) {
+    (void)state;
+    Case c;
+    begin(&c, 30, 10, 20, 5000);
+    hold(&c, CPS_END_A, 0, 0, 0.3);
+    hold(&c, CPS_END_B, 8, 0, 0.5);
+    c.field = (Field){.stiffness = {3, 60, 8}};
+    CpsSpring spring = {.to = 10, .stiffness = {3, 60, 8}};
+    const CpsLineLoads springs = {.spring_count = 1, .spring = &spring};
+    CpsEvolution *one = made(&c);
+    c.line.loads = &springs;
+    CpsEvolution *other = made(&c);
+    CHECK_INT(step(one), CPS_OUTCOME_SOLVED);
+    CHECK_INT(step(other), CPS_OUTCOME_SOLVED);
+    CpsError err;
+    CpsStiffness mine, its;
+    assert_int_equal(cps_evolution_stiffness(one, 0, CPS_END_B, CPS_STIFFNESS_STEP, &mine, &err),
+                     CPS_OK);
+    assert_int_equal(cps_evolution_stiffness(other, 0, CPS_END_B, CPS_STIFFNESS_STEP, &its, &err),
+                     CPS_OK);
+    CHECK_INT(mine.outcome, CPS_STIFFNESS_OUTCOME_FOUND);
+    CHECK_INT(its.outcome, CPS_STIFFNESS_OUTCOME_FOUND);
+    for (int i = 0; i < 9; i++) CHECK_NEAR(mine.matrix[i], its.matrix[i], 1e-6 * its.matrix[0]);
+    cps_evolution_destroy(one);
+    cps_evolution_destroy(other);
 }
 
 int main(void) {
@@ -423,6 +587,8 @@ int main(void) {
                                        cmocka_unit_test(random_fields_are_certified),
                                        cmocka_unit_test(senseless_functions_are_not_certified),
                                        cmocka_unit_test(state_goes_on_with_the_same_bits),
-                                       cmocka_unit_test(misplaced_ones_are_refused)};
+                                       cmocka_unit_test(misplaced_ones_are_refused),
+                                       cmocka_unit_test(pieces_at_a_point_are_the_line),
+                                       cmocka_unit_test(stiffness_has_the_second_derivatives)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

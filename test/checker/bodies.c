@@ -562,8 +562,8 @@ static void check_motion(Check *c) {
                              .motion = &c->motion[k],
                              .motion_before = &c->motion_before[k],
                              .motion_older = &c->motion_older[k],
-                             .h = time_of(c->source, c->step) -
-                                  (c->step > 0 ? time_of(c->source, c->step - 1) : 0),
+                             .h = step_length_of(c->source, c->step),
+                             .h_before = c->step > 0 ? step_length_of(c->source, c->step - 1) : 0,
                              .reach = size(c->now[k].position) + c->arm[k]};
     body_motion_check(&steps, find_in_time, c);
 }

@@ -10,6 +10,7 @@
 #include "caught.h"
 #include "elongation.h"
 #include "ends.h"
+#include "events.h"
 #include "failure.h"
 #include "grasps.h"
 #include "groups.h"
@@ -729,6 +730,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         if (fault) find(&findings, "%s", fault);
         inertia_check(source, &record, step > 0 ? &previous : NULL, step > 1 ? &older : NULL,
                       find_number, &findings);
+        if (step > 0) events_add(&record, &previous, &report->events);
         if (step > 0 && !in_time(&record)) check_work(&record, &previous, source, step, &findings);
         if (record.outcome <= OUTCOME_TAUT) sets_check(&record, find_number, &findings);
         if (step > 0) check_weight(&record, &previous, &findings);
@@ -775,6 +777,9 @@ int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     int bad = source_open(path, &source, log);
     report->steps = bad ? 0 : (int)source.steps;
     if (!bad && source.steps == 0 && log) fprintf(log, "%s holds no step\n", path);
+    Findings times = {log, "times", 0, 0};
+    if (!bad) inertia_times(&source, find_number, &times);
+    report->refuted += times.count > 0;
     for (size_t i = 0; i < source.lines && !bad; i++)
         bad = check_line(&source, source.line_name[i], log, report);
     OtherFindings point = {"point", log, report}, body = {"body", log, report},

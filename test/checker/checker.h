@@ -11,6 +11,8 @@
 
 #include <stdio.h>
 
+#include "events.h"
+
 /* A record is one step of one line. */
 typedef struct CheckerReport {
     int records;        /* in the file */
@@ -24,6 +26,7 @@ typedef struct CheckerReport {
     double force;       /* worst imbalance / largest force of the same */
     double stretch;     /* worst |x'| - 1 of inextensible elements of the same */
     double penetration; /* worst depth / length of the same */
+    Events events;      /* of all lines in time */
 } CheckerReport;
 
 /* Check a file.

@@ -5,11 +5,13 @@
 #define CAPSTAN_CHECKER_COMPARE_H
 
 #include "capstan/scene.h"
+#include "part.h"
 #include "record.h"
 
 typedef struct Compare {
     const CpsScene *scene;
     Source source;
+    double *time; /* (steps of the source) [s] NULL: the file has no steps in time */
     FILE *log;
     int findings;
 } Compare;
@@ -30,9 +32,14 @@ void same(Compare *compare, const char *what, const char *of, const double *file
           const double *scene, size_t count, double noise);
 void same_number(Compare *compare, const char *what, const char *of, double file, double scene);
 
-/* The stage of a step and its number there, from 1 on; a break is that of the step before it.
- * False: the statics of lines laid, or a scene without stages. */
-bool stage_of(const Compare *compare, size_t step, int *stage, int *part);
+/* The stage of a step and what it is of that; a break is that of the step before it. False: the
+ * statics of lines laid, or a scene without stages. */
+bool stage_of(const Compare *compare, size_t step, Part *part);
+/* How many steps the scene has, with the breaks of the file; of a stage with an error, whose steps
+ * end where its duration has passed, as many as in the file, or one more where that ends before. */
+size_t planned(const Compare *compare);
+/* The times of all steps; none of a file without. False: memory. */
+bool read_times(Compare *compare);
 
 /* What a line has on the drums of its winches after a step. */
 void winches_compare(Compare *compare, const CpsLine *line, int index, size_t step,

@@ -7,6 +7,7 @@
 #include <netcdf.h>
 #include <stdlib.h>
 
+#include "formula.h"
 #include "inertia.h"
 
 static int complain(FILE *log, const char *what, const char *line) {
@@ -100,15 +101,16 @@ static Real elongation_of(const Record *r, size_t i) {
 Damped damping_measure(const Record *r, const Record *before, const Record *older) {
     Damped out = {0};
     Real stored = 0, damped = 0;
-    const double h = r->time - before->time;
+    const double h = r->step_length;
     for (size_t i = 0; i < r->elements; i++) {
         const double k = span_of(r, i);
         const Real d = r->damping->elongation[i], from = elongation_of(before, i),
                    stiffness = 1 / (Real)r->damping->compliance[i],
                    viscous = r->damping->coefficient / (Real)k, l = r->element_length[i];
-        const bool euler = fabs(k - h) <= 1e-9 * h;
-        const Real past = older ? elongation_of(older, i) : 0,
-                   start = euler ? from : fmaxl(0, (4 * from - past) / 3);
+        const bool euler = formula_is_euler(k, h);
+        const Real back = formula_of(k, h, before->step_length).back,
+                   past = older ? elongation_of(older, i) : 0,
+                   start = euler ? from : fmaxl(0, from + back * (from - past));
         stored += l * stiffness * (d - from) * (d + from) / 2;
         /* where the first step of the file began is not in it: by the elongation of rest */
         const Real known = euler || older || !in_time(before)

@@ -42,30 +42,6 @@ static void compare_run(Compare *compare) {
 
 /* ---- steps ---- */
 
-bool stage_of(const Compare *compare, size_t step, int *stage, int *part) {
-    for (size_t i = step + 1; i-- > 0;) step -= is_break(&compare->source, i);
-    if (compare->source.has_static && step-- == 0) return false;
-    for (*stage = 0; *stage < compare->scene->stage_count; ++*stage) {
-        const size_t steps = (size_t)compare->scene->stage[*stage].step_count;
-        *part = (int)step + 1;
-        if (step < steps) return true;
-        step -= steps;
-    }
-    return false;
-}
-
-/* How many steps the scene has, with the breaks of the file. */
-static size_t planned(const Compare *compare) {
-    size_t steps = 0, breaks = 0;
-    bool first = false;
-    for (int i = 0; i < compare->scene->stage_count; i++)
-        steps += (size_t)compare->scene->stage[i].step_count;
-    for (int i = 0; i < compare->scene->line_count; i++)
-        first = first || compare->scene->line[i].start.kind == CPS_START_STATIC;
-    for (size_t i = 0; i < compare->source.steps; i++) breaks += is_break(&compare->source, i);
-    return (steps + first > 0 ? steps + first : 1) + breaks;
-}
-
 /* An end of a line as the scene has it. */
 typedef struct Imposed {
     CpsEnd from, now;
@@ -135,8 +111,8 @@ static CpsEnd first_end(const Source *source, const CpsLine *line, int e, const 
 
 /* The end at part k of a stage that changes it; `before`: the step before, NULL for the first;
  * `start`: where it starts. */
-static void impose(const Source *source, Imposed *end, const CpsStage *stage, int part, int line,
-                   int e, const Record *before, const double start[3]) {
+static void impose(const Source *source, Imposed *end, const CpsStage *stage, const Part *part,
+                   int line, int e, const Record *before, const double start[3]) {
     for (int i = 0; i < stage->change_count; i++) {
         const CpsChange *change = &stage->change[i];
         if (change->line != line || change->end != e || end->release == RELEASE_BREAK) continue;
@@ -144,28 +120,27 @@ static void impose(const Source *source, Imposed *end, const CpsStage *stage, in
             let_go(end, RELEASE_STAGE);
             continue;
         }
-        if (part == 1) end->from = end->now;
-        if (part == 1 && end->release != RELEASE_NONE) end->release = RELEASE_TAKEN;
+        if (part->number == 1) end->from = end->now;
+        if (part->number == 1 && end->release != RELEASE_NONE) end->release = RELEASE_TAKEN;
         const double *place = before ? before->position[e ? before->elements : 0] : start;
-        if (part == 1 && before) end->noise = COPIED;
-        if (part == 1 && change->to.kind != end->now.kind)
+        if (part->number == 1 && before) end->noise = COPIED;
+        if (part->number == 1 && change->to.kind != end->now.kind)
             for (int k = 0; k < 3; k++)
                 end->from.value[k] = change->to.kind == CPS_END_KIND_HELD ? place[k]
                                      : before                             ? before->end_force[e][k]
                                                                           : 0;
-        const double share = (double)part / stage->step_count;
+        const double share = part->to;
         const CpsEnd to = about(source, change->to);
         end->now.kind = to.kind;
         for (int k = 0; k < 3; k++)
             end->now.value[k] =
-                part == stage->step_count
-                    ? to.value[k]
-                    : end->from.value[k] + share * (to.value[k] - end->from.value[k]);
+                share == 1 ? to.value[k]
+                           : end->from.value[k] + share * (to.value[k] - end->from.value[k]);
         double added[6], noise[6];
-        oscillation(stage, CPS_SWAY_OF_END, line, e, part, added, noise);
+        oscillation(stage, CPS_SWAY_OF_END, line, e, part->end, added, noise);
         for (int k = 0; k < 3; k++) {
             end->now.value[k] += added[k];
-            end->sway_noise[k] += noise[k];
+            end->sway_noise[k] += noise[k] + part->noise * fabs(to.value[k] - end->from.value[k]);
         }
     }
 }
@@ -191,13 +166,13 @@ static void compare_end(Compare *compare, const CpsLine *line, int e, const Impo
                  held ? "end_held_position" : "end_applied_force", of, value[k], end->now.value[k]);
 }
 
-/* Gravity of the scene after so many steps of a stage, or without one that of its beginning. */
-static void gravity_at(const Compare *compare, bool staged, int stage, int part, double g[3]) {
+/* Gravity of the scene at a share of a stage, or without one that of its beginning. */
+static void gravity_at(const Compare *compare, bool staged, int stage, double at, double g[3]) {
     const CpsScene *scene = compare->scene;
     memcpy(g, scene->gravity, 3 * sizeof *g);
     if (staged)
         for (int s = 0; s <= stage; s++) {
-            const double share = s < stage ? 1 : (double)part / scene->stage[s].step_count;
+            const double share = s < stage ? 1 : at;
             if (scene->stage[s].gravity_changes)
                 for (int k = 0; k < 3; k++) g[k] += share * (scene->stage[s].gravity[k] - g[k]);
         }
@@ -206,11 +181,12 @@ static void gravity_at(const Compare *compare, bool staged, int stage, int part,
 /* Weight, half of each element to each of its nodes, and the forces at free ends; and the weight
  * before the step. What has no equilibrium may be on its way. */
 static void compare_loads(Compare *compare, const CpsLine *line, size_t step, const Record *r) {
-    int stage = 0, part = 0;
+    Part part;
     double g[3], was[3];
-    const bool staged = stage_of(compare, step, &stage, &part);
-    gravity_at(compare, staged, stage, part, g);
-    gravity_at(compare, staged, stage, is_break(&compare->source, step) ? part : part - 1, was);
+    const bool staged = stage_of(compare, step, &part);
+    gravity_at(compare, staged, part.stage, part.to, g);
+    gravity_at(compare, staged, part.stage, is_break(&compare->source, step) ? part.to : part.from,
+               was);
     if ((r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE ||
          r->outcome == OUTCOME_SLIDES) &&
         memcmp(g, was, sizeof g) != 0)
@@ -302,39 +278,48 @@ static void compare_nodes(Compare *compare, const CpsLine *line, const Record *r
     }
 }
 
+/* Of what changes evenly in a stage, the share of one of its steps. */
+static double share_of(const Compare *compare, const Part *part) {
+    const CpsStage *at = &compare->scene->stage[part->stage];
+    return at->error > 0 ? part->to - part->from : 1.0 / at->step_count;
+}
+
 static void compare_turns(Compare *compare, size_t step, const Record *r) {
-    int stage = 0, part = 0;
-    const bool staged = stage_of(compare, step, &stage, &part);
+    Part part;
+    const bool staged = stage_of(compare, step, &part);
     for (int k = 0; k < compare->scene->obstacle_count; k++) {
-        double angle = 0;
+        double angle = 0, noise = 0;
         if (staged && !is_break(&compare->source, step))
-            for (int i = 0; i < compare->scene->stage[stage].turn_count; i++) {
-                const CpsTurn *turn = &compare->scene->stage[stage].turn[i];
-                if (turn->obstacle == k)
-                    angle = turn->angle / compare->scene->stage[stage].step_count;
+            for (int i = 0; i < compare->scene->stage[part.stage].turn_count; i++) {
+                const CpsTurn *turn = &compare->scene->stage[part.stage].turn[i];
+                if (turn->obstacle != k) continue;
+                angle = share_of(compare, &part) * turn->angle;
+                noise = part.noise * fabs(turn->angle);
             }
-        if (!(fabs(r->turn[k] - angle) <= COPIED * fabs(angle)))
+        if (!(fabs(r->turn[k] - angle) <= COPIED * fabs(angle) + noise))
             find(compare, "obstacle_turn of %s, step %zu, is %.17g, in the scene %.17g",
                  compare->scene->obstacle[k].name, step, r->turn[k], angle);
     }
 }
 
-/* The shift of obstacle k in a step: the scene's, in equal parts. */
+/* The shift of obstacle k in a step: the scene's, in its parts. */
 static void compare_shifts(Compare *compare, size_t step) {
-    int stage = 0, part = 0;
-    const bool staged = stage_of(compare, step, &stage, &part);
+    Part part;
+    const bool staged = stage_of(compare, step, &part);
     for (int k = 0; k < compare->scene->obstacle_count; k++) {
         const Surface *s = &compare->source.surface[k];
         const CpsStage *at =
-            staged && !is_break(&compare->source, step) ? &compare->scene->stage[stage] : NULL;
-        double given[9] = {0}, size = 0;
+            staged && !is_break(&compare->source, step) ? &compare->scene->stage[part.stage] : NULL;
+        double given[9] = {0}, size = 0, noise = 0;
         for (int i = 0; at && i < at->shift_count; i++) {
             const CpsShift *shift = &at->shift[i];
             if (shift->obstacle != k) continue;
             for (int a = 0; a < 3; a++) {
-                given[a] = shift->by[a] / at->step_count;
-                given[3 + a] = shift->turn[a] / at->step_count;
-                given[6 + a] = shift->about[a] + (part - 1) * given[a] - compare->source.origin[a];
+                given[a] = share_of(compare, &part) * shift->by[a];
+                given[3 + a] = share_of(compare, &part) * shift->turn[a];
+                given[6 + a] =
+                    shift->about[a] - compare->source.origin[a] + part.from * shift->by[a];
+                noise = fmax(noise, part.noise * (fabs(shift->by[a]) + fabs(shift->turn[a])));
             }
             const double *turn = shift->turn;
             if (turn[0] == 0 && turn[1] == 0 && turn[2] == 0)
@@ -345,7 +330,7 @@ static void compare_shifts(Compare *compare, size_t step) {
             const double found = (double)(a < 3   ? s->by[a]
                                           : a < 6 ? s->spin[a - 3]
                                                   : s->about[a - 6]);
-            if (!(fabs(found - given[a]) <= COMPUTED * size))
+            if (!(fabs(found - given[a]) <= COMPUTED * size + noise))
                 find(compare, "shift of obstacle %s, step %zu, is %.17g, in the scene %.17g",
                      compare->scene->obstacle[k].name, step, found, given[a]);
         }
@@ -376,14 +361,14 @@ typedef struct ImposedPoint {
 } ImposedPoint;
 
 static void impose_on_point(const Compare *compare, ImposedPoint *point, const CpsStage *stage,
-                            const CpsPointChange *change, int part, const Junction *before) {
-    const int parts = stage->step_count;
-    const double share = (double)part / parts;
+                            const CpsPointChange *change, const Part *part,
+                            const Junction *before) {
+    const double share = part->to;
     double to[3], added[6], noise[6];
     for (int k = 0; k < 3; k++)
         to[k] = change->value[k] -
                 (change->kind == CPS_POINT_KIND_HELD ? compare->source.origin[k] : 0);
-    if (part == 1) {
+    if (part->number == 1) {
         memcpy(point->from, point->now, sizeof point->from);
         if (change->kind != point->kind && change->kind == CPS_POINT_KIND_HELD && before)
             memcpy(point->from, before->position, sizeof point->from);
@@ -391,13 +376,13 @@ static void impose_on_point(const Compare *compare, ImposedPoint *point, const C
             point->is_known && (change->kind == point->kind || change->kind == CPS_POINT_KIND_HELD);
         point->kind = change->kind;
     }
-    point->is_known = point->is_known || part == parts;
+    point->is_known = point->is_known || share == 1;
     for (int k = 0; k < 3; k++)
-        point->now[k] = part == parts ? to[k] : point->from[k] + share * (to[k] - point->from[k]);
-    oscillation(stage, CPS_SWAY_OF_POINT, change->point, 0, part, added, noise);
+        point->now[k] = share == 1 ? to[k] : point->from[k] + share * (to[k] - point->from[k]);
+    oscillation(stage, CPS_SWAY_OF_POINT, change->point, 0, part->end, added, noise);
     for (int k = 0; k < 3; k++) {
         point->now[k] += added[k];
-        point->sway_noise[k] += noise[k];
+        point->sway_noise[k] += noise[k] + part->noise * fabs(to[k] - point->from[k]);
     }
 }
 
@@ -470,15 +455,15 @@ static void compare_water(Compare *compare, size_t step, const ImposedPoint *imp
 
 static void compare_points_at(Compare *compare, size_t step, ImposedPoint *imposed,
                               const Junction *before, const Junction *now) {
-    int stage = 0, part = 0;
+    Part part;
     double g[3];
-    const bool staged = stage_of(compare, step, &stage, &part);
-    gravity_at(compare, staged, stage, part, g);
-    const CpsStage *at = staged ? &compare->scene->stage[stage] : NULL;
+    const bool staged = stage_of(compare, step, &part);
+    gravity_at(compare, staged, part.stage, part.to, g);
+    const CpsStage *at = staged ? &compare->scene->stage[part.stage] : NULL;
     const int changes = staged && !is_break(&compare->source, step) ? at->point_change_count : 0;
     for (int i = 0; i < changes; i++) {
         const CpsPointChange *change = &at->point_change[i];
-        impose_on_point(compare, &imposed[change->point], at, change, part,
+        impose_on_point(compare, &imposed[change->point], at, change, &part,
                         step > 0 ? &before[change->point] : NULL);
     }
     for (int k = 0; k < compare->scene->point_count; k++) {
@@ -560,13 +545,11 @@ static int compare_points(Compare *compare) {
 
 static GivenStep step_of(const void *user, size_t step) {
     const Compare *compare = user;
-    int stage = 0, part = 0;
     GivenStep given = {0};
-    const bool staged = stage_of(compare, step, &stage, &part);
-    gravity_at(compare, staged, stage, part, given.gravity);
+    const bool staged = stage_of(compare, step, &given.part);
+    gravity_at(compare, staged, given.part.stage, given.part.to, given.gravity);
     const bool stays = is_break(&compare->source, step);
-    given.stage = staged && !stays ? &compare->scene->stage[stage] : NULL;
-    given.part = part;
+    given.stage = staged && !stays ? &compare->scene->stage[given.part.stage] : NULL;
     return given;
 }
 
@@ -578,9 +561,9 @@ static size_t grasp_of(const Record *r, size_t j) {
     return k;
 }
 
-/* What is imposed on a node by part `part` of a stage that changes it: an equal share of what is
- * left of the way from the step before. */
-static void next_grasp(const Compare *compare, const CpsGraspChange *change, int parts, int part,
+/* What is imposed on a node by a part of a stage that changes it: its share of what is left of the
+ * way from the step before. */
+static void next_grasp(const Compare *compare, const CpsGraspChange *change, const Part *part,
                        const Record *before, const Record *r, double value[3]) {
     const size_t j = (size_t)change->node, k = before ? grasp_of(before, j) : 0;
     const bool held = change->kind == CPS_END_KIND_HELD, was = before && k < before->grasps,
@@ -591,9 +574,10 @@ static void next_grasp(const Compare *compare, const CpsGraspChange *change, int
                              : before ? before->position[j][a]
                                       : r->reference[j][a],
                      force = was ? before->grasp_force[k][a] : 0, from = held ? place : force;
-        value[a] = change->stays                      ? from
-                   : change->at_once || part == parts ? to
-                                                      : from + (to - from) / (parts - part + 1);
+        value[a] = change->stays ? from
+                   : change->at_once || part->to == 1
+                       ? to
+                       : from + (to - from) * (part->to - part->from) / (1 - part->from);
     }
 }
 
@@ -601,11 +585,11 @@ static void next_grasp(const Compare *compare, const CpsGraspChange *change, int
  * what it says. */
 static void compare_grasps(Compare *compare, const CpsLine *line, int index, size_t step,
                            const Record *before, const Record *r) {
-    int stage = 0, part = 0;
-    const bool staged = stage_of(compare, step, &stage, &part),
-               ended = r->outcome == OUTCOME_UNBOUNDED || r->outcome == OUTCOME_INFEASIBLE ||
-                       r->outcome == OUTCOME_SLIDES;
-    const CpsStage *at = &compare->scene->stage[stage];
+    Part part;
+    const bool staged = stage_of(compare, step, &part), ended = r->outcome == OUTCOME_UNBOUNDED ||
+                                                                r->outcome == OUTCOME_INFEASIBLE ||
+                                                                r->outcome == OUTCOME_SLIDES;
+    const CpsStage *at = &compare->scene->stage[part.stage];
     const int changes = staged && !is_break(&compare->source, step) ? at->grasp_change_count : 0;
     size_t named = 0, kept = 0;
     if (ended) return;
@@ -621,7 +605,7 @@ static void compare_grasps(Compare *compare, const CpsLine *line, int index, siz
         }
         double value[3];
         const double *found = r->grasp_kind[k] == END_HELD ? r->grasp_place[k] : r->grasp_load[k];
-        next_grasp(compare, change, at->step_count, part, before, r, value);
+        next_grasp(compare, change, &part, before, r, value);
         for (int a = 0; a < 3; a++)
             if (!(fabs(found[a] - value[a]) <= COMPUTED * (size(value) + size(found))))
                 find(compare,
@@ -667,9 +651,9 @@ static void compare_end_of_run(Compare *compare, const CpsLine *line, const Reco
 
 /* Which stiffness holds: the one of the stage, the static one without a stage. */
 static void compare_stiffness(Compare *compare, const CpsLine *line, size_t step, const Record *r) {
-    int stage, part;
-    const bool staged = stage_of(compare, step, &stage, &part),
-               is_dynamic = staged && !compare->scene->stage[stage].static_stiffness;
+    Part part;
+    const bool staged = stage_of(compare, step, &part),
+               is_dynamic = staged && !compare->scene->stage[part.stage].static_stiffness;
     if (r->is_dynamic != is_dynamic) find(compare, "stiffness of %s in step %zu", line->name, step);
 }
 
@@ -682,7 +666,7 @@ static int compare_steps(Compare *compare, int index) {
     Imposed end[2] = {0};
     for (size_t step = 0; step < compare->source.steps && !bad && compare->findings == 0; step++) {
         bad = record_read(&compare->source, line->name, step, &now, compare->log);
-        int stage, part;
+        Part part;
         if (!bad)
             for (int e = 0; e < 2; e++) {
                 const bool at_point = begins_at_point(compare, line, e, &now);
@@ -695,9 +679,9 @@ static int compare_steps(Compare *compare, int index) {
                 start_place(&compare->source, line, e, &now, start);
                 if (is_break(&compare->source, step))
                     part_end(&compare->source, step, index, e, &end[e]);
-                else if (stage_of(compare, step, &stage, &part))
-                    impose(&compare->source, &end[e], &compare->scene->stage[stage], part, index, e,
-                           step > 0 ? &before : NULL, start);
+                else if (stage_of(compare, step, &part))
+                    impose(&compare->source, &end[e], &compare->scene->stage[part.stage], &part,
+                           index, e, step > 0 ? &before : NULL, start);
                 if (now.release[e] != end[e].release)
                     find(compare, "end_release of %s, end %c, step %zu", line->name, e ? 'B' : 'A',
                          step);
@@ -725,6 +709,7 @@ static int compare_steps(Compare *compare, int index) {
 int given_file(const char *path, const CpsScene *scene, FILE *log) {
     Compare compare = {.scene = scene, .log = log};
     int bad = source_open(path, &compare.source, log);
+    if (!bad) bad = !read_times(&compare);
     if (!bad) compare_run(&compare);
     if (!bad && compare.source.steps > planned(&compare))
         find(&compare, "%zu steps, in the scene %zu", compare.source.steps, planned(&compare));
@@ -740,6 +725,7 @@ int given_file(const char *path, const CpsScene *scene, FILE *log) {
     if (!bad && compare.findings == 0) bad = compare_points(&compare);
     if (!bad && compare.findings == 0)
         bad = given_bodies(&compare.source, scene, step_of, find_at_body, &compare, log);
+    free(compare.time);
     source_close(&compare.source);
     return bad ? -1 : compare.findings;
 }

@@ -173,13 +173,13 @@ static void turn_further(const double by[3], double q[FOUR]) {
 }
 
 static void impose(const Compare *c, Imposed *body, const CpsStage *stage,
-                   const CpsBodyChange *change, int part, const BodyState *before) {
-    const double share = (double)part / stage->step_count;
+                   const CpsBodyChange *change, const Part *part, const BodyState *before) {
+    const double share = part->to;
     double added[SIX], noise[SIX];
-    oscillation(stage, CPS_SWAY_OF_BODY, change->body, 0, part, added, noise);
+    oscillation(stage, CPS_SWAY_OF_BODY, change->body, 0, part->end, added, noise);
     for (int i = 0; i < SIX; i++) body->noise[i] += noise[i];
     const int kind = change->kind == CPS_BODY_KIND_HELD ? BODY_HELD : BODY_FREE;
-    if (part == 1) {
+    if (part->number == 1) {
         if (kind == BODY_HELD && body->kind == BODY_FREE && before) {
             memcpy(body->position, before->position, sizeof body->position);
             unit(before->rotation, body->rotation);
@@ -200,6 +200,8 @@ static void impose(const Compare *c, Imposed *body, const CpsStage *stage,
             body->position[i] =
                 body->from_position[i] + share * (end - body->from_position[i]) + added[i];
         }
+        for (int i = 0; i < 3; i++)
+            body->noise[i] += part->noise * fabs(body->position[i] - body->from_position[i]);
         turn_further(&added[3], body->rotation);
         memset(body->load, 0, sizeof body->load);
         return;
@@ -207,6 +209,7 @@ static void impose(const Compare *c, Imposed *body, const CpsStage *stage,
     for (int i = 0; i < SIX; i++) {
         const double end = i < 3 ? change->force[i] : change->moment[i - 3];
         body->load[i] = body->from_load[i] + share * (end - body->from_load[i]) + added[i];
+        body->noise[i] += part->noise * fabs(end - body->from_load[i]);
     }
 }
 
@@ -317,7 +320,7 @@ static void compare_step(Compare *c, const GivenStep *given, size_t step, Impose
     const int changes = given->stage ? given->stage->body_change_count : 0;
     for (int i = 0; i < changes; i++) {
         const CpsBodyChange *change = &given->stage->body_change[i];
-        impose(c, &imposed[change->body], given->stage, change, given->part,
+        impose(c, &imposed[change->body], given->stage, change, &given->part,
                step > 0 ? &before[change->body] : NULL);
     }
     for (size_t k = 0; k < c->bodies.count; k++) {

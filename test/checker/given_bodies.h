@@ -4,13 +4,14 @@
 #define CAPSTAN_CHECKER_GIVEN_BODIES_H
 
 #include "capstan/scene.h"
+#include "part.h"
 #include "record.h"
 
 /* What the scene does in a step of the file. */
 typedef struct GivenStep {
     const CpsStage *stage; /* NULL: the statics of lines laid, or a scene without stages */
-    int part;              /* of its steps, from 1 */
-    double gravity[3];     /* [m/s2] after it */
+    Part part;
+    double gravity[3]; /* [m/s2] after it */
 } GivenStep;
 
 /* Called with one sentence for each finding. */

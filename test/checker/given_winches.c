@@ -8,14 +8,14 @@
 static double stored_after(const Compare *compare, const CpsLine *line, int index, int end,
                            size_t step) {
     double stored = line->winch[end].stored;
-    int stage, part;
+    Part part;
     if (!line->winch[end].is_there) return NAN;
-    if (!stage_of(compare, step, &stage, &part)) return stored;
-    for (int s = 0; s <= stage; s++) {
+    if (!stage_of(compare, step, &part)) return stored;
+    for (int s = 0; s <= part.stage; s++) {
         const CpsStage *at = &compare->scene->stage[s];
         for (int k = 0; k < at->pay_out_count; k++)
             if (at->pay_out[k].line == index && at->pay_out[k].end == end)
-                stored -= at->pay_out[k].length * (s < stage ? 1 : (double)part / at->step_count);
+                stored -= at->pay_out[k].length * (s < part.stage ? 1 : part.to);
     }
     return stored;
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Steps in time (inertia.h).
  *
- * The scheme of a node follows from three places: by the backward difference formula of second
- * order x* = (4 x_n - x_{n-1})/3 and k = 2 h/3, by the implicit Euler method x* = x_n and k = h. A
- * node that bore in the step before may have forgotten its motion along the normal: there only the
+ * The scheme of a node follows from three places and the lengths of two steps (formula.h). A node
+ * that bore in the step before may have forgotten its motion along the normal: there only the
  * tangential part is compared. */
 #include "inertia.h"
 
@@ -13,6 +12,7 @@
 
 #include "damping.h"
 #include "elongation.h"
+#include "formula.h"
 #include "grasps.h"
 #include "loads.h"
 #include "soft.h"
@@ -56,9 +56,11 @@ int inertia_read(const Source *source, const char *line, size_t step, Record *re
                                                      "ledger_added",   "ledger_waves"};
     if (!record->mass) return 0;
     const size_t start[] = {step, 0, 0}, count[] = {1, record->nodes, 3};
-    int time;
+    int time, length;
     if (nc_inq_varid(source->nc, "time", &time) ||
         nc_get_var1_double(source->nc, time, start, &record->time) ||
+        nc_inq_varid(source->nc, "time_step", &length) ||
+        nc_get_var1_double(source->nc, length, start, &record->step_length) ||
         nc_get_vara_double(source->nc, variable(source, line, "span"), start, count,
                            record->span) ||
         nc_get_vara_double(source->nc, variable(source, line, "velocity"), start, count,
@@ -78,6 +80,20 @@ void inertia_free(Record *record) {
     free(record->span);
     free(record->velocity);
     free(record->rest_velocity);
+}
+
+void inertia_times(const Source *source, InertiaFind *find, void *user) {
+    int time, length;
+    double now = 0, before = 0, step = 0;
+    if (nc_inq_varid(source->nc, "time", &time) || nc_inq_varid(source->nc, "time_step", &length))
+        return;
+    for (size_t s = 0; s < source->steps; s++) {
+        if (nc_get_var1_double(source->nc, time, &s, &now) ||
+            nc_get_var1_double(source->nc, length, &s, &step) ||
+            !(fabs(step - (now - before)) <= 1e-14 * now)) /* a sum of steps */
+            find(user, "time_step is not by how much time has passed", step, now - before);
+        before = now;
+    }
 }
 
 bool in_time(const Record *r) { return r->mass && r->span[0] > 0; }
@@ -143,15 +159,15 @@ static double size_of(const Real *v) {
     return (double)sqrtl(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* How far the reference of node j is from that of its scheme; `euler`: k is the whole step. */
+/* How far the reference of node j is from that of its scheme. */
 static double off_scheme(const Source *source, const Record *r, const Record *before,
-                         const Record *older, size_t j, bool euler) {
+                         const Record *older, size_t j, Real back) {
     Real off[3];
     for (int a = 0; a < 3; a++) {
         const Real x = before->position[j][a], past = older ? older->position[j][a] : x;
-        off[a] = r->reference[j][a] - x - (euler ? 0 : (x - past) / 3);
+        off[a] = r->reference[j][a] - x - back * (x - past);
     }
-    if (!euler) across(source, before, j, off);
+    if (back > 0) across(source, before, j, off);
     return size_of(off);
 }
 
@@ -162,18 +178,18 @@ static bool is_at_point(const Record *r, size_t j) {
 
 static void check_scheme(const Source *source, const Record *r, const Record *before,
                          const Record *older, double reach, InertiaFind *find, void *user) {
-    const double h = r->time - before->time;
+    const double h = r->step_length;
     double off = 0, span = 0;
     for (size_t j = 0; j < r->nodes; j++) {
-        const bool euler = fabs(r->span[j] - h) <= 1e-9 * h;
-        if (!euler) span = fmax(span, fabs(r->span[j] - 2 * h / 3) / h);
+        const bool euler = formula_is_euler(r->span[j], h);
+        const Formula formula = formula_of(r->span[j], h, before->step_length);
+        span = fmax(span, fabs(r->span[j] - (double)formula.span) / h);
         /* where the first step of the file began is not in it */
         const bool unknown = !euler && !older && in_time(before);
         if (!is_at_point(r, j) && !unknown)
-            off = fmax(off, off_scheme(source, r, before, older, j, euler));
+            off = fmax(off, off_scheme(source, r, before, older, j, formula.back));
     }
-    /* times are sums of steps */
-    if (!(span <= 1e-9 + 1e-15 * r->time / h)) find(user, "span of the scheme, off", span, 0);
+    if (!(span <= FORMULA_TIMES)) find(user, "span of the scheme, off", span, 0);
     if (!(off <= PLACES * reach)) find(user, "reference off that of the scheme", off, 0);
 }
 
@@ -262,7 +278,7 @@ static void compare(const char *what, double said, double expected, double noise
 void inertia_check(const Source *source, const Record *r, const Record *before, const Record *older,
                    InertiaFind *find, void *user) {
     const double given = r->loads ? r->loads->ledger : 0;
-    double reach = 0, sizes = r->dissipated + fabs(given);
+    double reach = 0, sizes = fabs(r->dissipated) + fabs(given);
     if (!in_time(r) || !before || r->outcome > OUTCOME_TAUT) return;
     for (size_t j = 0; j < r->nodes; j++)
         for (int a = 0; a < 3; a++) reach = fmax(reach, fabs(r->position[j][a]));

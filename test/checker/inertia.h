@@ -29,6 +29,8 @@ bool inertia_terms(const Record *r, size_t j, bool held, Real *pull, Inertia *ou
 /* What a step in time contradicts, one sentence each; `before` and `older` are the two steps before
  * it, NULL where there are none. */
 typedef void InertiaFind(void *user, const char *what, double said, double expected);
+/* Whether the times of all steps are sums of their lengths. */
+void inertia_times(const Source *source, InertiaFind *find, void *user);
 void inertia_check(const Source *source, const Record *r, const Record *before, const Record *older,
                    InertiaFind *find, void *user);
 

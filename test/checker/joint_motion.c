@@ -17,10 +17,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formula.h"
+
 /* Rounding of places, per largest coordinate; of rotations; of forces and energies, per sizes. */
 static const double PLACES = 1e-13, TURNS = 1e-13, FORCES = 1e-10, ENERGIES = 1e-9;
-/* Two lengths of time are the same. */
-static const double TIMES = 1e-9;
 enum { SIMPSON = 64 };
 
 /* ---- reading ---- */
@@ -30,12 +30,13 @@ static int complain(FILE *log, const char *what) {
     return -1;
 }
 
-double time_of(const Source *source, size_t step) {
+double step_length_of(const Source *source, size_t step) {
     int id;
-    double time = 0;
-    if (nc_inq_varid(source->nc, "time", &id) || nc_get_var1_double(source->nc, id, &step, &time))
+    double length = 0;
+    if (nc_inq_varid(source->nc, "time_step", &id) ||
+        nc_get_var1_double(source->nc, id, &step, &length))
         return 0;
-    return time;
+    return length;
 }
 
 static bool has_time(const Source *source) {
@@ -146,27 +147,26 @@ static void across(Real *v, const double *n) {
     for (int a = 0; a < 3; a++) v[a] -= along * n[a];
 }
 
-static bool is_euler(double span, double h) { return fabs(span - h) <= TIMES * h; }
-
 /* y* by the scheme. */
-static Real star(bool euler, Real y, Real older) { return euler ? y : y + (y - older) / 3; }
+static Real star(Real back, Real y, Real older) { return back > 0 ? y + back * (y - older) : y; }
 
-static void check_span(double span, double h, MotionFind *find, void *user) {
-    if (!is_euler(span, h) && !is_euler(1.5 * span, h))
-        find(user, "span of the scheme", span, 2 * h / 3);
+static void check_span(double span, const Formula *formula, MotionFind *find, void *user) {
+    if (!(fabs(span - (double)formula->span) <= FORMULA_TIMES * span))
+        find(user, "span of the scheme", span, (double)formula->span);
 }
 
 /* The reference and v* against the two steps before; what bore then has forgotten its motion along
  * the normal. */
 static void check_point_scheme(const PointSteps *s, MotionFind *find, void *user) {
     const PointMotion *m = s->motion;
-    const bool euler = is_euler(m->span, s->h), bore = s->before->reaction > 0;
+    const Real back = formula_of(m->span, s->h, s->h_before).back;
+    const bool euler = !(back > 0), bore = s->before->reaction > 0;
     if (!euler && !s->older) return;
     Real place[3], velocity[3];
     for (int a = 0; a < 3; a++) {
         place[a] = m->reference[a] -
-                   star(euler, s->before->position[a], s->older ? s->older->position[a] : 0);
-        velocity[a] = m->rest_velocity[a] - star(euler, s->motion_before->velocity[a],
+                   star(back, s->before->position[a], s->older ? s->older->position[a] : 0);
+        velocity[a] = m->rest_velocity[a] - star(back, s->motion_before->velocity[a],
                                                  s->older ? s->motion_older->velocity[a] : 0);
     }
     if (bore && !euler) across(place, s->before->normal);
@@ -184,7 +184,8 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
             find(user, "motion in a quasi-static step", size(m->velocity), 0);
         return;
     }
-    check_span(m->span, s->h, find, user);
+    const Formula formula = formula_of(m->span, s->h, s->h_before);
+    check_span(m->span, &formula, find, user);
     const double noise = 4 * PLACES * s->reach * m->mass / (m->span * m->span) + 1e-300;
     const bool bears = s->is_free && s->now->reaction > 0;
     Real v[3], off[3], work = 0, sizes = 0;
@@ -316,7 +317,8 @@ static void centre_of(const BodyData *data, const BodyState *at, Real out[3]) {
 }
 
 /* Velocities against places and rotations. */
-static void check_velocities(const BodySteps *s, bool euler, MotionFind *find, void *user) {
+static void check_velocities(const BodySteps *s, Real back, MotionFind *find, void *user) {
+    const bool euler = !(back > 0);
     const BodyMotion *m = s->motion;
     Real centre[3], before[3], older[3] = {0}, t[3], past[3] = {0}, rate[3], wanted[3], off[3][3];
     centre_of(s->data, s->now, centre);
@@ -324,15 +326,14 @@ static void check_velocities(const BodySteps *s, bool euler, MotionFind *find, v
     if (!euler) centre_of(s->data, s->older, older);
     vector_between(s->before->rotation, s->now->rotation, t);
     if (!euler) vector_between(s->before->rotation, s->older->rotation, past);
-    for (int i = 0; i < 3; i++) rate[i] = (t[i] - star(euler, 0, past[i])) / m->span;
+    for (int i = 0; i < 3; i++) rate[i] = (t[i] - star(back, 0, past[i])) / m->span;
     mean_rotation(t, rate, wanted);
     for (int i = 0; i < 3; i++) {
         off[0][i] =
-            m->velocity[i] - (s->now->position[i] - star(euler, s->before->position[i],
+            m->velocity[i] - (s->now->position[i] - star(back, s->before->position[i],
                                                          euler ? 0 : s->older->position[i])) /
                                  m->span;
-        off[1][i] =
-            m->centre_velocity[i] - (centre[i] - star(euler, before[i], older[i])) / m->span;
+        off[1][i] = m->centre_velocity[i] - (centre[i] - star(back, before[i], older[i])) / m->span;
         off[2][i] = m->rate[i] - wanted[i];
     }
     const double places = 4 * PLACES * (s->reach + size(s->data->centre_of_gravity));
@@ -344,7 +345,8 @@ static void check_velocities(const BodySteps *s, bool euler, MotionFind *find, v
             TURNS * 10, find, user);
 }
 
-static void check_inertia(const BodySteps *s, bool euler, MotionFind *find, void *user) {
+static void check_inertia(const BodySteps *s, Real back, MotionFind *find, void *user) {
+    const bool euler = !(back > 0);
     const BodyMotion *m = s->motion;
     const Momenta now = momenta_of(m, s->now->rotation),
                   before = momenta_of(s->motion_before, s->before->rotation),
@@ -355,10 +357,10 @@ static void check_inertia(const BodySteps *s, bool euler, MotionFind *find, void
     widen(m->velocity, u);
     for (int i = 0; i < 3; i++) {
         arm[i] = centre[i] - s->now->position[i];
-        force[i] = -(now.mass[i] - star(euler, before.mass[i], older.mass[i])) / m->span;
-        water[i] = -(now.water[i] - star(euler, before.water[i], older.water[i])) / m->span;
-        moment[i] = -(now.spin[i] - star(euler, before.spin[i], older.spin[i]) + now.water_spin[i] -
-                      star(euler, before.water_spin[i], older.water_spin[i])) /
+        force[i] = -(now.mass[i] - star(back, before.mass[i], older.mass[i])) / m->span;
+        water[i] = -(now.water[i] - star(back, before.water[i], older.water[i])) / m->span;
+        moment[i] = -(now.spin[i] - star(back, before.spin[i], older.spin[i]) + now.water_spin[i] -
+                      star(back, before.water_spin[i], older.water_spin[i])) /
                     m->span;
         sizes[0] = fmax(sizes[0], (double)(fabsl(now.mass[i]) + fabsl(now.water[i]) +
                                            fabsl(before.mass[i]) + fabsl(before.water[i])));
@@ -420,15 +422,15 @@ void body_motion_check(const BodySteps *s, MotionFind *find, void *user) {
             find(user, "motion in a quasi-static step", size(m->velocity), 0);
         return;
     }
-    check_span(m->span, s->h, find, user);
+    const Formula formula = formula_of(m->span, s->h, s->h_before);
+    check_span(m->span, &formula, find, user);
     check_damping(s, find, user);
     const Momenta now = momenta_of(m, s->now->rotation);
     const double kinetic = kinetic_of(m, &now);
     compare("kinetic energy", m->kinetic, kinetic, ENERGIES * kinetic + 1e-300, find, user);
-    const bool euler = is_euler(m->span, s->h);
-    if (!s->before || (!euler && !s->older)) return;
-    check_velocities(s, euler, find, user);
-    check_inertia(s, euler, find, user);
+    if (!s->before || (formula.back > 0 && !s->older)) return;
+    check_velocities(s, formula.back, find, user);
+    check_inertia(s, formula.back, find, user);
     compare("growth of the kinetic energy", m->growth, kinetic - s->motion_before->kinetic,
             ENERGIES * (kinetic + s->motion_before->kinetic) + 1e-300, find, user);
     Real t[3], lost = 0, sizes = 0;

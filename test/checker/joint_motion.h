@@ -24,8 +24,8 @@ typedef struct BodyMotion {
 int point_motions_read(const Source *source, size_t step, PointMotion *all, FILE *log);
 int body_motions_read(const Source *source, size_t count, size_t step, BodyMotion *all, FILE *log);
 
-/* [s] The time after a step; 0 in a file without. */
-double time_of(const Source *source, size_t step);
+/* [s] The length of a step in time; 0 of others. */
+double step_length_of(const Source *source, size_t step);
 
 typedef void MotionFind(void *user, const char *what, double said, double expected);
 
@@ -33,7 +33,7 @@ typedef void MotionFind(void *user, const char *what, double said, double expect
 typedef struct PointSteps {
     const Junction *now, *before, *older;
     const PointMotion *motion, *motion_before, *motion_older;
-    double h, reach; /* [s] length of the step; [m] of the largest coordinate */
+    double h, h_before, reach; /* [s] lengths of steps; [m] of the largest coordinate */
     bool is_free;
 } PointSteps;
 void point_motion_check(const PointSteps *steps, MotionFind *find, void *user);
@@ -43,7 +43,7 @@ typedef struct BodySteps {
     const BodyData *data;
     const BodyState *now, *before, *older;
     const BodyMotion *motion, *motion_before, *motion_older;
-    double h, reach;
+    double h, h_before, reach;
 } BodySteps;
 void body_motion_check(const BodySteps *steps, MotionFind *find, void *user);
 

@@ -42,6 +42,11 @@ static int check(const char *file, const char *scene, bool verbose, FILE *log) {
         printf("worst gap / scale %.3g, imbalance / largest force %.3g, stretch %.3g, depth / "
                "length %.3g\n",
                report.gap, report.force, report.stretch, report.penetration);
+        if (report.events.steps > 0)
+            printf(
+                "in time: %d steps, landed %d, changed %d, snatched %d, imbalance %.3g of %.3g J\n",
+                report.events.steps, report.events.landed, report.events.changed,
+                report.events.snatched, report.events.imbalance, report.events.turnover);
         if (scene) printf("against the scene: %d findings\n", findings);
     }
     return result == 0 && findings == 0 && foreign == 0 ? 0 : 1;

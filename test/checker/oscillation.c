@@ -45,19 +45,18 @@ static void series(const CpsSway *sway, double time, double out[6], double noise
     }
 }
 
-void oscillation(const CpsStage *stage, CpsSwayOf of, int owner, int end, int part, double out[6],
-                 double noise[6]) {
+void oscillation(const CpsStage *stage, CpsSwayOf of, int owner, int end, double time,
+                 double out[6], double noise[6]) {
     for (int k = 0; k < 6; k++) out[k] = noise[k] = 0;
     for (int i = 0; i < stage->sway_count; i++) {
         const CpsSway *sway = &stage->sway[i];
         const bool same = sway->of == of && sway->owner == owner;
         if (!same || (of == CPS_SWAY_OF_END && sway->end != end)) continue;
         if (sway->row_count > 0) {
-            series(sway, stage->duration * part / stage->step_count, out, noise);
+            series(sway, time, out, noise);
             continue;
         }
-        const double turns = stage->duration * part / stage->step_count / sway->period,
-                     angle = 2 * acos(-1) * turns;
+        const double turns = time / sway->period, angle = 2 * acos(-1) * turns;
         for (int k = 0; k < 6; k++) {
             const double sine = sway->sine[k], cosine = sway->cosine[k];
             out[k] += sine * sin(angle) + cosine * (1 - cos(angle));

@@ -5,9 +5,9 @@
 
 #include "capstan/scene.h"
 
-/* The sum over the oscillations of an end, point or body after `part` of the stage's steps, and to
+/* The sum over the oscillations of an end, point or body `time` [s] after the stage began, and to
  * how much each component is known, as angles are known to their rounding. */
-void oscillation(const CpsStage *stage, CpsSwayOf of, int owner, int end, int part, double out[6],
-                 double noise[6]);
+void oscillation(const CpsStage *stage, CpsSwayOf of, int owner, int end, double time,
+                 double out[6], double noise[6]);
 
 #endif

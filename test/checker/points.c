@@ -332,8 +332,7 @@ static void check_motion(Points *p) {
     const PointMotion *motion = &p->motion[p->point];
     const Junction *at = &p->now[p->point];
     const double reach = size(at->position) + p->length[p->point];
-    const double h = p->step > 0 ? time_of(p->source, p->step) - time_of(p->source, p->step - 1)
-                                 : time_of(p->source, 0);
+    const double h = step_length_of(p->source, p->step);
     const PointSteps steps = {.now = at,
                               .before = p->step > 0 ? &p->before[p->point] : NULL,
                               .older = p->step > 1 ? &p->older[p->point] : NULL,
@@ -341,6 +340,7 @@ static void check_motion(Points *p) {
                               .motion_before = &p->motion_before[p->point],
                               .motion_older = &p->motion_older[p->point],
                               .h = h,
+                              .h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0,
                               .reach = reach,
                               .is_free = !is_held(at)};
     point_motion_check(&steps, find_in_time, p);

@@ -112,7 +112,7 @@ typedef struct Record {
                                the loads */
     Vector weight_before;
     /* of a file with steps in time, else NULL; [kg], [s] k, [m/s]: inertia.h */
-    double *mass, *span, time, time_entry[TIME_ENTRIES];
+    double *mass, *span, time, step_length, time_entry[TIME_ENTRIES];
     Vector *velocity, *rest_velocity;
     Vector *motion;                          /* of a line that slides without end, else 0 */
     Vector *normal, *friction, *slip;        /* (contacts, nodes) */

@@ -85,7 +85,8 @@ static const FalseNumber FALSE[] = {
     {"ledger_impact_of_point", POINT(4, CLUMP), -1, "clump: energy lost by impact"},
     {"ledger_scheme_of_point", POINT(4, KNOT), 1, "knot: ledger, work of lines and load"},
     {"b_velocity", 3 * (4 * 7), 3, "right: velocity of the end of a line"},
-    {"time", 4, 0.13, "float: span of the scheme"},
+    {"time", 4, 0.13, "time_step is not by how much time has passed"},
+    {"time_step", 4, 0.03, "float: span of the scheme"},
 };
 
 int main(void) {

@@ -124,7 +124,7 @@ CHANGES = [
     ("an unknown body in the history, nothing near", "barge.body:", "platform.body:", "26:17: 'platform.body': there is no such body under 'bodies'"),
     ("a point as a body", "barge.body:", "eye.body:", "26:17: 'eye.body': there is no such body under 'bodies'"),
     ("a body as a point", "barge.body:", "barge.point:", "26:17: 'barge.point': there is no such point"),
-    ("a body alone", "barge.body:", "barge:", "26:17: entry: unknown key 'barge', expected a mapping with name, steps, duration, time_step, gravity, LINE.END, LINE.node, LINE.pay_out, OBSTACLE.turn, POINT.point, BODY.body"),
+    ("a body alone", "barge.body:", "barge:", "26:17: entry: unknown key 'barge', expected a mapping with name, steps, duration, time_step, error, gravity, LINE.END, LINE.node, LINE.pay_out, OBSTACLE.turn, POINT.point, BODY.body"),
     ("a body twice in an entry", TOW, TOW + ", barge.body: {move: [2, 0, 0]}", "26:48: key 'barge.body' is given twice, first in line 26: keep one"),
     ("a change of nothing", TOW, "{}", f"26:17: 'barge.body': nothing given, {POSE_OR_LOAD}"),
     ("a pose and a load", TOW, "{move: [1, 0, 0], force: [1, 0, 0]}", f"26:17: 'barge.body': both given, {POSE_OR_LOAD}"),

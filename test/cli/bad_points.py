@@ -123,7 +123,7 @@ CHANGES = [
     ("an unknown point in the history, nothing near", "knot.point:", "platform.point:", "20:18: 'platform.point': there is no such point under 'points'"),
     ("a line as a point", "knot.point:", "leg.point:", "20:18: 'leg.point': there is no such point"),
     ("a point as a line", "knot.point:", "knot.A:", "20:18: 'knot.A': there is no such line"),
-    ("a point alone", "knot.point:", "knot:", "20:18: entry: unknown key 'knot', expected a mapping with name, steps, duration, time_step, gravity, LINE.END, LINE.node, LINE.pay_out, OBSTACLE.turn, POINT.point, BODY.body"),
+    ("a point alone", "knot.point:", "knot:", "20:18: entry: unknown key 'knot', expected a mapping with name, steps, duration, time_step, error, gravity, LINE.END, LINE.node, LINE.pay_out, OBSTACLE.turn, POINT.point, BODY.body"),
     ("a point that turns", "knot.point: {force: [1, 0, 0]}", "knot.turn: 5", "20:18: 'knot.turn': there is no such obstacle"),
     ("a point twice in an entry", PULL, PULL.replace("}}", "}, knot.point: {force: [2, 0, 0]}}"), "20:50: key 'knot.point' is given twice, first in line 20: keep one"),
     ("a change of nothing", "{force: [1, 0, 0]}", "{}", "20:18: 'knot.point': nothing given, expected exactly one of 'position', 'move', 'force'"),

@@ -73,7 +73,7 @@ lines:
   c: {length: 12.4, elements: 6, mass: 3, stiffness: 1e5, start: {straight: {from: [9, 0, -9], to: [14, 3, -19.99]}}, ends: {A: {point: knot}, B: {point: clump}}}
 history:
   - {name: swing, duration: 1, steps: 40, float.body: {force: [90, 10, 0], arm: [0, 0, 1]}, knot.point: {force: [0, 40, 0]}}
-  - {name: go on, duration: 1, steps: 40, float.body: {force: [0, 0, 0], oscillations: [{sine: [0, 30, 0], moment_cosine: [8, 0, 0], period: 1.3}]}, knot.point: {force: [0, 40, 0], sine: [5, 0, 0], period: 0.7}}
+  - {name: go on, duration: 1, time_step: 0.04, error: 1e-4, float.body: {force: [0, 0, 0], oscillations: [{sine: [0, 30, 0], moment_cosine: [8, 0, 0], period: 1.3}]}, knot.point: {force: [0, 40, 0], sine: [5, 0, 0], period: 0.7}}
 """
 WHOLE = {}  # scene: (directory of the run without a kill, seconds it took, largest size of its journal)
 

@@ -22,6 +22,13 @@ def check(checker, out, scene):
     return found, f"{told.stdout.strip().splitlines()[0] if told.stdout else ''} {told.stderr.strip()[:400]}"
 
 
+def events(checker, out):
+    """What the checker counts in steps in time."""
+    told = run(checker, os.path.join(out, "result.nc"), "-v")
+    counts = re.search(r"in time: \d+ steps, landed (\d+), changed (\d+), snatched (\d+)", told.stdout)
+    return dict(zip(("landed", "changed", "snatched"), map(int, counts.groups()))) if counts else {}
+
+
 def main(classes, one_class, count):
     """The arguments that all suites have: each class must be good."""
     options = argparse.ArgumentParser()

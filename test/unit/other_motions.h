@@ -77,6 +77,7 @@ static const struct Change MOTION_CHANGE[] = {
     {"velocity", "velocity: [0, 0, 1]", "velocity: [0, 0, 2]"},
     {"duration", "duration: 2", "duration: 1.9"},
     {"time_step", "time_step: 0.5", "time_step: 0.25"},
+    {"error", "time_step: 0.5", "time_step: 0.5, error: 1"},
     {"sine", "sine: [0, 0, 0.2]", "sine: [0, 0, 0.21]"},
     {"cosine", "cosine: [0, 0, 0.3]", "cosine: [0, 0.1, 0.3]"},
     {"period", "period: 4", "period: 5"},

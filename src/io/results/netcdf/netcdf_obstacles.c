@@ -378,22 +378,15 @@ static void write_sets(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *o) {
 }
 
 void cpsi_netcdf_append_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
-                                  size_t step, const CpsEvolution *evolution,
-                                  const double origin[XYZ]) {
+                                  size_t step, const CpsEvolution *evolution) {
     for (size_t k = 0; k < (size_t)obstacles->count; ++k) {
-        const CpsObstacleReport now = cps_evolution_obstacle_report(evolution, (int)k);
+        const CpsObstacleReport now = cps_evolution_obstacle_view(evolution, (int)k);
         const size_t start[] = {step, k, 0}, count[] = {1, 1, XYZ};
-        const bool turns = now.turn[0] != 0 || now.turn[1] != 0 || now.turn[2] != 0;
-        double place[XYZ], about[XYZ];
-        for (int a = 0; a < XYZ; ++a) {
-            place[a] = now.point[a] - origin[a];
-            about[a] = turns ? now.about[a] - origin[a] : 0;
-        }
-        const double *value[CPSI_OBSTACLE_MOVES] = {[OBSTACLE_PLACE] = place,
+        const double *value[CPSI_OBSTACLE_MOVES] = {[OBSTACLE_PLACE] = now.point,
                                                     [OBSTACLE_DIRECTION] = now.axis,
                                                     [OBSTACLE_SHIFT] = now.by,
                                                     [OBSTACLE_SHIFT_TURN] = now.turn,
-                                                    [OBSTACLE_SHIFT_ABOUT] = about};
+                                                    [OBSTACLE_SHIFT_ABOUT] = now.about};
         cpsi_netcdf_doubles(file, obstacles->turn, start, count, &now.turned);
         if (!obstacles->moves) continue;
         for (int f = 0; f < CPSI_OBSTACLE_MOVES; ++f)
@@ -483,6 +476,14 @@ void cpsi_netcdf_define_time(CpsiNetcdfFile *file, CpsiNetcdfTime *ids, const Cp
     if (!ids->is_there) return;
     ids->time = cpsi_netcdf_variable(file, "", "time", NC_DOUBLE, 1, &step,
                                      "time since the history began", "s");
+    ids->length = cpsi_netcdf_variable(file, "", "time_step", NC_DOUBLE, 1, &step,
+                                       "length of the step; 0: it is quasi-static", "s");
+    ids->error = cpsi_netcdf_variable(file, "", "step_error", NC_DOUBLE, 1, &step,
+                                      "largest error of places that the step makes, by its own "
+                                      "estimate, where an error is asked for",
+                                      "m");
+    ids->rejected = cpsi_netcdf_variable(file, "", "steps_rejected", NC_INT, 1, &step,
+                                         "tries of the step that were taken back", "1");
     cpsi_netcdf_text(file, NC_GLOBAL, "time_scheme",
                      scene->time_scheme == CPS_TIME_SCHEME_EULER ? "euler" : "bdf2");
 }
@@ -491,7 +492,12 @@ void cpsi_netcdf_append_time(CpsiNetcdfFile *file, const CpsiNetcdfTime *ids, si
                              const CpsEvolution *evolution) {
     const size_t one = 1;
     const double time = cps_evolution_time(evolution);
-    if (ids->is_there) cpsi_netcdf_doubles(file, ids->time, &step, &one, &time);
+    const CpsPace pace = cps_evolution_pace(evolution);
+    if (!ids->is_there) return;
+    cpsi_netcdf_doubles(file, ids->time, &step, &one, &time);
+    cpsi_netcdf_doubles(file, ids->length, &step, &one, &pace.length);
+    cpsi_netcdf_doubles(file, ids->error, &step, &one, &pace.error);
+    cpsi_netcdf_int(file, ids->rejected, &step, pace.rejected);
 }
 
 void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,

@@ -45,8 +45,7 @@ void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles
                                  const CpsScene *scene, const double origin[3]);
 /* Write how they moved in the last step, as step number `step`, and where they are. */
 void cpsi_netcdf_append_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles *obstacles,
-                                  size_t step, const CpsEvolution *evolution,
-                                  const double origin[3]);
+                                  size_t step, const CpsEvolution *evolution);
 /* Free the conic forms of the sets, and what is kept of ground. */
 void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
 
@@ -70,7 +69,7 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *out, cons
 void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points,
                               const CpsScene *scene);
 void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
-                               const CpsEvolution *evolution, const double origin[3]);
+                               const CpsEvolution *evolution);
 
 enum { CPSI_BODY_CONSTANTS = 10, CPSI_BODY_FIELDS = 14, CPSI_BODY_INTS = 4 };
 /* in time: constants, fields of the report, fields of the motion */
@@ -92,7 +91,7 @@ void cpsi_netcdf_define_bodies(CpsiNetcdfFile *file, CpsiNetcdfBodies *out,
 void cpsi_netcdf_write_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies,
                               const CpsScene *scene, const double origin[3]);
 void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies, size_t step,
-                               const CpsEvolution *evolution, const double origin[3]);
+                               const CpsEvolution *evolution);
 /* Ends that are let go and lines that part. */
 typedef struct CpsiNetcdfBreaks {
     bool is_there; /* cpsi_lets_go */
@@ -136,7 +135,7 @@ enum { CPSI_MOTION_NUMBERS = 13 };
 
 typedef struct CpsiNetcdfTime {
     bool is_there; /* otherwise all other variables are unused */
-    int time;
+    int time, length, error, rejected;
 } CpsiNetcdfTime;
 
 typedef struct CpsiNetcdfMotion {

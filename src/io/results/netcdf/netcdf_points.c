@@ -194,13 +194,11 @@ void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poin
 }
 
 static void append_point(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
-                         size_t k, const CpsPointReport *report, const double origin[XYZ]) {
+                         size_t k, const CpsPointReport *report) {
     const size_t start[] = {step, k, 0}, count[] = {1, 1, XYZ};
     for (int i = 0; i < CPSI_POINT_VECTORS; ++i) {
         double value[XYZ];
         memcpy(value, (const char *)report + VECTOR[i].offset, sizeof value);
-        if (VECTOR[i].offset == offsetof(CpsPointReport, position))
-            for (int a = 0; a < XYZ; ++a) value[a] -= origin[a];
         cpsi_netcdf_doubles(file, points->vector[i], start, count, value);
     }
     for (int i = 0; i < CPSI_POINT_NUMBERS; ++i) {
@@ -217,15 +215,12 @@ static void append_point(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, s
 }
 
 static void append_motion(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
-                          size_t k, const CpsPointMotion *motion, const double inertia[XYZ],
-                          const double origin[XYZ]) {
+                          size_t k, const CpsPointMotion *motion, const double inertia[XYZ]) {
     const size_t start[] = {step, k, 0}, count[] = {1, 1, XYZ};
     cpsi_netcdf_doubles(file, points->inertia, start, count, inertia);
     for (int i = 0; i < CPSI_POINT_MOTIONS; ++i) {
         double value[XYZ];
         memcpy(value, (const char *)motion + MOTION[i].offset, sizeof value);
-        if (MOTION[i].offset == offsetof(CpsPointMotion, reference) && motion->is_moving)
-            for (int a = 0; a < XYZ; ++a) value[a] -= origin[a];
         cpsi_netcdf_doubles(file, points->motion[i], start, count, value);
     }
     for (int i = 0; i < CPSI_POINT_MOTION_NUMBERS; ++i) {
@@ -235,13 +230,12 @@ static void append_motion(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, 
 }
 
 void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
-                               const CpsEvolution *evolution, const double origin[XYZ]) {
+                               const CpsEvolution *evolution) {
     for (int k = 0; k < points->count && file->status == NC_NOERR; ++k) {
-        const CpsPointReport report = cps_evolution_point_report(evolution, k);
-        append_point(file, points, step, (size_t)k, &report, origin);
-        const CpsPointMotion motion = cps_evolution_point_motion(evolution, k);
-        if (points->in_time)
-            append_motion(file, points, step, (size_t)k, &motion, report.inertia, origin);
+        const CpsPointReport report = cps_evolution_point_view(evolution, k);
+        append_point(file, points, step, (size_t)k, &report);
+        const CpsPointMotion motion = cps_evolution_point_motion_view(evolution, k);
+        if (points->in_time) append_motion(file, points, step, (size_t)k, &motion, report.inertia);
     }
 }
 
@@ -476,13 +470,12 @@ static void append_body_motion(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bod
 }
 
 void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies, size_t step,
-                               const CpsEvolution *evolution, const double origin[XYZ]) {
+                               const CpsEvolution *evolution) {
     for (int k = 0; k < bodies->count && file->status == NC_NOERR; ++k) {
-        const CpsBodyReport report = cps_evolution_body_report(evolution, k);
+        const CpsBodyReport report = cps_evolution_body_view(evolution, k);
         const size_t at[2] = {step, (size_t)k};
         for (int i = 0; i < CPSI_BODY_FIELDS; ++i)
-            write_field(file, bodies->field[i], &FIELD[i], at, 2, &report,
-                        FIELD[i].offset == offsetof(CpsBodyReport, position) ? origin : NULL);
+            write_field(file, bodies->field[i], &FIELD[i], at, 2, &report, NULL);
         if (bodies->in_time) append_body_motion(file, bodies, at, evolution, &report);
         const int whole[CPSI_BODY_INTS] = {[BODY_STATE] = (int)report.kind,
                                            [BODY_TRIALS] = report.trial_count,

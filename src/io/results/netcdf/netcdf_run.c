@@ -731,10 +731,9 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
                                                                count, name));
     cpsi_netcdf_int(&nc->file, nc->outcome, start, (int)report.outcome);
     cpsi_netcdf_doubles(&nc->file, nc->wall, start, ONE, &report.wall);
-    const CpsLineView first = cps_evolution_line_view(evolution, 0);
-    cpsi_netcdf_append_obstacles(&nc->file, &nc->obstacles, nc->steps, evolution, first.origin);
-    cpsi_netcdf_append_points(&nc->file, &nc->points, nc->steps, evolution, first.origin);
-    cpsi_netcdf_append_bodies(&nc->file, &nc->bodies, nc->steps, evolution, first.origin);
+    cpsi_netcdf_append_obstacles(&nc->file, &nc->obstacles, nc->steps, evolution);
+    cpsi_netcdf_append_points(&nc->file, &nc->points, nc->steps, evolution);
+    cpsi_netcdf_append_bodies(&nc->file, &nc->bodies, nc->steps, evolution);
     cpsi_netcdf_append_breaks(&nc->file, &nc->breaks, nc->steps, evolution);
     cpsi_netcdf_append_time(&nc->file, &nc->time, nc->steps, evolution);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {

@@ -109,6 +109,9 @@ static const CpsiColumn BODY_COLUMN[] = {
 /* Where steps have a duration. */
 static const CpsiColumn MOTION_COLUMN[] = {
     {"time", "s", MOTION(time)},
+    {"time_step", "s", MOTION(pace.length)},
+    {"step_error", "m", MOTION(pace.error)},
+    {"steps_rejected", "1", MOTION(rejected)},
     {"kinetic", "J", MOTION(kinetic)},
     {"kinetic_growth", "J", MOTION(ledger.kinetic)},
     {"impact", "J", MOTION(ledger.impact)},

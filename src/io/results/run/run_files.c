@@ -13,6 +13,9 @@
 #include "io/results/fields.h"
 #include "io/results/writers.h"
 
+/* [-] Times are sums of the lengths of steps. */
+static const double PASSED = 1e-9;
+
 static CpsStatus fail_memory(CpsError *err) {
     return cpsi_fail(err, CPS_ERR_MEMORY, "out of memory while keeping the history of the results");
 }
@@ -25,6 +28,7 @@ static bool copy_stages(CpsResults *results, const CpsScene *scene) {
     results->stage = calloc((size_t)scene->stage_count, sizeof *results->stage);
     if (!results->stage) return false;
     int64_t first = results->planned_steps;
+    double time = 0;
     for (int i = 0; i < scene->stage_count; ++i) first -= scene->stage[i].step_count;
     for (int i = 0; i < scene->stage_count; ++i) {
         CpsiStage *stage = &results->stage[results->stage_count++];
@@ -32,6 +36,9 @@ static bool copy_stages(CpsResults *results, const CpsScene *scene) {
         stage->first = (int)first;
         first += scene->stage[i].step_count;
         stage->last = (int)first - 1;
+        stage->end = time += scene->stage[i].duration;
+        stage->has_pace = scene->stage[i].error > 0;
+        results->has_pace = results->has_pace || stage->has_pace;
         if (!stage->name) return false;
         for (int k = 0; k < scene->stage[i].turn_count; ++k)
             stage->moves = stage->moves || scene->stage[i].turn[k].angle != 0;
@@ -298,6 +305,21 @@ static void insert_break(CpsResults *results) {
     }
 }
 
+/* The last row is a step of a stage with a pace that goes on: it has one more step at least. */
+static void extend_stage(CpsResults *results, const CpsEvolution *evolution) {
+    const int row = results->row_count - 1;
+    const double time = results->row[row].motion.time;
+    bool longer = false;
+    for (int i = 0; i < results->stage_count; ++i) {
+        CpsiStage *stage = &results->stage[i];
+        if (longer) stage->first++;
+        longer = longer || (stage->has_pace && stage->last == row &&
+                            time < stage->end * (1 - PASSED) && row >= stage->first);
+        if (longer) stage->last++;
+    }
+    if (results->has_pace) results->planned_steps = cps_evolution_step_count(evolution);
+}
+
 static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
     if (results->row_count == results->row_capacity) {
         const size_t capacity = results->row_capacity ? 2 * (size_t)results->row_capacity : 64;
@@ -342,6 +364,7 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
     }
     results->row[results->row_count++] = row;
     if (row.parted.is_break) insert_break(results);
+    extend_stage(results, evolution);
     return true;
 }
 

@@ -41,10 +41,11 @@ static bool is_to_move(const CpsResults *results, int step) {
 static bool writes_of_step(const CpsResults *results, const char *name) {
     char own[64];
     const unsigned long step = strtoul(name + sizeof "step-" - 1, NULL, 10);
-    /* breaks, one for each end of a line at most, shift the steps that follow */
-    const bool shifts = results->lets_go;
+    /* breaks, one for each end of a line at most, shift the steps that follow; with a pace there is
+     * any number of steps */
+    const bool shifts = results->lets_go || results->has_pace;
     const unsigned long breaks = shifts ? 2ul * (unsigned long)results->line_count : 0;
-    if (step >= (unsigned long)results->planned_steps + breaks) return false;
+    if (!results->has_pace && step >= (unsigned long)results->planned_steps + breaks) return false;
     snprintf(own, sizeof own, "step-%05lu.vtp", step);
     if (strcmp(name, own) == 0) return results->paraview;
     snprintf(own, sizeof own, "step-%05lu-points.vtp", step);

@@ -17,6 +17,9 @@ enum {
 };
 
 static bool is_kept(const CpsResults *results, int step) {
+    if (results->has_pace)
+        return cpsi_results_passes(results, step, MAX_OVERVIEW) ||
+               cpsi_results_pictured(results, step);
     const int stride = (results->planned_steps + MAX_OVERVIEW - 1) / MAX_OVERVIEW;
     return stride < 2 || step % stride == 0 || cpsi_results_pictured(results, step);
 }

@@ -175,6 +175,8 @@ static const CpsiKey STAGE_KEYS[] = {
     {"time_step", OPTIONAL, NUMBER(Stage, time_step), POSITIVE, .unit = "s", .with = "duration",
      .unless = "steps",
      .help = "length that the steps of the duration shall not exceed, instead of their number"},
+    {"error", OPTIONAL, NUMBER(Stage, stage.error), POSITIVE, .unit = "m", .with = "time_step",
+     .help = "shorten the steps such that none makes a larger error of places by its estimate"},
     {"gravity", OPTIONAL, POINT(Stage, stage.gravity, 3), ANY, .unit = "m/s2",
      .help = "what gravity becomes in this entry, evenly over its steps; the weight of all "
              "lines goes with it"},
