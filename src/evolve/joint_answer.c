@@ -263,12 +263,19 @@ static bool try_solution(CpsiBalance *balance, double longer) {
     return cpsi_solve_places(balance, longer) && try_parts(balance, longer);
 }
 
-/* Try the poses to which rounds lead, once they hardly turn the bodies any more. */
+/* Are lines pulled exactly straight by far larger forces than what acts? What is across them has no
+ * tension that balances it: the forces are those of rounding. */
+static bool is_strained(const CpsiBalance *balance) {
+    return balance->force > STRAINED * balance->acting && has_straight(balance);
+}
+
+/* Try the poses to which rounds lead, once they hardly turn the bodies any more. Where the lines
+ * are strained there is none. */
 static bool try_rounds(CpsiBalance *balance) {
     CpsiBodyRounds rounds = cpsi_body_rounds(balance);
     bool near;
     while (cpsi_body_round(balance, &rounds, &near))
-        if (near && try_parts(balance, 1)) return true;
+        if (near && try_parts(balance, 1)) return !is_strained(balance);
     return false;
 }
 
@@ -284,8 +291,7 @@ bool cpsi_take_joint_answer(CpsiBalance *balance) {
         balance->evolution->line[balance->line[0]].has_local_axes || balance->body_count > 0;
     if (!in_rounds && (outcome == CPSI_IPM_INFEASIBLE || outcome == CPSI_IPM_UNBOUNDED))
         return false;
-    if (!in_rounds && (!found || balance->force > STRAINED * balance->acting) &&
-        has_straight(balance)) {
+    if (!in_rounds && (found ? is_strained(balance) : has_straight(balance))) {
         const bool exact = found;
         found = try_solution(balance, 1 + CPSI_TAUT_SLACK);
         if (!found && exact) found = try_solution(balance, 1);
