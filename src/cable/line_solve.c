@@ -11,11 +11,14 @@
 #include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/flow.h"
+#include "cable/friction_set.h"
 #include "cable/held.h"
 #include "cable/moving_flow.h"
 #include "cable/obstacle_side.h"
 #include "cable/potential.h"
+#include "cable/soft.h"
 #include "chain/frame.h"
+#include "chain/polish.h"
 
 /* A solution with a node farther away than this many line lengths is treated as unbounded. */
 static const double MAX_DISPLACEMENT = 1e4;
@@ -32,6 +35,9 @@ static const double POSITION_TOL = CPSI_TOUCH;
 static const double ROUGH = 0.01;
 /* A reaction of an open contact below this share of the unit of force is rounding. */
 static const double LEAST_REACTION = 1e-12;
+/* On a plane Newton's method goes on from this gap; in rounds, whose first solutions are degenerate
+ * more often, from that of the loop. */
+static const double NEARLY = 1e-11;
 
 void cpsi_line_set_loads(CpsiLine *line) {
     for (int j = 0; j < line->n; j++)
@@ -365,27 +371,35 @@ static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
     return newton;
 }
 
-/* ... from the solution of the loop, which the line holds and which has not been refined. */
-static CpsiIpmReport polish(CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale,
-                            const CpsiRound *round, int max_iterations) {
-    cpsi_warm_step_note_round(line, program);
-    const CpsiIpmReport newton =
-        solve_by_newton(line, program, scale, round, CPSI_GUESS_SOLUTION, max_iterations);
-    line->newton.unpolished = newton.outcome != CPSI_IPM_SOLVED;
-    return newton;
-}
-
-/* Does Newton's method treat what acts in the solution of the loop: tension everywhere, no friction
- * in the planes of the reference, and no contacts that it leaves out? */
-static bool can_polish(CpsiLine *line, const CpsiChainProgram *program) {
+/* May the last digits of the program be left to Newton's method: with tension everywhere, no
+ * friction in the planes of the reference, and no contacts that it leaves out? The line holds the
+ * solution of the loop. */
+static bool can_polish(CpsiLine *line, const CpsiChainProgram *program, const CpsiRound *round) {
     const CpsiUnilateral *unilateral = &program->unilateral;
     if (line->keeps_reference_axes && program->disc.count + program->conic.count > 0) return false;
     for (int k = 0; k < unilateral->count; k++)
         if (unilateral->z[k] > unilateral->s[k] &&
             !cpsi_warm_step_treats(line, unilateral->contact[k]))
             return false;
-    cpsi_places_as_found(line, program);
-    return line->report.places == CPS_PLACES_UNIQUE;
+    return is_unique(line, program, round);
+}
+
+/* Go on by Newton's method from the solution of the loop. The memory is that of what is read from
+ * the program afterwards. */
+static CpsiIpmReport polish(CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale,
+                            int max_iterations) {
+    const CpsiKept kept = {.u = line->position,
+                           .points = line->friction_force,
+                           .e = line->segment_force,
+                           .tension = line->tension};
+    for (int k = 0; k < program->conic.count; k++)
+        program->disc.shape[program->disc.count + k] =
+            cpsi_friction_set_shape(line->friction_law[program->conic.contact[k]].given);
+    const CpsiIpmReport newton = cpsi_chain_polish(program, &kept, max_iterations);
+    line->report.iteration_count += newton.iterations;
+    line->newton.polished = newton.outcome == CPSI_IPM_SOLVED;
+    if (line->newton.polished) cpsi_step_program_unpack(line, program, scale);
+    return newton;
 }
 
 /* The sum of the loads of the program. */
@@ -407,11 +421,10 @@ static double given_loads(const CpsiLine *line, double loads, double unit) {
 /* Run the loop on the program, which has been written, or go on with it to refine its solution. */
 static CpsiIpmReport run_loop(CpsiLine *line, CpsiChainProgram *program,
                               const CpsiStepOptions *options, const CpsiStepScale *scale,
-                              bool refined, bool goes_on) {
+                              double target, bool refined, bool goes_on) {
     const double unit = scale->force > 0 ? scale->force : 1,
                  loads = given_loads(line, sum_of_loads(line, program), unit);
-    const CpsiIpmOptions ipm_options = {.target = line->is_rough ? ROUGH * options->solver.tolerance
-                                                                 : CPSI_TARGET,
+    const CpsiIpmOptions ipm_options = {.target = target,
                                         .scale = loads > 0 ? loads : 1,
                                         .max_iterations = most_iterations(line, options),
                                         .centering_steps = refined ? CPSI_CENTERING_STEPS : 0,
@@ -423,11 +436,19 @@ static CpsiIpmReport run_loop(CpsiLine *line, CpsiChainProgram *program,
     return ipm;
 }
 
+/* Does Newton's method take the place of the loop's refinements, where it can? */
+static bool is_polished(const CpsiLine *line, const CpsiStepOptions *options,
+                        const CpsiRound *round) {
+    return round->centering && !line->is_rough && !options->frictionless &&
+           round->bounds != CPSI_BOUNDS_TRIAL && !round->reaction_stiffness && !(round->drag > 0) &&
+           !cpsi_line_has_sets(line) && !cpsi_line_has_soft(line) && !line->newton.unpolished;
+}
+
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                               const CpsiStepOptions *options, const CpsiRound *round) {
     const bool taut = cpsi_line_is_taut(line);
     const double force = cpsi_line_unit_force(line, round->bounds);
-    line->is_rough = false;
+    line->is_rough = line->newton.polished = false;
     cpsi_line_clear_set_reactions(line);
     if (!(force > 0) && round->least && rests_unloaded(line, program, options, round))
         return (CpsiIpmReport){.outcome = CPSI_IPM_SOLVED};
@@ -446,24 +467,28 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
     }
     line->report.warm_count = 0; /* the step is not warm */
     line->is_rough = round->may_be_rough && options->solver.tolerance > CPSI_RESOLVING;
-    const bool refined = round->centering && !line->is_rough;
-    /* where rounds follow, which go on from an exact solution; on a plane nodes at their limit keep
-     * the state that the refined loop finds */
-    const bool polished = by_newton && line->has_local_axes && !line->newton.unpolished;
+    const bool refined = round->centering && !line->is_rough,
+               polished = force > 0 && !taut && is_polished(line, options, round);
+    const double target = line->is_rough                      ? ROUGH * options->solver.tolerance
+                          : polished && !line->has_local_axes ? NEARLY
+                                                              : CPSI_TARGET;
     cpsi_step_program_fill(line, program, &scale);
     scale.force = force;
-    CpsiIpmReport ipm = run_loop(line, program, options, &scale, refined && !polished, false);
+    CpsiIpmReport ipm =
+        run_loop(line, program, options, &scale, target, refined && !polished, false);
     if (polished && ipm.outcome == CPSI_IPM_SOLVED) {
-        if (!can_polish(line, program)) {
-            ipm = run_loop(line, program, options, &scale, refined, true);
-        } else {
+        if (can_polish(line, program, round)) {
             const CpsiIpmReport newton =
-                polish(line, program, &scale, round, most_iterations(line, options));
-            if (newton.outcome == CPSI_IPM_SOLVED) return newton;
+                polish(line, program, &scale, most_iterations(line, options));
+            if (line->newton.polished && is_unique(line, program, round)) return newton;
+        }
+        if (line->newton.polished) {
             CpsiRound cold = *round;
             cold.guess = CPSI_GUESS_NONE;
+            line->newton.unpolished = true;
             return cpsi_line_solve(line, program, options, &cold);
         }
+        ipm = run_loop(line, program, options, &scale, CPSI_TARGET, refined, true);
     }
     line->report.places = CPS_PLACES_UNIQUE;
     if (!(sum_of_loads(line, program) > 0) && round->least &&

@@ -172,7 +172,11 @@ static bool solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
     const bool may_be_rough = !line->has_local_axes && line->compliance > 0;
     CpsiIpmReport ipm = solve_program(line, program, options, strategy, coupled, may_be_rough);
     if (line->is_rough && cps_outcome_is_certified(line->report.outcome)) return false;
-    if (line->is_rough) ipm = solve_program(line, program, options, strategy, coupled, false);
+    const bool rough = line->is_rough;
+    const CpsCertificate *found = &line->report.certificate;
+    line->newton.unpolished |= line->newton.polished && !(found->gap <= CPSI_TARGET * found->scale);
+    if (rough || (line->newton.polished && line->newton.unpolished))
+        ipm = solve_program(line, program, options, strategy, coupled, false);
     if (coupled && !cpsi_line_is_clean(&ipm))
         (void)cpsi_tangent_plane_rounds(line, program, options, strategy, CPSI_BOUNDS_TRIAL);
     return false;
@@ -276,11 +280,16 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
         if (line->has_local_axes) cpsi_contact_reset(line);
         const bool scattered =
             solve_once(line, program, options, strategy, found & ROUNDS, urged ? FIRST_DRAG : 0);
+        const bool done = options->fails || cps_outcome_is_certified(line->report.outcome);
+        if (!done && line->newton.polished && !line->newton.unpolished) {
+            line->newton.unpolished = true; /* the same by the loop alone */
+            continue;
+        }
         urged = scattered || line->report.iteration_count * (line->n + NODES_BESIDE) > DEAR_WORK;
         tried[i] = true;
         if (!is_for_scattered(strategy)) first = i + 1;
         if (options->least && !strategy->least_motion) cpsi_places_as_found(line, program);
-        if (options->fails || cps_outcome_is_certified(line->report.outcome)) return;
+        if (done) return;
     }
 }
 

@@ -34,7 +34,8 @@ typedef struct CpsiNewtonRecord {
     int failed;        /* those not solved, in a row */
     bool guessed;      /* the answer of the step goes back to a guess of it */
     bool began;        /* the first one was solved, from the guess */
-    bool unpolished;   /* one was not solved from the solution of the loop: others are not tried */
+    bool polished;     /* the last one was, from the solution of the loop (chain/polish.h) */
+    bool unpolished;   /* such an answer was of no use: others are not tried */
     int failures;      /* steps in a row in which it was of no use, up to CPSI_NEWTON_PATIENCE */
     int pause;         /* steps that are next solved without it */
     bool useful;       /* it was of use in a step of the history */

@@ -12,6 +12,7 @@
 #include "cable/soft.h"
 #include "chain/active_set.h"
 #include "chain/frame.h"
+#include "chain/polish.h"
 
 /* The increment of the loads is c times the last one, up to this share of it. */
 static const double SAME_WAY = 0.5;
@@ -23,10 +24,6 @@ static const double LEAST_TENSION = 0.5;
 enum { USEFUL_PATIENCE = 3 };
 /* A force is at its bound up to what a loop that stopped at the tolerance leaves. */
 static const double ROUGHLY = 1e-2;
-/* The compliance of an inextensible line, per length and force of the program, where slips are told
- * from forces below their bounds. */
-static const double LEAST_COMPLIANCE = 1e-9;
-
 /* The increments of the loads in the substep. */
 static CpsiLoadChange change_of(const CpsiLine *line) {
     CpsiLoadChange out = {.known = true};
@@ -203,12 +200,6 @@ static void place(const CpsiLine *line, CpsiChainProgram *program, const double 
     }
 }
 
-/* The shift from the base of the program to where the line is. */
-static void note_shift(const CpsiLine *line, CpsiChainProgram *program) {
-    const double *base = line->has_local_axes ? line->base : line->reference;
-    for (int i = 0; i < 3 * line->n; i++) program->base.residual[i] = line->position[i] - base[i];
-}
-
 /* Is the friction of contact c at its bound, up to a share of it? */
 static bool is_at_bound(const CpsiLine *line, int c, double share) {
     double f[3], inside[3];
@@ -226,35 +217,14 @@ static bool is_at_bound(const CpsiLine *line, int c, double share) {
     return inside[0] != f[0] || inside[1] != f[1];
 }
 
-/* The stiffness of the elements beside a node of the program, against its slip, or of the element
- * of a point, in units of the program. */
-static double stiffness_beside(const CpsiChainProgram *program, int node) {
-    const CpsiSegment *segment = &program->segment;
-    const int n = program->n, first = node < n ? node : node - n,
-              last = node < n ? node + 1 : node - n;
-    double most = 0;
-    for (int i = first; i <= last; i++)
-        if (i > 0 && i < n)
-            most = fmax(most, 1 / (fmax(cpsi_segment_compliance(segment, i), LEAST_COMPLIANCE) *
-                                   segment->length[i]));
-    return most;
-}
-
 void cpsi_warm_step_note_round(CpsiLine *line, const CpsiChainProgram *program) {
     const CpsiFrictionDisc *disc = &program->disc;
     const CpsiFrictionConic *conic = &program->conic;
     memset(line->at_bound, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->at_bound);
-    for (int d = 0; d < disc->count; d++) {
-        const double *s = disc->s[d], *z = disc->z[d];
-        const double stiffness = stiffness_beside(program, disc->node[d]) / disc->weight[d];
-        if (stiffness * hypot(s[1], s[2]) > z[0] - hypot(z[1], z[2]))
-            line->at_bound[disc->contact[d]] = true;
-    }
-    for (int k = 0; k < conic->count; k++) {
-        const double stiffness = stiffness_beside(program, conic->node[k]) / conic->weight[k];
-        line->at_bound[conic->contact[k]] = stiffness * cpsi_friction_conic_slip(program, k) >
-                                            conic->bound[k] * cpsi_friction_conic_margin(conic, k);
-    }
+    for (int d = 0; d < disc->count; d++)
+        if (cpsi_chain_disc_slips(program, d)) line->at_bound[disc->contact[d]] = true;
+    for (int k = 0; k < conic->count; k++)
+        line->at_bound[conic->contact[k]] = cpsi_chain_conic_slips(program, k);
 }
 
 /* Did friction slip at contact c in the last step or round? */
@@ -296,11 +266,9 @@ CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
                                    int max_iterations) {
     const bool extrapolated = guess == CPSI_GUESS_EXTRAPOLATED;
     const bool predicted = guess == CPSI_GUESS_PREDICTED;
-    if (guess == CPSI_GUESS_SOLUTION) note_shift(line, program);
-    place(line, program,
-          extrapolated || guess == CPSI_GUESS_SOLUTION ? program->base.residual : NULL);
+    place(line, program, extrapolated ? program->base.residual : NULL);
     guess_pairs(line, program, scale, guess, extrapolated || predicted ? program->dt : NULL);
-    return cpsi_chain_active_set(program, max_iterations);
+    return cpsi_chain_active_set(program, max_iterations, false);
 }
 
 void cpsi_warm_step_note(CpsiLine *line, bool certified) {

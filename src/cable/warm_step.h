@@ -18,8 +18,7 @@ typedef enum CpsiGuess {
     CPSI_GUESS_REFERENCE,    /* at rest at the reference */
     CPSI_GUESS_EXTRAPOLATED, /* the last move, from the reference */
     CPSI_GUESS_PREDICTED,    /* the same, where the base has been moved there */
-    CPSI_GUESS_BASE,         /* the solution of the last round, where the base is */
-    CPSI_GUESS_SOLUTION      /* the loop's solution of the program itself, which the line holds */
+    CPSI_GUESS_BASE          /* the solution of the last round, where the base is */
 } CpsiGuess;
 
 /* Does the method treat contact c, which has an obstacle? Not with boxes, and sets whose boundary

@@ -267,8 +267,9 @@ static double room_of(const CornerContact *contact, const double f[2], double bo
     return fmax(0, sqrt(fmax(0, bound * bound - across * across)) - along);
 }
 
-/* What a node at rest bears: false where it is more than its contacts can. */
-static bool rest(const CpsiNewton *newton, const Corner *corner) {
+/* What a node at rest bears: false where it is more than its contacts can. Its pairs are written
+ * only if so asked. */
+static bool rest(const CpsiNewton *newton, const Corner *corner, bool writes) {
     CpsiChainProgram *program = newton->program;
     const double *g = &program->base.residual[3 * corner->node],
                  noise = newton->noise * newton->force;
@@ -303,7 +304,7 @@ static bool rest(const CpsiNewton *newton, const Corner *corner) {
         if (!(size <= bound[c] + noise)) return false;
         if (size > most)
             for (int i = 0; i < 2; i++) f[c][i] *= most / size;
-        write_pair(program, contact, r[c], f[c], false);
+        if (writes) write_pair(program, contact, r[c], f[c], false);
     }
     return true;
 }
@@ -311,8 +312,13 @@ static bool rest(const CpsiNewton *newton, const Corner *corner) {
 bool cpsi_corner_finish(const CpsiNewton *newton) {
     for (int i = 0; i < newton->corner_count; i++) {
         const Corner corner = corner_at(newton, i);
+        if ((newton->status[corner.node] & CPSI_STICKS) && !rest(newton, &corner, false))
+            return false;
+    }
+    for (int i = 0; i < newton->corner_count; i++) {
+        const Corner corner = corner_at(newton, i);
         if (newton->status[corner.node] & CPSI_STICKS) {
-            if (!rest(newton, &corner)) return false;
+            (void)rest(newton, &corner, true);
             continue;
         }
         double r[2];

@@ -28,6 +28,11 @@ enum { MOST_STEPS = 30 };
  * the least one. */
 enum { PATIENCE = 12 };
 static const double PROGRESS = 0.9;
+/* The same where a solution is polished, which from an error of the equations beyond FAR hardly
+ * succeeds. A residual of the second is solved if no more progress is made: the slip of a node that
+ * hardly moves may take its direction from one step to the next without end. */
+enum { MOST_POLISHING = 8, POLISHING_PATIENCE = 1 };
+static const double FAR = 1e-2, POLISHED = 1e-12;
 /* Rounding in units of the last place: of an elongation or a balance, by a few operations; and of a
  * force between nodes at rest, by their coordinates and those of the reference. */
 static const double ROUNDINGS = 16, COORDINATE_ROUNDINGS = 64;
@@ -210,6 +215,7 @@ static void finish(const CpsiNewton *newton) {
 
 /* At most so many steps from the guess, with the matrix prepared for them. */
 static CpsiIpmReport iterate(CpsiNewton *newton, int most) {
+    const int patience = newton->polishes ? POLISHING_PATIENCE : PATIENCE;
     CpsiChainProgram *program = newton->program;
     CpsiIpmReport report = {.outcome = CPSI_IPM_STALLED};
     double least = INFINITY;
@@ -218,17 +224,20 @@ static CpsiIpmReport iterate(CpsiNewton *newton, int most) {
         report.residual = prepare(newton, step == 0);
         newton->residual = report.residual;
         if (newton->lost || !isfinite(report.residual)) break;
-        if (step > 0 && !newton->changed && report.residual <= newton->rounding) {
+        if (newton->polishes && step == 0 && report.residual > FAR) break;
+        if (step > 0 && !newton->changed && report.residual <= fmin(newton->rounding, MOST_NOISE)) {
             report.outcome = CPSI_IPM_SOLVED;
             break;
         }
         if (report.residual < PROGRESS * least) {
             least = report.residual;
             waited = 0;
-        } else if (++waited > PATIENCE) {
+        } else if (++waited > patience) {
+            if (newton->polishes && !newton->changed && report.residual <= POLISHED)
+                report.outcome = CPSI_IPM_SOLVED;
             break;
         }
-        if (cpsi_interrupt_seen(program->base.interrupt)) break;
+        if (step == most || cpsi_interrupt_seen(program->base.interrupt)) break;
         program->matrix.share = newton->has_points ? program->node_frames.share : NULL;
         if (newton->has_points) cpsi_newton_give_points(newton);
         if (!program->ops->factor(program->linsys, &program->matrix)) break;
@@ -242,13 +251,14 @@ static CpsiIpmReport iterate(CpsiNewton *newton, int most) {
     return report;
 }
 
-CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations) {
+CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations, bool polishes) {
     const size_t n = (size_t)program->n;
     CpsiMatrix *matrix = &program->matrix;
     const CpsiMatrixSecond *second = matrix->second;
     const double *share = matrix->share;
     unsigned char *bytes = (unsigned char *)program->segment.w; /* 32 n */
     CpsiNewton newton = {.program = program,
+                         .polishes = polishes,
                          .piece = (int *)bytes,
                          .status = bytes + 4 * n,
                          .held = bytes + 6 * n,
@@ -263,8 +273,8 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
     matrix->held = newton.held;
     matrix->frame = newton.frame ? newton.frame : program->frame;
     matrix->second = NULL;
-    CpsiIpmReport report =
-        iterate(&newton, max_iterations < MOST_STEPS ? max_iterations : MOST_STEPS);
+    const int most = polishes ? MOST_POLISHING : MOST_STEPS;
+    CpsiIpmReport report = iterate(&newton, max_iterations < most ? max_iterations : most);
     matrix->held = program->held;
     matrix->second = second;
     matrix->share = share;

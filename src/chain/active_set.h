@@ -26,6 +26,6 @@
  * beside general sets or as third ones of nodes, second contacts alone or of general sets, elements
  * without tension that are free to move).
  * Allocates nothing. */
-CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations);
+CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations, bool polishes);
 
 #endif

@@ -19,12 +19,31 @@ enum { MOST_RELEASED = 30 };
 
 /* elements ------------------------------------------------------------------------------------- */
 
+/* Has node j a place without the tensions of its elements: is it held, at rest or about to be, or
+ * held by a field? */
+static bool has_place(const CpsiNewton *newton, int j) {
+    const unsigned char rests = CPSI_CLOSED | CPSI_STICKS;
+    return newton->held[j] || newton->anchored[j] || (newton->status[j] & rests) == rests;
+}
+
+/* Is element i as long as without tension, between a node at rest and one that the taut element
+ * behind it holds, as where that node has just begun to slip? */
+static bool is_at_front(const CpsiNewton *newton, int i) {
+    const CpsiSegment *st = &newton->program->segment;
+    const bool before = has_place(newton, i - 1), after = has_place(newton, i);
+    const int other = before ? i + 1 : i - 1;
+    return before != after && other > 0 && other < newton->program->n && newton->taut[other] &&
+           st->z[other][0] > 0 && fabs(1 / st->inverse_w[i] - 1) <= newton->rounding;
+}
+
 /* Element i would be slack between nodes that move: it keeps a little tension, so that they are
- * held. Where that goes on there is no equilibrium with tension in it. */
+ * held; none where it is at a front of a solution that is only to be polished. Where that goes on
+ * there is no equilibrium with tension in it. */
 static void keep_taut(CpsiNewton *newton, int i) {
     enum { MOST = 40 };
+    const bool none = newton->polishes && is_at_front(newton, i);
     newton->taut[i] = true;
-    newton->program->segment.z[i][0] = LEAST_TENSION * newton->force;
+    newton->program->segment.z[i][0] = none ? 0 : LEAST_TENSION * newton->force;
     newton->changed = true;
     if (++newton->slackened > MOST) newton->lost = true;
 }

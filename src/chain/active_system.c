@@ -39,7 +39,9 @@ static void load_elements(CpsiNewton *newton) {
             program->dt[i] = fabs(st->g[i]) <= newton->rounding && cpsi_newton_is_fixed(newton, i)
                                  ? 0
                                  : -st->g[i] * l / share;
-            newton->strain_error = cpsi_max_nan(newton->strain_error, fabs(st->g[i]));
+            /* kept without tension at a front, it may as well be slack */
+            if (!(newton->polishes && tension == 0 && st->g[i] < 0))
+                newton->strain_error = cpsi_max_nan(newton->strain_error, fabs(st->g[i]));
         } else {
             matrix->stiffness[i] = 0;
             matrix->compliance[i] = RIGID;

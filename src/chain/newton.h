@@ -51,6 +51,7 @@ typedef struct CpsiNewton {
     double noise;                     /* the same of a force between nodes at rest */
     double force;                     /* the largest force */
     double residual;                  /* errors of the equations at the iterate before */
+    bool polishes;                    /* the guess is the solution but for its last digits */
     int slackened;                    /* how often an element between nodes that move went slack */
     double strain_error, force_error; /* of the equations, at most */
     bool changed;                     /* the active set has changed */
@@ -219,7 +220,8 @@ void cpsi_corner_decide(CpsiNewton *newton);
 /* The rows of the nodes that slip in corners, and the errors of their equations. */
 void cpsi_corner_load(CpsiNewton *newton);
 
-/* The pairs of the solution. False where a node at rest does not bear its force. */
+/* The pairs of the solution. False, and none is written, where a node at rest does not bear its
+ * force. */
 bool cpsi_corner_finish(const CpsiNewton *newton);
 
 /* active_status.c */

@@ -37,7 +37,8 @@ enum { HEAD = 24 };
 static const double PLACES = 1e-7;
 /* share of the steps in time */
 static const double MOST_EVENTS = 0.005;
-/* Per largest force. What the two differ by is what the interior point leaves: a node at rest moves
+/* Per largest force. What the two differ by is what the interior point leaves where Newton's method
+ * does not end its programs: a node at rest moves
  * by some 1e-11 of the length, which a stiff element of a hundredth of it turns into 1e-9 EA. */
 static const double FORCES = 2e-5;
 /* What the interior-point loop aims at (CPSI_TARGET). */
