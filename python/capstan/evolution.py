@@ -343,6 +343,11 @@ class Evolution:
         return self._ask(lib.cps_evolution_time)
 
     @property
+    def pace(self) -> Record:
+        """How long the last step was, its error, and how many tries were taken back (CpsPace of motion.h)."""
+        return self._ask(lambda handle: Record(lib.cps_evolution_pace(handle)))
+
+    @property
     def parting(self) -> Record:
         """The break that the last step was (CpsBreak of failure.h); `is_break` says whether it was one."""
         return self._ask(lambda handle: Record(lib.cps_evolution_break(handle)))

@@ -125,7 +125,7 @@ def test_targets_take_every_key_of_an_entry(schema):
     assert taken > 40
     values = {"name": "a step", "gravity": [0, 0, -9], "stiffness": "static", "duration": 0.1}
     # a move is one step, as long as it says
-    for name in set(schema["entry"]["properties"]) - {"steps", "time_step"}:
+    for name in set(schema["entry"]["properties"]) - {"steps", "time_step", "error"}:
         evolution.target({name: values[name]})
 
 
@@ -188,6 +188,7 @@ def test_moves_in_time():
     evolution.move({"duration": 0.05, "rope.B": {"position": [1.5, 0, 0], "sine": [0, 0, 0.2], "period": 0.2}})
     motion = evolution["rope"].in_time
     assert evolution.time == 0.05 and motion.is_moving and motion.kinetic > 0 and motion.velocity.shape == (11, 3)
+    assert evolution.pace.length == 0.05 and evolution.pace.error == 0 and evolution.pace.rejected == 0
     # a quarter of the period: the end has come to the top of its way
     assert np.allclose(evolution["rope"].B.position, [1.5, 0, 0.2], atol=1e-12)
     # the kinetic energy is that of the nodes
@@ -256,6 +257,7 @@ NOT_CALLED = {
     r"cps_set_(support|contains|gauge|dissipation)|cps_evolution_interrupt": "called by native.c, in loops and for signals",
     r"cps_set_conic\w*|cps_set_user": "for programs in C that extend the library",
     r"cps_sway_at|cps_wave_number|cps_breaking_height|cps_waves_at": "sines and cosines",
+    r"cps_evolution_(point|point_motion|body|obstacle)_view": "reports have the places in the scene",
     r"cps_evolution_potential": "potentials are functions in C",
     r"cps_(ground|mesh)_(create|report|distance|height)": "scenes read grounds and meshes from files",
     r"cps_(json_\w+|write_file|row_read|suggest|read_limits_default|(law|drive)_write_schema|drive_walk)": "of the command",
