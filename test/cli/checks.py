@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the command share: the faults found, what is expected, and files as bytes."""
 import os
+import pty
 import re
 import sys
 import tempfile
@@ -33,6 +34,16 @@ def write(name, data):
 def read(name):
     with open(name, "rb") as file:
         return file.read()
+
+
+def has_terminals():
+    """Whether the system gives pseudo-terminals, which a bare container may not."""
+    try:
+        for side in pty.openpty():
+            os.close(side)
+    except OSError:
+        return False
+    return True
 
 
 def run_in_an_empty_folder(main, passed):

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-from checks import expect, faults, write
+from checks import expect, faults, has_terminals, write
 
 CAPSTAN = os.path.abspath(sys.argv[1])
 BAR = """capstan: 1
@@ -212,16 +212,6 @@ def on_terminal(*arguments, stop=None):
                 stop = None
     os.close(own)
     return process.returncode, said.decode()
-
-
-def has_terminals():
-    """Whether the system gives pseudo-terminals, which a bare container may not."""
-    try:
-        for side in pty.openpty():
-            os.close(side)
-    except OSError:
-        return False
-    return True
 
 
 def progress():
