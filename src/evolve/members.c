@@ -137,8 +137,7 @@ static void add_member_mass(const CpsiCylinder *member, const CpsiPose *begin, d
                  z = begin->place.z + rotation_apply(begin->turn, member->from).z;
     double share[2];
     const double low = z - member->surface, high = low + up * member->length;
-    if (isfinite(member->surface) && !find_wet(low, high, share)) return;
-    if (!isfinite(member->surface)) (void)find_wet(-1, -1, share);
+    if (!find_wet(low, high, share)) return; /* without a surface both are -INFINITY */
     const double wet = (share[1] - share[0]) * member->length,
                  middle = 0.5 * (share[0] + share[1]) * member->length,
                  mass = displaced(member) * member->flow.drag.added_normal * wet;
@@ -250,17 +249,21 @@ CpsiMemberLoad cpsi_members_load(const CpsiBody *body, const CpsiPose *pose,
                                  const CpsiBodyPhase *phase) {
     const Vec3 none = vec3(0, 0, 0);
     CpsiMemberLoad out = {{none, none}, {none, none}};
+    if (body->member_count == 0) return out;
+    const CpsiWaves *waves = phase ? body->member[0].flow.waves : NULL; /* the scene's */
+    const int count = waves ? waves->count : 0;
+    double reach = 0;
+    for (int w = 0; w < count; w++) reach += waves->wave[w].amplitude;
     for (int k = 0; k < body->member_count; k++) {
         const CpsiCylinder *member = &body->member[k];
-        Site site = {.member = member,
-                     .place = pose->place,
-                     .from = rotation_apply(pose->turn, member->from),
-                     .axis = rotation_apply(pose->turn, member->axis),
-                     .velocity = phase ? phase->velocity : none,
-                     .rate = phase ? phase->rate : none,
-                     .waves = phase ? member->flow.waves : NULL};
-        const int waves = site.waves ? site.waves->count : 0;
-        for (int w = 0; w < waves; w++) site.reach += site.waves->wave[w].amplitude;
+        const Site site = {.member = member,
+                           .place = pose->place,
+                           .from = rotation_apply(pose->turn, member->from),
+                           .axis = rotation_apply(pose->turn, member->axis),
+                           .velocity = phase ? phase->velocity : none,
+                           .rate = phase ? phase->rate : none,
+                           .waves = waves,
+                           .reach = reach};
         for (int i = 0; i < member->strips; i++) {
             double part[2];
             if (find_part(&site, i * member->each, (i + 1) * member->each, part))

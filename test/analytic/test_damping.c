@@ -7,12 +7,6 @@
 
 static const double PI = 3.14159265358979323846;
 
-static double report(const char *name, const char *figure, double expected, double found) {
-    printf("%-24s %-36s expected %-14.9g found %-14.9g difference %.3g\n", name, figure, expected,
-           found, found - expected);
-    return found - expected;
-}
-
 /* ---- a mass on an element ---- */
 
 /* m x'' + (BA/l) x' + (EA/l) (x - rest) = 0 from x(0) = rest + a, at rest. The element of length l
@@ -37,7 +31,7 @@ static double oscillator(CpsTimeScheme scheme, int steps) {
         rest + a * exp(-decay * time) * (cos(rate * time) + decay / rate * sin(rate * time));
     char name[48];
     snprintf(name, sizeof name, "mass, %s, %d steps", scheme ? "Euler" : "BDF2", steps);
-    const double error = report(name, "place after 0.2 s [m]", exact, run.view.position[3]);
+    const double error = time_report(name, "place after 0.2 s [m]", exact, run.view.position[3]);
     /* all of its energy but what is left goes to damping, and to the scheme */
     CHECK_GREATER(run.damping, 0);
     time_close(&run, name);
@@ -51,7 +45,7 @@ static void a_mass_on_an_element_decays(void **state) {
         for (int k = 0; k < 4; k++)
             error[k] = oscillator((CpsTimeScheme)scheme, (scheme ? 1600 : 100) << k);
         const double order = log2(error[2] / error[3]);
-        report(scheme ? "mass, Euler" : "mass, BDF2", "order", scheme ? 1 : 2, order);
+        time_report(scheme ? "mass, Euler" : "mass, BDF2", "order", scheme ? 1 : 2, order);
         CHECK_NEAR(order, scheme ? 1 : 2, 0.1);
     }
 }
@@ -83,8 +77,9 @@ static void a_mode_of_a_bar_decays(void **state) {
     const double found = run.view.position[3 * ELEMENTS] - length * (1 + pull / stiffness);
     /* 2000 steps a period: (w h)^3 of BDF2 a period is 3e-8 of the amplitude, (w h)^2/3 of the
      * phase 3e-6 of it */
-    CHECK_NEAR(report("bar", "amplitude after three periods [m]", a * exp(-decay * time), found), 0,
-               1e-5 * a);
+    CHECK_NEAR(time_report("bar", "amplitude after three periods [m]", a * exp(-decay * time),
+                           found),
+               0, 1e-5 * a);
     CHECK_BETWEEN(exp(-decay * time), 0.01, 0.9);
     time_close(&run, "bar");
 }
@@ -115,9 +110,9 @@ static void a_slack_element_does_not_push(void **state) {
         before = speed;
     }
     const double left = 0.01 * exp(-stiffness / 500 * 200 * h);
-    report("slack", "least tension [N]", 0, least);
-    report("slack", "elongation after 0.2 s [-]", left, elongation);
-    CHECK_NEAR(report("slack", "change of speed off [m/s]", 0, off), 0, 1e-9);
+    time_report("slack", "least tension [N]", 0, least);
+    time_report("slack", "elongation after 0.2 s [-]", left, elongation);
+    CHECK_NEAR(time_report("slack", "change of speed off [m/s]", 0, off), 0, 1e-9);
     CHECK_BETWEEN(least, -1e-9, 1e-6);
     CHECK_NEAR(elongation, left, 1e-3 * left);
     time_close(&run, "slack");

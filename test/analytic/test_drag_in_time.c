@@ -9,12 +9,6 @@
 
 static const double PI = 3.14159265358979323846;
 
-static double report(const char *name, const char *figure, double expected, double found) {
-    printf("%-26s %-36s expected %-14.9g found %-14.9g difference %.3g\n", name, figure, expected,
-           found, found - expected);
-    return found - expected;
-}
-
 static double dot(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -107,7 +101,7 @@ static void orders(const Glider *g, const char *name) {
         for (int k = 0; k < 4; k++)
             error[k] = glide_error(g, (CpsTimeScheme)scheme, 1.5, 80 << k, name, v);
         const double order = log2(error[2] / error[3]);
-        report(name, scheme ? "order of Euler" : "order of BDF2", scheme ? 1 : 2, order);
+        time_report(name, scheme ? "order of Euler" : "order of BDF2", scheme ? 1 : 2, order);
         CHECK_NEAR(order, scheme ? 1 : 2, 0.1);
         if (!scheme) CHECK_LESS(error[3], 2e-4);
     }
@@ -124,12 +118,12 @@ static void a_rope_sinks_to_its_terminal_velocity(void **state) {
     const double across = sqrt(5 / (1025 * 0.03 * 1.2 / 2)),
                  along = sqrt(5 / (1025 * 0.03 * PI * 0.05 / 2));
     (void)glide_error(&g, CPS_TIME_SCHEME_BDF2, 4, 400, "broadside", v);
-    CHECK_NEAR(report("broadside", "terminal velocity [m/s]", -across, v[2]), 0, 1e-9);
+    CHECK_NEAR(time_report("broadside", "terminal velocity [m/s]", -across, v[2]), 0, 1e-9);
     orders(&g, "broadside");
     const double down[3] = {0, 0, -1};
     memcpy(g.direction, down, sizeof down);
     (void)glide_error(&g, CPS_TIME_SCHEME_BDF2, 12, 1200, "upright", v);
-    CHECK_NEAR(report("upright", "terminal velocity [m/s]", -along, v[2]), 0, 1e-4);
+    CHECK_NEAR(time_report("upright", "terminal velocity [m/s]", -along, v[2]), 0, 1e-4);
     orders(&g, "upright");
 }
 
@@ -188,7 +182,7 @@ static double pendulum(CpsTimeScheme scheme, int steps) {
                  found = atan2(run.view.position[3], -run.view.position[5]);
     char name[48];
     snprintf(name, sizeof name, "pendulum, %s, %d steps", scheme ? "Euler" : "BDF2", steps);
-    const double error = report(name, "angle after 3 s [rad]", exact, found);
+    const double error = time_report(name, "angle after 3 s [rad]", exact, found);
     CHECK_GREATER(run.drag, 0);
     time_close(&run, name);
     return error;
@@ -201,7 +195,7 @@ static void a_pendulum_in_water_decays(void **state) {
         for (int k = 0; k < 4; k++)
             error[k] = pendulum((CpsTimeScheme)scheme, (scheme ? 800 : 400) << k);
         const double order = log2(error[2] / error[3]);
-        report(scheme ? "pendulum, Euler" : "pendulum, BDF2", "order", scheme ? 1 : 2, order);
+        time_report(scheme ? "pendulum, Euler" : "pendulum, BDF2", "order", scheme ? 1 : 2, order);
         CHECK_NEAR(order, scheme ? 1 : 2, 0.1);
     }
 }
@@ -231,10 +225,11 @@ static void a_line_comes_to_rest_where_statics_say(void **state) {
     hang(true, moved, NODES);
     hang(false, rests, NODES);
     for (int i = 0; i < 3 * NODES; i++) off = fmax(off, fabs(moved[i] - rests[i]));
-    report("hanging", "tip, along the current [m]", rests[3 * NODES - 3], moved[3 * NODES - 3]);
+    time_report("hanging", "tip, along the current [m]", rests[3 * NODES - 3],
+                moved[3 * NODES - 3]);
     CHECK_GREATER(rests[3 * NODES - 3], 1);
     /* the last of the swing has decayed like 1/t */
-    CHECK_LESS(report("hanging", "places off by [m]", 0, off), 1e-6);
+    CHECK_LESS(time_report("hanging", "places off by [m]", 0, off), 1e-6);
 }
 
 /* On a rough bed a line stays in a current that its friction holds; in a faster one it is carried
@@ -257,11 +252,12 @@ static void friction_holds_a_line_in_a_current(void **state) {
         const double still = sqrt(2 * 7 / (1025 * 0.04 * 1.2)),
                      moved = run.view.position[1] - rig.point[1];
         if (fast)
-            CHECK_NEAR(report("on a bed", "speed in the end [m/s]", speed - still,
-                              run.motion.velocity[13]),
+            CHECK_NEAR(time_report("on a bed", "speed in the end [m/s]", speed - still,
+                                   run.motion.velocity[13]),
                        0, 1e-9);
         else
-            CHECK_NEAR(report("on a bed", "way of a line that is held [m]", 0, moved), 0, 1e-15);
+            CHECK_NEAR(time_report("on a bed", "way of a line that is held [m]", 0, moved), 0,
+                       1e-15);
         time_close(&run, fast ? "carried along a bed" : "held on a bed");
     }
 }

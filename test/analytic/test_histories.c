@@ -9,12 +9,6 @@
 
 static const double PI = 3.14159265358979323846;
 
-static double report(const char *name, const char *figure, double expected, double found) {
-    printf("%-24s %-36s expected %-14.9g found %-14.9g difference %.3g\n", name, figure, expected,
-           found, found - expected);
-    return found - expected;
-}
-
 /* ---- a mooring line of the OC3 spar (docs/validation.md) ---- */
 
 static void mooring(TimeRig *rig, int elements) {
@@ -52,10 +46,10 @@ static void a_line_held_aside_stays(void **state) {
         last += run.report.end[CPS_END_B].force[1] / MEAN;
     }
     const double late = run.view.position[3 * 6 + 1];
-    report("held aside", "mean force, 500 s to 1100 s [N]", 20e3, first);
-    report("held aside", "mean force, last 600 s of the hour [N]", first, last);
-    report("held aside", "node on the bed, aside [m]", 0, late);
-    report("held aside", "node on the bed, drift [m]", 0, late - early);
+    time_report("held aside", "mean force, 500 s to 1100 s [N]", 20e3, first);
+    time_report("held aside", "mean force, last 600 s of the hour [N]", first, last);
+    time_report("held aside", "node on the bed, aside [m]", 0, late);
+    time_report("held aside", "node on the bed, drift [m]", 0, late - early);
     /* without friction the force is 17.5 kN and the node 2.55 m aside (docs/validation.md). It
      * swings on, without drag, and that moves the touching part by micrometres */
     CHECK_RELATIVE(first, 20.2e3, 0.02);
@@ -121,8 +115,8 @@ static void statics_is_the_limit_of_slow_histories(void **state) {
                      off = off_statics(CPS_TIME_SCHEME_EULER, duration, 40);
         char figure[64];
         snprintf(figure, sizeof figure, "Euler, force, off in %g s [N]", duration);
-        report("slow history", figure, 0, off);
-        if (k > 0) report("slow history", "order in the speed", 2, log2(last / off) / 2);
+        time_report("slow history", figure, 0, off);
+        if (k > 0) time_report("slow history", "order in the speed", 2, log2(last / off) / 2);
         if (k > 0) CHECK_GREATER(log2(last / off) / 2, 1);
         last = off;
     }
@@ -130,7 +124,7 @@ static void statics_is_the_limit_of_slow_histories(void **state) {
         const double off = off_statics(CPS_TIME_SCHEME_BDF2, 2e5, 40 << (2 * k));
         char figure[64];
         snprintf(figure, sizeof figure, "BDF2, force, off in %d steps [N]", 40 << (2 * k));
-        report("slow history", figure, 0, off);
+        time_report("slow history", figure, 0, off);
         if (k > 0) CHECK_LESS(off, 0.5 * last);
         last = off;
     }
@@ -162,12 +156,12 @@ static double falling(int half, double step) {
         if (x >= at) {
             char figure[48];
             snprintf(figure, sizeof figure, "velocity at x = %.3f L [m/s]", x);
-            report("falling chain", figure, exact, v);
-            report("falling chain", "free fall there [m/s]", sqrt(2 * rig.gravity * x), v);
+            time_report("falling chain", figure, exact, v);
+            time_report("falling chain", "free fall there [m/s]", sqrt(2 * rig.gravity * x), v);
             at += 0.2;
         }
     }
-    report("falling chain", "worst relative error to 0.9 L", 0, worst);
+    time_report("falling chain", "worst relative error to 0.9 L", 0, worst);
     time_close(&run, "falling chain");
     return worst;
 }

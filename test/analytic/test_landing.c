@@ -11,12 +11,6 @@
 
 static const double PI = 3.14159265358979323846;
 
-static double report(const char *name, const char *figure, double expected, double found) {
-    printf("%-24s %-36s expected %-14.9g found %-14.9g difference %.3g\n", name, figure, expected,
-           found, found - expected);
-    return found - expected;
-}
-
 /* ---- drops ---- */
 
 /* A node at the end of a slack line falls from a height, with a velocity along the plane. Returns
@@ -69,8 +63,8 @@ static void what_is_dropped_does_not_rise_again(void **state) {
                  k % 4 == 3 ? CPS_TIME_SCHEME_EULER : CPS_TIME_SCHEME_BDF2, &grown);
         if (!(found <= above)) above = found;
     }
-    report("400 drops", "rise after landing, of the height", 0, above);
-    report("400 drops", "growth of the energy in a step", 0, grown);
+    time_report("400 drops", "rise after landing, of the height", 0, above);
+    time_report("400 drops", "growth of the energy in a step", 0, grown);
     CHECK_LESS(above, 1e-12);
     CHECK_LESS(grown, 1e-12);
 }
@@ -83,16 +77,7 @@ enum { TURNS = 32 };
  * nearer to the middle by 2 mu N/k each; returns their number. */
 static int block(int steps, double turn[TURNS], double *rest, double *last) {
     TimeRig rig;
-    const double stiffness = 400, friction = 0.1;
-    time_begin(&rig, 2, 2, 0.01, stiffness);
-    time_plane(&rig, 0, friction);
-    rig.line.end[CPS_END_B].kind = CPS_END_KIND_AT_START;
-    rig.clump = (CpsPointWeight){.arc_length = 1, .weight = 5 * rig.gravity, .inertia = 5};
-    rig.line.point_weight = &rig.clump;
-    rig.line.point_weight_count = 1;
-    time_node(&rig, 0, -1.5, 0, 0);
-    time_node(&rig, 1, 0.2, 0, 0);
-    time_node(&rig, 2, 1.5, 0, 0);
+    time_block(&rig);
     time_stage(&rig, 8, steps);
     TimeRun run = time_open(&rig);
     int count = 0, going = -1;
@@ -112,7 +97,7 @@ static int block(int steps, double turn[TURNS], double *rest, double *last) {
     }
     *rest = x;
     *last = fabs(x - before);
-    report("block", "steps at rest, exactly", stopped, stopped);
+    time_report("block", "steps at rest, exactly", stopped, stopped);
     CHECK_GREATER(stopped, steps / 4);
     time_close(&run, "block");
     return count;
@@ -132,16 +117,16 @@ static void a_block_on_springs_comes_to_rest_for_good(void **state) {
             expected -= 2 * bound / k;
             if (turns < count) {
                 const double error =
-                    report("block", "turning point [m]", sign * expected, turn[turns]);
+                    time_report("block", "turning point [m]", sign * expected, turn[turns]);
                 if (!(fabs(error) <= worst[i])) worst[i] = fabs(error);
             }
         }
-        report("block", "place of rest [m]", (turns % 2 ? 1 : -1) * expected, rest);
-        report("block", "last motion [m]", 0, last);
+        time_report("block", "place of rest [m]", (turns % 2 ? 1 : -1) * expected, rest);
+        time_report("block", "last motion [m]", 0, last);
         CHECK_LESS(fabs(rest), bound / k * (1 + 1e-9));
         CHECK_NEAR(last, 0, 0);
     }
-    report("block", "order of the turning points", 2, log2(worst[0] / worst[1]));
+    time_report("block", "order of the turning points", 2, log2(worst[0] / worst[1]));
     CHECK_GREATER(log2(worst[0] / worst[1]), 1.7);
 }
 
@@ -170,8 +155,8 @@ static double slide(int steps, double vx, double vy, CpsTimeScheme scheme) {
         if (!(fabs(way - exact) <= fabs(worst))) worst = way - exact;
         CHECK_NEAR(hypot(run.motion.velocity[3 * j], run.motion.velocity[3 * j + 1]), 0, 1e-12);
     }
-    report("sliding rope", "way until it stops [m]", exact, exact + worst);
-    report("sliding rope", "energy lost by friction [J]", 0.5 * 2.4 * speed * speed, run.lost);
+    time_report("sliding rope", "way until it stops [m]", exact, exact + worst);
+    time_report("sliding rope", "energy lost by friction [J]", 0.5 * 2.4 * speed * speed, run.lost);
     time_close(&run, "sliding rope");
     return worst / exact;
 }

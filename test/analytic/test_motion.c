@@ -7,30 +7,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-static double report(const char *name, const char *figure, double expected, double found) {
-    printf("%-24s %-36s expected %-14.9g found %-14.9g difference %.3g\n", name, figure, expected,
-           found, found - expected);
-    return found - expected;
-}
-
 /* ---- pendulum ---- */
-
-/* theta'' = -g/L sin theta from rest, by the Runge-Kutta method of fourth order in fine steps:
- * the angle at a time. */
-static double pendulum_angle(double angle, double rate, double time) {
-    const int steps = 100000;
-    const double h = time / steps;
-    double omega = 0;
-    for (int i = 0; i < steps; i++) {
-        const double k1 = omega, l1 = -rate * sin(angle);
-        const double k2 = omega + h / 2 * l1, l2 = -rate * sin(angle + h / 2 * k1);
-        const double k3 = omega + h / 2 * l2, l3 = -rate * sin(angle + h / 2 * k2);
-        const double k4 = omega + h * l3, l4 = -rate * sin(angle + h * k3);
-        angle += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-        omega += h / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
-    }
-    return angle;
-}
 
 /* The error of the angle of a line of one element, whose mass is at its ends, after two seconds.
  * The tension is checked too: m g cos theta + m L omega^2 at the lowest point. */
@@ -44,10 +21,10 @@ static double pendulum(CpsTimeScheme scheme, int steps, double stiffness) {
     TimeRun run = time_open(&rig);
     time_steps(&run, 0);
     const double found = atan2(run.view.position[3], -run.view.position[5]),
-                 exact = pendulum_angle(angle, rig.gravity / 1.5, time);
+                 exact = time_pendulum_angle(angle, rig.gravity / 1.5, time);
     char name[48];
     snprintf(name, sizeof name, "pendulum, %s, %d steps", scheme ? "Euler" : "BDF2", steps);
-    const double error = report(name, "angle after 2 s [rad]", exact, found);
+    const double error = time_report(name, "angle after 2 s [rad]", exact, found);
     if (scheme == CPS_TIME_SCHEME_EULER) CHECK_GREATER(run.scheme, 0);
     time_close(&run, name);
     return error;
@@ -60,7 +37,7 @@ static void a_pendulum_has_the_order_of_the_scheme(void **state) {
         for (int k = 0; k < 4; k++)
             error[k] = pendulum((CpsTimeScheme)scheme, (scheme ? 800 : 200) << k, INFINITY);
         const double order = log2(error[2] / error[3]);
-        report(scheme ? "pendulum, Euler" : "pendulum, BDF2", "order", scheme ? 1 : 2, order);
+        time_report(scheme ? "pendulum, Euler" : "pendulum, BDF2", "order", scheme ? 1 : 2, order);
         /* what a further halving would change: the next order's part of the error */
         CHECK_NEAR(order, scheme ? 1 : 2, 0.1);
     }
@@ -107,7 +84,7 @@ static void waves_go_along_a_bar_with_their_speed(void **state) {
     for (int k = 0; k < 3; k++) {
         const int n = 8 << k;
         const double found = bar(n, 1600, &discrete);
-        error[k] = report("bar", "speed of waves, 1600 steps [m/s]", speed, found);
+        error[k] = time_report("bar", "speed of waves, 1600 steps [m/s]", speed, found);
     }
     /* errors of the mesh, (pi l/(4 L))^2/6 of the speed, and of the scheme, (rate h)^2/3 */
     CHECK_NEAR(log2(error[0] / error[1]), 2, 0.1);
@@ -115,7 +92,7 @@ static void waves_go_along_a_bar_with_their_speed(void **state) {
     const double coarse = bar(8, 100, &discrete), fine = bar(8, 200, &discrete),
                  exact = 2 * 3 / PI * discrete;
     const double order = log2((coarse - exact) / (fine - exact));
-    report("bar", "order in time", 2, order);
+    time_report("bar", "order in time", 2, order);
     CHECK_NEAR(order, 2, 0.1);
 }
 
@@ -174,10 +151,11 @@ static void a_hanging_chain_has_its_frequencies(void **state) {
             const int n = (mode ? 20 : 10) << k;
             char figure[48];
             snprintf(figure, sizeof figure, "rate of mode %d, N = %d [rad/s]", mode + 1, n);
-            error[k] = report("hanging chain", figure, exact, hanging(n, mode + 1, ZERO[mode]));
+            error[k] =
+                time_report("hanging chain", figure, exact, hanging(n, mode + 1, ZERO[mode]));
         }
         const double order = log2(error[0] / error[1]);
-        report("hanging chain", "order of the mesh", 2, order);
+        time_report("hanging chain", "order of the mesh", 2, order);
         CHECK_NEAR(order, 2, 0.35);
         CHECK_LESS(fabs(error[2]) / exact, mode ? 3e-3 : 1e-3);
     }

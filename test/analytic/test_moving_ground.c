@@ -8,12 +8,6 @@
 
 static const double PI = 3.14159265358979323846;
 
-static double report(const char *name, const char *figure, double expected, double found) {
-    printf("%-24s %-36s expected %-14.9g found %-14.9g difference %.3g\n", name, figure, expected,
-           found, found - expected);
-    return found - expected;
-}
-
 /* A line of one element at rest on the plane, on which its ends are free. */
 static void begin(TimeRig *rig, CpsTimeScheme scheme, double friction) {
     time_begin(rig, 0.1, 1, 3, INFINITY);
@@ -68,10 +62,10 @@ static void a_belt_takes_a_line_along(void **state) {
             const CpsLineMotion motion = cps_evolution_line_motion(run.evolution, 0);
             char name[48];
             snprintf(name, sizeof name, "belt, %s, %d steps", scheme ? "Euler" : "BDF2", count);
-            off[k] = report(name, "lag [m]", lag, speed * time - (view.position[0] - 2)) / lag;
-            report(name, "velocity [m/s]", speed, motion.velocity[0]);
-            report(name, "work of the belt [J]", mass * speed * speed, sums.obstacles);
-            report(name, "lost to friction [J]", mass * speed * speed / 2, sums.dissipated);
+            off[k] = time_report(name, "lag [m]", lag, speed * time - (view.position[0] - 2)) / lag;
+            time_report(name, "velocity [m/s]", speed, motion.velocity[0]);
+            time_report(name, "work of the belt [J]", mass * speed * speed, sums.obstacles);
+            time_report(name, "lost to friction [J]", mass * speed * speed / 2, sums.dissipated);
             CHECK_NEAR(motion.velocity[0], speed, 1e-9);
             /* by Euler's method the work of equal friction on equal ways */
             CHECK_NEAR(sums.obstacles, mass * speed * speed,
@@ -103,10 +97,10 @@ static void a_table_takes_a_line_round(void **state) {
     const CpsLineView view = cps_evolution_line_view(run.evolution, 0);
     const CpsLineMotion motion = cps_evolution_line_motion(run.evolution, 0);
     const double slip = pow(2 * rate, 2) / (2 * friction * 9.81);
-    report("table", "x after half a turn [m]", -2, view.position[0]);
-    report("table", "speed [m/s]", 2 * rate, hypot(motion.velocity[0], motion.velocity[1]));
-    report("table", "slip that is allowed [m]", slip,
-           hypot(view.position[0] + 2, view.position[1]));
+    time_report("table", "x after half a turn [m]", -2, view.position[0]);
+    time_report("table", "speed [m/s]", 2 * rate, hypot(motion.velocity[0], motion.velocity[1]));
+    time_report("table", "slip that is allowed [m]", slip,
+                hypot(view.position[0] + 2, view.position[1]));
     CHECK_LESS(hypot(view.position[0] + 2, view.position[1]), 1.2 * slip);
     CHECK_NEAR(hypot(motion.velocity[0], motion.velocity[1]), 2 * rate, 1e-3 * 2 * rate);
     CHECK_LESS(sums.imbalance, 1e-10 * sums.turnover);
@@ -141,8 +135,8 @@ static void a_floor_throws_a_line_up(void **state) {
         char name[48];
         snprintf(name, sizeof name, "floor, %d steps", count);
         const double exact = speed * speed / (2 * 9.81);
-        off[k] = report(name, "thrown up by [m]", exact, top) / exact;
-        report(name, "height at the end [m]", 0, height);
+        off[k] = time_report(name, "thrown up by [m]", exact, top) / exact;
+        time_report(name, "height at the end [m]", 0, height);
         CHECK_NEAR(height, 0, 1e-12);
         CHECK_NEAR(sums.kinetic, 0, 1e-20);
         CHECK_LESS(sums.imbalance, 1e-10 * sums.turnover);

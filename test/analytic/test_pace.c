@@ -10,12 +10,6 @@
 
 static const double PI = 3.14159265358979323846;
 
-static double report(const char *name, const char *figure, double expected, double found) {
-    printf("%-24s %-36s expected %-14.9g found %-14.9g difference %.3g\n", name, figure, expected,
-           found, found - expected);
-    return found - expected;
-}
-
 /* The next step: audited, and such that it may stand. */
 static CpsPace pace_step(TimeRun *run, double longest, double asked) {
     time_step(run);
@@ -60,29 +54,13 @@ static void the_estimate_is_the_error_of_a_cubic(void **state) {
         CHECK_INT(pace.rejected, 0);
         if (k < 30) continue;
         if (fabs(w - 1) > 1e-9)
-            report("cubic", "estimate where h changes [m]", expected, pace.error);
+            time_report("cubic", "estimate where h changes [m]", expected, pace.error);
         CHECK_NEAR(pace.error, expected, 1e-9 * expected);
     }
     time_close(&run, "cubic");
 }
 
 /* ---- error reached ---- */
-
-/* theta'' = -g/L sin theta from rest, by the Runge-Kutta method of fourth order in fine steps. */
-static double pendulum_angle(double angle, double rate, double time) {
-    const int steps = 100000;
-    const double h = time / steps;
-    double omega = 0;
-    for (int i = 0; i < steps; i++) {
-        const double k1 = omega, l1 = -rate * sin(angle);
-        const double k2 = omega + h / 2 * l1, l2 = -rate * sin(angle + h / 2 * k1);
-        const double k3 = omega + h / 2 * l2, l3 = -rate * sin(angle + h / 2 * k2);
-        const double k4 = omega + h * l3, l4 = -rate * sin(angle + h * k3);
-        angle += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-        omega += h / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
-    }
-    return angle;
-}
 
 /* [m] How far the tip is from where it belongs after two seconds. */
 static double pendulum(CpsTimeScheme scheme, double asked) {
@@ -98,13 +76,13 @@ static double pendulum(CpsTimeScheme scheme, double asked) {
         rejected += pace_step(&run, time / 8, asked).rejected;
     CHECK_NEAR(cps_evolution_time(run.evolution), time, 1e-12);
     const double found = atan2(run.view.position[3], -run.view.position[5]),
-                 exact = pendulum_angle(angle, rig.gravity / 1.5, time),
+                 exact = time_pendulum_angle(angle, rig.gravity / 1.5, time),
                  off = 1.5 * (found - exact);
     char name[48];
     snprintf(name, sizeof name, "pendulum, %s, %.1e m", scheme ? "Euler" : "BDF2", asked);
-    report(name, "off after 2 s [m]", 0, off);
-    report(name, "in own errors of all steps", 0, off / (asked * run.steps));
-    report(name, "steps taken back", 0, rejected);
+    time_report(name, "off after 2 s [m]", 0, off);
+    time_report(name, "in own errors of all steps", 0, off / (asked * run.steps));
+    time_report(name, "steps taken back", 0, rejected);
     CHECK_GREATER(rejected, 0);
     /* an error of the velocity, which makes one of the place as large, comes beside each; and the
      * rate w = w0 (1 - a^2/16 ..) falls with the amplitude a, by da w a/8 = 0.1 w da, which over
@@ -121,8 +99,8 @@ static void the_error_of_a_pendulum_falls_with_what_is_asked(void **state) {
         double off[4];
         for (int k = 0; k < 4; k++) off[k] = pendulum((CpsTimeScheme)scheme, 1e-4 * pow(8, -k));
         const double order = log2(off[1] / off[3]) / 6, expected = scheme ? 1.0 / 2 : 2.0 / 3;
-        report(scheme ? "pendulum, Euler" : "pendulum, BDF2", "power of the error asked", expected,
-               order);
+        time_report(scheme ? "pendulum, Euler" : "pendulum, BDF2", "power of the error asked",
+                    expected, order);
         CHECK_NEAR(order, expected, 0.1);
     }
 }
@@ -148,7 +126,7 @@ static double bar(double asked) {
     const double off = run.view.position[3 * elements] - length * (1 + pull / stiffness) - a;
     char name[48];
     snprintf(name, sizeof name, "bar, %.1e m", asked);
-    report(name, "off after a period [m]", 0, off);
+    time_report(name, "off after a period [m]", 0, off);
     CHECK_LESS(fabs(off), 2 * asked * run.steps);
     time_close(&run, name);
     return fabs(off);
@@ -160,7 +138,7 @@ static void the_error_of_a_bar_falls_with_what_is_asked(void **state) {
     (void)state;
     double off[3];
     for (int k = 0; k < 3; k++) off[k] = bar(1e-6 * pow(8, -k));
-    report("bar", "power of the error asked", 1, log2(off[0] / off[2]) / 6);
+    time_report("bar", "power of the error asked", 1, log2(off[0] / off[2]) / 6);
     CHECK_GREATER(log2(off[0] / off[2]) / 6, 2.0 / 3 - 0.1);
 }
 
@@ -171,15 +149,7 @@ static void a_block_stops_where_it_belongs(void **state) {
     for (int k = 0; k < 2; k++) {
         TimeRig rig;
         const double asked = k ? 1e-7 : 1e-5, step = 0.1;
-        time_begin(&rig, 2, 2, 0.01, 400);
-        time_plane(&rig, 0, 0.1);
-        rig.line.end[CPS_END_B].kind = CPS_END_KIND_AT_START;
-        rig.clump = (CpsPointWeight){.arc_length = 1, .weight = 5 * rig.gravity, .inertia = 5};
-        rig.line.point_weight = &rig.clump;
-        rig.line.point_weight_count = 1;
-        time_node(&rig, 0, -1.5, 0, 0);
-        time_node(&rig, 1, 0.2, 0, 0);
-        time_node(&rig, 2, 1.5, 0, 0);
+        time_block(&rig);
         time_stage(&rig, 8, 80)->error = asked;
         TimeRun run = time_open(&rig);
         CpsPace pace = {0};
@@ -191,10 +161,10 @@ static void a_block_stops_where_it_belongs(void **state) {
         while (fabs(turn) > loss / 2) turn = turn > 0 ? loss - turn : -loss - turn;
         char name[48];
         snprintf(name, sizeof name, "block, %.0e m", asked);
-        const double off = report(name, "place of rest [m]", turn, run.view.position[3]);
+        const double off = time_report(name, "place of rest [m]", turn, run.view.position[3]);
         CHECK_LESS(fabs(off), 2 * asked * run.steps);
         CHECK_NEAR(run.motion.velocity[3], 0, 0);
-        report(name, "last step [s]", step, pace.length);
+        time_report(name, "last step [s]", step, pace.length);
         CHECK_GREATER(pace.length, step / 2.01); /* two equal ones may share the end */
         time_close(&run, name);
     }

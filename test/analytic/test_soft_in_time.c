@@ -7,12 +7,6 @@
 #include "splitmix.h"
 #include "time_rig.h"
 
-static double report(const char *name, const char *figure, double expected, double found) {
-    printf("%-24s %-36s expected %-14.9g found %-14.9g difference %.3g\n", name, figure, expected,
-           found, found - expected);
-    return found - expected;
-}
-
 /* A straight rope of `elements`, free at both ends, level at a height, on a bed that gives. */
 static void rope_on_bed(TimeRig *rig, double height, int elements, double mass, double stiffness,
                         double damping) {
@@ -42,7 +36,7 @@ static double heave(CpsTimeScheme scheme, int steps, double damping) {
                                     (cos(rate * time) + decay / rate * sin(rate * time));
     char name[48];
     snprintf(name, sizeof name, "heave, %s, %d steps", scheme ? "Euler" : "BDF2", steps);
-    const double error = report(name, "place after 0.8 s [m]", exact, run.view.position[2]);
+    const double error = time_report(name, "place after 0.8 s [m]", exact, run.view.position[2]);
     if (damping > 0) CHECK_GREATER(run.damping, 0);
     time_close(&run, name);
     return error;
@@ -57,7 +51,7 @@ static void a_rope_heaves_in_the_bed(void **state) {
                 error[k] =
                     heave((CpsTimeScheme)scheme, (scheme ? 1600 : 100) << k, damped ? 60.0 : 0.0);
             const double order = log2(error[2] / error[3]);
-            report(scheme ? "heave, Euler" : "heave, BDF2", "order", scheme ? 1 : 2, order);
+            time_report(scheme ? "heave, Euler" : "heave, BDF2", "order", scheme ? 1 : 2, order);
             CHECK_NEAR(order, scheme ? 1 : 2, 0.1);
         }
 }
@@ -119,8 +113,8 @@ static void what_is_dropped_rises_by_what_is_left(void **state) {
         double grown = -INFINITY, error[3];
         const double damping = damped ? 100 : 0, exact = risen(0.5, 4e3, damping);
         for (int k = 0; k < 3; k++)
-            error[k] = report("drop", "rises to, of the height", exact,
-                              drop(0.5, 4e3, damping, CPS_TIME_SCHEME_BDF2, 400 << k, &grown));
+            error[k] = time_report("drop", "rises to, of the height", exact,
+                                   drop(0.5, 4e3, damping, CPS_TIME_SCHEME_BDF2, 400 << k, &grown));
         CHECK_NEAR(error[2], 0, 0.01);
         CHECK_LESS(fabs(error[2]), 0.6 * fabs(error[0]));
         CHECK_LESS(grown, 1e-12);
@@ -136,8 +130,8 @@ static void what_is_dropped_rises_by_what_is_left(void **state) {
                  k % 4 == 3 ? CPS_TIME_SCHEME_EULER : CPS_TIME_SCHEME_BDF2, 100, &grown);
         if (found > top) top = found;
     }
-    report("200 drops", "growth of the energy", 0, grown);
-    report("200 drops", "rises to, of the height, at most", 1, top);
+    time_report("200 drops", "growth of the energy", 0, grown);
+    time_report("200 drops", "rises to, of the height, at most", 1, top);
     CHECK_LESS(grown, 1e-12);
     CHECK_LESS(top, 1 + 1e-12);
 }
@@ -158,7 +152,7 @@ static void a_rope_slides_in_the_bed(void **state) {
         TimeRun run = time_open(&rig);
         time_steps(&run, 0);
         const double exact = speed * speed / (2 * mu * 9.81);
-        found[k] = report("slide", "distance [m]", exact, run.view.position[1]) / exact;
+        found[k] = time_report("slide", "distance [m]", exact, run.view.position[1]) / exact;
         CHECK_NEAR(run.motion.velocity[1], 0, 1e-12);
         time_close(&run, "slide");
     }
@@ -195,7 +189,7 @@ static void the_rigid_bed_is_the_limit(void **state) {
         draw(pow(100, k) * 1e6, soft);
         off[k] = 0;
         for (int a = 0; a < 3; a++) off[k] = fmax(off[k], fabs(soft[a] - rigid[a]));
-        report("limit", "node off that on rigid ground [m]", 0, off[k]);
+        time_report("limit", "node off that on rigid ground [m]", 0, off[k]);
     }
     CHECK_LESS(off[2], 1e-4);
     CHECK_LESS(off[2], 0.5 * off[0]);

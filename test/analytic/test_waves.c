@@ -9,12 +9,6 @@
 
 static const double PI = 3.14159265358979323846, G = 9.81;
 
-static double report(const char *name, const char *figure, double expected, double found) {
-    printf("%-26s %-40s expected %-14.9g found %-14.9g difference %.3g\n", name, figure, expected,
-           found, found - expected);
-    return found - expected;
-}
-
 /* ---- dispersion ---- */
 
 /* w^2 = g k tanh(k d), with the period made of k, from shallow to deep water. */
@@ -29,16 +23,17 @@ static void the_dispersion_is_solved_to_rounding(void **state) {
         worst = fmax(worst, fabs((double)(found / k - 1)));
     }
     /* k goes with the square of the period in deep water: a few roundings */
-    CHECK_LESS(report("dispersion", "largest relative error", 0, worst), 4e-15);
+    CHECK_LESS(time_report("dispersion", "largest relative error", 0, worst), 4e-15);
     const double period = 7, w = 2 * PI / period, deep = w * w / G;
-    CHECK_NEAR(report("dispersion", "infinite depth", deep, cps_wave_number(period, INFINITY, G)),
+    CHECK_NEAR(time_report("dispersion", "infinite depth", deep,
+                           cps_wave_number(period, INFINITY, G)),
                0, 1e-15 * deep);
-    CHECK_NEAR(report("dispersion", "depth 1e300 m", deep, cps_wave_number(period, 1e300, G)), 0,
-               1e-15 * deep);
+    CHECK_NEAR(time_report("dispersion", "depth 1e300 m", deep, cps_wave_number(period, 1e300, G)),
+               0, 1e-15 * deep);
     /* shallow: k = w/sqrt(g d) (1 + (k d)^2/6 + ..) */
     const double depth = 1e-4, k = w / sqrt(G * depth), kd = k * depth;
-    CHECK_NEAR(report("dispersion", "shallow water", k * (1 + kd * kd / 6),
-                      cps_wave_number(period, depth, G)),
+    CHECK_NEAR(time_report("dispersion", "shallow water", k * (1 + kd * kd / 6),
+                           cps_wave_number(period, depth, G)),
                0, k * kd * kd * kd * kd);
     const double none[] = {cps_wave_number(0, 1, G), cps_wave_number(1, 0, G),
                            cps_wave_number(1, 1, 0), cps_wave_number(NAN, 1, G)};
@@ -125,13 +120,13 @@ static void water_is_neither_made_nor_turned(void **state) {
     }
     /* differences over 0.01 of numbers near 1; of the time with the error h^4/30 times the sum of
      * the amplitudes times w^6, 1.6e-9 */
-    CHECK_LESS(report("water", "divergence [1/s]", 0, made), 1e-9);
-    CHECK_LESS(report("water", "curl [1/s]", 0, turned), 1e-9);
-    CHECK_LESS(report("water", "acceleration less that of velocity", 0, faster), 3e-9);
+    CHECK_LESS(time_report("water", "divergence [1/s]", 0, made), 1e-9);
+    CHECK_LESS(time_report("water", "curl [1/s]", 0, turned), 1e-9);
+    CHECK_LESS(time_report("water", "acceleration less that of velocity", 0, faster), 3e-9);
     /* second order in 0.01 s */
-    CHECK_LESS(report("water", "rise of the surface less velocity", 0, at_surface), 1e-4);
-    CHECK_LESS(report("water", "through the bottom", 0, at_bottom), 1e-13);
-    CHECK_LESS(report("water", "change above the surface", 0, above), 1e-300);
+    CHECK_LESS(time_report("water", "rise of the surface less velocity", 0, at_surface), 1e-4);
+    CHECK_LESS(time_report("water", "through the bottom", 0, at_bottom), 1e-13);
+    CHECK_LESS(time_report("water", "change above the surface", 0, above), 1e-300);
     const CpsWaterMotion none = cps_waves_at(NULL, 1, (const double[3]){0, 0, 0});
     CHECK_NEAR(none.velocity[0], 0, 1e-300);
 }
@@ -264,8 +259,8 @@ static void a_rope_along_the_crests_goes_as_its_equation_says(void **state) {
         for (int k = 0; k < 4; k++)
             error[k] = rope_error((CpsTimeScheme)scheme, (scheme ? 200 : 100) << k, &exact);
         const double order = log2(error[2] / error[3]);
-        report("a rope along the crests", scheme ? "order of Euler" : "order of BDF2",
-               scheme ? 1 : 2, order);
+        time_report("a rope along the crests", scheme ? "order of Euler" : "order of BDF2",
+                    scheme ? 1 : 2, order);
         CHECK_NEAR(order, scheme ? 1 : 2, 0.1);
         if (!scheme) CHECK_LESS(error[3], 1e-4);
     }
@@ -320,7 +315,7 @@ static double swing_error(int steps) {
     const double found = atan2(run.view.position[3], height - run.view.position[5]);
     char name[48];
     snprintf(name, sizeof name, "pendulum, %d steps", steps);
-    const double error = report(name, "angle after 10 s [rad]", exact.q[0], found);
+    const double error = time_report(name, "angle after 10 s [rad]", exact.q[0], found);
     CHECK_GREATER(fabs(exact.q[0]), 0.05);
     time_close(&run, name);
     return error;
@@ -331,7 +326,7 @@ static void a_pendulum_in_waves_goes_as_its_equation_says(void **state) {
     double error[4];
     for (int k = 0; k < 4; k++) error[k] = swing_error(200 << k);
     const double order = log2(error[2] / error[3]);
-    report("pendulum in waves", "order of BDF2", 2, order);
+    time_report("pendulum in waves", "order of BDF2", 2, order);
     CHECK_NEAR(order, 2, 0.1);
 }
 
@@ -360,7 +355,7 @@ static double whole_error(int elements, double *expected) {
     *expected = density * area * r.amplitude * r.w * r.w / r.k * sin(-r.w * 1e-3 + r.phase);
     char name[48];
     snprintf(name, sizeof name, "taut line, %d elements", elements);
-    const double error = report(name, "whole force [N]", *expected, found);
+    const double error = time_report(name, "whole force [N]", *expected, found);
     time_close(&run, name);
     return error;
 }
@@ -370,9 +365,10 @@ static void the_whole_force_on_a_taut_line_is_its_integral(void **state) {
     double error[3], expected;
     for (int k = 0; k < 3; k++) error[k] = whole_error(40 << k, &expected);
     const double order = log2(error[1] / error[2]), limit = error[2] + (error[2] - error[1]) / 3;
-    report("taut line", "order in the elements", 2, order);
+    time_report("taut line", "order in the elements", 2, order);
     CHECK_NEAR(order, 2, 0.05);
-    CHECK_NEAR(report("taut line", "extrapolated over expected", 0, limit / expected), 0, 1e-6);
+    CHECK_NEAR(time_report("taut line", "extrapolated over expected", 0, limit / expected), 0,
+               1e-6);
 }
 
 int main(void) {

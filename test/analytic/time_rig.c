@@ -36,6 +36,18 @@ void time_node(TimeRig *rig, int j, double x, double y, double z) {
     memcpy(&rig->point[3 * j], at, sizeof at);
 }
 
+void time_block(TimeRig *rig) {
+    time_begin(rig, 2, 2, 0.01, 400);
+    time_plane(rig, 0, 0.1);
+    rig->line.end[CPS_END_B].kind = CPS_END_KIND_AT_START;
+    rig->clump = (CpsPointWeight){.arc_length = 1, .weight = 5 * rig->gravity, .inertia = 5};
+    rig->line.point_weight = &rig->clump;
+    rig->line.point_weight_count = 1;
+    time_node(rig, 0, -1.5, 0, 0);
+    time_node(rig, 1, 0.2, 0, 0);
+    time_node(rig, 2, 1.5, 0, 0);
+}
+
 void time_water(TimeRig *rig, double density, const double velocity[3], CpsDrag drag) {
     memcpy(rig->row.velocity, velocity, sizeof rig->row.velocity);
     rig->current = (CpsCurrent){.density = density, .row_count = 1, .row = &rig->row};
@@ -197,4 +209,25 @@ void time_close(TimeRun *run, const char *name) {
     CHECK_LESS(run->lifted, 1e-11);
     CHECK_LESS(run->remainder, 1e-10);
     cps_evolution_destroy(run->evolution);
+}
+
+double time_report(const char *name, const char *figure, double expected, double found) {
+    printf("%-24s %-36s expected %-14.9g found %-14.9g difference %.3g\n", name, figure, expected,
+           found, found - expected);
+    return found - expected;
+}
+
+double time_pendulum_angle(double angle, double rate, double time) {
+    const int steps = 100000;
+    const double h = time / steps;
+    double omega = 0;
+    for (int i = 0; i < steps; i++) {
+        const double k1 = omega, l1 = -rate * sin(angle);
+        const double k2 = omega + h / 2 * l1, l2 = -rate * sin(angle + h / 2 * k1);
+        const double k3 = omega + h / 2 * l2, l3 = -rate * sin(angle + h / 2 * k2);
+        const double k4 = omega + h * l3, l4 = -rate * sin(angle + h * k3);
+        angle += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+        omega += h / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
+    }
+    return angle;
 }

@@ -32,6 +32,9 @@ typedef struct TimeRig {
 void time_begin(TimeRig *rig, double length, int elements, double mass, double stiffness);
 void time_plane(TimeRig *rig, double height, double friction);
 void time_node(TimeRig *rig, int j, double x, double y, double z);
+/* A heavy node between two stretched springs of 400 N/m each on a plane with friction 0.1, 0.2 m
+ * from the middle. */
+void time_block(TimeRig *rig);
 /* Water of this density that flows with `velocity` everywhere, and the line's drag in it. */
 void time_water(TimeRig *rig, double density, const double velocity[3], CpsDrag drag);
 /* A stage of a duration in steps; it changes nothing yet. Duration 0: quasi-static. */
@@ -67,5 +70,11 @@ void time_step(TimeRun *run);
 void time_steps(TimeRun *run, int count);
 /* Print what was found, require it to be rounding, and close. */
 void time_close(TimeRun *run, const char *name);
+
+/* Print a figure; returns found - expected. */
+double time_report(const char *name, const char *figure, double expected, double found);
+/* [rad] The angle of theta'' = -rate sin theta at a time, from rest, by the Runge-Kutta method of
+ * fourth order in fine steps. */
+double time_pendulum_angle(double angle, double rate, double time);
 
 #endif

@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 SECONDS = 300  # that a run or a check may take
 
@@ -13,18 +14,41 @@ def run(*command):
     return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=SECONDS, check=False)
 
 
-def check(checker, out, scene):
+def folder_of(given, kind, seed):
+    """The folder of a scene: it is kept if that was asked for."""
+    folder = os.path.join(given.keep, f"{kind}-{seed}") if given.keep else tempfile.mkdtemp()
+    os.makedirs(folder, exist_ok=True)
+    return folder
+
+
+def solve(given, kind, seed, text, *options):
+    """Run the scene of this text: the file that it was written to, the folder of its results, and the run."""
+    folder = folder_of(given, kind, seed)
+    scene, out = os.path.join(folder, "scene.yaml"), os.path.join(folder, "out")
+    with open(scene, "w", encoding="ascii") as file:
+        file.write(text)
+    return scene, out, run(given.capstan, "run", "-q", scene, "-o", out, "--force", *options)
+
+
+def told_of(checker, out, scene):
+    """The run of the checker."""
+    return run(checker, os.path.join(out, "result.nc"), scene, "-v")
+
+
+def counts_of(told):
     """Records, certified, not certified, refuted and not finite, with a scene that is not that of the results as refuted; and what is said."""
-    told = run(checker, os.path.join(out, "result.nc"), scene, "-v")
     counts = re.match(r"records (\d+), certified (\d+), not certified (\d+), refuted (\d+), not finite (\d+)", told.stdout)
     found = [int(n) for n in counts.groups()] if counts else [0, 0, 0, 1, 0]
     found[3] += bool(counts) and "against the scene: 0 findings" not in told.stdout
     return found, f"{told.stdout.strip().splitlines()[0] if told.stdout else ''} {told.stderr.strip()[:400]}"
 
 
-def events(checker, out):
+def check(checker, out, scene):
+    return counts_of(told_of(checker, out, scene))
+
+
+def events_of(told):
     """What the checker counts in steps in time."""
-    told = run(checker, os.path.join(out, "result.nc"), "-v")
     counts = re.search(r"in time: \d+ steps, landed (\d+), changed (\d+), snatched (\d+)", told.stdout)
     return dict(zip(("landed", "changed", "snatched"), map(int, counts.groups()))) if counts else {}
 

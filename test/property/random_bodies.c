@@ -19,6 +19,7 @@
 
 #include "capstan/evolve.h"
 #include "dice.h"
+#include "scenes_given.h"
 #include "turns.h"
 
 enum { MOST_LINES = 6, STAGES = 2, HEADINGS = 72 };
@@ -378,15 +379,8 @@ static void run(uint64_t seed, Tally *tally) {
 }
 
 int main(int argc, char **argv) {
-    int scenes = 60;
-    uint64_t first = 0;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (strcmp(argv[i], "--scenes") == 0) scenes = atoi(argv[i + 1]);
-        if (strcmp(argv[i], "--seed") == 0) {
-            first = strtoull(argv[i + 1], NULL, 10);
-            scenes = 1;
-        }
-    }
+    uint64_t first;
+    const int scenes = scenes_given(argc, argv, 60, &first);
     Tally t = {0};
     for (int i = 0; i < scenes; i++) run(first + (uint64_t)i, &t);
     printf("%d scenes, %d steps: %d turned round and round, %d open, %d wrong; %.1f trials a step, "

@@ -19,6 +19,7 @@
 #include "balance_at_points.h"
 #include "capstan/evolve.h"
 #include "dice.h"
+#include "scenes_given.h"
 
 enum { MOST_LINES = 12, MOST_POINTS = 16, STAGES = 3, CLASSES = 4 };
 typedef enum Class { LEG, SPREAD, STRING, BEACH } Class;
@@ -414,15 +415,11 @@ static void run(Class class, uint64_t seed, Tally *tally) {
 }
 
 int main(int argc, char **argv) {
-    int scenes = 20, only = -1;
-    uint64_t first = 0;
+    int only = -1;
+    uint64_t first;
+    const int scenes = scenes_given(argc, argv, 20, &first);
     for (int i = 1; i + 1 < argc; i += 2) {
-        if (strcmp(argv[i], "--scenes") == 0) scenes = atoi(argv[i + 1]);
         if (strcmp(argv[i], "--class") == 0) only = atoi(argv[i + 1]);
-        if (strcmp(argv[i], "--seed") == 0) {
-            first = strtoull(argv[i + 1], NULL, 10);
-            scenes = 1;
-        }
     }
     bool failed = false;
     for (int class = 0; class < CLASSES; class ++) {

@@ -23,6 +23,7 @@
 #include "capstan/evolve.h"
 #include "dice.h"
 #include "graph_proofs.h"
+#include "scenes_given.h"
 
 enum { MOST_MESHES = 30, MOST_LINES = 2 * MOST_MESHES * (MOST_MESHES + 1) };
 enum {
@@ -547,17 +548,13 @@ static void run(Class class, uint64_t seed, Tally *tally) {
 }
 
 int main(int argc, char **argv) {
-    int scenes = 20, only = -1, may_be_open = -1;
-    uint64_t first = 0;
+    int only = -1, may_be_open = -1;
+    uint64_t first;
+    const int scenes = scenes_given(argc, argv, 20, &first);
     for (int i = 1; i + 1 < argc; i += 2) {
-        if (strcmp(argv[i], "--scenes") == 0) scenes = atoi(argv[i + 1]);
         if (strcmp(argv[i], "--class") == 0) only = atoi(argv[i + 1]);
         if (strcmp(argv[i], "--open") == 0) may_be_open = atoi(argv[i + 1]);
         if (strcmp(argv[i], "--meshes") == 0) most_meshes = atoi(argv[i + 1]);
-        if (strcmp(argv[i], "--seed") == 0) {
-            first = strtoull(argv[i + 1], NULL, 10);
-            scenes = 1;
-        }
     }
     if (most_meshes < 4 || most_meshes > MOST_MESHES) return 2;
     bool failed = false;

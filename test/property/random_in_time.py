@@ -16,7 +16,6 @@ import math
 import os
 import random
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True  # nothing is left in the source folder
 import checked  # noqa: E402
@@ -277,15 +276,14 @@ def one_class(given, kind):
     sums = dict.fromkeys(["steps", "certified", "refuted", "proven", "wrong"] + EVENTS, 0)
     worst = 0.0
     for seed in range(given.seed, given.seed + given.count):
-        folder = os.path.join(given.keep, f"{kind}-{seed}") if given.keep else tempfile.mkdtemp()
-        os.makedirs(folder, exist_ok=True)
-        scene, out = os.path.join(folder, "scene.yaml"), os.path.join(folder, "out")
-        with open(scene, "w", encoding="ascii") as file:
-            file.write(Scene(random.Random(f"in time {kind} {seed}"), kind).text())
-        done = checked.run(given.capstan, "run", "-q", scene, "-o", out, "--force", "--no-paraview")
-        found, words = checked.check(given.checker, out, scene) if done.returncode in (0, 1) else ([0] * 5, done.stderr.strip())
-        events = checked.events(given.checker, out) if done.returncode in (0, 1) else {}
-        own = remainder(out) if done.returncode in (0, 1) and "quasi_static" not in open(scene, encoding="ascii").read() else 0.0
+        text = Scene(random.Random(f"in time {kind} {seed}"), kind).text()
+        scene, out, done = checked.solve(given, kind, seed, text, "--no-paraview")
+        found, words, events, own = [0] * 5, done.stderr.strip(), {}, 0.0
+        if done.returncode in (0, 1):
+            told = checked.told_of(given.checker, out, scene)
+            found, words = checked.counts_of(told)
+            events = checked.events_of(told)
+            own = 0.0 if "quasi_static" in text else remainder(out)
         worst = max(worst, own)
         sums["steps"] += found[0]
         sums["certified"] += found[1]

@@ -14,6 +14,7 @@
 
 #include "capstan/evolve.h"
 #include "dice.h"
+#include "scenes_given.h"
 
 enum { MOST_PIECES = 5, MOST_ELEMENTS = 40, MOVES = 3 };
 
@@ -286,15 +287,8 @@ static void run(uint64_t seed, Tally *tally) {
 }
 
 int main(int argc, char **argv) {
-    int scenes = 100;
-    uint64_t first = 0;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (strcmp(argv[i], "--scenes") == 0) scenes = atoi(argv[i + 1]);
-        if (strcmp(argv[i], "--seed") == 0) {
-            first = strtoull(argv[i + 1], NULL, 10);
-            scenes = 1;
-        }
-    }
+    uint64_t first;
+    const int scenes = scenes_given(argc, argv, 100, &first);
     Tally tally = {0};
     for (int i = 0; i < scenes; i++) run(first + (uint64_t)i, &tally);
     printf("%d scenes, %d steps, %.1f trials a step: %d compared, of which places differ by up to "

@@ -12,7 +12,6 @@ import math
 import os
 import random
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True  # nothing is left in the source folder
 import checked  # noqa: E402
@@ -142,8 +141,7 @@ def write_scene(dice, folder, kind):
 def one_class(given, kind):
     steps = certified = refuted = refused = ended = 0
     for seed in range(given.seed, given.seed + given.count):
-        folder = os.path.join(given.keep, f"{kind}-{seed}") if given.keep else tempfile.mkdtemp()
-        os.makedirs(folder, exist_ok=True)
+        folder = checked.folder_of(given, kind, seed)
         scene = write_scene(random.Random(f"{kind} {seed}"), folder, kind)
         out = os.path.join(folder, "out")
         found = checked.run(given.capstan, "run", scene, "-o", out, "--force")

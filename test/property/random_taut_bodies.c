@@ -16,6 +16,7 @@
 #include "capstan/evolve.h"
 #include "dice.h"
 #include "graph_proofs.h"
+#include "scenes_given.h"
 #include "turns.h"
 
 enum { BODIES = 2, MOST_LINES = 28, MOST_POINTS = 2 * MOST_LINES, STAGES = 2 };
@@ -340,15 +341,8 @@ static void run(uint64_t seed, Tally *tally) {
 }
 
 int main(int argc, char **argv) {
-    int scenes = 60;
-    uint64_t first = 0;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (strcmp(argv[i], "--scenes") == 0) scenes = atoi(argv[i + 1]);
-        if (strcmp(argv[i], "--seed") == 0) {
-            first = strtoull(argv[i + 1], NULL, 10);
-            scenes = 1;
-        }
-    }
+    uint64_t first;
+    const int scenes = scenes_given(argc, argv, 60, &first);
     Tally t = {0};
     for (int i = 0; i < scenes; i++) run(first + (uint64_t)i, &t);
     printf(

@@ -15,7 +15,6 @@ import math
 import os
 import random
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True  # nothing is left in the source folder
 import checked  # noqa: E402
@@ -148,8 +147,7 @@ def one_class(given, kind):
     steps = certified = refuted = proven = wrong = 0
     worst = 0.0
     for seed in range(given.seed, given.seed + given.count):
-        folder = os.path.join(given.keep, f"{kind}-{seed}") if given.keep else tempfile.mkdtemp()
-        os.makedirs(folder, exist_ok=True)
+        folder = checked.folder_of(given, kind, seed)
         mooring = Mooring(random.Random(f"{kind} {seed}"), kind)
         code, found, words = solve(given, mooring.text(), folder, "scene")
         steps, certified, refuted = steps + found[0], certified + found[1], refuted + found[3] + found[4]
