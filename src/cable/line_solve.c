@@ -38,9 +38,9 @@ static const double LEAST_REACTION = 1e-12;
 /* On a plane Newton's method goes on from this gap; in rounds, whose first solutions are degenerate
  * more often, from that of the loop. */
 static const double NEARLY = 1e-11;
-/* ... or, with many nodes n, from this over n squared. A node that slips where it should rest, and by
- * as much as its neighbour, adds a force and a slip to the gap that both are a share 1/n of all, and
- * the set is found where the gap is less. */
+/* ... or, with many nodes n, from this over n squared. A node that slips where it should rest, and
+ * by as much as its neighbour, adds a force and a slip to the gap that both are a share 1/n of all,
+ * and the set is found where the gap is less. */
 static const double NEARLY_OF_NODES = 0.1;
 
 void cpsi_line_set_loads(CpsiLine *line) {
