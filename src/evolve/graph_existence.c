@@ -20,6 +20,7 @@
 #include "evolve/body_self_stress.h"
 #include "evolve/checkpoint.h"
 #include "evolve/first_guess.h"
+#include "evolve/point_set.h"
 #include "evolve/points.h"
 
 /* the report ----------------------------------------------------------------------------------- */
@@ -65,7 +66,8 @@ bool cpsi_group_is_held(const CpsiBalance *balance) {
         for (int end = 0; end < 2; end++) {
             const int i = balance->line[item], point = evolution->points.tie[2 * i + end];
             if (point == CPSI_NO_POINT ? evolution->move[i].to[end].kind == CPS_END_KIND_HELD
-                                       : evolution->points.group[point] == CPSI_NO_POINT)
+                                       : evolution->points.group[point] == CPSI_NO_POINT ||
+                                             cpsi_set_of_point(evolution, point))
                 return true;
         }
     return false;

@@ -9,6 +9,7 @@
 #include "evolve/bodies.h"
 #include "evolve/body_motion.h"
 #include "evolve/point_motion.h"
+#include "evolve/point_set.h"
 #include "evolve/points.h"
 #include "linalg/dense.h"
 
@@ -283,7 +284,20 @@ static void bring_to_surface(Equation *out, const CpsiFree *at) {
     out->v = vec3_load(v);
 }
 
+/* In a set: M K d + rho (1 - M) d = rho (P(z) - x), M the derivative of P (point_set.c). */
+static Equation equation_in_set(const CpsiFree *at) {
+    CpsiFree now = *at;
+    Equation out = {.v = vec3(0, 0, 0)};
+    cpsi_point_set_hold(&now, at->yields);
+    cpsi_point_set_derivative(&now, out.p);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) out.q[a][b] = now.yields * ((a == b) - out.p[a][b]);
+    out.v = now.left;
+    return out;
+}
+
 static Equation equation_of(const CpsiFree *at, const CpsiObstacle *on, bool follows, bool turns) {
+    if (at->on) return equation_in_set(at);
     if (!(at->water.displaced > 0)) return equation_of_touch(at, on, follows, turns);
     bool floats;
     Equation out = equation_with(at, on, follows, turns, buoyancy_of_step(at, follows, &floats));

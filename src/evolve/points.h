@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "base/vec3.h"
+#include "cable/in_set.h"
 #include "capstan/evolve.h"
 #include "evolve/bodies.h"
 #include "evolve/joint_inertia.h"
@@ -34,6 +35,7 @@ typedef struct CpsiPoint {
     double dragged;         /* [m] as an anchor, since the start */
     double displaced_mass;  /* [kg] of water; 0 where it cannot leave the water */
     double length;          /* [m] of the longest line that ends here */
+    CpsiEndSet on;          /* the set that it is held to as a free one */
     CpsPointReport report;  /* its position relative to the origin */
     CpsiPressed pressed;
     CpsiPointInertia inertia;

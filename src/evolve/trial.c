@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
@@ -14,6 +15,7 @@
 #include "evolve/checkpoint.h"
 #include "evolve/joint_system.h"
 #include "evolve/point_motion.h"
+#include "evolve/point_set.h"
 #include "evolve/points.h"
 
 /* What is left counts as balanced up to so many tolerances of the largest force. */
@@ -166,6 +168,8 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
         at->bound = evolution->points.given[at->point].holding_capacity;
         return;
     }
+    at->on = cpsi_set_of_point(evolution, at->point);
+    if (at->on) return;
     at->obstacle = cpsi_trial_nearest(evolution, at->place, &at->gap, &at->normal);
     if (at->obstacle == CPS_NO_OBSTACLE) return;
     const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
@@ -221,6 +225,11 @@ static void find_touch(const CpsiBalance *balance, CpsiFree *at) {
     }
     const CpsiPoint *point = &balance->evolution->points.point[at->point];
     const double touch = cpsi_trial_touch(balance, at);
+    if (at->on) {
+        const double force = fmax(vec3_norm(at->rest), balance->force);
+        cpsi_point_set_hold(at, (force > 0 ? force : 1) / point->length);
+        return;
+    }
     at->reaction = at->bound = 0;
     at->force = vec3(0, 0, 0);
     at->left = at->rest;
@@ -422,6 +431,10 @@ void cpsi_try_places(CpsiBalance *balance) {
             balance->iterations[i] += evolution->line[i].report.iteration_count;
             cpsi_trial_restore_line(balance, i);
         }
+    for (int k = 0; k < balance->count; k++) {
+        const CpsiEndSet *on = cpsi_set_of_point(evolution, balance->at[k].point);
+        if (on) balance->at[k].place = cpsi_end_set_project(on, balance->at[k].place);
+    }
     impose(balance);
     cpsi_step_lines(balance);
     balance->trials++;
@@ -504,7 +517,9 @@ bool cpsi_obeys_friction(const CpsiBalance *balance, const CpsiFree *at) {
 
 bool cpsi_is_answer(const CpsiBalance *balance) {
     for (int k = 0; k < balance->count; k++)
-        if (!cpsi_obeys_friction(balance, &balance->at[k])) return false;
+        if (!cpsi_obeys_friction(balance, &balance->at[k]) ||
+            !cpsi_point_set_is_kept(balance, &balance->at[k]))
+            return false;
     return balance->certified && cpsi_is_balanced(balance, cpsi_left_now(balance));
 }
 

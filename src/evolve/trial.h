@@ -25,6 +25,10 @@ typedef struct CpsiFree {
     Vec3 normal, slip, force; /* force: F */
     bool drags;               /* an anchor: in a plane across `normal`, within its bound */
     CpsiWater water;          /* whose buoyancy is in `rest` */
+    CpsiEndSet *on;           /* the set that holds it, NULL: none; then no obstacle bears it */
+    Vec3 hold;                /* [N] the reaction of that set, */
+    double own_hold[3];       /* ... in the axes of the set, */
+    double yields;            /* [N/m] and the rho with which it was found */
     bool reached;             /* by the forest along which the points are balanced */
     Vec3 start;               /* where the point was, on the surface and turned with it */
 } CpsiFree;
