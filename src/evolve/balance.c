@@ -28,7 +28,6 @@
 #include "evolve/nearest_places.h"
 #include "evolve/newton_step.h"
 #include "evolve/point_motion.h"
-#include "evolve/point_set.h"
 #include "evolve/points.h"
 #include "evolve/time_step.h"
 #include "evolve/trial.h"
@@ -339,7 +338,8 @@ static bool search_again(CpsiBalance *balance, bool refined) {
 /* Find the place of a point, or a body, at which no line ends any more. */
 static void find_lone(CpsiBalance *balance) {
     CpsOutcome outcome = CPS_OUTCOME_SOLVED;
-    if (balance->body_count == 0 && !cpsi_set_of_point(balance->evolution, balance->at[0].point))
+    if (balance->body_count == 0 &&
+        !cpsi_set_of_point(&balance->evolution->points, balance->at[0].point))
         outcome = cpsi_lone_point(balance);
     else if (!search(balance, MOST_TRIALS))
         outcome = CPS_OUTCOME_STALLED;

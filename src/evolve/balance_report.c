@@ -11,7 +11,6 @@
 #include "evolve/body_motion.h"
 #include "evolve/newton_step.h"
 #include "evolve/point_motion.h"
-#include "evolve/point_set.h"
 #include "evolve/points.h"
 
 static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
@@ -33,16 +32,18 @@ static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
     report->displaced = at->water.displaced;
     vec3_store(report->position, at->place);
     if (evolution->interval > 0) vec3_store(report->inertia, cpsi_point_inertia(point, at->place));
-    if (at->on) vec3_store(report->set_reaction, at->hold);
-    if (at->on) memcpy(point->on.reaction, at->own_hold, sizeof at->own_hold);
+    if (at->in_set.on) {
+        vec3_store(report->set_reaction, at->in_set.reaction);
+        memcpy(point->on.reaction, at->in_set.own, sizeof at->in_set.own);
+    }
     vec3_store(report->lines, vec3_sub(vec3_sub(cpsi_rest_with(at, 0), vec3_load(report->load)),
                                        vec3_load(report->inertia)));
-    if (!at->on) vec3_store(report->friction, at->force);
+    vec3_store(report->friction, at->force);
     vec3_store(report->residual, at->left);
     if (touches) vec3_store(report->normal, at->normal);
     if (touches) vec3_store(report->slip, at->slip);
     report->has_place = cpsi_is_balanced(balance, vec3_norm(at->left)) &&
-                        cpsi_obeys_friction(balance, at) && cpsi_point_set_is_kept(balance, at);
+                        cpsi_obeys_friction(balance, at) && cpsi_is_kept_in_set(balance, at);
     for (int a = 0; a < 3; a++) point->move[a] = report->position[a] - point->before[a];
     memcpy(point->position, report->position, sizeof point->position);
 }

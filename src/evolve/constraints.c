@@ -17,18 +17,18 @@
 static const double ACTIVE = 1e-9;
 
 /* What is held to a set: an end of a line, or where `line` is NULL a point. */
-typedef struct Held {
+typedef struct HeldToSet {
     const CpsLine *line;
     int end;
     const CpsPoint *point;
     const CpsConstraint *on;
-} Held;
+} HeldToSet;
 
-static Held end_of(const CpsLine *line, int end) {
-    return (Held){.line = line, .end = end, .on = &line->constraint[end]};
+static HeldToSet end_of(const CpsLine *line, int end) {
+    return (HeldToSet){.line = line, .end = end, .on = &line->constraint[end]};
 }
 
-static CpsStatus refuse(const Held *held, const char *key, const char *what, CpsError *err) {
+static CpsStatus refuse(const HeldToSet *held, const char *key, const char *what, CpsError *err) {
     char place[32];
     if (!held->line) {
         snprintf(place, sizeof place, "on%s%s", key[0] ? "." : "", key);
@@ -42,7 +42,7 @@ static CpsStatus refuse(const Held *held, const char *key, const char *what, Cps
 }
 
 /* The form of a set that is given by an expression; the caller frees it. */
-static CpsStatus make_form(const Held *held, CpsiPlaceForm **out, CpsError *err) {
+static CpsStatus make_form(const HeldToSet *held, CpsiPlaceForm **out, CpsError *err) {
     CpsError found;
     const CpsStatus status = cpsi_place_form_make(held->on, out, &found);
     if (status == CPS_OK) return status;
@@ -53,7 +53,7 @@ static CpsStatus make_form(const Held *held, CpsiPlaceForm **out, CpsError *err)
     return refuse(held, "set", found.message, err);
 }
 
-static CpsStatus check_numbers(const Held *held, CpsError *err) {
+static CpsStatus check_numbers(const HeldToSet *held, CpsError *err) {
     const CpsConstraint *on = held->on;
     const double size = vec3_norm(vec3_load(on->axis));
     const bool has_axis = on->kind == CPS_CONSTRAINT_KIND_RAIL ||
@@ -88,7 +88,7 @@ static CpsStatus check_numbers(const Held *held, CpsError *err) {
 }
 
 /* Is x in the set, as far as `tolerance` [m] tells? `placed`: statics puts it there. */
-static CpsStatus check_place(const Held *held, Vec3 x, bool placed, double tolerance,
+static CpsStatus check_place(const HeldToSet *held, Vec3 x, bool placed, double tolerance,
                              CpsError *err) {
     CpsiEndSet on = {.is_there = true, .set = cpsi_place_set(held->on)};
     if (held->on->kind == CPS_CONSTRAINT_KIND_SET) {
@@ -108,7 +108,7 @@ static CpsStatus check_place(const Held *held, Vec3 x, bool placed, double toler
 }
 
 static CpsStatus check_one(const CpsLine *line, int end, CpsError *err) {
-    const Held held = end_of(line, end);
+    const HeldToSet held = end_of(line, end);
     const CpsStatus status = check_numbers(&held, err);
     if (status != CPS_OK || held.on->kind == CPS_CONSTRAINT_KIND_NONE) return status;
     if (line->end[end].kind != CPS_END_KIND_FREE)
@@ -142,7 +142,7 @@ static bool is_placed(const CpsScene *scene, int point) {
 
 static CpsStatus check_point(const CpsScene *scene, int index, CpsError *err) {
     const CpsPoint *point = &scene->point[index];
-    const Held held = {.point = point, .on = &point->constraint};
+    const HeldToSet held = {.point = point, .on = &point->constraint};
     const CpsStatus status = check_numbers(&held, err);
     if (status != CPS_OK || held.on->kind == CPS_CONSTRAINT_KIND_NONE) return status;
     if (point->kind != CPS_POINT_KIND_FREE)
@@ -163,7 +163,7 @@ CpsStatus cpsi_constraints_check_points(const CpsScene *scene, CpsError *err) {
         for (int end = 0; end < 2; end++)
             if (scene->line[i].constraint[end].kind != CPS_CONSTRAINT_KIND_NONE &&
                 scene->line[i].end[!end].kind == CPS_END_KIND_POINT) {
-                const Held held = end_of(&scene->line[i], end);
+                const HeldToSet held = end_of(&scene->line[i], end);
                 return refuse(&held, "",
                               "does not go together with a point at the other end: let this end "
                               "be at a point too, which the set holds",
@@ -231,13 +231,13 @@ CpsStatus cpsi_constraints_check_stage(const CpsScene *scene, const CpsStage *st
 CpsStatus cpsi_constraints_make(CpsEvolution *evolution, const CpsScene *scene, CpsError *err) {
     for (int i = 0; i < scene->line_count; i++)
         for (int end = 0; end < 2; end++) {
-            const Held held = end_of(&scene->line[i], end);
+            const HeldToSet held = end_of(&scene->line[i], end);
             if (held.on->kind != CPS_CONSTRAINT_KIND_SET) continue;
             const CpsStatus status = make_form(&held, &evolution->line[i].on[end].form, err);
             if (status != CPS_OK) return status;
         }
     for (int i = 0; i < scene->point_count; i++) {
-        const Held held = {.point = &scene->point[i], .on = &scene->point[i].constraint};
+        const HeldToSet held = {.point = &scene->point[i], .on = &scene->point[i].constraint};
         if (held.on->kind != CPS_CONSTRAINT_KIND_SET) continue;
         const CpsStatus status = make_form(&held, &evolution->points.point[i].on.form, err);
         if (status != CPS_OK) return status;

@@ -20,7 +20,6 @@
 #include "evolve/body_self_stress.h"
 #include "evolve/checkpoint.h"
 #include "evolve/first_guess.h"
-#include "evolve/point_set.h"
 #include "evolve/points.h"
 
 /* the report ----------------------------------------------------------------------------------- */
@@ -67,7 +66,7 @@ bool cpsi_group_is_held(const CpsiBalance *balance) {
             const int i = balance->line[item], point = evolution->points.tie[2 * i + end];
             if (point == CPSI_NO_POINT ? evolution->move[i].to[end].kind == CPS_END_KIND_HELD
                                        : evolution->points.group[point] == CPSI_NO_POINT ||
-                                             cpsi_set_of_point(evolution, point))
+                                             cpsi_set_of_point(&evolution->points, point))
                 return true;
         }
     return false;

@@ -92,6 +92,12 @@ static inline int cpsi_group_of_line(const CpsiPoints *points, int line) {
     return CPSI_NO_POINT;
 }
 
+/* The set that holds a point, which is free; else NULL. */
+static inline CpsiEndSet *cpsi_set_of_point(const CpsiPoints *points, int point) {
+    CpsiPoint *of = &points->point[point];
+    return of->on.is_there && of->kind == CPS_POINT_KIND_FREE ? &of->on : NULL;
+}
+
 /* Is it held, and an anchor that drags? */
 static inline bool cpsi_point_drags(const CpsiPoints *points, int point) {
     return points->given[point].drags && points->point[point].kind == CPS_POINT_KIND_HELD;

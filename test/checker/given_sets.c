@@ -91,7 +91,8 @@ void point_sets_compare(Compare *compare, const CpsScene *scene) {
         any = any || scene->point[k].constraint.kind != CPS_CONSTRAINT_KIND_NONE;
     PointSets *sets = point_sets_open(&compare->source, &bad, NULL);
     if (bad || any != (sets != NULL)) find(compare, "sets of the points%s", "");
-    for (int k = 0; k < scene->point_count && sets && !bad; k++)
+    const int count = sets && !bad ? scene->point_count : 0;
+    for (int k = 0; k < count; k++)
         compare_set(compare, &(Owner){NULL, scene->point[k].name, (size_t)k},
                     &scene->point[k].constraint, point_sets_form(sets, (size_t)k));
     point_sets_free(sets);

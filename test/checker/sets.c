@@ -427,14 +427,16 @@ PointSets *point_sets_open(const Source *source, int *bad, FILE *log) {
 }
 
 int point_sets_read(const Source *source, size_t step, PointSets *sets, FILE *log) {
-    for (size_t k = 0; sets && k < sets->count; k++)
+    const size_t count = sets ? sets->count : 0;
+    for (size_t k = 0; k < count; k++)
         if (read_reaction(source, &(Owner){NULL, k}, step, &sets->of[k], log)) return -1;
     return 0;
 }
 
 void point_sets_free(PointSets *sets) {
-    for (size_t k = 0; sets && k < sets->count; k++) conic_free(sets->of[k].form);
-    if (sets) free(sets->of);
+    if (!sets) return;
+    for (size_t k = 0; k < sets->count; k++) conic_free(sets->of[k].form);
+    free(sets->of);
     free(sets);
 }
 
@@ -443,7 +445,8 @@ bool point_sets_has(const PointSets *sets, size_t k) { return sets && sets->of[k
 const struct Conic *point_sets_form(const PointSets *sets, size_t k) { return sets->of[k].form; }
 
 void point_sets_add(const PointSets *sets, size_t k, Real *sum) {
-    for (int a = 0; sets && a < 3; a++) sum[a] += sets->of[k].reaction[a];
+    if (!sets) return;
+    for (int a = 0; a < 3; a++) sum[a] += sets->of[k].reaction[a];
 }
 
 void point_sets_check(const PointSets *sets, size_t k, const double *x, double length,

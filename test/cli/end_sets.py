@@ -58,7 +58,7 @@ BAD = (  # (what is replaced, by what, what is said)
     (ON, "{rail: {}}", "12:46: 'rail': 'from' is missing"),
     (ON, "{rail: {from: [5, -1, 0.5]}}", "12:46: 'rail': nothing given, expected exactly one of 'to', 'along'"),
     (ON, "{rail: {from: [5, -1, 0.5], to: [5, 2, 0.5], along: [0, 1, 0]}}", "12:46: 'rail': too much given, expected exactly one of 'to', 'along'"),
-    (ON, "{rail: {from: [5, -1, 0.5], to: [5, -1, 0.5]}}", "12:41: rail: it goes from (5, -1, 0.5) m to the same place: give it two places, or hold the end"),
+    (ON, "{rail: {from: [5, -1, 0.5], to: [5, -1, 0.5]}}", "12:41: rail: it goes from (5, -1, 0.5) m to the same place: give it two places, or hold what is on it"),
     (ON, "{rail: {from: [5, -1], to: [5, 2, 0.5]}}", "12:53: 'from': found a list of 2, expected three numbers"),
     (ON, "{rail: {from: [5, -1, .nan], to: [5, 2, 0.5]}}", "12:67: 'from': found '.nan', expected a number"),
     (ON, "{rail: {from: [5, -1, .inf], to: [5, 2, 0.5]}}", "12:67: 'from': found '.inf', expected a number"),
