@@ -305,22 +305,3 @@ void cpsi_line_restart_rough(CpsiLine *line) {
     for (int j = 0; j < line->n; j++)
         line->inertia.restarts[j] = line->inertia.restarts[j] || line->inertia.late[j];
 }
-
-void cpsi_line_stop(CpsiLine *line) {
-    CpsiInertia *inertia = &line->inertia;
-    const size_t n = (size_t)line->n;
-    inertia->is_moving = false;
-    cpsi_line_field_clear(line);
-    if (cpsi_line_has_damping(line)) cpsi_line_undamp(line);
-    inertia->kinetic = inertia->position_bound = 0;
-    inertia->ledger = (CpsMotionLedger){0};
-    inertia->landed = inertia->changed = inertia->snatched = 0;
-    if (line->has_node_loads) {
-        memset(line->field.added, 0, 3 * n * sizeof *line->field.added);
-        memset(line->field.wave, 0, 3 * n * sizeof *line->field.wave);
-    }
-    memset(inertia->velocity, 0, 3 * n * sizeof *inertia->velocity);
-    memset(inertia->rest_velocity, 0, 3 * n * sizeof *inertia->rest_velocity);
-    memset(inertia->span, 0, n * sizeof *inertia->span);
-    for (size_t j = 0; j < n; j++) inertia->restarts[j] = true;
-}

@@ -50,10 +50,11 @@ int inertia_create(const Source *source, const char *line, Record *record, FILE 
 }
 
 int inertia_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
-    static const char *const NUMBER[TIME_ENTRIES] = {"kinetic",        "ledger_kinetic",
-                                                     "ledger_impact",  "ledger_scheme",
-                                                     "ledger_damping", "ledger_drag",
-                                                     "ledger_added",   "ledger_waves"};
+    static const char *const NUMBER[TIME_ENTRIES] = {"kinetic",         "ledger_kinetic",
+                                                     "ledger_impact",   "ledger_scheme",
+                                                     "ledger_settling", "ledger_damping",
+                                                     "ledger_drag",     "ledger_added",
+                                                     "ledger_waves"};
     if (!record->mass) return 0;
     const size_t start[] = {step, 0, 0}, count[] = {1, record->nodes, 3};
     int time, length;
@@ -301,6 +302,7 @@ void inertia_check(const Source *source, const Record *r, const Record *before, 
             r->ledger[LEDGER_ENDS] + r->ledger[LEDGER_OBSTACLES] + given +
                 r->time_entry[TIME_WAVES],
             spent, 1e-12 * sizes + 1e-300, find, user);
+    compare("ledger_settling in time", r->time_entry[TIME_SETTLING], 0, 0, find, user);
     compare("imbalance of the ledger in time", r->ledger[LEDGER_IMBALANCE], 0, noise, find, user);
     const Damped own = r->damping ? damping_measure(r, before, older) : (Damped){0};
     compare("ledger_damping", r->time_entry[TIME_DAMPING],
