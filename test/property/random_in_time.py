@@ -254,10 +254,7 @@ class Scene:
 
     def wave(self):
         while True:
-            swim = Swim(random.Random(self.dice.random()), random.Random(self.dice.random()), "bed")
-            # the phase of a short wave is known to its rounding far away
-            swim.origin = [self.dice.choice([0, 100, -300]) * swim.size for _ in range(2)] + [0.0]
-            text = swim.text()
+            text = Swim(random.Random(self.dice.random()), random.Random(self.dice.random()), "bed").text()
             if "waves:" in text:
                 return text
 
