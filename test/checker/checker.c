@@ -19,6 +19,7 @@
 #include "long_element.h"
 #include "measure.h"
 #include "motion.h"
+#include "pace.h"
 #include "passing.h"
 #include "places.h"
 #include "points.h"
@@ -137,12 +138,11 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
     const double *entry = r->ledger;
     const double loads = r->loads ? r->loads->ledger : 0;
     double spent = entry[LEDGER_ELASTIC] + entry[LEDGER_GRAVITY] + r->dissipated +
-                   entry[LEDGER_IMBALANCE] - loads,
-           sizes = r->dissipated + fabs(loads);
+                   entry[LEDGER_IMBALANCE] - loads + r->time_entry[TIME_GROWTH] +
+                   r->time_entry[TIME_SETTLING],
+           sizes = r->dissipated + fabs(loads) + fabs(r->time_entry[TIME_SETTLING]);
     for (int k = 0; k < LEDGER_ENTRIES; k++) sizes += fabs(entry[k]);
     sizes += fabs(r->winch_work);
-    spent += r->time_entry[TIME_GROWTH] + r->time_entry[TIME_SETTLING];
-    sizes += fabs(r->time_entry[TIME_SETTLING]);
     // entries are sums over the parts, which may cancel but for rounding
     if (r->substeps > 1) sizes += m->largest_force * m->length;
     at_most(findings, "ledger: ends + obstacles - all else",
@@ -762,7 +762,7 @@ static bool is_certified(int outcome) {
     return outcome != OUTCOME_STALLED && outcome != OUTCOME_LIMIT;
 }
 
-/* Where findings on points, bodies and releases of lines go. */
+/* Findings on points, bodies and releases. */
 typedef struct OtherFindings {
     const char *of;
     FILE *log;
@@ -784,7 +784,7 @@ int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     report->steps = bad ? 0 : (int)source.steps;
     if (!bad && source.steps == 0 && log) fprintf(log, "%s holds no step\n", path);
     Findings times = {log, "times", 0, 0};
-    if (!bad) inertia_times(&source, find_number, &times);
+    if (!bad) bad = pace_check(&source, find_number, &times, log);
     report->refuted += times.count > 0;
     for (size_t i = 0; i < source.lines && !bad; i++)
         bad = check_line(&source, source.line_name[i], log, report);

@@ -138,9 +138,7 @@ static Real take_off(const Real *n, Real *v) {
     return sqrtl(left);
 }
 
-/* The part of the vector across the normals of the contacts at which node j bore, up to two, which
- * may have any angle; what gives stops no node. */
-static void across(const Source *source, const Record *r, size_t j, Real *v) {
+void inertia_across(const Source *source, const Record *r, size_t j, Real *v) {
     Real first[3];
     bool any = false;
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) {
@@ -168,7 +166,7 @@ static double off_scheme(const Source *source, const Record *r, const Record *be
         const Real x = before->position[j][a], past = older ? older->position[j][a] : x;
         off[a] = r->reference[j][a] - x - back * (x - past);
     }
-    if (back > 0) across(source, before, j, off);
+    if (back > 0) inertia_across(source, before, j, off);
     return size_of(off);
 }
 
@@ -214,7 +212,7 @@ static double kinetic_energy(const Source *source, const Record *r, double reach
             sum += own * own * r->mass[j] / 2;
             v[a] = (own - ((Real)r->position[j][a] - r->reference[j][a]) / r->span[j]);
         }
-        across(source, r, j, v);
+        inertia_across(source, r, j, v);
         if (!is_beside_element(r, j) && !is_at_point(r, j))
             off = fmax(off, size_of(v) * r->span[j]);
     }
