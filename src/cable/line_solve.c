@@ -38,6 +38,10 @@ static const double LEAST_REACTION = 1e-12;
 /* On a plane Newton's method goes on from this gap; in rounds, whose first solutions are degenerate
  * more often, from that of the loop. */
 static const double NEARLY = 1e-11;
+/* ... or, with many nodes n, from this over n squared. A node that slips where it should rest, and
+ * by as much as its neighbour, adds a force and a slip to the gap that both are a share 1/n of all,
+ * and the set is found where the gap is less. */
+static const double NEARLY_OF_NODES = 0.1;
 
 void cpsi_line_set_loads(CpsiLine *line) {
     for (int j = 0; j < line->n; j++)
@@ -444,6 +448,12 @@ static bool is_polished(const CpsiLine *line, const CpsiStepOptions *options,
            !cpsi_line_has_sets(line) && !cpsi_line_has_soft(line) && !line->newton.unpolished;
 }
 
+/* The gap from which Newton's method goes on with so many nodes. */
+static double nearly(int nodes) {
+    const double n = nodes;
+    return fmax(CPSI_TARGET, fmin(NEARLY, NEARLY_OF_NODES / (n * n)));
+}
+
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                               const CpsiStepOptions *options, const CpsiRound *round) {
     const bool taut = cpsi_line_is_taut(line);
@@ -470,7 +480,7 @@ CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
     const bool refined = round->centering && !line->is_rough,
                polished = force > 0 && !taut && is_polished(line, options, round);
     const double target = line->is_rough                      ? ROUGH * options->solver.tolerance
-                          : polished && !line->has_local_axes ? NEARLY
+                          : polished && !line->has_local_axes ? nearly(line->n)
                                                               : CPSI_TARGET;
     cpsi_step_program_fill(line, program, &scale);
     scale.force = force;

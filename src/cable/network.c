@@ -19,6 +19,9 @@ static const double ENOUGH = 1e-10;
  * their joints hardly move; and so does the slack of nets, most of whose sides are not to be taut.
  */
 enum { PATIENT = 40 };
+/* Lines that are pulled far by what is held may suggest a unit of force far above all forces found,
+ * and the loop ends early: then it is begun again in smaller units, down to this share. */
+static const double SMALLER = 0.1, SMALLEST = 1e-4;
 /* The cosine of the angle at which planes are the same. */
 static const double LEVEL = 1 - 1e-12;
 /* An anchor holds this many times the largest force across its plane. */
@@ -335,9 +338,11 @@ static CpsiJoined part_of(const CpsiNetwork *network, const CpsiLine *line,
     return out;
 }
 
-/* Solve the program as `ipm` says, in units of its loads. */
+/* Solve the program as `ipm` says, in units of its loads, and of a share of the force that its
+ * lines suggest. */
 static bool solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
-                  const CpsiStepOptions *options, CpsiIpmOptions ipm, const CpsiNetworkMove *out) {
+                  const CpsiStepOptions *options, CpsiIpmOptions ipm, double unit,
+                  const CpsiNetworkMove *out) {
     const bool coupled = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
                          !options->frictionless && line->obstacle_count > 0;
     const double *axes = line[part->number[0]].common_axes, *u = network->program.base.u;
@@ -347,8 +352,9 @@ static bool solve(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *p
         move_ends(one, part, k);
         if (part->continues && one->has_local_axes) update_base(one);
     }
-    const CpsiStepScale scale =
-        scale_of(line, part, coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED);
+    CpsiStepScale scale = scale_of(line, part, coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED);
+    scale.force *= unit;
+    network->unit_force = scale.force;
     const double loads = fill(network, line, part, &scale);
     ipm.scale = loads > 0 ? loads : 1;
     ipm.patience = PATIENT;
@@ -398,19 +404,35 @@ static bool has_inextensible(const CpsiLine *line, const CpsiNetworkPart *part) 
     return false;
 }
 
+/* [N] The largest force that the program has found at an end of a line. */
+static double largest_pull(const CpsiNetworkPart *part, const CpsiNetworkMove *move) {
+    double most = 0;
+    for (int k = 0; k < 2 * part->lines; k++)
+        most = fmax(most, vec3_norm(vec3_load(&move->pull[3 * k])));
+    return most;
+}
+
 /* Solve the program as that of a line alone is solved. Of thousands of elastic lines rounding may
- * end the loop before its target; then it has to come less near. */
+ * end the loop before its target: it is solved again in units of the largest force found, and if
+ * that is not enough it has to come less near. */
 static bool solve_to_the_end(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkPart *part,
                              const CpsiStepOptions *options, const CpsiNetworkMove *out) {
     CpsiIpmOptions ipm = {.target = CPSI_TARGET,
                           .max_iterations = ITERATIONS,
                           .centering_steps = CPSI_CENTERING_STEPS,
                           .sharpenings = CPSI_REFINEMENT_STEPS};
-    bool solved = solve(network, line, part, options, ipm, out);
+    const bool inextensible = has_inextensible(line, part);
+    bool solved = solve(network, line, part, options, ipm, 1, out);
+    double unit = 1;
+    if (network->found == CPSI_IPM_STALLED && part->bodies == 0 && !inextensible) {
+        const double found = largest_pull(part, out) / network->unit_force;
+        if (found < SMALLER) unit = fmax(found, SMALLEST);
+        if (unit < 1) solved = solve(network, line, part, options, ipm, unit, out);
+    }
     while (network->found == CPSI_IPM_STALLED && ipm.target < ENOUGH &&
-           (part->bodies > 0 || !has_inextensible(line, part))) {
+           (part->bodies > 0 || !inextensible)) {
         ipm.target *= 10;
-        solved = solve(network, line, part, options, ipm, out);
+        solved = solve(network, line, part, options, ipm, unit, out);
     }
     return solved;
 }
@@ -421,8 +443,12 @@ bool cpsi_network_guess(CpsiNetwork *network, CpsiLine *line, const CpsiNetworkP
                                 .max_iterations = ITERATIONS,
                                 .centering_steps = part->is_refined ? CPSI_CENTERING_STEPS : 0,
                                 .sharpenings = part->is_refined ? CPSI_REFINEMENT_STEPS : 0};
-    const bool solved = part->is_exact ? solve_to_the_end(network, line, part, options, out)
-                                       : solve(network, line, part, options, ipm, out);
+    bool solved = part->is_exact ? solve_to_the_end(network, line, part, options, out)
+                                 : solve(network, line, part, options, ipm, 1, out);
+    if (!part->is_exact && part->bodies == 0)
+        for (double unit = SMALLER;
+             !solved && network->found == CPSI_IPM_STALLED && unit >= SMALLEST; unit *= SMALLER)
+            solved = solve(network, line, part, options, ipm, unit, out);
     network->turned = 0;
     if (!solved) return false;
     for (int k = 0; k < part->lines; k++)

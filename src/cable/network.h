@@ -42,6 +42,7 @@ typedef struct CpsiNetwork {
     int lines, joints;       /* that it was laid out for */
     CpsiChainProgram *chain; /* (lines + joints) a program for each, of which some take part */
     CpsiIpmOutcome found;    /* how the last program ended */
+    double unit_force;       /* [N] of the last program */
     double turned;           /* [rad] by how much a guess has turned the axes of the lines' nodes */
     CpsiJoined *joined;      /* (lines) each line's part of the solution */
     double **base;           /* (lines) of lines with local axes, the base of the last program, */

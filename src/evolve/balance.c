@@ -126,6 +126,13 @@ static double next_share(Bracket *bracket, double share, double work) {
            (bracket->high - bracket->low) * fmin(fmax(at, LEAST_SHARE), 1 - LEAST_SHARE);
 }
 
+/* By which factor the next step is longer than the matrix says, after one that has reduced the work
+ * along it to `now`: what differs by little from 1 is what is not linear, and falls by itself. */
+static double next_longer(double longer, double work, double now) {
+    const double next = fmin(longer * fmax(work / (work - fmin(now, 0.9 * work)), 0.5), LONGEST);
+    return fabs(next - 1) > NEARLY ? next : 1;
+}
+
 /* Take the step, or the share of it at which the work along it nearly vanishes, in no more than
  * `shortenings` further trials. Returns by which factor the next step may be longer: where the work
  * has fallen less than it should, the stiffness is less than the matrix says. */
@@ -154,10 +161,7 @@ static double take_step(CpsiBalance *balance, int shortenings, double longer) {
             continue;
         }
         const bool reduced = cpsi_left_now(balance) <= allowed;
-        if (i == 0 && (reduced || now >= -OVERSHOOT * work))
-            return work > 0
-                       ? fmin(longer * fmax(work / (work - fmin(now, 0.9 * work)), 0.5), LONGEST)
-                       : 1;
+        if (i == 0 && (reduced || now >= -OVERSHOOT * work)) return next_longer(longer, work, now);
         if (fabs(now) <= NEARLY * work) return 1;
         const double before = share;
         share = next_share(&bracket, share, now);
@@ -216,13 +220,12 @@ static void begin(CpsiBalance *balance, int group) {
     }
 }
 
-static bool search_with(CpsiBalance *balance, int trials, int patience) {
+/* Search on from the trial. */
+static bool search_on(CpsiBalance *balance, int trials, int patience) {
     const size_t bytes = (size_t)balance->count * sizeof *balance->at,
                  rigid = (size_t)balance->body_count * sizeof *balance->rigid;
     double best = INFINITY, halved = INFINITY, longer = 1;
     int waited = 0;
-    balance->open_trials = 0;
-    cpsi_try_places(balance);
     const int most = balance->trials + trials;
     for (int i = 0; i < ITERATIONS && !is_over(balance); i++) {
         const double left = cpsi_left_now(balance);
@@ -254,11 +257,20 @@ static bool search_with(CpsiBalance *balance, int trials, int patience) {
     return cpsi_is_answer(balance);
 }
 
+static bool search_with(CpsiBalance *balance, int trials, int patience) {
+    balance->open_trials = 0;
+    cpsi_try_places(balance);
+    return search_on(balance, trials, patience);
+}
+
+static int patience_for(const CpsiBalance *balance) {
+    return !cpsi_group_is_held(balance) ? PATIENCE_UNHELD
+           : balance->body_count > 0    ? PATIENCE_WITH_BODIES
+                                        : PATIENCE;
+}
+
 static bool search(CpsiBalance *balance, int trials) {
-    return search_with(balance, trials,
-                       !cpsi_group_is_held(balance) ? PATIENCE_UNHELD
-                       : balance->body_count > 0    ? PATIENCE_WITH_BODIES
-                                                    : PATIENCE);
+    return search_with(balance, trials, patience_for(balance));
 }
 
 /* Search with soft lines, and then with stiffer ones up to their own stiffness: a body that starts
@@ -424,6 +436,43 @@ static bool take_joint_answer_within_reach(CpsiBalance *balance) {
     return false;
 }
 
+/* Begin where the stiffness at the state before leads by the loads that are new: so much is known
+ * without a trial. What slid in the step before is taken to go on. Returns what is left in that
+ * state; 0 where it leads nowhere, then points begin where the last step leads. */
+static double predict_places(CpsiBalance *balance) {
+    cpsi_read_forces(balance);
+    const double left = cpsi_left_now(balance);
+    if (balance->evolution->done == 0 || !balance->certified || cpsi_is_balanced(balance, left) ||
+        !cpsi_find_step(balance)) {
+        cpsi_begin_again(balance);
+        cpsi_extrapolate_places(balance);
+        return 0;
+    }
+    cpsi_limit_step(balance);
+    for (int k = 0; k < balance->count; k++) {
+        const CpsiFree from = balance->at[k];
+        balance->at[k].place = cpsi_place_after(balance, &from, &balance->step[3 * k], 1);
+    }
+    for (int k = 0; k < balance->body_count; k++)
+        balance->rigid[k].pose = cpsi_pose_after(balance, k, &balance->rigid[k].pose,
+                                                 &balance->step[3 * balance->count + 6 * k], 1);
+    return left;
+}
+
+/* Search from there; where that leaves more than the loads do, as with ends that are moved as well,
+ * from where everything was. */
+static bool search_from_prediction(CpsiBalance *balance) {
+    balance->open_trials = 0;
+    const double before = predict_places(balance);
+    cpsi_try_places(balance);
+    if (before > 0 && !(balance->certified && cpsi_left_now(balance) <= before)) {
+        cpsi_begin_again(balance);
+        cpsi_extrapolate_places(balance);
+        cpsi_try_places(balance);
+    }
+    return search_on(balance, FEW_TRIALS, patience_for(balance));
+}
+
 /* Find the places of a group. In a history a body hardly moves in a step, and a few trials from
  * where it is take less time than the rounds of a first guess. */
 static void find_places(CpsiBalance *balance, int group) {
@@ -443,8 +492,7 @@ static void find_places(CpsiBalance *balance, int group) {
     }
     if (!frozen && cpsi_group_falls(balance)) return;
     if (!is_static && balance->body_count > 0) {
-        cpsi_extrapolate_places(balance);
-        if (search(balance, FEW_TRIALS)) {
+        if (search_from_prediction(balance)) {
             cpsi_take_nearest_places(balance);
             cpsi_report_found(balance);
             return;

@@ -32,6 +32,8 @@ static const double CLEARLY = 1e-6;
 /* Lines that are pulled straight by loads of which their tension is more than this multiple get the
  * tension of slightly longer ones. */
 static const double STRAINED = 1e5;
+/* The search for places ends at this share of the largest force. */
+static const double BALANCED = 1e-11;
 /* A line's part of the solution is poor if its gap is more than this share of the tolerance. */
 static const double POOR = 1e-2;
 /* [N/m] With hardly any stiffness the friction of a point is what balances it, as in the solution,
@@ -184,6 +186,25 @@ static void balance_along_forest(CpsiBalance *balance) {
     }
 }
 
+/* The parts of the solution without what balance_along_forest has added; it was an answer. */
+static bool take_back(CpsiBalance *balance) {
+    for (int item = 0; item < balance->line_count; item++)
+        memset(balance->network.joined[item].shift, 0, sizeof balance->network.joined[item].shift);
+    try_joined(balance);
+    return cpsi_is_answer(balance);
+}
+
+/* Let what is left at the points go along lines to what is held, also where it is within the
+ * tolerance: `found`. An answer that this makes no better stays as it is. */
+static bool balance_points(CpsiBalance *balance, bool found) {
+    const double left = cpsi_left_now(balance);
+    if (found && left <= BALANCED * balance->force) return true;
+    balance_along_forest(balance);
+    try_joined(balance);
+    const bool better = cpsi_is_answer(balance) && (!found || cpsi_left_now(balance) < left);
+    return better || (found && take_back(balance));
+}
+
 /* Which lines take their part of the solution: all; or, of the solution for longer lines, those
  * that are straight between the places. */
 static void join(CpsiBalance *balance, double longer) {
@@ -246,11 +267,7 @@ static bool try_parts(CpsiBalance *balance, double longer) {
         try_joined(balance);
         found = cpsi_is_answer(balance);
     }
-    if (!found && balance->certified) {
-        balance_along_forest(balance);
-        try_joined(balance);
-        found = cpsi_is_answer(balance);
-    }
+    if (balance->certified) found = balance_points(balance, found);
     if (found) solve_poor(balance);
     for (int item = 0; item < balance->line_count; item++)
         evolution->line[balance->line[item]].joined = NULL;

@@ -413,18 +413,8 @@ void cpsi_step_lines(CpsiBalance *balance) {
     cpsi_workers_run(balance->evolution->workers, step_one, balance, balance->line_count);
 }
 
-/* Solve the lines for the places of the points. */
-void cpsi_try_places(CpsiBalance *balance) {
+void cpsi_read_forces(CpsiBalance *balance) {
     CpsEvolution *evolution = balance->evolution;
-    if (balance->trials > 0)
-        for (int item = 0; item < balance->line_count; item++) {
-            const int i = balance->line[item];
-            balance->iterations[i] += evolution->line[i].report.iteration_count;
-            cpsi_trial_restore_line(balance, i);
-        }
-    impose(balance);
-    cpsi_step_lines(balance);
-    balance->trials++;
     balance->force = balance->acting = balance->rounding = 0;
     balance->certified = true;
     for (int k = 0; k < balance->count; k++) {
@@ -462,12 +452,27 @@ void cpsi_try_places(CpsiBalance *balance) {
                 add_pull(balance, &balance->rigid[balance->rigid_of[point]], point, pull);
         }
     }
-    if (!balance->certified) balance->open_trials++;
     for (int k = 0; k < balance->count; k++) {
         cpsi_trial_find_obstacle(evolution, &balance->at[k]);
         find_contact(balance, &balance->at[k]);
     }
     for (int k = 0; k < balance->body_count; k++) find_rest(balance, &balance->rigid[k]);
+}
+
+/* Solve the lines for the places of the points. */
+void cpsi_try_places(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    if (balance->trials > 0)
+        for (int item = 0; item < balance->line_count; item++) {
+            const int i = balance->line[item];
+            balance->iterations[i] += evolution->line[i].report.iteration_count;
+            cpsi_trial_restore_line(balance, i);
+        }
+    impose(balance);
+    cpsi_step_lines(balance);
+    balance->trials++;
+    cpsi_read_forces(balance);
+    if (!balance->certified) balance->open_trials++;
 }
 
 /* [N] The largest force that nothing balances, moments over the arm of their body. */

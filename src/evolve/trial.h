@@ -124,6 +124,8 @@ void cpsi_trial_restore_line(CpsiBalance *balance, int line);
 void cpsi_trial_restore_lines(CpsiBalance *balance);
 /* Take the step of the lines of the search, as it is imposed on them. */
 void cpsi_step_lines(CpsiBalance *balance);
+/* The forces that the lines as they are leave on the points and bodies. */
+void cpsi_read_forces(CpsiBalance *balance);
 /* Solve the lines for the places of the points and bodies. */
 void cpsi_try_places(CpsiBalance *balance);
 /* [N] The largest force that nothing balances, moments over the arm of their body; now. */

@@ -80,14 +80,23 @@ void cpsi_mesh_find_folds(CpsMesh *mesh, int *scratch) {
     mesh->has_folds = has_fold(mesh) || !is_one_piece(mesh, scratch);
 }
 
-/* A way over the faces round a corner, or over the one edge of a foot. */
+/* A way over the faces round a corner, one way and, where a rim or a fold ends that, the other; or
+ * over the one edge of a foot. */
 typedef struct Turn {
-    int face, edge; /* which is crossed next */
-    int vertex;     /* about which it turns, -1: over an edge alone */
+    int face, edge;   /* which is crossed next */
+    int vertex;       /* about which it turns, -1: over an edge alone */
+    int first, other; /* the face with which it begins, and its other edge at the corner, or -1 */
 } Turn;
 
+/* The way over the faces round a foot that is on no face. */
+static Turn turn_about(const CpsMesh *mesh, const CpsiMeshFoot *at) {
+    const bool corner = at->part >= CPSI_MESH_CORNER;
+    const int i = at->part - (corner ? CPSI_MESH_CORNER : CPSI_MESH_EDGE), t = at->triangle;
+    return (Turn){t, i, corner ? vertex_of(mesh, t, i) : -1, t, corner ? (i + 2) % 3 : -1};
+}
+
 /* Go over the next edge; false at a rim or, with `stays`, at a fold. */
-static bool go_on(const CpsMesh *mesh, Turn *turn, Vec3 x, bool stays) {
+static bool cross(const CpsMesh *mesh, Turn *turn, Vec3 x, bool stays) {
     const int t = turn->face, s = beyond_edge(mesh, t, turn->edge);
     if (s < 0 || (stays && is_fold(mesh, t, turn->edge, s, x))) return false;
     const int a = vertex_of(mesh, t, turn->edge), b = vertex_of(mesh, t, turn->edge + 1),
@@ -100,23 +109,28 @@ static bool go_on(const CpsMesh *mesh, Turn *turn, Vec3 x, bool stays) {
     return true;
 }
 
+/* Go to the next face; false where there is no other. */
+static bool go_on(const CpsMesh *mesh, Turn *turn, Vec3 x, bool stays) {
+    if (turn->vertex < 0 && turn->face != turn->first) return false;
+    if (cross(mesh, turn, x, stays)) return turn->face != turn->first;
+    if (turn->other < 0) return false;
+    turn->face = turn->first;
+    turn->edge = turn->other;
+    turn->other = -1;
+    return cross(mesh, turn, x, stays);
+}
+
 /* Is there a nearer point on the faces round a foot? Then *at is the nearest of them. With `stays`
  * no fold is crossed on the way to it. */
 static bool descend(const CpsMesh *mesh, Vec3 x, bool stays, CpsiMeshFoot *at) {
     if (at->part == CPSI_MESH_FACE) return false;
-    const bool corner = at->part >= CPSI_MESH_CORNER;
-    const int i = at->part - (corner ? CPSI_MESH_CORNER : CPSI_MESH_EDGE), from = at->triangle;
+    Turn turn = turn_about(mesh, at);
     CpsiMeshFoot best = *at;
-    for (int way = 0; way <= corner; way++) {
-        Turn turn = {from, way == 0 ? i : (i + 2) % 3, corner ? vertex_of(mesh, from, i) : -1};
-        for (int k = 0; k < mesh->triangle_count && go_on(mesh, &turn, x, stays); k++) {
-            if (turn.face == from) break;
-            const CpsiMeshFoot there = cpsi_mesh_nearest_of(mesh, turn.face, x);
-            if (there.distance < best.distance * (1 - ROUNDING)) best = there;
-            if (!corner) break;
-        }
+    while (go_on(mesh, &turn, x, stays)) {
+        const CpsiMeshFoot there = cpsi_mesh_nearest_of(mesh, turn.face, x);
+        if (there.distance < best.distance * (1 - ROUNDING)) best = there;
     }
-    if (best.triangle == from) return false;
+    if (best.triangle == at->triangle) return false;
     *at = best;
     return true;
 }
@@ -175,20 +189,11 @@ static void consider(void *into, const CpsiMeshFoot *foot) {
 
 /* The planes of the faces round the first foot, which lies on an edge or corner. */
 static void insert_planes(Feet *feet, const CpsiMeshFoot *at) {
-    const CpsMesh *mesh = feet->mesh;
-    const bool corner = at->part >= CPSI_MESH_CORNER;
-    const int i = at->part - (corner ? CPSI_MESH_CORNER : CPSI_MESH_EDGE), from = at->triangle;
-    CpsiMeshFoot plane = plane_foot(mesh, from, feet->x);
-    insert(feet, &plane);
-    for (int way = 0; way <= corner; way++) {
-        Turn turn = {from, way == 0 ? i : (i + 2) % 3, corner ? vertex_of(mesh, from, i) : -1};
-        for (int k = 0; k < mesh->triangle_count && go_on(mesh, &turn, feet->x, false); k++) {
-            if (turn.face == from) break;
-            plane = plane_foot(mesh, turn.face, feet->x);
-            insert(feet, &plane);
-            if (!corner) break;
-        }
-    }
+    Turn turn = turn_about(feet->mesh, at);
+    do {
+        const CpsiMeshFoot plane = plane_foot(feet->mesh, turn.face, feet->x);
+        insert(feet, &plane);
+    } while (go_on(feet->mesh, &turn, feet->x, false));
 }
 
 int cpsi_mesh_feet(const CpsMesh *mesh, Vec3 x, double within, int most, CpsiMeshFoot out[],

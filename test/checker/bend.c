@@ -10,6 +10,9 @@
 
 #include "measure.h"
 
+/* What an element may lack of its length, as a share of it, and count as stretched. */
+static const Real STRETCHED = 1e-9L;
+
 static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* unit vector of a force; false where it is too small to have a direction */
@@ -19,6 +22,15 @@ static bool unit(const double *force, Real least, Real *out) {
     if (!(size > least)) return false;
     for (int k = 0; k < 3; k++) out[k] /= size;
     return true;
+}
+
+/* Unit vector along element i: of its force or, where that is too small to have a
+ * direction, of the element if it is stretched to its length, as any force in it would act so. */
+static bool along_element(const Record *r, size_t i, Real least, Real *out) {
+    double ahead[3];
+    if (unit(r->segment_force[i], least, out)) return true;
+    for (int k = 0; k < 3; k++) ahead[k] = r->position[i + 1][k] - r->position[i][k];
+    return unit(ahead, (1 - STRETCHED) * (Real)r->element_length[i], out);
 }
 
 /* angle of a direction above the tangent plane */
@@ -60,8 +72,8 @@ static void bend_at(const Source *source, const Record *r, bool reached, size_t 
     const Surface *surface = &source->surface[source->surfaces > 1 ? (size_t)r->obstacle[c] : 0];
     Real before[3], after[3], n[3], line[3], chord[3], here[3], plane[3];
     Vector *place = reached ? r->position : r->reference;
-    if (!surface_is_cut(surface) || !unit(r->segment_force[j - 1], least, before) ||
-        !unit(r->segment_force[j], least, after))
+    if (!surface_is_cut(surface) || !along_element(r, j - 1, least, before) ||
+        !along_element(r, j, least, after))
         return;
     for (int k = 0; k < 3; k++) {
         n[k] = r->normal[c][k];

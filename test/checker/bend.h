@@ -14,7 +14,8 @@ typedef struct Bend {
 } Bend;
 
 /* The sharpest bend of a record, the axes of friction those of the configuration reached or of the
- * reference; forces below 1e-9 of the largest have no direction. */
+ * reference; a force below 1e-9 of the largest has the direction of its element if that is
+ * stretched to its length, and none otherwise. */
 Bend bend_of_record(const Source *source, const Record *record, bool reached, double largest_force);
 
 #endif

@@ -13,6 +13,9 @@
  *
  *     (1 - n n') g + mu (n.g) s/|s| - mu R/|s| (1 - n n' - s s'/|s|^2) v = 0.
  *
+ * In a small cycle a node rests where friction can hold it; where friction resists one direction of
+ * the plane alone, it moves along the other one, f, by which f.g vanishes.
+ *
  * That is a system of blocks of four rows for each line, for dT of an element and v of the node
  * behind it, solved once for each of the six motions. The pulls turn about the reference point, and
  * what weight, buoyancy and water lose is taken from differences of themselves. */
@@ -177,6 +180,32 @@ static void set_sliding(const Record *r, size_t c, Real mu, const Triple s, Real
         }
 }
 
+/* A node that friction holds across the direction f of the plane, and nothing holds along it. */
+static void set_guided(const Real *f, Real stiff, Matrix m, Matrix q) {
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            m[a][b] = f[a] * f[b];
+            q[a][b] = stiff * ((a == b) - f[a] * f[b]);
+        }
+}
+
+/* A node that friction keeps from sliding, along the grain and across it or one of both. False
+ * where the one way that it has is not known. */
+static bool set_stuck(const Surface *surface, const double normal[3], Real stiff, Matrix m,
+                      Matrix q) {
+    const bool along = surface->mu[0] > 0, across = surface->mu[1] > 0;
+    Triple n;
+    Real axes[2][3];
+    if (along && across) {
+        for (int a = 0; a < 3; a++) q[a][a] = stiff;
+        return true;
+    }
+    for (int a = 0; a < 3; a++) n[a] = normal[a];
+    if (!surface->grained || !surface_axes(surface, n, surface->grain, axes)) return false;
+    set_guided(axes[along], stiff, m, q);
+    return true;
+}
+
 static bool set_contact(const StiffnessStep *step, const Record *r, size_t j, size_t c, Real length,
                         Real stiff, Matrix m, Matrix q) {
     const Source *source = step->source;
@@ -184,18 +213,18 @@ static bool set_contact(const StiffnessStep *step, const Record *r, size_t j, si
     if (on >= source->surfaces) return false;
     const Surface *surface = &source->surface[on];
     if (surface->kind != SURFACE_PLANE || surface->gives > 0) return false;
-    const Real mu = (r->factor ? r->factor[j] : 1) * surface->mu[0];
-    const bool rubs = step->sticks ? mu > 0 : r->friction_bound[c] > 0;
-    if (rubs &&
-        (!source->consistent || surface->set || surface->box || surface->mu[0] != surface->mu[1]))
-        return false;
+    const Real factor = r->factor ? r->factor[j] : 1, mu = factor * surface->mu[0];
+    const bool rubs =
+        step->sticks ? factor * surface_friction(surface) > 0 : r->friction_bound[c] > 0;
+    if (rubs && (!source->consistent || surface->set)) return false;
+    if (rubs && step->sticks) return set_stuck(surface, r->normal[c], stiff, m, q);
+    if (rubs && (surface->box || surface->mu[0] != surface->mu[1])) return false;
     Triple s;
     for (int a = 0; a < 3; a++) s[a] = r->slip[c][a];
     const Real slid = sqrtl(dot(s, s));
     const double *f = r->friction[c];
     const Real used = rubs ? hypotl(hypotl(f[0], f[1]), f[2]) / r->friction_bound[c] : 0;
-    if (rubs &&
-        (step->sticks || slid <= RESTS * length || (slid <= MOVED * length && used < 1 - CLOSED))) {
+    if (rubs && (slid <= RESTS * length || (slid <= MOVED * length && used < 1 - CLOSED))) {
         for (int a = 0; a < 3; a++) q[a][a] = stiff;
         return true;
     }

@@ -16,8 +16,8 @@ typedef struct StiffnessStep {
 
 /* [N/m, N, N m] (6, 6) What force and moment on body k lose by its displacement and rotation from
  * the pose that it has. False where that is not known here: a line is slack in part, touches what
- * is no plane with one coefficient, is between two states, or moves in time; or no memory. `arm`
- * [m]: a length of the body. */
+ * is no plane, slides with two coefficients, is between two states, or moves in time; or no memory.
+ * `arm` [m]: a length of the body. */
 bool body_stiffness(const StiffnessStep *step, size_t k, const BodyState *at, double arm,
                     Real stiffness[SIX * SIX]);
 

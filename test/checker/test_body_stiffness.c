@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Both stiffnesses of a free body against those that the checker derives from the file of the run:
- * lines that hang, slide on the bed, rest on it, and go back and forth on it. */
+ * lines that hang, slide on the bed, rest on it, and go back and forth on it; and of small cycles
+ * on a bed with friction along its grain, or across it, alone. */
 #include "body_stiffness.h"
 
 #include <math.h>
@@ -11,11 +12,13 @@
 #include "check.h"
 #include "run_scene.h"
 
+/* %s: the friction of the bed, which is to have one coefficient under a free body; is the body free
+ * or held; and what takes it away and back */
 static const char SCENE[] =
     "capstan: 1\ngravity: [0, 0, -10]\n"
-    "obstacles: {bed: {plane: {point: [0, 0, -30], normal: [0.02, 0, 1]}, friction: 0.6}}\n"
+    "obstacles: {bed: {plane: {point: [0, 0, -30], normal: [0.02, 0, 1]}, friction: %s}}\n"
     "bodies:\n"
-    "  float: {free: [0, 0, 0], rotation: {roll_pitch_yaw: [0, 10, 0]}, weight: 4000,"
+    "  float: {%s, rotation: {roll_pitch_yaw: [0, 10, 0]}, weight: 4000,"
     " centre_of_gravity: [0.1, 0, -1], buoyancy: 9000, centre_of_buoyancy: [0, 0, 0.3],"
     " hydrostatics: [[10, 0, 0, 0, 5, 0], [0, 12, 0, 0, 0, 0], [0, 0, 900, 0, 0, 0],"
     " [0, 0, 0, 3000, 0, 0], [5, 0, 0, 0, 3100, 0], [0, 0, 0, 0, 0, 40]]}\n"
@@ -36,9 +39,9 @@ static const char SCENE[] =
     "  d: {length: 8, elements: 8, weight: 60, stiffness: .inf, start: static,"
     " ends: {A: {held: [3, 9, 2]}, B: {point: east}}}\n"
     "history:\n"
-    "  - {name: push, steps: 4, float.body: {force: [900, 300, 0], arm: [0, 0, 2]}}\n"
+    "  - {name: push, steps: 4, float.body: {%s}}\n"
     "  - {name: lighter, steps: 2, gravity: [0.3, 0, -9]}\n"
-    "  - {name: back, steps: 4, float.body: {force: [-200, 100, 0]}}\n";
+    "  - {name: back, steps: 4, float.body: {%s}}\n";
 enum { STEPS = 11, LINES = 4, SAID = 1 };
 
 /* Per largest entry, lengths in arms of the body: both come from places to 1e-16, whose strains
@@ -81,10 +84,15 @@ static void compare(const StiffnessStep *of, const CpsEvolution *evolution, cons
     seen->compared[of->sticks]++;
 }
 
-static void both_stiffnesses_are_those_of_the_file(void **state) {
-    (void)state;
+typedef struct Run {
+    const char *friction, *body, *away, *back;
+} Run;
+
+/* The steps of a run that are compared. */
+static Seen compare_run(const Run *run) {
     FILE *out = fopen(scene_path, "w");
-    assert_true(out && fputs(SCENE, out) >= 0 && fclose(out) == 0);
+    assert_true(out && fprintf(out, SCENE, run->friction, run->body, run->away, run->back) >= 0 &&
+                fclose(out) == 0);
     run_scene();
     CpsError err;
     CpsSceneFile *scene = NULL;
@@ -115,16 +123,39 @@ static void both_stiffnesses_are_those_of_the_file(void **state) {
     }
     printf("compared %d of the step, %d of a small cycle; nodes that slid %d, that rested %d\n",
            seen.compared[0], seen.compared[1], seen.slid, seen.rested);
-    assert_true(seen.compared[0] >= STEPS - SAID && seen.compared[1] >= STEPS - SAID);
-    assert_true(seen.slid > 20 && seen.rested > 20);
     for (int i = 0; i < LINES; i++) record_destroy(&line[i]);
     bodies_close(&bodies);
     source_close(&source);
     cps_evolution_destroy(evolution);
     cps_scene_file_destroy(scene);
+    return seen;
+}
+
+static void both_stiffnesses_are_those_of_the_file(void **state) {
+    (void)state;
+    const Seen seen =
+        compare_run(&(Run){"0.6", "free: [0, 0, 0]", "force: [900, 300, 0], arm: [0, 0, 2]",
+                           "force: [-200, 100, 0]"});
+    assert_true(seen.compared[0] >= STEPS - SAID && seen.compared[1] >= STEPS - SAID);
+    assert_true(seen.slid > 20 && seen.rested > 20);
+}
+
+static void small_cycles_go_where_no_friction_is(void **state) {
+    (void)state;
+    static const char *const FRICTION[] = {
+        "{axial: 0, lateral: 0.6, grain: [2, 1, 0]}", "{axial: 0.6, lateral: 0, grain: [1, -3, 0]}",
+        "{axial: 0.3, lateral: 0.6, grain: [0, 1, 0]}",
+        "{axial: 0.6, lateral: 0.2, shape: box, grain: [1, 1, 0]}"};
+    for (int i = 0; i < 4; i++) {
+        const Seen seen =
+            compare_run(&(Run){FRICTION[i], "held: [0, 3, 0.5]", "position: [1.5, 3.5, 0.7]",
+                               "position: [0.3, 2.6, 0.2]"});
+        assert_true(seen.compared[1] >= STEPS - SAID);
+    }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(both_stiffnesses_are_those_of_the_file)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(both_stiffnesses_are_those_of_the_file),
+                                       cmocka_unit_test(small_cycles_go_where_no_friction_is)};
     return cmocka_run_group_tests(tests, make_scene_directory, remove_scene_directory);
 }
