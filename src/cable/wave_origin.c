@@ -58,12 +58,12 @@ static void rotation(double angle, Twofold out[2]) {
     out[1] = s;
 }
 
-/* k of k tanh(k d) = w^2/g: at k0, which is that to rounding, f = k0 t - w^2/g is small and f' = t
- * + k0 d (1 - t^2). */
-static Twofold number_of(double period, double depth, double g) {
+/* k of k tanh(k d) = w^2/g: at `first`, which is that to rounding, f = k t - w^2/g is small and f'
+ * = t + k d (1 - t^2). */
+static Twofold number_of(double first, double period, double depth, double g) {
     const Twofold rate = twofold_divide(TWOFOLD_TURN, twofold(period)),
                   deep = twofold_divide(twofold_multiply(rate, rate), twofold(g));
-    const double first = cps_wave_number(period, depth, g), x = first * depth;
+    const double x = first * depth;
     if (!(x < DEEP)) return deep;
     const Twofold one = twofold(1), e = exponential(scaled(twofold_product(first, depth), -2)),
                   t = twofold_divide(twofold_subtract(one, e), twofold_add(one, e)),
@@ -72,13 +72,14 @@ static Twofold number_of(double period, double depth, double g) {
     return twofold_subtract(twofold(first), twofold(f.high / slope));
 }
 
-double cpsi_wave_way(const CpsWave *given, double depth, double g, const double origin[3]) {
+double cpsi_wave_way(const CpsWave *given, double number, double depth, double g,
+                     const double origin[3]) {
     if (origin[0] == 0 && origin[1] == 0) return 0;
     Twofold along[2];
     rotation(given->direction, along);
     const Twofold way = twofold_add(twofold_multiply(along[0], twofold(origin[0])),
                                     twofold_multiply(along[1], twofold(origin[1]))),
-                  all = twofold_multiply(number_of(given->period, depth, g), way),
+                  all = twofold_multiply(number_of(number, given->period, depth, g), way),
                   turns = twofold(nearbyint(all.high / TWOFOLD_TURN.high)),
                   left = twofold_subtract(all, twofold_multiply(turns, TWOFOLD_TURN));
     return left.high + left.low;

@@ -6,7 +6,9 @@
 #include "capstan/waves.h"
 
 /* [rad] k (e . origin) of a wave, e its direction, less whole turns: its phase at the origin beyond
- * that at 0, to rounding however far that is. depth [m] > 0 may be infinite, g [m/s2] > 0. */
-double cpsi_wave_way(const CpsWave *given, double depth, double g, const double origin[3]);
+ * that at 0, to rounding however far that is. number [1/m] is k to rounding, depth [m] > 0 may be
+ * infinite, g [m/s2] > 0. */
+double cpsi_wave_way(const CpsWave *given, double number, double depth, double g,
+                     const double origin[3]);
 
 #endif

@@ -37,8 +37,8 @@ CpsiWave cpsi_wave(const CpsWave *given, double depth, double g, const double or
                       .frequency = 2 * CPSI_PI / given->period,
                       .number = number,
                       .along = {along[0], along[1]},
-                      .phase =
-                          fmod(given->phase, 2 * CPSI_PI) + cpsi_wave_way(given, depth, g, origin)};
+                      .phase = fmod(given->phase, 2 * CPSI_PI) +
+                               cpsi_wave_way(given, number, depth, g, origin)};
 }
 
 double cpsi_wave_phase(const CpsiWaves *waves, int wave, Vec3 x) {

@@ -523,9 +523,10 @@ static int compare_point_masses(Compare *compare) {
     PointMotion *motion = calloc(n, sizeof *motion);
     int bad = motion ? 0 : -1;
     if (!bad && compare->time) bad = point_motions_read(&compare->source, 0, motion, compare->log);
-    for (size_t k = 0; k < n && !bad && compare->time; k++)
-        same_number(compare, "mass of point", compare->source.point_name[k], motion[k].mass,
-                    compare->scene->point[k].inertia);
+    if (!bad && compare->time)
+        for (size_t k = 0; k < n; k++)
+            same_number(compare, "mass of point", compare->source.point_name[k], motion[k].mass,
+                        compare->scene->point[k].inertia);
     free(motion);
     return bad;
 }

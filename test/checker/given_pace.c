@@ -38,7 +38,8 @@ int compare_pace(Compare *compare) {
     for (int k = 0; k < compare->scene->stage_count; k++)
         any = any || compare->scene->stage[k].error > 0;
     if (!bad && any) bad = pace_errors(&compare->source, own, compare->log);
-    for (size_t s = 0; s < steps && !bad; s++) compare_step(compare, s, said[s], &own[s]);
+    if (!bad)
+        for (size_t s = 0; s < steps; s++) compare_step(compare, s, said[s], &own[s]);
     free(said);
     free(own);
     return bad;

@@ -128,10 +128,11 @@ static int add_points(const Source *source, StepError *out, FILE *log) {
     Junction *now = calloc(n + 1, sizeof *now);
     PointMotion *motion = calloc(2 * n + 1, sizeof *motion);
     int bad = now && motion ? 0 : -1;
-    for (size_t s = 0; s < source->steps && !bad && n > 0; s++) {
+    for (size_t s = 0; s < source->steps && !bad; s++) {
         PointMotion *at = &motion[s % 2 * n], *before = &motion[(s + 1) % 2 * n];
         bad = junctions_read(source, s, now, log) || point_motions_read(source, s, at, log);
-        for (size_t k = 0; k < n && !bad && s > 0; k++) {
+        if (bad || s == 0) continue;
+        for (size_t k = 0; k < n; k++) {
             const Lengths of = {step_length_of(source, s), step_length_of(source, s - 1),
                                 at[k].span};
             add_point(&now[k], &at[k], &before[k], &of, &out[s]);
@@ -178,11 +179,12 @@ static int add_bodies(const Source *source, StepError *out, FILE *log) {
     BodyState *now = calloc(n + 1, sizeof *now);
     BodyMotion *motion = calloc(3 * n + 1, sizeof *motion);
     if (!now || !motion) bad = -1;
-    for (size_t s = 0; s < source->steps && !bad && n > 0; s++) {
+    for (size_t s = 0; s < source->steps && !bad; s++) {
         BodyMotion *at = &motion[s % 3 * n], *before = &motion[(s + 2) % 3 * n],
                    *older = &motion[(s + 1) % 3 * n];
         bad = bodies_read(source, &bodies, s, now, log) || body_motions_read(source, n, s, at, log);
-        for (size_t k = 0; k < n && !bad && s > 0; k++) {
+        if (bad || s == 0) continue;
+        for (size_t k = 0; k < n; k++) {
             const Lengths of = {step_length_of(source, s), step_length_of(source, s - 1),
                                 at[k].span};
             if (now[k].kind != BODY_FREE || !(at[k].span > 0)) continue;
@@ -224,13 +226,15 @@ int pace_check(const Source *source, InertiaFind *find, void *user, FILE *log) {
     double *said = calloc(source->steps + 1, sizeof *said);
     StepError *own = calloc(source->steps + 1, sizeof *own);
     int bad = said && own ? pace_said(source, said, log) : -1;
-    bool any = false;
+    size_t count = 0; /* of steps that say something */
     inertia_times(source, find, user);
-    for (size_t s = 0; s < source->steps && !bad; s++) any = any || said[s] != 0;
-    if (!bad && any) bad = pace_errors(source, own, log);
-    for (size_t s = 0; s < source->steps && !bad && any; s++)
-        if (said[s] != 0 && !(fabs(said[s] - own[s].size) <= own[s].noise))
-            find(user, "step_error", said[s], own[s].size);
+    if (!bad)
+        for (size_t s = 0; s < source->steps; s++) count += said[s] != 0;
+    if (count > 0) bad = pace_errors(source, own, log);
+    if (count > 0 && !bad)
+        for (size_t s = 0; s < source->steps; s++)
+            if (said[s] != 0 && !(fabs(said[s] - own[s].size) <= own[s].noise))
+                find(user, "step_error", said[s], own[s].size);
     free(said);
     free(own);
     return bad;
