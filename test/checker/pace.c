@@ -125,6 +125,7 @@ static void add_point(const Junction *at, const PointMotion *motion, const Point
 
 static int add_points(const Source *source, StepError *out, FILE *log) {
     const size_t n = source->points;
+    if (n == 0) return 0;
     Junction *now = calloc(n + 1, sizeof *now);
     PointMotion *motion = calloc(2 * n + 1, sizeof *motion);
     int bad = now && motion ? 0 : -1;
@@ -176,6 +177,10 @@ static int add_bodies(const Source *source, StepError *out, FILE *log) {
     Bodies bodies;
     int bad = bodies_open(source, &bodies, log);
     const size_t n = bad ? 0 : bodies.count;
+    if (n == 0) {
+        bodies_close(&bodies);
+        return bad;
+    }
     BodyState *now = calloc(n + 1, sizeof *now);
     BodyMotion *motion = calloc(3 * n + 1, sizeof *motion);
     if (!now || !motion) bad = -1;
