@@ -57,6 +57,9 @@ void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s);
  * its ends are at. */
 void compare_line(Compare *compare, const CpsLine *line, const Record *r);
 
+/* The errors of steps, against those asked for. 0, or -1 after one sentence on the log. */
+int compare_pace(Compare *compare);
+
 /* Springs, given loads and drag, after a step. */
 void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, size_t step);
 

@@ -510,6 +510,7 @@ void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
         {"ledger_kinetic", "growth of the kinetic energy", "J"},
         {"ledger_impact", "energy lost where nodes land", "J"},
         {"ledger_scheme", "energy lost by the scheme in time", "J"},
+        {"ledger_settling", "energy lost where a quasi-static step brings it to rest", "J"},
         {"ledger_damping", "energy lost by internal damping", "J"},
         {"ledger_drag", "work done on the water against its drag", "J"},
         {"ledger_added", "work done on the water that is moved along", "J"},
@@ -566,11 +567,11 @@ void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids
     const size_t start[] = {step, 0, 0}, count[] = {1, nodes, XYZ};
     const double number[CPSI_MOTION_NUMBERS] = {motion.kinetic,         motion.ledger.kinetic,
                                                 motion.ledger.impact,   motion.ledger.scheme,
-                                                motion.ledger.damping,  motion.ledger.drag,
-                                                motion.ledger.added,    motion.ledger.waves,
-                                                motion.ledger.turnover, motion.position_bound,
-                                                (double)motion.landed,  (double)motion.changed,
-                                                (double)motion.snatched};
+                                                motion.ledger.settling, motion.ledger.damping,
+                                                motion.ledger.drag,     motion.ledger.added,
+                                                motion.ledger.waves,    motion.ledger.turnover,
+                                                motion.position_bound,  (double)motion.landed,
+                                                (double)motion.changed, (double)motion.snatched};
     cpsi_netcdf_doubles(file, ids->velocity, start, count, motion.velocity);
     cpsi_netcdf_doubles(file, ids->rest_velocity, start, count, motion.rest_velocity);
     cpsi_netcdf_doubles(file, ids->span, start, count, motion.span);

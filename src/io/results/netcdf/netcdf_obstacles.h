@@ -51,7 +51,7 @@ void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
 
 enum { CPSI_POINT_VECTORS = 9, CPSI_POINT_NUMBERS = 7, CPSI_POINT_INTS = 5 };
 /* in time */
-enum { CPSI_POINT_MOTIONS = 3, CPSI_POINT_MOTION_NUMBERS = 5 };
+enum { CPSI_POINT_MOTIONS = 3, CPSI_POINT_MOTION_NUMBERS = 6 };
 
 /* The sets to which ends of a line, or points, are held (capstan/constraint.h). */
 typedef struct CpsiNetcdfSets {
@@ -80,7 +80,7 @@ void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poi
 
 enum { CPSI_BODY_CONSTANTS = 10, CPSI_BODY_FIELDS = 14, CPSI_BODY_INTS = 4 };
 /* in time: constants, fields of the report, fields of the motion */
-enum { CPSI_BODY_MASSES = 13, CPSI_BODY_FORCES = 4, CPSI_BODY_MOTIONS = 10 };
+enum { CPSI_BODY_MASSES = 13, CPSI_BODY_FORCES = 4, CPSI_BODY_MOTIONS = 11 };
 
 typedef struct CpsiNetcdfBodies {
     int count;
@@ -138,7 +138,7 @@ void cpsi_netcdf_append_grasps(CpsiNetcdfFile *file, const CpsiNetcdfGrasps *ids
 
 /* The motion in time of a scene; nothing of one without steps in time. Of quasi-static steps among
  * them velocities and spans are 0. */
-enum { CPSI_MOTION_NUMBERS = 13 };
+enum { CPSI_MOTION_NUMBERS = 14 };
 
 typedef struct CpsiNetcdfTime {
     bool is_there; /* otherwise all other variables are unused */

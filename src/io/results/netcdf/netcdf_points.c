@@ -80,6 +80,8 @@ static const struct {
      CPSI_MEMBER(CpsPointMotion, ledger.impact)},
     {"ledger_scheme_of_point", "energy lost by the scheme in time", "J",
      CPSI_MEMBER(CpsPointMotion, ledger.scheme)},
+    {"ledger_settling_of_point", "energy lost where a quasi-static step brings it to rest", "J",
+     CPSI_MEMBER(CpsPointMotion, ledger.settling)},
 };
 
 typedef enum PointInt {
@@ -344,6 +346,8 @@ static const BodyField BODY_MOTION[CPSI_BODY_MOTIONS] = {
      offsetof(CpsBodyMotion, ledger.kinetic), NUMBER_OF},
     {"ledger_scheme_of_body", "energy lost by the scheme in time", "J",
      offsetof(CpsBodyMotion, ledger.scheme), NUMBER_OF},
+    {"ledger_settling_of_body", "energy lost where a quasi-static step brings it to rest", "J",
+     offsetof(CpsBodyMotion, ledger.settling), NUMBER_OF},
     {"ledger_drag_of_body", "work done on the water against the drag of members", "J",
      offsetof(CpsBodyMotion, ledger.drag), NUMBER_OF},
     {"ledger_waves_of_body", "work of the water's own acceleration in waves on members", "J",
