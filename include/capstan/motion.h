@@ -79,11 +79,13 @@ CPS_API void cps_sway_at(const CpsSway *sway, double time, double out[6]);
  *           + imbalance
  *
  * where each but the last has a formula of its own (docs/theory.md 9), and forces do their work at
- * their values after the step. So the imbalance is rounding. */
+ * their values after the step. So the imbalance is rounding. The first quasi-static step after
+ * steps in time loses the kinetic energy, and `settling` is on the right. */
 typedef struct CpsMotionLedger {
     double kinetic;  /* increase of the kinetic energy */
     double impact;   /* lost where nodes land */
     double scheme;   /* lost by the scheme: what a shorter step does not lose */
+    double settling; /* lost where a quasi-static step brings to rest what moved before it */
     double damping;  /* lost by internal damping */
     double drag;     /* work done on the water against its drag; of a current also negative */
     double added;    /* work done on the water that is moved along (CpsDrag), which gives it back */
@@ -94,8 +96,9 @@ typedef struct CpsMotionLedger {
 /* The motion of a line in the last step. */
 typedef struct CpsLineMotion {
     /* the last step had a duration, and the line has inertia; otherwise the next ones are 0, but
-     * for `scheme` of a quasi-static line at points in a step in time: what its pull after the step
-     * does on them beyond the work in its own ledger */
+     * for `kinetic` and `settling` of the ledger where it came to rest, and for `scheme` of a
+     * quasi-static line at points in a step in time: what its pull after the step does on them
+     * beyond the work in its own ledger */
     bool is_moving;
     double kinetic;         /* [J] kinetic energy now */
     CpsMotionLedger ledger; /* of the step */
@@ -124,7 +127,9 @@ typedef struct CpsLineMotion {
  *
  * dissipated that of its report, up to the work of what nothing balances there. */
 typedef struct CpsPointMotion {
-    bool is_moving;          /* the last step had a duration; otherwise the next ones are 0 */
+    /* the last step had a duration; otherwise the next ones are 0, but the ledger where it came to
+     * rest */
+    bool is_moving;
     double mass;             /* [kg] its own */
     double velocity[3];      /* [m/s] after the step, and after the landing */
     double reference[3];     /* [m] x*, in the coordinates of the scene */
@@ -140,7 +145,9 @@ typedef struct CpsPointMotion {
  * momentum of the mass is m times the velocity of its centre of gravity, its angular momentum about
  * that L = J w; those of the added mass are about the reference point. */
 typedef struct CpsBodyMotion {
-    bool is_moving;             /* the last step had a duration; otherwise the next ones are 0 */
+    /* the last step had a duration; otherwise the next ones are 0, but the ledger where it came to
+     * rest */
+    bool is_moving;
     double velocity[3];         /* [m/s] of the reference point */
     double turn_rate[3];        /* [rad/s] w */
     double centre_velocity[3];  /* [m/s] of the centre of gravity */

@@ -72,6 +72,15 @@ CpsiDamped cpsi_line_damped(const CpsiLine *line, int e) {
                         .elongation = d};
 }
 
+double cpsi_line_kept_energy(const CpsiLine *line) {
+    double sum = 0;
+    for (int e = 0; e + 1 < line->n; e++) {
+        const double d = line->inertia.damping.elongation[e], strain = fmax(0, strain_of(line, e));
+        sum += 0.5 * line->natural_length[e] * stiffness_of(line, e) * (d - strain) * (d + strain);
+    }
+    return sum;
+}
+
 void cpsi_line_advance_damping(CpsiLine *line) {
     CpsiDamping *damping = &line->inertia.damping;
     for (int e = 0; e + 1 < line->n; e++) {

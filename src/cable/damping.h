@@ -22,6 +22,9 @@ typedef struct CpsiDamped {
     double elongation; /* [-] d, now */
 } CpsiDamped;
 CpsiDamped cpsi_line_damped(const CpsiLine *line, int e);
+/* [J] What the elements store beyond the energy of their strains: where a line goes slack its
+ * elongations go back to 0 as if alone. */
+double cpsi_line_kept_energy(const CpsiLine *line);
 /* Go on from the step: it becomes the past. */
 void cpsi_line_advance_damping(CpsiLine *line);
 

@@ -57,6 +57,8 @@ typedef struct CpsiInertia {
     CpsiDamping damping;
     double kinetic;        /* [J] */
     double position_bound; /* [m] */
+    bool settles;   /* the quasi-static step under way brings the line to rest (settling.h) */
+    double settled; /* [J] ... and what its first part loses beside the kinetic energy */
     CpsMotionLedger ledger;
     int landed, changed, snatched; /* contacts, contacts, elements (CpsLineMotion) */
 } CpsiInertia;

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/math.h"
+#include "cable/wave_origin.h"
 
 /* Steps of Newton's method for a wave number, which converges quadratically from either limit. */
 enum { MOST = 100 };
@@ -37,8 +38,7 @@ CpsiWave cpsi_wave(const CpsWave *given, double depth, double g, const double or
                       .number = number,
                       .along = {along[0], along[1]},
                       .phase = fmod(given->phase, 2 * CPSI_PI) +
-                               fmod(number * (along[0] * origin[0] + along[1] * origin[1]),
-                                    2 * CPSI_PI)};
+                               cpsi_wave_way(given, number, depth, g, origin)};
 }
 
 double cpsi_wave_phase(const CpsiWaves *waves, int wave, Vec3 x) {

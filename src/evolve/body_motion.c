@@ -304,6 +304,11 @@ void cpsi_body_motion_advance(CpsEvolution *evolution) {
 void cpsi_body_motion_stop(CpsEvolution *evolution) {
     for (int i = 0; i < evolution->bodies.count; i++) {
         CpsiBody *body = &evolution->bodies.body[i];
-        body->inertia = (CpsiBodyInertia){.restarts = true, .now = at_rest(body)};
+        const double lost = body->inertia.kinetic;
+        body->inertia = (CpsiBodyInertia){.restarts = true,
+                                          .now = at_rest(body),
+                                          .ledger = {.kinetic = 0 - lost,
+                                                     .settling = lost,
+                                                     .turnover = 2 * lost}};
     }
 }

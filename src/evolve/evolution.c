@@ -23,6 +23,7 @@
 #include "evolve/failure.h"
 #include "evolve/ledger.h"
 #include "evolve/pace.h"
+#include "evolve/settling.h"
 #include "evolve/stage_check.h"
 #include "evolve/stages.h"
 #include "evolve/statics.h"
@@ -81,13 +82,16 @@ static void step_line(void *data, int workspace_index, int i) {
         cpsi_line_place_statically(line, &workspace->program, &placing, &workspace->scratch);
     } else {
         if (evolution->move[i].shift) line->obstacle = workspace->scratch.obstacle;
-        if (line->has_inertia && !(evolution->interval > 0)) cpsi_line_stop(line);
+        const bool rests = line->has_inertia && !(evolution->interval > 0);
+        if (rests) cpsi_line_stop(line);
         if (line->has_inertia && evolution->interval > 0)
             move_line(evolution, workspace, line, &evolution->move[i]);
         else
             cpsi_line_substeps(line, &workspace->program, &options, &evolution->move[i],
                                &workspace->scratch,
-                               evolution->report.step_count > 0 && !line->two.has_jumped);
+                               evolution->report.step_count > 0 && !line->two.has_jumped &&
+                                   !line->inertia.settles);
+        if (rests) cpsi_settling_close(line);
         line->obstacle = evolution->obstacle;
     }
     if (evolution->part == 0 && !(evolution->interval > 0)) find_range(line, &options);

@@ -28,11 +28,17 @@
 #include "cable/report.h"
 #include "cable/soft.h"
 #include "cable/winch.h"
+#include "evolve/settling.h"
 
-static void potentials(const CpsiLine *line, bool before, double *elastic, double *gravity) {
-    const Vec3 origin = vec3_load(line->position);
-    const Vec3 weight =
-        vec3_scale(0.5, vec3_add(vec3_load(line->weight_before), vec3_load(line->weight)));
+/* The weight per length that does the work of a step. */
+static Vec3 mean_weight(const CpsiLine *line, bool settles) {
+    const double *before = settles ? line->weight : line->weight_before;
+    return vec3_scale(0.5, vec3_add(vec3_load(before), vec3_load(line->weight)));
+}
+
+static void potentials(const CpsiLine *line, bool before, bool settles, double *elastic,
+                       double *gravity) {
+    const Vec3 origin = vec3_load(line->position), weight = mean_weight(line, settles);
     double carried = 0; /* [m] */
     *elastic = cpsi_soft_energy(line, before);
     *gravity = 0;
@@ -69,10 +75,11 @@ static double push_work(const CpsiLine *line, bool from_here) {
 }
 
 CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], bool known) {
-    CpsiLedgerStart start = {0};
-    potentials(line, true, &start.elastic, &start.gravity);
+    CpsiLedgerStart start = {.settles = !known && line->inertia.settles};
+    potentials(line, true, start.settles, &start.elastic, &start.gravity);
+    if (start.settles) start.elastic += cpsi_settling_stored(line);
     for (int i = 0; i < 2; i++) {
-        const bool is_free = end[i].kind == CPS_END_KIND_FREE;
+        const bool is_free = end[i].kind == CPS_END_KIND_FREE && !start.settles;
         const int j = i == CPS_END_A ? 0 : line->n - 1;
         if (line->drums.on[i]) start.pull[i] = cpsi_winch_pull(line, i, line->weight_before);
         start.stored[i] = line->drums.stored[i];
@@ -88,7 +95,7 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
     start.pushed = push_work(line, true);
     for (int k = 0; k < line->grasp_count; k++) {
         const CpsGrasp *grasp = &line->grasp[k];
-        const bool is_free = line->grasp_before[k].kind == CPS_END_KIND_FREE;
+        const bool is_free = line->grasp_before[k].kind == CPS_END_KIND_FREE && !start.settles;
         memcpy(start.grasp[k].position, &line->position[3 * grasp->node],
                sizeof start.grasp[k].position);
         memcpy(start.grasp[k].force, is_free ? line->grasp_before[k].value : grasp->force,
@@ -158,8 +165,7 @@ static double obstacle_work(const CpsiLine *line) {
 /* The work of the winches; and in the ledger, the weight of what they have wound at the place of
  * the drum. */
 static double wind_work(const CpsiLine *line, const CpsiLedgerStart *start, CpsLedger *ledger) {
-    const Vec3 weight =
-        vec3_scale(0.5, vec3_add(vec3_load(line->weight_before), vec3_load(line->weight)));
+    const Vec3 weight = mean_weight(line, false);
     double work = 0;
     for (int end = 0; end < 2; end++) {
         const double in = line->drums.stored[end] - start->stored[end],
@@ -175,7 +181,7 @@ static double wind_work(const CpsiLine *line, const CpsiLedgerStart *start, CpsL
 }
 
 /* The work of the loads of the nodes beside their weight, from the reference to the position. */
-static double load_work(const CpsiLine *line) {
+static double load_work(const CpsiLine *line, bool settles) {
     double work = 0;
     if (!line->has_field && !line->has_node_loads) return 0;
     for (int j = 0; j < line->n; j++) {
@@ -183,7 +189,9 @@ static double load_work(const CpsiLine *line) {
                    mean = vec3_scale(0.5, vec3_add(x, from));
         /* the energy is quadratic: its fall is the force half way times the displacement */
         work += vec3_dot(cpsi_node_field_at(&line->field, j, mean), vec3_sub(x, from));
-        if (line->field.flow) work += vec3_dot(cpsi_line_mean_drag(line, j), vec3_sub(x, from));
+        if (!line->field.flow) continue;
+        const Vec3 drag = settles ? vec3_at(line->field.drag, j) : cpsi_line_mean_drag(line, j);
+        work += vec3_dot(drag, vec3_sub(x, from));
     }
     /* a potential has the work by which it falls */
     return work + cpsi_potential_energy(line, line->reference) -
@@ -202,7 +210,7 @@ CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
     double elastic, gravity;
     const double pushed = push_work(line, false);
     ledger.obstacles += start->all_known ? 0.5 * (start->pushed + pushed) : pushed;
-    potentials(line, false, &elastic, &gravity);
+    potentials(line, false, start->settles, &elastic, &gravity);
     ledger.elastic = elastic - start->elastic;
     ledger.gravity = gravity - start->gravity;
     ledger.winches = wind_work(line, start, &ledger);
@@ -218,11 +226,16 @@ CpsLedger cpsi_ledger_close(CpsiLine *line, const CpsiLedgerStart *start) {
         memcpy(now.position, &line->position[3 * grasp->node], sizeof now.position);
         memcpy(now.force, grasp->force, sizeof now.force);
         ledger.ends += end_work(&start->grasp[k], &now,
-                                start->all_known || grasp->imposed.kind == CPS_END_KIND_FREE);
+                                start->all_known ||
+                                    (grasp->imposed.kind == CPS_END_KIND_FREE && !start->settles));
     }
-    ledger.loads = load_work(line);
+    ledger.loads = load_work(line, start->settles);
     ledger.imbalance = ledger.ends + ledger.obstacles + ledger.winches + ledger.loads -
                        ledger.elastic - ledger.gravity - ledger.dissipated;
+    if (start->settles) {
+        line->inertia.settled = cpsi_settling_loss(line, &ledger);
+        ledger.imbalance -= line->inertia.settled;
+    }
     return ledger;
 }
 

@@ -217,9 +217,13 @@ void cpsi_point_motion_advance(CpsEvolution *evolution) {
 void cpsi_point_motion_stop(CpsEvolution *evolution) {
     for (int i = 0; i < evolution->points.count; i++) {
         CpsiPoint *point = &evolution->points.point[i];
-        const double mass = point->inertia.mass;
-        point->inertia =
-            (CpsiPointInertia){.mass = mass, .restarts = true, .bore = bears_now(point)};
+        const double mass = point->inertia.mass, lost = point->inertia.kinetic;
+        point->inertia = (CpsiPointInertia){.mass = mass,
+                                            .restarts = true,
+                                            .bore = bears_now(point),
+                                            .ledger = {.kinetic = 0 - lost,
+                                                       .settling = lost,
+                                                       .turnover = 2 * lost}};
         memcpy(point->inertia.before, point->position, sizeof point->inertia.before);
     }
 }

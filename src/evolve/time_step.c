@@ -137,25 +137,32 @@ static bool stops(const CpsiLine *line, int c) {
     return line->state[c] != CPS_NODE_STATE_FREE && !(cpsi_soft_spring(line, c).stiffness > 0);
 }
 
-/* Stop node j along the normals of the contacts at which it bears. */
-static void stop_node(CpsiLine *line, int j, double h) {
-    Vec3 first = vec3(0, 0, 0);
-    bool any = false;
-    if (cpsi_line_is_held(line, j)) return;
-    for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
+/* The contacts at which node j bears on what is rigid, up to two, and orthonormal vectors that span
+ * their normals; returns how many. */
+static int find_stops(const CpsiLine *line, int j, int contact[2], Vec3 n[2]) {
+    int count = 0;
+    if (cpsi_line_is_held(line, j)) return 0;
+    for (int c = j; c < cpsi_line_contacts(line) && count < 2; c += line->n) {
         if (!stops(line, c)) continue;
-        Vec3 n = vec3_at(line->normal, c);
-        const Vec3 ground = ground_velocity(line, c);
-        if (any) {
-            const Vec3 aside = vec3_reject(n, first);
+        n[count] = vec3_at(line->normal, c);
+        if (count > 0) {
+            const Vec3 aside = vec3_reject(n[1], n[0]);
             const double sine = vec3_norm(aside);
             if (sine < PARALLEL) continue;
-            n = vec3_scale(1 / sine, aside);
+            n[1] = vec3_scale(1 / sine, aside);
         }
-        stop_along(line, j, n, vec3_dot(n, ground), h);
-        first = n;
-        any = true;
+        contact[count++] = c;
     }
+    return count;
+}
+
+/* Stop node j along the normals of the contacts at which it bears. */
+static void stop_node(CpsiLine *line, int j, double h) {
+    int contact[2];
+    Vec3 n[2];
+    const int count = find_stops(line, j, contact, n);
+    for (int i = 0; i < count; i++)
+        stop_along(line, j, n[i], vec3_dot(n[i], ground_velocity(line, contact[i])), h);
 }
 
 /* The points of elements that bear, by the least change of their two nodes. */
@@ -182,7 +189,7 @@ static void stop_elements(CpsiLine *line) {
 }
 
 /* [m] The largest error of a node by its estimate (pace.h). What bears on something rigid is there,
- * and its error lies in the tangent plane. */
+ * and its error lies in the tangent planes. */
 static double error_of(const CpsiLine *line) {
     const CpsiInertia *inertia = &line->inertia;
     double largest = 0;
@@ -192,8 +199,10 @@ static double error_of(const CpsiLine *line) {
             cpsi_step_error(&inertia->formula, inertia->is_euler[j],
                             vec3_at(inertia->before_velocity, j),
                             vec3_at(inertia->start_velocity, j), vec3_at(inertia->velocity, j));
-        for (int c = j; c < cpsi_line_contacts(line); c += line->n)
-            if (stops(line, c)) off = vec3_reject(off, vec3_at(line->normal, c));
+        int contact[2];
+        Vec3 n[2];
+        const int count = find_stops(line, j, contact, n);
+        for (int i = 0; i < count; i++) off = vec3_reject(off, n[i]);
         largest = fmax(largest, vec3_norm(off));
     }
     return largest;
@@ -304,23 +313,4 @@ void cpsi_line_restart_rough(CpsiLine *line) {
     if (!line->has_inertia) return;
     for (int j = 0; j < line->n; j++)
         line->inertia.restarts[j] = line->inertia.restarts[j] || line->inertia.late[j];
-}
-
-void cpsi_line_stop(CpsiLine *line) {
-    CpsiInertia *inertia = &line->inertia;
-    const size_t n = (size_t)line->n;
-    inertia->is_moving = false;
-    cpsi_line_field_clear(line);
-    if (cpsi_line_has_damping(line)) cpsi_line_undamp(line);
-    inertia->kinetic = inertia->position_bound = 0;
-    inertia->ledger = (CpsMotionLedger){0};
-    inertia->landed = inertia->changed = inertia->snatched = 0;
-    if (line->has_node_loads) {
-        memset(line->field.added, 0, 3 * n * sizeof *line->field.added);
-        memset(line->field.wave, 0, 3 * n * sizeof *line->field.wave);
-    }
-    memset(inertia->velocity, 0, 3 * n * sizeof *inertia->velocity);
-    memset(inertia->rest_velocity, 0, 3 * n * sizeof *inertia->rest_velocity);
-    memset(inertia->span, 0, n * sizeof *inertia->span);
-    for (size_t j = 0; j < n; j++) inertia->restarts[j] = true;
 }

@@ -24,7 +24,4 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
 bool cpsi_line_is_rough(CpsiLine *line, double h);
 void cpsi_line_restart_rough(CpsiLine *line);
 
-/* The line is at rest, and its next step in time is an Euler step. */
-void cpsi_line_stop(CpsiLine *line);
-
 #endif

@@ -114,12 +114,11 @@ void cpsi_waves_fill(CpsiWaves *out, CpsiWave *wave, const CpsScene *local,
 
 CpsWaterMotion cps_waves_at(const CpsScene *scene, double time, const double x[3]) {
     CpsWaterMotion out = {.elevation = 0};
-    const double origin[3] = {0, 0, 0};
     const CpsWaves *given = scene ? cpsi_waves_of(scene) : NULL;
     if (!given || !scene->has_water_surface) return out;
     Vec3 velocity = vec3(0, 0, 0), acceleration = vec3(0, 0, 0);
     for (int i = 0; i < given->wave_count; i++) {
-        const CpsiWave wave = cpsi_wave(&given->wave[i], given->depth, -scene->gravity[2], origin);
+        const CpsiWave wave = cpsi_wave(&given->wave[i], given->depth, -scene->gravity[2], x);
         const CpsiWaves one = {.surface = scene->water_surface,
                                .depth = given->depth,
                                .ramp = given->ramp,
@@ -127,7 +126,7 @@ CpsWaterMotion cps_waves_at(const CpsScene *scene, double time, const double x[3
                                .count = 1,
                                .wave = &wave};
         double lift;
-        const CpsiWaterMotion motion = cpsi_waves_at(&one, vec3_load(x), &lift);
+        const CpsiWaterMotion motion = cpsi_waves_at(&one, vec3(0, 0, x[2]), &lift);
         velocity = vec3_add(velocity, motion.velocity);
         acceleration = vec3_add(acceleration, motion.acceleration);
         out.elevation += lift;

@@ -58,6 +58,7 @@ static void add_motion(const CpsMotionLedger *ledger, double kinetic, CpsiMotion
     sum->ledger.kinetic += ledger->kinetic;
     sum->ledger.impact += ledger->impact;
     sum->ledger.scheme += ledger->scheme;
+    sum->ledger.settling += ledger->settling;
     sum->ledger.damping += ledger->damping;
     sum->ledger.drag += ledger->drag;
     sum->ledger.added += ledger->added;
@@ -81,12 +82,12 @@ CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution) {
     }
     for (int i = 0; i < cps_evolution_point_count(evolution); ++i) {
         const CpsPointMotion motion = cps_evolution_point_motion(evolution, i);
-        if (motion.is_moving) add_motion(&motion.ledger, motion.kinetic, &sum);
+        add_motion(&motion.ledger, motion.kinetic, &sum);
         sum.landed += motion.landed;
     }
     for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {
         const CpsBodyMotion motion = cps_evolution_body_motion(evolution, i);
-        if (motion.is_moving) add_motion(&motion.ledger, motion.kinetic, &sum);
+        add_motion(&motion.ledger, motion.kinetic, &sum);
     }
     return sum;
 }
@@ -98,6 +99,13 @@ bool cpsi_has_winch(const CpsLine *line) {
 bool cpsi_has_set(const CpsLine *line) {
     return line->constraint[CPS_END_A].kind != CPS_CONSTRAINT_KIND_NONE ||
            line->constraint[CPS_END_B].kind != CPS_CONSTRAINT_KIND_NONE;
+}
+
+bool cpsi_has_point_set(const CpsScene *scene) {
+    bool found = false;
+    for (int k = 0; k < scene->point_count; ++k)
+        found = found || scene->point[k].constraint.kind != CPS_CONSTRAINT_KIND_NONE;
+    return found;
 }
 
 bool cpsi_lets_go(const CpsScene *scene) {

@@ -8,9 +8,11 @@
 
 #include <math.h>
 
+#include "elongation.h"
 #include "measure.h"
 
-/* What an element may lack of its length, as a share of it, and count as stretched. */
+/* What an element may lack of the length at which it has no tension, as a share of it, and count as
+ * stretched. */
 static const Real STRETCHED = 1e-9L;
 
 static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -30,7 +32,8 @@ static bool along_element(const Record *r, size_t i, Real least, Real *out) {
     double ahead[3];
     if (unit(r->segment_force[i], least, out)) return true;
     for (int k = 0; k < 3; k++) ahead[k] = r->position[i + 1][k] - r->position[i][k];
-    return unit(ahead, (1 - STRETCHED) * (Real)r->element_length[i], out);
+    const Real length = r->element_length[i] * (1 + elongation_rest(r, i));
+    return unit(ahead, (1 - STRETCHED) * length, out);
 }
 
 /* angle of a direction above the tangent plane */

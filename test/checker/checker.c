@@ -19,6 +19,7 @@
 #include "long_element.h"
 #include "measure.h"
 #include "motion.h"
+#include "pace.h"
 #include "passing.h"
 #include "places.h"
 #include "points.h"
@@ -26,6 +27,7 @@
 #include "reach.h"
 #include "rounding.h"
 #include "sets.h"
+#include "settling.h"
 #include "winches.h"
 
 /* A balance is accepted when no node is off by more than this part of the largest force: rounding
@@ -136,8 +138,9 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
     const double *entry = r->ledger;
     const double loads = r->loads ? r->loads->ledger : 0;
     double spent = entry[LEDGER_ELASTIC] + entry[LEDGER_GRAVITY] + r->dissipated +
-                   entry[LEDGER_IMBALANCE] - loads,
-           sizes = r->dissipated + fabs(loads);
+                   entry[LEDGER_IMBALANCE] - loads + r->time_entry[TIME_GROWTH] +
+                   r->time_entry[TIME_SETTLING],
+           sizes = r->dissipated + fabs(loads) + fabs(r->time_entry[TIME_SETTLING]);
     for (int k = 0; k < LEDGER_ENTRIES; k++) sizes += fabs(entry[k]);
     sizes += fabs(r->winch_work);
     // entries are sums over the parts, which may cancel but for rounding
@@ -150,7 +153,7 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
     if (r->loads) same(findings, "ledger_loads", loads, m->loads, floor + loads_open_work(r));
     if (!loads_are_convex(r)) find(findings, "the potential is no convex function");
     if (!r->winds) {
-        same(findings, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic, floor);
+        same(findings, "ledger_elastic", entry[LEDGER_ELASTIC], m->elastic - r->kept, floor);
         same(findings, "ledger_gravity", entry[LEDGER_GRAVITY], m->gravity, floor);
     }
     same(findings, "ledger_obstacles", entry[LEDGER_OBSTACLES],
@@ -576,7 +579,8 @@ static void check_work(const Record *r, const Record *before, const Source *sour
     const Measures m = measure_where(source, r, step);
     if (m.missing) return;
     const double said = r->ledger[LEDGER_ENDS];
-    Record as_if = *before; /* forces that another stiffness has changed are those after it */
+    /* forces that another stiffness has changed are those after it, and so are those of a motion */
+    Record as_if = r->settles ? *r : *before;
     for (int e = 0; e < 2 && elongation_jumps(r, before); e++)
         if (r->end_kind[e] == END_HELD)
             for (int k = 0; k < 3; k++) {
@@ -721,6 +725,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         bad = record_read(source, line, step, &record, log);
         if (bad) break;
         record.winds = step > 0 && winches_wind(&record, &previous);
+        settling_begin(&record, step > 0 ? &previous : NULL);
         check_record(source, &record, step > 0 ? &previous : NULL, line, step, log, report);
         Findings findings = {log, line, step, 0};
         if (step > 0 && record.substeps == 1 && !in_time(&record) &&
@@ -730,6 +735,7 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
         if (fault) find(&findings, "%s", fault);
         inertia_check(source, &record, step > 0 ? &previous : NULL, step > 1 ? &older : NULL,
                       find_number, &findings);
+        settling_check(source, &record, step > 0 ? &previous : NULL, find_number, &findings);
         if (step > 0) events_add(&record, &previous, &report->events);
         if (step > 0 && !in_time(&record)) check_work(&record, &previous, source, step, &findings);
         if (record.outcome <= OUTCOME_TAUT) sets_check(&record, find_number, &findings);
@@ -756,7 +762,7 @@ static bool is_certified(int outcome) {
     return outcome != OUTCOME_STALLED && outcome != OUTCOME_LIMIT;
 }
 
-/* Where findings on points, bodies and releases of lines go. */
+/* Findings on points, bodies and releases. */
 typedef struct OtherFindings {
     const char *of;
     FILE *log;
@@ -778,7 +784,7 @@ int checker_file(const char *path, CheckerReport *worst, FILE *log) {
     report->steps = bad ? 0 : (int)source.steps;
     if (!bad && source.steps == 0 && log) fprintf(log, "%s holds no step\n", path);
     Findings times = {log, "times", 0, 0};
-    if (!bad) inertia_times(&source, find_number, &times);
+    if (!bad) bad = pace_check(&source, find_number, &times, log);
     report->refuted += times.count > 0;
     for (size_t i = 0; i < source.lines && !bad; i++)
         bad = check_line(&source, source.line_name[i], log, report);

@@ -47,6 +47,8 @@ void winches_compare(Compare *compare, const CpsLine *line, int index, size_t st
 
 /* The sets that ends of a line are held to. */
 void sets_compare(Compare *compare, const CpsLine *line, const Record *r);
+/* ... and of points. */
+void point_sets_compare(Compare *compare, const CpsScene *scene);
 
 /* Kind, place, shape and friction of an obstacle. */
 void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s);
@@ -54,6 +56,9 @@ void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s);
 /* What holds for a line in the whole run: its elements, their makes, its friction zones and what
  * its ends are at. */
 void compare_line(Compare *compare, const CpsLine *line, const Record *r);
+
+/* The errors of steps, against those asked for. 0, or -1 after one sentence on the log. */
+int compare_pace(Compare *compare);
 
 /* Springs, given loads and drag, after a step. */
 void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, size_t step);

@@ -16,6 +16,7 @@
 #include "failure.h"
 #include "given_bodies.h"
 #include "grasps.h"
+#include "joint_motion.h"
 #include "loads.h"
 #include "oscillation.h"
 #include "record.h"
@@ -516,6 +517,20 @@ static void compare_given_points(Compare *compare, ImposedPoint *imposed) {
     free(anchor);
 }
 
+/* The masses of points, of a file with steps in time. */
+static int compare_point_masses(Compare *compare) {
+    const size_t n = compare->source.points;
+    PointMotion *motion = calloc(n, sizeof *motion);
+    int bad = motion ? 0 : -1;
+    if (!bad && compare->time) bad = point_motions_read(&compare->source, 0, motion, compare->log);
+    if (!bad && compare->time)
+        for (size_t k = 0; k < n; k++)
+            same_number(compare, "mass of point", compare->source.point_name[k], motion[k].mass,
+                        compare->scene->point[k].inertia);
+    free(motion);
+    return bad;
+}
+
 static int compare_points(Compare *compare) {
     const Source *source = &compare->source;
     const size_t n = source->points;
@@ -526,8 +541,9 @@ static int compare_points(Compare *compare) {
     if (n == 0) return 0;
     ImposedPoint *imposed = calloc(n, sizeof *imposed);
     Junction *now = calloc(n, sizeof *now), *before = calloc(n, sizeof *before);
-    int bad = imposed && now && before ? 0 : -1;
+    int bad = imposed && now && before ? compare_point_masses(compare) : -1;
     if (!bad) compare_given_points(compare, imposed);
+    if (!bad) point_sets_compare(compare, compare->scene);
     for (size_t step = 0; step < source->steps && !bad && compare->findings == 0; step++) {
         bad = junctions_read(source, step, now, compare->log);
         if (!bad) compare_points_at(compare, step, imposed, before, now);
@@ -722,6 +738,7 @@ int given_file(const char *path, const CpsScene *scene, FILE *log) {
             find(&compare, "line %s, in the scene %s", compare.source.line_name[i],
                  scene->line[i].name);
     }
+    if (!bad && compare.findings == 0) bad = compare_pace(&compare);
     if (!bad && compare.findings == 0) bad = compare_points(&compare);
     if (!bad && compare.findings == 0)
         bad = given_bodies(&compare.source, scene, step_of, find_at_body, &compare, log);

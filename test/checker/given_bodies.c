@@ -386,6 +386,24 @@ static void compare_added(Compare *c, size_t k) {
          LOADS * largest(wanted, SIX * SIX));
 }
 
+static bool is_in_time(const CpsScene *scene) {
+    bool any = scene->in_time;
+    for (int k = 0; k < scene->stage_count; k++) any = any || scene->stage[k].duration > 0;
+    return any;
+}
+
+/* What else moves with it, or damps it. */
+static void compare_masses(Compare *c, size_t k) {
+    const CpsBody *given = &c->scene->body[k];
+    const BodyMotion *m = &c->motion[k];
+    const char *of = c->bodies.data[k].name;
+    same_constant(c, "mass_of_body", of, &m->mass, &given->mass, 1);
+    same_constant(c, "moments_of_inertia_of_body", of, m->moments, given->inertia, 3);
+    same_constant(c, "products_of_inertia_of_body", of, m->products, &given->inertia[3], 3);
+    same_constant(c, "damping_matrix_of_body", of, m->damping, given->damping, SIX * SIX);
+    same_constant(c, "quadratic_damping_of_body", of, m->quadratic, given->quadratic_damping, SIX);
+}
+
 static void compare_step(Compare *c, const GivenStep *given, size_t step, Imposed *imposed,
                          const BodyState *before, const BodyState *now) {
     const int changes = given->stage ? given->stage->body_change_count : 0;
@@ -399,7 +417,10 @@ static void compare_step(Compare *c, const GivenStep *given, size_t step, Impose
         compare_stiffness(c, k, given->gravity, step, &now[k]);
         compare_ledger(c, k, given->gravity, step, &before[k], &now[k]);
         compare_members(c, k, step, &before[k], &now[k]);
-        if (step == 0 && c->motion[k].mass > 0) compare_added(c, k);
+        if (step == 0 && is_in_time(c->scene)) {
+            compare_added(c, k);
+            compare_masses(c, k);
+        }
     }
 }
 

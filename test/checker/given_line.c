@@ -98,6 +98,31 @@ static void compare_weights(Compare *compare, const CpsLine *line, const Record 
     free(own);
 }
 
+/* Masses that move with the nodes: half of each element, and what hangs there. */
+static void compare_masses(Compare *compare, const CpsLine *line, const Record *r) {
+    double arc = 0, next = 0; /* [kg] of the half element before */
+    for (size_t j = 0; j < r->nodes; j++) {
+        double own = next, sizes;
+        if (j < r->elements) {
+            const double l = r->element_length[j];
+            const CpsSection *section = section_at(line, arc + l / 2);
+            next = l * (section ? section->inertia : line->inertia) / 2;
+            own += next;
+        }
+        sizes = own;
+        for (int k = 0; k < line->point_weight_count; k++) {
+            const CpsPointWeight *point = &line->point_weight[k];
+            if (fabs(point->arc_length - arc) <= 1e-8 * line->length) own += point->inertia;
+        }
+        if (!(fabs(r->mass[j] - own) <= COMPUTED * (sizes + own))) {
+            find(compare, "node_mass of %s at node %zu is %.17g kg, in the scene %.17g kg",
+                 line->name, j, r->mass[j], own);
+            return;
+        }
+        if (j < r->elements) arc += r->element_length[j];
+    }
+}
+
 /* Stiffness along the line, its damping, and whether its weights differ. */
 static void compare_sections(Compare *compare, const CpsLine *line, const Record *r) {
     same_number(compare, "damping", line->name, r->damping ? r->damping->coefficient : 0,
@@ -264,6 +289,7 @@ void compare_line(Compare *compare, const CpsLine *line, const Record *r) {
         return;
     }
     compare_sections(compare, line, r);
+    if (r->mass) compare_masses(compare, line, r);
     compare_tables(compare, line, r);
     compare_dynamic(compare, line, r);
     compare_breaking_load(compare, line, r);

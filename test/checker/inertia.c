@@ -50,10 +50,11 @@ int inertia_create(const Source *source, const char *line, Record *record, FILE 
 }
 
 int inertia_read(const Source *source, const char *line, size_t step, Record *record, FILE *log) {
-    static const char *const NUMBER[TIME_ENTRIES] = {"kinetic",        "ledger_kinetic",
-                                                     "ledger_impact",  "ledger_scheme",
-                                                     "ledger_damping", "ledger_drag",
-                                                     "ledger_added",   "ledger_waves"};
+    static const char *const NUMBER[TIME_ENTRIES] = {"kinetic",         "ledger_kinetic",
+                                                     "ledger_impact",   "ledger_scheme",
+                                                     "ledger_settling", "ledger_damping",
+                                                     "ledger_drag",     "ledger_added",
+                                                     "ledger_waves"};
     if (!record->mass) return 0;
     const size_t start[] = {step, 0, 0}, count[] = {1, record->nodes, 3};
     int time, length;
@@ -137,9 +138,7 @@ static Real take_off(const Real *n, Real *v) {
     return sqrtl(left);
 }
 
-/* The part of the vector across the normals of the contacts at which node j bore, up to two, which
- * may have any angle; what gives stops no node. */
-static void across(const Source *source, const Record *r, size_t j, Real *v) {
+void inertia_across(const Source *source, const Record *r, size_t j, Real *v) {
     Real first[3];
     bool any = false;
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) {
@@ -167,7 +166,7 @@ static double off_scheme(const Source *source, const Record *r, const Record *be
         const Real x = before->position[j][a], past = older ? older->position[j][a] : x;
         off[a] = r->reference[j][a] - x - back * (x - past);
     }
-    if (back > 0) across(source, before, j, off);
+    if (back > 0) inertia_across(source, before, j, off);
     return size_of(off);
 }
 
@@ -213,7 +212,7 @@ static double kinetic_energy(const Source *source, const Record *r, double reach
             sum += own * own * r->mass[j] / 2;
             v[a] = (own - ((Real)r->position[j][a] - r->reference[j][a]) / r->span[j]);
         }
-        across(source, r, j, v);
+        inertia_across(source, r, j, v);
         if (!is_beside_element(r, j) && !is_at_point(r, j))
             off = fmax(off, size_of(v) * r->span[j]);
     }
@@ -301,6 +300,7 @@ void inertia_check(const Source *source, const Record *r, const Record *before, 
             r->ledger[LEDGER_ENDS] + r->ledger[LEDGER_OBSTACLES] + given +
                 r->time_entry[TIME_WAVES],
             spent, 1e-12 * sizes + 1e-300, find, user);
+    compare("ledger_settling in time", r->time_entry[TIME_SETTLING], 0, 0, find, user);
     compare("imbalance of the ledger in time", r->ledger[LEDGER_IMBALANCE], 0, noise, find, user);
     const Damped own = r->damping ? damping_measure(r, before, older) : (Damped){0};
     compare("ledger_damping", r->time_entry[TIME_DAMPING],

@@ -76,7 +76,8 @@ int point_motions_read(const Source *source, size_t step, PointMotion *all, FILE
         read_all(source, "kinetic_of_point", s, n, 1, &all->kinetic, each) ||
         read_all(source, "ledger_kinetic_of_point", s, n, 1, &all->growth, each) ||
         read_all(source, "ledger_impact_of_point", s, n, 1, &all->impact, each) ||
-        read_all(source, "ledger_scheme_of_point", s, n, 1, &all->scheme, each))
+        read_all(source, "ledger_scheme_of_point", s, n, 1, &all->scheme, each) ||
+        read_all(source, "ledger_settling_of_point", s, n, 1, &all->settling, each))
         return complain(log, "points");
     return 0;
 }
@@ -126,6 +127,7 @@ int body_motions_read(const Source *source, size_t n, size_t step, BodyMotion *a
         read_all(source, "damped_of_body", s, n, 1, &all->lost, each) ||
         read_all(source, "ledger_kinetic_of_body", s, n, 1, &all->growth, each) ||
         read_all(source, "ledger_scheme_of_body", s, n, 1, &all->scheme, each) ||
+        read_all(source, "ledger_settling_of_body", s, n, 1, &all->settling, each) ||
         read_all(source, "ledger_drag_of_body", s, n, 1, &all->drag, each) ||
         read_all(source, "ledger_waves_of_body", s, n, 1, &all->waves, each))
         return complain(log, "bodies");
@@ -179,8 +181,17 @@ static void check_point_scheme(const PointSteps *s, MotionFind *find, void *user
         find(user, "v* off that of the scheme, times k", size_of(velocity) * m->span, 0);
 }
 
+/* Of what is brought to rest, or of what moves, `had` before. */
+static void check_rest(double said, double growth, double had, bool moves, MotionFind *find,
+                       void *user) {
+    compare("energy lost by coming to rest", said, moves ? 0 : had, 0, find, user);
+    if (!moves) compare("growth of the kinetic energy", growth, -had, 0, find, user);
+}
+
 void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
     const PointMotion *m = s->motion;
+    if (s->before)
+        check_rest(m->settling, m->growth, s->motion_before->kinetic, m->span > 0, find, user);
     if (!(m->span > 0)) {
         if (m->span != 0 || size(m->velocity) + size(m->inertia) + m->kinetic != 0)
             find(user, "motion in a quasi-static step", size(m->velocity), 0);
@@ -419,8 +430,10 @@ static void check_damping(const BodySteps *s, MotionFind *find, void *user) {
 
 void body_motion_check(const BodySteps *s, MotionFind *find, void *user) {
     const BodyMotion *m = s->motion;
+    if (s->before)
+        check_rest(m->settling, m->growth, s->motion_before->kinetic, m->span > 0, find, user);
     if (!(m->span > 0)) {
-        if (m->span != 0 || size(m->velocity) + size(m->rate) + size(m->inertia) != 0)
+        if (m->span != 0 || size(m->velocity) + size(m->rate) + size(m->inertia) + m->kinetic != 0)
             find(user, "motion in a quasi-static step", size(m->velocity), 0);
         return;
     }

@@ -9,7 +9,7 @@
 /* A point after a step; all 0 in a file without steps in time. */
 typedef struct PointMotion {
     Vector inertia, velocity, reference, rest_velocity;
-    double mass, span, kinetic, growth, impact, scheme;
+    double mass, span, kinetic, growth, impact, scheme, settling;
 } PointMotion;
 
 /* A body likewise; matrices row by row. */
@@ -17,7 +17,7 @@ typedef struct BodyMotion {
     double mass, moments[3], products[3], added[SIX * SIX], damping[SIX * SIX], quadratic[SIX];
     double inertia[SIX], damped[SIX];
     Vector velocity, rate, centre_velocity;
-    double span, kinetic, lost, growth, scheme, drag, waves; /* the last two of members */
+    double span, kinetic, lost, growth, scheme, settling, drag, waves; /* the last two of members */
 } BodyMotion;
 
 /* Read the points, or the bodies, of a step. Return 0, or -1 after a sentence on log. */

@@ -320,7 +320,7 @@ Real loads_work(const Record *record) {
         loads_drag(record, record->position, j, after);
         for (int a = 0; a < 3; a++)
             work += (loads->given[j][a] - (loads->pull ? (Real)loads->pull[j][a] : 0) +
-                     (before[a] - after[a]) / 2) *
+                     (record->settles ? 0 : (before[a] - after[a]) / 2)) *
                     ((Real)record->position[j][a] - record->reference[j][a]);
         if (loads->energy) work += (Real)loads->energy_before[j] - loads->energy[j];
     }

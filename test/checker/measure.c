@@ -504,12 +504,13 @@ static void measure_weight(const Record *r, size_t j, Sums *s) {
         if (j == (e ? r->elements : 0) && r->end_kind[e] == END_FREE)
             for (int k = 0; k < 3; k++) weight[k] -= r->applied_force[e][k];
     node_load(r, j, weight);
-    // where gravity changes the weight works with the mean of what it was and what it is
+    // where gravity changes the weight works with the mean of what it was and what it is, but
+    // where all works are those of forces after the step
     const Real half = ((j > 0 ? (Real)r->element_length[j - 1] : 0) +
                        (j < r->elements ? (Real)r->element_length[j] : 0)) /
                       2,
                share = r->weight_length ? r->weight_length[j] : half;
-    if (r->has_weight_before)
+    if (r->has_weight_before && !r->settles)
         for (int k = 0; k < 3; k++) weight[k] = (weight[k] + share * r->weight_before[k]) / 2;
     add(&s->gravity, -dot(weight, u));
 }

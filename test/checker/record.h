@@ -69,6 +69,7 @@ enum {
     TIME_GROWTH,
     TIME_IMPACT,
     TIME_SCHEME,
+    TIME_SETTLING,
     TIME_DAMPING,
     TIME_DRAG,
     TIME_ADDED,
@@ -137,8 +138,10 @@ typedef struct Record {
     /* of a line with winches, what is off their drums (winches.h); else NULL, and 0 */
     struct Drums *drums;
     double arc_from, stored[2], winch_pull[2], winch_work; /* stored, winch_pull: NaN: no winch */
-    bool winds;                        /* a drum has not the same as in the step before */
-    bool on_drum[2];                   /* the node at the end is one that a drum has */
+    bool winds;      /* a drum has not the same as in the step before */
+    bool settles;    /* it moved in the step before, and is at rest (settling.h); */
+    double kept;     /* [J] what its elements stored then beyond their strains */
+    bool on_drum[2]; /* the node at the end is one that a drum has */
     size_t grasps, grasp_node[GRASPS]; /* nodes between the ends that are held or pulled */
     int grasp_kind[GRASPS];
     Vector grasp_place[GRASPS], grasp_load[GRASPS], grasp_force[GRASPS];

@@ -85,13 +85,34 @@ static const FalseNumber FALSE[] = {
     {"ledger_impact_of_point", POINT(4, CLUMP), -1, "clump: energy lost by impact"},
     {"ledger_scheme_of_point", POINT(4, KNOT), 1, "knot: ledger, work of lines and load"},
     {"b_velocity", 3 * (4 * 7), 3, "right: velocity of the end of a line"},
+    {"mass_of_body", FLOAT, 401, NULL},
+    {"moments_of_inertia_of_body", 1, 120.01, NULL},
+    {"products_of_inertia_of_body", 2, 5.01, NULL},
+    {"added_mass_xx_of_body", 4, 220.01, NULL},
+    {"damping_matrix_xx_of_body", 0, 20.01, NULL},
+    {"damping_matrix_xr_of_body", 1, 0.01, NULL},
+    {"quadratic_damping_of_body", 0, 40.01, NULL},
+    {"quadratic_moment_of_body", 1, 12.01, NULL},
+    {"mass_of_point", KNOT, 60.01, NULL},
+    {"b_node_mass", 2, 6, NULL},
     {"time", 4, 0.13, "time_step is not by how much time has passed"},
     {"time_step", 4, 0.03, "float: span of the scheme"},
+};
+
+/* Scenes in which what moves, or damps, is another. */
+static const OtherScene OTHER[] = {
+    {"moments_of_inertia: [90, 120, 150]", "moments_of_inertia: [90, 120.001, 150]"},
+    {"products_of_inertia: [4, -3, 5]", "products_of_inertia: [4, -3.001, 5]"},
+    {"[0, 0, 300, 0, 0, 0]", "[0, 0, 300.001, 0, 0, 0]"},
+    {"damping: {x: 20, z: 90, rx: 30", "damping: {x: 20, z: 90, rx: 30.001"},
+    {"quadratic_damping: {x: 40", "quadratic_damping: {x: 40.001"},
+    {"quadratic_damping: {x: 40, z: 25, ry: 12}", "quadratic_damping: {x: 40, z: 25, ry: 12.001}"},
 };
 
 int main(void) {
     static const Falsified FALSIFIED = {.scene = SCENE,
                                         .records = LINES * STEPS,
-                                        .number = FALSIFIED_ROWS(FALSE)};
+                                        .number = FALSIFIED_ROWS(FALSE),
+                                        .other = FALSIFIED_ROWS(OTHER)};
     return falsified_main(&FALSIFIED);
 }

@@ -6,7 +6,8 @@ usage: random_in_time.py CAPSTAN CHECKER [--count N] [--seed S] [--only CLASS] [
 
 Of each class N scenes: `drop`, a line thrown on ground; `clump`, a point on lines let go above it and pulled about; `body`, a body on lines
 whose anchors move; `drum`, a line over a drum that turns and moves; `ground`, a line on ground that moves and turns; `snatch`, a slack line
-whose end swings until it is taut; `slide`, a line on ground whose end is pulled to and fro; `wave`, a line on a bed in waves. They differ in
+whose end swings until it is taut; `slide`, a line on ground whose end is pulled to and fro; `wave`, a line on a bed in waves. Of three in ten,
+bodies excepted, the last entry is quasi-static, and brings all to rest where that is possible. They differ in
 size, in the place and direction of all (gravity need not be along z), in slope, friction, stiffness, scheme and length of the steps. Of each
 class at least 995 of 1000 records must be certified and none refuted, and the remainder of each ledger is below 1e-10 of its turnover, as the
 file has it; of all classes together at least five of each event must be there for each scene.
@@ -253,12 +254,14 @@ class Scene:
 
     def wave(self):
         while True:
-            swim = Swim(random.Random(self.dice.random()), random.Random(self.dice.random()), "bed")
-            # the phase of a short wave is known to its rounding far away
-            swim.origin = [self.dice.choice([0, 100, -300]) * swim.size for _ in range(2)] + [0.0]
-            text = swim.text()
+            text = Swim(random.Random(self.dice.random()), random.Random(self.dice.random()), "bed").text()
             if "waves:" in text:
                 return text
+
+
+def rest(dice, kind):
+    """What moves may come to rest at the end; a body not always finds where from far away."""
+    return "  - {name: rest}\n" if kind != "body" and dice.random() < 0.3 else ""
 
 
 def remainder(out):
@@ -276,10 +279,10 @@ def one_class(given, kind):
     sums = dict.fromkeys(["steps", "certified", "refuted", "proven", "wrong"] + EVENTS, 0)
     worst = 0.0
     for seed in range(given.seed, given.seed + given.count):
-        text = Scene(random.Random(f"in time {kind} {seed}"), kind).text()
+        text = Scene(random.Random(f"in time {kind} {seed}"), kind).text() + rest(random.Random(f"rest {kind} {seed}"), kind)
         scene, out, done = checked.solve(given, kind, seed, text, "--no-paraview")
         found, words, events, own = [0] * 5, done.stderr.strip(), {}, 0.0
-        if done.returncode in (0, 1):
+        if done.returncode in (0, 1, 5):
             told = checked.told_of(given.checker, out, scene)
             found, words = checked.counts_of(told)
             events = checked.events_of(told)

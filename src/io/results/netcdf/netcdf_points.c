@@ -80,6 +80,8 @@ static const struct {
      CPSI_MEMBER(CpsPointMotion, ledger.impact)},
     {"ledger_scheme_of_point", "energy lost by the scheme in time", "J",
      CPSI_MEMBER(CpsPointMotion, ledger.scheme)},
+    {"ledger_settling_of_point", "energy lost where a quasi-static step brings it to rest", "J",
+     CPSI_MEMBER(CpsPointMotion, ledger.settling)},
 };
 
 typedef enum PointInt {
@@ -120,7 +122,7 @@ static void define_names(CpsiNetcdfFile *file, const CpsScene *scene, const char
 }
 
 void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
-                               const CpsScene *scene, int step, int xyz) {
+                               const CpsScene *scene, int step, int xyz, const double origin[3]) {
     points->count = scene->point_count;
     if (scene->point_count == 0) return; /* a dimension of no length would be an unlimited one */
     define_names(file, scene, "points", scene->point_count, point_name);
@@ -162,6 +164,7 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
     cpsi_netcdf_flags(file, points->whole[POINT_HAS_PLACE], NC_INT, 2, NULL, "no yes");
     cpsi_netcdf_flags(file, points->whole[POINT_WATER], NC_INT, 4, NULL,
                       "none submerged floating above");
+    cpsi_netcdf_define_point_sets(file, &points->sets, scene, shape, origin);
     points->in_time = cpsi_has_duration(scene);
     if (!points->in_time) return;
     points->mass = cpsi_netcdf_variable(file, "", "mass_of_point", NC_DOUBLE, 1, &points->dimension,
@@ -178,7 +181,7 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
 }
 
 void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points,
-                              const CpsScene *scene) {
+                              const CpsScene *scene, const double origin[3]) {
     for (size_t k = 0; k < (size_t)points->count; ++k) {
         static const size_t ONE[] = {1};
         cpsi_netcdf_int(file, points->kind, &k, (int)scene->point[k].kind);
@@ -189,6 +192,7 @@ void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poin
         cpsi_netcdf_doubles(file, points->capacity, &k, ONE, &capacity);
         cpsi_netcdf_doubles(file, points->limit, &k, ONE, &limit);
         cpsi_netcdf_int(file, points->drags, &k, point->drags);
+        cpsi_netcdf_write_set(file, &points->sets, k, &point->constraint, origin);
         if (points->in_time) cpsi_netcdf_doubles(file, points->mass, &k, ONE, &point->inertia);
     }
 }
@@ -205,6 +209,8 @@ static void append_point(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, s
         const double value = cpsi_member(report, NUMBER[i].member);
         cpsi_netcdf_doubles(file, points->number[i], start, count, &value);
     }
+    if (points->sets.is_there)
+        cpsi_netcdf_doubles(file, points->sets.reaction, start, count, report->set_reaction);
     const int whole[CPSI_POINT_INTS] = {[POINT_STATE] = (int)report->state,
                                         [POINT_OBSTACLE] = report->obstacle,
                                         [POINT_TRIALS] = report->trial_count,
@@ -340,6 +346,8 @@ static const BodyField BODY_MOTION[CPSI_BODY_MOTIONS] = {
      offsetof(CpsBodyMotion, ledger.kinetic), NUMBER_OF},
     {"ledger_scheme_of_body", "energy lost by the scheme in time", "J",
      offsetof(CpsBodyMotion, ledger.scheme), NUMBER_OF},
+    {"ledger_settling_of_body", "energy lost where a quasi-static step brings it to rest", "J",
+     offsetof(CpsBodyMotion, ledger.settling), NUMBER_OF},
     {"ledger_drag_of_body", "work done on the water against the drag of members", "J",
      offsetof(CpsBodyMotion, ledger.drag), NUMBER_OF},
     {"ledger_waves_of_body", "work of the water's own acceleration in waves on members", "J",

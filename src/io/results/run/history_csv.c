@@ -116,6 +116,7 @@ static const CpsiColumn MOTION_COLUMN[] = {
     {"kinetic_growth", "J", MOTION(ledger.kinetic)},
     {"impact", "J", MOTION(ledger.impact)},
     {"scheme", "J", MOTION(ledger.scheme)},
+    {"settling", "J", MOTION(ledger.settling)},
     {"damping", "J", MOTION(ledger.damping)},
     {"drag", "J", MOTION(ledger.drag)},
     {"added", "J", MOTION(ledger.added)},
