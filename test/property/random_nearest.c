@@ -146,9 +146,11 @@ static bool nearest(const Ball *ball, int count, const double x[3], double slack
     for (int i = 0; i < count; i++) {
         double place[3];
         const double d = apart(x, ball[i].centre);
-        for (int a = 0; a < 3 && d > 0; a++)
-            place[a] = ball[i].centre[a] + ball[i].radius * (x[a] - ball[i].centre[a]) / d;
-        if (d > 0) offer(&best, place);
+        if (d > 0) {
+            for (int a = 0; a < 3; a++)
+                place[a] = ball[i].centre[a] + ball[i].radius * (x[a] - ball[i].centre[a]) / d;
+            offer(&best, place);
+        }
         for (int j = i + 1; j < count; j++) {
             offer_pair(&best, &ball[i], &ball[j], NULL);
             for (int k = j + 1; k < count; k++) offer_pair(&best, &ball[i], &ball[j], &ball[k]);
