@@ -36,6 +36,21 @@ static bool is_at_front(const CpsiNewton *newton, int i) {
            st->z[other][0] > 0 && fabs(1 / st->inverse_w[i] - 1) <= newton->rounding;
 }
 
+/* Has node j a place without the tension of element i beside it, since the one on its other side is
+ * taut? */
+static bool is_carried(const CpsiNewton *newton, int j, int i) {
+    const int other = j < i ? i - 1 : i + 1;
+    return has_place(newton, j) ||
+           (other > 0 && other < newton->program->n && newton->taut[other] &&
+            newton->program->segment.z[other][0] > 0);
+}
+
+/* May element i be slack in a solution that is only to be polished? */
+static bool may_lie(const CpsiNewton *newton, int i) {
+    return newton->polishes && !is_at_front(newton, i) && is_carried(newton, i - 1, i) &&
+           is_carried(newton, i, i);
+}
+
 /* Element i would be slack between nodes that move: it keeps a little tension, so that they are
  * held; none where it is at a front of a solution that is only to be polished. Where that goes on
  * there is no equilibrium with tension in it. */
@@ -59,7 +74,8 @@ static void decide_elements(CpsiNewton *newton) {
         if (now != before) newton->changed = true;
         newton->taut[i] = now;
         if (!now) st->z[i][0] = 0;
-        if (!now && !fixed && !cpsi_newton_may_hang(newton, i)) keep_taut(newton, i);
+        if (!now && !fixed && !cpsi_newton_may_hang(newton, i) && !may_lie(newton, i))
+            keep_taut(newton, i);
         if (now && fixed && st->compliance == 0) newton->lost = true;
     }
 }

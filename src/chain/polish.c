@@ -139,8 +139,7 @@ CpsiIpmReport cpsi_chain_polish(CpsiChainProgram *program, const CpsiKept *kept,
     for (int d = 0; d < discs; d++) disc->s[d][0] = cpsi_chain_disc_slips(program, d);
     for (int k = 0; k < unilateral->count; k++)
         if (!presses(program, k)) unilateral->z[k] = 0;
-    /* only with a field may elements between nodes that move be slack */
-    if (program->field) leave_slack(program);
+    leave_slack(program);
     disc->count += conics;
     program->conic.count = 0;
     const CpsiIpmReport report = cpsi_chain_active_set(program, max_iterations, true);
