@@ -142,27 +142,6 @@ static void print_body(const CpsBody *body) {
                m[2]);
 }
 
-static void print_point(const CpsScene *scene, const CpsPoint *point) {
-    const double *x = point->position, *f = point->force;
-    if (point->kind == CPS_POINT_KIND_ON_BODY) {
-        printf("point %s: on body %s at (%g, %g, %g) m\n", point->name,
-               scene->body[point->body].name, x[0], x[1], x[2]);
-        return;
-    }
-    const bool is_free = point->kind == CPS_POINT_KIND_FREE;
-    printf("point %s: %s (%g, %g, %g) m", point->name, is_free ? "free, begins at" : "held at",
-           x[0], x[1], x[2]);
-    if (point->weight != 0)
-        printf(", %s of %g N", point->weight < 0 ? "buoy" : "clump", fabs(point->weight));
-    if (scene->has_water_surface && point->displaced_weight > 0)
-        printf(", displaces water of %g N", point->displaced_weight);
-    if (point->has_holding_capacity) printf(", holding capacity %g N", point->holding_capacity);
-    if (point->has_uplift_limit) printf(", uplift limit %g N", point->uplift_limit);
-    if (point->drags) printf(", drags");
-    if (is_free) printf(", force (%g, %g, %g) N", f[0], f[1], f[2]);
-    putchar('\n');
-}
-
 static void print_set(const CpsConstraint *on) {
     const double *p = on->point, *a = on->axis, *s = on->size;
     switch (on->kind) {
@@ -189,6 +168,28 @@ static void print_set(const CpsConstraint *on) {
                s[2]);
         break;
     }
+}
+
+static void print_point(const CpsScene *scene, const CpsPoint *point) {
+    const double *x = point->position, *f = point->force;
+    if (point->kind == CPS_POINT_KIND_ON_BODY) {
+        printf("point %s: on body %s at (%g, %g, %g) m\n", point->name,
+               scene->body[point->body].name, x[0], x[1], x[2]);
+        return;
+    }
+    const bool is_free = point->kind == CPS_POINT_KIND_FREE;
+    printf("point %s: %s (%g, %g, %g) m", point->name, is_free ? "free, begins at" : "held at",
+           x[0], x[1], x[2]);
+    if (point->weight != 0)
+        printf(", %s of %g N", point->weight < 0 ? "buoy" : "clump", fabs(point->weight));
+    if (scene->has_water_surface && point->displaced_weight > 0)
+        printf(", displaces water of %g N", point->displaced_weight);
+    if (point->has_holding_capacity) printf(", holding capacity %g N", point->holding_capacity);
+    if (point->has_uplift_limit) printf(", uplift limit %g N", point->uplift_limit);
+    if (point->drags) printf(", drags");
+    if (is_free) printf(", force (%g, %g, %g) N", f[0], f[1], f[2]);
+    print_set(&point->constraint);
+    putchar('\n');
 }
 
 static void print_end(const CpsScene *scene, const CpsLine *line, int e) {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* capstan/constraint.h: ends of lines held to convex sets (S90 remark 2.3: x in C2, a perfect
- * convex constraint). An end of the kind CPS_END_KIND_FREE may be held to a closed convex set of
- * places: a rail, a half-space, a ball, a disc, a box, or any bounded set of set.h. It slides
- * without friction where the forces take it in the set; what the set does to it is a reaction r,
- * opposite to the outward normal cone at the place x: r.(y - x) >= 0 for all y in the set. Its
- * support function is in the certificate (docs/theory.md).
+/* capstan/constraint.h: ends of lines, and points where lines meet, held to convex sets (S90 remark
+ * 2.3: x in C2, a perfect convex constraint). An end of the kind CPS_END_KIND_FREE, or a point of
+ * the kind CPS_POINT_KIND_FREE (point.h), may be held to a closed convex set of places: a rail, a
+ * half-space, a ball, a disc, a box, or any bounded set of set.h. It slides without friction where
+ * the forces take it in the set; what the set does to it is a reaction r, opposite to the outward
+ * normal cone at the place x: r.(y - x) >= 0 for all y in the set. Its support function is in the
+ * certificate (docs/theory.md).
  *
  *     line.end[CPS_END_B] = (CpsEnd){.kind = CPS_END_KIND_FREE};              or a force on the end
  *     line.constraint[CPS_END_B] = (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_RAIL,
@@ -24,7 +25,7 @@ extern "C" {
 #endif
 
 typedef enum CpsConstraintKind {
-    CPS_CONSTRAINT_KIND_NONE, /* the end is free */
+    CPS_CONSTRAINT_KIND_NONE, /* it is free */
     /* a straight rail from `point` along `axis`, of `length`; INFINITY: without ends on both sides
      */
     CPS_CONSTRAINT_KIND_RAIL,
@@ -51,10 +52,10 @@ typedef struct CpsConstraint {
 
 /* A constraint after the last step. */
 typedef struct CpsConstraintReport {
-    double reaction[3]; /* [N] on the end */
+    double reaction[3]; /* [N] on the end or point */
     bool is_there;      /* otherwise all else is 0 */
     bool is_active;     /* the reaction is more than 1e-9 of the largest force in the line */
-    double residual;    /* [m] from the end to the set, 0 to rounding */
+    double residual;    /* [m] from there to the set, 0 to rounding */
     double gap; /* [J] the part of the certificate's gap: support function at -r, plus r.x */
 } CpsConstraintReport;
 
@@ -62,6 +63,10 @@ struct CpsEvolution;
 /* The constraint of an end; of an end without one a report of zeros. */
 CPS_API CpsConstraintReport cps_evolution_constraint_report(const struct CpsEvolution *evolution,
                                                             int line, int end);
+
+/* ... and of a free point (point.h). */
+CPS_API CpsConstraintReport
+cps_evolution_point_constraint_report(const struct CpsEvolution *evolution, int point);
 
 #ifdef __cplusplus
 }

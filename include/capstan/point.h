@@ -19,6 +19,7 @@
 #include <stdbool.h>
 
 #include "capstan/base.h"
+#include "capstan/constraint.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -60,6 +61,9 @@ typedef struct CpsPoint {
     bool has_uplift_limit;     /* default false */
     double uplift_limit;       /* [N] > 0, with the flag */
     bool drags;                /* default false; needs a capacity */
+    /* of a free point, default none: the set in which it is (constraint.h). No obstacle bears such
+     * a point: where it would lie in one, no place is found */
+    CpsConstraint constraint;
 } CpsPoint;
 
 CPS_API CpsPoint cps_point_default(void);
@@ -117,6 +121,7 @@ typedef struct CpsPointReport {
     double displaced; /* [N] the largest buoyancy, under the gravity of the step */
     /* of an anchor; 0 of what it has no capacity or limit of */
     double capacity_used, uplift_used; /* [-] force over capacity, uplift over limit */
+    double set_reaction[3];            /* [N] of the set that it is held to */
     double drag[3];                    /* [m] by which it has given way in this step */
     double dragged;                    /* [m] the sum of their lengths since the start */
     int obstacle; /* index in the scene; CPS_NO_OBSTACLE where it touches none */

@@ -318,6 +318,11 @@ class Evolution:
         return self._reports("points", lib.cps_evolution_point_report)
 
     @property
+    def point_constraints(self) -> Dict[str, Record]:
+        """The sets that points are in, by name (CpsConstraintReport of constraint.h); `is_there` says whether there is one."""
+        return self._reports("points", lib.cps_evolution_point_constraint_report)
+
+    @property
     def bodies(self) -> Dict[str, Record]:
         """Reports on the bodies by name (CpsBodyReport of body.h)."""
         return self._reports("bodies", lib.cps_evolution_body_report)

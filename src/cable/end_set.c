@@ -39,11 +39,14 @@ Vec3 cpsi_line_set_reaction(const CpsiLine *line, int j) {
     return on ? cpsi_place_set_from(&on->set, on->reaction) : vec3(0, 0, 0);
 }
 
+double cpsi_end_set_gap(const CpsiEndSet *on, Vec3 x) {
+    const double outwards[3] = {-on->reaction[0], -on->reaction[1], -on->reaction[2]};
+    return fabs(gap_of(on, outwards, x));
+}
+
 double cpsi_line_set_gap(const CpsiLine *line, int j) {
     const CpsiEndSet *on = set_of(line, j);
-    if (!on) return 0;
-    const double outwards[3] = {-on->reaction[0], -on->reaction[1], -on->reaction[2]};
-    return fabs(gap_of(on, outwards, vec3_at(line->position, j)));
+    return on ? cpsi_end_set_gap(on, vec3_at(line->position, j)) : 0;
 }
 
 void cpsi_line_clear_set_reactions(CpsiLine *line) {
@@ -107,23 +110,27 @@ static void fill_set(const CpsiPlaceSet *set, CpsiConstraint *out, Vec3 base, do
         add_row(out, row++, vec3_at(set->axes, a), y[a] / length, axes);
 }
 
+void cpsi_end_set_fill(const CpsiEndSet *on, int j, Vec3 base, const double *axes, double length,
+                       CpsiConstraints *out) {
+    if (on->form) {
+        cpsi_place_form_fill(on->form, j, base, axes, length);
+        out->conic[out->conic_count++] = cpsi_place_form_constraint(on->form);
+        return;
+    }
+    CpsiConstraint *of = &out->item[out->count++];
+    *of = (CpsiConstraint){.node = j};
+    fill_set(&on->set, of, base, length, axes);
+}
+
 void cpsi_line_fill_sets(const CpsiLine *line, CpsiChainProgram *program, const double *base,
                          const double *axes, bool common) {
     CpsiConstraints *out = &program->constraints;
     out->count = out->conic_count = 0;
     for (int end = 0; end < 2; end++) {
         const int j = end == CPS_END_A ? 0 : line->n - 1;
-        if (!line->on[end].is_there) continue;
-        if (line->on[end].form) {
-            cpsi_place_form_fill(line->on[end].form, j, vec3_at(base, j),
-                                 common ? axes : &axes[9 * j], line->length);
-            out->conic[out->conic_count++] = cpsi_place_form_constraint(line->on[end].form);
-            continue;
-        }
-        CpsiConstraint *of = &out->item[out->count++];
-        *of = (CpsiConstraint){.node = j};
-        fill_set(&line->on[end].set, of, vec3_at(base, j), line->length,
-                 common ? axes : &axes[9 * j]);
+        if (line->on[end].is_there)
+            cpsi_end_set_fill(&line->on[end], j, vec3_at(base, j), common ? axes : &axes[9 * j],
+                              line->length, out);
     }
 }
 

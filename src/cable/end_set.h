@@ -11,11 +11,20 @@
 struct CpsiEndSet;
 struct CpsiLine;
 struct CpsiChainProgram;
+struct CpsiConstraints;
 
 bool cpsi_line_has_sets(const struct CpsiLine *line);
 
 /* The place of the set nearest to x; NAN where it is not found. */
 Vec3 cpsi_end_set_project(const struct CpsiEndSet *on, Vec3 x);
+
+/* [J] The gap of a set with its reaction at x: as of a node below. */
+double cpsi_end_set_gap(const struct CpsiEndSet *on, Vec3 x);
+
+/* Add a set as a constraint of node j of a program, from its base [m] and with its axes (9), in
+ * units of `length` [m]. */
+void cpsi_end_set_fill(const struct CpsiEndSet *on, int j, Vec3 base, const double *axes,
+                       double length, struct CpsiConstraints *out);
 
 /* Is node j an end that is held to a set? */
 bool cpsi_line_is_in_set(const struct CpsiLine *line, int j);

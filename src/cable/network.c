@@ -8,6 +8,7 @@
 
 #include "cable/contact.h"
 #include "cable/contact_detection.h"
+#include "cable/end_set.h"
 #include "cable/line_solve.h"
 #include "cable/rounds.h"
 #include "chain/frame.h"
@@ -103,6 +104,9 @@ static void fill_joint(const CpsiJoint *joint, bool own_axes, const double axes[
         static const double own[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
         memcpy(chain->frame, own, sizeof own);
     }
+    if (joint->on)
+        cpsi_end_set_fill(joint->on, 0, joint->position, chain->frame ? chain->frame : axes,
+                          scale->length, &chain->constraints);
     if (has_disc(joint, own_axes, axes)) fill_anchor(joint, chain, scale);
     if (!joint->obstacle) return;
     double curvature[3];

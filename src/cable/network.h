@@ -17,6 +17,7 @@ typedef struct CpsiJoint {
     double share;        /* [m] natural length that it represents */
     /* contact with the nearest obstacle, NULL: none */
     const CpsiObstacle *obstacle;
+    const struct CpsiEndSet *on; /* the set that holds it, NULL: none */
     double gap, friction, bound; /* [m], [-], [N] of frozen friction */
     /* [N] of the water that it displaces, [m] by how much it is below the surface; 0: no surface */
     double displaced, depth;

@@ -338,7 +338,8 @@ static bool search_again(CpsiBalance *balance, bool refined) {
 /* Find the place of a point, or a body, at which no line ends any more. */
 static void find_lone(CpsiBalance *balance) {
     CpsOutcome outcome = CPS_OUTCOME_SOLVED;
-    if (balance->body_count == 0)
+    if (balance->body_count == 0 &&
+        !cpsi_set_of_point(&balance->evolution->points, balance->at[0].point))
         outcome = cpsi_lone_point(balance);
     else if (!search(balance, MOST_TRIALS))
         outcome = CPS_OUTCOME_STALLED;

@@ -32,14 +32,18 @@ static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
     report->displaced = at->water.displaced;
     vec3_store(report->position, at->place);
     if (evolution->interval > 0) vec3_store(report->inertia, cpsi_point_inertia(point, at->place));
+    if (at->in_set.on) {
+        vec3_store(report->set_reaction, at->in_set.reaction);
+        memcpy(point->on.reaction, at->in_set.own, sizeof at->in_set.own);
+    }
     vec3_store(report->lines, vec3_sub(vec3_sub(cpsi_rest_with(at, 0), vec3_load(report->load)),
                                        vec3_load(report->inertia)));
     vec3_store(report->friction, at->force);
     vec3_store(report->residual, at->left);
     if (touches) vec3_store(report->normal, at->normal);
     if (touches) vec3_store(report->slip, at->slip);
-    report->has_place =
-        cpsi_is_balanced(balance, vec3_norm(at->left)) && cpsi_obeys_friction(balance, at);
+    report->has_place = cpsi_is_balanced(balance, vec3_norm(at->left)) &&
+                        cpsi_obeys_friction(balance, at) && cpsi_is_kept_in_set(balance, at);
     for (int a = 0; a < 3; a++) point->move[a] = report->position[a] - point->before[a];
     memcpy(point->position, report->position, sizeof point->position);
 }

@@ -32,7 +32,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '3'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '4'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -69,7 +69,7 @@ _Static_assert(sizeof(CpsLineReport) == 26 * 8 + sizeof(CpsCertificate) + sizeof
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
                "add the new field to pass_step_report, then its size here");
 _Static_assert(sizeof(CpsBodyReport) == 81 * 8, "add the new field to pass_body, then its size");
-_Static_assert(sizeof(CpsPointReport) == 40 * 8,
+_Static_assert(sizeof(CpsPointReport) == 43 * 8,
                "add the new field to pass_point, then its size here");
 _Static_assert(sizeof(CpsBreak) == 5 * 8, "add the new field to pass_break, then its size here");
 _Static_assert(sizeof(CpsEnd) == 4 * 8, "add the new field to pass_end, then its size here");
@@ -303,13 +303,10 @@ static void pass_point(Tape *tape, CpsiPoint *point) {
     PASS(tape, report->lines);
     PASS(tape, report->load);
     PASS(tape, report->support);
-    PASS(tape, report->buoyancy);
-    PASS(tape, report->displaced);
-    PASS(tape, report->capacity_used);
-    PASS(tape, report->uplift_used);
-    PASS(tape, report->drag);
-    PASS(tape, report->dragged);
+    pass(tape, &report->buoyancy, /* numbers */
+         offsetof(CpsPointReport, obstacle) - offsetof(CpsPointReport, buoyancy));
     PASS(tape, point->dragged);
+    PASS(tape, point->on.reaction);
     PASS(tape, report->reaction);
     PASS(tape, report->normal);
     PASS(tape, report->friction);
@@ -654,6 +651,7 @@ static void hash_points(uint64_t *hash, const CpsEvolution *evolution) {
         hash_numbers(hash, 1, &points->given[i].inertia);
         hash_numbers(hash, 3, points->given[i].velocity);
         hash_anchor(hash, &points->given[i]);
+        hash_set(hash, &point->on);
     }
     const int surface = points->has_surface;
     hash_bytes(hash, &surface, sizeof surface);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The check of ends that are held to sets, and the report on them (capstan/constraint.h). */
+/* The check of ends and points that are held to sets, and the report on them
+ * (capstan/constraint.h). */
 #ifndef CAPSTAN_SRC_EVOLVE_CONSTRAINTS_H
 #define CAPSTAN_SRC_EVOLVE_CONSTRAINTS_H
 
@@ -7,7 +8,7 @@
 
 /* Check the constraints of a line whose start and ends have been checked. */
 CpsStatus cpsi_constraints_check(const CpsLine *line, CpsError *err);
-/* No line with a set ends at a point. */
+/* No line with a set ends at a point; and check the sets of points that have been checked. */
 CpsStatus cpsi_constraints_check_points(const CpsScene *scene, CpsError *err);
 
 /* Check what a stage does to such ends. */
@@ -21,5 +22,7 @@ void cpsi_constraints_free(CpsEvolution *evolution);
 
 /* Fill the sets of a line, but for what belongs to expressions. */
 void cpsi_constraints_fill(CpsiLine *line, const CpsLine *given);
+/* ... and those of the points of a scene. */
+void cpsi_point_constraints_fill(CpsiPoints *points, const CpsScene *scene);
 
 #endif

@@ -443,6 +443,7 @@ CpsStatus cps_evolution_create(const CpsScene *scene, CpsEvolution **out, CpsErr
             if (status == CPS_OK) {
                 fill_given(evolution, scene);
                 fill(evolution, &local.scene);
+                cpsi_point_constraints_fill(&evolution->points, &local.scene);
                 status = cpsi_constraints_make(evolution, &local.scene, err);
                 if (status == CPS_OK) status = fill_points(evolution, scene, &local.scene, err);
                 evolution->fingerprint = cpsi_evolution_fingerprint(evolution);

@@ -82,6 +82,7 @@ int cpsi_place_joints(CpsiBalance *balance, bool first) {
                                         .obstacle = at->obstacle == CPS_NO_OBSTACLE
                                                         ? NULL
                                                         : &evolution->obstacle[at->obstacle],
+                                        .on = at->in_set.on,
                                         .gap = at->gap,
                                         .slip = first ? vec3(0, 0, 0) : at->slip,
                                         .friction = at->friction,

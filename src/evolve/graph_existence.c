@@ -65,7 +65,8 @@ bool cpsi_group_is_held(const CpsiBalance *balance) {
         for (int end = 0; end < 2; end++) {
             const int i = balance->line[item], point = evolution->points.tie[2 * i + end];
             if (point == CPSI_NO_POINT ? evolution->move[i].to[end].kind == CPS_END_KIND_HELD
-                                       : evolution->points.group[point] == CPSI_NO_POINT)
+                                       : evolution->points.group[point] == CPSI_NO_POINT ||
+                                             cpsi_set_of_point(&evolution->points, point))
                 return true;
         }
     return false;

@@ -69,7 +69,7 @@ static Vec3 place_of(const CpsiBalance *balance, int k) {
     at.place = vec3_add(balance->joint[k].position, vec3_load(&balance->guess.joint[3 * k]));
     const bool touches =
         chain->unilateral.count > 0 && chain->unilateral.z[0] > chain->unilateral.s[0];
-    if (!touches) return at.place;
+    if (!touches) return at.place; /* a trial brings it into its set */
     cpsi_trial_find_obstacle(evolution, &at);
     const double *z = chain->disc.z[0];
     if (chain->disc.count > 0 && hypot(z[1], z[2]) < (1 - CLEARLY) * z[0] && is_short(balance, &at))

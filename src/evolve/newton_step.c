@@ -283,7 +283,20 @@ static void bring_to_surface(Equation *out, const CpsiFree *at) {
     out->v = vec3_load(v);
 }
 
+/* In a set: M K d + rho (1 - M) d = rho (P(z) - x), M the derivative of P (point_set.c). */
+static Equation equation_in_set(const CpsiFree *at) {
+    CpsiInSet in = at->in_set;
+    Equation out = {.v = vec3(0, 0, 0)};
+    in.yields = fmax(in.yields, at->stiffness);
+    out.v = cpsi_in_set_hold(&in);
+    cpsi_in_set_slopes(&in, out.p);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) out.q[a][b] = in.yields * ((a == b) - out.p[a][b]);
+    return out;
+}
+
 static Equation equation_of(const CpsiFree *at, const CpsiObstacle *on, bool follows, bool turns) {
+    if (at->in_set.on) return equation_in_set(at);
     if (!(at->water.displaced > 0)) return equation_of_touch(at, on, follows, turns);
     bool floats;
     Equation out = equation_with(at, on, follows, turns, buoyancy_of_step(at, follows, &floats));

@@ -138,7 +138,10 @@ CpsStatus cpsi_local_scene(const CpsScene *scene, CpsiLocalScene *out, CpsError 
     }
     CpsPoint *point = copy(block, &used, scene->point, (size_t)scene->point_count * sizeof *point);
     for (int i = 0; i < scene->point_count; i++)
-        if (point[i].kind != CPS_POINT_KIND_ON_BODY) shift(point[i].position, origin);
+        if (point[i].kind != CPS_POINT_KIND_ON_BODY) {
+            shift(point[i].position, origin);
+            shift(point[i].constraint.point, origin);
+        }
     out->scene.point = point;
     CpsBody *body = copy(block, &used, scene->body, (size_t)scene->body_count * sizeof *body);
     for (int i = 0; i < scene->body_count; i++) shift(body[i].position, origin);

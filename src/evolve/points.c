@@ -315,6 +315,7 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
         memcpy(point->report.position, point->position, sizeof point->position);
         points->given[i] = *from;
         points->given[i].name = point->name;
+        points->given[i].constraint.set = NULL; /* the form of which is kept alone */
     }
 }
 

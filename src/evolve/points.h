@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "base/vec3.h"
+#include "cable/in_set.h"
 #include "capstan/evolve.h"
 #include "evolve/bodies.h"
 #include "evolve/joint_inertia.h"
@@ -34,6 +35,7 @@ typedef struct CpsiPoint {
     double dragged;         /* [m] as an anchor, since the start */
     double displaced_mass;  /* [kg] of water; 0 where it cannot leave the water */
     double length;          /* [m] of the longest line that ends here */
+    CpsiEndSet on;          /* the set that it is held to as a free one */
     CpsPointReport report;  /* its position relative to the origin */
     CpsiPressed pressed;
     CpsiPointInertia inertia;
@@ -88,6 +90,12 @@ static inline int cpsi_group_of_line(const CpsiPoints *points, int line) {
             return points->group[point];
     }
     return CPSI_NO_POINT;
+}
+
+/* The set that holds a point, which is free; else NULL. */
+static inline CpsiEndSet *cpsi_set_of_point(const CpsiPoints *points, int point) {
+    CpsiPoint *of = &points->point[point];
+    return of->on.is_there && of->kind == CPS_POINT_KIND_FREE ? &of->on : NULL;
 }
 
 /* Is it held, and an anchor that drags? */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/larger.h"
+#include "cable/end_set.h"
 #include "cable/field.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
@@ -166,6 +167,8 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
         at->bound = evolution->points.given[at->point].holding_capacity;
         return;
     }
+    at->in_set.on = cpsi_set_of_point(&evolution->points, at->point);
+    if (at->in_set.on) return;
     at->obstacle = cpsi_trial_nearest(evolution, at->place, &at->gap, &at->normal);
     if (at->obstacle == CPS_NO_OBSTACLE) return;
     const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
@@ -212,6 +215,18 @@ static void find_hold(const CpsiBalance *balance, CpsiFree *at) {
     at->left = vec3_add(vec3_reject(at->rest, at->normal), at->force);
 }
 
+/* What the set of a point does to it. A stiffness below that of a force over a length would ask far
+ * from the set. */
+static void find_reaction_of_set(const CpsiBalance *balance, CpsiFree *at) {
+    const double force = fmax(vec3_norm(at->rest), balance->force);
+    const double length = balance->evolution->points.point[at->point].length;
+    CpsiInSet *in = &at->in_set;
+    in->place = at->place;
+    in->rest = at->rest;
+    in->yields = fmax(at->stiffness, (force > 0 ? force : 1) / length);
+    at->left = cpsi_in_set_hold(in);
+}
+
 /* What the obstacle does to the point, and what nothing balances. The friction bound follows the
  * reaction, or is that of the reference, and then acts off the obstacle as well (S90 (35)). */
 static void find_touch(const CpsiBalance *balance, CpsiFree *at) {
@@ -221,6 +236,10 @@ static void find_touch(const CpsiBalance *balance, CpsiFree *at) {
     }
     const CpsiPoint *point = &balance->evolution->points.point[at->point];
     const double touch = cpsi_trial_touch(balance, at);
+    if (at->in_set.on) {
+        find_reaction_of_set(balance, at);
+        return;
+    }
     at->reaction = at->bound = 0;
     at->force = vec3(0, 0, 0);
     at->left = at->rest;
@@ -468,6 +487,10 @@ void cpsi_try_places(CpsiBalance *balance) {
             balance->iterations[i] += evolution->line[i].report.iteration_count;
             cpsi_trial_restore_line(balance, i);
         }
+    for (int k = 0; k < balance->count; k++) {
+        const CpsiEndSet *on = cpsi_set_of_point(&evolution->points, balance->at[k].point);
+        if (on) balance->at[k].place = cpsi_end_set_project(on, balance->at[k].place);
+    }
     impose(balance);
     cpsi_step_lines(balance);
     balance->trials++;
@@ -507,9 +530,21 @@ bool cpsi_obeys_friction(const CpsiBalance *balance, const CpsiFree *at) {
     return cpsi_is_balanced(balance, at->bound + vec3_dot(at->force, at->slip) / slip);
 }
 
+bool cpsi_is_kept_in_set(const CpsiBalance *balance, const CpsiFree *at) {
+    const CpsEvolution *evolution = balance->evolution;
+    const CpsiEndSet *on = at->in_set.on;
+    const double touch = cpsi_trial_touch(balance, at);
+    if (!on) return true;
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        if (!(cpsi_obstacle_gap(&evolution->obstacle[k], at->place) >= -touch)) return false;
+    return vec3_norm(vec3_sub(cpsi_end_set_project(on, at->place), at->place)) <= touch;
+}
+
 bool cpsi_is_answer(const CpsiBalance *balance) {
     for (int k = 0; k < balance->count; k++)
-        if (!cpsi_obeys_friction(balance, &balance->at[k])) return false;
+        if (!cpsi_obeys_friction(balance, &balance->at[k]) ||
+            !cpsi_is_kept_in_set(balance, &balance->at[k]))
+            return false;
     return balance->certified && cpsi_is_balanced(balance, cpsi_left_now(balance));
 }
 

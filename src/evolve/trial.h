@@ -5,6 +5,7 @@
 #define CAPSTAN_SRC_EVOLVE_TRIAL_H
 
 #include "cable/network.h"
+#include "evolve/point_set.h"
 #include "evolve/state.h"
 #include "evolve/water.h"
 #include "linalg/graph_matrix.h"
@@ -25,6 +26,7 @@ typedef struct CpsiFree {
     Vec3 normal, slip, force; /* force: F */
     bool drags;               /* an anchor: in a plane across `normal`, within its bound */
     CpsiWater water;          /* whose buoyancy is in `rest` */
+    CpsiInSet in_set;         /* where a set holds it; then no obstacle bears it */
     bool reached;             /* by the forest along which the points are balanced */
     Vec3 start;               /* where the point was, on the surface and turned with it */
 } CpsiFree;
@@ -138,6 +140,8 @@ bool cpsi_has_inextensible(const CpsiBalance *balance);
 /* Is a point at rest, or its friction at its bound and against the slip, to the same tolerance?
  * Where hardly anything is stiff, what is left at a point does not tell. */
 bool cpsi_obeys_friction(const CpsiBalance *balance, const CpsiFree *at);
+/* Is the point in its set and in no obstacle? True of one without a set. */
+bool cpsi_is_kept_in_set(const CpsiBalance *balance, const CpsiFree *at);
 /* Is the trial an answer: lines certified, points and bodies balanced by forces that obey their
  * laws? */
 bool cpsi_is_answer(const CpsiBalance *balance);

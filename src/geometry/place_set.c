@@ -105,6 +105,33 @@ Vec3 cpsi_place_set_project(const CpsiPlaceSet *set, Vec3 x) {
     return inside ? x : vec3_add(set->centre, cpsi_place_set_from(set, y));
 }
 
+void cpsi_place_set_back(const CpsiPlaceSet *set, Vec3 x, double own[3]) {
+    double y[3];
+    cpsi_place_set_to(set, vec3_sub(x, set->centre), y);
+    for (int a = 0; a < 3; a++) own[a] = fmin(fmax(y[a], set->low[a]), set->high[a]) - y[a];
+    const double size = round_size(set, y);
+    for (int a = 0; a < set->round; a++)
+        own[a] = size > set->radius ? (set->radius / size - 1) * y[a] : 0;
+}
+
+void cpsi_place_set_slopes(const CpsiPlaceSet *set, Vec3 x, double out[3][3]) {
+    double y[3], own[3][3] = {{0}};
+    cpsi_place_set_to(set, vec3_sub(x, set->centre), y);
+    const double size = round_size(set, y), share = size > set->radius ? set->radius / size : 1;
+    for (int a = 0; a < 3; a++)
+        own[a][a] = set->low[a] < set->high[a] && y[a] >= set->low[a] && y[a] <= set->high[a];
+    for (int a = 0; a < set->round; a++)
+        for (int b = 0; b < set->round; b++)
+            own[a][b] = share * (a == b) - (share < 1 ? share * y[a] * y[b] / (size * size) : 0);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            out[i][j] = 0;
+            for (int a = 0; a < 3; a++)
+                for (int b = 0; b < 3; b++)
+                    out[i][j] += set->axes[3 * a + i] * own[a][b] * set->axes[3 * b + j];
+        }
+}
+
 double cpsi_place_set_gap(const CpsiPlaceSet *set, const double v[3], Vec3 x) {
     double y[3], gap = 0, along = 0;
     cpsi_place_set_to(set, vec3_sub(x, set->centre), y);

@@ -26,6 +26,13 @@ CpsiPlaceSet cpsi_place_set(const CpsConstraint *given);
 /* The place of the set nearest to x. */
 Vec3 cpsi_place_set_project(const CpsiPlaceSet *set, Vec3 x);
 
+/* The way from x to that place, in the axes of the set: exactly 0 along those in which x is in it.
+ */
+void cpsi_place_set_back(const CpsiPlaceSet *set, Vec3 x, double own[3]);
+
+/* The derivative of the nearest place by x; on a boundary that from inside. */
+void cpsi_place_set_slopes(const CpsiPlaceSet *set, Vec3 x, double out[3][3]);
+
 /* sup over y in the set of v.(y - x), for x in the set and v (3) in its own axes: v is in the
  * normal cone at x where it vanishes. INFINITY: the set has no end in that direction. */
 double cpsi_place_set_gap(const CpsiPlaceSet *set, const double v[3], Vec3 x);

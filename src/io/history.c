@@ -101,6 +101,13 @@ bool cpsi_has_set(const CpsLine *line) {
            line->constraint[CPS_END_B].kind != CPS_CONSTRAINT_KIND_NONE;
 }
 
+bool cpsi_has_point_set(const CpsScene *scene) {
+    bool found = false;
+    for (int k = 0; k < scene->point_count; ++k)
+        found = found || scene->point[k].constraint.kind != CPS_CONSTRAINT_KIND_NONE;
+    return found;
+}
+
 bool cpsi_lets_go(const CpsScene *scene) {
     bool found = false;
     for (int i = 0; i < scene->line_count; ++i) {

@@ -120,7 +120,8 @@ struct CpsResults {
     double *line_length; /* [m] */
     int *line_elements;
     int (*line_point)[2]; /* (line_count) the point of each end; CPSI_AT_NO_POINT: none */
-    /* (line_count) sets of the ends, relative to the origin of the views */
+    /* (line_count) sets of the ends, or of a point there, each but once, relative to the origin of
+     * the views */
     CpsConstraint (*line_constraint)[2];
     int point_count;
     CpsPoint *point; /* (point_count) */
@@ -134,6 +135,7 @@ struct CpsResults {
     bool in_time;       /* a step may have a duration */
     bool winds;         /* a line has a winch */
     bool has_sets;      /* an end of a line is held to a set */
+    bool draws_sets;    /* ... or a point is */
     bool has_loads;     /* a line has springs, given loads or drag */
     bool begins_static; /* the first step places lines by statics */
 
@@ -160,6 +162,7 @@ CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution);
 bool cpsi_has_winch(const CpsLine *line);
 /* ... and whether an end of it is held to a set, likewise. */
 bool cpsi_has_set(const CpsLine *line);
+bool cpsi_has_point_set(const CpsScene *scene);
 /* Polyline `piece`, from 0 on, of the outline of a set; returns its points, 0: there is no such
  * one. What has no end is shown to `reach` [m] from the place of it that is nearest to `about`. */
 enum { CPSI_OUTLINE_POINTS = 49 };

@@ -565,8 +565,88 @@ static void both_constraints_of_the_remark(void **state) {
     cps_evolution_destroy(evolution);
 }
 
+/* Two weightless lines of length l and stiffness EA go from (-a, 0, 0) and (a, 0, 0) to a point
+ * that is loaded by (0, Y, -Z). In a set that bears Z and lets it go along y it is at (0, y, 0)
+ * with 2 EA (r/l - 1) y/r = Y, r = hypot(a, y), and the reaction is (0, 0, Z): found by bisection.
+ * In one that keeps it within |y| <= b, b < y, it is at b, and bears the rest of Y as well. */
+static void a_point_in_a_set(void **state) {
+    (void)state;
+    static const double A = 3, L = 2.9, STIFFNESS = 4e3, Y = 700, Z = 500, FAR[2] = {0, 2e4};
+    double low = 0, high = 3;
+    for (int i = 0; i < 80; i++) {
+        const double y = 0.5 * (low + high), r = hypot(A, y);
+        *(2 * STIFFNESS * (r / L - 1) * y / r < Y ? &low : &high) = y;
+    }
+    const double y = low, b = 0.4 * y, r = hypot(A, b),
+                 rest = Y - 2 * STIFFNESS * (r / L - 1) * b / r;
+    const struct {
+        CpsConstraint on;
+        double y, reaction;
+    } with[] = {
+        {{.kind = CPS_CONSTRAINT_KIND_RAIL, .axis = {0, 2, 0}, .length = INFINITY}, y, 0},
+        {{.kind = CPS_CONSTRAINT_KIND_RAIL, .axis = {0, -2, 0}, .length = 9, .point = {0, 8, 0}},
+         y,
+         0},
+        {{.kind = CPS_CONSTRAINT_KIND_HALF_SPACE, .axis = {0, 0, 3}}, y, 0},
+        {{.kind = CPS_CONSTRAINT_KIND_DISC, .axis = {0, 0, 1}, .radius = 5}, y, 0},
+        {{.kind = CPS_CONSTRAINT_KIND_BOX, .point = {0, 0, 3}, .size = {4, 8, 6}}, y, 0},
+        {{.kind = CPS_CONSTRAINT_KIND_RAIL, .axis = {0, 1, 0}, .length = b}, b, -1},
+        {{.kind = CPS_CONSTRAINT_KIND_DISC, .axis = {0, 0, 1}, .radius = b}, b, -1},
+        {{.kind = CPS_CONSTRAINT_KIND_BOX, .point = {0, 0, 1}, .size = {1, 2 * b, 2}}, b, -1}};
+    for (int k = 0; k < 16; k++) {
+        CpsScene scene = cps_scene_default();
+        CpsPoint point = cps_point_default();
+        CpsLine line[2];
+        const double far = FAR[k % 2];
+        point.name = "ring";
+        point.kind = CPS_POINT_KIND_FREE;
+        point.constraint = with[k / 2].on;
+        for (int a = 0; a < 3; a++) {
+            point.position[a] = far;
+            point.constraint.point[a] += far;
+            point.force[a] = (const double[3]){0, Y, -Z}[a];
+        }
+        for (int i = 0; i < 2; i++) {
+            line[i] = hung(L, 1 + 4 * i, STIFFNESS);
+            line[i].name = i ? "right" : "left";
+            line[i].weight = 0;
+            line[i].end[CPS_END_A] = (CpsEnd){.kind = CPS_END_KIND_POINT};
+            line[i].end[CPS_END_B] =
+                (CpsEnd){.kind = CPS_END_KIND_HELD, .value = {far + (i ? A : -A), far, far}};
+        }
+        scene.point = &point;
+        scene.point_count = 1;
+        scene.line = line;
+        scene.line_count = 2;
+        CpsEvolution *evolution = NULL;
+        CpsError err;
+        if (cps_evolution_create(&scene, &evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+        if (cps_evolution_step(evolution, &err) != CPS_OK) fail_msg("%s", err.message);
+        CHECK_INT((int)cps_evolution_report(evolution).outcome, (int)CPS_OUTCOME_SOLVED);
+        const CpsPointReport at = cps_evolution_point_view(evolution, 0);
+        const CpsConstraintReport on = cps_evolution_point_constraint_report(evolution, 0);
+        const double *origin = cps_evolution_line_view(evolution, 0).origin;
+        const double wanted[3] = {far - origin[0], far - origin[1] + with[k / 2].y,
+                                  far - origin[2]};
+        /* the forces balance to 1e-11 of the largest, and lines of 1e3 N/m hold the place; far away
+         * places have the digits that their origin leaves */
+        CHECK_VECTOR(at.position, wanted, 1e-9 + 1e-15 * far);
+        CHECK_VECTOR(on.reaction, ((double[]){0, with[k / 2].reaction * rest, Z}), 1e-6);
+        CHECK_VECTOR(at.set_reaction, on.reaction, 0);
+        assert_true(on.is_there && on.is_active);
+        CHECK_LESS(on.residual, 1e-11);
+        /* of the place, times the reaction */
+        CHECK_LESS(on.gap, (1e-9 + 1e-15 * far) * hypot(Y, Z));
+        assert_false(cps_evolution_point_constraint_report(evolution, 1).is_there);
+        assert_false(cps_evolution_point_constraint_report(evolution, -1).is_there);
+        assert_false(cps_evolution_point_constraint_report(NULL, 0).is_there);
+        cps_evolution_destroy(evolution);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_point_in_a_set),
         cmocka_unit_test(a_rail_is_normal_to_the_pull),
         cmocka_unit_test(an_end_in_a_set_is_as_one_that_is_held),
         cmocka_unit_test(a_kind_of_set_is_an_expression),

@@ -47,6 +47,8 @@ void winches_compare(Compare *compare, const CpsLine *line, int index, size_t st
 
 /* The sets that ends of a line are held to. */
 void sets_compare(Compare *compare, const CpsLine *line, const Record *r);
+/* ... and of points. */
+void point_sets_compare(Compare *compare, const CpsScene *scene);
 
 /* Kind, place, shape and friction of an obstacle. */
 void compare_obstacle(Compare *compare, const CpsObstacle *o, const Surface *s);

@@ -543,6 +543,7 @@ static int compare_points(Compare *compare) {
     Junction *now = calloc(n, sizeof *now), *before = calloc(n, sizeof *before);
     int bad = imposed && now && before ? compare_point_masses(compare) : -1;
     if (!bad) compare_given_points(compare, imposed);
+    if (!bad) point_sets_compare(compare, compare->scene);
     for (size_t step = 0; step < source->steps && !bad && compare->findings == 0; step++) {
         bad = junctions_read(source, step, now, compare->log);
         if (!bad) compare_points_at(compare, step, imposed, before, now);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the scene has of sets that ends are held to, beside what the file says (compare.h). */
+/* What the scene has of sets that ends and points are held to, beside what the file says
+ * (compare.h). */
 #include <math.h>
 #include <netcdf.h>
 #include <stdio.h>
@@ -8,14 +9,30 @@
 #include "conic.h"
 #include "sets.h"
 
-static void compare_numbers(Compare *compare, const char *line, const char *what, int e,
+/* Whose set it is: end `index` of a line, or where there is no line point `index`. */
+typedef struct Owner {
+    const char *line, *point;
+    size_t index;
+} Owner;
+
+static void describe(const Owner *owner, char of[300]) {
+    if (owner->line)
+        snprintf(of, 300, "%.200s, end %c", owner->line, owner->index ? 'B' : 'A');
+    else
+        snprintf(of, 300, "point %.200s", owner->point);
+}
+
+static void compare_numbers(Compare *compare, const Owner *owner, const char *what,
                             const double *wanted, size_t count, const double *from) {
-    const size_t start[2] = {(size_t)e, 0}, counts[2] = {1, count};
+    const size_t start[2] = {owner->index, 0}, counts[2] = {1, count};
     char name[300], of[300];
     double found[4];
     int id;
-    snprintf(name, sizeof name, "%.200s_%s", line, what);
-    snprintf(of, sizeof of, "%.200s, end %c", line, e ? 'B' : 'A');
+    if (owner->line)
+        snprintf(name, sizeof name, "%.200s_%s", owner->line, what);
+    else
+        snprintf(name, sizeof name, "%.200s_of_point", what);
+    describe(owner, of);
     if (nc_inq_varid(compare->source.nc, name, &id) ||
         nc_get_vara_double(compare->source.nc, id, start, counts, found)) {
         find(compare, "%s is missing", name);
@@ -28,9 +45,11 @@ static void compare_numbers(Compare *compare, const char *line, const char *what
 
 /* Two sets with the same support in directions all over the sphere, to what small programs leave.
  */
-static void compare_forms(Compare *compare, const char *line, int e, const CpsConstraint *on,
+static void compare_forms(Compare *compare, const Owner *owner, const CpsConstraint *on,
                           const Conic *form) {
     enum { DIRECTIONS = 60 };
+    char of[300];
+    describe(owner, of);
     for (int i = 0; i < DIRECTIONS; i++) {
         const double z = (2 * i + 1.0) / DIRECTIONS - 1, across = sqrt(1 - z * z),
                      angle = 2.399963229728653 * i; /* that of the golden section */
@@ -41,12 +60,42 @@ static void compare_forms(Compare *compare, const char *line, int e, const CpsCo
             return;
         const double file = (double)conic_support(form, (Real[]){d[0], d[1], d[2]});
         if (fabs(file - answer.value) <= answer.gap + 1e-9 * (double)form->reach) continue;
-        find(compare,
-             "set of line %s, end %c, reaches %.17g along (%.3g, %.3g, %.3g), in the scene "
-             "%.17g",
-             line, e ? 'B' : 'A', file, d[0], d[1], d[2], answer.value);
+        find(compare, "set of %s reaches %.17g along (%.3g, %.3g, %.3g), in the scene %.17g", of,
+             file, d[0], d[1], d[2], answer.value);
         return;
     }
+}
+
+static void compare_set(Compare *compare, const Owner *owner, const CpsConstraint *on,
+                        const Conic *form) {
+    const double kind = on->kind;
+    char of[300];
+    describe(owner, of);
+    compare_numbers(compare, owner, "set_kind", &kind, 1, NULL);
+    compare_numbers(compare, owner, "set_point", on->point, 3, compare->source.origin);
+    compare_numbers(compare, owner, "set_axis", on->axis, 3, NULL);
+    compare_numbers(compare, owner, "set_length", &on->length, 1, NULL);
+    compare_numbers(compare, owner, "set_radius", &on->radius, 1, NULL);
+    compare_numbers(compare, owner, "set_size", on->size, 3, NULL);
+    compare_numbers(compare, owner, "set_rotation", on->rotation, 4, NULL);
+    if ((form != NULL) != (on->kind == CPS_CONSTRAINT_KIND_SET))
+        find(compare, "set of %s: one of the two has no form", of);
+    else if (form)
+        compare_forms(compare, owner, on, form);
+}
+
+void point_sets_compare(Compare *compare, const CpsScene *scene) {
+    bool any = false;
+    int bad;
+    for (int k = 0; k < scene->point_count; k++)
+        any = any || scene->point[k].constraint.kind != CPS_CONSTRAINT_KIND_NONE;
+    PointSets *sets = point_sets_open(&compare->source, &bad, NULL);
+    if (bad || any != (sets != NULL)) find(compare, "sets of the points%s", "");
+    const int count = sets && !bad ? scene->point_count : 0;
+    for (int k = 0; k < count; k++)
+        compare_set(compare, &(Owner){NULL, scene->point[k].name, (size_t)k},
+                    &scene->point[k].constraint, point_sets_form(sets, (size_t)k));
+    point_sets_free(sets);
 }
 
 void sets_compare(Compare *compare, const CpsLine *line, const Record *r) {
@@ -54,20 +103,7 @@ void sets_compare(Compare *compare, const CpsLine *line, const Record *r) {
                      line->constraint[1].kind != CPS_CONSTRAINT_KIND_NONE;
     if (any != (r->sets != NULL)) find(compare, "sets of the ends of %s", line->name);
     if (!any || !r->sets) return;
-    for (int e = 0; e < 2; e++) {
-        const CpsConstraint *on = &line->constraint[e];
-        const double kind = on->kind;
-        compare_numbers(compare, line->name, "set_kind", e, &kind, 1, NULL);
-        compare_numbers(compare, line->name, "set_point", e, on->point, 3, compare->source.origin);
-        compare_numbers(compare, line->name, "set_axis", e, on->axis, 3, NULL);
-        compare_numbers(compare, line->name, "set_length", e, &on->length, 1, NULL);
-        compare_numbers(compare, line->name, "set_radius", e, &on->radius, 1, NULL);
-        compare_numbers(compare, line->name, "set_size", e, on->size, 3, NULL);
-        compare_numbers(compare, line->name, "set_rotation", e, on->rotation, 4, NULL);
-        const Conic *form = sets_form(r, e);
-        if ((form != NULL) != (on->kind == CPS_CONSTRAINT_KIND_SET))
-            find(compare, "set of an end of %s: one of the two has no form", line->name);
-        else if (form)
-            compare_forms(compare, line->name, e, on, form);
-    }
+    for (int e = 0; e < 2; e++)
+        compare_set(compare, &(Owner){line->name, NULL, (size_t)e}, &line->constraint[e],
+                    sets_form(r, e));
 }

@@ -5,8 +5,9 @@
  * free point, or the support of a held one; and of an obstacle that it touches the reaction R along
  * the normal and friction F:
  *
- *     lines + load + support + R n + F + buoyancy = residual,    R >= 0,  |F| <= mu R
+ *     lines + load + support + R n + F + S + buoyancy = residual,    R >= 0,  |F| <= mu R
  *
+ * S is the reaction of a set that the point is held to (sets.h).
  * It sticks, or slides by s on the obstacle, which may turn meanwhile, and then mu R |s| + F.s
  * vanishes. */
 #include "points.h"
@@ -14,11 +15,13 @@
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdlib.h>
 
 #include "anchors.h"
 #include "groups.h"
 #include "joint_motion.h"
+#include "sets.h"
 #include "water.h"
 
 /* Sums of a few numbers of the file, per largest force; a balance, in tolerances of the step: what
@@ -37,6 +40,7 @@ typedef struct Points {
     PointMotion *motion, *motion_before, *motion_older; /* (points) */
     Water *water;                                       /* (points) of the step */
     Anchor *anchor;                                     /* (points) */
+    PointSets *sets;                                    /* NULL: none */
     bool *gives; /* (points) of the step: it floats, or is an anchor that drags */
     Bodies bodies;
     BodyState *body; /* (bodies) of the step */
@@ -113,6 +117,7 @@ static void check_balance(const Points *p, const Junction *at) {
     for (int k = 0; k < 3; k++)
         sum[k] = (Real)at->lines[k] + at->load[k] + at->support[k] + at->friction[k] +
                  (Real)at->reaction * at->normal[k] + up[k] + p->motion[p->point].inertia[k];
+    point_sets_add(p->sets, p->point, sum);
     at_most(p, "residual against the sum of the forces", apart(at->residual, sum),
             SUMS * p->largest);
     at_most(p, is_held(at) ? "load of a held point" : "support of a free point",
@@ -126,6 +131,24 @@ static void check_balance(const Points *p, const Junction *at) {
         find(p, "it is said to have a place, but %.6g N are left, of %.6g N", left, p->acting);
     if (!at->has_place && p->certified)
         find(p, "it has no place, but lines that end there are certified");
+}
+
+static void find_in_set(void *user, const char *what, double said, double expected) {
+    find(user, "%s: %.9g, expected %.9g", what, said, expected);
+}
+
+/* A free point that a set holds touches no obstacle, and does not slide along a ray for ever by any
+ * proof that knows no sets. */
+static void check_set(const Points *p, const Junction *at) {
+    if (!point_sets_has(p->sets, p->point)) return;
+    if (at->has_place)
+        point_sets_check(p->sets, p->point, at->position, p->length[p->point], find_in_set,
+                         (void *)(uintptr_t)p);
+    if (at->state != POINT_FREE) find(p, "it is held to a set, but said not to be free");
+    for (size_t i = 0; i < p->source->lines; i++)
+        for (int e = 0; e < 2; e++)
+            if (p->line[i].end_point[e] == (int)p->point && p->line[i].outcome == OUTCOME_UNBOUNDED)
+                find(p, "a line at a point in a set is said to fall for ever");
 }
 
 /* The plane in which an anchor bears: a plane on which it lies, or a level one. */
@@ -376,6 +399,7 @@ static void check_step(Points *p) {
         check_lines(p, at);
         check_water(p, at);
         check_contact(p, at);
+        check_set(p, at);
         check_friction(p, at);
         check_anchor(p, at);
         check_motion(p);
@@ -401,7 +425,8 @@ static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
         int bad = junctions_read(source, p->step, p->now, log) ||
                   point_motions_read(source, p->step, p->motion, log) ||
                   water_read(source, p->step, p->water, log) ||
-                  anchors_read(source, p->step, p->anchor, log);
+                  anchors_read(source, p->step, p->anchor, log) ||
+                  point_sets_read(source, p->step, p->sets, log);
         for (size_t i = 0; i < source->lines && !bad; i++)
             bad = record_read(source, source->line_name[i], p->step, &p->line[i], log);
         if (bad) return -1;
@@ -477,6 +502,9 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     if (!bad) bad = !p.anchor || !p.dragged ? -1 : anchors_open(source, p.anchor, log);
     p.gives = calloc(source->points, sizeof *p.gives);
     if (!bad) bad = p.gives ? open_bodies(source, &p.bodies) : -1;
+    int unread;
+    p.sets = point_sets_open(source, &unread, log);
+    if (unread) bad = -1;
     p.body = calloc(p.bodies.count + 1, sizeof *p.body);
     if (!bad) bad = p.body ? check_steps(&p, certified, log) : -1;
     bodies_close(&p.bodies);
@@ -494,5 +522,6 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     free(p.water);
     free(p.anchor);
     free(p.dragged);
+    point_sets_free(p.sets);
     return bad;
 }

@@ -31,20 +31,36 @@ static const Real FORM_PLACE = 1e-10L;
  * they leave where their last steps are Newton's. */
 static const Real FORM_VALUE = 1e-12L;
 
+/* What places of points are found to, per length. */
+static const Real POINT_PLACE = 2e-9L;
+
 static Real dot(const Real *a, const Real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static Real norm(const Real *a) { return sqrtl(dot(a, a)); }
 
-static int complain(FILE *log, const char *line, const char *what) {
-    if (log) fprintf(log, "sets of line %s: %s\n", line, what);
+static int complain(FILE *log, const char *whose, const char *what) {
+    if (log) fprintf(log, "sets of %s: %s\n", whose, what);
     return -1;
 }
 
-static int read_one(const Source *source, const char *line, const char *what, size_t step, int e,
+/* Whose set it is: end `index` of a line, or where there is no line point `index`. */
+typedef struct Owner {
+    const char *line;
+    size_t index;
+} Owner;
+
+static void variable_of(const Owner *owner, const char *what, char name[300]) {
+    if (owner->line)
+        snprintf(name, 300, "%.200s_%s", owner->line, what);
+    else
+        snprintf(name, 300, "%.200s_of_point", what);
+}
+
+static int read_one(const Source *source, const Owner *owner, const char *what, size_t step,
                     size_t count, double *value) {
-    const size_t start[3] = {step, (size_t)e, 0}, counts[3] = {1, 1, count};
+    const size_t start[3] = {step, owner->index, 0}, counts[3] = {1, 1, count};
     char name[300];
     int id, dimensions;
-    snprintf(name, sizeof name, "%.200s_%s", line, what);
+    variable_of(owner, what, name);
     if (nc_inq_varid(source->nc, name, &id) || nc_inq_varndims(source->nc, id, &dimensions))
         return -1;
     const int skip = strcmp(what, "set_reaction") == 0 ? 0 : 1;
@@ -53,10 +69,14 @@ static int read_one(const Source *source, const char *line, const char *what, si
 }
 
 /* The numbers of an attribute of the file, which the caller frees; NULL: none, or not finite. */
-static double *read_numbers(const Source *source, const char *line, int e, const char *what,
+static double *read_numbers(const Source *source, const Owner *owner, const char *what,
                             size_t *count) {
     char name[300];
-    snprintf(name, sizeof name, "%.200s_set_%c_%s", line, e ? 'B' : 'A', what);
+    if (owner->line)
+        snprintf(name, sizeof name, "%.200s_set_%c_%s", owner->line, owner->index ? 'B' : 'A',
+                 what);
+    else
+        snprintf(name, sizeof name, "%.200s_set_%s", source->point_name[owner->index], what);
     if (nc_inq_attlen(source->nc, NC_GLOBAL, name, count) || *count > 1000000) return NULL;
     double *value = calloc(*count + 1, sizeof *value);
     bool bad = !value || nc_get_att_double(source->nc, NC_GLOBAL, name, value);
@@ -67,11 +87,11 @@ static double *read_numbers(const Source *source, const char *line, int e, const
 }
 
 /* {origin + P v : A v + b in K} less `point`. Without a map it is the origin alone. */
-static Conic *read_form(const Source *source, const char *line, int e, const double point[3]) {
+static Conic *read_form(const Source *source, const Owner *owner, const double point[3]) {
     static const char *const WHAT[5] = {"origin", "map", "cone", "rows", "offset"};
     double *part[5] = {NULL};
     size_t count[5] = {0}, n, m;
-    for (int i = 0; i < 5; i++) part[i] = read_numbers(source, line, e, WHAT[i], &count[i]);
+    for (int i = 0; i < 5; i++) part[i] = read_numbers(source, owner, WHAT[i], &count[i]);
     n = part[1] ? count[1] / 3 : 0;
     m = part[2] ? count[2] : 0;
     bool good = part[0] && count[0] == 3 && (n > 0) == (m > 0);
@@ -104,6 +124,43 @@ static bool all_finite(const double *value, int count) {
     return finite;
 }
 
+/* Read what does not change of a set. */
+static int open_one(const Source *source, const Owner *owner, Set *set, FILE *log) {
+    const char *whose = owner->line ? owner->line : source->point_name[owner->index];
+    double kind;
+    if (read_one(source, owner, "set_kind", 0, 1, &kind) ||
+        read_one(source, owner, "set_point", 0, 3, set->point) ||
+        read_one(source, owner, "set_axis", 0, 3, set->axis) ||
+        read_one(source, owner, "set_length", 0, 1, &set->length) ||
+        read_one(source, owner, "set_radius", 0, 1, &set->radius) ||
+        read_one(source, owner, "set_size", 0, 3, set->size) ||
+        read_one(source, owner, "set_rotation", 0, 4, set->turn))
+        return complain(log, whose, "a variable is missing, or of another shape");
+    if (!(kind >= NONE && kind < KINDS)) return complain(log, whose, "of no kind");
+    set->kind = (int)kind;
+    const double axis = hypot(hypot(set->axis[0], set->axis[1]), set->axis[2]);
+    const bool directed = kind == RAIL || kind == HALF_SPACE || kind == DISC;
+    if (!all_finite(set->point, 3) || !all_finite(set->axis, 3) || !all_finite(set->size, 3) ||
+        !all_finite(set->turn, 4) || (directed && !(axis > 0)) ||
+        (kind == RAIL && !(set->length > 0)) ||
+        ((kind == BALL || kind == DISC) && !(set->radius > 0 && isfinite(set->radius))) ||
+        (kind == BOX && !(set->size[0] > 0 && set->size[1] > 0 && set->size[2] > 0)))
+        return complain(log, whose, "a value that cannot be");
+    if (kind == FORM) set->form = read_form(source, owner, set->point);
+    if (kind == FORM && !set->form)
+        return complain(log, whose, "no conic form of a bounded set with points inside");
+    return 0;
+}
+
+static int read_reaction(const Source *source, const Owner *owner, size_t step, Set *set,
+                         FILE *log) {
+    if (!read_one(source, owner, "set_reaction", step, 3, set->reaction) &&
+        all_finite(set->reaction, 3))
+        return 0;
+    return complain(log, owner->line ? owner->line : source->point_name[owner->index],
+                    "a reaction is missing, or not finite");
+}
+
 int sets_create(const Source *source, const char *line, Record *r, FILE *log) {
     char name[300];
     int id;
@@ -111,40 +168,15 @@ int sets_create(const Source *source, const char *line, Record *r, FILE *log) {
     if (nc_inq_varid(source->nc, name, &id)) return 0;
     struct Sets *sets = r->sets = calloc(1, sizeof *sets);
     if (!sets) return complain(log, line, "out of memory");
-    for (int e = 0; e < 2; e++) {
-        Set *set = &sets->end[e];
-        double kind;
-        if (read_one(source, line, "set_kind", 0, e, 1, &kind) ||
-            read_one(source, line, "set_point", 0, e, 3, set->point) ||
-            read_one(source, line, "set_axis", 0, e, 3, set->axis) ||
-            read_one(source, line, "set_length", 0, e, 1, &set->length) ||
-            read_one(source, line, "set_radius", 0, e, 1, &set->radius) ||
-            read_one(source, line, "set_size", 0, e, 3, set->size) ||
-            read_one(source, line, "set_rotation", 0, e, 4, set->turn))
-            return complain(log, line, "a variable is missing, or of another shape");
-        if (!(kind >= NONE && kind < KINDS)) return complain(log, line, "of no kind");
-        set->kind = (int)kind;
-        const double axis = hypot(hypot(set->axis[0], set->axis[1]), set->axis[2]);
-        const bool directed = kind == RAIL || kind == HALF_SPACE || kind == DISC;
-        if (!all_finite(set->point, 3) || !all_finite(set->axis, 3) || !all_finite(set->size, 3) ||
-            !all_finite(set->turn, 4) || (directed && !(axis > 0)) ||
-            (kind == RAIL && !(set->length > 0)) ||
-            ((kind == BALL || kind == DISC) && !(set->radius > 0 && isfinite(set->radius))) ||
-            (kind == BOX && !(set->size[0] > 0 && set->size[1] > 0 && set->size[2] > 0)))
-            return complain(log, line, "a value that cannot be");
-        if (kind == FORM) set->form = read_form(source, line, e, set->point);
-        if (kind == FORM && !set->form)
-            return complain(log, line, "no conic form of a bounded set with points inside");
-    }
+    for (size_t e = 0; e < 2; e++)
+        if (open_one(source, &(Owner){line, e}, &sets->end[e], log)) return -1;
     return 0;
 }
 
 int sets_read(const Source *source, const char *line, size_t step, Record *r, FILE *log) {
     if (!r->sets) return 0;
-    for (int e = 0; e < 2; e++)
-        if (read_one(source, line, "set_reaction", step, e, 3, r->sets->end[e].reaction) ||
-            !all_finite(r->sets->end[e].reaction, 3))
-            return complain(log, line, "a reaction is missing, or not finite");
+    for (size_t e = 0; e < 2; e++)
+        if (read_reaction(source, &(Owner){line, e}, step, &r->sets->end[e], log)) return -1;
     return 0;
 }
 
@@ -261,15 +293,19 @@ double sets_rounding(const Record *r) {
     return (double)sum;
 }
 
-Real sets_gap(const Record *r, size_t j) {
-    const Set *set = set_of(r, j);
-    if (!set) return 0;
+/* sup over y in the set of -r.(y - x) */
+static Real gap_at(const Set *set, const double *x) {
     Real outwards[3], y[3];
     for (int a = 0; a < 3; a++) {
         outwards[a] = -(Real)set->reaction[a];
-        y[a] = (Real)r->position[j][a] - set->point[a];
+        y[a] = (Real)x[a] - set->point[a];
     }
     return support(set, outwards) - dot(outwards, y);
+}
+
+Real sets_gap(const Record *r, size_t j) {
+    const Set *set = set_of(r, j);
+    return set ? gap_at(set, r->position[j]) : 0;
 }
 
 /* [m] the size of the coordinates, [N] of the largest force of the line on what holds it */
@@ -364,4 +400,76 @@ bool sets_let(const Record *r) {
         if (set->kind == HALF_SPACE ? along < -DIRECTION : sqrtl(across) > DIRECTION) return false;
     }
     return true;
+}
+
+/* ---- of points ---- */
+
+struct PointSets {
+    size_t count;
+    Set *of; /* (count) */
+};
+
+PointSets *point_sets_open(const Source *source, int *bad, FILE *log) {
+    int id;
+    *bad = 0;
+    if (nc_inq_varid(source->nc, "set_kind_of_point", &id)) return NULL;
+    PointSets *sets = calloc(1, sizeof *sets);
+    if (sets) sets->of = calloc(source->points + 1, sizeof *sets->of);
+    if (!sets || !sets->of) {
+        free(sets);
+        *bad = complain(log, "points", "out of memory");
+        return NULL;
+    }
+    sets->count = source->points;
+    for (size_t k = 0; k < sets->count && !*bad; k++)
+        *bad = open_one(source, &(Owner){NULL, k}, &sets->of[k], log);
+    return sets;
+}
+
+int point_sets_read(const Source *source, size_t step, PointSets *sets, FILE *log) {
+    const size_t count = sets ? sets->count : 0;
+    for (size_t k = 0; k < count; k++)
+        if (read_reaction(source, &(Owner){NULL, k}, step, &sets->of[k], log)) return -1;
+    return 0;
+}
+
+void point_sets_free(PointSets *sets) {
+    if (!sets) return;
+    for (size_t k = 0; k < sets->count; k++) conic_free(sets->of[k].form);
+    free(sets->of);
+    free(sets);
+}
+
+bool point_sets_has(const PointSets *sets, size_t k) { return sets && sets->of[k].kind != NONE; }
+
+const struct Conic *point_sets_form(const PointSets *sets, size_t k) { return sets->of[k].form; }
+
+void point_sets_add(const PointSets *sets, size_t k, Real *sum) {
+    if (!sets) return;
+    for (int a = 0; a < 3; a++) sum[a] += sets->of[k].reaction[a];
+}
+
+void point_sets_check(const PointSets *sets, size_t k, const double *x, double length,
+                      SetFind *find, void *user) {
+    if (!sets) return;
+    const Set *set = &sets->of[k];
+    Real at[3], force[3];
+    double reach = length;
+    for (int a = 0; a < 3; a++) {
+        at[a] = x[a];
+        force[a] = set->reaction[a];
+        reach = fmax(reach, fmax(fabs(x[a]), fabs(set->point[a])));
+    }
+    if (set->kind == NONE) {
+        if (norm(force) > 0) find(user, "reaction of no set", (double)norm(force), 0);
+        return;
+    }
+    if (set->form) reach = fmax(reach, (double)set->form->reach);
+    const Real off = distance(set, at);
+    if (!(off <= (set->form ? FORM_PLACE : PLACE) * reach))
+        find(user, "distance of a point from its set", (double)off, 0);
+    /* places are found to a billionth of the lines; below 0 by rounding */
+    const Real gap = gap_at(set, x), least = set->form ? FORM_VALUE : 1e-14L;
+    if (!(gap >= -least * norm(force) * reach && gap <= POINT_PLACE * norm(force) * reach))
+        find(user, "reaction of the set of a point outside its normal cone, gap", (double)gap, 0);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sets to which ends of a line are held: rails, half-spaces, balls, discs and boxes, and any
- * bounded set in conic form. A set K does a
- * force r on the end at x in K, and is perfect: r.(y - x) >= 0 for all y in K. */
+/* Sets to which ends of a line, or points, are held: rails, half-spaces, balls, discs and boxes,
+ * and any bounded set in conic form. A set K does a force r on the end at x in K, and is perfect:
+ * r.(y - x) >= 0 for all y in K. */
 #ifndef CAPSTAN_CHECKER_SETS_H
 #define CAPSTAN_CHECKER_SETS_H
 
@@ -31,5 +31,19 @@ void sets_check(const Record *r, SetFind *find, void *user);
 void sets_check_infeasible(const Record *r, double reach, SetFind *find, void *user);
 /* Do all sets let the line go along the proof for ever? */
 bool sets_let(const Record *r);
+
+/* The same of points; NULL where the file has none. *bad: -1, and the reason in the log. */
+typedef struct PointSets PointSets;
+PointSets *point_sets_open(const Source *source, int *bad, FILE *log);
+int point_sets_read(const Source *source, size_t step, PointSets *sets, FILE *log);
+void point_sets_free(PointSets *sets);
+bool point_sets_has(const PointSets *sets, size_t k);
+const struct Conic *point_sets_form(const PointSets *sets, size_t k);
+/* Add the reaction on point k to `sum` [N]. */
+void point_sets_add(const PointSets *sets, size_t k, Real *sum);
+/* What a step contradicts at point k, which is at x and has lines of a `length` [m]: is it in its
+ * set, which bears along its normals there? */
+void point_sets_check(const PointSets *sets, size_t k, const double *x, double length,
+                      SetFind *find, void *user);
 
 #endif

@@ -38,7 +38,7 @@ HELD = "  anchor: {held: [0, 0, 0]}\n"
 KNOT = "{free: [10, 0, 0], force: [1, 2, 3], weight: 50}"
 PULL = "  - {name: pull, knot.point: {force: [1, 0, 0]}}\n"
 RISER = "ends: {A: {point: knot}, B: {point: buoy}}"
-LIST = "a mapping with held, free, body, at, force, mass, weight, volume, holding_capacity, uplift_limit, drags"
+LIST = "a mapping with held, free, body, at, force, on, mass, weight, volume, holding_capacity, uplift_limit, drags"
 
 # name, what is replaced in GOOD, by what, expected after "FILE:"
 CHANGES = [

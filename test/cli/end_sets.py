@@ -10,13 +10,12 @@ import json
 import math
 import os
 import random
-import struct
 import sys
 import tempfile
 
 sys.dont_write_bytecode = True  # nothing is left in the source folder
 import runs  # noqa: E402
-from runs import command, falsify, resumed, write  # noqa: E402
+from runs import command, falsify, falsify_attribute, resumed, write  # noqa: E402
 
 CAPSTAN, CHECKER = (os.path.abspath(path) for path in sys.argv[1:3])
 SEEDS = 12  # of random histories in every run
@@ -59,7 +58,7 @@ BAD = (  # (what is replaced, by what, what is said)
     (ON, "{rail: {}}", "12:46: 'rail': 'from' is missing"),
     (ON, "{rail: {from: [5, -1, 0.5]}}", "12:46: 'rail': nothing given, expected exactly one of 'to', 'along'"),
     (ON, "{rail: {from: [5, -1, 0.5], to: [5, 2, 0.5], along: [0, 1, 0]}}", "12:46: 'rail': too much given, expected exactly one of 'to', 'along'"),
-    (ON, "{rail: {from: [5, -1, 0.5], to: [5, -1, 0.5]}}", "12:41: rail: it goes from (5, -1, 0.5) m to the same place: give it two places, or hold the end"),
+    (ON, "{rail: {from: [5, -1, 0.5], to: [5, -1, 0.5]}}", "12:41: rail: it goes from (5, -1, 0.5) m to the same place: give it two places, or hold what is on it"),
     (ON, "{rail: {from: [5, -1], to: [5, 2, 0.5]}}", "12:53: 'from': found a list of 2, expected three numbers"),
     (ON, "{rail: {from: [5, -1, .nan], to: [5, 2, 0.5]}}", "12:67: 'from': found '.nan', expected a number"),
     (ON, "{rail: {from: [5, -1, .inf], to: [5, 2, 0.5]}}", "12:67: 'from': found '.inf', expected a number"),
@@ -147,19 +146,6 @@ HULL = ("{set: {hull: [{translate: {by: [4.8, 0, 0.4], of: {ball: {radius: 0.5, 
 HULL_FALSIFIED = (("rope_set_reaction", 3, 3, 1e-2), ("rope_set_reaction", 8, 4, 1e-2), ("rope_set_reaction", 12, 5, -1e-2), ("rope_position", 7, 3*60, 1e-4),
                   ("rope_position", 9, 3*60 + 2, 1e-4), ("rope_end_force", 8, 3, 1e-2), ("rope_ledger_ends", 9, 0, 1e-2))
 FORM_FALSIFIED = (("origin", 0, 1e-3), ("origin", 2, -1e-3), ("map", 1, 1e-3), ("offset", 3, 1e-3), ("rows", 2, 1e-3), ("cone", 0, 1), ("cone", 0, -1), ("map", 0, math.inf))
-
-
-def falsify_attribute(folder, name, index, change):
-    """Write copy.nc with a number of a global attribute changed: name, padded to 4 bytes, type, count, numbers (the format's specification)."""
-    with open(os.path.join(folder, "result.nc"), "rb") as file:
-        data = bytearray(file.read())
-    head = struct.pack(">I", len(name)) + name.encode() + bytes(-len(name) % 4) + struct.pack(">I", 6)
-    assert data.count(head) == 1, name
-    at = data.index(head) + len(head) + 4 + 8*index
-    value, = struct.unpack_from(">d", data, at)
-    struct.pack_into(">d", data, at, value + change)
-    with open(os.path.join(folder, "copy.nc"), "wb") as file:
-        file.write(data)
 
 
 def hull(folder, stiffness):

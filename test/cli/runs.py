@@ -45,6 +45,19 @@ def falsify(results, folder, variable, step, index, change):
         file.write(data)
 
 
+def falsify_attribute(folder, name, index, change):
+    """Write copy.nc with a number of a global attribute changed: name, padded to 4 bytes, type, count, numbers (the format's specification)."""
+    with open(os.path.join(folder, "result.nc"), "rb") as file:
+        data = bytearray(file.read())
+    head = struct.pack(">I", len(name)) + name.encode() + bytes(-len(name) % 4) + struct.pack(">I", 6)
+    assert data.count(head) == 1, name
+    at = data.index(head) + len(head) + 4 + 8*index
+    value, = struct.unpack_from(">d", data, at)
+    struct.pack_into(">d", data, at, value + change)
+    with open(os.path.join(folder, "copy.nc"), "wb") as file:
+        file.write(data)
+
+
 def resumed(capstan, folder, text, journal_bytes, count, steps, names):
     """Killed when the journal has so many bytes and resumed, a run has the same numbers as one that was not, in these of `count` steps."""
     scene = write(folder, "long.yaml", text)

@@ -79,7 +79,10 @@ static const char POINTS_SCENE[] =
     "  anchor: {held: [0, 0, 0], holding_capacity: 1e4, uplift_limit: 900, drags: true}\n"
     "  ring: {held: [8, 4, 0], weight: 2}\n"
     "  knot: {free: [4, 0, -3], force: [1, 0, 0], mass: 3, volume: 0.001}\n"
+    "  ferry: {free: [4, 30, -3], weight: 5, on: {ball: {centre: [4, 30, -3], radius: 1}}}\n"
     "lines:\n"
+    "  drawn: {length: 6, elements: 4, mass: 2, stiffness: 1000, start: static,"
+    " ends: {A: {held: [0, 30, 0]}, B: {point: ferry}}}\n"
     "  one: {length: 5.5, elements: 4, mass: 2, stiffness: 1000, start: static,"
     " ends: {A: {point: anchor}, B: {point: knot}}}\n"
     "  two: {length: 7, elements: 4, mass: 2, stiffness: 1000, start: static,"
@@ -347,6 +350,11 @@ static const struct Change POINT_CHANGE[] = {
     {"point", "{A: {point: anchor}, B: {point: knot}}", "{A: {point: knot}, B: {point: anchor}}"},
     {"point", "{A: {held: [4, 8, 0], stored: 0.5}", "{A: {point: ring, stored: 0.5}"},
     {"POINT.point", "knot.point: {", "ring.point: {"},
+    {"on", ", on: {ball: {centre: [4, 30, -3], radius: 1}}", ""},
+    {"on", "on: {ball: {centre: [4, 30, -3], radius: 1}}",
+     "on: {ball: {centre: [4, 30, -3], radius: 2}}"},
+    {"on", "on: {ball: {centre: [4, 30, -3], radius: 1}}",
+     "on: {rail: {from: [4, 30, -3], along: [0, 1, 0]}}"},
     {"force", "force: [2, 0, 0]", "force: [2, 0, 1]"},
     {"position", "position: [8, 5, 0]", "position: [8, 6, 0]"},
     {"position", "position: [1, 0, 0]", "position: [1, 1, 0]"},

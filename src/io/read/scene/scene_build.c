@@ -181,6 +181,32 @@ static int by_name(const void *a, const void *b) {
     return strcmp(left->name, right->name);
 }
 
+/* The set that an end or a point is held to. */
+static CpsStatus build_set(Build *b, const CpsiOnValues *values, CpsConstraint *on) {
+    *on = values->on;
+    on->kind = (CpsConstraintKind)(CPS_CONSTRAINT_KIND_RAIL + values->kind);
+    if (on->kind == CPS_CONSTRAINT_KIND_BOX && values->rotation.node) {
+        cpsi_rotation_build(&values->rotation, on->rotation);
+        const double *q = on->rotation;
+        if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
+            return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->rotation.node,
+                                      "rotation: it is (0, 0, 0, 0), expected a quaternion of any "
+                                      "length but zero");
+    }
+    if (on->kind == CPS_CONSTRAINT_KIND_SET)
+        return cpsi_build_set(&b->set, values->set, (CpsSet **)&on->set);
+    if (on->kind != CPS_CONSTRAINT_KIND_RAIL) return CPS_OK;
+    on->length = INFINITY;
+    if (values->rail == 1) return CPS_OK;
+    for (int a = 0; a < 3; a++) on->axis[a] = values->to[a] - on->point[a];
+    on->length = vec3_norm(vec3_load(on->axis));
+    if (on->length > 0) return CPS_OK;
+    return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
+                              "rail: it goes from (%g, %g, %g) m to the same place: give it two "
+                              "places, or hold what is on it",
+                              on->point[0], on->point[1], on->point[2]);
+}
+
 static CpsStatus build_points(Build *b, const CpsiList *points) {
     const CpsiScenePointValues *values = points->item;
     if (points->count == 0) return CPS_OK;
@@ -210,6 +236,10 @@ static CpsStatus build_points(Build *b, const CpsiList *points) {
             if (status != CPS_OK) return status;
             copy_vector(point[k].position, values[k].at);
             b->held.point[k][0] = NAN;
+        }
+        if (values[k].on.node) {
+            const CpsStatus status = build_set(b, &values[k].on, &point[k].constraint);
+            if (status != CPS_OK) return status;
         }
         b->by_name[k] = (NamedPoint){point[k].name, k};
     }
@@ -275,34 +305,6 @@ static CpsStatus build_start(const Build *b, const CpsiStartValues *values, CpsS
     return CPS_OK;
 }
 
-/* A free end with the force and the set that it is held to. */
-static CpsStatus build_set(Build *b, const CpsiOnValues *values, CpsEnd *end, CpsConstraint *on) {
-    *on = values->on;
-    on->kind = (CpsConstraintKind)(CPS_CONSTRAINT_KIND_RAIL + values->kind);
-    end->kind = CPS_END_KIND_FREE;
-    copy_vector(end->value, values->force);
-    if (on->kind == CPS_CONSTRAINT_KIND_BOX && values->rotation.node) {
-        cpsi_rotation_build(&values->rotation, on->rotation);
-        const double *q = on->rotation;
-        if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
-            return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->rotation.node,
-                                      "rotation: it is (0, 0, 0, 0), expected a quaternion of any "
-                                      "length but zero");
-    }
-    if (on->kind == CPS_CONSTRAINT_KIND_SET)
-        return cpsi_build_set(&b->set, values->set, (CpsSet **)&on->set);
-    if (on->kind != CPS_CONSTRAINT_KIND_RAIL) return CPS_OK;
-    on->length = INFINITY;
-    if (values->rail == 1) return CPS_OK;
-    for (int a = 0; a < 3; a++) on->axis[a] = values->to[a] - on->point[a];
-    on->length = vec3_norm(vec3_load(on->axis));
-    if (on->length > 0) return CPS_OK;
-    return cpsi_document_fail(b->d, CPS_ERR_INPUT, values->node,
-                              "rail: it goes from (%g, %g, %g) m to the same place: give it two "
-                              "places, or hold the end",
-                              on->point[0], on->point[1], on->point[2]);
-}
-
 /* `held`: at its initial position, `free`: without force; or at a given position, or with a given
  * force; or at a point, or in a set. */
 static CpsStatus build_end(Build *b, const CpsiEndValues *values, CpsEnd *end, int *point,
@@ -310,7 +312,11 @@ static CpsStatus build_end(Build *b, const CpsiEndValues *values, CpsEnd *end, i
     const bool is_free = values->word == CPSI_END_FREE;
     *end = (CpsEnd){.kind = CPS_END_KIND_AT_START};
     if (!is_free && !values->node) return CPS_OK;
-    if (values->word == CPSI_END_ON_SET) return build_set(b, &values->on, end, on);
+    if (values->word == CPSI_END_ON_SET) {
+        end->kind = CPS_END_KIND_FREE;
+        copy_vector(end->value, values->on.force);
+        return build_set(b, &values->on, on);
+    }
     if (values->word == CPSI_END_AT_POINT) {
         end->kind = CPS_END_KIND_POINT;
         return find_point(b, cpsi_yaml_child(values->node, "point"), point);

@@ -27,6 +27,8 @@ void cps_scene_file_destroy(CpsSceneFile *file) {
     for (int i = 0; i < file->scene.line_count; i++)
         for (int end = 0; end < 2; end++)
             cps_set_release((CpsSet *)file->scene.line[i].constraint[end].set);
+    for (int i = 0; i < file->scene.point_count; i++)
+        cps_set_release((CpsSet *)file->scene.point[i].constraint.set);
     cpsi_pool_free(&file->pool);
     free(file);
 }

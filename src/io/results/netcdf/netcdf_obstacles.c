@@ -584,13 +584,13 @@ void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids
         cpsi_netcdf_doubles(file, ids->number[i], start, count, &number[i]);
 }
 
-/* ---- sets of ends ---- */
+/* ---- sets of ends and of points ---- */
 
 enum { QUATERNION = 4 };
 
 /* The conic form {origin + P v : A v + b in K} of a set given by an expression, as attributes;
  * without unknowns it is the origin alone. */
-static void define_form(CpsiNetcdfFile *file, const char *line, int end, const CpsConstraint *on,
+static void define_form(CpsiNetcdfFile *file, const char *prefix, const CpsConstraint *on,
                         const double origin[3]) {
     CpsSetConic form;
     CpsSetFacts facts;
@@ -626,67 +626,94 @@ static void define_form(CpsiNetcdfFile *file, const char *line, int end, const C
                 {"offset", m, form.b}};
     for (size_t i = 0; i < sizeof part / sizeof *part; ++i) {
         char name[NC_MAX_NAME + 1];
-        snprintf(name, sizeof name, "%.200s_set_%c_%s", line, end == CPS_END_A ? 'A' : 'B',
-                 part[i].what);
+        snprintf(name, sizeof name, "%.200s_%s", prefix, part[i].what);
         if (n > 0 || i == 0) cpsi_netcdf_numbers(file, name, part[i].count, part[i].value);
     }
     free(cone);
     cps_set_conic_clear(&form);
 }
 
+/* A variable of the sets: of the ends of line `of`, or where that is empty of points. The
+ * dimensions are of what is held, and `more` if that is not negative. */
+static int define_set(CpsiNetcdfFile *file, const char *of, const char *what, int type, int owner,
+                      int more, const char *long_name, const char *units) {
+    const int shape[] = {owner, more};
+    char name[64];
+    snprintf(name, sizeof name, "set_%s%s", what, of[0] ? "" : "_of_point");
+    return cpsi_netcdf_variable(file, of, name, type, more < 0 ? 1 : 2, shape, long_name, units);
+}
+
+static void define_set_variables(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const char *of,
+                                 int owner, int xyz) {
+    char four[256];
+    snprintf(four, sizeof four, "%.200s_set_quaternion", of[0] ? of : "point");
+    ids->is_there = true;
+    ids->kind = define_set(file, of, "kind", NC_BYTE, owner, -1,
+                           of[0] ? "set that the free end is held to"
+                                 : "set that the free point is held to",
+                           "1");
+    cpsi_netcdf_flags(file, ids->kind, NC_BYTE, 7, NULL, "none rail half_space ball disc box set");
+    ids->point = define_set(file, of, "point", NC_DOUBLE, owner, xyz,
+                            "beginning or middle of the set, or a point of its plane", "m");
+    ids->axis = define_set(file, of, "axis", NC_DOUBLE, owner, xyz,
+                           "direction of a rail, inward normal of a half-space, normal of a "
+                           "disc",
+                           "1");
+    ids->length = define_set(file, of, "length", NC_DOUBLE, owner, -1,
+                             "length of a rail, infinite without ends", "m");
+    ids->radius =
+        define_set(file, of, "radius", NC_DOUBLE, owner, -1, "radius of a ball or disc", "m");
+    ids->size = define_set(file, of, "size", NC_DOUBLE, owner, xyz,
+                           "size of a box along its own axes", "m");
+    ids->rotation = define_set(file, of, "rotation", NC_DOUBLE, owner,
+                               cpsi_netcdf_dimension(file, four, QUATERNION),
+                               "rotation of a box, quaternion w x y z; 0 0 0 0: none", "1");
+}
+
 void cpsi_netcdf_define_sets(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const CpsLine *line,
                              const int dimension[3], const double origin[3]) {
-    const int *end = &dimension[1], *xyz = &dimension[1];
-    const char *of = line->name;
+    char prefix[NC_MAX_NAME + 1];
     ids->is_there = cpsi_has_set(line);
     if (!ids->is_there) return;
-    for (int e = 0; e < 2; ++e)
+    for (int e = 0; e < 2; ++e) {
+        snprintf(prefix, sizeof prefix, "%.200s_set_%c", line->name, e == CPS_END_A ? 'A' : 'B');
         if (line->constraint[e].kind == CPS_CONSTRAINT_KIND_SET)
-            define_form(file, of, e, &line->constraint[e], origin);
-    char four[256];
-    snprintf(four, sizeof four, "%.200s_set_quaternion", of);
-    ids->kind = cpsi_netcdf_variable(file, of, "set_kind", NC_BYTE, 1, end,
-                                     "set that the free end is held to", "1");
-    cpsi_netcdf_flags(file, ids->kind, NC_BYTE, 7, NULL, "none rail half_space ball disc box set");
-    ids->point =
-        cpsi_netcdf_variable(file, of, "set_point", NC_DOUBLE, 2, xyz,
-                             "beginning or middle of the set, or a point of its plane", "m");
-    ids->axis =
-        cpsi_netcdf_variable(file, of, "set_axis", NC_DOUBLE, 2, xyz,
-                             "direction of a rail, inward normal of a half-space, normal of a "
-                             "disc",
-                             "1");
-    ids->length = cpsi_netcdf_variable(file, of, "set_length", NC_DOUBLE, 1, end,
-                                       "length of a rail, infinite without ends", "m");
-    ids->radius = cpsi_netcdf_variable(file, of, "set_radius", NC_DOUBLE, 1, end,
-                                       "radius of a ball or disc", "m");
-    ids->size = cpsi_netcdf_variable(file, of, "set_size", NC_DOUBLE, 2, xyz,
-                                     "size of a box along its own axes", "m");
-    const int turn[] = {dimension[1], cpsi_netcdf_dimension(file, four, QUATERNION)};
-    ids->rotation =
-        cpsi_netcdf_variable(file, of, "set_rotation", NC_DOUBLE, 2, turn,
-                             "rotation of a box, quaternion w x y z; 0 0 0 0: none", "1");
-    ids->reaction = cpsi_netcdf_variable(file, of, "set_reaction", NC_DOUBLE, 3, dimension,
+            define_form(file, prefix, &line->constraint[e], origin);
+    }
+    define_set_variables(file, ids, line->name, dimension[1], dimension[2]);
+    ids->reaction = cpsi_netcdf_variable(file, line->name, "set_reaction", NC_DOUBLE, 3, dimension,
                                          "reaction of the set on the end", "N");
 }
 
-void cpsi_netcdf_write_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, const CpsLine *line,
-                            const double origin[3]) {
+void cpsi_netcdf_define_point_sets(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const CpsScene *scene,
+                                   const int dimension[3], const double origin[3]) {
+    char prefix[NC_MAX_NAME + 1];
+    ids->is_there = cpsi_has_point_set(scene);
     if (!ids->is_there) return;
-    for (size_t end = 0; end < 2; ++end) {
-        const CpsConstraint *on = &line->constraint[end];
-        const size_t start[] = {end, 0}, one[] = {1}, three[] = {1, 3}, four[] = {1, QUATERNION};
-        const unsigned char kind = (unsigned char)on->kind;
-        double point[3];
-        for (int a = 0; a < 3; ++a) point[a] = on->point[a] - origin[a];
-        cpsi_netcdf_bytes(file, ids->kind, start, one, &kind);
-        cpsi_netcdf_doubles(file, ids->point, start, three, point);
-        cpsi_netcdf_doubles(file, ids->axis, start, three, on->axis);
-        cpsi_netcdf_doubles(file, ids->length, start, one, &on->length);
-        cpsi_netcdf_doubles(file, ids->radius, start, one, &on->radius);
-        cpsi_netcdf_doubles(file, ids->size, start, three, on->size);
-        cpsi_netcdf_doubles(file, ids->rotation, start, four, on->rotation);
+    for (int k = 0; k < scene->point_count; ++k) {
+        snprintf(prefix, sizeof prefix, "%.200s_set", scene->point[k].name);
+        if (scene->point[k].constraint.kind == CPS_CONSTRAINT_KIND_SET)
+            define_form(file, prefix, &scene->point[k].constraint, origin);
     }
+    define_set_variables(file, ids, "", dimension[1], dimension[2]);
+    ids->reaction = cpsi_netcdf_variable(file, "", "set_reaction_of_point", NC_DOUBLE, 3, dimension,
+                                         "reaction of the set on the point", "N");
+}
+
+void cpsi_netcdf_write_set(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size_t owner,
+                           const CpsConstraint *on, const double origin[3]) {
+    const size_t start[] = {owner, 0}, one[] = {1}, three[] = {1, 3}, four[] = {1, QUATERNION};
+    const unsigned char kind = (unsigned char)on->kind;
+    double point[3];
+    if (!ids->is_there) return;
+    for (int a = 0; a < 3; ++a) point[a] = on->point[a] - origin[a];
+    cpsi_netcdf_bytes(file, ids->kind, start, one, &kind);
+    cpsi_netcdf_doubles(file, ids->point, start, three, point);
+    cpsi_netcdf_doubles(file, ids->axis, start, three, on->axis);
+    cpsi_netcdf_doubles(file, ids->length, start, one, &on->length);
+    cpsi_netcdf_doubles(file, ids->radius, start, one, &on->radius);
+    cpsi_netcdf_doubles(file, ids->size, start, three, on->size);
+    cpsi_netcdf_doubles(file, ids->rotation, start, four, on->rotation);
 }
 
 void cpsi_netcdf_append_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size_t step,

@@ -53,11 +53,18 @@ enum { CPSI_POINT_VECTORS = 9, CPSI_POINT_NUMBERS = 7, CPSI_POINT_INTS = 5 };
 /* in time */
 enum { CPSI_POINT_MOTIONS = 3, CPSI_POINT_MOTION_NUMBERS = 6 };
 
+/* The sets to which ends of a line, or points, are held (capstan/constraint.h). */
+typedef struct CpsiNetcdfSets {
+    bool is_there; /* the line, or a point, has one */
+    int kind, point, axis, length, radius, size, rotation, reaction;
+} CpsiNetcdfSets;
+
 typedef struct CpsiNetcdfPoints {
     int count;
     int dimension, kind, weight; /* these and the next ones are unused without points */
     int capacity, limit, drags;
     int vector[CPSI_POINT_VECTORS], number[CPSI_POINT_NUMBERS], whole[CPSI_POINT_INTS];
+    CpsiNetcdfSets sets;
     bool in_time; /* unused without: */
     int mass, inertia, motion[CPSI_POINT_MOTIONS], motion_number[CPSI_POINT_MOTION_NUMBERS];
 } CpsiNetcdfPoints;
@@ -65,9 +72,9 @@ typedef struct CpsiNetcdfPoints {
 /* Define the variables; write what does not change; and what the last step has found, as step
  * number `step`, relative to the origin of the lines' coordinates. */
 void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *out, const CpsScene *scene,
-                               int step, int xyz);
+                               int step, int xyz, const double origin[3]);
 void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points,
-                              const CpsScene *scene);
+                              const CpsScene *scene, const double origin[3]);
 void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
                                const CpsEvolution *evolution);
 
@@ -173,18 +180,16 @@ void cpsi_netcdf_define_winches(CpsiNetcdfFile *file, CpsiNetcdfWinches *ids, co
 void cpsi_netcdf_append_winches(CpsiNetcdfFile *file, const CpsiNetcdfWinches *ids, size_t step,
                                 const CpsEvolution *evolution, int line);
 
-/* The sets to which ends of a line are held (capstan/constraint.h). */
-typedef struct CpsiNetcdfSets {
-    bool is_there; /* the line has one */
-    int kind, point, axis, length, radius, size, rotation, reaction;
-} CpsiNetcdfSets;
-
 /* Define the variables of a line of the scene, none where it has no such end; the dimensions are
  * step, end, xyz. Both these and what is written once are relative to an origin. */
 void cpsi_netcdf_define_sets(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const CpsLine *line,
                              const int dimension[3], const double origin[3]);
-void cpsi_netcdf_write_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, const CpsLine *line,
-                            const double origin[3]);
+/* ... and of the points of a scene, with the dimensions step, point, xyz. */
+void cpsi_netcdf_define_point_sets(CpsiNetcdfFile *file, CpsiNetcdfSets *ids, const CpsScene *scene,
+                                   const int dimension[3], const double origin[3]);
+/* Write the set of an end or a point. */
+void cpsi_netcdf_write_set(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size_t owner,
+                           const CpsConstraint *on, const double origin[3]);
 void cpsi_netcdf_append_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size_t step,
                              const CpsEvolution *evolution, int line);
 

@@ -122,7 +122,7 @@ static void define_names(CpsiNetcdfFile *file, const CpsScene *scene, const char
 }
 
 void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
-                               const CpsScene *scene, int step, int xyz) {
+                               const CpsScene *scene, int step, int xyz, const double origin[3]) {
     points->count = scene->point_count;
     if (scene->point_count == 0) return; /* a dimension of no length would be an unlimited one */
     define_names(file, scene, "points", scene->point_count, point_name);
@@ -164,6 +164,7 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
     cpsi_netcdf_flags(file, points->whole[POINT_HAS_PLACE], NC_INT, 2, NULL, "no yes");
     cpsi_netcdf_flags(file, points->whole[POINT_WATER], NC_INT, 4, NULL,
                       "none submerged floating above");
+    cpsi_netcdf_define_point_sets(file, &points->sets, scene, shape, origin);
     points->in_time = cpsi_has_duration(scene);
     if (!points->in_time) return;
     points->mass = cpsi_netcdf_variable(file, "", "mass_of_point", NC_DOUBLE, 1, &points->dimension,
@@ -180,7 +181,7 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
 }
 
 void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points,
-                              const CpsScene *scene) {
+                              const CpsScene *scene, const double origin[3]) {
     for (size_t k = 0; k < (size_t)points->count; ++k) {
         static const size_t ONE[] = {1};
         cpsi_netcdf_int(file, points->kind, &k, (int)scene->point[k].kind);
@@ -191,6 +192,7 @@ void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poin
         cpsi_netcdf_doubles(file, points->capacity, &k, ONE, &capacity);
         cpsi_netcdf_doubles(file, points->limit, &k, ONE, &limit);
         cpsi_netcdf_int(file, points->drags, &k, point->drags);
+        cpsi_netcdf_write_set(file, &points->sets, k, &point->constraint, origin);
         if (points->in_time) cpsi_netcdf_doubles(file, points->mass, &k, ONE, &point->inertia);
     }
 }
@@ -207,6 +209,8 @@ static void append_point(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, s
         const double value = cpsi_member(report, NUMBER[i].member);
         cpsi_netcdf_doubles(file, points->number[i], start, count, &value);
     }
+    if (points->sets.is_there)
+        cpsi_netcdf_doubles(file, points->sets.reaction, start, count, report->set_reaction);
     const int whole[CPSI_POINT_INTS] = {[POINT_STATE] = (int)report->state,
                                         [POINT_OBSTACLE] = report->obstacle,
                                         [POINT_TRIALS] = report->trial_count,

@@ -229,7 +229,7 @@ static void define_run(CpsiNetcdf *nc, const CpsScene *scene, const double origi
     nc->wall = cpsi_netcdf_variable(&nc->file, "", "wall", NC_DOUBLE, 1, &nc->step,
                                     "time taken by the step", "s");
     cpsi_netcdf_define_obstacles(&nc->file, &nc->obstacles, scene, nc->step, nc->xyz);
-    cpsi_netcdf_define_points(&nc->file, &nc->points, scene, nc->step, nc->xyz);
+    cpsi_netcdf_define_points(&nc->file, &nc->points, scene, nc->step, nc->xyz, origin);
     cpsi_netcdf_define_bodies(&nc->file, &nc->bodies, &nc->points, scene, nc->step, nc->xyz);
     cpsi_netcdf_define_breaks(&nc->file, &nc->breaks, scene, nc->step);
     cpsi_netcdf_define_time(&nc->file, &nc->time, scene, nc->step);
@@ -630,7 +630,7 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
     if (nc->file.status == NC_NOERR)
         cpsi_netcdf_keep(&nc->file, nc->file.library._enddef(nc->file.id, 0, ALIGN, 0, PAGE));
     cpsi_netcdf_write_obstacles(&nc->file, &nc->obstacles, scene, first.origin);
-    cpsi_netcdf_write_points(&nc->file, &nc->points, scene);
+    cpsi_netcdf_write_points(&nc->file, &nc->points, scene, first.origin);
     cpsi_netcdf_write_bodies(&nc->file, &nc->bodies, scene, first.origin);
     for (int i = 0; i < nc->line_count && nc->file.status == NC_NOERR; ++i) {
         const CpsLineView view = constant_view(evolution, i);
@@ -645,7 +645,9 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
         write_zones(nc, &nc->line[i], &scene->line[i]);
         write_end_points(nc, &nc->line[i], &scene->line[i]);
         write_sections(nc, &nc->line[i], &view);
-        cpsi_netcdf_write_sets(&nc->file, &nc->line[i].sets, &scene->line[i], first.origin);
+        for (size_t e = 0; e < ENDS; ++e)
+            cpsi_netcdf_write_set(&nc->file, &nc->line[i].sets, e, &scene->line[i].constraint[e],
+                                  first.origin);
         cpsi_netcdf_write_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i);
         cpsi_netcdf_write_motion(&nc->file, &nc->line[i].motion, evolution, i);
         if (nc->file.status == NC_NOERR)

@@ -193,7 +193,7 @@ CpsStatus cpsi_paraview_list(CpsResults *results, CpsError *err) {
                     "    <DataSet timestep=\"%d\" part=\"2\" file=\"step-%05d-points.vtp\" "
                     "name=\"points\"/>\n",
                     i, i);
-        if (results->has_sets)
+        if (results->draws_sets)
             fprintf(out,
                     "    <DataSet timestep=\"%d\" part=\"3\" file=\"sets.vtp\" name=\"sets\"/>\n",
                     i);

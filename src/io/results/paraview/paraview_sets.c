@@ -29,7 +29,7 @@ static void write_all(const CpsResults *results, CellData what, FILE *out, int *
 CpsStatus cpsi_paraview_sets(CpsResults *results, CpsError *err) {
     FILE *out = NULL;
     int points, lines;
-    if (!results->has_sets || results->row_count == 0) return CPS_OK;
+    if (!results->draws_sets || results->row_count == 0) return CPS_OK;
     const CpsStatus status = cpsi_directory_create(results->directory, "sets.vtp", &out, err);
     if (status) return status;
     write_all(results, POINTS, NULL, &points, &lines);

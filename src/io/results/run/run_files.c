@@ -102,12 +102,32 @@ static int point_of(const CpsLine *line, int end) {
     return line->end[end].kind == CPS_END_KIND_POINT ? line->end_point[end] : CPSI_AT_NO_POINT;
 }
 
+/* Is the end the first of all that are at its point? */
+static bool is_first_at(const CpsScene *scene, int line, int end, int point) {
+    for (int k = 0; k < 2 * line + end; ++k)
+        if (point_of(&scene->line[k / 2], k % 2) == point) return false;
+    return true;
+}
+
+/* The set of an end, or of a point where no end before it is; the caller releases it. */
+static CpsConstraint set_at(const CpsScene *scene, const double origin[3], int line, int end) {
+    const int point = point_of(&scene->line[line], end);
+    CpsConstraint on = scene->line[line].constraint[end];
+    if (point != CPSI_AT_NO_POINT && scene->point[point].constraint.kind != on.kind &&
+        is_first_at(scene, line, end, point))
+        on = scene->point[point].constraint;
+    for (int a = 0; a < 3; ++a) on.point[a] -= origin[a];
+    on.set = on.kind == CPS_CONSTRAINT_KIND_SET ? cps_set_retain(on.set) : NULL;
+    return on;
+}
+
 static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvolution *evolution) {
     results->planned_steps = cps_evolution_step_count(evolution);
     results->lets_go = cpsi_lets_go(scene);
     results->in_time = cpsi_has_duration(scene);
     for (int i = 0; i < scene->line_count; ++i) {
         results->has_sets = results->has_sets || cpsi_has_set(&scene->line[i]);
+        results->draws_sets = results->has_sets || cpsi_has_point_set(scene);
         results->winds = results->winds || cpsi_has_winch(&scene->line[i]);
         results->has_loads = results->has_loads || scene->line[i].loads;
     }
@@ -135,12 +155,7 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
         results->line_name[i] = copy_text(view.name);
         for (int e = 0; e < 2; ++e) {
             results->line_point[i][e] = point_of(&scene->line[i], e);
-            results->line_constraint[i][e] = scene->line[i].constraint[e];
-            for (int a = 0; a < 3; ++a)
-                results->line_constraint[i][e].point[a] -= results->origin[a];
-            const bool given = results->line_constraint[i][e].kind == CPS_CONSTRAINT_KIND_SET;
-            results->line_constraint[i][e].set =
-                given ? cps_set_retain(scene->line[i].constraint[e].set) : NULL;
+            results->line_constraint[i][e] = set_at(scene, results->origin, (int)i, e);
         }
         results->begins_static |= scene->line[i].start.kind == CPS_START_STATIC;
         results->line_count = (int)i + 1;

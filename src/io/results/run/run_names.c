@@ -76,7 +76,7 @@ bool cpsi_results_writes(const void *run, const char *name) {
         return results->stiffness && results->body_count > 0;
     if (strcmp(name, "result.pvd") == 0) return results->paraview;
     if (strcmp(name, "obstacles.vtp") == 0) return results->paraview && results->obstacle_count > 0;
-    if (strcmp(name, "sets.vtp") == 0) return results->paraview && results->has_sets;
+    if (strcmp(name, "sets.vtp") == 0) return results->paraview && results->draws_sets;
     return strncmp(name, "step-", 5) == 0 && writes_of_step(results, name);
 }
 

@@ -341,6 +341,78 @@ static void begin_scene_body(void *values) {
 static const CpsiMapping SCENE_BODY = {"body", KEYS(SCENE_BODY_KEYS), INTO(SceneBody),
                                        .begin = begin_scene_body, WHICH(SceneBody, body.kind)};
 
+/* ---- sets of places ---- */
+
+static const CpsiKey RAIL_KEYS[] = {
+    {"from", REQUIRED, POINT(On, on.point, 3), ANY, .unit = "m", .help = "one end of the rail"},
+    {"to", ONE_OF, POINT(On, to, 3), ANY, .unit = "m", .help = "its other end"},
+    {"along", ONE_OF, POINT(On, on.axis, 3), ANY,
+     .help = "in place of `to`: without ends, through `from` in this direction, not zero"},
+};
+static const CpsiMapping RAIL = {"rail", KEYS(RAIL_KEYS), WHICH(On, rail)};
+
+static const CpsiKey HALF_SPACE_KEYS[] = {
+    {"point", OPTIONAL, POINT(On, on.point, 3), ANY, .unit = "m", .fallback = "[0, 0, 0]",
+     .help = "a point of its plane"},
+    {"normal", REQUIRED, POINT(On, on.axis, 3), ANY,
+     .help = "points to the side where the end may be; of any length but zero"},
+};
+static const CpsiMapping HALF_SPACE = {"half_space", KEYS(HALF_SPACE_KEYS)};
+
+#define ON_CENTRE \
+    { "centre", REQUIRED, POINT(On, on.point, 3), ANY, .unit = "m", .help = "the middle of it" }
+#define ON_RADIUS                                                        \
+    {                                                                    \
+        "radius", REQUIRED, NUMBER(On, on.radius), POSITIVE,             \
+            .unit = "m", .help = "the end is no farther from the middle" \
+    }
+
+static const CpsiKey BALL_KEYS[] = {ON_CENTRE, ON_RADIUS};
+static const CpsiMapping BALL = {"ball", KEYS(BALL_KEYS)};
+
+static const CpsiKey DISC_KEYS[] = {
+    ON_CENTRE,
+    ON_RADIUS,
+    {"normal", OPTIONAL, POINT(On, on.axis, 3), ANY, .fallback = "[0, 0, 1]",
+     .help = "across the disc, of any length but zero"},
+};
+static const CpsiMapping DISC = {"disc", KEYS(DISC_KEYS)};
+
+static const CpsiKey ON_BOX_KEYS[] = {
+    ON_CENTRE,
+    {"size", REQUIRED, POINT(On, on.size, 3), 0, CPSI_LARGEST, true, .unit = "m",
+     .help = "from face to face along its own axes"},
+    {"rotation", OPTIONAL, MAPPING(On, rotation), .inside = &cpsi_rotation_keys,
+     .fallback = "{\"quaternion\": [1, 0, 0, 0]}",
+     .help = "turns its own axes, which begin as those of the scene"},
+};
+static const CpsiMapping ON_BOX = {"box", "set_box", KEYS(ON_BOX_KEYS)};
+
+/* What the places of an end or a point may be in. */
+#define ON_SETS                                                                               \
+    {"rail", ONE_OF, AROUND, .inside = &RAIL, .help = "a straight rail"},                     \
+        {"half_space", ONE_OF, AROUND, .inside = &HALF_SPACE, .help = "one side of a plane"}, \
+        {"ball", ONE_OF, AROUND, .inside = &BALL, .help = "within a ball"},                   \
+        {"disc", ONE_OF, AROUND, .inside = &DISC, .help = "within a flat disc"},              \
+        {"box", ONE_OF, AROUND, .inside = &ON_BOX, .help = "within a box"}, {                 \
+        "set", ONE_OF, EXPRESSION(On, set),                                                   \
+            .inside = &cpsi_set_words,                                                        \
+            .help = "within any bounded set of space, in metres, in the words of law files"   \
+    }
+
+static const CpsiKey ON_KEYS[] = {
+    ON_SETS,
+    {"force", OPTIONAL, POINT(On, force, 3), ANY, .unit = "N", .fallback = "[0, 0, 0]",
+     .help = "on the end, beside the reaction of the set"},
+};
+static const CpsiKey POINT_ON_KEYS[] = {ON_SETS};
+
+static void begin_on(void *values) { ((CpsiOnValues *)values)->on.axis[2] = 1; }
+
+static const CpsiMapping ON = {"on", KEYS(ON_KEYS), INTO(On), WHICH(On, kind), .begin = begin_on};
+static const CpsiMapping POINT_ON = {"on",     "point_on",      KEYS(POINT_ON_KEYS),
+                                     INTO(On), WHICH(On, kind), .begin = begin_on};
+
 /* ---- points ---- */
 
 static const CpsiKey SCENE_POINT_KEYS[] = {
@@ -355,6 +427,8 @@ static const CpsiKey SCENE_POINT_KEYS[] = {
      .fallback = "[0, 0, 0]", .help = "where on the body it is, in the body's own axes"},
     {"force", OPTIONAL, POINT(ScenePoint, point.force, 3), ANY, .unit = "N", .with = "free",
      .fallback = "[0, 0, 0]", .help = "force on it, besides its weight and its lines"},
+    {"on", OPTIONAL, MAPPING(ScenePoint, on), .inside = &POINT_ON, .with = "free",
+     .help = "it is on a rail, or anywhere within another convex set, without friction"},
     {"mass", OPTIONAL, NUMBER(ScenePoint, mass), NOT_NEGATIVE, .unit = "kg", .unless = "weight",
      .help = "mass; its weight is mass times gravity, less that of the water it displaces"},
     {"weight", OPTIONAL, NUMBER(ScenePoint, point.weight), ANY, .unit = "N", .fallback = "0",
@@ -414,67 +488,6 @@ static const CpsiKey START_KEYS[] = {
              "they are known, natural lengths and forces"},
 };
 static const CpsiMapping START = {"start", KEYS(START_KEYS), INTO(Start)};
-
-static const CpsiKey RAIL_KEYS[] = {
-    {"from", REQUIRED, POINT(On, on.point, 3), ANY, .unit = "m", .help = "one end of the rail"},
-    {"to", ONE_OF, POINT(On, to, 3), ANY, .unit = "m", .help = "its other end"},
-    {"along", ONE_OF, POINT(On, on.axis, 3), ANY,
-     .help = "in place of `to`: without ends, through `from` in this direction, not zero"},
-};
-static const CpsiMapping RAIL = {"rail", KEYS(RAIL_KEYS), WHICH(On, rail)};
-
-static const CpsiKey HALF_SPACE_KEYS[] = {
-    {"point", OPTIONAL, POINT(On, on.point, 3), ANY, .unit = "m", .fallback = "[0, 0, 0]",
-     .help = "a point of its plane"},
-    {"normal", REQUIRED, POINT(On, on.axis, 3), ANY,
-     .help = "points to the side where the end may be; of any length but zero"},
-};
-static const CpsiMapping HALF_SPACE = {"half_space", KEYS(HALF_SPACE_KEYS)};
-
-#define ON_CENTRE \
-    { "centre", REQUIRED, POINT(On, on.point, 3), ANY, .unit = "m", .help = "the middle of it" }
-#define ON_RADIUS                                                        \
-    {                                                                    \
-        "radius", REQUIRED, NUMBER(On, on.radius), POSITIVE,             \
-            .unit = "m", .help = "the end is no farther from the middle" \
-    }
-
-static const CpsiKey BALL_KEYS[] = {ON_CENTRE, ON_RADIUS};
-static const CpsiMapping BALL = {"ball", KEYS(BALL_KEYS)};
-
-static const CpsiKey DISC_KEYS[] = {
-    ON_CENTRE,
-    ON_RADIUS,
-    {"normal", OPTIONAL, POINT(On, on.axis, 3), ANY, .fallback = "[0, 0, 1]",
-     .help = "across the disc, of any length but zero"},
-};
-static const CpsiMapping DISC = {"disc", KEYS(DISC_KEYS)};
-
-static const CpsiKey ON_BOX_KEYS[] = {
-    ON_CENTRE,
-    {"size", REQUIRED, POINT(On, on.size, 3), 0, CPSI_LARGEST, true, .unit = "m",
-     .help = "from face to face along its own axes"},
-    {"rotation", OPTIONAL, MAPPING(On, rotation), .inside = &cpsi_rotation_keys,
-     .fallback = "{\"quaternion\": [1, 0, 0, 0]}",
-     .help = "turns its own axes, which begin as those of the scene"},
-};
-static const CpsiMapping ON_BOX = {"box", "set_box", KEYS(ON_BOX_KEYS)};
-
-static const CpsiKey ON_KEYS[] = {
-    {"rail", ONE_OF, AROUND, .inside = &RAIL, .help = "a straight rail"},
-    {"half_space", ONE_OF, AROUND, .inside = &HALF_SPACE, .help = "one side of a plane"},
-    {"ball", ONE_OF, AROUND, .inside = &BALL, .help = "within a ball"},
-    {"disc", ONE_OF, AROUND, .inside = &DISC, .help = "within a flat disc"},
-    {"box", ONE_OF, AROUND, .inside = &ON_BOX, .help = "within a box"},
-    {"set", ONE_OF, EXPRESSION(On, set), .inside = &cpsi_set_words,
-     .help = "within any bounded set of space, in metres, in the words of law files"},
-    {"force", OPTIONAL, POINT(On, force, 3), ANY, .unit = "N", .fallback = "[0, 0, 0]",
-     .help = "on the end, beside the reaction of the set"},
-};
-
-static void begin_on(void *values) { ((CpsiOnValues *)values)->on.axis[2] = 1; }
-
-static const CpsiMapping ON = {"on", KEYS(ON_KEYS), INTO(On), WHICH(On, kind), .begin = begin_on};
 
 static const CpsiKey END_KEYS[] = {
     {"held", ONE_OF, POINT(End, value, 3), ANY, .unit = "m", .formerly = "fixed",

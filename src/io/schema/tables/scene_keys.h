@@ -42,6 +42,17 @@ typedef struct CpsiObstacleValues {
 } CpsiObstacleValues;
 
 /* A point at which lines end. */
+/* A set that an end or a point is held to. */
+typedef struct CpsiOnValues {
+    const CpsiYaml *node; /* NULL: none */
+    int kind;             /* as the CpsConstraintKind after NONE */
+    CpsConstraint on;     /* without its kind */
+    int rail;             /* 0: to a place, 1: without ends */
+    double to[3], force[3];
+    CpsiRotationValues rotation;
+    const CpsiYaml *set; /* an expression */
+} CpsiOnValues;
+
 typedef struct CpsiScenePointValues {
     const CpsiYaml *node; /* the key is the name */
     CpsPoint point;
@@ -49,6 +60,7 @@ typedef struct CpsiScenePointValues {
     double inertia;      /* NaN: not given */
     const char *body;    /* name of the body that it is on */
     double at[3];        /* [m] in its axes */
+    CpsiOnValues on;
 } CpsiScenePointValues;
 
 /* A hydrostatic stiffness without coupling. */
@@ -157,17 +169,6 @@ typedef struct CpsiStartValues {
     CpsiArcValues arc;
     const char *nodes; /* name of a file */
 } CpsiStartValues;
-
-/* A set that an end is held to. */
-typedef struct CpsiOnValues {
-    const CpsiYaml *node; /* NULL: none */
-    int kind;             /* as the CpsConstraintKind after NONE */
-    CpsConstraint on;     /* without its kind */
-    int rail;             /* 0: to a place, 1: without ends */
-    double to[3], force[3];
-    CpsiRotationValues rotation;
-    const CpsiYaml *set; /* an expression */
-} CpsiOnValues;
 
 /* An end of a line: `held` or `free` as a word, or with its position or force; or at a point. */
 typedef enum CpsiEndWord {
