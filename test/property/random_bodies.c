@@ -317,10 +317,12 @@ static void load_after(const Mooring *m, int step, double load[6]) {
     for (int k = 0; k < STAGES; k++) {
         const int parts = m->stage[k].step_count;
         const double *force = m->change[k].force, *moment = m->change[k].moment;
-        for (int part = 1; part <= parts; part++, at++)
-            for (int a = 0; a < 6 && at == step; a++)
+        for (int part = 1; part <= parts; part++, at++) {
+            if (at != step) continue;
+            for (int a = 0; a < 6; a++)
                 load[a] =
                     from[a] + (double)part / parts * ((a < 3 ? force[a] : moment[a - 3]) - from[a]);
+        }
         memcpy(from, force, 3 * sizeof *from);
         memcpy(&from[3], moment, 3 * sizeof *from);
     }
