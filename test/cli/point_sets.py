@@ -5,6 +5,8 @@ has the same numbers, sets are drawn once, and mistakes are told with their plac
 
 usage: point_sets.py CAPSTAN CHECKER
 """
+import csv
+import json
 import os
 import sys
 import tempfile
@@ -83,6 +85,13 @@ def net(folder, stiffness):
         assert abs(abs(x[0]) - 3) < 1e-9 or force[0] == 0, (step, x, force)
         assert tuple(force[6:]) == (0, 0, 0), (step, force)
     assert results.get("set_reaction_of_point", 10)[0] > 1, "the end of the rail bears"
+    with open(os.path.join(out, "summary.json")) as file:
+        said = json.load(file)["steps"][10]["points"]
+    with open(os.path.join(out, "points.csv"), newline="") as file:
+        row = list(csv.DictReader(file))[-3]
+    wanted = list(results.get("set_reaction_of_point", 10)[:3])
+    assert said["trolley"]["set_reaction_N"] == wanted and "set_reaction_N" not in said["knot"], said
+    assert row["point"] == "trolley" and [float(row["set_reaction_" + axis]) for axis in "xyz"] == wanted, row
     with open(os.path.join(out, "sets.vtp")) as file:
         assert 'NumberOfLines="0"' not in file.read()
     if stiffness == ".inf":  # the checker takes longer over tensions that have a range

@@ -228,6 +228,20 @@ def test_the_reaction_of_a_rail(root):
         line.constraint("C")
 
 
+def test_a_point_on_a_rail():
+    line = {"length": 3.5, "elements": 5, "weight": 2, "stiffness": 1e4, "start": "static"}
+    evolution = capstan.Evolution({
+        "capstan": 1, "points": {"ring": {"free": [0, 0, 0], "on": {"rail": {"from": [0, 0, 0], "along": [0, 1, 0]}}, "weight": 50}, "eye": {"held": [3, 1, 1]}},
+        "lines": {"one": {**line, "ends": {"A": {"held": [-3, -2, 1]}, "B": {"point": "ring"}}}, "two": {**line, "ends": {"A": {"point": "ring"}, "B": {"point": "eye"}}}}})
+    evolution.step()
+    assert evolution.certified
+    found, report = evolution.point_constraints["ring"], evolution.points["ring"]
+    assert found.is_there and found.is_active and not evolution.point_constraints["eye"].is_there
+    # across the rail, it balances lines and weight
+    assert found.reaction[1] == 0 and np.allclose(found.reaction, report.set_reaction, atol=0)
+    assert np.allclose(found.reaction + report.lines + report.load, 0, atol=1e-6)
+
+
 def test_winches_partings_and_two_stiffnesses(root):
     evolution = capstan.Evolution(root / "examples/winched-mooring.yaml")
     stored = []

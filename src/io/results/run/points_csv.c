@@ -31,6 +31,7 @@ static const CpsiColumn COLUMN[] = {
     {"uplift_used", "1", POINT(uplift_used)},
     VECTOR("drag", "m", drag),
     {"dragged", "m", POINT(dragged)},
+    VECTOR("set_reaction", "N", set_reaction),
 };
 
 #define BODY(member) CPSI_MEMBER(CpsiBodyRow, member)

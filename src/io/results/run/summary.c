@@ -215,6 +215,8 @@ static void write_points(FILE *out, const CpsResults *results, const CpsiRow *ro
         write_vector(out, "lines_N", report->lines, ",\n          ");
         write_vector(out, "load_N", report->load, ", ");
         write_vector(out, "support_N", report->support, ",\n          ");
+        if (results->point[i].constraint.kind != CPS_CONSTRAINT_KIND_NONE)
+            write_vector(out, "set_reaction_N", report->set_reaction, ", ");
         if (report->obstacle != CPS_NO_OBSTACLE) {
             write_string(out, "obstacle", results->obstacle[report->obstacle].name, ", ");
             write_number(out, "reaction_N", report->reaction, ", ");
