@@ -21,7 +21,8 @@
  * rebound, but for what the ground gives (CpsObstacle). It needs Coulomb's law, contact that is
  * reached, and a scene without lines that part, winches and anchors that drag. Beside free points
  * and bodies lines are elastic, obstacles stay, and points do not float. The path tolerance has no
- * effect on lines with inertia. */
+ * effect on lines with inertia. Motions and loads that a function of the program makes of time and
+ * state are those of follow.h. */
 #ifndef CAPSTAN_MOTION_H
 #define CAPSTAN_MOTION_H
 

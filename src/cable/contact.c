@@ -32,6 +32,9 @@ static const double QUARTER_ROUNDING = 1e-6;
 /* [rad] From this angle to half a turn, where the direction of the slip changes sign, rounding
  * changes it by more than 1e-12. */
 static const double HALF_ROUND = 2 * CPSI_QUARTER - 1e-2;
+/* So near to the middle of a round obstacle, as a share of its radius, rounding turns the direction
+ * out of it by a hundred times as much as at its surface. */
+static const double MIDDLE = 1e-2;
 
 /* Direction of the line at node j, by its neighbours. */
 static Vec3 direction(const CpsiLine *line, const double *x, int j) {
@@ -320,10 +323,18 @@ static double angle_from_reference(const CpsiLine *line, int c) {
     return fabs(cpsi_obstacle_angle(obstacle, from, cpsi_obstacle_normal(obstacle, to)));
 }
 
+/* Does contact c come from the middle of a round obstacle, as a line may that is laid by statics?
+ */
+static bool comes_from_middle(const CpsiLine *line, int c) {
+    const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
+    return cpsi_obstacle_is_round(obstacle) &&
+           cpsi_obstacle_gap(obstacle, carried_along(line, c)) <= (MIDDLE - 1) * obstacle->radius;
+}
+
 void cpsi_contact_clear_undetermined_slip(CpsiLine *line) {
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (line->obstacle_index[c] < 0 || line->friction_bound[c] > 0) continue;
-        if (angle_from_reference(line, c) < HALF_ROUND) continue;
+        if (angle_from_reference(line, c) < HALF_ROUND && !comes_from_middle(line, c)) continue;
         for (int a = 0; a < 3; a++) line->slip[3 * c + a] = 0;
     }
 }

@@ -34,12 +34,21 @@ static Vec3 moved_by(const CpsiBalance *balance, const CpsiFree *at) {
     return vec3_sub(at->place, has_start ? at->start : vec3_load(point->before));
 }
 
-/* [N] The size of what the lines do to a point. */
+/* [N] The size of what the lines do to a point, along the obstacle on which it rests; of all where
+ * the lines are placed by statics, before which no point rested. */
 static double pull_on(const CpsiBalance *balance, const CpsiFree *at) {
     const CpsEvolution *evolution = balance->evolution;
+    const bool is_static = evolution->has_static && evolution->done == 0;
     double load[3] = {0};
     if (!at->drags) cpsi_point_load(&evolution->points.point[at->point], evolution->gravity, load);
-    return vec3_norm(vec3_sub(cpsi_rest_with(at, 0), vec3_load(load)));
+    const Vec3 pull = vec3_sub(cpsi_rest_with(at, 0), vec3_load(load));
+    return vec3_norm(at->reaction > 0 && !is_static ? vec3_reject(pull, at->normal) : pull);
+}
+
+/* Has a point moved though no line pulls it? */
+static bool is_idle(const CpsiBalance *balance, const CpsiFree *at) {
+    return vec3_norm(moved_by(balance, at)) > cpsi_trial_touch(balance, at) &&
+           pull_on(balance, at) <= AS_WELL * balance->force;
 }
 
 /* Does a point move without any line that pulls it, or slide by forces that may be at their bound
@@ -48,8 +57,7 @@ static bool may_have_a_choice(const CpsiBalance *balance) {
     for (int k = 0; k < balance->count; k++) {
         const CpsiFree *at = &balance->at[k];
         const double far = vec3_norm(moved_by(balance, at)), touch = cpsi_trial_touch(balance, at);
-        if (far > touch && (at->bound > 0 || pull_on(balance, at) <= AS_WELL * balance->force))
-            return true;
+        if ((far > touch && at->bound > 0) || is_idle(balance, at)) return true;
     }
     return false;
 }
@@ -125,17 +133,64 @@ static bool find_step(CpsiBalance *balance) {
     return any;
 }
 
+static void keep_places(CpsiBalance *balance) {
+    memcpy(balance->best, balance->at, (size_t)balance->count * sizeof *balance->at);
+    memcpy(balance->rigid_best, balance->rigid,
+           (size_t)balance->body_count * sizeof *balance->rigid);
+}
+/* ... and try those that were kept. */
+static void return_to_places(CpsiBalance *balance) {
+    memcpy(balance->at, balance->best, (size_t)balance->count * sizeof *balance->at);
+    memcpy(balance->rigid, balance->rigid_best,
+           (size_t)balance->body_count * sizeof *balance->rigid);
+    cpsi_try_places(balance);
+}
+
+/* Does all balance as well with the points that no line pulls where they were? Nothing is nearer.
+ * How slack their lines are the matrix does not tell: elements may be just as long as they are
+ * apart. */
+static bool go_back(CpsiBalance *balance) {
+    bool any = false;
+    for (int i = 0; i < balance->unknowns; i++) balance->step[i] = 0;
+    for (int k = 0; k < balance->count; k++) {
+        balance->chose[k] = is_idle(balance, &balance->at[k]);
+        any = any || balance->chose[k];
+        if (balance->chose[k])
+            vec3_store(&balance->step[3 * k], vec3_scale(-1, moved_by(balance, &balance->at[k])));
+    }
+    if (!any) return false;
+    const double left = cpsi_left_now(balance);
+    keep_places(balance);
+    memcpy(balance->from, balance->best, (size_t)balance->count * sizeof *balance->from);
+    memcpy(balance->rigid_from, balance->rigid_best,
+           (size_t)balance->body_count * sizeof *balance->rigid_from);
+    if (is_as_good(balance, 1, left)) return true;
+    return_to_places(balance);
+    return false;
+}
+
+/* Is there still a point that no line pulls away from where it was? Where its lines come taut, by
+ * no force, the steps do not see it. */
+static bool has_idle(const CpsiBalance *balance) {
+    for (int k = 0; k < balance->count; k++)
+        if (is_idle(balance, &balance->at[k])) return true;
+    return false;
+}
+
 void cpsi_take_nearest_places(CpsiBalance *balance) {
     const size_t bytes = (size_t)balance->count * sizeof *balance->at,
                  rigid = (size_t)balance->body_count * sizeof *balance->rigid;
     memset(balance->chose, 0, (size_t)balance->count * sizeof *balance->chose);
     if (cpsi_has_inextensible(balance) || !may_have_a_choice(balance)) return;
+    if (go_back(balance)) {
+        report_choice(balance, CPS_PLACES_NEAREST);
+        return;
+    }
     double share = 0;
     int i = 0;
     for (; i < STEPS; i++) {
         const double left = cpsi_left_now(balance);
-        memcpy(balance->best, balance->at, bytes);
-        memcpy(balance->rigid_best, balance->rigid, rigid);
+        keep_places(balance);
         if (!find_step(balance)) {
             memcpy(balance->at, balance->best, bytes);
             break;
@@ -144,12 +199,10 @@ void cpsi_take_nearest_places(CpsiBalance *balance) {
         memcpy(balance->rigid_from, balance->rigid_best, rigid);
         share = largest_share(balance, left);
         if (share > 0 && is_as_good(balance, share, left)) continue;
-        memcpy(balance->at, balance->best, bytes);
-        memcpy(balance->rigid, balance->rigid_best, rigid);
-        cpsi_try_places(balance);
+        return_to_places(balance);
         break;
     }
     /* a corner of the set at which the steps end may be farther than another one */
-    report_choice(balance,
-                  i < STEPS && (i == 0 || share > 0) ? CPS_PLACES_NEAREST : CPS_PLACES_ANY);
+    const bool nearest = i < STEPS && (i == 0 || share > 0) && !has_idle(balance);
+    report_choice(balance, nearest ? CPS_PLACES_NEAREST : CPS_PLACES_ANY);
 }

@@ -63,6 +63,8 @@ static const Real QUARTER = 1.57079632679489661923L;
 /* [rad] So near to half a turn rounding of places takes more than the tolerance of a slip's
  * direction. */
 static const Real HALF_ROUND = 1e-2L;
+/* The same at this share of the radius from the middle. */
+static const Real MIDDLE = 1e-2L;
 
 /* maximum that keeps a NaN */
 static void raise_to(double *worst, Real value) {
@@ -143,6 +145,14 @@ typedef struct Seat {
     bool has_axes;
 } Seat;
 
+/* Is one way along the surface from `a` to b shorter than all others? Half round none is, nor from
+ * the middle of a round obstacle. Where no friction acts none is asked for. */
+static bool has_way(const Surface *surface, const Real *a, const Real *b) {
+    if (surface_is_round(surface) && surface_distance(surface, a) <= (MIDDLE - 1) * surface->radius)
+        return false;
+    return surface_angle(surface, a, b) <= 2 * QUARTER - HALF_ROUND;
+}
+
 /* What contact c of node j sees of its obstacle; *seen is that obstacle as it sees it. */
 static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c, Surface *seen) {
     const Surface *on = seen_surface(where, r, j, c);
@@ -164,9 +174,8 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c, Sur
     const Surface at = soft_level(seat.surface, x);
     if (moves) surface_own(&at, x, reference, r->share, seat.own);
     if (where->reached && !where->frozen) {
-        /* half round no way is shorter than all others; where no friction acts none is asked for */
-        const bool half = surface_angle(seat.surface, carried, x) > 2 * QUARTER - HALF_ROUND;
-        if (!half || r->friction_bound[c] > 0) surface_slip(&at, carried, x, seat.slip);
+        if (r->friction_bound[c] > 0 || has_way(seat.surface, carried, x))
+            surface_slip(&at, carried, x, seat.slip);
     } else {
         Triple displacement = {x[0] - carried[0], x[1] - carried[1], x[2] - carried[2]};
         Real rise = dot(displacement, seat.plane);
@@ -389,6 +398,7 @@ static bool is_nearest(const Surface *on, const Real *a, const Real *b, Real t, 
  * it may lie by `depth`, and which turns about its axis. */
 static Seat element_seat(const Where *where, const Record *r, const Surface *on, Real turn,
                          size_t i, Real t, const Real *x, const Real *reference, Real depth) {
+    const bool acts = r->friction_bound[r->contacts * r->nodes + i] > 0;
     Seat seat = {.surface = on};
     Triple carried, u, along;
     for (int k = 0; k < 3; k++) u[k] = x[k] - reference[k];
@@ -398,7 +408,8 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     // the point goes round at its own depth: what friction works on is shorter than the path of its
     // foot
     const Surface within = surface_within(on, depth);
-    surface_slip(&within, carried, x, seat.slip);
+    if (where->frozen || acts || has_way(on, carried, x))
+        surface_slip(&within, carried, x, seat.slip);
     if (where->frozen) { // straight, in the plane of the reference
         for (int k = 0; k < 3; k++) seat.slip[k] = x[k] - carried[k];
         const Real rise = dot(seat.slip, seat.plane);

@@ -52,7 +52,7 @@ history:
   - {name: aside, steps: 8, east.B: {move: [0, 20, 0]}, north.B: {move: [0, -20, 0]}, west.B: {move: [0, 20, 0]}}
   - {name: home, steps: 8, east.B: {move: [-12, -20, 0]}, north.B: {move: [-12, 20, 0]}, west.B: {move: [-12, -20, 0]}}
 """
-# points and a body in time: added mass, damping, drag of a line in waves, oscillating loads, a line without inertia, a clump that lands and slides
+# points and a body in time, then at rest: added mass, damping, a member and a line in waves, oscillating loads, a line without inertia, a clump that lands and slides
 IN_TIME = """capstan: 1
 gravity: [0, 0, -9.81]
 water_density: 1025
@@ -61,7 +61,7 @@ waves: {depth: 22, ramp: 1, components: [{amplitude: 0.4, period: 3, direction: 
 obstacles:
   bed: {plane: {point: [0, 0, -20]}, friction: 0.3}
 bodies:
-  float: {free: [0, 0, 0], rotation: {roll_pitch_yaw: [5, 12, 20]}, mass: 400, moments_of_inertia: [90, 120, 150], products_of_inertia: [4, -3, 5], centre_of_gravity: [0.2, 0.1, -0.8], buoyancy: 6000, centre_of_buoyancy: [0, 0, 0.3], hydrostatics: [[10, 0, 0, 0, 5, 0], [0, 12, 0, 0, 0, 0], [0, 0, 3000, 0, 0, 0], [0, 0, 0, 900, 0, 0], [5, 0, 0, 0, 910, 0], [0, 0, 0, 0, 0, 40]], added_mass: [[200, 0, 0, 0, -40, 0], [0, 220, 0, 30, 0, 0], [0, 0, 300, 0, 0, 0], [0, 30, 0, 50, 0, 0], [-40, 0, 0, 0, 60, 0], [0, 0, 0, 0, 0, 20]], damping: {x: 20, z: 90, rx: 30, rz: 15}, quadratic_damping: {x: 40, z: 25, ry: 12}, velocity: [0.4, -0.2, 0.3], turn_rate: [0.5, 0.2, -0.3], force: [50, 10, 0], arm: [0, 0, 1]}
+  float: {free: [0, 0, 0], rotation: {roll_pitch_yaw: [5, 12, 20]}, mass: 400, moments_of_inertia: [90, 120, 150], products_of_inertia: [4, -3, 5], centre_of_gravity: [0.2, 0.1, -0.8], buoyancy: 6000, centre_of_buoyancy: [0, 0, 0.3], hydrostatics: [[10, 0, 0, 0, 5, 0], [0, 12, 0, 0, 0, 0], [0, 0, 3000, 0, 0, 0], [0, 0, 0, 900, 0, 0], [5, 0, 0, 0, 910, 0], [0, 0, 0, 0, 0, 40]], added_mass: [[200, 0, 0, 0, -40, 0], [0, 220, 0, 30, 0, 0], [0, 0, 300, 0, 0, 0], [0, 30, 0, 50, 0, 0], [-40, 0, 0, 0, 60, 0], [0, 0, 0, 0, 0, 20]], damping: {x: 20, z: 90, rx: 30, rz: 15}, quadratic_damping: {x: 40, z: 25, ry: 12}, velocity: [0.4, -0.2, 0.3], turn_rate: [0.5, 0.2, -0.3], force: [50, 10, 0], arm: [0, 0, 1], members: [{from: [0, 0, -1], to: [0.4, 0, 3], diameter: 0.6, normal: 1.1, tangential: 0.1, added_normal: 0.9}]}
 points:
   left: {body: float, at: [-1, 0.2, -1]}
   right: {body: float, at: [1, 0, -1]}
@@ -74,6 +74,7 @@ lines:
 history:
   - {name: swing, duration: 1, steps: 40, float.body: {force: [90, 10, 0], arm: [0, 0, 1]}, knot.point: {force: [0, 40, 0]}}
   - {name: go on, duration: 1, time_step: 0.04, error: 1e-4, float.body: {force: [0, 0, 0], oscillations: [{sine: [0, 30, 0], moment_cosine: [8, 0, 0], period: 1.3}]}, knot.point: {force: [0, 40, 0], sine: [5, 0, 0], period: 0.7}}
+  - {name: rest, steps: 2}
 """
 WHOLE = {}  # scene: (directory of the run without a kill, seconds it took, largest size of its journal)
 

@@ -278,7 +278,8 @@ def random_scene(rng):
             name, "true" if in_time and not own else "false", [far[0] + 27*c, far[1] + 27*s, far[2] - 18], name)
     text += "history:\n"
     load = "hull.body: {force: %r, moment: %r}" % (vector(rng, 6000), vector(rng, 9000))
-    text += "  - {name: sea, duration: 2, steps: 40, %s}\n" % load if in_time else "  - {name: rest, steps: 2, %s}\n" % load
+    steps = "steps: 40" if rng.random() < 0.7 else "time_step: 0.1, error: %r" % 10**rng.uniform(-4.5, -2.5)
+    text += "  - {name: sea, duration: 2, %s, %s}\n" % (steps, load) if in_time else "  - {name: rest, steps: 2, %s}\n" % load
     return text, own, math.hypot(*far)
 
 

@@ -10,8 +10,11 @@
  *
  * A given moment keeps its direction, and may be larger than what lines can hold: then the body
  * turns round and round, and there is no pose to be found. That is asked of an open step: at every
- * heading that is held, one in HEADINGS of a turn apart, the body finds a pose, and what holds the
- * heading has to resist the same way. */
+ * heading that is held, one in HEADINGS of a turn apart, the body finds a pose by statics, and what
+ * holds the heading has to resist the same way; or the step itself is taken to held poses at these
+ * headings, and at more where the least is missing, until all but the moment about the vertical
+ * balances, and that has to turn the body the same way. Of certified steps of every ASKED-th scene
+ * it is asked as well, and must not be so. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,11 +25,19 @@
 #include "scenes_given.h"
 #include "turns.h"
 
-enum { MOST_LINES = 6, STAGES = 2, HEADINGS = 72 };
+enum { MOST_LINES = 6, STAGES = 2, HEADINGS = 72, PARTS = 20, ASKED = 10 };
 
 /* What is left of forces, and of moments over the arm, per largest force: bodies balance to 1e-6. A
  * tension is told by the places to three times CPS_TOUCH times EA. */
 static const double LEFT = 2e-6;
+/* What turns the body is more than so many times what may be left; all else is balanced to this
+ * share of it. Closer than that it is not everywhere: forces jump by 1e-3 of the largest where the
+ * lines begin to take a step in two parts. */
+static const double CLEARLY = 10, LITTLE = 0.01;
+/* After a whole turn it is what it was to this share, or poses of another kind have been gone
+ * through.
+ */
+static const double CLOSED = 0.05;
 /* Share of the steps that may be open. */
 static const double OPEN_SHARE = 0.005;
 
@@ -152,10 +163,11 @@ static void turned_by(const double q[4], const double from[4], double out[3]) {
 static void turn_on(const double q[4], const double by[3], double out[4]) {
     const double angle = norm(by), s = angle > 0 ? sin(angle / 2) / angle : 0.5, w = cos(angle / 2),
                  x = s * by[0], y = s * by[1], z = s * by[2];
-    out[0] = w * q[0] - x * q[1] - y * q[2] - z * q[3];
-    out[1] = w * q[1] + x * q[0] + y * q[3] - z * q[2];
-    out[2] = w * q[2] - x * q[3] + y * q[0] + z * q[1];
-    out[3] = w * q[3] + x * q[2] - y * q[1] + z * q[0];
+    const double to[4] = {w * q[0] - x * q[1] - y * q[2] - z * q[3],
+                          w * q[1] + x * q[0] + y * q[3] - z * q[2],
+                          w * q[2] - x * q[3] + y * q[0] + z * q[1],
+                          w * q[3] + x * q[2] - y * q[1] + z * q[0]};
+    memcpy(out, to, sizeof to);
 }
 
 /* [J] The energy of the hydrostatics. */
@@ -178,13 +190,14 @@ static void add(double sum[6], const double force[3], const double arm[3]) {
     }
 }
 
-/* What is left of the forces on the body, per largest force; `known`: to what they are known. */
-static double left_of(const Mooring *m, const CpsEvolution *evolution, const double load[6],
-                      double *known) {
+/* The forces and moments on the body; returns the largest force. `known`: to what share of that
+ * they are known. */
+static double net_on(const Mooring *m, const CpsEvolution *evolution, const double load[6],
+                     double sum[6], double *known) {
     const CpsBodyReport at = cps_evolution_body_report(evolution, 0);
-    double r[3][3], sum[6], arm[3], largest = norm(load);
+    double r[3][3], arm[3], largest = norm(load);
     matrix_of(at.rotation, r);
-    memcpy(sum, load, sizeof sum);
+    memcpy(sum, load, 6 * sizeof *sum);
     *known = 0;
     for (int i = 0; i < m->scene.line_count; i++) {
         const CpsLineView view = cps_evolution_line_view(evolution, i);
@@ -224,6 +237,14 @@ static double left_of(const Mooring *m, const CpsEvolution *evolution, const dou
         sum[i] -= (by[1] - by[0]) / (2 * size);
     }
     *known /= largest;
+    return largest;
+}
+
+/* What is left of them, per largest force. */
+static double left_of(const Mooring *m, const CpsEvolution *evolution, const double load[6],
+                      double *known) {
+    double sum[6];
+    const double largest = net_on(m, evolution, load, sum, known);
     return fmax(norm(sum), norm(&sum[3]) / m->arm) / largest;
 }
 
@@ -288,8 +309,198 @@ static bool is_minimum(const Mooring *m, const CpsBodyReport *at, const double l
     return true;
 }
 
-/* Does the load turn the body at every heading, always the same way? */
-static bool is_spun(const Mooring *m, const double load[6]) {
+/* The given load after `step` of the scene, of which the first is the statics. */
+static void load_after(const Mooring *m, int step, double load[6]) {
+    double from[6] = {0};
+    int at = 1;
+    memset(load, 0, 6 * sizeof *load);
+    for (int k = 0; k < STAGES; k++) {
+        const int parts = m->stage[k].step_count;
+        const double *force = m->change[k].force, *moment = m->change[k].moment;
+        for (int part = 1; part <= parts; part++, at++) {
+            if (at != step) continue;
+            for (int a = 0; a < 6; a++)
+                load[a] =
+                    from[a] + (double)part / parts * ((a < 3 ? force[a] : moment[a - 3]) - from[a]);
+        }
+        memcpy(from, force, 3 * sizeof *from);
+        memcpy(&from[3], moment, 3 * sizeof *from);
+    }
+}
+
+/* A step that is asked about: where it begins, and the load under which it ends. */
+typedef struct Asked {
+    const Mooring *m;
+    CpsEvolution *evolution;
+    void *before;
+    size_t size;
+    double load[6];
+} Asked;
+
+typedef struct Pose {
+    double position[3], rotation[4];
+    double turns;         /* [N] the moment about the vertical, per arm */
+    double stiffness[36]; /* the last one that was found, of lines not slack in part */
+} Pose;
+
+/* Solve a x = b of the columns 0 to 4 and 5 of a, with pivots. */
+static bool solve(double a[5][6]) {
+    for (int p = 0; p < 5; p++) {
+        int best = p;
+        for (int i = p + 1; i < 5; i++)
+            if (fabs(a[i][p]) > fabs(a[best][p])) best = i;
+        if (!(fabs(a[best][p]) > 0)) return false;
+        for (int k = 0; k < 6; k++) {
+            const double swap = a[p][k];
+            a[p][k] = a[best][k];
+            a[best][k] = swap;
+        }
+        for (int i = 0; i < 5; i++) {
+            const double by = i == p ? 0 : a[i][p] / a[p][p];
+            for (int k = p; k < 6; k++) a[i][k] -= by * a[p][k];
+        }
+    }
+    for (int i = 0; i < 5; i++) a[i][5] /= a[i][i];
+    return true;
+}
+
+/* Take the step to the held pose; what then acts on the body, and its largest force. */
+static double net_at(const Asked *asked, const Pose *pose, double sum[6], double *known) {
+    CpsError err;
+    CpsBodyChange to = {.kind = CPS_BODY_KIND_HELD};
+    CpsStage move = cps_stage_default();
+    memcpy(to.position, pose->position, sizeof to.position);
+    memcpy(to.rotation, pose->rotation, sizeof to.rotation);
+    move.body_change_count = 1;
+    move.body_change = &to;
+    if (cps_evolution_load(asked->evolution, asked->before, asked->size, &err) != CPS_OK) exit(1);
+    if (cps_evolution_move(asked->evolution, &move, &err) != CPS_OK) exit(1);
+    const bool sound = cps_outcome_is_certified(cps_evolution_report(asked->evolution).outcome);
+    const double largest = net_on(asked->m, asked->evolution, asked->load, sum, known);
+    return sound ? largest : NAN;
+}
+
+/* [rad] Where the first axis of the body points, seen from above. */
+static double heading_of(const double rotation[4]) {
+    double r[3][3];
+    matrix_of(rotation, r);
+    return atan2(r[1][0], r[0][0]);
+}
+
+/* Turn about the vertical to this heading. */
+static void head(double rotation[4], double heading) {
+    const double turn[3] = {0, 0, heading - heading_of(rotation)};
+    turn_on(rotation, turn, rotation);
+}
+
+/* Find the pose with this heading in which all but the moment about the vertical balances, by
+ * Newton's method from the pose given. False: there is none, or that moment is none. */
+static bool find_pose(const Asked *asked, Pose *pose) {
+    enum { MOST = 100 };
+    const Mooring *m = asked->m;
+    const double heading = heading_of(pose->rotation);
+    for (int i = 0; i < MOST; i++) {
+        double sum[6], a[5][6], known, left = 0, far = 0;
+        CpsError err;
+        CpsBodyStiffness k;
+        const double largest = net_at(asked, pose, sum, &known);
+        for (int j = 0; j < 5; j++) left = fmax(left, fabs(sum[j]) / (j < 3 ? 1 : m->arm));
+        pose->turns = sum[5] / m->arm;
+        if (left <= LITTLE * fabs(pose->turns))
+            return fabs(pose->turns) > CLEARLY * (LEFT + known) * largest;
+        if (cps_evolution_body_stiffness(asked->evolution, 0, CPS_STIFFNESS_STEP, &k, &err) !=
+            CPS_OK)
+            exit(1);
+        if (k.outcome == CPS_STIFFNESS_OUTCOME_FOUND)
+            memcpy(pose->stiffness, k.matrix, sizeof pose->stiffness);
+        for (int j = 0; j < 5; j++) {
+            memcpy(a[j], &pose->stiffness[6 * j], 5 * sizeof **a);
+            a[j][5] = sum[j];
+        }
+        if (!solve(a)) return false;
+        for (int j = 0; j < 5; j++) far = fmax(far, fabs(a[j][5]) * (j < 3 ? 1 : m->arm));
+        const double share = fmin(1, 0.03 * m->size / far);
+        const double turn[3] = {share * a[3][5], share * a[4][5], 0};
+        for (int j = 0; j < 3; j++) pose->position[j] += share * a[j][5];
+        turn_on(pose->rotation, turn, pose->rotation);
+        head(pose->rotation, heading);
+    }
+    return false;
+}
+
+/* Does the load turn the body the same way at `count` headings beyond that of the pose, so far
+ * [rad] apart? The pose goes along; remembers the one before that where the load does so least. */
+static bool turns_on(const Asked *asked, Pose *pose, int count, double apart, Pose *least) {
+    const double first = pose->turns;
+    double most = INFINITY;
+    for (int k = 0; k < count; k++) {
+        const Pose before = *pose;
+        head(pose->rotation, heading_of(pose->rotation) + apart);
+        if (!find_pose(asked, pose) || first * pose->turns < 0) return false;
+        if (fabs(pose->turns) >= most) continue;
+        most = fabs(pose->turns);
+        *least = before;
+    }
+    return true;
+}
+
+/* Take the steps before this one, each in a stage of its own: no step of a program may be taken
+ * within a stage. */
+static void go_before(const Mooring *m, int step, Asked *asked) {
+    enum { MOST = 3 * STAGES };
+    static Mooring split;
+    CpsBodyChange change[MOST];
+    CpsStage stage[MOST];
+    CpsError err;
+    split = *m;
+    split.scene.stage = stage;
+    split.scene.stage_count = step > 0 ? step - 1 : 0;
+    for (int k = 0; k < split.scene.stage_count; k++) {
+        double load[6];
+        load_after(m, k + 1, load);
+        stage[k] = m->stage[0];
+        stage[k].step_count = 1;
+        stage[k].body_change = &change[k];
+        change[k] = m->change[0];
+        memcpy(change[k].force, load, sizeof change[k].force);
+        memcpy(change[k].moment, &load[3], sizeof change[k].moment);
+    }
+    asked->m = m;
+    load_after(m, step, asked->load);
+    if (cps_evolution_create(&split.scene, &asked->evolution, &err) != CPS_OK) exit(1);
+    while (cps_evolution_remaining_count(asked->evolution) > 0)
+        if (cps_evolution_step(asked->evolution, &err) != CPS_OK) exit(1);
+    asked->size = cps_evolution_state_size(asked->evolution);
+    asked->before = malloc(asked->size);
+    if (!asked->before) exit(1);
+    cps_evolution_save(asked->evolution, asked->before);
+}
+
+/* Does the load of a step turn the body at every heading, always the same way, with the friction of
+ * the lines from where the step begins? */
+static bool is_spun_by_step(const Mooring *m, int step) {
+    Asked asked;
+    const double apart = 6.283185307179586 / HEADINGS;
+    if (step == 0) return false;
+    go_before(m, step, &asked);
+    Pose pose = {{0}, {0}, 0, {0}}, least, unused;
+    const CpsBodyReport at = cps_evolution_body_report(asked.evolution, 0);
+    memcpy(pose.position, at.position, sizeof pose.position);
+    memcpy(pose.rotation, at.rotation, sizeof pose.rotation);
+    memcpy(pose.stiffness, at.stiffness, sizeof pose.stiffness);
+    bool spun = find_pose(&asked, &pose);
+    const double first = pose.turns;
+    spun = spun && turns_on(&asked, &pose, HEADINGS, apart, &least) &&
+           fabs(pose.turns - first) <= CLOSED * fabs(first) &&
+           turns_on(&asked, &least, 2 * PARTS, apart / PARTS, &unused);
+    free(asked.before);
+    cps_evolution_destroy(asked.evolution);
+    return spun;
+}
+
+/* Does the load turn the body at every heading, always the same way, where nothing rubs and the
+ * step places all by statics? */
+static bool is_spun_by_statics(const Mooring *m, const double load[6]) {
     static Mooring turned;
     int sign = 0;
     for (int k = 0; k < HEADINGS; k++) {
@@ -319,6 +530,10 @@ static bool is_spun(const Mooring *m, const double load[6]) {
     return true;
 }
 
+static bool is_spun(const Mooring *m, int step, const double load[6]) {
+    return is_spun_by_statics(m, load) || is_spun_by_step(m, step);
+}
+
 static void run(uint64_t seed, Tally *tally) {
     static Mooring m;
     make(&m, seed);
@@ -330,35 +545,27 @@ static void run(uint64_t seed, Tally *tally) {
     }
     tally->scenes++;
     bool sound = true;
-    int stage = 0, part = 0;
     for (int step = 0; sound && cps_evolution_remaining_count(evolution) > 0; step++) {
         if (cps_evolution_step(evolution, &err) != CPS_OK) exit(1);
-        double load[6] = {0}, known;
-        if (step > 0) {
-            const double share = (double)(part + 1) / m.stage[stage].step_count;
-            for (int a = 0; a < 6; a++) {
-                const double *to =
-                                 a < 3 ? &m.change[stage].force[a] : &m.change[stage].moment[a - 3],
-                             *from = a < 3 ? &m.change[0].force[a] : &m.change[0].moment[a - 3];
-                load[a] = stage == 0 ? share * *to : *from + share * (*to - *from);
-            }
-            if (++part == m.stage[stage].step_count) {
-                part = 0;
-                stage++;
-            }
-        }
+        double load[6], known;
+        load_after(&m, step, load);
         const CpsBodyReport at = cps_evolution_body_report(evolution, 0);
         tally->steps++;
         tally->trials += at.trial_count;
         if (at.trial_count > tally->most_trials) tally->most_trials = at.trial_count;
         sound = cps_outcome_is_certified(cps_evolution_report(evolution).outcome);
         if (!sound) {
-            const bool spun = is_spun(&m, load);
+            const bool spun = is_spun(&m, step, load);
             tally->spun += spun;
             tally->open += !spun;
             printf("seed %llu step %d: %s after %d trials\n", (unsigned long long)seed, step,
                    spun ? "turned round and round" : "open", at.trial_count);
             continue;
+        }
+        if (seed % ASKED == 0 && step > 0 && is_spun(&m, step, load)) {
+            printf("seed %llu step %d: certified, and turned round and round\n",
+                   (unsigned long long)seed, step);
+            tally->wrong++;
         }
         const double left = left_of(&m, evolution, load, &known);
         double vector[3];
