@@ -163,8 +163,33 @@ static CpsEnd between(const CpsEnd *from, const CpsEnd *to, double share) {
     return at;
 }
 
-static CpsEnd end_at(const CpsiMove *move, int end, double share) {
-    return between(&move->from[end], &move->to[end], share);
+/* Does an end that is held touch obstacle k before the move and after it, while that is shifted? */
+static bool rides(const CpsiLine *line, const CpsiMove *move, int k, int end) {
+    const double near = CPSI_TOUCH * line->length;
+    const CpsiShift *shift = &move->shift[k], back = cpsi_shift_part(shift, 1, 0);
+    CpsiObstacle obstacle = move->obstacle[k];
+    if (cpsi_shift_is_none(shift) || move->from[end].kind != CPS_END_KIND_HELD ||
+        !(fabs(cpsi_obstacle_gap(&obstacle, vec3_load(move->to[end].value))) <= near))
+        return false;
+    cpsi_obstacle_shift(&obstacle, &back);
+    return fabs(cpsi_obstacle_gap(&obstacle, vec3_load(move->from[end].value))) <= near;
+}
+
+/* An end goes straight, on an obstacle that is shifted as seen from that: where a table turns the
+ * straight way in space of what rests on it leads through it. */
+static CpsEnd end_at(const CpsiLine *line, const CpsiMove *move, int end, double share) {
+    CpsEnd to = move->to[end];
+    if (move->shift && share > 0 && share < 1)
+        for (int k = 0; k < line->obstacle_count; k++) {
+            if (!rides(line, move, k, end)) continue;
+            const CpsiShift back = cpsi_shift_part(&move->shift[k], 1, 0),
+                            part = cpsi_shift_part(&move->shift[k], 0, share);
+            vec3_store(to.value, cpsi_shift_carry(&back, vec3_load(to.value)));
+            to = between(&move->from[end], &to, share);
+            vec3_store(to.value, cpsi_shift_carry(&part, vec3_load(to.value)));
+            return to;
+        }
+    return between(&move->from[end], &to, share);
 }
 
 static CpsEnd grasp_at(const CpsiMove *move, int k, double share) {
@@ -205,8 +230,8 @@ void cpsi_substeps_impose(CpsiLine *line, const CpsiMove *move, CpsiSubsteps *sc
     weight_at(move, from, line->weight_before);
     weight_at(move, to, line->weight);
     for (int end = 0; end < 2; end++) {
-        line->end_before[end] = end_at(move, end, from);
-        line->end[end] = end_at(move, end, to);
+        line->end_before[end] = end_at(line, move, end, from);
+        line->end[end] = end_at(line, move, end, to);
         line->drums.due[end] = stored_at(move, end, to);
     }
     for (int k = 0; k < move->grasp_count; k++) {
@@ -231,7 +256,7 @@ static Part accept(Advance *substeps, double from, double to, bool known) {
     CpsiLine *line = substeps->line;
     const CpsiMove *move = substeps->move;
     CpsEnd before[2];
-    for (int end = 0; end < 2; end++) before[end] = end_at(move, end, from);
+    for (int end = 0; end < 2; end++) before[end] = end_at(line, move, end, from);
     impose(substeps, from, to);
     const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
     cpsi_winch_wind(line);
@@ -512,7 +537,8 @@ static bool relax(Advance *substeps, double from, double to) {
     CpsEnd before[2];
     if (!may_relax(substeps)) return false;
     substeps->relaxed++;
-    for (int end = 0; end < 2; end++) before[end] = end_at(substeps->move, end, from);
+    for (int end = 0; end < 2; end++)
+        before[end] = end_at(substeps->line, substeps->move, end, from);
     impose(substeps, from, to);
     line->last_change.known = false;
     const bool rests = cpsi_line_relax(line, substeps->program, substeps->options, before,
