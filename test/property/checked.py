@@ -47,6 +47,39 @@ def check(checker, out, scene):
     return counts_of(told_of(checker, out, scene))
 
 
+def solve_named(given, text, folder, name, checked=(0, 1, 5)):
+    """Run a scene and check it, after these exit codes: the exit code, the counts of the checker, and its words or the program's."""
+    scene, out = os.path.join(folder, name + ".yaml"), os.path.join(folder, name)
+    with open(scene, "w", encoding="ascii") as file:
+        file.write(text)
+    done = run(given.capstan, "run", "-q", scene, "-o", out, "--force")
+    if done.returncode not in checked:
+        return done.returncode, [0] * 5, done.stderr.strip()
+    return done.returncode, *check(given.checker, out, scene)
+
+
+class Tally:
+    """Steps of the scenes of a class, and scenes that are refused with a proof or are not run."""
+
+    def __init__(self, kind):
+        self.kind = kind
+        self.steps = self.certified = self.refuted = self.proven = self.wrong = 0
+
+    def add(self, seed, code, found, words):
+        self.steps, self.certified, self.refuted = self.steps + found[0], self.certified + found[1], self.refuted + found[3] + found[4]
+        self.proven += code == 5
+        self.wrong += code not in (0, 1, 5)
+        if code not in (0, 5) or found[3]:
+            print(f"{self.kind} {seed}: exit {code}, {found} {words}")
+
+    def told(self, given, more=""):
+        print(f"{self.kind}: {given.count} scenes from seed {given.seed}, {self.steps} steps, {self.certified} certified, {self.refuted} refuted, "
+              f"{self.proven} refused with a proof, {self.wrong} not run{more}", flush=True)
+
+    def is_good(self, share):
+        return self.steps > 0 and self.certified >= share * self.steps and self.refuted == 0 and self.wrong == 0
+
+
 def events_of(told):
     """What the checker counts in steps in time."""
     counts = re.search(r"in time: \d+ steps, landed (\d+), changed (\d+), snatched (\d+)", told.stdout)

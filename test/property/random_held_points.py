@@ -144,17 +144,6 @@ class Net:
         return out
 
 
-def solve(given, text, folder, name):
-    """The command's exit code, the counts of the checker, and its words."""
-    scene, out = os.path.join(folder, name + ".yaml"), os.path.join(folder, name)
-    with open(scene, "w", encoding="ascii") as file:
-        file.write(text)
-    done = checked.run(given.capstan, "run", "-q", scene, "-o", out, "--force")
-    if done.returncode not in (0, 1, 5):
-        return done.returncode, [0] * 5, done.stderr.strip()
-    return done.returncode, *checked.check(given.checker, out, scene)
-
-
 def difference(net, folder):
     """The largest difference of places and tensions from the line that ends in the set itself, in all steps."""
     ours, theirs = (Results(os.path.join(folder, name, "result.nc")) for name in ("scene", "alone"))
@@ -174,19 +163,14 @@ def difference(net, folder):
 
 
 def one_class(given, kind):
-    steps = certified = refuted = proven = wrong = compared = 0
-    worst = 0.0
+    tally, compared, worst = checked.Tally(kind), 0, 0.0
     for seed in range(given.seed, given.seed + given.count):
         folder = checked.folder_of(given, kind, seed)
         net = Net(random.Random(f"{kind} {seed}"), kind)
-        code, found, words = solve(given, net.text(), folder, "scene")
-        steps, certified, refuted = steps + found[0], certified + found[1], refuted + found[3] + found[4]
-        proven += code == 5
-        wrong += code not in (0, 1, 5)
-        if code not in (0, 5) or found[3]:
-            print(f"{kind} {seed}: exit {code}, {found} {words}")
+        code, found, words = checked.solve_named(given, net.text(), folder, "scene")
+        tally.add(seed, code, found, words)
         if kind == "end" and code == 0:
-            other, alone, words = solve(given, net.text(False), folder, "alone")
+            other, alone, words = checked.solve_named(given, net.text(False), folder, "alone")
             if other == 1:
                 continue  # the line alone has no certified answer: nothing to compare with
             apart = difference(net, folder) if other == 0 else math.inf
@@ -194,10 +178,9 @@ def one_class(given, kind):
             worst = max(worst, apart)
             if not apart <= EQUAL:
                 print(f"{kind} {seed}: {apart:.1e} from the line that ends in the set, {alone} {words}")
-    print(f"{kind}: {given.count} scenes from seed {given.seed}, {steps} steps, {certified} certified, {refuted} refuted, {proven} refused with a proof, "
-          f"{wrong} not run" + (f", {compared} compared, at most {worst:.1e} from the line that ends in the set" if kind == "end" else ""), flush=True)
+    tally.told(given, f", {compared} compared, at most {worst:.1e} from the line that ends in the set" if kind == "end" else "")
     enough = kind != "end" or compared >= 0.9 * given.count
-    return steps > 0 and certified >= CERTIFIED * steps and refuted == 0 and wrong == 0 and worst <= EQUAL and enough
+    return tally.is_good(CERTIFIED) and worst <= EQUAL and enough
 
 
 if __name__ == "__main__":

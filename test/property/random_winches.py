@@ -117,17 +117,6 @@ class Mooring:
         return out
 
 
-def solve(given, text, folder, name):
-    """The command's exit code, the counts of the checker, and its words."""
-    scene, out = os.path.join(folder, name + ".yaml"), os.path.join(folder, name)
-    with open(scene, "w", encoding="ascii") as file:
-        file.write(text)
-    done = checked.run(given.capstan, "run", "-q", scene, "-o", out, "--force")
-    if done.returncode not in (0, 1):
-        return done.returncode, [0] * 5, done.stderr.strip()
-    return done.returncode, *checked.check(given.checker, out, scene)
-
-
 def difference(mooring, folder):
     """The largest difference from the mooring without winches, relative to its size and largest force."""
     ours, theirs = Results(os.path.join(folder, "scene", "result.nc")), Results(os.path.join(folder, "without", "result.nc"))
@@ -144,26 +133,20 @@ def difference(mooring, folder):
 
 
 def one_class(given, kind):
-    steps = certified = refuted = proven = wrong = 0
-    worst = 0.0
+    tally, worst = checked.Tally(kind), 0.0
     for seed in range(given.seed, given.seed + given.count):
         folder = checked.folder_of(given, kind, seed)
         mooring = Mooring(random.Random(f"{kind} {seed}"), kind)
-        code, found, words = solve(given, mooring.text(), folder, "scene")
-        steps, certified, refuted = steps + found[0], certified + found[1], refuted + found[3] + found[4]
-        proven += code == 5
-        wrong += code not in (0, 1, 5)
-        if code not in (0, 5) or found[3]:
-            print(f"{kind} {seed}: exit {code}, {found} {words}")
+        code, found, words = checked.solve_named(given, mooring.text(), folder, "scene", (0, 1))
+        tally.add(seed, code, found, words)
         if kind == "whole" and code == 0:
-            other, alone, words = solve(given, mooring.text(False), folder, "without")
+            other, alone, words = checked.solve_named(given, mooring.text(False), folder, "without", (0, 1))
             apart = difference(mooring, folder) if other == 0 else math.inf
             worst = max(worst, apart)
             if not apart <= EQUAL:
                 print(f"{kind} {seed}: {apart:.1e} from the mooring without winches, {alone} {words}")
-    print(f"{kind}: {given.count} scenes from seed {given.seed}, {steps} steps, {certified} certified, {refuted} refuted, {proven} refused with a proof, "
-          f"{wrong} not run" + (f", at most {worst:.1e} from those without winches" if kind == "whole" else ""), flush=True)
-    return steps > 0 and certified >= CERTIFIED * steps and refuted == 0 and wrong == 0 and worst <= EQUAL
+    tally.told(given, f", at most {worst:.1e} from those without winches" if kind == "whole" else "")
+    return tally.is_good(CERTIFIED) and worst <= EQUAL
 
 
 if __name__ == "__main__":
