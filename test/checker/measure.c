@@ -126,8 +126,9 @@ static void measure_segment(const Record *r, size_t i, Measures *m, Sums *s) {
     widen(r->position[i], here);
     widen(r->position[i + 1], there);
     Real at_tension = c > 0 && T > 0 ? elongation_strain(r, i, T) : rest + c * T;
-    raise_to(&m->strain_error,
-             stretch - 1 - at_tension - 2 * 0x1p-53L * (size(here) + size(there)) / l);
+    const Real rounding = 2 * 0x1p-53L * (size(here) + size(there)) / l;
+    raise_to(&m->strain_rounding, rounding);
+    raise_to(&m->strain_error, stretch - 1 - at_tension - rounding);
     if (stretch > 0) raise_to(&m->push, -dot(p, e) / stretch);
     if (c > 0) raise_to(&m->elongation, (stretch - 1 - own) / limit); /* of its length at rest */
     raise_to(&m->tension_estimate, fabsl(T - force));

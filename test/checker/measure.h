@@ -9,12 +9,13 @@
 #include "record.h"
 
 typedef struct Measures {
-    const char *missing; /* the first variable with a value that cannot be (NaN, infinite,
-                            negative), or NULL */
-    double length;       /* [m] sum of the element lengths */
-    double extent;       /* [m] largest coordinate */
-    double primal, dual; /* [J] */
-    double gap;          /* [J] sum of |local gap| over segments, friction and contact */
+    const char *missing;    /* the first variable with a value that cannot be (NaN, infinite,
+                               negative), or NULL */
+    double length;          /* [m] sum of the element lengths */
+    double extent;          /* [m] largest coordinate */
+    double strain_rounding; /* of any element: the last bits of its coordinates over its length */
+    double primal, dual;    /* [J] */
+    double gap;             /* [J] sum of |local gap| over segments, friction and contact */
     double overlong; /* [J] part of the gap from inextensible elements longer than they may be */
     double
         beyond; /* [J] part of the gap from forces beyond a given friction set: phi(s) + F.s < 0 */
