@@ -107,13 +107,15 @@ void cpsi_newton_minimise(const CpsiSmooth *f, double *x, CpsiDampedNewton *newt
     Space s = {work, work + n, work + 2 * (size_t)n, work + 3 * (size_t)n, work + 4 * (size_t)n};
     double damping = 0;
     int patience = PATIENCE;
+    bool beyond = false; /* the last step began below the tolerance */
     newton->iterations = 0;
     newton->evaluations = 1;
     f->gradient(f->user, x, s.gradient);
     for (;;) {
         newton->residual = largest(n, s.gradient);
         newton->converged = newton->residual <= newton->tolerance;
-        if (newton->converged || newton->iterations == newton->max_iterations) return;
+        if (newton->iterations == newton->max_iterations || (newton->converged && beyond)) return;
+        beyond = newton->converged;
         ++newton->iterations;
 
         /* compute a direction and a step along it */

@@ -33,10 +33,9 @@ typedef struct CpsiDampedNewton {
     double residual;             /* largest component of the gradient, never NaN */
 } CpsiDampedNewton;
 
-/* Improve x (unknowns) until it has converged, the iteration limit is reached, or no direction of
- * descent is found.
- *    work   4*unknowns + unknowns*(band + 1) numbers
- * On return x is a point with a finite gradient. It is no worse along each searched line than the
+/* Improve x (unknowns) until it has converged and has taken one step more, the iteration limit is
+ * reached, or no direction of descent is found. work   4*unknowns + unknowns*(band + 1) numbers On
+ * return x is a point with a finite gradient. It is no worse along each searched line than the
  * point where that search began. */
 void cpsi_newton_minimise(const CpsiSmooth *f, double *x, CpsiDampedNewton *newton, double *work);
 
