@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "options.h"
 #include "printable.h"
+#include "progress.h"
 
 static void print_direction(const double *grain) {
     if (grain[0] != 0 || grain[1] != 0 || grain[2] != 0)
@@ -327,13 +328,9 @@ static void print_scene(const CpsScene *scene) {
     int steps = 0;
     for (int i = 0; i < scene->line_count; i++)
         if (scene->line[i].start.kind == CPS_START_STATIC) steps = 1;
-    bool has_pace = false;
-    for (int i = 0; i < scene->stage_count; i++) {
-        steps += scene->stage[i].step_count;
-        has_pace = has_pace || scene->stage[i].error > 0;
-    }
+    for (int i = 0; i < scene->stage_count; i++) steps += scene->stage[i].step_count;
     printf("history: %d entr%s, %s%d load step%s in all\nThe scene is valid.\n", scene->stage_count,
-           scene->stage_count == 1 ? "y" : "ies", has_pace ? "at least " : "", steps,
+           scene->stage_count == 1 ? "y" : "ies", cli_has_pace(scene) ? "at least " : "", steps,
            steps == 1 ? "" : "s");
 }
 

@@ -19,11 +19,14 @@ double cli_now(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+bool cli_has_pace(const CpsScene *scene) {
+    for (int i = 0; i < scene->stage_count; ++i)
+        if (scene->stage[i].error > 0) return true;
+    return false;
+}
+
 bool cli_is_shown(const CpsScene *scene, int steps, int index) {
-    bool has_pace = false;
-    for (int i = 0; i < scene->stage_count; ++i) has_pace = has_pace || scene->stage[i].error > 0;
-    /* how many steps there are is known when the last one has been taken */
-    if (has_pace) return index == 0 || index == steps - 1;
+    if (cli_has_pace(scene)) return index == 0 || index == steps - 1;
     if (steps <= SHORT_TABLE || index == 0 || index == steps - 1) return true;
     if (scene->stage_count > SHORT_TABLE) return index % (steps / SHORT_TABLE + 1) == 0;
     int64_t end = steps - 1;

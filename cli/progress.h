@@ -23,6 +23,10 @@ typedef struct Progress {
 /* Monotonic time [s]. */
 double cli_now(void);
 
+/* Do steps of the scene have the lengths that an error allows? How many there are is known when the
+ * last one has been taken. */
+bool cli_has_pace(const CpsScene *scene);
+
 /* Whether step `index` of `steps` is a row of the table. A long history is shown by its first step
  * and the last step of each stage. */
 bool cli_is_shown(const CpsScene *scene, int steps, int index);

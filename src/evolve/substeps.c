@@ -254,11 +254,8 @@ static bool is_answer(CpsOutcome outcome) {
 /* Take the part of the move from share `from` to share `to`. */
 static Part accept(Advance *substeps, double from, double to, bool known) {
     CpsiLine *line = substeps->line;
-    const CpsiMove *move = substeps->move;
-    CpsEnd before[2];
-    for (int end = 0; end < 2; end++) before[end] = end_at(line, move, end, from);
     impose(substeps, from, to);
-    const CpsiLedgerStart start = cpsi_ledger_start(line, before, known);
+    const CpsiLedgerStart start = cpsi_ledger_start(line, line->end_before, known);
     cpsi_winch_wind(line);
     cpsi_line_step(line, substeps->program, substeps->options);
     if ((is_answer(line->report.outcome) || line->report.outcome == CPS_OUTCOME_PASSES) &&
@@ -534,14 +531,11 @@ static bool relax(Advance *substeps, double from, double to) {
     CpsiLine *line = substeps->line;
     CpsLineReport *whole = &substeps->whole;
     CpsiRelaxation done;
-    CpsEnd before[2];
     if (!may_relax(substeps)) return false;
     substeps->relaxed++;
-    for (int end = 0; end < 2; end++)
-        before[end] = end_at(substeps->line, substeps->move, end, from);
     impose(substeps, from, to);
     line->last_change.known = false;
-    const bool rests = cpsi_line_relax(line, substeps->program, substeps->options, before,
+    const bool rests = cpsi_line_relax(line, substeps->program, substeps->options, line->end_before,
                                        substeps->scratch->turn, substeps->known, &done);
     substeps->iterations += done.iterations;
     if (!rests || creeps_past(substeps)) {

@@ -248,6 +248,16 @@ static double left_of(const Mooring *m, const CpsEvolution *evolution, const dou
     return fmax(norm(sum), norm(&sum[3]) / m->arm) / largest;
 }
 
+/* A copy that may be changed, with its parts in place of those of *m and nothing to do. */
+static void copy_without_history(Mooring *copy, const Mooring *m) {
+    *copy = *m;
+    copy->scene.line = copy->line;
+    copy->scene.point = copy->point;
+    copy->scene.body = &copy->body;
+    copy->scene.obstacle = &copy->bed;
+    copy->scene.stage_count = 0;
+}
+
 /* [J] The potential energy in a pose: the lines where they are with the body held there. */
 static double energy(const Mooring *m, const double position[3], const double rotation[4],
                      const double load[6]) {
@@ -255,12 +265,7 @@ static double energy(const Mooring *m, const double position[3], const double ro
     CpsEvolution *evolution = NULL;
     CpsError err;
     double r[3][3], arm[3], sum = 0;
-    held = *m;
-    held.scene.line = held.line;
-    held.scene.point = held.point;
-    held.scene.body = &held.body;
-    held.scene.obstacle = &held.bed;
-    held.scene.stage_count = 0;
+    copy_without_history(&held, m);
     held.body.kind = CPS_BODY_KIND_HELD;
     memcpy(held.body.position, position, sizeof held.body.position);
     memcpy(held.body.rotation, rotation, sizeof held.body.rotation);
@@ -507,12 +512,7 @@ static bool is_spun_by_statics(const Mooring *m, const double load[6]) {
         const double half = 3.14159265358979 * k / HEADINGS;
         CpsEvolution *evolution = NULL;
         CpsError err;
-        turned = *m;
-        turned.scene.line = turned.line;
-        turned.scene.point = turned.point;
-        turned.scene.body = &turned.body;
-        turned.scene.obstacle = &turned.bed;
-        turned.scene.stage_count = 0;
+        copy_without_history(&turned, m);
         turned.body.fixed[5] = true;
         memcpy(turned.body.force, load, sizeof turned.body.force);
         memcpy(turned.body.moment, &load[3], sizeof turned.body.moment);

@@ -127,10 +127,10 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
     results->in_time = cpsi_has_duration(scene);
     for (int i = 0; i < scene->line_count; ++i) {
         results->has_sets = results->has_sets || cpsi_has_set(&scene->line[i]);
-        results->draws_sets = results->has_sets || cpsi_has_point_set(scene);
         results->winds = results->winds || cpsi_has_winch(&scene->line[i]);
         results->has_loads = results->has_loads || scene->line[i].loads;
     }
+    results->draws_sets = results->has_sets || cpsi_has_point_set(scene);
     results->title = copy_text(scene->title);
     memcpy(results->gravity, scene->gravity, sizeof results->gravity);
     results->has_water_surface = scene->has_water_surface;
