@@ -524,10 +524,11 @@ bool cpsi_is_balanced(const CpsiBalance *balance, double left) {
 }
 
 bool cpsi_obeys_friction(const CpsiBalance *balance, const CpsiFree *at) {
-    const double slip = vec3_norm(at->slip);
-    if ((at->obstacle == CPS_NO_OBSTACLE && !at->drags) || slip <= cpsi_trial_touch(balance, at))
-        return true;
-    return cpsi_is_balanced(balance, at->bound + vec3_dot(at->force, at->slip) / slip);
+    const double slip = vec3_norm(at->slip), touch = cpsi_trial_touch(balance, at);
+    if ((at->obstacle == CPS_NO_OBSTACLE && !at->drags) || slip <= touch) return true;
+    const Vec3 lacks = vec3_axpy(at->bound / slip, at->slip, at->force);
+    return cpsi_is_balanced(balance, at->bound + vec3_dot(at->force, at->slip) / slip) &&
+           cpsi_is_balanced(balance, vec3_norm(lacks) - at->bound * touch / slip);
 }
 
 bool cpsi_is_kept_in_set(const CpsiBalance *balance, const CpsiFree *at) {
