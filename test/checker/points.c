@@ -380,6 +380,7 @@ static void check_motion(Points *p) {
                               .h = h,
                               .h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0,
                               .reach = reach,
+                              .largest = p->largest,
                               .is_free = !is_held(at)};
     point_motion_check(&steps, find_in_time, p);
     for (size_t i = 0; i < 2 * p->source->lines; i++) {
