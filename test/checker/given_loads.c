@@ -157,7 +157,8 @@ static void compare_water(Compare *compare, const CpsLine *line, const Record *r
         return;
     }
     double off = 0, sizes = 0;
-    for (size_t i = 0; given && in_time(r) && i < r->elements; i++) {
+    const size_t elements = given && in_time(r) ? r->elements : 0;
+    for (size_t i = 0; i < elements; i++) {
         Real middle[3], waves[3] = {0, 0, 0}, faster[3] = {0, 0, 0}, rows[3];
         double x[3], v[3] = {0, 0, 0}, rate[3] = {0, 0, 0};
         for (int a = 0; a < 3; a++) {
