@@ -282,6 +282,15 @@ static void print_shortfall(const CpsScene *scene, int index, const CpsLineRepor
     fputc(')', stderr);
 }
 
+/* Is a step in time not certified though its program is solved? Beside points that may be for
+ * their sake. */
+static bool is_too_long(const CpsScene *scene, const CpsEvolution *evolution, int i) {
+    const CpsLineReport line = cps_evolution_line_report(evolution, i);
+    return line.outcome == CPS_OUTCOME_STALLED &&
+           cps_evolution_line_motion(evolution, i).is_moving && scene->point_count == 0 &&
+           line.certificate.gap <= scene->solver.tolerance * line.certificate.scale;
+}
+
 /* print a sentence with the proof for each outcome other than solved */
 static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
@@ -319,6 +328,10 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         else if (line.outcome != CPS_OUTCOME_TAUT)
             fprintf(stderr, " (gap %.2e of the scale, force residual %.2e of the largest force)",
                     c->gap / c->scale, c->force_residual / c->largest_force);
+        if (is_too_long(scene, evolution, i))
+            fputs("; the step is too long: an obstacle, or what slips round it, goes farther in "
+                  "it than is told apart from another way; take more steps, or give an 'error'",
+                  stderr);
         fputc('\n', stderr);
     }
     for (int i = 0; i < cps_evolution_point_count(evolution); ++i) {

@@ -88,7 +88,7 @@ typedef enum CpsNodeState {
     X(CPS_RANGE_UNBOUNDED, 3, "unbounded",                                                     \
       "jammed: forces that hold each other may be added in any amount, the tension with them") \
     X(CPS_RANGE_NOT_GIVEN, 4, "not_given",                                                     \
-      "friction by a set of set.h touches the line: not looked into")                          \
+      "a set of set.h holds an end or is that of friction: not looked into")                   \
     X(CPS_RANGE_FAILED, 5, "failed", "the program of the range did not converge")
 
 typedef enum CpsRange {

@@ -11,7 +11,7 @@
  *                with springs (base/element_law.h) W and W* are sums over them
  *     friction   phi(s) + F.s, for a disc of radius w: (w - |F|) |s| + (|F||s| + F.s); a given
  *                set's phi is its support
- *     contact    R (n.u + gap)
+ *     contact    R |n.u + gap|, which a place below the surface by rounding increases too
  *                where the obstacle gives, with its spring of the stiffness k that begins at the
  *                depth r (soft.h), d = -(n.u + gap + r),   (d^+ - R/k)^2 k/2 + R d^-
  *     end set    sup over y in K of -r.(y - x), r the reaction of a set K that holds an end
@@ -287,11 +287,9 @@ static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
     out->dual += vec3_dot(f, vec3_sub(x, cpsi_line_slip(line, c)));
     raise_to(&out->largest_force, vec3_norm(f));
     if (reaction > 0) {
-        /* the rounds move nodes onto the surface; an element may be on either side of it */
+        /* on either side: an end is put into its set, which may be below the surface by rounding */
         const double distance = vec3_dot(n, vec3_sub(x, reference)) + line->gap[c];
-        if (!(soft.stiffness > 0))
-            out->contact_residual +=
-                reaction * (cpsi_line_element(line, c) >= 0 ? fabs(distance) : fmax(0, distance));
+        if (!(soft.stiffness > 0)) out->contact_residual += reaction * fabs(distance);
         out->dual += reaction * (vec3_dot(n, reference) - line->gap[c] - soft.rest);
         raise_to(&out->largest_force, reaction);
     }

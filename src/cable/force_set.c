@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "cable/contact.h"
+#include "cable/end_set.h"
 #include "cable/friction_law.h"
 #include "chain/frame.h"
 #include "ipm/ipm.h"
@@ -364,7 +365,8 @@ static void add_node(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw
 bool cpsi_force_set_build(CpsiForceSet *set, const CpsiLine *line, const CpsiForceLaw *law) {
     set->force = line->report.certificate.largest_force;
     for (int e = 0; e + 1 < line->n; e++) set->force = fmax(set->force, line->tension_before[e]);
-    set->partial = cpsi_contact_holds_element(line); /* such forces stay as they are */
+    /* such forces stay as they are */
+    set->partial = cpsi_contact_holds_element(line) || cpsi_line_has_sets(line);
     if (!isfinite(set->force)) return false;
     if (!(set->force > 0)) set->force = 1; /* no forces: any unit will do */
     measure_elements(set, line, law);

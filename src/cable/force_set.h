@@ -30,8 +30,8 @@ typedef struct CpsiForceLaw {
 typedef struct CpsiForceSet {
     CpsiScalarProgram program;
     double force; /* [N] unit of the program's forces */
-    bool partial; /* some forces stay as they are: those of general friction sets and of contacts of
-                     elements */
+    bool partial; /* some forces stay as they are: those of general friction sets, of sets that hold
+                     ends and of contacts of elements */
     double *tangent; /* (n, 3) of element e */
     double *tension; /* (n) [N] present p.t of element e */
     double *gain;    /* (n) of element e: its tension changes by gain y of its scalar */

@@ -20,6 +20,8 @@
 
 /* Accuracy that a value must have to be used, relative to data of order one. */
 static const double ACCEPT = 1e-9;
+/* A place beyond the boundary goes inwards by at most this share of the way to the centre. */
+static const double INWARDS = 1e-9;
 /* Limit of the rows of the conic form, and with them of the work of an iteration. */
 enum { MOST_ROWS = 128 };
 
@@ -30,8 +32,8 @@ struct CpsiPlaceForm {
     CpsSet *closed; /* the set, where its support function is a formula; else NULL */
     Vec3 middle;    /* a place of the set, about which the form is written */
     CpsiConicConstraint constraint;
-    double origin[3]; /* [m] of the set's form about that of the scene */
-    double *centre;
+    double origin[3];        /* [m] of the set's form about that of the scene */
+    double *centre, *inside; /* (unknowns) */
     CpsiConicProgram *support, *nearest;
     double *cost;      /* (unknowns) of the support */
     double *a, *b, *c; /* of the nearest place */
@@ -61,6 +63,7 @@ static void layout(CpsiPlaceForm *of) {
     const CpsiConicForm *form = of->form;
     const size_t n = (size_t)form->unknowns, m = (size_t)form->rows;
     CPSI_PLACE(&of->arena, of->centre, n);
+    CPSI_PLACE(&of->arena, of->inside, n);
     CPSI_PLACE(&of->arena, of->cost, n);
     CPSI_PLACE(&of->arena, of->a, (m + 4) * (n + 1));
     CPSI_PLACE(&of->arena, of->b, m + 4);
@@ -198,21 +201,42 @@ static Vec3 place_at(const CpsiPlaceForm *form, const double *v) {
     return x;
 }
 
+/* How far from the boundary of its cone rows i to i + dim are at the unknowns v; < 0 outside. */
+static double margin_of(const CpsiConicSet *set, int i, int dim, const double *v) {
+    double first = 0, across = 0;
+    for (int r = i; r < i + dim; r++) {
+        const double at =
+            set->b[r] + cpsi_dot(set->unknowns, &set->a[(size_t)r * (size_t)set->unknowns], v);
+        if (r == i) first = at;
+        if (r > i) across += at * at;
+    }
+    return first - sqrt(across);
+}
+
 /* Are the unknowns in all cones? */
 static bool is_inside(const CpsiPlaceForm *form, const double *v) {
     const CpsiConicSet *set = &form->set;
     bool inside = true;
-    CPSI_FOR_CONES(k, i, set->cones, set->dim) {
-        double first = 0, across = 0;
-        for (int r = i; r < i + set->dim[k]; r++) {
-            const double at =
-                set->b[r] + cpsi_dot(set->unknowns, &set->a[(size_t)r * (size_t)set->unknowns], v);
-            if (r == i) first = at;
-            if (r > i) across += at * at;
-        }
-        inside = inside && first >= sqrt(across);
-    }
+    CPSI_FOR_CONES(k, i, set->cones, set->dim)
+        inside = inside && margin_of(set, i, set->dim[k], v) >= 0;
     return inside;
+}
+
+/* Place by the unknowns v after going towards the centre until they are in all cones. A margin is a
+ * concave function of the way, so that the share -m/(m' - m) of it is enough, m' the one at the
+ * centre. */
+static Vec3 place_inside(CpsiPlaceForm *form, const double *v) {
+    const CpsiConicSet *set = &form->set;
+    double share = 0;
+    CPSI_FOR_CONES(k, i, set->cones, set->dim) {
+        const double here = margin_of(set, i, set->dim[k], v);
+        if (here >= 0) continue;
+        share = fmax(share, -here / (margin_of(set, i, set->dim[k], form->centre) - here));
+    }
+    if (!(share <= INWARDS)) return place_at(form, v);
+    for (int j = 0; j < set->unknowns; j++)
+        form->inside[j] = v[j] + 2 * share * (form->centre[j] - v[j]);
+    return place_at(form, form->inside);
 }
 
 Vec3 cpsi_place_form_place(CpsiPlaceForm *form, Vec3 x) {
@@ -223,7 +247,7 @@ Vec3 cpsi_place_form_place(CpsiPlaceForm *form, Vec3 x) {
 Vec3 cpsi_place_form_nearest(CpsiPlaceForm *form, Vec3 x) {
     if (form->set.unknowns == 0) return vec3_load(form->set.origin);
     const double *v = find_nearest(form, x);
-    return v ? place_at(form, v) : vec3(NAN, NAN, NAN);
+    return v ? place_inside(form, v) : vec3(NAN, NAN, NAN);
 }
 
 /* sup of v.(y - origin) by the small conic program. */

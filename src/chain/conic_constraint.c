@@ -322,44 +322,45 @@ static void set_right(CpsiConicConstraint *of, double keep) {
     }
 }
 
-/* out = (T'T + e)^-1 (x along the eigenvectors). */
-static void stiffen(const CpsiConicConstraint *of, const double x[3], double out[3]) {
-    memset(out, 0, 3 * sizeof *out);
+/* The force on the node of these parts along the eigenvectors. */
+static void turn_back(const CpsiConicConstraint *of, const double own[3], double force[3]) {
+    for (int a = 0; a < 3; a++) force[a] = 0;
     for (int e = 0; e < 3; e++)
-        for (int a = 0; a < 3; a++) out[a] += of->turn[3 * e + a] * x[e] / of->compliance[e];
+        for (int a = 0; a < 3; a++) force[a] += of->turn[3 * e + a] * own[e];
 }
 
 static void load(CpsiProgram *base, const CpsiIpmAim *aim) {
     CpsiConstraints *all = &cpsi_chain(base)->constraints;
     for (int c = 0; c < all->conic_count; c++) {
         CpsiConicConstraint *of = all->conic[c];
-        double right[3] = {0};
+        double force[3];
         set_aim(of, aim);
         set_right(of, aim->keep);
         for (int e = 0; e < 3; e++) {
+            double right = 0;
             for (int j = 0; j < of->set->unknowns; j++)
-                right[e] += of->reach[3 * j + e] * of->along[j];
+                right += of->reach[3 * j + e] * of->along[j];
             for (int a = 0; a < 3; a++)
-                right[e] -= of->turn[3 * e + a] * aim->keep * off_of(of, a, base->u);
+                right -= of->turn[3 * e + a] * aim->keep * off_of(of, a, base->u);
+            of->fixed[e] = right / of->compliance[e];
         }
-        stiffen(of, right, of->fixed);
-        add_to_node(of, of->fixed, base->du);
+        turn_back(of, of->fixed, force);
+        add_to_node(of, force, base->du);
     }
 }
 
-/* df, then dv and dz, from du. */
+/* df, then dv and dz, from du. Along an eigenvector in which the set gives way T is large, and dv
+ * takes the part of df as it was found there: from df itself, rounding of the parts in which the
+ * set is flat, of the size 1/e, would move the place. */
 static void follow(CpsiConicConstraint *of, const double *du) {
-    double moved[3] = {0}, by[3], own[3] = {0};
+    double moved[3] = {0}, own[3];
     for (int a = 0; a < 3; a++) {
         double along = 0;
         for (int x = 0; x < 3; x++) along += of->frame[a][x] * du[3 * of->node + x];
         for (int e = 0; e < 3; e++) moved[e] += of->turn[3 * e + a] * along;
     }
-    stiffen(of, moved, by);
-    for (int a = 0; a < 3; a++) {
-        of->d_force[a] = of->fixed[a] - by[a];
-        for (int e = 0; e < 3; e++) own[e] += of->turn[3 * e + a] * of->d_force[a];
-    }
+    for (int e = 0; e < 3; e++) own[e] = of->fixed[e] - moved[e] / of->compliance[e];
+    turn_back(of, own, of->d_force);
     const int n = of->set->unknowns;
     double *turned = of->scratch;
     memcpy(turned, of->rest, (size_t)of->set->rows * sizeof *turned);

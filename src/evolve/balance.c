@@ -226,11 +226,13 @@ static bool search_on(CpsiBalance *balance, int trials, int patience) {
                  rigid = (size_t)balance->body_count * sizeof *balance->rigid;
     double best = INFINITY, halved = INFINITY, longer = 1;
     int waited = 0;
+    bool good = false;
     const int most = balance->trials + trials;
     for (int i = 0; i < ITERATIONS && !is_over(balance); i++) {
         const double left = cpsi_left_now(balance);
-        if (balance->certified && left < best) {
+        if (balance->certified && left < best && (!good || cpsi_is_answer(balance))) {
             best = left;
+            good = cpsi_is_answer(balance);
             memcpy(balance->best, balance->at, bytes);
             memcpy(balance->rigid_best, balance->rigid, rigid);
         }
@@ -240,7 +242,6 @@ static bool search_on(CpsiBalance *balance, int trials, int patience) {
             waited = 0;
             halved = left;
         }
-        const bool good = cpsi_is_balanced(balance, best);
         if (waited > (good ? 1 : patience) || balance->trials > most) break;
         if (!cpsi_find_step(balance)) cpsi_follow_forces(balance);
         for (int k = 0; k < balance->unknowns; k++) balance->step[k] *= longer;

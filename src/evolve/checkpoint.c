@@ -32,7 +32,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '4'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '5'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -235,6 +235,7 @@ static void pass_line(Tape *tape, CpsiLine *line) {
         pass(tape, line->field.stiffness, 6 * n * sizeof(double));
         pass(tape, line->field.place, 3 * n * sizeof(double));
         pass(tape, line->field.beside, 3 * n * sizeof(double));
+        PASS(tape, line->field.size);
     }
     pass(tape, line->state, contacts * sizeof *line->state);
     if (line->obstacle_index)

@@ -172,7 +172,7 @@ static bool is_motion(const CpsiLine *line) {
     return all_finite(inertia->rest_velocity, 3 * n) && all_finite(inertia->start, 3 * n) &&
            all_finite(inertia->velocity, 3 * n) && all_finite(inertia->before, 3 * n) &&
            all_finite(inertia->before_velocity, 3 * n) && all_finite(inertia->span, n) &&
-           isfinite(inertia->kinetic);
+           isfinite(inertia->kinetic) && isfinite(line->field.size) && line->field.size >= 0;
 }
 
 static bool is_point_motion(const CpsiPointInertia *inertia) {

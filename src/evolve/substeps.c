@@ -14,8 +14,9 @@
  * increment. A part of that size which does not converge is not divided further. Either the line
  * provably slides without end for the rest of the step; or it moves on as overdamped motion
  * (relaxation.h), which is reported as a jump too, and continues from where it comes to rest; or
- * the whole rest is such a motion, and a part with hardly a change certifies where it ends; or
- * the rest of the step is taken in one part and reported as it is.
+ * the whole rest is such a motion, and a part with hardly a change certifies where it ends, after
+ * the first motion already where parts that were not kept have cost too much; or the rest of the
+ * step is taken in one part and reported as it is.
  *
  * The slip round an obstacle is known only where neither the obstacle turns nor a node moves round
  * it by more than a quarter of a turn (cable/contact.h). A step in which an obstacle turns farther
@@ -723,6 +724,8 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
         }
         if (!trial.good) { /* it cannot be made smaller */
             if (end_in_proof(substeps, from, portion.to)) return;
+            const bool dear = substeps->relaxed > 0 && substeps->wasted >= MAX_WASTED_WORK;
+            if (dear && relax_rest(substeps, from, portion.to)) return;
             const double jump = fmin(ldexp(part, substeps->relaxed), (1 - LAST_SHARE) * (1 - at));
             if (relax(substeps, from, share_of_step(&portion, at + jump))) {
                 at += jump;

@@ -35,6 +35,10 @@
 static const double SLACK = 1e-9;
 /* Two normals with a sine below this are one. */
 static const double PARALLEL = 1e-6;
+/* A round obstacle that goes farther than this share of its radius may pass the line. */
+static const double MOST_SHIFT = 0.25;
+/* Rounding of a quarter of a turn, and of that part of a radius. */
+static const double ROUNDING = 1e-9;
 
 static bool is_slack(const CpsiLine *line, const double *x, int e) {
     const double size = vec3_norm(vec3_sub(vec3_at(x, e + 1), vec3_at(x, e)));
@@ -86,6 +90,32 @@ static double attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
             line->inertia.velocity[i] =
                 (line->position[i] - line->reference[i]) / line->inertia.span[j];
     return share;
+}
+
+/* May round obstacle k, where it is now, have met node j as both moved by more than the obstacle
+ * may? */
+static bool outruns(const CpsiLine *line, const CpsiShift *shift, int k, int j) {
+    const Vec3 x = vec3_at(line->position, j);
+    const double size = vec3_norm(cpsi_shift_to(shift, x)),
+                 way = vec3_norm(vec3_sub(x, vec3_at(line->inertia.start, j))),
+                 element = line->element_length[j < line->n - 1 ? j : j - 1];
+    return size > MOST_SHIFT * line->obstacle[k].radius * (1 + ROUNDING) &&
+           cpsi_obstacle_gap(&line->obstacle[k], x) <= size + way + element;
+}
+
+/* Is the step too long for an obstacle that moves in it? It may go past the line then, and the way
+ * of what slips on it is not known. A quasi-static step is divided there (substeps.c). */
+static bool ground_outruns(const CpsiLine *line, const CpsiMove *move) {
+    for (int k = 0; k < line->obstacle_count; k++) {
+        const CpsiShift *shift = move->shift ? &move->shift[k] : NULL;
+        const double turn = fabs(move->angle[k]) + (shift ? vec3_norm(shift->turn) : 0);
+        if (turn > CPSI_QUARTER * (1 + ROUNDING)) return true;
+        if (!shift || line->obstacle[k].kind == CPS_OBSTACLE_PLANE || cpsi_shift_is_none(shift))
+            continue;
+        for (int j = 0; j < line->n; j++)
+            if (outruns(line, shift, k, j)) return true;
+    }
+    return false;
 }
 
 /* The elements that were slack and are taut, and the nodes that have gone into or out of what
@@ -277,8 +307,10 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
         share = attempt(line, program, options, move, scratch, step);
         iterations += line->report.iteration_count;
     }
-    /* the way of what went farther round an obstacle is not known: the steps are too long */
-    if (cps_outcome_is_certified(line->report.outcome) && cpsi_contact_turns_too_far(line))
+    /* the way of what went farther round an obstacle is not known, nor on which side of it a line
+     * is that it goes past: the steps are too long */
+    if (cps_outcome_is_certified(line->report.outcome) &&
+        (cpsi_contact_turns_too_far(line) || ground_outruns(line, move)))
         line->report.outcome = CPS_OUTCOME_STALLED;
     line->report.iteration_count = iterations;
     line->report.places = CPS_PLACES_UNIQUE;

@@ -60,6 +60,8 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->iterations, lines);
         CPSI_PLACE(&arena, to->offset, lines + 1);
         CPSI_PLACE(&arena, to->tangent, 36 * lines);
+        CPSI_PLACE(&arena, to->smooth, 36 * lines);
+        CPSI_PLACE(&arena, to->rows, points);
         CPSI_PLACE(&arena, to->kept, 6 * bodies);
         CPSI_PLACE(&arena, to->turned, 3 * bodies);
         CPSI_PLACE(&arena, to->node, points + 2 * bodies);
@@ -524,10 +526,11 @@ bool cpsi_is_balanced(const CpsiBalance *balance, double left) {
 }
 
 bool cpsi_obeys_friction(const CpsiBalance *balance, const CpsiFree *at) {
-    const double slip = vec3_norm(at->slip);
-    if ((at->obstacle == CPS_NO_OBSTACLE && !at->drags) || slip <= cpsi_trial_touch(balance, at))
-        return true;
-    return cpsi_is_balanced(balance, at->bound + vec3_dot(at->force, at->slip) / slip);
+    const double slip = vec3_norm(at->slip), touch = cpsi_trial_touch(balance, at);
+    if ((at->obstacle == CPS_NO_OBSTACLE && !at->drags) || slip <= touch) return true;
+    const Vec3 lacks = vec3_axpy(at->bound / slip, at->slip, at->force);
+    return cpsi_is_balanced(balance, at->bound + vec3_dot(at->force, at->slip) / slip) &&
+           cpsi_is_balanced(balance, vec3_norm(lacks) - at->bound * touch / slip);
 }
 
 bool cpsi_is_kept_in_set(const CpsiBalance *balance, const CpsiFree *at) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Lines in time on ground that moves: a belt that takes a line along, a table that turns under one,
- * a floor that throws one up. Each figure is printed. */
+ * a floor that throws one up, a post that pushes one aside. Each figure is printed. */
 #include <stdio.h>
 #include <string.h>
 
@@ -147,11 +147,62 @@ static void a_floor_throws_a_line_up(void **state) {
     CHECK_LESS(fabs(off[1]), 3e-5);
 }
 
+/* A post goes from one side of a string to the other and beyond, 12 radii, or turns beside it, in
+ * `count` steps: returns how many are certified, and the place of the string's middle. */
+static int push(int count, double way, double angle, double *middle) {
+    TimeRig rig;
+    CpsError err;
+    time_begin(&rig, 2, 40, 1, 1000);
+    time_plane(&rig, 0, 0.2);
+    rig.plane.kind = CPS_OBSTACLE_CYLINDER;
+    rig.plane.moves = true;
+    rig.plane.radius = 0.05;
+    memcpy(rig.plane.point, (double[]){1, 0.3, 0}, sizeof rig.plane.point);
+    memcpy(rig.plane.axis, (double[]){0, 0, 1}, sizeof rig.plane.axis);
+    for (int j = 0; j <= 40; j++) time_node(&rig, j, 0.05 * j, 0, 0);
+    rig.line.end[CPS_END_B].kind = CPS_END_KIND_AT_START;
+    const CpsShift shift = {.obstacle = 0, .by = {0, way, 0}};
+    const CpsTurn turn = {.obstacle = 0, .angle = angle};
+    CpsStage *stage = time_stage(&rig, 1, count);
+    stage->shift = &shift;
+    stage->shift_count = way != 0;
+    stage->turn = &turn;
+    stage->turn_count = angle != 0;
+    TimeRun run = time_open(&rig);
+    int certified = 0;
+    for (int k = 0; k < count; k++) {
+        if (cps_evolution_step(run.evolution, &err)) fail_msg("%s", err.message);
+        const CpsOutcome outcome = cps_evolution_report(run.evolution).outcome;
+        certified += cps_outcome_is_certified(outcome);
+        assert_true(cps_outcome_is_certified(outcome) || outcome == CPS_OUTCOME_STALLED);
+    }
+    *middle = cps_evolution_line_view(run.evolution, 0).position[3 * 20 + 1];
+    cps_evolution_destroy(run.evolution);
+    return certified;
+}
+
+/* It goes by no more than a quarter of its radius in a step, and turns by no more than a quarter of
+ * a turn, or the step is not certified. */
+static void no_step_is_too_long_for_a_post(void **state) {
+    (void)state;
+    double middle;
+    CHECK_INT(push(1, -0.6, 0, &middle), 0);
+    CHECK_LESS(push(12, -0.6, 0, &middle), 12);
+    CHECK_INT(push(100, -0.6, 0, &middle), 100);
+    time_report("post", "middle of the string [m]", -0.35, middle);
+    CHECK_LESS(middle, -0.3);
+    CHECK_INT(push(1, 0, 2, &middle), 0);
+    CHECK_INT(push(2, 0, 2, &middle), 2);
+    /* away from the string any speed will do */
+    CHECK_INT(push(1, 0.6, 0, &middle), 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_belt_takes_a_line_along),
         cmocka_unit_test(a_table_takes_a_line_round),
         cmocka_unit_test(a_floor_throws_a_line_up),
+        cmocka_unit_test(no_step_is_too_long_for_a_post),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,8 +22,8 @@ static void compare_step(Compare *compare, size_t step, double said, const StepE
     if (!(asked > 0) && said != 0)
         find(compare, "step_error of step %zu is %.9g m, and no error is asked for", step, said);
     if (!(asked > 0)) return;
-    if (!(fabs(said - own->size) <= own->noise))
-        find(compare, "step_error of step %zu is %.9g m, expected %.9g m", step, said, own->size);
+    if (!pace_agrees(said, own))
+        find(compare, "step_error of step %zu is %.9g m, expected %.9g m", step, said, own->most);
     if (said > asked && length > (1 + 1e-9) * shortest)
         find(compare, "step_error of step %zu is %.9g m, and %.9g m is asked for", step, said,
              asked);

@@ -138,11 +138,12 @@ static Real take_off(const Real *n, Real *v) {
     return sqrtl(left);
 }
 
-void inertia_across(const Source *source, const Record *r, size_t j, Real *v) {
+void inertia_across(const Source *source, const Record *r, size_t j, double faint, Real *v) {
     Real first[3];
     bool any = false;
     for (size_t c = j; c < r->contacts * r->nodes; c += r->nodes) {
-        if (!(r->reaction[c] > 0) || source->surface[(size_t)r->obstacle[c]].gives > 0) continue;
+        if (!(r->reaction[c] > faint) || source->surface[(size_t)r->obstacle[c]].gives > 0)
+            continue;
         Real n[3] = {r->normal[c][0], r->normal[c][1], r->normal[c][2]};
         const Real sine = any ? take_off(first, n) : 1;
         for (int a = 0; a < 3; a++) {
@@ -166,7 +167,7 @@ static double off_scheme(const Source *source, const Record *r, const Record *be
         const Real x = before->position[j][a], past = older ? older->position[j][a] : x;
         off[a] = r->reference[j][a] - x - back * (x - past);
     }
-    if (back > 0) inertia_across(source, before, j, off);
+    if (back > 0) inertia_across(source, before, j, 0, off);
     return size_of(off);
 }
 
@@ -212,7 +213,7 @@ static double kinetic_energy(const Source *source, const Record *r, double reach
             sum += own * own * r->mass[j] / 2;
             v[a] = (own - ((Real)r->position[j][a] - r->reference[j][a]) / r->span[j]);
         }
-        inertia_across(source, r, j, v);
+        inertia_across(source, r, j, 0, v);
         if (!is_beside_element(r, j) && !is_at_point(r, j))
             off = fmax(off, size_of(v) * r->span[j]);
     }

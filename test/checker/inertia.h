@@ -26,9 +26,9 @@ typedef struct Inertia {
  * is not held. False in a step that is not one in time. */
 bool inertia_terms(const Record *r, size_t j, bool held, Real *pull, Inertia *out);
 
-/* The part of the vector v across the normals of the contacts at which node j bears, up to two,
- * which may have any angle; what gives stops no node. */
-void inertia_across(const Source *source, const Record *r, size_t j, Real *v);
+/* The part of the vector v across the normals of the contacts at which node j bears by more than
+ * `faint` [N], up to two, which may have any angle; what gives stops no node. */
+void inertia_across(const Source *source, const Record *r, size_t j, double faint, Real *v);
 
 /* What a step in time contradicts, one sentence each; `before` and `older` are the two steps before
  * it, NULL where there are none. */

@@ -20,7 +20,7 @@
 #include "formula.h"
 
 /* Rounding of places, per largest coordinate; of rotations; of forces and energies, per sizes. */
-static const double PLACES = 1e-13, TURNS = 1e-13, FORCES = 1e-10, ENERGIES = 1e-9;
+static const double PLACES = 1e-13, TURNS = 1e-13, FORCES = 1e-10, ENERGIES = 1e-9, SUMS = 1e-14;
 enum { SIMPSON = 64 };
 
 /* ---- reading ---- */
@@ -201,7 +201,7 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
     check_span(m->span, &formula, find, user);
     const double noise = 4 * PLACES * s->reach * m->mass / (m->span * m->span) + 1e-300;
     const bool bears = s->is_free && s->now->reaction > 0;
-    Real v[3], off[3], work = 0, sizes = 0;
+    Real v[3], off[3], work = 0, sizes = 0, rounding = 0;
     for (int a = 0; a < 3; a++) {
         v[a] = ((Real)s->now->position[a] - m->reference[a]) / m->span;
         off[a] = m->inertia[a] + m->mass * (v[a] - m->rest_velocity[a]) / m->span;
@@ -230,12 +230,13 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
         const Real force = (Real)s->now->lines[a] + s->now->load[a] - s->now->residual[a];
         work += force * way;
         sizes += fabsl(force * way);
+        rounding += SUMS * s->largest * fabsl(way);
     }
     const double spent = s->now->dissipated + m->growth + m->impact + m->scheme;
     sizes += fabs(s->now->dissipated) + fabs(m->growth) + m->impact + fabs(m->scheme) +
              PLACES * s->reach * (size(s->now->lines) + size(s->now->load));
-    compare("ledger, work of lines and load", (double)work, spent, ENERGIES * (double)sizes, find,
-            user);
+    compare("ledger, work of lines and load", (double)work, spent,
+            ENERGIES * (double)sizes + (double)rounding, find, user);
 }
 
 /* ---- bodies ---- */

@@ -34,6 +34,7 @@ typedef struct PointSteps {
     const Junction *now, *before, *older;
     const PointMotion *motion, *motion_before, *motion_older;
     double h, h_before, reach; /* [s] lengths of steps; [m] of the largest coordinate */
+    double largest;            /* [N] force in the lines, which may cancel at the point */
     bool is_free;
 } PointSteps;
 void point_motion_check(const PointSteps *steps, MotionFind *find, void *user);

@@ -4,7 +4,8 @@
  * Of the formula of the second order it is (h^3/6) (1 + w)^2/(w (1 + 2 w)) x''', w the length h
  * over that of the step before: x''' is twice the second divided difference of the velocity, whose
  * value two steps ago is in v* = v + b (v - v_older). Of an Euler step it is h^2 x''/2. What bears
- * on something rigid is there, and its error lies across the normals. */
+ * on something rigid is there, and its error lies across the normals. Forces of a step are known to
+ * a share of the largest: where a reaction is fainter, the node may be there or just off it. */
 #include "pace.h"
 
 #include <math.h>
@@ -17,7 +18,7 @@
 #include "grasps.h"
 #include "joint_motion.h"
 
-static const double PLACES = 1e-13, SHARES = 1e-9;
+static const double PLACES = 1e-13, SHARES = 1e-9, FAINT = 1e-7;
 
 /* The three velocities of a thing, the last first, of which that before the others may not be
  * known, and v* of the step. */
@@ -53,9 +54,11 @@ static double size_of(const Real *v) {
     return (double)sqrtl(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-static void raise_to(StepError *to, double size, double reach) {
-    if (size > to->size) to->size = size;
-    to->noise = fmax(to->noise, PLACES * reach + SHARES * size);
+/* A thing's error is `least` to `most`. */
+static void raise_to(StepError *to, double least, double most, double reach) {
+    to->least = fmax(to->least, least);
+    to->most = fmax(to->most, most);
+    to->noise = fmax(to->noise, PLACES * reach + SHARES * most);
 }
 
 /* ---- lines ---- */
@@ -79,8 +82,10 @@ static void add_line(const Source *source, const Record *r, const Record *before
             v.star[a] = r->rest_velocity[j][a];
         }
         error_of(&of, &v, off);
-        inertia_across(source, r, j, off);
-        raise_to(out, size_of(off), reach);
+        inertia_across(source, r, j, FAINT * r->claim[CLAIM_LARGEST_FORCE], off);
+        const double most = size_of(off);
+        inertia_across(source, r, j, 0, off);
+        raise_to(out, size_of(off), most, reach);
     }
 }
 
@@ -120,7 +125,7 @@ static void add_point(const Junction *at, const PointMotion *motion, const Point
     if (at->state != POINT_ON_BODY && at->reaction > 0)
         for (int a = 0; a < 3; a++) along += off[a] * at->normal[a];
     for (int a = 0; a < 3; a++) off[a] -= along * at->normal[a];
-    raise_to(out, size_of(off), reach);
+    raise_to(out, size_of(off), size_of(off), reach);
 }
 
 static int add_points(const Source *source, StepError *out, FILE *log) {
@@ -169,7 +174,8 @@ static void add_body(const BodyState *at, const BodyMotion *m, const BodyMotion 
                 is_euler(of) ? v.before[a] : v.before[a] + back * (v.before[a] - past[k][a]);
         }
         error_of(of, &v, off);
-        raise_to(out, length[k] * size_of(off), reach + length[k]);
+        const double size = length[k] * size_of(off);
+        raise_to(out, size, size, reach + length[k]);
     }
 }
 
@@ -217,6 +223,10 @@ int pace_errors(const Source *source, StepError *out, FILE *log) {
     return 0;
 }
 
+bool pace_agrees(double said, const StepError *own) {
+    return said >= own->least - own->noise && said <= own->most + own->noise;
+}
+
 int pace_said(const Source *source, double *out, FILE *log) {
     int id;
     const size_t first = 0, count = source->steps;
@@ -238,8 +248,8 @@ int pace_check(const Source *source, InertiaFind *find, void *user, FILE *log) {
     if (count > 0) bad = pace_errors(source, own, log);
     if (count > 0 && !bad)
         for (size_t s = 0; s < source->steps; s++)
-            if (said[s] != 0 && !(fabs(said[s] - own[s].size) <= own[s].noise))
-                find(user, "step_error", said[s], own[s].size);
+            if (said[s] != 0 && !pace_agrees(said[s], &own[s]))
+                find(user, "step_error", said[s], own[s].most);
     free(said);
     free(own);
     return bad;

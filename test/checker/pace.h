@@ -5,10 +5,15 @@
 
 #include "inertia.h"
 
-/* The error of a step, of what moves freely in it, and what rounding leaves of that. */
+/* The error of a step, of what moves freely in it, from `least` to `most` where it is not known
+ * what bears, and what rounding leaves of that. */
 typedef struct StepError {
-    double size, noise; /* [m]; noise INFINITY: the steps before it that it needs are not on file */
+    double least, most,
+        noise; /* [m]; noise INFINITY: the steps before it that it needs are not on file */
 } StepError;
+
+/* Is it what the file says? */
+bool pace_agrees(double said, const StepError *own);
 
 /* Of all steps of a file, (steps); 0 of quasi-static ones. Returns 0, or -1 after one sentence on
  * log. */

@@ -143,7 +143,7 @@ static Real push(const Source *source, const Record *r, bool from_here) {
 
 Real places_work(const Source *source, const Record *r, const Record *before) {
     const Real after = push(source, r, false);
-    return before ? (after + push(source, before, true)) / 2 : after;
+    return before && !r->settles ? (after + push(source, before, true)) / 2 : after;
 }
 
 /* The contacts of node j with an obstacle; returns their number. */

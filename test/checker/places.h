@@ -14,7 +14,8 @@ int places_at(const Source *source, size_t step, FILE *log);
 void places_close(Source *source);
 
 /* [J] The work of the reactions in a step of one part, of which `before` is the step before or
- * NULL: on what the shifts move where the nodes are then, the mean of before and after. */
+ * NULL: on what the shifts move where the nodes are then, the mean of before and after; where the
+ * line comes to rest that after, for before there was no equilibrium. */
 Real places_work(const Source *source, const Record *r, const Record *before);
 
 /* The reaction that contact c of node j had in the step before, 0 if it was none: it may have been

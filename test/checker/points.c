@@ -9,7 +9,8 @@
  *
  * S is the reaction of a set that the point is held to (sets.h).
  * It sticks, or slides by s on the obstacle, which may turn meanwhile, and then mu R |s| + F.s
- * vanishes. */
+ * vanishes, and so does |s| F + mu R s. The second falls with the angle between friction and slip,
+ * the first with its square. */
 #include "points.h"
 
 #include <float.h>
@@ -74,6 +75,13 @@ static void at_most(const Points *p, const char *what, double value, double boun
 static double size(const double *v) { return hypot(hypot(v[0], v[1]), v[2]); }
 static double dot(const double *a, const double *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+/* | |s| F + bound s | */
+static double off_law(const double *force, const double *slip, double bound) {
+    const double far = size(slip);
+    double off[3];
+    for (int a = 0; a < 3; a++) off[a] = far * force[a] + bound * slip[a];
+    return size(off);
 }
 static double apart(const double *a, const Real *b) {
     return hypot(hypot(a[0] - (double)b[0], a[1] - (double)b[1]), a[2] - (double)b[2]);
@@ -204,6 +212,9 @@ static void check_anchor(const Points *p, const Junction *at) {
     at_most(p, "what a drag lacks of the capacity",
             anchor->capacity * far + dot(along, anchor->drag),
             (BALANCED * p->source->tolerance * p->largest + noise) * (far + way));
+    at_most(p, "what the hold of a drag is off its direction",
+            off_law(along, anchor->drag, anchor->capacity) - anchor->capacity * way,
+            (BALANCED * p->source->tolerance * p->largest + noise) * (far + way));
     at_most(p, "dissipated energy against the work of the drag",
             fabs(at->dissipated - fmax(0, -dot(along, anchor->drag))), noise * (far + way));
 }
@@ -303,9 +314,13 @@ static void check_friction(const Points *p, const Junction *at) {
                 fabs(at->dissipated - fmax(0, slid)), SUMS * p->largest * size(at->slip));
     if (at->state == POINT_STICK) at_most(p, "slip of a point at rest", size(at->slip), 2 * way);
     /* a slip no longer than places are known to has no direction */
-    if (isfinite(bound) && at->has_place && size(at->slip) > 2 * way)
-        at_most(p, "what the law of friction lacks", bound * size(at->slip) - slid,
-                (BALANCED * p->source->tolerance * p->largest + force) * (size(at->slip) + way));
+    if (isfinite(bound) && at->has_place && size(at->slip) > 2 * way) {
+        const double allowed =
+            (BALANCED * p->source->tolerance * p->largest + force) * (size(at->slip) + way);
+        at_most(p, "what the law of friction lacks", bound * size(at->slip) - slid, allowed);
+        at_most(p, "what friction is off the direction of the slip",
+                off_law(at->friction, at->slip, bound) - bound * way, allowed);
+    }
     if (p->step == 0) return; /* where it began is not in the file */
     Real from[3], to[3], carried[3], slip[3];
     widen(motion->span > 0 ? motion->reference : p->before[p->point].position, from);
@@ -365,6 +380,7 @@ static void check_motion(Points *p) {
                               .h = h,
                               .h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0,
                               .reach = reach,
+                              .largest = p->largest,
                               .is_free = !is_held(at)};
     point_motion_check(&steps, find_in_time, p);
     for (size_t i = 0; i < 2 * p->source->lines; i++) {

@@ -178,8 +178,10 @@ bool range_is_wrong(const Source *source, const Record *r, int e, double force, 
         snprintf(text, size, "the range of an end's tension is not whole");
         return true;
     }
-    if (r->compliance > 0) {
-        snprintf(text, size, "a range of tensions of an elastic line");
+    if (r->compliance > 0 ||
+        r->sets) { /* the reaction of a set is not among the forces of rest.c */
+        snprintf(text, size,
+                 "a range of tensions of an elastic line, or of one with an end in a set");
         return true;
     }
     if (!(least >= 0 && fabs(least - said[RANGE_LEAST_BOUND]) <= FOUND * force) ||

@@ -49,6 +49,8 @@ static const FalseNumber FALSE[] = {
     {"friction_of_point", VECTOR(0, KNOT, 1), 1, "point knot: friction above its bound"},
     {"friction_of_point", VECTOR(1, KNOT, 2), 20, "point knot: friction along the normal"},
     {"friction_of_point", VECTOR(1, KNOT, 0), 0, "point knot: what the law of friction lacks"},
+    {"friction_of_point", VECTOR(1, KNOT, 1), -0.828,
+     "point knot: what friction is off the direction"},
     {"slip_of_point", VECTOR(1, KNOT, 1), 0.1, "point knot: error of the slip"},
     {"residual_of_point", VECTOR(1, KNOT, 1), 1, "point knot: residual against the sum"},
     {"dissipated_of_point", NUMBER(1, KNOT), 100, "point knot: dissipated energy"},

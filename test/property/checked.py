@@ -3,22 +3,49 @@
 import argparse
 import os
 import re
+import resource
+import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 SECONDS = 300  # that a run or a check may take
+EVERY = 30  # seconds after which a class says how far it is
+STOPPED = -9  # exit code of what took longer
 
 
 def run(*command):
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=SECONDS, check=False)
+    try:
+        return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=SECONDS, check=False)
+    except subprocess.TimeoutExpired:
+        return subprocess.CompletedProcess(command, STOPPED, "", f"stopped after {SECONDS} s")
 
 
 def folder_of(given, kind, seed):
     """The folder of a scene: it is kept if that was asked for."""
-    folder = os.path.join(given.keep, f"{kind}-{seed}") if given.keep else tempfile.mkdtemp()
+    folder = os.path.join(given.keep or given.spare, f"{kind}-{seed}")
     os.makedirs(folder, exist_ok=True)
     return folder
+
+
+def seeds(given, kind):
+    """The seeds of a class one after the other. How far they are is said now and then, at the end what they took; no folder stays that is not
+    to be kept."""
+    said, slowest, total = time.monotonic(), (0.0, given.seed), 0.0
+    for seed in range(given.seed, given.seed + given.count):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        yield seed
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        total += took
+        slowest = max(slowest, (took, seed))
+        if not given.keep:
+            shutil.rmtree(folder_of(given, kind, seed))
+        if time.monotonic() - said > EVERY:
+            said = time.monotonic()
+            print(f"{kind}: {seed - given.seed + 1} of {given.count} scenes, {total:.0f} s of processor, at most {slowest[0]:.1f} s, by seed {slowest[1]}")
+    print(f"{kind}: {total:.0f} s of processor, at most {slowest[0]:.1f} s, by seed {slowest[1]}")
 
 
 def solve(given, kind, seed, text, *options):
@@ -96,5 +123,7 @@ def main(classes, one_class, count):
     options.add_argument("--only", choices=classes)
     options.add_argument("--keep", help="folder for the scenes")
     given = options.parse_args()
-    good = [one_class(given, kind) for kind in ([given.only] if given.only else classes)]
+    sys.stdout.reconfigure(line_buffering=True)  # what is found is said at once
+    with tempfile.TemporaryDirectory() as given.spare:
+        good = [one_class(given, kind) for kind in ([given.only] if given.only else classes)]
     sys.exit(0 if all(good) else 1)

@@ -164,7 +164,7 @@ def difference(net, folder):
 
 def one_class(given, kind):
     tally, compared, worst = checked.Tally(kind), 0, 0.0
-    for seed in range(given.seed, given.seed + given.count):
+    for seed in checked.seeds(given, kind):
         folder = checked.folder_of(given, kind, seed)
         net = Net(random.Random(f"{kind} {seed}"), kind)
         code, found, words = checked.solve_named(given, net.text(), folder, "scene")

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Histories that are decided as they go.                     usage: random_live [--seeds N] [--seed
- * S]
+/* Histories that are decided as they go.     usage: random_live [--seeds N] [--seed S] [--in-time
+ * 1]
  *
  * Random scenes with a rope on a bed, a mooring that meets at a free point, a body and a round
  * obstacle; random calls: ends, points, bodies and nodes are moved, loaded, grasped and let go,
@@ -8,7 +8,10 @@
  * lead nowhere; states are saved and given to fresh evolutions. What was kept is then gone again,
  * by moves of a fresh evolution and as the history of a scene: the same bits. The results of that
  * history are judged by the independent checker: nothing certified is refuted. Moves after the
- * first allocate nothing. */
+ * first allocate nothing.
+ *
+ * In time either the rope or the mooring has inertia, and three of four calls have a duration: what
+ * is taken back, saved and gone again is also velocities and the past that the next step needs. */
 #define _GNU_SOURCE
 #include <math.h>
 #include <stdio.h>
@@ -62,7 +65,11 @@ static uint64_t state;
 static double uniform(double low, double high) { return splitmix(&state, low, high); }
 static bool chance(double share) { return uniform(0, 1) < share; }
 
+/* What moves in time; statics: nothing. */
+typedef enum Moving { STATICS, ROPE_IN_TIME, MOORING_IN_TIME } Moving;
+
 typedef struct Live {
+    Moving moving;
     CpsObstacle obstacle[OBSTACLES];
     CpsLine line[LINES];
     CpsPoint point[POINTS];
@@ -161,6 +168,32 @@ static void make(Live *live, uint64_t seed) {
     live->scene.body = &live->body;
 }
 
+/* Give the rope mass and leave out the mooring, or the other way round. */
+static void set_in_motion(Live *live) {
+    const double gravity = 9.81;
+    live->moving = chance(0.5) ? ROPE_IN_TIME : MOORING_IN_TIME;
+    live->scene.in_time = true;
+    live->scene.time_scheme = chance(0.7) ? CPS_TIME_SCHEME_BDF2 : CPS_TIME_SCHEME_EULER;
+    for (int i = 0; i < LINES; i++) {
+        CpsLine *line = &live->line[i];
+        line->inertia = line->weight / gravity;
+        if (chance(0.3) && isfinite(line->stiffness))
+            line->damping = line->stiffness * uniform(1e-4, 1e-2);
+    }
+    if (live->moving == ROPE_IN_TIME) {
+        live->scene.line_count = 1;
+        live->scene.point_count = live->scene.body_count = 0;
+        return;
+    }
+    for (int k = 0; k < OBSTACLES; k++) live->obstacle[k].moves = false;
+    live->scene.line = &live->line[1];
+    live->scene.line_count = LINES - 1;
+    live->line[1].quasi_static = chance(0.3);
+    live->point[KNOT].inertia = live->point[KNOT].weight / gravity;
+    live->body.mass = live->body.weight / gravity;
+    for (int a = 0; a < 3; a++) live->body.inertia[a] = live->body.mass * uniform(0.08, 0.12);
+}
+
 static CpsEvolution *begin(const CpsScene *scene) {
     CpsEvolution *evolution = NULL;
     CpsError err;
@@ -168,7 +201,10 @@ static CpsEvolution *begin(const CpsScene *scene) {
         fprintf(stderr, "%s: %s\n", err.where, err.message);
         exit(1);
     }
-    if (cps_evolution_remaining_count(evolution) > 0) cps_evolution_step(evolution, NULL);
+    bool is_placed = false; /* by a first step, which is one of the history also */
+    for (int i = 0; i < scene->line_count; i++)
+        is_placed = is_placed || scene->line[i].start.kind == CPS_START_STATIC;
+    if (is_placed) cps_evolution_step(evolution, NULL);
     return evolution;
 }
 
@@ -261,16 +297,24 @@ static void change_node(const CpsEvolution *now, const Live *live, Move *move) {
     }
 }
 
+/* In one step in time what is round goes by a quarter of its radius at most. */
 static void change_obstacle(const CpsEvolution *now, Move *move) {
     const int k = chance(0.5) ? BED : ROUND;
+    const bool slow = move->stage.duration > 0 && k == ROUND;
     const double none[3] = {0};
     CpsShift *shift = &move->shift[move->stage.shift_count++];
     const CpsObstacleReport report = cps_evolution_obstacle_report(now, k);
     *shift = (CpsShift){.obstacle = k};
-    near(none, k == BED ? 0.1 : 0.4, shift->by);
+    near(none, slow ? 0.03 : k == BED ? 0.1 : 0.4, shift->by);
     shift->by[2] *= k == BED ? 0.3 : 0.5;
-    if (chance(0.5)) near(none, 0.1, shift->turn);
+    if (chance(0.5)) near(none, slow ? 0.01 : 0.1, shift->turn);
     near(report.point, 2, shift->about);
+}
+
+/* Is there what moves of this kind change? */
+static bool is_there(const Live *live, int kind) {
+    const bool is_joined = kind == 1 || kind == 2;
+    return live->moving == STATICS || is_joined == (live->moving == MOORING_IN_TIME);
 }
 
 static Move draw(const CpsEvolution *now, const Live *live, bool far) {
@@ -278,9 +322,10 @@ static Move draw(const CpsEvolution *now, const Live *live, bool far) {
     move.stage.name = "call";
     const int count = far ? 0 : 1 + (int)uniform(0, 3);
     if (far) change_end(now, live, &move, true);
+    if (live->moving != STATICS && chance(0.75)) move.stage.duration = uniform(0.01, 0.2);
     for (int i = 0; i < count; i++) {
         const int kind = (int)uniform(0, 6);
-        if (move.has[kind]) continue;
+        if (move.has[kind] || !is_there(live, kind)) continue;
         move.has[kind] = true;
         if (kind == 0) change_end(now, live, &move, false);
         if (kind == 1) change_point(now, &move);
@@ -289,7 +334,8 @@ static Move draw(const CpsEvolution *now, const Live *live, bool far) {
         if (kind == 4) change_obstacle(now, &move);
         if (kind == 5) {
             move.stage.turn_count = 1;
-            move.turn = (CpsTurn){.obstacle = ROUND, .angle = uniform(-2, 2)};
+            const double most = move.stage.duration > 0 ? 1.2 : 2;
+            move.turn = (CpsTurn){.obstacle = ROUND, .angle = uniform(-most, most)};
         }
     }
     if (chance(0.1)) {
@@ -337,7 +383,7 @@ static bool is_open(const CpsEvolution *evolution) {
 /* One call, and what becomes of it: true, and *move, where it is kept. */
 static bool call(CpsEvolution *live_one, const Live *live, bool *is_first, Move *move,
                  Tally *tally) {
-    *move = draw(live_one, live, chance(0.1));
+    *move = draw(live_one, live, chance(0.1) && is_there(live, 0));
     if (chance(0.05)) move->stage.shift_count = -1;
     size_t size;
     unsigned char *before = saved_state(live_one, &size);
@@ -377,9 +423,12 @@ static bool call(CpsEvolution *live_one, const Live *live, bool *is_first, Move 
 }
 
 static bool same_bits(const CpsEvolution *one, const CpsEvolution *other) {
-    for (int i = 0; i < LINES; i++)
-        if (!same_line(one, i, other, i)) return false;
-    for (int i = 0; i < POINTS; i++) {
+    for (int i = 0; i < cps_evolution_line_count(one); i++)
+        if (!same_line(one, i, other, i) || !same_motion(one, i, other, i)) return false;
+    for (int i = 0; i < cps_evolution_point_count(one); i++) {
+        const CpsPointMotion was = cps_evolution_point_motion(one, i),
+                             is = cps_evolution_point_motion(other, i);
+        if (!same_numbers(was.velocity, is.velocity, 3) || was.span != is.span) return false;
         const CpsPointReport a = cps_evolution_point_report(one, i),
                              b = cps_evolution_point_report(other, i);
         if (!same_numbers(a.position, b.position, 3) || !same_numbers(a.residual, b.residual, 3) ||
@@ -390,6 +439,11 @@ static bool same_bits(const CpsEvolution *one, const CpsEvolution *other) {
                         b = cps_evolution_body_report(other, 0);
     if (!same_numbers(a.position, b.position, 3) || !same_numbers(a.rotation, b.rotation, 4) ||
         !same_numbers(a.residual, b.residual, 6) || a.kind != b.kind)
+        return false;
+    const CpsBodyMotion u = cps_evolution_body_motion(one, 0),
+                        v = cps_evolution_body_motion(other, 0);
+    if (!same_numbers(u.velocity, v.velocity, 3) || !same_numbers(u.turn_rate, v.turn_rate, 3) ||
+        u.span != v.span)
         return false;
     for (int i = 0; i < OBSTACLES; i++) {
         const CpsObstacleReport was = cps_evolution_obstacle_report(one, i),
@@ -439,13 +493,14 @@ static void judge(const CpsScene *scene, const CpsEvolution *last, const char *f
     cps_evolution_destroy(evolution);
 }
 
-static void try_seed(uint64_t seed, const char *folder, Tally *tally) {
+static void try_seed(uint64_t seed, bool in_time, const char *folder, Tally *tally) {
     static Live live;
     static Move kept[CALLS];
     static CpsStage stage[CALLS];
     const int wrong = tally->wrong;
     int count = 0;
     make(&live, seed);
+    if (in_time) set_in_motion(&live);
     tally->seeds++;
     CpsEvolution *evolution = begin(&live.scene);
     bool is_first = true;
@@ -480,15 +535,17 @@ static void try_seed(uint64_t seed, const char *folder, Tally *tally) {
 
 int main(int argc, char **argv) {
     int seeds = 20;
+    bool in_time = false;
     uint64_t first = 1;
     for (int i = 1; i + 1 < argc; i += 2) {
         if (strcmp(argv[i], "--seeds") == 0) seeds = atoi(argv[i + 1]);
+        if (strcmp(argv[i], "--in-time") == 0) in_time = atoi(argv[i + 1]) > 0;
         if (strcmp(argv[i], "--seed") == 0) first = strtoull(argv[i + 1], NULL, 10);
     }
     char folder[] = "/tmp/random-live-XXXXXX", command[64];
     if (!mkdtemp(folder)) return 1;
     Tally tally = {0};
-    for (int k = 0; k < seeds; k++) try_seed(first + (uint64_t)k, folder, &tally);
+    for (int k = 0; k < seeds; k++) try_seed(first + (uint64_t)k, in_time, folder, &tally);
     snprintf(command, sizeof command, "rm -rf %s", folder);
     if (system(command) != 0) return 1;
     printf("%d seeds, %d calls kept, %d of several kinds, %d not certified; %d taken back, %d "

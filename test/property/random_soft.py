@@ -135,7 +135,7 @@ def write_scene(dice, folder, kind):
 
 def one_class(given, kind):
     steps = certified = refuted = refused = 0
-    for seed in range(given.seed, given.seed + given.count):
+    for seed in checked.seeds(given, kind):
         folder = checked.folder_of(given, kind, seed)
         scene = write_scene(random.Random(f"soft {kind} {seed}"), folder, kind)
         out = os.path.join(folder, "out")

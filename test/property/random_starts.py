@@ -90,7 +90,7 @@ class Start:
 
 def one_class(given, kind):
     open_starts = stable = refuted = wrong = open_steps = 0
-    for seed in range(given.seed, given.seed + given.count):
+    for seed in checked.seeds(given, kind):
         text = Start(random.Random(f"{kind} {seed}"), kind).text()
         scene, out, done = checked.solve(given, kind, seed, text, "--no-paraview")
         if done.returncode not in (0, 1):

@@ -158,7 +158,7 @@ class Swim:
 
 def one_class(given, kind):
     steps = certified = refuted = proven = wrong = 0
-    for seed in range(given.seed, given.seed + given.count):
+    for seed in checked.seeds(given, kind):
         text = Swim(random.Random(f"{kind} {seed}"), random.Random(f"waves {kind} {seed}"), kind).text()
         scene, out, done = checked.solve(given, kind, seed, text)
         found, words = checked.check(given.checker, out, scene) if done.returncode in (0, 1) else ([0] * 5, done.stderr.strip())

@@ -134,7 +134,7 @@ def difference(mooring, folder):
 
 def one_class(given, kind):
     tally, worst = checked.Tally(kind), 0.0
-    for seed in range(given.seed, given.seed + given.count):
+    for seed in checked.seeds(given, kind):
         folder = checked.folder_of(given, kind, seed)
         mooring = Mooring(random.Random(f"{kind} {seed}"), kind)
         code, found, words = checked.solve_named(given, mooring.text(), folder, "scene", (0, 1))

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "capstan/evolve.h"
+#include "capstan/motion.h"
 
 static inline bool same_numbers(const double *a, const double *b, int count) {
     return memcmp(a, b, (size_t)count * sizeof *a) == 0;
@@ -24,6 +25,19 @@ static inline bool same_line(const CpsEvolution *one, int i, const CpsEvolution 
            same_numbers(a.segment_force, b.segment_force, 3 * elements) &&
            same_numbers(a.reaction, b.reaction, contacts) &&
            same_numbers(a.friction_force, b.friction_force, 3 * contacts);
+}
+
+/* Their motions, of a scene in time. */
+static inline bool same_motion(const CpsEvolution *one, int i, const CpsEvolution *other, int j) {
+    const CpsLineMotion a = cps_evolution_line_motion(one, i),
+                        b = cps_evolution_line_motion(other, j);
+    const int nodes = cps_evolution_line_view(one, i).element_count + 1;
+    if (a.is_moving != b.is_moving || memcmp(&a.ledger, &b.ledger, sizeof a.ledger) != 0)
+        return false;
+    return !a.mass ||
+           (a.kinetic == b.kinetic && same_numbers(a.velocity, b.velocity, 3 * nodes) &&
+            same_numbers(a.before, b.before, 3 * nodes) && same_numbers(a.span, b.span, nodes) &&
+            same_numbers(a.rest_velocity, b.rest_velocity, 3 * nodes));
 }
 
 /* The state of an evolution, to be freed. */
