@@ -148,10 +148,10 @@ CPS_API int cps_evolution_obstacle_count(const CpsEvolution *evolution);
 CPS_API CpsObstacleReport cps_evolution_obstacle_report(const CpsEvolution *evolution, int k);
 
 /* The stiffness of an end of a line after the last step, all else as in that step: the other end
- * stays, or keeps its force. An end with a given force is taken as one that is held where the step
- * has left it. A step of several substeps (CpsLineReport) is that of its last one. Sliding forces
- * on a sphere are those at the arc slid in the step. Allocates nothing, changes nothing that can be
- * seen. Returns CPS_OK, also where nothing is found, or CPS_ERR_ARGUMENT. */
+ * stays, or keeps its force, and free points follow (stiffness.h). An end with a given force is
+ * taken as held where it is. A step of several substeps (CpsLineReport) is that of its last one.
+ * Sliding forces on a sphere are those at the arc slid in the step. Allocates nothing, changes
+ * nothing that can be seen. Returns CPS_OK, also where nothing is found, or CPS_ERR_ARGUMENT. */
 CPS_API CpsStatus cps_evolution_stiffness(const CpsEvolution *evolution, int line, int end,
                                           CpsStiffnessKind kind, CpsStiffness *out, CpsError *err);
 /* The same of a point, of all lines that end there. */

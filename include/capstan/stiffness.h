@@ -11,7 +11,12 @@
  * With dry friction a force has no one derivative: a node that slides goes on or sticks, depending
  * on where the end moves. Two stiffnesses are defined. Both are exact derivatives of the discrete
  * line; where the line lifts off the ground node by node they change by jumps with the mesh, and
- * `smooth` is what they are to the line itself. */
+ * `smooth` is what they are to the line itself.
+ *
+ * Where lines lead to free points these follow to where all balances, and what is tied to them by
+ * further lines as well; so do anchors that drag, in a step. Held points stay, and so do bodies
+ * other than the one that is asked for. An end at a point moves with it, and with the other lines
+ * there. */
 #ifndef CAPSTAN_STIFFNESS_H
 #define CAPSTAN_STIFFNESS_H
 
@@ -47,7 +52,7 @@ CPS_API const char *cps_stiffness_text(CpsStiffnessKind kind); /* its sentence; 
     X(CPS_STIFFNESS_OUTCOME_TOUCHES, 2, "touches",                                         \
       "the end touches an obstacle, whose force on it may be any within a bound")          \
     X(CPS_STIFFNESS_OUTCOME_LOOSE, 3, "loose",                                             \
-      "a loose part of the line has no one place, and no stiffness")                       \
+      "a loose part of a line, or a free point, has no one place, and no stiffness")       \
     X(CPS_STIFFNESS_OUTCOME_NOT_GIVEN, 4, "not_given",                                     \
       "an obstacle gives, an element touches, a node slides in a corner, with a box or a " \
       "set of friction forces, or by axes that change, or states are not resolved: not "   \
@@ -66,7 +71,7 @@ typedef struct CpsStiffness {
     CpsStiffnessOutcome outcome;
     /* [N/m] d(force[i])/d(position[j]) at 3 i + j, force and position as in CpsEndReport: what it
      * takes to move the end, positive where the line pulls it back; of a point against all its
-     * lines, whose other ends stay unless they are there too; all 0 unless found */
+     * lines; all 0 unless found */
     double matrix[9];
     /* the same with touchdown points on planes that move along the elements (theory 6c): of second
      * order in the mesh, where `matrix` changes by jumps. Not given where the line turns up from
@@ -76,8 +81,8 @@ typedef struct CpsStiffness {
     double smooth[9];
 } CpsStiffness;
 
-/* The stiffness of a body (body.h) in its pose: of all lines at its points, whose other ends stay,
- * of its weight and buoyancy and of its hydrostatics. */
+/* The stiffness of a body (body.h) in its pose: of all lines at its points, of its weight and
+ * buoyancy and of its hydrostatics. */
 typedef struct CpsBodyStiffness {
     CpsStiffnessOutcome outcome; /* found where it is of all these lines */
     /* [N/m, N, N m] d(force, moment about the reference point)/d(position, rotation vector) at 6 i

@@ -166,7 +166,8 @@ class LineState:
         return self._evolution._ask(asked)
 
     def stiffness(self, end: str = "B", kind: str = "step", smooth: bool = False) -> np.ndarray:
-        """[N/m] (3, 3) the derivative of the force at an end by the place of that end (stiffness.h).
+        """[N/m] (3, 3) the derivative of the force at an end by the place of that end, or of the point at which it is, while the
+        free points to which lines lead from there follow (stiffness.h).
 
         kind:   "step", what slides goes on to slide; "stick", of a small cycle
         smooth: with touchdown points that move along the elements
@@ -363,7 +364,7 @@ class Evolution:
         return self._ask(lib.cps_evolution_breaks)
 
     def point_stiffness(self, point: str, kind: str = "step", smooth: bool = False) -> np.ndarray:
-        """[N/m] (3, 3) of a point against all lines that end there: the derivative of force by position."""
+        """[N/m] (3, 3) of a point against all lines that end there: the derivative of force by position, other free points following."""
         index = self._index("points", point)
         out = ffi.new("CpsStiffness *")
         kind_ = self._stiffness_kind(kind)
@@ -371,7 +372,7 @@ class Evolution:
         return _stiffness_matrix(out, 3, smooth)
 
     def body_stiffness(self, body: str, kind: str = "step", smooth: bool = False) -> np.ndarray:
-        """[N/m, N, N m] (6, 6) of a body in its pose: the derivative of force and moment by position and rotation."""
+        """[N/m, N, N m] (6, 6) of a body in its pose: the derivative of force and moment by position and rotation, free points following."""
         index = self._index("bodies", body)
         out = ffi.new("CpsBodyStiffness *")
         kind_ = self._stiffness_kind(kind)

@@ -60,6 +60,8 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->iterations, lines);
         CPSI_PLACE(&arena, to->offset, lines + 1);
         CPSI_PLACE(&arena, to->tangent, 36 * lines);
+        CPSI_PLACE(&arena, to->smooth, 36 * lines);
+        CPSI_PLACE(&arena, to->rows, points);
         CPSI_PLACE(&arena, to->kept, 6 * bodies);
         CPSI_PLACE(&arena, to->turned, 3 * bodies);
         CPSI_PLACE(&arena, to->node, points + 2 * bodies);

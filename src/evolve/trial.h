@@ -66,6 +66,8 @@ struct CpsiBalance {
     unsigned char *state;    /* of all lines before the step */
     size_t *offset;          /* (lines + 1) of each in `state` */
     double *tangent;         /* (line_count, 36) */
+    double *smooth;          /* (line_count, 36) of a stiffness beside it (following.h), and */
+    double (*rows)[3][3];    /* (count) what it multiplies the rows of points by */
     CpsiGraphMatrix *matrix; /* of the unknowns */
     double *kept;            /* (body_count, 6) of its diagonal */
     double *turned;          /* (body_count, 3) [rad] by the last round */

@@ -277,8 +277,24 @@ def test_a_loop_has_no_stiffness_at_its_point():
     evolution = after({"points": {"hook": {"held": [3, -2, 5]}}, "lines": {"loop": {
         "length": 2, "elements": 20, "mass": 1, "stiffness": 1e4, "start": "static", "ends": {"A": {"point": "hook"}, "B": {"point": "hook"}}}},
         "history": [{"name": "aside", "gravity": [1, 2, -9]}]}, 2)
-    alone = evolution["loop"].stiffness("A")
-    assert np.abs(evolution.point_stiffness("hook")).max() < 1e-6 * np.abs(alone).max()
+    # beside some 10 N/m, what a weight of 10 N and 1 m make
+    assert np.abs(evolution.point_stiffness("hook")).max() < 1e-5
+    assert np.abs(evolution["loop"].stiffness("A")).max() < 1e-5
+
+
+@pytest.mark.parametrize("kind", ["step", "stick"])
+def test_free_points_follow(kind):
+    """Two taut weightless springs in a row: along them they are in series, across them a string of the whole length."""
+    evolution = after({"points": {"left": {"held": [0, 0, 0]}, "knot": {"free": [2, 0, 0]}, "right": {"held": [5.03, 0, 0]}},
+                       "lines": {"a": {"length": 2, "elements": 3, "weight": 0, "stiffness": 1e3, "start": "static",
+                                       "ends": {"A": {"point": "left"}, "B": {"point": "knot"}}},
+                                 "b": {"length": 3, "elements": 2, "weight": 0, "stiffness": 4e3, "start": "static",
+                                       "ends": {"A": {"point": "right"}, "B": {"point": "knot"}}}}}, 1)
+    along = 1 / (2 / 1e3 + 3 / 4e3)
+    tension = 0.03 * along
+    known = np.diag([along, tension / 5.03, tension / 5.03])
+    for found in (evolution.point_stiffness("left", kind), evolution["b"].stiffness("A", kind, smooth=True)):
+        assert np.abs(found - known).max() < 1e-8 * along
 
 
 KNOT = {"obstacles": {"bed": {"plane": {"point": [0, 0, -30]}, "friction": 0.4}},
