@@ -127,7 +127,9 @@ class Swim:
             inertia = vector([heavy * (0.1 * self.size) ** 2 * dice.uniform(0.5, 2)] * 3)
             out = (f"bodies: {{hull: {{free: {self.at([0, 0, 0])}, mass: {heavy!r}, moments_of_inertia: {inertia}, "
                    f"buoyancy: {(heavy + count * weight) * 9.81!r}}}}}\npoints:\n")
-            out += "".join(f"  p{i}: {{body: hull, at: {vector(some(dice, 0.1 * self.size))}}}\n" for i in range(count))
+            fairleads = [some(dice, 0.1 * self.size) for _ in range(count)]
+            low = 0.9 * self.low if self.bed else -math.inf  # none begins in the bed
+            out += "".join(f"  p{i}: {{body: hull, at: {vector([x, y, max(z, low)])}}}\n" for i, (x, y, z) in enumerate(fairleads))
         else:
             out = f"points: {{p: {{free: {self.at([0, 0, 0])}, mass: {heavy!r}}}}}\n"
         out += "lines:\n"
