@@ -112,6 +112,7 @@ SENTENCES = [
     ("it is held by a stiffness of {} that pulls it to where", number("chain/active_system.c", "PULLING")),
     ("du + rho + e dz with e = {} in", number("chain/constraints.h", "CPSI_YIELD")),
     ("an excess of less than {} of these releases nothing", number("chain/active_status.c", "SIGNIFICANT")),
+    ("a coordinate is more than {} of the shortest element", number("chain/active_set.c", "MOST_NOISE")),
     ("of all equations are rounding, {} eps (1 + |u|/l)", number("chain/active_set.c", "ROUNDINGS")),
     ("between nodes at rest is known to {} eps/l only", number("chain/active_set.c", "COORDINATE_ROUNDINGS")),
     ("After {} linear systems, or {} without progress,", numbers(("chain/active_set.c", "MOST_STEPS"), ("chain/active_set.c", "PATIENCE"))),
@@ -130,6 +131,6 @@ SENTENCES = [
     ("and {} eps of all terms are added", number("drive/certificate.c", "ROUNDING")),
 ]
 # data of the papers, exponents of formulas, and what double precision is
-GIVEN = ["and so on down to 1e-4", "has after 1e6 rad at 200 km", "loop has to come to a gap of 1e-11", "to 0.1/n^2 where this is less", "of the equations exceed 1e-2 in the solution", "as if these were two obstacles (2.8), each", "beside a fold of a mesh (2.3), as do", "flung it out with up to 0.06 % more energy", "The curvature of rounds (2.4)", "said of round obstacles in 2.7", "across the middle (2.7)", "**Contacts of elements** (2.7) are like", "the term R K of 2.4", "less (length/R)^2/24 of it", "between +1/24 and -1/12 of w h^2/H", "up to 29 % shorter", "below (length/r)^2/18", "A value is a sum of 16 points", "is counted beside it (2.9)", "Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a path of 350 degrees is not taken for one of -10",
+GIVEN = ["as with 1e6 elements of a rope", "and so on down to 1e-4", "has after 1e6 rad at 200 km", "loop has to come to a gap of 1e-11", "to 0.1/n^2 where this is less", "of the equations exceed 1e-2 in the solution", "as if these were two obstacles (2.8), each", "beside a fold of a mesh (2.3), as do", "flung it out with up to 0.06 % more energy", "The curvature of rounds (2.4)", "said of round obstacles in 2.7", "across the middle (2.7)", "**Contacts of elements** (2.7) are like", "the term R K of 2.4", "less (length/R)^2/24 of it", "between +1/24 and -1/12 of w h^2/H", "up to 29 % shorter", "below (length/r)^2/18", "A value is a sum of 16 points", "is counted beside it (2.9)", "Ann. Fac. Sci. Toulouse 11 (1990) 137–186", "up to l = 1.3 R", "at most 90 degrees", "a path of 350 degrees is not taken for one of -10",
          "d^3/12 and more", "positions and reactions (1e-16)", "lie 1e-7 beside", "lemma 9.6 for 7.6", "\"A = 0.25 N\"",
          "slack on 0.6 of its length", "120 degrees apart, and three lines of 0.9 to one point", "and lack 0.3 m all the same"]

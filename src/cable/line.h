@@ -110,8 +110,8 @@ typedef struct CpsiLine {
     double *node_reaction;     /* (n) [N] sum of the reactions on the node and on its elements */
     bool is_rough;             /* the program was solved to a hundredth of the tolerance only */
     bool contact_everywhere;   /* contacts are not only detected where the reference touches */
-    bool keeps_reference_axes; /* friction is frozen with its bounds and axes at the reference while
-                                  contacts are detected where the line is; not on one plane */
+    bool keeps_reference_axes; /* ... but friction has its axes there, frozen; not on one plane */
+    bool strayed;              /* only rounds with drag found the answer (line_step.c) */
     bool keeps_tangents;       /* the first ones of isotropic friction are those of the reference */
     double *watched; /* (2 n, 3) [m] from which the progress of rounds with drag is measured */
     CpsiAnderson anderson; /* of the rounds of a step */

@@ -259,6 +259,7 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
     bool tried[STRATEGIES] = {false}, urged = false, again = false;
     int first = 0; /* after the last one of the others that was tried */
     line->newton.guessed = guess >= CPSI_GUESS_REFERENCE;
+    line->strayed = false;
     if (line->newton.guessed) {
         if (solve_warm(line, program, options, guess)) return;
         line->newton.guessed = false;
@@ -277,6 +278,7 @@ static void solve_with_fallbacks(CpsiLine *line, CpsiChainProgram *program,
         if (again) memset(line->reaction, 0, contacts * sizeof *line->reaction);
         if (options->least) options->least->chose = false;
         line->keeps_tangents = strategy->keeps_tangents;
+        line->strayed = strategy->drag;
         if (line->has_local_axes) cpsi_contact_reset(line);
         const bool scattered =
             solve_once(line, program, options, strategy, found & ROUNDS, urged ? FIRST_DRAG : 0);

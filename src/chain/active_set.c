@@ -36,7 +36,8 @@ static const double FAR = 1e-2, POLISHED = 1e-12;
 /* Rounding in units of the last place: of an elongation or a balance, by a few operations; and of a
  * force between nodes at rest, by their coordinates and those of the reference. */
 static const double ROUNDINGS = 16, COORDINATE_ROUNDINGS = 64;
-/* ... which is at most this per largest force: the certificate asks for it (CPSI_CLEAN). */
+/* ... which is at most this per largest force: the certificate asks for it (CPSI_CLEAN). Where one
+ * unit in the last place of a coordinate is more, the method cannot end. */
 static const double MOST_NOISE = 1e-11;
 
 static inline void to_node(const CpsiChainProgram *program, int j, double v[3]) {
@@ -268,8 +269,9 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
                          .anchored = bytes + 31 * n,
                          .frame = program->disc.shape ? program->conic.frame : NULL};
     set_rounding(&newton);
-    cpsi_newton_begin(&newton);
-    if (newton.lost) return (CpsiIpmReport){.outcome = CPSI_IPM_STALLED};
+    const bool is_drowned = newton.rounding > ROUNDINGS * MOST_NOISE;
+    if (!is_drowned) cpsi_newton_begin(&newton);
+    if (is_drowned || newton.lost) return (CpsiIpmReport){.outcome = CPSI_IPM_STALLED};
     matrix->held = newton.held;
     matrix->frame = newton.frame ? newton.frame : program->frame;
     matrix->second = NULL;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "chain/newton.h"
+#include "chain/slack.h"
 
 /* An element that may not go slack has this share of the largest force. */
 static const double LEAST_TENSION = 1e-3;
@@ -49,6 +50,20 @@ static bool is_carried(const CpsiNewton *newton, int j, int i) {
 static bool may_lie(const CpsiNewton *newton, int i) {
     return newton->polishes && !is_at_front(newton, i) && is_carried(newton, i - 1, i) &&
            is_carried(newton, i, i);
+}
+
+/* Elements that are slack in a solution that is only to be polished have no tension at first, where
+ * their nodes have places without it. At a front the solution of the loop may leave several in a
+ * row that can be told neither way; these keep what tension they have. */
+static void begin_slack(CpsiNewton *newton) {
+    CpsiSegment *st = &newton->program->segment;
+    for (int i = 1; i < newton->program->n; i++) {
+        if (newton->taut[i]) continue;
+        const bool slack = cpsi_newton_is_fixed(newton, i) || cpsi_newton_may_hang(newton, i) ||
+                           (is_carried(newton, i - 1, i) && is_carried(newton, i, i));
+        newton->taut[i] = !slack && st->z[i][0] > 0;
+        if (slack) st->z[i][0] = 0;
+    }
 }
 
 /* Element i would be slack between nodes that move: it keeps a little tension, so that they are
@@ -216,7 +231,9 @@ void cpsi_newton_begin(CpsiNewton *newton) {
     memset(newton->status, 0, 2 * (size_t)program->n);
     memset(newton->piece, 0, (size_t)program->n * sizeof *newton->piece);
     memset(disc->w, 0, (size_t)disc->count * sizeof *disc->w);
-    for (int i = 1; i < program->n; i++) newton->taut[i] = program->segment.z[i][0] > 0;
+    for (int i = 1; i < program->n; i++)
+        newton->taut[i] = program->segment.z[i][0] > 0 &&
+                          !(newton->polishes && cpsi_segment_is_slack(&program->segment, i));
     for (int k = 0; k < unilateral->count && !newton->lost; k++) {
         if (!(unilateral->z[k] > 0)) continue;
         if (cpsi_newton_is_other(program, k))
@@ -229,6 +246,7 @@ void cpsi_newton_begin(CpsiNewton *newton) {
     for (int d = 0; d < disc->count && !newton->lost; d++)
         newton->lost = !begin_friction(newton, d);
     note_held(newton);
+    if (newton->polishes) begin_slack(newton);
     if (program->segment.compliance > 0) return;
     for (int i = 1; i < program->n && !newton->lost; i++)
         newton->lost = newton->taut[i] && cpsi_newton_is_fixed(newton, i);

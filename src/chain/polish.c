@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "chain/active_set.h"
-#include "chain/slack.h"
 
 /* The compliance of an inextensible line, per length and force of the program, where slips are told
  * from forces below their bounds. */
@@ -123,12 +122,6 @@ static bool put_discs(CpsiChainProgram *program) {
     return true;
 }
 
-/* Elements that are slack in the solution of the loop. */
-static void leave_slack(CpsiChainProgram *program) {
-    for (int i = 1; i < program->n; i++)
-        if (cpsi_segment_is_slack(&program->segment, i)) program->segment.z[i][0] = 0;
-}
-
 CpsiIpmReport cpsi_chain_polish(CpsiChainProgram *program, const CpsiKept *kept,
                                 int max_iterations) {
     const int conics = program->conic.count, discs = program->disc.count;
@@ -139,7 +132,6 @@ CpsiIpmReport cpsi_chain_polish(CpsiChainProgram *program, const CpsiKept *kept,
     for (int d = 0; d < discs; d++) disc->s[d][0] = cpsi_chain_disc_slips(program, d);
     for (int k = 0; k < unilateral->count; k++)
         if (!presses(program, k)) unilateral->z[k] = 0;
-    leave_slack(program);
     disc->count += conics;
     program->conic.count = 0;
     const CpsiIpmReport report = cpsi_chain_active_set(program, max_iterations, true);

@@ -163,6 +163,19 @@ static int next_of_forest(const CpsiBalance *balance, int *outer) {
     return next;
 }
 
+/* Where no line leads to what is held points in sets count as reached: their sets hold them across
+ * the directions that they leave free. Are there any? */
+static bool reach_sets(CpsiBalance *balance) {
+    bool any = false;
+    for (int k = 0; k < balance->count; k++) {
+        CpsiFree *from = &balance->from[k];
+        const bool more = !from->reached && balance->at[k].in_set.on;
+        from->reached = from->reached || more;
+        any = any || more;
+    }
+    return any;
+}
+
 /* What nothing balances at a point goes along a line to the next one, and so on to what is held:
  * every force of that line changes by as much. The lines form a forest (Prim), each point reached
  * by the strongest. balance->ends holds it: the item and the end of each line, in the order in
@@ -170,7 +183,8 @@ static int next_of_forest(const CpsiBalance *balance, int *outer) {
 static void balance_along_forest(CpsiBalance *balance) {
     int count = 0, outer = 0;
     for (int k = 0; k < balance->count; k++) balance->from[k].reached = false;
-    for (int item; (item = next_of_forest(balance, &outer)) >= 0;) {
+    for (int item; (item = next_of_forest(balance, &outer)) >= 0 || reach_sets(balance);) {
+        if (item < 0) continue;
         balance->from[point_at(balance, item, outer)].reached = true;
         balance->ends[count][0] = item;
         balance->ends[count++][1] = outer;

@@ -136,6 +136,7 @@ void cpsi_substeps_restore(CpsiLine *line, const CpsiSubsteps *scratch) {
 typedef struct Part {
     CpsLineReport report;
     CpsLedger ledger;
+    bool strayed; /* as of the line */
 } Part;
 
 /* The state of a load step while it is taken. */
@@ -268,6 +269,7 @@ static Part accept(Advance *substeps, double from, double to, bool known) {
     Part part = {0};
     if (!cps_outcome_is_final(line->report.outcome)) part.ledger = cpsi_ledger_close(line, &start);
     part.report = line->report;
+    part.strayed = line->strayed;
     return part;
 }
 
@@ -408,12 +410,19 @@ static void compare(Advance *substeps, double from, double middle, double to, Tr
     if (trial->good && !halves_close_energy(substeps, trial)) trial->agrees = false;
 }
 
-/* The energy balance is open: keep the halves if they close it. If they do not converge, take the
- * whole part again. */
+static bool both_certified(const Trial *trial) {
+    return cps_outcome_is_certified(trial->first.report.outcome) &&
+           cps_outcome_is_certified(trial->second.report.outcome);
+}
+
+/* The energy balance is open, or the rounds have strayed: keep the halves if they close it and do
+ * not stray. If they find no answer, take the whole part again. */
 static void divide(Advance *substeps, double from, double middle, double to, Trial *trial) {
     const Trial whole = *trial;
     halve(substeps, from, middle, to, trial);
-    trial->agrees = trial->good && halves_close_energy(substeps, trial);
+    if (!is_open(&whole.open) && !both_certified(trial)) trial->good = false;
+    trial->agrees = trial->good && halves_close_energy(substeps, trial) && !trial->first.strayed &&
+                    !trial->second.strayed;
     if (trial->good) return;
     cpsi_substeps_restore(substeps->line, substeps->scratch);
     *trial = whole;
@@ -454,7 +463,7 @@ static Trial try_part(Advance *substeps, double from, double middle, double to, 
     }
     if (substeps->options->solver.path_tolerance > 0)
         compare(substeps, from, middle, to, &trial);
-    else if (cut && may_branch(substeps) && is_open(&trial.open))
+    else if (cut && may_branch(substeps) && (is_open(&trial.open) || trial.first.strayed))
         divide(substeps, from, middle, to, &trial);
     return trial;
 }

@@ -7,8 +7,11 @@
  * On coarse meshes the law may have several solutions, and the certificate cannot tell which of
  * them the line comes to. So each step of the scenes of posts_scene.h is taken from one state with
  * and without Newton's method; where the places differ by more than OTHER, the step is taken from
- * that state in PARTS parts as well, by both. Where these two paths end at one place, the line
- * comes there; where they do not, or one of them jumps, the path is not known. Fails where
+ * that state in PARTS parts as well, by both, and each of these is halved until its halves lead to
+ * the same place (`path_tolerance` OTHER), without which no jump is found. Where these two paths
+ * end at one place, the line comes there; where they do not, or one of them jumps, the path is not
+ * known. A step that the program itself has cut into more parts than the other is nearer to the
+ * path for that, and is not compared. Fails where
  *   - the path is known, and the step that begins with Newton's method is farther from its end than
  *     the other one, by more than a factor of TWICE and OTHER,
  *   - it is not certified where the other one is, or leaves a gap that is larger, by more than a
@@ -36,7 +39,7 @@ static const double LATE = 20;
 enum { COLD, WARM, METHODS };
 
 typedef struct Tally {
-    int steps, warm, other, known, farther, wrong, late;
+    int steps, warm, other, cut, known, farther, wrong, late;
 } Tally;
 
 /* The history with a stage for each step, between which there may be moves. */
@@ -127,8 +130,10 @@ static double apart(const Run *run, const double *a, const double *b) {
 /* The step in parts, by both methods; is the path known? */
 static bool follow_path(const CpsScene *scene, Run *run, const CpsStage *stage) {
     bool good = true;
+    CpsScene fine = *scene;
+    fine.solver.path_tolerance = OTHER;
     for (int method = 0; method < METHODS; method++) {
-        CpsEvolution *evolution = create(scene, method == COLD);
+        CpsEvolution *evolution = create(&fine, method == COLD);
         load(run, evolution);
         for (int part = 1; part <= PARTS && good; part++) {
             CpsChange change[2];
@@ -183,7 +188,14 @@ static bool take_step(const CpsScene *scene, Run *run, const CpsStage *stage, co
         printf("%s: cold gap %.1e, warm %s with %.1e  WRONG\n", name, cold->gap / cold->scale,
                cps_outcome_name(report[WARM].outcome), warm->gap / warm->scale);
         tally->wrong++;
-    } else if (apart(run, run->end[COLD], run->end[WARM]) > OTHER) {
+    } else if (apart(run, run->end[COLD], run->end[WARM]) <= OTHER) {
+        return true;
+    } else if (report[COLD].substep_count != report[WARM].substep_count) {
+        tally->cut++;
+        printf("%s: %.1e of the length apart; in %d parts cold, %d warm\n", name,
+               apart(run, run->end[COLD], run->end[WARM]), report[COLD].substep_count,
+               report[WARM].substep_count);
+    } else {
         judge(scene, run, stage, name, tally);
     }
     return true;
@@ -241,9 +253,10 @@ int main(int argc, char **argv) {
     }
     setvbuf(stdout, NULL, _IOLBF, 0);
     for (int k = only < 0 ? 0 : only; k < (only < 0 ? count : only + 1); k++) look_at(k, &tally);
-    printf("%d steps, %d warm; in %d the two differ; in %d of these the path is known, and the "
-           "warm step farther from it in %d; %d scenes too long; %d WRONG\n",
-           tally.steps, tally.warm, tally.other, tally.known, tally.farther, tally.late,
+    printf("%d steps, %d warm; in %d the two differ, cut alike; in %d of these the path is known, "
+           "and the warm step farther from it in %d; %d differ that are cut otherwise; %d scenes "
+           "too long; %d WRONG\n",
+           tally.steps, tally.warm, tally.other, tally.known, tally.farther, tally.cut, tally.late,
            tally.wrong);
     return tally.wrong > 0 || tally.steps == 0;
 }

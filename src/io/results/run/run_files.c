@@ -102,23 +102,30 @@ static int point_of(const CpsLine *line, int end) {
     return line->end[end].kind == CPS_END_KIND_POINT ? line->end_point[end] : CPSI_AT_NO_POINT;
 }
 
-/* Is the end the first of all that are at its point? */
-static bool is_first_at(const CpsScene *scene, int line, int end, int point) {
-    for (int k = 0; k < 2 * line + end; ++k)
-        if (point_of(&scene->line[k / 2], k % 2) == point) return false;
-    return true;
-}
-
-/* The set of an end, or of a point where no end before it is; the caller releases it. */
-static CpsConstraint set_at(const CpsScene *scene, const double origin[3], int line, int end) {
+/* The set of an end, or of a point where no end before it is, `seen` otherwise; the caller releases
+ * it. */
+static CpsConstraint set_at(const CpsScene *scene, const double origin[3], int line, int end,
+                            bool *seen) {
     const int point = point_of(&scene->line[line], end);
     CpsConstraint on = scene->line[line].constraint[end];
-    if (point != CPSI_AT_NO_POINT && scene->point[point].constraint.kind != on.kind &&
-        is_first_at(scene, line, end, point))
-        on = scene->point[point].constraint;
+    if (point != CPSI_AT_NO_POINT) {
+        if (!seen[point]) on = scene->point[point].constraint;
+        seen[point] = true;
+    }
     for (int a = 0; a < 3; ++a) on.point[a] -= origin[a];
     on.set = on.kind == CPS_CONSTRAINT_KIND_SET ? cps_set_retain(on.set) : NULL;
     return on;
+}
+
+/* The sets of ends and points, each where it is first met. */
+static bool copy_sets(CpsResults *results, const CpsScene *scene, size_t lines) {
+    bool *seen = calloc((size_t)scene->point_count + 1, sizeof *seen);
+    if (!seen) return false;
+    for (size_t i = 0; i < lines; ++i)
+        for (int e = 0; e < 2; ++e)
+            results->line_constraint[i][e] = set_at(scene, results->origin, (int)i, e, seen);
+    free(seen);
+    return true;
 }
 
 static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvolution *evolution) {
@@ -153,15 +160,12 @@ static bool copy_scene(CpsResults *results, const CpsScene *scene, const CpsEvol
         results->line_length[i] = view.arc_length[view.element_count];
         results->line_elements[i] = view.element_count;
         results->line_name[i] = copy_text(view.name);
-        for (int e = 0; e < 2; ++e) {
-            results->line_point[i][e] = point_of(&scene->line[i], e);
-            results->line_constraint[i][e] = set_at(scene, results->origin, (int)i, e);
-        }
+        for (int e = 0; e < 2; ++e) results->line_point[i][e] = point_of(&scene->line[i], e);
         results->begins_static |= scene->line[i].start.kind == CPS_START_STATIC;
         results->line_count = (int)i + 1;
         if (!results->line_name[i]) return false;
     }
-    return copy_stages(results, scene);
+    return copy_sets(results, scene, lines) && copy_stages(results, scene);
 }
 
 static CpsStatus open_files(CpsResults *results, const char *directory, const CpsScene *scene,
