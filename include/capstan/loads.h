@@ -37,6 +37,11 @@ typedef struct CpsLineForce {
     double force[3]; /* [N/m] per metre of unstretched line */
 } CpsLineForce;
 
+/* A load of a program's own: force [N/m] per metre of unstretched line at the abscissa s [m] from
+ * end A, at the time [s] since the history began, after the step. A node has that at its abscissa
+ * times the length that it stands for. */
+typedef void CpsLineForceFunction(void *user, double time, double s, double force[3]);
+
 /* The force of the water of a current on a line, per metre of unstretched line (Morison):
  *
  *     (rho/2) d (normal |u_n| u_n + pi tangential |u_t| u_t),
@@ -80,12 +85,21 @@ typedef struct CpsLineLoads {
     /* of a line that is elastic, or whose ends are not at points; the elements add up U at their
      * nodes by half of their lengths */
     CpsPotential potential;
+    CpsLineForceFunction *force_function; /* default NULL: none */
+    void *force_user;                     /* its first argument */
 } CpsLineLoads;
 
 typedef struct CpsCurrentRow {
     double z;           /* [m] height */
     double velocity[3]; /* [m/s] of the water there */
 } CpsCurrentRow;
+
+/* The motion of the water that a program gives: velocity [m/s] and acceleration [m/s2] in the place
+ * x [m], in the axes of the scene, at the time [s] since the history began, after the step; both
+ * are 0 before the call. It gives the same whenever it is asked for the same, and several threads
+ * may call it at once where the scene has threads. */
+typedef void CpsWaterFunction(void *user, double time, const double x[3], double velocity[3],
+                              double acceleration[3]);
 
 /* A steady current; in still water one row of velocity 0. Between rows it is interpolated, below
  * the first and above the last one it is as there. */
@@ -94,6 +108,10 @@ typedef struct CpsCurrent {
     int row_count;            /* >= 1 */
     const CpsCurrentRow *row; /* (row_count) with z that rises from row to row */
     const CpsWaves *waves;    /* beside it, in time (waves.h); NULL, the default: none */
+    /* beside both, on lines in steps in time, in a scene without members of bodies; default NULL:
+     * none */
+    CpsWaterFunction *function;
+    void *user; /* its first argument */
 } CpsCurrent;
 
 /* The potential of a line after the last step. The arrays are valid until the evolution changes. */
@@ -106,6 +124,11 @@ typedef struct CpsPotentialView {
 } CpsPotentialView;
 
 struct CpsEvolution;
+/* The motion of the water in the middle of each element of a line with drag where it is after the
+ * last step, a step in time: of current, waves and function, (element_count, 3) each, which the
+ * caller has. 0 of other lines and steps. */
+CPS_API void cps_evolution_water(const struct CpsEvolution *evolution, int line, double *velocity,
+                                 double *acceleration);
 CPS_API CpsPotentialView cps_evolution_potential(const struct CpsEvolution *evolution, int line);
 
 #ifdef __cplusplus

@@ -62,6 +62,7 @@ PICTURES = {
     "run-dropped-chain": of_example("dropped-chain", "elevation.svg"),
     "run-oc3-decay": of_example("oc3-hywind-decay", "history.svg"),
     "run-oc3-waves": of_example("oc3-hywind-waves", "history.svg"),
+    "run-floating-frame": of_example("floating-frame", "history.svg"),
     "run-parting-lines": of_example("parting-lines", "step-00008-plan.svg"),
     "run-net": net, "run-net-drape": lambda program: drape(program, 20), "run-oc3-planes": of_example("oc3-hywind", "planes.svg"),
     "run-moored-buoy": of_example("catenary-moored-buoy", "elevation.svg"),

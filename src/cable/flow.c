@@ -15,10 +15,21 @@ Vec3 cpsi_flow_velocity(const CpsiFlow *flow, double z) {
     return vec3_axpy(share, vec3_sub(high, low), low);
 }
 
+/* Add what the program gives. */
+static void add_given(const CpsiGivenWater *given, Vec3 x, CpsiWaterMotion *out) {
+    const Vec3 at = vec3_add(x, vec3_load(given->origin));
+    const double place[3] = {at.x, at.y, at.z};
+    double velocity[3] = {0}, acceleration[3] = {0};
+    given->function(given->user, given->time, place, velocity, acceleration);
+    out->velocity = vec3_add(out->velocity, vec3_load(velocity));
+    out->acceleration = vec3_add(out->acceleration, vec3_load(acceleration));
+}
+
 CpsiWaterMotion cpsi_flow_motion(const CpsiFlow *flow, Vec3 x) {
     CpsiWaterMotion out = {.acceleration = {0, 0, 0}};
     if (flow->waves) out = cpsi_waves_at(flow->waves, x, NULL);
     out.velocity = vec3_add(out.velocity, cpsi_flow_velocity(flow, x.z));
+    if (flow->given) add_given(flow->given, x, &out);
     return out;
 }
 

@@ -54,6 +54,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     if (line->has_node_loads) {
         CPSI_PLACE(arena, line->field.load, 3 * n);
         CPSI_PLACE(arena, line->field.own_load, 3 * n);
+        if (line->field.function) CPSI_PLACE(arena, line->field.base_load, 3 * n);
         CPSI_PLACE(arena, line->field.drag, 3 * n);
         CPSI_PLACE(arena, line->field.all, 3 * n);
         if (line->has_potential) {

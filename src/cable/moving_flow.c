@@ -79,7 +79,7 @@ static void add_element(const CpsiLine *line, const double *x, int e, Vec3 v, Wa
     if (fast > 0)
         add_directed(out->slope, 0, pressed * by->normal * fast, vec3_scale(1 / fast, across));
     add_directed(out->mass, moved * by->added_normal, moved * by->added_tangential, t);
-    if (!flow->waves) return;
+    if (!flow->waves && !flow->given) return;
     double carried[6] = {0};
     add_directed(carried, moved * (1 + by->added_normal), moved * (1 + by->added_tangential), t);
     out->wave =

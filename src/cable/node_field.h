@@ -14,13 +14,22 @@
 #include "cable/waves.h"
 #include "capstan/loads.h"
 
+/* The motion of the water that a program gives. */
+typedef struct CpsiGivenWater {
+    CpsWaterFunction *function;
+    void *user;
+    double origin[3]; /* [m] of line->position, in the axes of the scene */
+    double time;      /* [s] of the motion asked for */
+} CpsiGivenWater;
+
 /* A current about a line. */
 typedef struct CpsiFlow {
     double density; /* [kg/m3] */
     CpsDrag drag;
     int row_count;
     const CpsCurrentRow *row;
-    const CpsiWaves *waves; /* NULL: none */
+    const CpsiWaves *waves;      /* NULL: none */
+    const CpsiGivenWater *given; /* NULL: none */
 } CpsiFlow;
 
 /* A potential of a program's own (potential.h). */
@@ -43,6 +52,9 @@ typedef struct CpsiNodeField {
     double *program; /* (n, 6) K in the axes and units of a program */
     /* what the scene gives, to which cpsi_line_field_clear sets load, K and a; NULL as these */
     double *own_load, *own_stiffness, *own_place;
+    double *base_load; /* (n, 3) [N] own_load without that of the function; NULL: there is none */
+    CpsLineForceFunction *function; /* of a load along the line, and its argument */
+    void *user;
     double *diagonal, *coupling; /* (n, 3) [N/m] of own_stiffness: xx, yy, zz; xy, xz, yz */
     const CpsiFlow *flow;        /* NULL: none */
     double *all;                 /* (n, 3) [N] load, drag, pull, added and wave; NULL as load */

@@ -428,7 +428,8 @@ static void hash_waves(uint64_t *hash, const CpsiWaves *waves) {
 static void hash_flow(uint64_t *hash, const CpsiFlow *flow) {
     const double given[] = {flow->density,           flow->drag.diameter,
                             flow->drag.normal,       flow->drag.tangential,
-                            flow->drag.added_normal, flow->drag.added_tangential};
+                            flow->drag.added_normal, flow->drag.added_tangential,
+                            flow->given != NULL};
     hash_numbers(hash, sizeof given / sizeof *given, given);
     for (int k = 0; k < flow->row_count; k++) {
         hash_numbers(hash, 1, &flow->row[k].z);
@@ -755,7 +756,7 @@ void cps_evolution_save(const CpsEvolution *evolution, void *state) {
 void cpsi_evolution_restore(CpsEvolution *evolution, const void *state) {
     pass_state(&(Tape){.in = state}, evolution);
     cpsi_follow_releases(evolution);
-    evolution->waves.time = evolution->time;
+    evolution->waves.time = evolution->water.time = evolution->time;
     evolution->report.name = evolution->step_name;
     evolution->ended = cps_outcome_is_final(evolution->report.outcome);
 }

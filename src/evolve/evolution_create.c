@@ -147,6 +147,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         for (int end = 0; end < 2; end++) line->drums.on[end] = scene->line[i].winch[end].is_there;
         line->has_potential = cpsi_has_potential(&scene->line[i]);
         line->has_field = cpsi_has_springs(&scene->line[i]) || line->has_potential;
+        cpsi_line_loads_take(line, &scene->line[i]);
         line->has_node_loads = cpsi_has_forces(&scene->line[i]) ||
                                cpsi_has_drag(scene, &scene->line[i]) || line->has_potential;
         line->has_breaking_load = cpsi_has_breaking_load(&scene->line[i]);
@@ -271,6 +272,8 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
                              evolution->flow ? &evolution->flow[def - scene->line] : NULL);
     if (line->field.flow && evolution->wave)
         evolution->flow[def - scene->line].waves = &evolution->waves;
+    if (line->field.flow && scene->current->function)
+        evolution->flow[def - scene->line].given = &evolution->water;
     for (int end = 0; end < 2; end++) {
         line->end[end] = def->end[end];
         if (def->end[end].kind == CPS_END_KIND_FREE) continue;
@@ -290,6 +293,11 @@ static void fill_line(CpsiLine *line, const CpsEvolution *evolution, const CpsSc
 }
 
 static void fill(CpsEvolution *evolution, const CpsScene *scene) {
+    if (scene->current && scene->current->function) {
+        evolution->water.function = scene->current->function;
+        evolution->water.user = scene->current->user;
+        memcpy(evolution->water.origin, evolution->origin, sizeof evolution->water.origin);
+    }
     evolution->options = (CpsiStepOptions){.solver = scene->solver,
                                            .friction_policy = scene->friction_policy,
                                            .contact_policy = scene->contact_policy};

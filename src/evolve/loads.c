@@ -16,7 +16,9 @@
 #include "evolve/time_check.h"
 
 bool cpsi_has_springs(const CpsLine *line) { return line->loads && line->loads->spring_count > 0; }
-bool cpsi_has_forces(const CpsLine *line) { return line->loads && line->loads->force_count > 0; }
+bool cpsi_has_forces(const CpsLine *line) {
+    return line->loads && (line->loads->force_count > 0 || line->loads->force_function);
+}
 bool cpsi_has_potential(const CpsLine *line) {
     return line->loads && line->loads->potential.function;
 }
@@ -182,6 +184,17 @@ CpsStatus cpsi_current_check(const CpsScene *scene, CpsError *err) {
                             "current: the water's density is %g kg/m3, expected a positive finite "
                             "number: give water_density",
                             current->density);
+    if (current->function && !cpsi_is_in_time(scene))
+        return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
+                            "current: a function moves the water in time, but no stage of the "
+                            "history has a duration: give one, or in_time");
+    const int bodies = current->function ? scene->body_count : 0;
+    for (int i = 0; i < bodies; i++)
+        if (scene->body[i].member_count > 0)
+            return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
+                                "current: a function moves the water about lines, and body '%s' "
+                                "has members: leave out either",
+                                scene->body[i].name);
     if (current->row_count < 1 || !current->row)
         return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
                             "current: found no rows, expected one or more");
@@ -279,6 +292,7 @@ void cpsi_line_loads_fill(CpsiLine *line, const CpsScene *scene, const CpsLine *
         }
     }
     if (line->has_node_loads) memcpy(field->own_load, field->load, 3 * n * sizeof *field->load);
+    if (field->function) memcpy(field->base_load, field->load, 3 * n * sizeof *field->load);
     fill_potential(line, def, origin);
     if (!cpsi_has_drag(scene, def)) return;
     const CpsCurrent *current = scene->current;
@@ -289,4 +303,22 @@ void cpsi_line_loads_fill(CpsiLine *line, const CpsScene *scene, const CpsLine *
                        .row = row};
     field->flow = flow;
     cpsi_line_follow_flow(line, line->position);
+}
+
+void cpsi_line_loads_take(CpsiLine *line, const CpsLine *def) {
+    if (!def->loads) return;
+    line->field.function = def->loads->force_function;
+    line->field.user = def->loads->force_user;
+}
+
+void cpsi_line_loads_impose(CpsiLine *line, double time) {
+    CpsiNodeField *field = &line->field;
+    if (!field->function) return;
+    for (int j = 0; j < line->n; j++) {
+        double force[3] = {0};
+        field->function(field->user, time, line->arc_length[j], force);
+        for (int a = 0; a < 3; a++)
+            field->own_load[3 * j + a] =
+                field->base_load[3 * j + a] + cpsi_line_share(line, j) * force[a];
+    }
 }

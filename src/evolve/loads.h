@@ -23,5 +23,9 @@ bool cpsi_has_drag(const CpsScene *scene, const CpsLine *line);
 void cpsi_current_fill(const CpsCurrent *current, const double origin[3], CpsCurrentRow *row);
 void cpsi_line_loads_fill(CpsiLine *line, const CpsScene *scene, const CpsLine *def,
                           const double origin[3], CpsCurrentRow *row, CpsiFlow *flow);
+/* Take over the function of a load along it, from which its layout follows. */
+void cpsi_line_loads_take(CpsiLine *line, const CpsLine *def);
+/* Impose the load that a function gives along the line at a time [s], where there is one. */
+void cpsi_line_loads_impose(CpsiLine *line, double time);
 
 #endif

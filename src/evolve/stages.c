@@ -11,6 +11,7 @@
 #include "evolve/excitation.h"
 #include "evolve/failure.h"
 #include "evolve/grasps.h"
+#include "evolve/loads.h"
 #include "evolve/pace.h"
 #include "evolve/path_check.h"
 #include "evolve/ranges.h"
@@ -316,7 +317,9 @@ static void plan_time(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
     const double before = evolution->interval, length = cpsi_portion_length(stage, portion),
                  ratio = fabs(length - before) > SAME_STEP * before ? length / before : 1;
     evolution->interval = length;
-    evolution->waves.time = evolution->time + length;
+    evolution->waves.time = evolution->water.time = evolution->time + length;
+    for (int i = 0; i < evolution->line_count; i++)
+        cpsi_line_loads_impose(&evolution->line[i], evolution->time + length);
     evolution->restarts = !(ratio <= MOST_GROWTH * (1 + SAME_STEP)) ||
                           (portion->part == 0 && (moves || evolution->ground_moved));
     evolution->formula = cpsi_formula(length, evolution->restarts ? 1 : ratio);
@@ -373,6 +376,8 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
 /* Nothing changes. */
 static void plan_rest(CpsEvolution *evolution) {
     evolution->interval = 0;
+    for (int i = 0; i < evolution->line_count; i++)
+        cpsi_line_loads_impose(&evolution->line[i], evolution->time);
     cpsi_excite_bodies(evolution);
     evolution->ground_moved = false;
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;

@@ -68,6 +68,7 @@ struct CpsEvolution {
     CpsiFlow *flow;
     CpsiWave *wave; /* (waves of the scene), and what is known of them; NULL: none */
     CpsiWaves waves;
+    CpsiGivenWater water; /* without a function: none */
     double *excitation;   /* of all bodies (excitation.h) */
     CpsiCylinder *member; /* of all bodies (members.h) */
     CpsiPoints points;

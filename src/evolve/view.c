@@ -3,6 +3,7 @@
 #include "evolve/view.h"
 #include "cable/damping.h"
 #include "cable/end_set.h"
+#include "cable/flow.h"
 #include "cable/winch.h"
 
 #include "capstan/two_stiffnesses.h"
@@ -141,4 +142,20 @@ CpsPotentialView cps_evolution_potential(const CpsEvolution *evolution, int line
                              .force = from->field.pull};
     for (int j = 0; j < from->n; j++) out.total += from->field.energy[j];
     return out;
+}
+
+void cps_evolution_water(const CpsEvolution *evolution, int line, double *velocity,
+                         double *acceleration) {
+    if (!evolution || !velocity || !acceleration || line < 0 || line >= evolution->line_count)
+        return;
+    const CpsiLine *from = &evolution->line[line];
+    const bool swims = from->field.flow && from->has_inertia && from->inertia.is_moving;
+    for (int e = 0; e + 1 < from->n; e++) {
+        const Vec3 middle =
+            vec3_scale(0.5, vec3_add(vec3_at(from->position, e), vec3_at(from->position, e + 1)));
+        CpsiWaterMotion water = {.velocity = {0, 0, 0}};
+        if (swims) water = cpsi_flow_motion(from->field.flow, middle);
+        vec3_store(&velocity[3 * e], water.velocity);
+        vec3_store(&acceleration[3 * e], water.acceleration);
+    }
 }

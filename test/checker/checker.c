@@ -164,10 +164,10 @@ static void check_ledger(Findings *findings, const Record *r, const Measures *m,
  * of their work on the path of obstacles that turn. */
 static void check_ends(Findings *findings, const Source *source, const Record *r, const Measures *m,
                        double *slid, double *carried) {
-    const double force = FORCE_TOLERANCE * m->largest_force + NOTHING;
     *slid = *carried = 0;
     for (int e = 0; e < 2; e++) {
         const End end = end_measure(source, r, e);
+        const double force = FORCE_TOLERANCE * m->largest_force + NOTHING + inertia_rounding(r, e);
         const double *said = r->end_force[e];
         double off = 0, friction_error = 0;
         for (int k = 0; k < 3; k++) off = fmax(off, fabs(said[k] - (double)end.force[k]));

@@ -7,6 +7,9 @@
 #include "inertia.h"
 #include "loads.h"
 
+/* Of the water's motion: rounding of places far from the origin. */
+static const double WATER = 1e-9;
+
 /* [m] What of the length of node j lies between two arc lengths. */
 static double common_length(const Record *r, size_t j, double at, double from, double to) {
     const double before = j > 0 ? r->element_length[j - 1] : 0,
@@ -145,6 +148,43 @@ static void add_potential(Compare *compare, const CpsLine *line, const Record *r
              r->loads->energy[j], j, energy);
 }
 
+/* The water of the file is that of current, waves and function. */
+static void compare_water(Compare *compare, const CpsLine *line, const Record *r, size_t step) {
+    const CpsCurrent *current = compare->scene->current;
+    const bool given = current && current->function && r->loads->has_drag;
+    if (given != (r->loads->water != NULL)) {
+        find(compare, "water that a function moves about %s", line->name);
+        return;
+    }
+    double off = 0, sizes = 0;
+    const size_t elements = given && in_time(r) ? r->elements : 0;
+    for (size_t i = 0; i < elements; i++) {
+        Real middle[3], waves[3] = {0, 0, 0}, faster[3] = {0, 0, 0}, rows[3];
+        double x[3], v[3] = {0, 0, 0}, rate[3] = {0, 0, 0};
+        for (int a = 0; a < 3; a++) {
+            middle[a] = ((Real)r->position[i][a] + r->position[i + 1][a]) / 2;
+            x[a] = (double)(middle[a] + compare->source.origin[a]);
+        }
+        sea_motion(&r->loads->sea, r->time, middle, waves, faster);
+        loads_current(r->loads, middle[2], rows);
+        current->function(current->user, r->time, x, v, rate);
+        for (int a = 0; a < 3; a++) {
+            off = fmax(off, fabs((double)(waves[a] + rows[a]) + v[a] - r->loads->water[i][a]));
+            off = fmax(off, fabs((double)faster[a] + rate[a] - r->loads->water_rate[i][a]));
+            sizes = fmax(sizes, fmax(fabs(v[a]), fabs(rate[a])) + fabs(r->loads->water[i][a]));
+        }
+    }
+    if (!(off <= WATER * sizes))
+        find(compare, "water about %s, step %zu, is off by %.9g", line->name, step, off);
+}
+
+/* Add what the scene's function gives along the line at a node. */
+static void add_function(const CpsLine *line, const Record *r, size_t j, double at, Real *sum) {
+    double force[3] = {0, 0, 0};
+    line->loads->force_function(line->loads->force_user, r->time, at, force);
+    for (int a = 0; a < 3; a++) sum[a] += (Real)common_length(r, j, at, 0, line->length) * force[a];
+}
+
 void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, size_t step) {
     bool soft = false;
     for (int k = 0; k < compare->scene->obstacle_count; k++)
@@ -155,7 +195,8 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
     const bool potential = given && given->potential.function,
                springs = given && (given->spring_count > 0 || potential),
                drag = given && given->drag.diameter > 0 && compare->scene->current,
-               forces = given && (given->force_count > 0 || drag || potential);
+               forces =
+                   given && (given->force_count > 0 || drag || potential || given->force_function);
     const Loads *loads = r->loads;
     if (springs != (loads && loads->stiffness) || forces != (loads && loads->given)) {
         find(compare, "springs or loads of %s", line->name);
@@ -169,6 +210,7 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
     }
     double at = 0, off = 0, sizes = 0;
     if (!loads) return;
+    compare_water(compare, line, r, step);
     for (size_t j = 0; j < r->nodes; j++) {
         at += j > 0 ? r->element_length[j - 1] : 0;
         if (springs && !compare_springs(compare, line, r, j, at)) return;
@@ -180,6 +222,7 @@ void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, 
             for (int a = 0; a < 3; a++) left[a] = flow.drag[a] + flow.added[a] + flow.wave[a];
         }
         if (potential && loads->pull) add_potential(compare, line, r, j, at, left);
+        if (given->force_function) add_function(line, r, j, at, left);
         for (int a = 0; a < 3; a++) {
             left[a] -= loads->given[j][a];
             for (int i = 0; i < given->force_count; i++)

@@ -6,6 +6,7 @@
  * tangential part is compared. */
 #include "inertia.h"
 
+#include <float.h>
 #include <math.h>
 #include <netcdf.h>
 #include <stdlib.h>
@@ -125,6 +126,15 @@ bool inertia_terms(const Record *r, size_t j, bool held, Real *pull, Inertia *ou
     out->energy = square / (2 * stiffness);
     out->gap = open / (2 * stiffness);
     return true;
+}
+
+/* Of m ((x - x*)/k - v*)/k, x and x* known to a rounding of the coordinates. */
+double inertia_rounding(const Record *r, int e) {
+    const size_t j = e ? r->elements : 0;
+    double reach = 0;
+    if (!in_time(r)) return 0;
+    for (int a = 0; a < 3; a++) reach += fabs(r->position[j][a]) + fabs(r->reference[j][a]);
+    return DBL_EPSILON * reach * r->mass[j] / (r->span[j] * r->span[j]);
 }
 
 /* Take the part along the unit vector n off v; returns the size of what is left. */

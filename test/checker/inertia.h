@@ -26,6 +26,9 @@ typedef struct Inertia {
  * is not held. False in a step that is not one in time. */
 bool inertia_terms(const Record *r, size_t j, bool held, Real *pull, Inertia *out);
 
+/* [N] What rounding of its places leaves of the force of inertia at end e. */
+double inertia_rounding(const Record *r, int e);
+
 /* The part of the vector v across the normals of the contacts at which node j bears by more than
  * `faint` [N], up to two, which may have any angle; what gives stops no node. */
 void inertia_across(const Source *source, const Record *r, size_t j, double faint, Real *v);

@@ -123,6 +123,11 @@ int loads_create(const Source *source, const char *line, Record *record, FILE *l
         if (!is_convex(loads->stiffness[j], loads->coupling[j]))
             return complain(log, "negative energy", "node_stiffness");
     if (create_potential(source, line, record, log)) return -1;
+    if (find(source, line, "water_velocity", &id)) {
+        loads->water = calloc(record->elements, sizeof(Vector));
+        loads->water_rate = calloc(record->elements, sizeof(Vector));
+        if (!loads->water || !loads->water_rate) return complain(log, "out of memory", "loads");
+    }
     snprintf(name, sizeof name, "%s_drag", line);
     loads->has_drag = nc_get_att_double(source->nc, NC_GLOBAL, name, loads->drag) == NC_NOERR &&
                       nc_inq_attlen(source->nc, NC_GLOBAL, "current", &(size_t){0}) == NC_NOERR;
@@ -148,6 +153,11 @@ int loads_read(const Source *source, const char *line, size_t step, Record *reco
     if (loads->beside)
         bad |= read_vectors(source, line, "node_beside", (long)step, record->nodes, loads->beside,
                             log);
+    if (loads->water)
+        bad |= read_vectors(source, line, "water_velocity", (long)step, record->elements,
+                            loads->water, log) ||
+               read_vectors(source, line, "water_acceleration", (long)step, record->elements,
+                            loads->water_rate, log);
     if (!loads->pull || bad) return bad ? -1 : 0;
     loads->has_before = step > 0;
     if (loads->has_before)
@@ -171,6 +181,8 @@ void loads_free(Record *record) {
     free(loads->energy);
     free(loads->energy_before);
     free(loads->row);
+    free(loads->water);
+    free(loads->water_rate);
     sea_free(&loads->sea);
     free(loads);
     record->loads = NULL;
@@ -211,8 +223,8 @@ Spring loads_spring(const Record *record, size_t j) {
     return out;
 }
 
-/* The velocity of the water at height z, linear between the rows. */
-static void velocity(const Loads *loads, Real z, Real *u) {
+/* Linear between the rows. */
+void loads_current(const Loads *loads, Real z, Real *u) {
     const double *low = loads->row, *high = &loads->row[4 * (loads->rows - 1)];
     for (size_t k = 0; k < loads->rows; k++) {
         const double *row = &loads->row[4 * k];
@@ -244,7 +256,7 @@ static void add_half(const Record *record, Vector *x, size_t i, const Real *v, c
     const Loads *loads = record->loads;
     const double diameter = loads->drag[0], across_by = loads->drag[1], along_by = loads->drag[2];
     Real u[3], t[3], along = 0, across[3], speed = 0;
-    velocity(loads, ((Real)x[i][2] + x[i + 1][2]) / 2, u);
+    loads_current(loads, ((Real)x[i][2] + x[i + 1][2]) / 2, u);
     for (int a = 0; a < 3; a++) u[a] += waves[a] - v[a];
     const Real size = direction(x, i, t);
     for (int a = 0; a < 3; a++) along += size > 0 ? u[a] * t[a] / size : 0;
@@ -287,6 +299,16 @@ static void add_inertia(const Record *record, size_t i, const Real *acceleration
     }
 }
 
+/* What the water has beyond the current in the middle of element i, by the file. */
+static void given_water(const Loads *loads, size_t i, Real z, Real *beyond, Real *rate) {
+    Real current[3];
+    loads_current(loads, z, current);
+    for (int a = 0; a < 3; a++) {
+        beyond[a] = loads->water[i][a] - current[a];
+        rate[a] = loads->water_rate[i][a];
+    }
+}
+
 Flow loads_flow(const Record *record, size_t j) {
     Real v[3], acceleration[3];
     Flow out = {.drag = {0, 0, 0}};
@@ -300,6 +322,7 @@ Flow loads_flow(const Record *record, size_t j) {
         for (int a = 0; a < 3; a++)
             middle[a] = ((Real)record->position[i][a] + record->position[i + 1][a]) / 2;
         sea_motion(&record->loads->sea, record->time, middle, waves, faster);
+        if (record->loads->water) given_water(record->loads, i, middle[2], waves, faster);
         for (int a = 0; a < 3; a++) against[a] = -faster[a];
         add_half(record, record->position, i, v, waves, out.drag);
         add_inertia(record, i, acceleration, 0, out.added);

@@ -25,6 +25,9 @@ typedef struct Loads {
     size_t rows;
     double *row; /* (rows, 4) z and velocity */
     Sea sea;     /* of a line with drag */
+    /* (elements) [m/s], [m/s2] in the middle of each, where the program moves the water; else NULL
+     */
+    Vector *water, *water_rate;
 } Loads;
 
 /* What the file has of a line; record->loads is NULL where that is nothing. Both return 0, or -1
@@ -54,6 +57,9 @@ Real loads_work(const Record *record);
 bool loads_are_convex(const Record *record);
 /* [J] What the drag used and that of where the nodes are may differ by in it. */
 double loads_open_work(const Record *record);
+
+/* [m/s] The velocity of the current at height z. */
+void loads_current(const Loads *loads, Real z, Real *u);
 
 /* [N] The drag on node j at the places x, at rest. */
 void loads_drag(const Record *record, Vector *x, size_t j, Real *out);

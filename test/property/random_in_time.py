@@ -23,6 +23,7 @@ import checked  # noqa: E402
 from random_swims import Swim, some, vector  # noqa: E402
 
 CERTIFIED, REMAINDER, EACH = 0.995, 1e-10, 5
+ROUNDING = 1e-15  # of an energy; a history in which hardly anything moves turns over 1e-8 of what is stored
 CLASSES = ["drop", "clump", "body", "drum", "ground", "snatch", "slide", "wave"]
 EVENTS = ["landed", "changed", "snatched"]
 TOTAL = dict.fromkeys(EVENTS + ["scenes"], 0)
@@ -274,12 +275,12 @@ def rest(dice, kind):
 
 
 def remainder(out):
-    """What the ledgers of the whole history leave over, as a share of what they have turned over."""
+    """What the ledgers of the whole history leave over beyond rounding of the stored energies, as a share of what they have turned over."""
     left = over = 0.0
     with open(os.path.join(out, "history.csv"), encoding="ascii") as file:
         for row in csv.DictReader(file):
             if row["outcome"] in ("solved", "taut") and float(row["turnover"]) > 0:  # not the row of units, nor statics
-                left += abs(float(row["imbalance"]))
+                left += max(0.0, abs(float(row["imbalance"])) - ROUNDING * float(row["scale"]))
                 over += float(row["turnover"])
     return left / over if over > 0 else 0.0
 

@@ -44,6 +44,7 @@ class Swim:
         self.origin = [0.0 if kind == "joined" else dice.choice([0, 0, 1e3, -1e4]) * self.size for _ in range(2)] + [0.0]
         self.bed = kind != "free" and (kind != "joined" or dice.random() < 0.5)
         self.low = -self.size * dice.uniform(0.05, 0.5)
+        self.fewest = 2  # elements
 
     def water(self):
         rows, z = [], -self.size * self.dice.uniform(0.5, 2)
@@ -83,7 +84,7 @@ class Swim:
         else:
             loads = ""
         loads += dice.choice(["", "", f", loads: [{{force: {vector(some(dice, 0.2 * weight / self.size))}}}]"])
-        return (f"elements: {dice.randint(2, 40)}, mass: {self.mass!r}, stiffness: {'.inf' if inextensible else repr(stiffness)}, "
+        return (f"elements: {max(self.fewest, dice.randint(2, 40))}, mass: {self.mass!r}, stiffness: {'.inf' if inextensible else repr(stiffness)}, "
                 f"drag: {{diameter: {self.diameter!r}, normal: {10 ** dice.uniform(-0.5, 0.5)!r}{along}{added}}}{loads}")
 
     def at(self, x):
@@ -96,7 +97,9 @@ class Swim:
         if self.kind == "round":
             middle = [self.size * dice.uniform(0.2, 0.6), 0, self.low * dice.uniform(0.5, 1.2)]
             shape = f"sphere: {{centre: {self.at(middle)}" if dice.random() < 0.4 else f"cylinder: {{point: {self.at(middle)}, axis: [0.2, 1, 0]"
-            out += f"  thing: {{{shape}, radius: {self.size * dice.uniform(0.03, 0.15)!r}}}, friction: {dice.choice([0, 0.4])}}}\n"
+            radius = self.size * dice.uniform(0.03, 0.15)
+            self.fewest = math.ceil(1.4 * self.size / radius)  # an element is no longer than the radius, or the mesh is too coarse
+            out += f"  thing: {{{shape}, radius: {radius!r}}}, friction: {dice.choice([0, 0.4])}}}\n"
         return "obstacles:\n" + out if out else ""
 
     def rope(self):
@@ -124,7 +127,9 @@ class Swim:
             inertia = vector([heavy * (0.1 * self.size) ** 2 * dice.uniform(0.5, 2)] * 3)
             out = (f"bodies: {{hull: {{free: {self.at([0, 0, 0])}, mass: {heavy!r}, moments_of_inertia: {inertia}, "
                    f"buoyancy: {(heavy + count * weight) * 9.81!r}}}}}\npoints:\n")
-            out += "".join(f"  p{i}: {{body: hull, at: {vector(some(dice, 0.1 * self.size))}}}\n" for i in range(count))
+            fairleads = [some(dice, 0.1 * self.size) for _ in range(count)]
+            low = 0.9 * self.low if self.bed else -math.inf  # none begins in the bed
+            out += "".join(f"  p{i}: {{body: hull, at: {vector([x, y, max(z, low)])}}}\n" for i, (x, y, z) in enumerate(fairleads))
         else:
             out = f"points: {{p: {{free: {self.at([0, 0, 0])}, mass: {heavy!r}}}}}\n"
         out += "lines:\n"

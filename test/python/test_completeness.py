@@ -272,7 +272,7 @@ NOT_CALLED = {
     r"cps_set_conic\w*|cps_set_user": "for programs in C that extend the library",
     r"cps_sway_at|cps_wave_number|cps_breaking_height|cps_waves_at": "sines and cosines",
     r"cps_evolution_(point|point_motion|body|obstacle)_view": "reports have the places in the scene",
-    r"cps_evolution_(potential|follow)": "functions in C; a loop of moves",
+    r"cps_evolution_(potential|follow|water)": "functions in C; a loop of moves",
     r"cps_(ground|mesh)_(create|report|distance|height)": "scenes read grounds and meshes from files",
     r"cps_(json_\w+|write_file|row_read|suggest|read_limits_default|(law|drive)_write_schema|drive_walk)": "of the command",
     r"cps_drive_(read\w*|draw_\w+)|cps_(law|resistance)_draw|cps_law_picture_default": "files of driven systems: `python -m capstan drive`",

@@ -746,3 +746,31 @@ void cpsi_netcdf_append_potential(CpsiNetcdfFile *file, const CpsiNetcdfPotentia
     cpsi_netcdf_doubles(file, ids->energy, start, count, view.energy);
     cpsi_netcdf_doubles(file, ids->force, start, count, view.force);
 }
+
+void cpsi_netcdf_define_water(CpsiNetcdfFile *file, CpsiNetcdfWater *ids, const CpsScene *scene,
+                              int line, const int dimension[3]) {
+    const CpsLineLoads *loads = scene->line[line].loads;
+    ids->is_there = scene->current && scene->current->function && loads && loads->drag.diameter > 0;
+    if (!ids->is_there) return;
+    const char *name = scene->line[line].name;
+    ids->velocity = cpsi_netcdf_variable(file, name, "water_velocity", NC_DOUBLE, 3, dimension,
+                                         "of the water in the middle of the element", "m s-1");
+    ids->acceleration = cpsi_netcdf_variable(file, name, "water_acceleration", NC_DOUBLE, 3,
+                                             dimension, "likewise, in a fixed place", "m s-2");
+}
+
+void cpsi_netcdf_append_water(CpsiNetcdfFile *file, const CpsiNetcdfWater *ids, size_t step,
+                              const CpsEvolution *evolution, int line) {
+    if (!ids->is_there) return;
+    const size_t elements = (size_t)cps_evolution_line_view(evolution, line).element_count,
+                 start[] = {step, 0, 0}, count[] = {1, elements, 3};
+    double *water = calloc(6 * elements, sizeof *water);
+    if (!water) {
+        cpsi_netcdf_keep(file, NC_ENOMEM);
+        return;
+    }
+    cps_evolution_water(evolution, line, water, &water[3 * elements]);
+    cpsi_netcdf_doubles(file, ids->velocity, start, count, water);
+    cpsi_netcdf_doubles(file, ids->acceleration, start, count, &water[3 * elements]);
+    free(water);
+}

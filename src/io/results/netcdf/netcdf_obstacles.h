@@ -193,6 +193,18 @@ void cpsi_netcdf_write_set(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size
 void cpsi_netcdf_append_sets(CpsiNetcdfFile *file, const CpsiNetcdfSets *ids, size_t step,
                              const CpsEvolution *evolution, int line);
 
+/* The water about a line with drag in a scene whose program moves it (capstan/loads.h); nothing
+ * else. The dimensions are those of an array of vectors over elements. */
+typedef struct CpsiNetcdfWater {
+    bool is_there;
+    int velocity, acceleration;
+} CpsiNetcdfWater;
+
+void cpsi_netcdf_define_water(CpsiNetcdfFile *file, CpsiNetcdfWater *ids, const CpsScene *scene,
+                              int line, const int dimension[3]);
+void cpsi_netcdf_append_water(CpsiNetcdfFile *file, const CpsiNetcdfWater *ids, size_t step,
+                              const CpsEvolution *evolution, int line);
+
 /* The potential of a program on a line (capstan/loads.h); nothing of other lines. The dimensions
  * are step, node, xyz. */
 typedef struct CpsiNetcdfPotential {

@@ -155,6 +155,7 @@ typedef struct LineIds {
     CpsiNetcdfWinches winches;
     CpsiNetcdfSets sets;
     CpsiNetcdfPotential potential;
+    CpsiNetcdfWater water;
     CpsiNetcdfFailure failure;
     CpsiNetcdfMotion motion;
 } LineIds;
@@ -621,6 +622,8 @@ static void begin(CpsiNetcdf *nc, const char *path, const CpsScene *scene,
                                 (const int[]){nc->step, nc->end, nc->xyz}, first.origin);
         cpsi_netcdf_define_potential(&nc->file, &nc->line[i].potential, &scene->line[i],
                                      (const int[]){nc->step, nc->line[i].node, nc->xyz});
+        cpsi_netcdf_define_water(&nc->file, &nc->line[i].water, scene, i,
+                                 (const int[]){nc->step, nc->line[i].element, nc->xyz});
         cpsi_netcdf_define_failure(&nc->file, &nc->breaks, &nc->line[i].failure, evolution, i,
                                    (const int[]){nc->step, nc->end, nc->line[i].element});
         cpsi_netcdf_define_motion(&nc->file, &nc->time, &nc->line[i].motion, &scene->line[i],
@@ -746,6 +749,7 @@ CpsStatus cpsi_netcdf_append(CpsiNetcdf *nc, const CpsEvolution *evolution, CpsE
         cpsi_netcdf_append_winches(&nc->file, &nc->line[i].winches, nc->steps, evolution, i);
         cpsi_netcdf_append_sets(&nc->file, &nc->line[i].sets, nc->steps, evolution, i);
         cpsi_netcdf_append_potential(&nc->file, &nc->line[i].potential, nc->steps, evolution, i);
+        cpsi_netcdf_append_water(&nc->file, &nc->line[i].water, nc->steps, evolution, i);
         cpsi_netcdf_append_stiffnesses(&nc->file, &nc->line[i].stiffnesses, nc->steps,
                                        (size_t)view.element_count, &two);
         cpsi_netcdf_append_failure(&nc->file, &nc->breaks, &nc->line[i].failure, nc->steps,
