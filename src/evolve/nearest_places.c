@@ -34,15 +34,13 @@ static Vec3 moved_by(const CpsiBalance *balance, const CpsiFree *at) {
     return vec3_sub(at->place, has_start ? at->start : vec3_load(point->before));
 }
 
-/* [N] The size of what the lines do to a point, along the obstacle on which it rests; of all where
- * the lines are placed by statics, before which no point rested. */
+/* [N] The size of what the lines do to a point, along the obstacle on which it rests. */
 static double pull_on(const CpsiBalance *balance, const CpsiFree *at) {
     const CpsEvolution *evolution = balance->evolution;
-    const bool is_static = evolution->has_static && evolution->done == 0;
     double load[3] = {0};
     if (!at->drags) cpsi_point_load(&evolution->points.point[at->point], evolution->gravity, load);
     const Vec3 pull = vec3_sub(cpsi_rest_with(at, 0), vec3_load(load));
-    return vec3_norm(at->reaction > 0 && !is_static ? vec3_reject(pull, at->normal) : pull);
+    return vec3_norm(at->reaction > 0 ? vec3_reject(pull, at->normal) : pull);
 }
 
 /* Has a point moved though no line pulls it? */
