@@ -264,7 +264,7 @@ static void print_shortfall(const CpsScene *scene, int index, const CpsLineRepor
                 line->proof_length);
         return;
     }
-    if (line->has_proof_plane) {
+    if (line->has_proof_plane && line->has_proof_obstacle) {
         fputs("no configuration: the line is caught between obstacles ", stderr);
         cli_print_text(stderr, scene->obstacle[line->proof_obstacle].name, 80, false);
         fputs(" and ", stderr);
@@ -278,6 +278,10 @@ static void print_shortfall(const CpsScene *scene, int index, const CpsLineRepor
     if (line->has_proof_obstacle) {
         fputs(", the shortest path round obstacle ", stderr);
         cli_print_text(stderr, scene->obstacle[line->proof_obstacle].name, 80, false);
+    }
+    if (line->has_proof_plane) {
+        fputs(", on the free side of obstacle ", stderr);
+        cli_print_text(stderr, scene->obstacle[line->proof_plane].name, 80, false);
     }
     fputc(')', stderr);
 }

@@ -199,7 +199,7 @@ typedef struct CpsLineReport {
      * all that friction can dissipate, per unit of speed; otherwise 0 */
     double proof_force;
     bool has_proof_obstacle, has_proof_plane; /* infeasible: not reached round, or caught */
-    int proof_obstacle, proof_plane;          /* between the two; passes: the one passed */
+    int proof_obstacle, proof_plane; /* between both, or above it; passes: the one passed */
     /* [N] unbounded with frozen friction: what Coulomb's law allows, if that is enough; else 0 */
     double coulomb;
 } CpsLineReport;

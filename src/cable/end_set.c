@@ -168,8 +168,7 @@ void cpsi_line_unpack_sets(CpsiLine *line, const CpsiChainProgram *program, doub
 /* Rounding of the components of a unit vector: along a direction without end it counts as 0. */
 static const double ROUNDING = 1e-12;
 
-/* How far the sets' nearest places are apart along the unit vector v, by their support. */
-static double apart_along(const CpsiEndSet *on, Vec3 v, Vec3 x) {
+double cpsi_end_set_beyond(const CpsiEndSet *on, Vec3 v, Vec3 x) {
     const CpsiPlaceSet *set = &on->set;
     double own[3];
     cpsi_place_set_to(set, v, own);
@@ -221,8 +220,8 @@ bool cpsi_line_set_distance(const CpsiLine *line, double *distance, double *leng
                                                          end == CPS_END_A ? last : line->n - 1);
         if (!(size > 0)) continue;
         const Vec3 v = vec3_scale(1 / size, vec3_sub(y, x));
-        double least = size - apart_along(to, vec3_scale(-1, v), y);
-        if (both) least -= apart_along(a, v, x);
+        double least = size - cpsi_end_set_beyond(to, vec3_scale(-1, v), y);
+        if (both) least -= cpsi_end_set_beyond(a, v, x);
         if (found && least - between <= *distance - *length) continue;
         *distance = least;
         *length = between;

@@ -21,6 +21,10 @@ Vec3 cpsi_end_set_project(const struct CpsiEndSet *on, Vec3 x);
 /* [J] The gap of a set with its reaction at x: as of a node below. */
 double cpsi_end_set_gap(const struct CpsiEndSet *on, Vec3 x);
 
+/* [m] sup over y in the set of v.(y - x): its support function seen from x. INFINITY: v leads along
+ * a direction in which the set has no end, by more than rounding of a unit vector. */
+double cpsi_end_set_beyond(const struct CpsiEndSet *on, Vec3 v, Vec3 x);
+
 /* Add a set as a constraint of node j of a program, from its base [m] and with its axes (9), in
  * units of `length` [m]. */
 void cpsi_end_set_fill(const struct CpsiEndSet *on, int j, Vec3 base, const double *axes,

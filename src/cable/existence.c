@@ -11,6 +11,7 @@
 #include "cable/field.h"
 #include "cable/held.h"
 #include "cable/line_solve.h"
+#include "cable/set_beside_plane.h"
 #include "cable/slopes.h"
 
 /* Held nodes farther apart than an inextensible line is long between them: a constant force along
@@ -41,6 +42,19 @@ static bool misses_set(CpsiLine *line) {
     line->report.outcome = CPS_OUTCOME_INFEASIBLE;
     vec3_store(line->report.proof, apart);
     line->report.proof_length = distance - length;
+    return true;
+}
+
+/* The same of the part of a set that lies above a plane. */
+static bool misses_beside_plane(CpsiLine *line) {
+    CpsiBesidePlane found;
+    if (line->compliance > 0 || !line->contact_everywhere) return false;
+    if (!cpsi_line_misses_beside_plane(line, CPSI_TAUT, &found)) return false;
+    line->report.outcome = CPS_OUTCOME_INFEASIBLE;
+    vec3_store(line->report.proof, found.apart);
+    line->report.proof_length = found.missing;
+    line->report.has_proof_plane = true;
+    line->report.proof_plane = found.plane;
     return true;
 }
 
@@ -200,7 +214,7 @@ bool cpsi_line_has_no_equilibrium(CpsiLine *line, const CpsiStepOptions *options
     if (line->inertia.is_moving) return too_short(line);
     if (cpsi_line_has_sets(line)) {
         cpsi_line_clear_set_reactions(line);
-        return too_short(line) || misses_set(line) || slides_off(line);
+        return too_short(line) || misses_set(line) || misses_beside_plane(line) || slides_off(line);
     }
     if (too_short(line) || runs_away(line, options) || (follows && slips_off(line, false)))
         return true;

@@ -406,20 +406,19 @@ static void find_number(void *user, const char *what, double said, double expect
 }
 
 /* a constant force t along the unit vector from A to B has the dual value t (distance - length) */
-static void check_infeasible(Findings *findings, const Record *r, const Measures *m) {
+static void check_infeasible(Findings *findings, const Source *source, const Record *r,
+                             const Measures *m) {
     if (r->compliance != 0)
         find(findings, "infeasible, but the line is elastic (compliance %.3g)", r->compliance);
     Span span = {.distance = NAN};
     longest_span(r, &span);
-    if (!(span.distance > span.length) && r->sets) {
-        sets_check_infeasible(r, m->length + m->extent, find_number, findings);
-        return;
-    }
-    if (!(span.distance > span.length)) {
+    const bool of_sets = r->sets && (r->proof_plane >= 0 || !(span.distance > span.length));
+    if (of_sets)
+        sets_check_infeasible(source, r, m->length + m->extent, find_number, findings);
+    else if (!(span.distance > span.length))
         find(findings, "infeasible, but held nodes are %.17g apart and the length is %.17g",
              span.distance, span.length);
-        return;
-    }
+    if (of_sets || !(span.distance > span.length)) return;
     double excess = span.distance - span.length, along = 0;
     for (int k = 0; k < 3; k++)
         along += r->proof[k] * (node_place(r, span.to)[k] - node_place(r, span.from)[k]);
@@ -522,7 +521,7 @@ static void check_record(const Source *source, const Record *r, const Record *be
         case OUTCOME_TAUT: check_taut(&findings, r, &m); break;
         case OUTCOME_INFEASIBLE:
             if (groups_claim(r)) break; // checked with the points
-            if (r->proof_plane >= 0)
+            if (r->proof_plane >= 0 && (r->proof_obstacle >= 0 || !r->sets))
                 check_caught(&findings, source, r, &m);
             else if (r->proof_obstacle >= 0 && r->proof[0] == 0 && r->proof[1] == 0 &&
                      r->proof[2] == 0)
@@ -530,7 +529,7 @@ static void check_record(const Source *source, const Record *r, const Record *be
             else if (r->proof_obstacle >= 0)
                 check_reach(&findings, source, r, &m, source->has_static && step == 0);
             else
-                check_infeasible(&findings, r, &m);
+                check_infeasible(&findings, source, r, &m);
             break;
         case OUTCOME_UNBOUNDED:
             if (!groups_claim(r)) check_unbounded(&findings, r, &m);

@@ -10,6 +10,7 @@
 
 #include "conic.h"
 #include "grasps.h"
+#include "surface.h"
 
 enum { NONE, RAIL, HALF_SPACE, BALL, DISC, BOX, FORM, KINDS };
 
@@ -347,15 +348,63 @@ void sets_check(const Record *r, SetFind *find, void *user) {
     }
 }
 
-/* [m] By how much the sets, seen along the unit vector v, are farther from what else holds the line
- * than it is long; -INFINITY: no set has an end there. */
-static Real excess_along(const Record *r, const Real *v) {
+/* [m] The least v.(y - point) over y in the set with the multiplier `by` of the plane on whose free
+ * side y is: over all of the set it is that of v - by n, and the plane gives by c. */
+static Real least_with(const Set *set, const Surface *plane, const Real *v, Real by) {
+    Real against[3], n[3] = {0}, at[3];
+    for (int a = 0; a < 3; a++) at[a] = set->point[a];
+    if (plane) surface_normal(plane, at, n);
+    for (int a = 0; a < 3; a++) against[a] = by * n[a] - v[a];
+    return -support(set, against) - (plane ? by * surface_distance(plane, at) : 0);
+}
+
+/* Of a set without end: the one multiplier with which v - by n has no part along its endless
+ * directions; of others NAN. */
+static Real multiplier(const Set *set, const Surface *plane, const Real *v) {
+    const bool line = set->kind == RAIL && isinf(set->length);
+    Real u[3], n[3], at[3], own[2][3];
+    if (!line && set->kind != HALF_SPACE) return NAN;
+    unit_axis(set, u);
+    for (int a = 0; a < 3; a++) at[a] = set->point[a];
+    surface_normal(plane, at, n);
+    const Real along[2] = {dot(u, n), dot(u, v)};
+    for (int a = 0; a < 3; a++) {
+        own[0][a] = line ? along[0] * u[a] : n[a] - along[0] * u[a];
+        own[1][a] = line ? along[1] * u[a] : v[a] - along[1] * u[a];
+    }
+    return fmaxl(0, dot(own[0], own[1]) / dot(own[0], own[0]));
+}
+
+/* The greatest of these, a concave function of the multiplier. */
+static Real least_along(const Set *set, const Surface *plane, const Real *v) {
+    enum { HALVINGS = 200 };
+    static const Real MOST = 1e6L, GOLDEN = 0.6180339887498948482L;
+    Real low = 0, high = 1;
+    if (!plane) return least_with(set, NULL, v, 0);
+    const Real only = multiplier(set, plane, v);
+    if (!isnan(only)) return least_with(set, plane, v, only);
+    while (high < MOST && least_with(set, plane, v, 2 * high) > least_with(set, plane, v, high))
+        high *= 2;
+    high *= 2;
+    for (int k = 0; k < HALVINGS && high - low > 1e-17L * high; k++) {
+        const Real width = GOLDEN * (high - low);
+        if (least_with(set, plane, v, high - width) < least_with(set, plane, v, low + width))
+            low = high - width;
+        else
+            high = low + width;
+    }
+    return least_with(set, plane, v, (low + high) / 2);
+}
+
+/* [m] By how much the sets, seen along the unit vector v, and of what a plane leaves of them where
+ * there is one, are farther from what else holds the line than it is long; -INFINITY: no set has an
+ * end there. */
+static Real excess_along(const Record *r, const Surface *plane, const Real *v) {
     Real most = -INFINITY;
     for (int e = 0; e < 2; e++) {
         const size_t end = e ? r->elements : 0;
         const Set *set = set_of(r, end), *other = set_of(r, r->elements - end);
         if (!set) continue;
-        const Real back[3] = {-v[0], -v[1], -v[2]};
         Real point[3], length = 0, from;
         for (int a = 0; a < 3; a++) point[a] = set->point[a];
         size_t j = end;
@@ -373,13 +422,26 @@ static Real excess_along(const Record *r, const Real *v) {
         } else {
             continue;
         }
-        most = fmaxl(most, dot(v, point) - support(set, back) - from - length);
+        most = fmaxl(most, dot(v, point) + least_along(set, plane, v) - from - length);
     }
     return most;
 }
 
-void sets_check_infeasible(const Record *r, double reach, SetFind *find, void *user) {
-    const Real v[3] = {r->proof[0], r->proof[1], r->proof[2]}, excess = excess_along(r, v);
+/* The plane of a proof, which must keep out all that is beyond; NULL: none, or not of that kind. */
+static const Surface *plane_of_proof(const Source *source, const Record *r) {
+    if (r->proof_plane < 0 || r->proof_plane >= (int)source->surfaces) return NULL;
+    const Surface *plane = &source->surface[r->proof_plane];
+    const bool keeps = plane->kind == SURFACE_PLANE && !(plane->gives > 0) &&
+                       !surface_moves(plane) && !source->touching_only;
+    return keeps ? plane : NULL;
+}
+
+void sets_check_infeasible(const Source *source, const Record *r, double reach, SetFind *find,
+                           void *user) {
+    const Surface *plane = plane_of_proof(source, r);
+    const Real v[3] = {r->proof[0], r->proof[1], r->proof[2]}, excess = excess_along(r, plane, v);
+    if (r->proof_plane >= 0 && !plane)
+        find(user, "infeasible beside a plane that is none", r->proof_plane, -1);
     if (!(excess > 0))
         find(user, "infeasible, but a set is within reach, excess", (double)excess, 0);
     if (!(fabsl(excess - r->proof_length) <= 1e-12L * reach))

@@ -28,7 +28,8 @@ void sets_check(const Record *r, SetFind *find, void *user);
 
 /* What the proof that a set is out of reach contradicts, coordinates being of the size `reach` [m].
  */
-void sets_check_infeasible(const Record *r, double reach, SetFind *find, void *user);
+void sets_check_infeasible(const Source *source, const Record *r, double reach, SetFind *find,
+                           void *user);
 /* Do all sets let the line go along the proof for ever? */
 bool sets_let(const Record *r);
 
