@@ -7,8 +7,7 @@
  *     |y - a|  >=  v.(y - a)  >=  inf over K of (v - lambda n).(y - a)  -  lambda g(a),
  *
  * since lambda (g(y) - n.(y - a)) = lambda g(a); a right side above L is a proof. It is best where
- * y is the place of both that is nearest to a. That place is the one of K nearest to a + mu n with
- * mu
+ * y is the place of both that is nearest to a. That place is the one of K nearest to a + mu n, mu
  * >= 0 the least that brings it above the plane, v = (y - a)/|y - a| and lambda = mu/|y - a|; its
  * height grows with mu, so that mu is found by bisection. The proof holds wherever that ends. */
 #include "cable/set_beside_plane.h"
