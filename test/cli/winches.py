@@ -39,12 +39,13 @@ history:
   - {name: haul, rope.pay_out_B: -3, steps: 4}
   - {name: pay, rope.pay_out_B: 4.5, rope.B: {move: [0.1, 0.2, 0]}, steps: 6}
 """
-# (variable, step, index, change): what is off the drum, what it says of it, and what is on it
+# (variable, step, index, change): what is off the drum, what it says of it, and what is on it; the reference in a step of one part, where it is
+# the place after the step before
 FALSIFIED = (("rope_stored", 7, 1, 1e-6), ("rope_stored", 0, 1, 1e-3), ("rope_winch_pull", 8, 1, 1e-3), ("rope_winch_pull", 13, 1, 0.1),
              ("rope_ledger_winches", 8, 0, 1e-3), ("rope_ledger_winches", 2, 0, 1e-3), ("rope_ledger_gravity", 9, 0, 1e-2),
              ("rope_ledger_ends", 13, 0, 1e-2), ("rope_length_off_drums", 7, 20, 1e-6), ("rope_length_off_drums", 8, 59, 0.05),
              ("rope_node_weight_length", 9, 10, 1e-5), ("rope_node_weight_length", 9, 59, 0.1), ("rope_position", 8, 3*59, 1e-6),
-             ("rope_tension", 8, 58, 1.0), ("rope_reference", 12, 3*55, 1e-6))
+             ("rope_tension", 8, 58, 1.0), ("rope_reference", 14, 3*55, 1e-6))
 GOOD = "rope.pay_out_B: -3"
 HELD = "B: {held: [5, 0, 0.5], stored: 2}"
 BAD = (  # (what is replaced, by what, what is said)
