@@ -305,7 +305,8 @@ static bool forces_at(const Graph *g, Origin *from, bool of_body, int d, double 
     memcpy(point, from->point, sizeof point);
     move.point_change = point;
     move.body_change = &pose;
-    for (int i = 0; i < move.point_change_count && !of_body; i++)
+    const int shifted = of_body ? 0 : move.point_change_count;
+    for (int i = 0; i < shifted; i++)
         if (point[i].point == g->target) point[i].value[d] += by;
     if (of_body && d < 3) pose.position[d] += by;
     if (of_body && d >= 3) { /* after a rotation of 0 */
