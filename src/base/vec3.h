@@ -40,6 +40,16 @@ static inline double vec3_angle_defect(Vec3 a, Vec3 b, double size_a, double siz
     const Vec3 cross = vec3_cross(a, b);
     return vec3_dot(cross, cross) / (size + dot);
 }
+/* m += by a b' */
+static inline void vec3_add_outer(double m[3][3], double by, Vec3 a, Vec3 b) {
+    const double left[3] = {a.x, a.y, a.z}, right[3] = {b.x, b.y, b.z};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) m[i][j] += by * left[i] * right[j];
+}
+/* m += by 1 */
+static inline void vec3_add_identity(double m[3][3], double by) {
+    for (int i = 0; i < 3; i++) m[i][i] += by;
+}
 static inline bool vec3_finite(const double a[3]) {
     return isfinite(a[0]) && isfinite(a[1]) && isfinite(a[2]);
 }

@@ -134,35 +134,27 @@ typedef struct Rows {
     double p[3][3], q[3][3];
 } Rows;
 
-static void add_outer(double m[3][3], double by, Vec3 a, Vec3 b) {
-    const double left[3] = {a.x, a.y, a.z}, right[3] = {b.x, b.y, b.z};
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) m[i][j] += by * left[i] * right[j];
-}
-static void add_identity(double m[3][3], double by) {
-    for (int i = 0; i < 3; i++) m[i][i] += by;
-}
 static Rows held(double size) {
     Rows out = {{{0}}, {{0}}};
-    add_identity(out.q, size);
+    vec3_add_identity(out.q, size);
     return out;
 }
 static Rows off_everything(void) {
     Rows out = {{{0}}, {{0}}};
-    add_identity(out.p, 1);
+    vec3_add_identity(out.p, 1);
     return out;
 }
 
 /* In the plane across n, with friction of a given bound that turns with the slip s. */
 static Rows in_plane(double size, Vec3 n, Vec3 s, double bound, double turns) {
     Rows out = off_everything();
-    add_outer(out.p, -1, n, n);
-    add_outer(out.q, size, n, n);
+    vec3_add_outer(out.p, -1, n, n);
+    vec3_add_outer(out.q, size, n, n);
     if (!(bound > 0)) return out;
     const Vec3 e = vec3_scale(1 / vec3_norm(s), s);
-    add_identity(out.q, bound * turns);
-    add_outer(out.q, -bound * turns, n, n);
-    add_outer(out.q, -bound * turns, e, e);
+    vec3_add_identity(out.q, bound * turns);
+    vec3_add_outer(out.q, -bound * turns, n, n);
+    vec3_add_outer(out.q, -bound * turns, e, e);
     return out;
 }
 
@@ -190,14 +182,15 @@ static CpsStiffnessOutcome rows_on_surface(const Following *f, const CpsPointRep
     }
     *out = in_plane(size, n, s, mu > 0 ? bound : 0, turn_of(on, slip));
     const Vec3 e = mu > 0 ? vec3_scale(1 / slip, s) : vec3(0, 0, 0);
-    if (follows) add_outer(out->p, mu, e, n);
+    if (follows) vec3_add_outer(out->p, mu, e, n);
     double axes[9], curvature[3];
     cpsi_obstacle_axes(on, x, vec3(1, 0, 0), axes, curvature);
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++) {
             const Vec3 to = vec3_load(&axes[3 * a]), from = vec3_load(&axes[3 * b]);
-            add_outer(out->q, -report->reaction * curvature[a + b], to, from);
-            if (follows) add_outer(out->q, mu * curvature[a + b] * vec3_dot(friction, to), e, from);
+            vec3_add_outer(out->q, -report->reaction * curvature[a + b], to, from);
+            if (follows)
+                vec3_add_outer(out->q, mu * curvature[a + b] * vec3_dot(friction, to), e, from);
         }
     return CPS_STIFFNESS_OUTCOME_FOUND;
 }

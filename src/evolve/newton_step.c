@@ -147,16 +147,6 @@ typedef struct Equation {
     Vec3 v;
 } Equation;
 
-/* m += by a b' */
-static void add_outer(double m[3][3], double by, Vec3 a, Vec3 b) {
-    const double left[3] = {a.x, a.y, a.z}, right[3] = {b.x, b.y, b.z};
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) m[i][j] += by * left[i] * right[j];
-}
-static void add_identity(double m[3][3], double by) {
-    for (int i = 0; i < 3; i++) m[i][i] += by;
-}
-
 /* Along the surface: at rest, where friction holds the point; sliding with the friction F = -b e, e
  * the direction of the slip, which turns with it, where a bound b = mu R follows the reaction; or
  * without friction. */
@@ -164,22 +154,22 @@ static void add_tangential(Equation *out, const CpsiFree *at, bool follows) {
     const Vec3 n = at->normal, test = cpsi_trial_friction_test(at);
     const double size = vec3_norm(test);
     if (at->bound > 0 && cpsi_is_to_stick(at)) {
-        add_identity(out->q, at->stiffness);
-        add_outer(out->q, -at->stiffness, n, n);
+        vec3_add_identity(out->q, at->stiffness);
+        vec3_add_outer(out->q, -at->stiffness, n, n);
         const Vec3 back = vec3_reject(vec3_sub(at->start, at->place), n);
         out->v = vec3_axpy(at->stiffness, back, out->v);
         return;
     }
-    add_identity(out->p, 1);
-    add_outer(out->p, -1, n, n);
+    vec3_add_identity(out->p, 1);
+    vec3_add_outer(out->p, -1, n, n);
     out->v = vec3_add(out->v, vec3_reject(at->rest, n));
     if (!(at->bound > 0) || !(size > 0)) return;
     const Vec3 e = vec3_scale(1 / size, test);
     const double turns = at->bound / (vec3_norm(at->slip) + at->bound / at->stiffness);
-    if (follows) add_outer(out->p, at->friction, e, n);
-    add_identity(out->q, turns);
-    add_outer(out->q, -turns, n, n);
-    add_outer(out->q, -turns, e, e);
+    if (follows) vec3_add_outer(out->p, at->friction, e, n);
+    vec3_add_identity(out->q, turns);
+    vec3_add_outer(out->q, -turns, n, n);
+    vec3_add_outer(out->q, -turns, e, e);
     out->v = vec3_axpy(-at->bound, e, out->v);
 }
 
@@ -187,10 +177,10 @@ static void add_tangential(Equation *out, const CpsiFree *at, bool follows) {
 static void add_normal(Equation *out, const CpsiFree *at) {
     const Vec3 n = at->normal;
     if (is_to_touch(at)) {
-        add_outer(out->q, at->stiffness, n, n);
+        vec3_add_outer(out->q, at->stiffness, n, n);
         out->v = vec3_axpy(-at->stiffness * at->gap, n, out->v);
     } else {
-        add_outer(out->p, 1, n, n);
+        vec3_add_outer(out->p, 1, n, n);
         out->v = vec3_axpy(vec3_dot(at->rest, n), n, out->v);
     }
 }
@@ -204,8 +194,8 @@ static void add_curvature(Equation *out, const CpsiFree *at, const CpsiObstacle 
     cpsi_obstacle_axes(on, at->place, vec3(1, 0, 0), axes, curvature);
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++)
-            add_outer(out->q, -reaction * curvature[a + b], vec3_load(&axes[3 * a]),
-                      vec3_load(&axes[3 * b]));
+            vec3_add_outer(out->q, -reaction * curvature[a + b], vec3_load(&axes[3 * a]),
+                           vec3_load(&axes[3 * b]));
 }
 
 static Equation equation_of_touch(const CpsiFree *at, const CpsiObstacle *on, bool follows,
@@ -214,12 +204,12 @@ static Equation equation_of_touch(const CpsiFree *at, const CpsiObstacle *on, bo
     if (at->drags) {
         const double off = vec3_dot(vec3_sub(at->place, at->start), at->normal);
         add_tangential(&out, at, false);
-        add_outer(out.q, at->stiffness, at->normal, at->normal);
+        vec3_add_outer(out.q, at->stiffness, at->normal, at->normal);
         out.v = vec3_axpy(-at->stiffness * off, at->normal, out.v);
         return out;
     }
     if (at->obstacle == CPS_NO_OBSTACLE) {
-        add_identity(out.p, 1);
+        vec3_add_identity(out.p, 1);
         out.v = at->rest;
         return out;
     }
