@@ -77,10 +77,6 @@ static const double HARDLY_ANY = 1e-12;
  * node. */
 static const double MAX_WASTED_WORK = 2e6, NODES_BESIDE = 30, SET_COST = 30;
 
-/* A round obstacle is shifted by no more than this share of its radius in one portion: its axis or
- * centre stays on its side of what it pushes. */
-static const double MOST_SHIFT = 0.25;
-
 /* More portions than the limits of turns and shifts ask for. */
 static const double MOST_PORTIONS = 1e6;
 
@@ -782,7 +778,7 @@ static int portion_count(const CpsiLine *line, const CpsiMove *move) {
         for (int k = 0; k < line->obstacle_count; k++)
             if (line->obstacle[k].kind != CPS_OBSTACLE_PLANE)
                 count = fmax(count, ceil(shift_size(line, move, k) /
-                                         (MOST_SHIFT * line->obstacle[k].radius)));
+                                         (CPSI_MOST_SHIFT * line->obstacle[k].radius)));
     return (int)fmin(count, MOST_PORTIONS);
 }
 

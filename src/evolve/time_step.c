@@ -35,8 +35,6 @@
 static const double SLACK = 1e-9;
 /* Two normals with a sine below this are one. */
 static const double PARALLEL = 1e-6;
-/* A round obstacle that goes farther than this share of its radius may pass the line. */
-static const double MOST_SHIFT = 0.25;
 /* Rounding of a quarter of a turn, and of that part of a radius. */
 static const double ROUNDING = 1e-9;
 
@@ -99,7 +97,7 @@ static bool outruns(const CpsiLine *line, const CpsiShift *shift, int k, int j) 
     const double size = vec3_norm(cpsi_shift_to(shift, x)),
                  way = vec3_norm(vec3_sub(x, vec3_at(line->inertia.start, j))),
                  element = line->element_length[j < line->n - 1 ? j : j - 1];
-    return size > MOST_SHIFT * line->obstacle[k].radius * (1 + ROUNDING) &&
+    return size > CPSI_MOST_SHIFT * line->obstacle[k].radius * (1 + ROUNDING) &&
            cpsi_obstacle_gap(&line->obstacle[k], x) <= size + way + element;
 }
 
