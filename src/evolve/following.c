@@ -75,23 +75,44 @@ static bool takes_part(const Following *f, int line) {
     return false;
 }
 
+/* A point of the group of those that lines join to what moves, also by way of others. */
+static int find_group(const Following *f, int *group) {
+    const CpsEvolution *evolution = f->evolution;
+    const int *tie = evolution->points.tie;
+    int first = CPSI_NO_POINT;
+    for (int i = 0; i < evolution->points.count; i++)
+        group[i] = may_follow(f, i) ? i : CPSI_NO_POINT;
+    for (int i = 0; i < evolution->line_count; i++)
+        cpsi_group_unite(group, tie[2 * i], tie[2 * i + 1]);
+    for (int i = 0; i < evolution->line_count; i++)
+        for (int end = 0; end < 2; end++) {
+            const int point = tie[2 * i + !end];
+            if (!is_moved(f, i, end) || point == CPSI_NO_POINT || group[point] == CPSI_NO_POINT)
+                continue;
+            cpsi_group_unite(group, first, point);
+            if (first == CPSI_NO_POINT) first = point;
+        }
+    return first;
+}
+
 /* Number the points that follow. */
 static void find_followers(const Following *f) {
     const CpsEvolution *evolution = f->evolution;
     CpsiBalance *balance = f->balance;
     if (!balance) return;
+    int *group = balance->joined;
     balance->count = balance->body_count = 0;
     for (int i = 0; i < evolution->points.count; i++) balance->number[i] = -1;
-    for (bool more = true; more;) {
-        more = false;
-        for (int i = 0; i < evolution->line_count; i++)
-            for (int end = 0; takes_part(f, i) && end < 2; end++) {
-                const int point = evolution->points.tie[2 * i + end];
-                if (!may_follow(f, point) || balance->number[point] >= 0) continue;
-                balance->number[point] = balance->count;
-                balance->at[balance->count++] = (CpsiFree){.point = point};
-                more = true;
-            }
+    const int first = find_group(f, group);
+    const int ends = first == CPSI_NO_POINT ? 0 : 2 * evolution->line_count;
+    for (int i = 0; i < ends; i++) {
+        const int point = evolution->points.tie[i];
+        if (point == CPSI_NO_POINT || group[point] == CPSI_NO_POINT ||
+            balance->number[point] >= 0 ||
+            cpsi_group_first(group, point) != cpsi_group_first(group, first))
+            continue;
+        balance->number[point] = balance->count;
+        balance->at[balance->count++] = (CpsiFree){.point = point};
     }
     balance->unknowns = 3 * balance->count;
     for (int k = 0; k < balance->count; k++) balance->node[k] = balance->at[k].point;

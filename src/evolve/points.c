@@ -319,8 +319,8 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
     }
 }
 
-/* The first point of the group of a point; those on the way there are set to what is nearer. */
-static int root_of(int *group, int point) {
+/* Those on the way there are set to what is nearer. */
+int cpsi_group_first(int *group, int point) {
     while (group[point] != point) {
         group[point] = group[group[point]];
         point = group[point];
@@ -328,11 +328,10 @@ static int root_of(int *group, int point) {
     return point;
 }
 
-/* Make the groups of two points one, where both are in any. */
-static void unite(int *group, int a, int b) {
+void cpsi_group_unite(int *group, int a, int b) {
     if (a == CPSI_NO_POINT || b == CPSI_NO_POINT) return;
     if (group[a] == CPSI_NO_POINT || group[b] == CPSI_NO_POINT) return;
-    const int left = root_of(group, a), right = root_of(group, b);
+    const int left = cpsi_group_first(group, a), right = cpsi_group_first(group, b);
     if (left < right)
         group[right] = left;
     else
@@ -349,16 +348,17 @@ void cpsi_points_group(CpsiPoints *points, const CpsiBodies *bodies, int lines) 
                             bodies->body[given->body].kind == CPS_BODY_KIND_FREE);
         group[i] = moves ? i : CPSI_NO_POINT;
     }
-    for (int i = 0; i < lines; i++) unite(group, points->tie[2 * i], points->tie[2 * i + 1]);
+    for (int i = 0; i < lines; i++)
+        cpsi_group_unite(group, points->tie[2 * i], points->tie[2 * i + 1]);
     for (int k = 0; k < bodies->count; k++) {
         int first = CPSI_NO_POINT;
         for (int i = 0; i < points->count; i++) {
             if (points->given[i].kind != CPS_POINT_KIND_ON_BODY || points->given[i].body != k)
                 continue;
-            unite(group, first, i);
+            cpsi_group_unite(group, first, i);
             if (first == CPSI_NO_POINT) first = i;
         }
     }
     for (int i = 0; i < points->count; i++)
-        if (group[i] != CPSI_NO_POINT) group[i] = root_of(group, i);
+        if (group[i] != CPSI_NO_POINT) group[i] = cpsi_group_first(group, i);
 }

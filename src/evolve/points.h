@@ -82,6 +82,11 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
  * have nothing to do with each other in a step, and their forces may differ by any factor. */
 void cpsi_points_group(CpsiPoints *points, const CpsiBodies *bodies, int lines);
 
+/* The first point of the group of a point, `group` (points) a way towards it of each point that is
+ * in any, else CPSI_NO_POINT. And: make the groups of two points one, where both are in any. */
+int cpsi_group_first(int *group, int point);
+void cpsi_group_unite(int *group, int a, int b);
+
 /* The group that a line is at, or CPSI_NO_POINT. */
 static inline int cpsi_group_of_line(const CpsiPoints *points, int line) {
     for (int end = 0; end < 2; end++) {

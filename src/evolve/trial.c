@@ -62,6 +62,7 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->tangent, 36 * lines);
         CPSI_PLACE(&arena, to->smooth, 36 * lines);
         CPSI_PLACE(&arena, to->rows, points);
+        CPSI_PLACE(&arena, to->joined, points);
         CPSI_PLACE(&arena, to->kept, 6 * bodies);
         CPSI_PLACE(&arena, to->turned, 3 * bodies);
         CPSI_PLACE(&arena, to->node, points + 2 * bodies);

@@ -68,6 +68,7 @@ struct CpsiBalance {
     double *tangent;         /* (line_count, 36) */
     double *smooth;          /* (line_count, 36) of a stiffness beside it (following.h), and */
     double (*rows)[3][3];    /* (count) what it multiplies the rows of points by */
+    int *joined;             /* (points) groups of those that follow there (points.h) */
     CpsiGraphMatrix *matrix; /* of the unknowns */
     double *kept;            /* (body_count, 6) of its diagonal */
     double *turned;          /* (body_count, 3) [rad] by the last round */
