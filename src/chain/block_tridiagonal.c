@@ -121,10 +121,6 @@ static void inverse_with_second(double out[9], CpsiChainSecond *second, const do
     }
 }
 
-static inline bool is_set(const CpsiMatrixSecond *second, int j) {
-    return cpsi_second_is_set(second, j);
-}
-
 /* What the elimination of the nodes before leaves to a node, in that node's axes: C of the node
  * before, and of the element between k, m, v, v' and b. */
 typedef struct NodeBorder {

@@ -10,8 +10,10 @@
  * that state in PARTS parts as well, by both, and each of these is halved until its halves lead to
  * the same place (`path_tolerance` OTHER), without which no jump is found. Where these two paths
  * end at one place, the line comes there; where they do not, or one of them jumps, the path is not
- * known. A step that the program itself has cut into more parts than the other is nearer to the
- * path for that, and is not compared. Fails where
+ * known. Where the program itself has cut the step into more parts by one method than by the other,
+ * that one is nearer to the path for its smaller parts, whatever the method: such a step is taken
+ * again by both in the fewest equal parts that neither cuts again, if there are such, and these are
+ * compared. Fails where
  *   - the path is known, and the step that begins with Newton's method is farther from its end than
  *     the other one, by more than a factor of TWICE and OTHER,
  *   - it is not certified where the other one is, or leaves a gap that is larger, by more than a
@@ -39,7 +41,7 @@ static const double LATE = 20;
 enum { COLD, WARM, METHODS };
 
 typedef struct Tally {
-    int steps, warm, other, cut, known, farther, wrong, late;
+    int steps, warm, other, cut, alike, known, farther, wrong, late;
 } Tally;
 
 /* The history with a stage for each step, between which there may be moves. */
@@ -127,25 +129,50 @@ static double apart(const Run *run, const double *a, const double *b) {
     return most / run->length;
 }
 
-/* The step in parts, by both methods; is the path known? */
-static bool follow_path(const CpsScene *scene, Run *run, const CpsStage *stage) {
+/* What is asked of a step that is taken in parts. */
+typedef enum Asked { NO_JUMP, NOT_CUT } Asked;
+
+/* The step in `parts` parts by one method: is each certified, and as asked? */
+static bool take_parts(const CpsScene *scene, Run *run, const CpsStage *stage, int method,
+                       int parts, Asked asked, double *place) {
     bool good = true;
+    CpsEvolution *evolution = create(scene, method == COLD);
+    load(run, evolution);
+    for (int part = 1; part <= parts && good; part++) {
+        CpsChange change[2];
+        const CpsStage move = part_of(stage, run->at, part, parts, change);
+        good = cps_evolution_move(evolution, &move, NULL) == CPS_OK;
+        const CpsStepReport report = cps_evolution_report(evolution);
+        good = good && cps_outcome_is_certified(report.outcome) &&
+               (asked == NO_JUMP ? report.jump_count == 0 : report.substep_count == 1);
+    }
+    read_places(evolution, run->n, place);
+    cps_evolution_destroy(evolution);
+    return good;
+}
+
+/* The step in PARTS parts, by both methods; is the path known? */
+static bool follow_path(const CpsScene *scene, Run *run, const CpsStage *stage) {
     CpsScene fine = *scene;
     fine.solver.path_tolerance = OTHER;
-    for (int method = 0; method < METHODS; method++) {
-        CpsEvolution *evolution = create(&fine, method == COLD);
-        load(run, evolution);
-        for (int part = 1; part <= PARTS && good; part++) {
-            CpsChange change[2];
-            const CpsStage move = part_of(stage, run->at, part, PARTS, change);
-            good = cps_evolution_move(evolution, &move, NULL) == CPS_OK;
-            const CpsStepReport report = cps_evolution_report(evolution);
-            good = good && cps_outcome_is_certified(report.outcome) && report.jump_count == 0;
-        }
-        read_places(evolution, run->n, run->path[method]);
-        cps_evolution_destroy(evolution);
+    for (int method = 0; method < METHODS; method++)
+        if (!take_parts(&fine, run, stage, method, PARTS, NO_JUMP, run->path[method])) return false;
+    return apart(run, run->path[COLD], run->path[WARM]) <= OTHER;
+}
+
+/* The step by both methods in the fewest equal parts that neither cuts, if there are such; how
+ * many these are, or 0. */
+static int cut_alike(const CpsScene *scene, Run *run, const CpsStage *stage) {
+    for (int parts = 2; parts <= PARTS; parts *= 2) {
+        bool good = true;
+        for (int method = 0; method < METHODS && good; method++)
+            good = take_parts(scene, run, stage, method, parts, NOT_CUT, run->path[method]);
+        if (!good) continue;
+        for (int method = 0; method < METHODS; method++)
+            memcpy(run->end[method], run->path[method], 3 * (size_t)run->n * sizeof(double));
+        return parts;
     }
-    return good && apart(run, run->path[COLD], run->path[WARM]) <= OTHER;
+    return 0;
 }
 
 /* Are two different steps equally near to the path, where that is known? */
@@ -165,6 +192,18 @@ static void judge(const CpsScene *scene, Run *run, const CpsStage *stage, const 
     tally->farther += off[WARM] > off[COLD];
     tally->wrong += wrong;
     printf("from the path cold %.1e, warm %.1e%s\n", off[COLD], off[WARM], wrong ? "  WRONG" : "");
+}
+
+/* The same, of a step that one method has cut into more parts than the other. */
+static void judge_alike(const CpsScene *scene, Run *run, const CpsStage *stage, const char *name,
+                        Tally *tally) {
+    const int parts = cut_alike(scene, run, stage);
+    tally->alike += parts > 0;
+    if (parts > 0) printf("in %d equal parts ", parts);
+    if (apart(run, run->end[COLD], run->end[WARM]) <= OTHER)
+        printf("%s: the same\n", name);
+    else
+        judge(scene, run, stage, name, tally);
 }
 
 /* The next step by both methods from one state; false at the end. */
@@ -195,6 +234,7 @@ static bool take_step(const CpsScene *scene, Run *run, const CpsStage *stage, co
         printf("%s: %.1e of the length apart; in %d parts cold, %d warm\n", name,
                apart(run, run->end[COLD], run->end[WARM]), report[COLD].substep_count,
                report[WARM].substep_count);
+        judge_alike(scene, run, stage, name, tally);
     } else {
         judge(scene, run, stage, name, tally);
     }
@@ -253,10 +293,10 @@ int main(int argc, char **argv) {
     }
     setvbuf(stdout, NULL, _IOLBF, 0);
     for (int k = only < 0 ? 0 : only; k < (only < 0 ? count : only + 1); k++) look_at(k, &tally);
-    printf("%d steps, %d warm; in %d the two differ, cut alike; in %d of these the path is known, "
-           "and the warm step farther from it in %d; %d differ that are cut otherwise; %d scenes "
-           "too long; %d WRONG\n",
-           tally.steps, tally.warm, tally.other, tally.known, tally.farther, tally.cut, tally.late,
-           tally.wrong);
+    printf("%d steps, %d warm; %d are cut otherwise and differ, of which %d are taken again in "
+           "equal parts; in %d the two differ, cut alike; in %d of these the path is known, and "
+           "the warm step farther from it in %d; %d scenes too long; %d WRONG\n",
+           tally.steps, tally.warm, tally.cut, tally.alike, tally.other, tally.known, tally.farther,
+           tally.late, tally.wrong);
     return tally.wrong > 0 || tally.steps == 0;
 }

@@ -25,7 +25,7 @@ static void make(Parts *p) {
                  .section = {{.type = "a", .length = 4, .weight = 50, .stiffness = 1e5},
                              {.type = "b", .length = 2, .weight = 20, .stiffness = 4e5},
                              {.type = "c", .length = 6, .stiffness = 2e5}},
-                 .weight = {{2, 30}, {8, -10}}};
+                 .weight = {{.arc_length = 2, .weight = 30}, {.arc_length = 8, .weight = -10}}};
     p->line = cps_line_default();
     p->line.name = "rope";
     p->line.length = 12;
