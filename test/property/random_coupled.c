@@ -464,7 +464,8 @@ static void compare_forces(const Coupled *c, const Led led[2], const Phase *now,
           &tally->bounds, tally);
     limit(seed, step, "difference of forces", size_of(differ), mass * wide + slope * off_by + noise,
           &tally->bounds, tally);
-    for (int k = 0; k < 2 && step <= 3; k++) tally->early[k] += size_of(missed[k]) / m2;
+    if (step > 3) return;
+    for (int k = 0; k < 2; k++) tally->early[k] += size_of(missed[k]) / m2;
 }
 
 /* Momenta of the body: of its mass, and angular about its centre of gravity. */
