@@ -78,13 +78,6 @@ static double friction_margin(const CpsiLine *line, int c) {
     return cpsi_friction_law_margin(&line->friction_law[c], line->friction_bound[c], f);
 }
 
-/* Add scale x a b^T to m (3, 3). */
-static void add_outer(double m[9], double scale, Vec3 a, Vec3 b) {
-    const double left[3] = {a.x, a.y, a.z}, right[3] = {b.x, b.y, b.z};
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) m[3 * i + k] += scale * left[i] * right[k];
-}
-
 /* Is the bound of contact c coupled to its reaction? A frozen one is not, also where both are the
  * same because nothing has changed. */
 static bool bound_follows(const CpsiLine *line, CpsFrictionPolicy friction, int c) {
@@ -95,13 +88,13 @@ static bool bound_follows(const CpsiLine *line, CpsFrictionPolicy friction, int 
 
 /* Add what a unit of lambda, a change of the field's `beside` by -lambda L, adds to the forces;
  * returns its trace. */
-static double add_field(const CpsiLine *line, double m[9]) {
+static double add_field(const CpsiLine *line, double m[3][3]) {
     static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5};
     double trace = 0;
     for (int j = 0; j < line->n; j++)
         for (int i = 0; i < 9; i++) {
             const double by = line->length * line->field.stiffness[6 * j + AT[i]];
-            m[i] += by;
+            m[i / 3][i % 3] += by;
             if (i % 4 == 0) trace += by;
         }
     return trace;
@@ -111,28 +104,28 @@ static double add_field(const CpsiLine *line, double m[9]) {
  * contacts, a contact contributes R (n.lambda) n, the friction F (n.lambda) where its bound is
  * coupled to R, and margin lambda_T within its bound; the sum is a 3 x 3 system. */
 static void distribute_excess(CpsiLine *line, CpsFrictionPolicy friction, Vec3 rest) {
-    double m[9] = {0}, lambda[3] = {-rest.x, -rest.y, -rest.z}, trace = 0;
+    double m[3][3] = {{0}}, lambda[3] = {-rest.x, -rest.y, -rest.z}, trace = 0;
     int pivot[3];
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         const Vec3 n = vec3_load(&line->normal[3 * c]);
         const double margin = friction_margin(line, c);
-        add_outer(m, line->reaction[c] - margin, n, n);
+        vec3_add_outer(m, line->reaction[c] - margin, n, n);
         if (line->keeps_reference_axes) {
-            add_outer(m, margin, n, n);
-            add_outer(m, -margin, cpsi_line_friction_normal(line, c),
-                      cpsi_line_friction_normal(line, c));
+            vec3_add_outer(m, margin, n, n);
+            vec3_add_outer(m, -margin, cpsi_line_friction_normal(line, c),
+                           cpsi_line_friction_normal(line, c));
         }
         if (bound_follows(line, friction, c))
-            add_outer(m, 1, vec3_load(&line->friction_force[3 * c]), n);
-        for (int i = 0; i < 3; i++) m[4 * i] += margin;
+            vec3_add_outer(m, 1, vec3_load(&line->friction_force[3 * c]), n);
+        vec3_add_identity(m, margin);
         trace += line->reaction[c] + 2 * margin;
     }
     if (cpsi_line_has_field(line)) trace += add_field(line, m);
     /* A direction without friction or reaction keeps its residual, which shows in
      * force_residual. */
-    for (int i = 0; i < 3; i++) m[4 * i] += DBL_EPSILON * trace;
-    if (!(trace > 0) || !cpsi_lu_factor(3, m, pivot)) return;
-    cpsi_lu_solve(3, m, pivot, lambda);
+    vec3_add_identity(m, DBL_EPSILON * trace);
+    if (!(trace > 0) || !cpsi_lu_factor(3, &m[0][0], pivot)) return;
+    cpsi_lu_solve(3, &m[0][0], pivot, lambda);
     const Vec3 by = vec3_load(lambda);
     if (!(vec3_norm(by) < 1)) return;
     for (int j = 0; cpsi_line_has_field(line) && j < line->n; j++)

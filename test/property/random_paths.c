@@ -10,10 +10,10 @@
  * that state in PARTS parts as well, by both, and each of these is halved until its halves lead to
  * the same place (`path_tolerance` OTHER), without which no jump is found. Where these two paths
  * end at one place, the line comes there; where they do not, or one of them jumps, the path is not
- * known. Where the program itself has cut the step into more parts by one method than by the other,
- * that one is nearer to the path for its smaller parts, whatever the method: such a step is taken
- * again by both in the fewest equal parts that neither cuts again, if there are such, and these are
- * compared. Fails where
+ * known. A step that the program itself has cut into more parts by one method than by the other
+ * says nothing of the methods, since smaller parts follow the path closer: it is taken again by
+ * both in the fewest equal parts that neither cuts again, if there are such, and compared so; else
+ * as it is. Fails where
  *   - the path is known, and the step that begins with Newton's method is farther from its end than
  *     the other one, by more than a factor of TWICE and OTHER,
  *   - it is not certified where the other one is, or leaves a gap that is larger, by more than a
@@ -194,7 +194,8 @@ static void judge(const CpsScene *scene, Run *run, const CpsStage *stage, const 
     printf("from the path cold %.1e, warm %.1e%s\n", off[COLD], off[WARM], wrong ? "  WRONG" : "");
 }
 
-/* The same, of a step that one method has cut into more parts than the other. */
+/* The same of a step that one method has cut into more parts than the other, in equal parts if
+ * there are such. */
 static void judge_alike(const CpsScene *scene, Run *run, const CpsStage *stage, const char *name,
                         Tally *tally) {
     const int parts = cut_alike(scene, run, stage);
@@ -294,7 +295,7 @@ int main(int argc, char **argv) {
     setvbuf(stdout, NULL, _IOLBF, 0);
     for (int k = only < 0 ? 0 : only; k < (only < 0 ? count : only + 1); k++) look_at(k, &tally);
     printf("%d steps, %d warm; %d are cut otherwise and differ, of which %d are taken again in "
-           "equal parts; in %d the two differ, cut alike; in %d of these the path is known, and "
+           "equal parts; in %d the two then differ; in %d of these the path is known, and "
            "the warm step farther from it in %d; %d scenes too long; %d WRONG\n",
            tally.steps, tally.warm, tally.cut, tally.alike, tally.other, tally.known, tally.farther,
            tally.late, tally.wrong);
