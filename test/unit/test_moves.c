@@ -282,38 +282,6 @@ static void nonsense_is_refused(void **state) {
     cps_evolution_destroy(evolution);
 }
 
-static void velocities_that_mean_nothing_are_refused(void **state) {
-    (void)state;
-    CpsEvolution *evolution = rope_at(0, EA, 0, NULL, NULL);
-    void *before = saved(evolution);
-    CpsError err;
-    CpsChange change = {.end = CPS_END_B, .to = {CPS_END_KIND_HELD, {LENGTH, 0, 0.1}}};
-    CpsStage move = cps_stage_default();
-    change.has_velocity = true;
-    move.change_count = 1;
-    move.change = &change;
-    expect_refused(cps_evolution_move(evolution, &move, &err), &err, "the step takes no time");
-    move.duration = 0.1;
-    change.velocity[1] = NAN;
-    expect_refused(cps_evolution_move(evolution, &move, &err), &err, "expected finite numbers");
-    change.velocity[1] = INFINITY;
-    expect_refused(cps_evolution_move(evolution, &move, &err), &err, "expected finite numbers");
-    change.velocity[1] = 0;
-    move.step_count = 2;
-    expect_refused(cps_evolution_move(evolution, &move, &err), &err,
-                   "expected steps 1 and error 0");
-    move.step_count = 1;
-    move.error = 0.01;
-    expect_refused(cps_evolution_move(evolution, &move, &err), &err,
-                   "expected steps 1 and error 0");
-    move.error = 0;
-    change.to.kind = CPS_END_KIND_FREE;
-    expect_refused(cps_evolution_move(evolution, &move, &err), &err, "is not held");
-    expect_state(evolution, before);
-    free(before);
-    cps_evolution_destroy(evolution);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_end_that_is_moved_carries_what_friction_does),
@@ -322,7 +290,6 @@ int main(void) {
         cmocka_unit_test(moves_and_stages_alternate),
         cmocka_unit_test(no_move_follows_a_history_that_ended),
         cmocka_unit_test(an_interrupted_move_has_no_effect),
-        cmocka_unit_test(velocities_that_mean_nothing_are_refused),
         cmocka_unit_test(nonsense_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
