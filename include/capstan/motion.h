@@ -28,7 +28,8 @@
  * this one, and knows the velocity at the end of a step, may give it beside the place there
  * (`has_velocity` of a change), in a stage or move of one step with a duration: of all the motion,
  * that of oscillations included. It is in the inertia, the drag and the damping of what is held, so
- * in the force that holds it, in friction beside it, and in the motion from which it is let go. */
+ * in the force that holds it, in friction beside it, and in the motion from which it is let go. At
+ * an end of a line without inertia (`quasi_static`) it changes nothing. */
 #ifndef CAPSTAN_MOTION_H
 #define CAPSTAN_MOTION_H
 
