@@ -295,6 +295,22 @@ static bool is_too_long(const CpsScene *scene, const CpsEvolution *evolution, in
            line.certificate.gap <= scene->solver.tolerance * line.certificate.scale;
 }
 
+/* print that a body is turned in every pose; a line that reports no motion is in its group */
+static void report_turning(const CpsScene *scene, const CpsEvolution *evolution, const char *step) {
+    for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {
+        const CpsBodyReport body = cps_evolution_body_report(evolution, i);
+        if (!(body.proof_moment > 0)) continue;
+        fputs("capstan: step ", stderr);
+        cli_print_text(stderr, step, 80, false);
+        fputs(", body ", stderr);
+        cli_print_text(stderr, scene->body[i].name, 80, false);
+        fprintf(stderr,
+                ": no equilibrium: its lines end at one point of it, and in every pose the loads "
+                "turn it about the axis (%.4g, %.4g, %.4g) there, by at least %.6g N m\n",
+                tidy(body.proof[0]), tidy(body.proof[1]), tidy(body.proof[2]), body.proof_moment);
+    }
+}
+
 /* print a sentence with the proof for each outcome other than solved */
 static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution) {
     const CpsStepReport step = cps_evolution_report(evolution);
@@ -311,6 +327,8 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         const CpsCertificate *c = &line.certificate;
         if (line.outcome == CPS_OUTCOME_INFEASIBLE) {
             print_shortfall(scene, i, &line);
+        } else if (line.outcome == CPS_OUTCOME_UNBOUNDED && !(line.proof_force > 0)) {
+            fputs(" (a body turns for ever)", stderr);
         } else if (line.outcome == CPS_OUTCOME_UNBOUNDED || line.outcome == CPS_OUTCOME_SLIDES) {
             fprintf(stderr, " (%.6g N along (%.4g, %.4g, %.4g))", line.proof_force, d[0], d[1],
                     d[2]);
@@ -346,6 +364,7 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         fputs(", ", stderr);
         print_unbalanced(stderr, scene->point[i].name, &point);
     }
+    report_turning(scene, evolution, step.name);
     for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {
         const CpsBodyReport body = cps_evolution_body_report(evolution, i);
         if (!is_unbalanced_body(scene, evolution, i)) continue;

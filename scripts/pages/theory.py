@@ -57,6 +57,7 @@ SENTENCES = [
     ("are no longer than asked for, and no shorter than {} of that", lambda p: [number("evolve/pace.c", "LEAST")(p)]),
     ("or not finite, the residual is {} N", number("cable/potential.c", "NOT_USABLE")),
     ("psi(x_R) = 0 }, to {} of the length", number(".h", "CPS_TOUCH")),
+    ("and the proof counts beyond {} of the", number("cable/existence.h", "CPSI_LEAST_POWER")),
     ("besides what {} of the longest line, to which places are known", number(".h", "CPS_TOUCH")),
     ("at mu theta = 6 pi, a ratio of tensions of {}", lambda p: short(math.exp(6 * math.pi))),
     ("when no touching node's axes turned by more than {} rad", number("cable/rounds.c", "AXES_TOL")),

@@ -492,7 +492,7 @@ static void find_places(CpsiBalance *balance, int group) {
         find_lone(balance);
         return;
     }
-    if (!frozen && cpsi_group_falls(balance)) return;
+    if (cpsi_group_turns(balance) || (!frozen && cpsi_group_falls(balance))) return;
     if (!is_static && balance->body_count > 0) {
         if (search_from_prediction(balance)) {
             cpsi_take_nearest_places(balance);

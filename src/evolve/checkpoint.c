@@ -32,7 +32,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '5'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '6'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -68,7 +68,7 @@ _Static_assert(sizeof(CpsLineReport) == 26 * 8 + sizeof(CpsCertificate) + sizeof
                "add the new field to pass_line_report, then its size here");
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
                "add the new field to pass_step_report, then its size here");
-_Static_assert(sizeof(CpsBodyReport) == 81 * 8, "add the new field to pass_body, then its size");
+_Static_assert(sizeof(CpsBodyReport) == 85 * 8, "add the new field to pass_body, then its size");
 _Static_assert(sizeof(CpsPointReport) == 43 * 8,
                "add the new field to pass_point, then its size here");
 _Static_assert(sizeof(CpsBreak) == 5 * 8, "add the new field to pass_break, then its size here");
@@ -321,13 +321,9 @@ static void pass_point(Tape *tape, CpsiPoint *point) {
     pass_point_inertia(tape, &point->inertia);
 }
 
-static void pass_pose(Tape *tape, CpsiPose *pose) {
-    PASS(tape, pose->place);
-    PASS(tape, pose->turn);
-}
-
 /* Vectors and a quaternion, all of them numbers. */
-_Static_assert(sizeof(CpsiBodyPhase) == 28 * sizeof(double), "a phase has numbers only");
+_Static_assert(sizeof(CpsiBodyPhase) == 28 * sizeof(double) && sizeof(CpsiPose) == 56,
+               "a phase and a pose have numbers only");
 
 static void pass_body_inertia(Tape *tape, CpsiBodyInertia *inertia) {
     pass_flag(tape, &inertia->is_moving);
@@ -344,8 +340,8 @@ static void pass_body_inertia(Tape *tape, CpsiBodyInertia *inertia) {
 static void pass_body(Tape *tape, CpsiBody *body) {
     CpsBodyReport *report = &body->report;
     PASS(tape, body->kind);
-    pass_pose(tape, &body->pose);
-    pass_pose(tape, &body->from);
+    PASS(tape, body->pose);
+    PASS(tape, body->from);
     PASS(tape, body->load);
     PASS(tape, body->load_from);
     PASS(tape, report->kind);
@@ -358,6 +354,8 @@ static void pass_body(Tape *tape, CpsiBody *body) {
     PASS(tape, report->damping);
     PASS(tape, report->residual);
     PASS(tape, report->stiffness);
+    PASS(tape, report->proof);
+    PASS(tape, report->proof_moment);
     pass_flag(tape, &report->is_stable);
     pass_flag(tape, &report->has_place);
     PASS(tape, report->trial_count);

@@ -18,6 +18,7 @@
 #include "evolve/bodies.h"
 #include "evolve/body_motion.h"
 #include "evolve/body_self_stress.h"
+#include "evolve/body_turning.h"
 #include "evolve/checkpoint.h"
 #include "evolve/first_guess.h"
 #include "evolve/points.h"
@@ -210,6 +211,76 @@ bool cpsi_group_falls(CpsiBalance *balance) {
         report->proof_force = fall.power;
     }
     return true;
+}
+
+/* a body that turns for ever ------------------------------------------------------------------- */
+
+/* Where on the body its lines end, in its own axes; false if not at one point. */
+static bool eye_of(const CpsEvolution *evolution, int body, Vec3 *eye) {
+    bool any = false;
+    for (int i = 0; i < 2 * evolution->line_count; i++) {
+        const int point = evolution->points.tie[i];
+        if (point == CPSI_NO_POINT) continue;
+        const CpsPoint *given = &evolution->points.given[point];
+        if (given->kind != CPS_POINT_KIND_ON_BODY || given->body != body) continue;
+        const Vec3 at = vec3_load(given->position);
+        if (any && (at.x != eye->x || at.y != eye->y || at.z != eye->z)) return false;
+        *eye = at;
+        any = true;
+    }
+    return any;
+}
+
+/* The axes about which the loads balance by themselves: none is fixed, and no force at the
+ * reference point of which nothing is known, as of a fixed direction, has a moment there. False if
+ * the water has moments, of which there is no proof. */
+static bool find_axes(const CpsBody *given, Vec3 eye, bool about[3]) {
+    if (given->member_count > 0) return false;
+    for (int a = 0; a < 3; a++) about[a] = !given->fixed[3 + a];
+    for (int a = 0; a < 3; a++) {
+        bool held = given->fixed[a];
+        for (int b = 0; b < 6; b++) {
+            if (given->hydrostatics[6 * (3 + a) + b] != 0) return false;
+            held = held || given->hydrostatics[6 * a + b] != 0;
+        }
+        for (int b = 0; b < 3; b++)
+            if (held && vec3_norm(eye) > 0 && b != a) about[b] = false;
+    }
+    return true;
+}
+
+/* Does a moment turn the body in whatever pose it is? */
+static bool turns(const CpsEvolution *evolution, const CpsiBody *body, int index, Vec3 *axis,
+                  double *moment) {
+    CpsiTurning of = {.force = vec3_add(body->load.force, body->waves.force),
+                      .moment = vec3_add(body->load.moment, body->waves.moment),
+                      .gravity = vec3_load(evolution->gravity)};
+    if (!(vec3_norm(of.moment) > 0) || !eye_of(evolution, index, &of.eye) ||
+        !find_axes(&body->given, of.eye, of.about))
+        return false;
+    const Vec3 weight = vec3_sub(of.eye, vec3_load(body->given.centre_of_gravity)),
+               lift = vec3_sub(of.eye, vec3_load(body->given.centre_of_buoyancy));
+    of.weight_by = vec3_axpy(-body->lift, lift, vec3_scale(body->mass, weight));
+    of.sizes =
+        vec3_norm(of.moment) + vec3_norm(of.eye) * vec3_norm(of.force) +
+        (body->mass * vec3_norm(weight) + body->lift * vec3_norm(lift)) * vec3_norm(of.gravity);
+    return cpsi_turns_for_ever(&of, axis, moment);
+}
+
+bool cpsi_group_turns(CpsiBalance *balance) {
+    CpsEvolution *evolution = balance->evolution;
+    for (int k = 0; k < balance->body_count; k++) {
+        const int index = balance->rigid[k].body;
+        CpsiBody *body = &evolution->bodies.body[index];
+        Vec3 axis;
+        double moment;
+        if (!turns(evolution, body, index, &axis, &moment)) continue;
+        report_proof(balance, CPS_OUTCOME_UNBOUNDED);
+        vec3_store(body->report.proof, axis);
+        body->report.proof_moment = moment;
+        return true;
+    }
+    return false;
 }
 
 /* infeasible ----------------------------------------------------------------------------------- */

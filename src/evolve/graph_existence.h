@@ -11,6 +11,10 @@
  * but for what a step imposes on them. */
 bool cpsi_group_falls(CpsiBalance *balance);
 
+/* Does a given moment turn a body of the group in whatever pose it is? Reported likewise, with the
+ * proof in the report of the body and none in those of the lines. */
+bool cpsi_group_turns(CpsiBalance *balance);
+
 /* Are the inextensible lines of the group too short to be laid between what holds it? Reported
  * likewise, as infeasible. */
 bool cpsi_group_is_too_short(CpsiBalance *balance);

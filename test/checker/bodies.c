@@ -200,7 +200,7 @@ static int read_step(const Source *source, const Bodies *bodies, const char *nam
 
 int bodies_read(const Source *source, const Bodies *bodies, size_t step, BodyState *all,
                 FILE *log) {
-    enum { FIELDS = 17, BLOCKS = 10, WORDS = 14, MOST = 9 };
+    enum { FIELDS = 19, BLOCKS = 11, WORDS = 15, MOST = 9 };
     static const struct {
         const char *name;
         size_t width;
@@ -209,10 +209,11 @@ int bodies_read(const Source *source, const Bodies *bodies, size_t step, BodySta
                        {"load_of_body", 3},         {"load_moment_of_body", 3},
                        {"support_of_body", 3},      {"support_moment_of_body", 3},
                        {"residual_of_body", 3},     {"residual_moment_of_body", 3},
-                       {"stiffness_xx_of_body", 3}, {"stiffness_xr_of_body", 3},
-                       {"stiffness_rx_of_body", 3}, {"stiffness_rr_of_body", 3},
-                       {"state_of_body", 0},        {"stable_of_body", 0},
-                       {"has_place_of_body", 0}};
+                       {"proof_of_body", 3},        {"stiffness_xx_of_body", 3},
+                       {"stiffness_xr_of_body", 3}, {"stiffness_rx_of_body", 3},
+                       {"stiffness_rr_of_body", 3}, {"state_of_body", 0},
+                       {"stable_of_body", 0},       {"has_place_of_body", 0},
+                       {"proof_moment_of_body", 0}};
     double *value = calloc(bodies->count * MOST, sizeof *value);
     if (!value) return complain(log, "out of memory for", "bodies");
     int bad = 0;
@@ -222,9 +223,10 @@ int bodies_read(const Source *source, const Bodies *bodies, size_t step, BodySta
         bad = read_step(source, bodies, FIELD[i].name, step, FIELD[i].width, is_block, value, log);
         for (size_t k = 0; k < bodies->count && !bad; k++) {
             BodyState *at = &all[k];
-            double *const to[BLOCKS] = {at->position, at->rotation,    at->lines,   &at->lines[3],
-                                        at->load,     &at->load[3],    at->support, &at->support[3],
-                                        at->residual, &at->residual[3]};
+            double *const to[BLOCKS] = {at->position,     at->rotation,    at->lines,
+                                        &at->lines[3],    at->load,        &at->load[3],
+                                        at->support,      &at->support[3], at->residual,
+                                        &at->residual[3], at->proof};
             const double *from = value + n * k;
             if (i < BLOCKS) memcpy(to[i], from, n * sizeof *from);
             if (is_block) put_block(from, i - BLOCKS, at->stiffness);
@@ -234,6 +236,7 @@ int bodies_read(const Source *source, const Bodies *bodies, size_t step, BodySta
                 at->kind = (int)*from;
             if (i == WORDS + 1) at->is_stable = *from != 0;
             if (i == WORDS + 2) at->has_place = *from != 0;
+            if (i == WORDS + 3) at->proof_moment = *from;
         }
     }
     free(value);
@@ -568,6 +571,19 @@ static void check_motion(Check *c) {
     body_motion_check(&steps, find_in_time, c);
 }
 
+/* [N] The given load on a body, moments over its arm: what is not of weight, buoyancy and water.
+ * Another part of the load may cancel it, as the moment of the weight a given moment, so that the
+ * whole load does not tell what acts. Where gravity has changed its change counts as given. */
+static double given_load(const Check *c, size_t k) {
+    const double down = size(c->source->gravity), *load = c->now[k].load;
+    double per[3], given[SIX];
+    Real own[SIX];
+    for (int a = 0; a < 3; a++) per[a] = down > 0 ? c->source->gravity[a] / down : 0;
+    body_load(&c->bodies->data[k], c->now[k].position, c->now[k].rotation, per, own);
+    for (int i = 0; i < SIX; i++) given[i] = load[i] - (double)own[i];
+    return fmax(size(given), size(&given[3]) / c->arm[k]);
+}
+
 /* [N] The largest force in elastic lines and of loads. */
 static void find_largest(Check *c) {
     c->largest = c->rounding = 0;
@@ -578,8 +594,8 @@ static void find_largest(Check *c) {
     for (size_t k = 0; k < c->source->points; k++)
         c->largest = fmax(c->largest, size(c->point[k].load));
     for (size_t k = 0; k < c->bodies->count; k++)
-        c->largest =
-            fmax(c->largest, fmax(size(c->now[k].load), size(&c->now[k].load[3]) / c->arm[k]));
+        c->largest = fmax(fmax(c->largest, given_load(c, k)),
+                          fmax(size(c->now[k].load), size(&c->now[k].load[3]) / c->arm[k]));
     for (size_t k = 0; k < c->bodies->count; k++)
         c->largest = fmax(c->largest, fmax(size(c->motion[k].inertia),
                                            size(&c->motion[k].inertia[3]) / c->arm[k]));

@@ -22,6 +22,8 @@ typedef struct BodyData {
 typedef struct BodyState {
     Vector position;
     double rotation[FOUR], lines[SIX], load[SIX], support[SIX], residual[SIX], stiffness[SIX * SIX];
+    Vector proof;        /* an axis about which it is turned in every pose, else 0 */
+    double proof_moment; /* [N m] */
     int kind;
     bool is_stable, has_place;
 } BodyState;

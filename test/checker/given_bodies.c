@@ -19,6 +19,7 @@
 #include "excitation.h"
 #include "members.h"
 #include "oscillation.h"
+#include "turning.h"
 
 /* Numbers that are copied; poses on their way; loads: sums of a few products, and the turning
  * moment of the water by differences. */
@@ -361,6 +362,24 @@ static void compare_stiffness(Compare *c, size_t k, const double g[3], size_t st
              c->bodies.data[k].name, step, worst, most);
 }
 
+/* What is claimed of a body that turns for ever. */
+static void compare_turning(Compare *c, size_t k, const double load[SIX], const double g[3],
+                            size_t step, const BodyState *at) {
+    const double pull = size(c->scene->gravity);
+    char sentence[200];
+    if (at->proof_moment == 0 && size(at->proof) == 0) return;
+    Turning of = {.source = c->source,
+                  .bodies = &c->bodies,
+                  .line = c->line,
+                  .at = at,
+                  .body = k,
+                  .other_moments = has_duration(c, step) || c->scene->body[k].member_count > 0};
+    for (int i = 0; i < 3; i++) of.pull[i] = pull > 0 ? g[i] / pull : 0;
+    memcpy(of.given, load, sizeof of.given);
+    const char *fault = turning_fault(&of, sentence, sizeof sentence);
+    if (fault) find(c, "body %s, step %zu: %s", c->bodies.data[k].name, step, fault);
+}
+
 /* The ledger of a body in a step in time: the work of all forces is dissipated by damping, or in
  * its motion, or lost by the scheme. */
 static void compare_ledger(Compare *c, size_t k, const double g[3], size_t step,
@@ -415,6 +434,7 @@ static void compare_step(Compare *c, const GivenStep *given, size_t step, Impose
     for (size_t k = 0; k < c->bodies.count; k++) {
         compare_state(c, k, &imposed[k], given->gravity, step, &now[k]);
         compare_stiffness(c, k, given->gravity, step, &now[k]);
+        compare_turning(c, k, imposed[k].load, given->gravity, step, &now[k]);
         compare_ledger(c, k, given->gravity, step, &before[k], &now[k]);
         compare_members(c, k, step, &before[k], &now[k]);
         if (step == 0 && is_in_time(c->scene)) {

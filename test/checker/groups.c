@@ -10,7 +10,10 @@
  * sign), s their place on the body; the largest tr(Q' N) of any rotation is the sum of the singular
  * values of N, the least of them with the sign of det N.
  *
- * Unbounded: a translation v of all that falls, where nothing is held. */
+ * Unbounded: a translation v of all that falls, where nothing is held. Lines without one have a
+ * body in their group that is turned in every pose (turning.h), whose proof is examined with the
+ * scene.
+ */
 #include "groups.h"
 
 #include <math.h>
@@ -351,6 +354,30 @@ static void check_unbounded(const Group *g) {
         find(g, "claimed proof_force %.9g, recomputed %.9g", claimed, (double)fall);
 }
 
+/* Is this body in the group? */
+static bool has_body(const Group *g, size_t body) {
+    for (size_t i = 0; i < g->at->source->points; i++)
+        if (free_body(g->at, (int)i) == (int)body && is_in_group(g, (int)i)) return true;
+    return false;
+}
+
+/* Does a body of the group claim that it turns for ever? */
+static bool has_turning(const Group *g) {
+    for (size_t k = 0; k < g->at->bodies->count; k++)
+        if (g->at->body[k].proof_moment != 0 && has_body(g, k)) return true;
+    return false;
+}
+
+/* All lines of such a group have no motion of their own. */
+static void check_turning(const Group *g) {
+    for (size_t i = 0; i < g->at->source->lines; i++) {
+        const Record *r = &g->at->line[i];
+        if (g->root_of[i] != g->root) continue;
+        if (r->proof[0] != 0 || r->proof[1] != 0 || r->proof[2] != 0 || r->proof_force != 0)
+            find(g, "its lines move, and a body turns for ever");
+    }
+}
+
 /* All lines of a group say the same. */
 static void check_agreement(const Group *g) {
     const Record *first = &g->at->line[g->first];
@@ -372,6 +399,8 @@ static void check_all(const GroupStep *at, size_t *root, Triple *left, BodySum *
         check_agreement(&g);
         if (at->line[i].outcome == OUTCOME_INFEASIBLE)
             check_infeasible(&g);
+        else if (has_turning(&g))
+            check_turning(&g);
         else
             check_unbounded(&g);
     }

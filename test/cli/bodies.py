@@ -64,6 +64,9 @@ lines:
   string: {length: 10, elements: 4, weight: 1, stiffness: 1e6, start: {straight: {from: [0, 0, 0], to: [0, 0, -10]}}, ends: {A: {point: hook}, B: {point: eye}}}
 history: [{name: twist, stone.body: {moment: [0, 0, 3]}}]
 """
+# ... by a second string the moment about the vertical through the hook is not one about a point of the stone
+TWO_STRINGS = TWISTED.replace("eye: {body: stone}", "eye: {body: stone}, ear: {body: stone, at: [0, 0, -0.1]}").replace("history:", """  other: {length: 10.1, elements: 4, weight: 1, stiffness: 1e6, start: {straight: {from: [0, 0, 0], to: [0, 0, -10.1]}}, ends: {A: {point: hook}, B: {point: ear}}}
+history:""")
 TWO_GROUPS = """
 capstan: 1
 bodies: {stone: {held: [9, 9, 9]}}
@@ -367,8 +370,19 @@ def main():
             run("scene.yaml", "-q", "--stiffness", "-o", folder, code=4)
             expect("a file of somebody else", read(f"{folder}/{name}") == b"mine")
 
+        # turned in every pose: proved
+        write("turned.yaml", TWISTED)
+        done = run("turned.yaml", "-o", "turned", code=5)
+        expect("said of the body", "capstan: step twist, body stone: no equilibrium: its lines end at one point of it, and in every pose the loads turn it "
+               "about the axis (0, 0, 1) there, by at least 3 N m\n" in done.stderr, done.stderr)
+        expect("said of the line", "line string: no equilibrium: a rigid motion lowers the energy without bound (a body turns for ever)\n" in done.stderr,
+               done.stderr)
+        last = json.loads(read("turned/summary.json"))["steps"][-1]
+        expect("the proof", last["bodies"]["stone"]["proof"] == {"axis": [0, 0, 1], "moment_Nm": 3}, last["bodies"])
+        expect("none of the line", last["lines"]["string"]["proof"] == {"direction": [0, 0, 0], "fall_N": 0}, last["lines"])
+
         # no pose
-        write("twisted.yaml", TWISTED)
+        write("twisted.yaml", TWO_STRINGS)
         done = run("twisted.yaml", "-o", "twisted", code=1)
         told = r"body stone: no pose found where the forces and moments on it balance \([0-9.e+-]+ N and [0-9.e+]+ N m are left after \d+ trials\)\n"
         expect("told in the table", re.search("^ +" + told, done.stdout, re.M), done.stdout)

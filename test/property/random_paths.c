@@ -13,7 +13,8 @@
  * known. A step that the program itself has cut into more parts by one method than by the other
  * says nothing of the methods, since smaller parts follow the path closer: it is taken again by
  * both in the fewest equal parts that neither cuts again, if there are such, and compared so; else
- * as it is. Fails where
+ * as it is. How far the step as the program took it is from a known path is printed as well, and
+ * taken as one step with a path tolerance of NEAR it has to end that near to it. Fails where
  *   - the path is known, and the step that begins with Newton's method is farther from its end than
  *     the other one, by more than a factor of TWICE and OTHER,
  *   - it is not certified where the other one is, or leaves a gap that is larger, by more than a
@@ -30,7 +31,7 @@
 /* magic, size and fingerprint of a state (evolve/checkpoint.c) */
 enum { HEAD = 24, PARTS = 64, STEPS = 60 };
 /* per length of the line */
-static const double OTHER = 1e-6;
+static const double OTHER = 1e-6, NEAR = 1e-3;
 static const double TWICE = 2;
 /* Per scale: ten times what a program is solved to (CPSI_TARGET), since rounds end with axes that
  * may still turn by 2e-9 rad. */
@@ -42,6 +43,7 @@ enum { COLD, WARM, METHODS };
 
 typedef struct Tally {
     int steps, warm, other, cut, alike, known, farther, wrong, late;
+    double most, nearest; /* per length: a step as taken from the path, and with a path tolerance */
 } Tally;
 
 /* The history with a stage for each step, between which there may be moves. */
@@ -93,6 +95,7 @@ typedef struct Run {
     unsigned char *state, *own; /* before the step, of the cold run; its own head */
     size_t size;
     double *end[METHODS], *path[METHODS]; /* (n, 3) [m] */
+    double *taken[METHODS];               /* likewise, as the program took the step */
     int n;
     double length;
     CpsEnd at[2];
@@ -130,7 +133,7 @@ static double apart(const Run *run, const double *a, const double *b) {
 }
 
 /* What is asked of a step that is taken in parts. */
-typedef enum Asked { NO_JUMP, NOT_CUT } Asked;
+typedef enum Asked { CERTIFIED, NO_JUMP, NOT_CUT } Asked;
 
 /* The step in `parts` parts by one method: is each certified, and as asked? */
 static bool take_parts(const CpsScene *scene, Run *run, const CpsStage *stage, int method,
@@ -144,7 +147,8 @@ static bool take_parts(const CpsScene *scene, Run *run, const CpsStage *stage, i
         good = cps_evolution_move(evolution, &move, NULL) == CPS_OK;
         const CpsStepReport report = cps_evolution_report(evolution);
         good = good && cps_outcome_is_certified(report.outcome) &&
-               (asked == NO_JUMP ? report.jump_count == 0 : report.substep_count == 1);
+               (asked != NO_JUMP || report.jump_count == 0) &&
+               (asked != NOT_CUT || report.substep_count == 1);
     }
     read_places(evolution, run->n, place);
     cps_evolution_destroy(evolution);
@@ -175,6 +179,25 @@ static int cut_alike(const CpsScene *scene, Run *run, const CpsStage *stage) {
     return 0;
 }
 
+/* The step as the program took it, and as it takes it with a path tolerance, beside the path. */
+static void judge_taken(const CpsScene *scene, Run *run, const CpsStage *stage, Tally *tally) {
+    double off[METHODS], near[METHODS];
+    CpsScene fine = *scene;
+    fine.solver.path_tolerance = NEAR;
+    bool wrong = false;
+    for (int method = 0; method < METHODS; method++) {
+        off[method] = apart(run, run->taken[method], run->path[COLD]);
+        const bool good = take_parts(&fine, run, stage, method, 1, CERTIFIED, run->taken[method]);
+        near[method] = apart(run, run->taken[method], run->path[COLD]);
+        wrong = wrong || !good || near[method] > NEAR;
+        tally->most = fmax(tally->most, off[method]);
+        tally->nearest = fmax(tally->nearest, near[method]);
+    }
+    tally->wrong += wrong;
+    printf("as taken cold %.1e, warm %.1e from the path, with a path tolerance %.1e, %.1e%s\n",
+           off[COLD], off[WARM], near[COLD], near[WARM], wrong ? "  WRONG" : "");
+}
+
 /* Are two different steps equally near to the path, where that is known? */
 static void judge(const CpsScene *scene, Run *run, const CpsStage *stage, const char *name,
                   Tally *tally) {
@@ -191,7 +214,8 @@ static void judge(const CpsScene *scene, Run *run, const CpsStage *stage, const 
     tally->known++;
     tally->farther += off[WARM] > off[COLD];
     tally->wrong += wrong;
-    printf("from the path cold %.1e, warm %.1e%s\n", off[COLD], off[WARM], wrong ? "  WRONG" : "");
+    printf("from the path cold %.1e, warm %.1e%s; ", off[COLD], off[WARM], wrong ? "  WRONG" : "");
+    judge_taken(scene, run, stage, tally);
 }
 
 /* The same of a step that one method has cut into more parts than the other, in equal parts if
@@ -201,10 +225,15 @@ static void judge_alike(const CpsScene *scene, Run *run, const CpsStage *stage, 
     const int parts = cut_alike(scene, run, stage);
     tally->alike += parts > 0;
     if (parts > 0) printf("in %d equal parts ", parts);
-    if (apart(run, run->end[COLD], run->end[WARM]) <= OTHER)
-        printf("%s: the same\n", name);
-    else
+    if (apart(run, run->end[COLD], run->end[WARM]) > OTHER) {
         judge(scene, run, stage, name, tally);
+        return;
+    }
+    printf("%s: the same; ", name);
+    if (follow_path(scene, run, stage))
+        judge_taken(scene, run, stage, tally);
+    else
+        printf("the path is not known\n");
 }
 
 /* The next step by both methods from one state; false at the end. */
@@ -218,6 +247,7 @@ static bool take_step(const CpsScene *scene, Run *run, const CpsStage *stage, co
         if (cps_evolution_step(evolution[method], NULL) != CPS_OK) return false;
         report[method] = cps_evolution_report(evolution[method]);
         read_places(evolution[method], run->n, run->end[method]);
+        read_places(evolution[method], run->n, run->taken[method]);
     }
     tally->steps++;
     tally->warm += report[WARM].warm_count == report[WARM].substep_count;
@@ -247,12 +277,14 @@ static void allocate(Run *run, const PostsScene *s) {
     run->length = s->rig.line.length;
     run->size = cps_evolution_state_size(run->evolution[COLD]);
     run->state = malloc(2 * run->size);
-    run->end[0] = malloc(2 * METHODS * 3 * (size_t)run->n * sizeof(double));
+    run->end[0] = malloc(3 * METHODS * 3 * (size_t)run->n * sizeof(double));
     if (!run->state || !run->end[0]) abort();
     run->own = run->state + run->size;
     run->end[1] = run->end[0] + 3 * run->n;
     run->path[0] = run->end[1] + 3 * run->n;
     run->path[1] = run->path[0] + 3 * run->n;
+    run->taken[0] = run->path[1] + 3 * run->n;
+    run->taken[1] = run->taken[0] + 3 * run->n;
     for (int end = 0; end < 2; end++) run->at[end] = s->rig.line.end[end];
 }
 
@@ -296,8 +328,9 @@ int main(int argc, char **argv) {
     for (int k = only < 0 ? 0 : only; k < (only < 0 ? count : only + 1); k++) look_at(k, &tally);
     printf("%d steps, %d warm; %d are cut otherwise and differ, of which %d are taken again in "
            "equal parts; in %d the two then differ; in %d of these the path is known, and "
-           "the warm step farther from it in %d; %d scenes too long; %d WRONG\n",
+           "the warm step farther from it in %d; as taken the steps whose path is known end up to "
+           "%.1e beside it, with a path tolerance %.1e; %d scenes too long; %d WRONG\n",
            tally.steps, tally.warm, tally.cut, tally.alike, tally.other, tally.known, tally.farther,
-           tally.late, tally.wrong);
+           tally.most, tally.nearest, tally.late, tally.wrong);
     return tally.wrong > 0 || tally.steps == 0;
 }

@@ -133,7 +133,7 @@ def test_targets_do_what_the_history_does():
     """The same changes as entries of a history, and as moves: the same bits."""
     entries = [{"name": "body", "spar.body": {"move": [0.1, 0, 0.2], "rotation": {"roll_pitch_yaw": [10, -20, 30]}}},
                {"name": "point", "knot.point": {"move": [0, 0.1, 0]}},
-               {"name": "let go", "spar.body": {"force": [0, 0, 1200], "moment": [0, 1, 0], "arm": [0.1, 0.2, 0]}}]
+               {"name": "let go", "spar.body": {"force": [0, 0, 1200], "moment": [-240, 120, 0], "arm": [0.1, 0.2, 0]}}]
     scene = yaml.safe_load(SCENE)
     # 1e4 and the like are numbers for the reader of scenes, and texts for this one
     for line in scene["lines"].values():

@@ -78,7 +78,7 @@ void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poin
 void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
                                const CpsEvolution *evolution);
 
-enum { CPSI_BODY_CONSTANTS = 10, CPSI_BODY_FIELDS = 14, CPSI_BODY_INTS = 4 };
+enum { CPSI_BODY_CONSTANTS = 10, CPSI_BODY_FIELDS = 16, CPSI_BODY_INTS = 4 };
 /* in time: constants, fields of the report, fields of the motion */
 enum { CPSI_BODY_MASSES = 13, CPSI_BODY_FORCES = 4, CPSI_BODY_MOTIONS = 11 };
 

@@ -306,6 +306,10 @@ static const BodyField FIELD[CPSI_BODY_FIELDS] = {
     WRENCH("support", "what holds it", support),
     WRENCH("residual", "all together", residual),
     BLOCKS_OF("stiffness", "stiffness in the pose, 0 of a held body", CpsBodyReport, stiffness),
+    {"proof_of_body", "axis about which it is turned in every pose, 0 0 0: there is no such proof",
+     "1", offsetof(CpsBodyReport, proof), VECTOR_OF},
+    {"proof_moment_of_body", "least moment about that axis, else 0", "N m",
+     offsetof(CpsBodyReport, proof_moment), NUMBER_OF},
 };
 
 /* Where steps have a duration. */

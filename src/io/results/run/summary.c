@@ -271,6 +271,11 @@ static void write_bodies(FILE *out, const CpsResults *results, const CpsiRow *ro
         write_wrench(out, "lines_N", "lines_Nm", report->lines);
         write_wrench(out, "load_N", "load_Nm", report->load);
         write_wrench(out, "support_N", "support_Nm", report->support);
+        if (report->proof_moment > 0) {
+            fputs("\"proof\": {", out);
+            write_vector(out, "axis", report->proof, ", ");
+            write_number(out, "moment_Nm", report->proof_moment, "},\n          ");
+        }
         write_number(out, "residual_N", of->residual[0], ", ");
         write_number(out, "residual_Nm", of->residual[1], "}");
         fputs(i + 1 < results->body_count ? ",\n" : "\n", out);
