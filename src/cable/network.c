@@ -227,23 +227,25 @@ static void move_ends(CpsiLine *line, const CpsiNetworkPart *part, int item) {
 static void fill_map(const CpsiNetworkPart *part, int k, const double axes[9],
                      const CpsiStepScale *scale, CpsiJointMap *map) {
     const CpsiJoint *joint = &part->joint[k];
-    *map = (CpsiJointMap){.first = 3 * k, .width = 3, .by = {{1}, {0, 1}, {0, 0, 1}}};
+    *map = cpsi_joint_map_of_point(3 * k);
     if (k < part->own) return;
     const bool *fixed = part->body[joint->body].fixed;
     double arm[3], a[3], free[2][9] = {{0}};
     vec3_store(arm, vec3_scale(1 / scale->length, joint->arm));
     cpsi_frame_to(a, axes, arm);
-    const double across[3][3] = {{0, a[2], -a[1]}, {-a[2], 0, a[0]}, {a[1], -a[0], 0}};
     for (int half = 0; half < 2; half++) {
         for (int i = 0; i < 3; i++) free[half][4 * i] = !fixed[3 * half + i];
         cpsi_frame_turn(free[half], axes, free[half]);
     }
-    *map = (CpsiJointMap){.first = 3 * part->own + 6 * joint->body, .width = 6};
-    for (int i = 0; i < 3; i++)
+    *map = cpsi_joint_map_on_body(3 * part->own + 6 * joint->body, vec3_load(a));
+    for (int i = 0; i < 3; i++) {
+        const Vec3 turned = vec3_load(&map->by[i][3]);
         for (int j = 0; j < 3; j++) {
             map->by[i][j] = free[0][3 * i + j];
-            for (int l = 0; l < 3; l++) map->by[i][3 + j] += across[i][l] * free[1][3 * l + j];
+            map->by[i][3 + j] =
+                turned.x * free[1][j] + turned.y * free[1][3 + j] + turned.z * free[1][6 + j];
         }
+    }
 }
 
 /* A stiffness (6, 6) in the common axes and the units of the program. */

@@ -73,8 +73,7 @@ static int number_joints(CpsiNetwork *network, const CpsiLine *line, const CpsiN
     for (int j = 0; j < part->own; j++) {
         if (program->map[j].width == 0) continue;
         node[count] = node[j];
-        program->map[j] =
-            (CpsiJointMap){.first = 3 * count++, .width = 3, .by = {{1}, {0, 1}, {0, 0, 1}}};
+        program->map[j] = cpsi_joint_map_of_point(3 * count++);
     }
     cpsi_graph_matrix_use(program->matrix, count, node);
     return 3 * count;

@@ -145,7 +145,7 @@ static void report_held_body(CpsEvolution *evolution, int index) {
                 given->body != index)
                 continue;
             const Vec3 pull = vec3_scale(-1, vec3_load(evolution->line[i].report.end[end].force)),
-                       arm = rotation_apply(body->pose.turn, vec3_load(given->position));
+                       arm = cpsi_pose_arm(&body->pose, given->position);
             lines.force = vec3_add(lines.force, pull);
             lines.moment = vec3_add(lines.moment, vec3_cross(arm, pull));
         }

@@ -56,9 +56,12 @@ typedef struct CpsiBodies {
     CpsiBody *body; /* (count) */
 } CpsiBodies;
 
-/* The place of a point of the body's axes. */
+/* A point of the body's axes: from the reference point, and its place. */
+static inline Vec3 cpsi_pose_arm(const CpsiPose *pose, const double point[3]) {
+    return rotation_apply(pose->turn, vec3_load(point));
+}
 static inline Vec3 cpsi_pose_place(const CpsiPose *pose, const double point[3]) {
-    return vec3_add(pose->place, rotation_apply(pose->turn, vec3_load(point)));
+    return vec3_add(pose->place, cpsi_pose_arm(pose, point));
 }
 
 CpsStatus cpsi_bodies_check(const CpsScene *scene, CpsError *err);

@@ -242,7 +242,7 @@ static double beyond_all(const CpsEvolution *evolution, const CpsiBody *body, Ro
         if (given->kind != CPS_POINT_KIND_ON_BODY || &evolution->bodies.body[given->body] != body)
             continue;
         const Vec3 pull = vec3_scale(-1, vec3_load(evolution->line[i / 2].report.end[i % 2].force));
-        sum += beyond(pull, rotation_apply(body->pose.turn, vec3_load(given->position)), step);
+        sum += beyond(pull, cpsi_pose_arm(&body->pose, given->position), step);
     }
     sum += work_of(cpsi_body_water(body, &body->pose), motion);
     return sum + cpsi_body_water_energy(body, &body->pose) - cpsi_body_water_energy(body, &from);

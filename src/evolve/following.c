@@ -98,28 +98,21 @@ static void find_followers(const Following *f) {
     cpsi_graph_matrix_use(balance->matrix, balance->count, balance->node);
 }
 
+/* From the reference point of the body that moves to a point on it. */
+static Vec3 arm_of(const Following *f, int point) {
+    return cpsi_pose_arm(&f->evolution->bodies.body[f->moved->body].pose,
+                         f->evolution->points.given[point].position);
+}
+
 /* How an end follows from the unknowns of what moves; from those of the points. */
 static CpsiJointMap map_of_moved(const Following *f, int line, int end) {
-    CpsiJointMap out = {.by = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    if (!is_moved(f, line, end)) return out;
-    out.width = f->width;
-    if (f->moved->body < 0) return out;
-    const int point = f->evolution->points.tie[2 * line + end];
-    const Vec3 a = rotation_apply(f->evolution->bodies.body[f->moved->body].pose.turn,
-                                  vec3_load(f->evolution->points.given[point].position));
-    out.by[0][4] = a.z;
-    out.by[0][5] = -a.y;
-    out.by[1][3] = -a.z;
-    out.by[1][5] = a.x;
-    out.by[2][3] = a.y;
-    out.by[2][4] = -a.x;
-    return out;
+    if (!is_moved(f, line, end)) return (CpsiJointMap){.width = 0};
+    if (f->moved->body < 0) return cpsi_joint_map_of_point(0);
+    return cpsi_joint_map_on_body(0, arm_of(f, f->evolution->points.tie[2 * line + end]));
 }
 static CpsiJointMap map_of_follower(const Following *f, int line, int end) {
     const int k = follower(f, line, end);
-    return (CpsiJointMap){.first = 3 * k,
-                          .width = k >= 0 ? 3 : 0,
-                          .by = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    return k >= 0 ? cpsi_joint_map_of_point(3 * k) : (CpsiJointMap){.width = 0};
 }
 
 /* Does the force on a line at an end count? */
@@ -357,8 +350,7 @@ static void add_turning(const Following *f, int line, double *out) {
     if (f->moved->body < 0) return;
     for (int end = 0; end < 2; end++) {
         if (!is_moved(f, line, end)) continue;
-        const CpsiJointMap map = map_of_moved(f, line, end);
-        const Vec3 a = vec3(map.by[1][5], map.by[2][3], map.by[0][4]);
+        const Vec3 a = arm_of(f, f->evolution->points.tie[2 * line + end]);
         const CpsLineReport *report = &f->evolution->line[line].report;
         cpsi_add_turning_force(vec3_scale(-1, vec3_load(report->end[end].force)), a, out);
     }

@@ -22,24 +22,12 @@ static const double MOST_HELD = 1e6;
 enum { BISECTIONS = 60, NEWTON = 4 };
 
 CpsiJointMap cpsi_joint_map(const CpsiBalance *balance, int point) {
-    CpsiJointMap out = {.by = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    if (point == CPSI_NO_POINT) return out;
-    const int k = balance->number[point], body = balance->rigid_of[point];
-    if (k >= 0) {
-        out.first = 3 * k;
-        out.width = 3;
-    } else if (body >= 0) { /* d + theta x a */
-        const Vec3 a = cpsi_trial_arm(balance, &balance->rigid[body], point);
-        out.first = 3 * balance->count + 6 * body;
-        out.width = 6;
-        out.by[0][4] = a.z;
-        out.by[0][5] = -a.y;
-        out.by[1][3] = -a.z;
-        out.by[1][5] = a.x;
-        out.by[2][3] = a.y;
-        out.by[2][4] = -a.x;
-    }
-    return out;
+    const int k = point == CPSI_NO_POINT ? -1 : balance->number[point],
+              body = point == CPSI_NO_POINT ? -1 : balance->rigid_of[point];
+    if (k >= 0) return cpsi_joint_map_of_point(3 * k);
+    if (body < 0) return (CpsiJointMap){.width = 0};
+    return cpsi_joint_map_on_body(3 * balance->count + 6 * body,
+                                  cpsi_trial_arm(balance, &balance->rigid[body], point));
 }
 
 /* Add what of a body's forces turns with it, and its hydrostatics. */

@@ -33,7 +33,7 @@ static Vec3 first_velocity(const CpsEvolution *evolution, int index) {
     if (given->kind != CPS_POINT_KIND_ON_BODY) return vec3(0, 0, 0);
     const CpsiBody *body = &evolution->bodies.body[given->body];
     const CpsiBodyPhase *now = &body->inertia.now;
-    const Vec3 arm = rotation_apply(body->pose.turn, vec3_load(given->position));
+    const Vec3 arm = cpsi_pose_arm(&body->pose, given->position);
     return vec3_add(now->velocity, vec3_cross(now->rate, arm));
 }
 

@@ -279,8 +279,7 @@ static void find_contact(const CpsiBalance *balance, CpsiFree *at) {
 
 /* From the reference point of a free body to a point on it, in the axes of the scene. */
 Vec3 cpsi_trial_arm(const CpsiBalance *balance, const CpsiRigid *rigid, int point) {
-    return rotation_apply(rigid->pose.turn,
-                          vec3_load(balance->evolution->points.given[point].position));
+    return cpsi_pose_arm(&rigid->pose, balance->evolution->points.given[point].position);
 }
 
 static void add_pull(const CpsiBalance *balance, CpsiRigid *rigid, int point, Vec3 pull) {

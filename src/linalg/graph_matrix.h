@@ -5,6 +5,7 @@
 #ifndef CAPSTAN_SRC_LINALG_GRAPH_MATRIX_H
 #define CAPSTAN_SRC_LINALG_GRAPH_MATRIX_H
 
+#include "base/vec3.h"
 #include "linalg/block_lu.h"
 
 typedef struct CpsiGraphMatrix CpsiGraphMatrix;
@@ -33,6 +34,20 @@ typedef struct CpsiJointMap {
     int first, width;
     double by[3][6];
 } CpsiJointMap;
+
+/* Of a point whose place is three unknowns. */
+static inline CpsiJointMap cpsi_joint_map_of_point(int first) {
+    return (CpsiJointMap){.first = first, .width = 3, .by = {{1}, {0, 1}, {0, 0, 1}}};
+}
+/* Of one at an arm a from the reference point of a body, which moves by d and turns by theta:
+ * d + theta x a. */
+static inline CpsiJointMap cpsi_joint_map_on_body(int first, Vec3 a) {
+    return (CpsiJointMap){.first = first,
+                          .width = 6,
+                          .by = {{1, 0, 0, 0, a.z, -a.y},
+                                 {0, 1, 0, -a.z, 0, a.x},
+                                 {0, 0, 1, a.y, -a.x, 0}}};
+}
 
 /* Add A' K B for a block K of the forces at one point (A: `to`) by the displacements of another
  * (B: `from`); its entry in row a and column b is k[a stride + b]. */

@@ -137,16 +137,15 @@ static void rows_are_changed_as_asked(void **unused) {
         cpsi_graph_matrix_clear(matrix);
         /* a body of blocks 1 and 2 and a point of block 3; K = [1 2 3; 4 5 6; 7 8 9] */
         const double k[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
-        const CpsiJointMap body = {.first = 3,
-                                   .width = 6,
-                                   .by = {{1, 0, 0, 0, 2, 0}, {0, 1}, {0, 0, 1}}},
-                           point = {.first = 9, .width = 3, .by = {{1}, {0, 1}, {0, 0, 1}}};
+        const CpsiJointMap body = cpsi_joint_map_on_body(3, vec3(0, 0, 2)),
+                           point = cpsi_joint_map_of_point(9);
         cpsi_graph_matrix_add(matrix, &body, &point, k, 3);
-        /* row 4 of the body is twice row 0 of K, and is the second of block 2 */
+        /* about y the point 2 above moves along x by 2, about x along y by -2: rows 4 and 3 of the
+         * body, the second and the first of block 2, are so many times rows 0 and 1 of K */
         const CpsiGraphBlock block = cpsi_graph_matrix_block(matrix, 2, 3);
         for (size_t b = 0; b < 3; b++) {
             CHECK_NEAR(block.at[block.stride + b], 2 * k[b], 0);
-            CHECK_NEAR(block.at[b], 0, 0);
+            CHECK_NEAR(block.at[b], -2 * k[3 + b], 0);
         }
         const double p[3][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
         cpsi_graph_matrix_turn(matrix, 2, p);
