@@ -169,8 +169,8 @@ static CpsStatus make_scene(const CpsDriveRope *rope, double *node, double *elem
     double *path = node + 3 * (size_t)nodes;
     cps_drive_walk(2, rope->point_count, rope->path, steps + 1, path);
     for (int i = 0; i < steps; i++) {
-        change[i] =
-            (CpsChange){0, CPS_END_B, {CPS_END_KIND_HELD, {path[2 * i + 2], path[2 * i + 3], 0}}};
+        change[i] = (CpsChange){.end = CPS_END_B,
+                                .to = {CPS_END_KIND_HELD, {path[2 * i + 2], path[2 * i + 3], 0}}};
         stage[i] = cps_stage_default();
         stage[i].name = "pull";
         stage[i].change_count = 1;

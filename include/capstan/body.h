@@ -112,6 +112,10 @@ typedef struct CpsBodyChange {
     CpsBodyKind kind;
     double position[3], rotation[4]; /* of one that is held */
     double force[3], moment[3];      /* of one that is free */
+    bool has_velocity;               /* default false */
+    /* [m/s, rad/s] with the flag: of the reference point of a held body and about it, in the axes
+     * of the scene, after the step (motion.h) */
+    double velocity[CPS_BODY_DIRECTIONS];
 } CpsBodyChange;
 
 /* The report on a body: forces [N], then moments [N m] about its reference point, on the body. */

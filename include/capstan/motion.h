@@ -22,7 +22,14 @@
  * reached, and a scene without lines that part, winches and anchors that drag. Beside free points
  * and bodies lines are elastic, obstacles stay, and points do not float. The path tolerance has no
  * effect on lines with inertia. Motions and loads that a function of the program makes of time and
- * state are those of follow.h. */
+ * state are those of follow.h.
+ *
+ * The velocity of what is held is that of the scheme by its places. A program that is coupled to
+ * this one, and knows the velocity at the end of a step, may give it beside the place there
+ * (`has_velocity` of a change), in a stage or move of one step with a duration: of all the motion,
+ * that of oscillations included. It is in the inertia, the drag and the damping of what is held, so
+ * in the force that holds it, in friction beside it, and in the motion from which it is let go. At
+ * an end of a line without inertia (`quasi_static`) it changes nothing. */
 #ifndef CAPSTAN_MOTION_H
 #define CAPSTAN_MOTION_H
 
@@ -116,6 +123,7 @@ typedef struct CpsLineMotion {
     const double *rest_velocity; /* (n, 3) [m/s] v*: the acceleration is (v - v*)/k, v = (x - x*)/k,
                                     and x* is the reference of the view */
     const double *span;          /* (n) [s] k */
+    bool velocity_given[2];      /* that of ends A and B (CpsChange), also by their points */
     double damping;              /* [N s] BA; 0: the next ones are NULL */
     const double *elongation;    /* (n - 1) [-] d of the elements, at least the strain and 0 */
     const double *rest;          /* (n - 1) [-] at which the tension of the step begins */
@@ -139,6 +147,7 @@ typedef struct CpsPointMotion {
     double kinetic;          /* [J] */
     CpsMotionLedger ledger;
     bool landed;
+    bool velocity_given; /* by a change of it, or of its body */
 } CpsPointMotion;
 
 /* The motion of a body in the last step, in the axes of the scene. With the places x* and rotation
@@ -157,6 +166,7 @@ typedef struct CpsBodyMotion {
     double kinetic;             /* [J] with that of the added mass */
     double dissipated;          /* [J] by damping */
     CpsMotionLedger ledger;     /* no body lands; drag and waves are those on members */
+    bool velocity_given;        /* by a change of it */
 } CpsBodyMotion;
 
 /* The motion of a point, or of a body; of what is none one of zeros. */

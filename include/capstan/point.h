@@ -75,7 +75,9 @@ CPS_API CpsPoint cps_point_default(void);
 typedef struct CpsPointChange {
     int point; /* index in the scene */
     CpsPointKind kind;
-    double value[3]; /* [m] or [N] */
+    double value[3];    /* [m] or [N] */
+    bool has_velocity;  /* default false */
+    double velocity[3]; /* [m/s] with the flag: of a held point after the step (motion.h) */
 } CpsPointChange;
 
 /* How a point touches the obstacles. */

@@ -180,12 +180,12 @@ typedef struct CpsLine {
 
 /* A new imposed position or force of an end of a line, reached in equal increments over the stage.
  * A free end that gets a position is moved from where it is; a held end that gets a force is
- * released from the force that it carried, and one of CPS_END_KIND_RELEASED is let go at once
- * (failure.h). */
+ * released from what it carried, and one of CPS_END_KIND_RELEASED is let go at once (failure.h). */
 typedef struct CpsChange {
-    int line; /* index in the scene */
-    int end;  /* CPS_END_A or CPS_END_B */
+    int line, end; /* index in the scene; CPS_END_A or CPS_END_B */
     CpsEnd to;
+    bool has_velocity;  /* default false */
+    double velocity[3]; /* [m/s] with the flag: of a held end after the step (motion.h) */
 } CpsChange;
 
 /* A rotation about the axis of a cylinder .. cone; what sticks to it moves with it. */

@@ -34,14 +34,14 @@ class Move:
 
         "LINE.A", "LINE.B"   {"position": [x, y, z]}, {"move": [x, y, z]} from where it is, {"force": [x, y, z]}, or
                              {"release": True}; in time beside it "sine" or "cosine" with "period", or a list of such
-                             dictionaries as "oscillations"
+                             dictionaries as "oscillations"; in time beside a position "velocity", that at the end of the move
         "LINE.node"          with "at", the natural length from end A: {"position": ..}, {"hold": True}, {"force": ..} or
                              {"release": True}; further nodes as "LINE.node2" to "LINE.node4"
         "POINT.point"        as an end, but it is not let go
         "BODY.body"          {"position": .., "rotation": {"quaternion": [w, x, y, z]}}, "move" in place of "position",
                              "roll_pitch_yaw" [degrees] in place of "quaternion"; or {"force": .., "moment": .., "arm": ..}; in
                              time beside it "oscillations", each with "sine", "cosine", "rotation_sine", "rotation_cosine" [degrees],
-                             "moment_sine" or "moment_cosine", and "period"
+                             "moment_sine" or "moment_cosine", and "period"; beside a pose "velocity" and "turn_rate" [rad/s]
         "LINE.pay_out_A", "LINE.pay_out_B"   length that the winch there pays out, negative: it hauls in
         "OBSTACLE.turn"      degrees
         "OBSTACLE.obstacle"  {"move": [x, y, z]}, {"turn": degrees, "axis": .., "about": ..} or both, of one that the history
@@ -162,10 +162,17 @@ class Move:
         vector = _numbers.array(value, (3,), f"'{key}'")
         return vector + now if word == "move" else vector
 
+    def _velocity(self, key: str, value: Mapping[str, Any], row: Any) -> None:
+        """The velocity at the end of the move of what it leads to a place."""
+        if "velocity" in value:
+            row.has_velocity = True
+            self._vector(key + ".velocity", row.velocity, value["velocity"])
+
     def _end(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         name, _, end = key.rpartition(".")
-        word = self._only(key, value, ("position", "move", "force", "release"), _SWAY)
+        word = self._only(key, value, ("position", "move", "force", "release"), _SWAY + ("velocity",))
         row.line, row.end = evolution._index("lines", name), "AB".index(end)
+        self._velocity(key, value, row)
         if word == "release":
             self._true(key, word, value[word])
             row.to.kind = lib.CPS_END_KIND_RELEASED
@@ -176,7 +183,8 @@ class Move:
 
     def _point(self, evolution: "Evolution", key: str, value: Any, row: Any) -> None:
         name = key.rpartition(".")[0]
-        word = self._only(key, value, ("position", "move", "force"), _SWAY)
+        word = self._only(key, value, ("position", "move", "force"), _SWAY + ("velocity",))
+        self._velocity(key, value, row)
         row.point = evolution._index("points", name)
         row.kind = lib.CPS_POINT_KIND_FREE if word == "force" else lib.CPS_POINT_KIND_HELD
         now = evolution.points[name].position if word == "move" else None
@@ -237,7 +245,12 @@ class Move:
         name = key.rpartition(".")[0]
         held, free = {"position", "move", "rotation"}, {"force", "moment", "arm"}
         if isinstance(value, Mapping):
-            value = {word: vector for word, vector in value.items() if word != "oscillations"}
+            moving = {word: vector for word, vector in value.items() if word in ("velocity", "turn_rate")}
+            if moving:
+                row.has_velocity = True
+                both = [_numbers.array(moving.get(word, [0, 0, 0]), (3,), f"'{key}' {word}") for word in ("velocity", "turn_rate")]
+                self._vector(key + ".velocity", row.velocity, np.concatenate(both))
+            value = {word: vector for word, vector in value.items() if word != "oscillations" and word not in moving}
         known = isinstance(value, Mapping) and value and (set(value) <= held or set(value) <= free)
         if not known or {"position", "move"} <= set(value) or ("arm" in value and "force" not in value):
             raise ArgumentError(f"'{key}': expected a dictionary with position or move and rotation, or with force, moment and arm")

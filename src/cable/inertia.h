@@ -52,6 +52,7 @@ typedef struct CpsiInertia {
     bool *restarts;          /* (n) the next step of the node is an Euler step */
     bool *late;              /* (n) scratch: this step was to be one */
     bool *is_euler;          /* (n) ... and whether it is one */
+    bool velocity_given[2];  /* of ends A and B, by the caller */
     CpsiFormula formula;     /* of the nodes that take no Euler step */
     double error;            /* [m] that the step makes by itself, by its estimate (pace.h) */
     CpsiDamping damping;

@@ -23,6 +23,16 @@ static Vec3 rate_of(Vec3 t, Vec3 rate) {
     return vec3_axpy(twice, vec3_cross(t, turned), vec3_axpy(once, turned, rate));
 }
 
+/* The rate of the rotation vector t at which the rate of rotation is w: V(t)^-1 w. */
+static Vec3 rate_to_turn(Vec3 t, Vec3 w) {
+    const double square = vec3_dot(t, t), size = sqrt(square);
+    const double twice = size > SMALL
+                             ? (1 - 0.5 * size * cos(0.5 * size) / sin(0.5 * size)) / square
+                             : 1.0 / 12 + square / 720;
+    const Vec3 turned = vec3_cross(t, w);
+    return vec3_axpy(twice, vec3_cross(t, turned), vec3_axpy(-0.5, turned, w));
+}
+
 /* J w about the centre of gravity, J in the axes of the body. */
 static Vec3 angular_momentum(const CpsBody *given, Rotation turn, Vec3 rate) {
     const double *j = given->inertia;
@@ -85,6 +95,20 @@ void cpsi_body_motion_start(CpsEvolution *evolution) {
     }
 }
 
+/* With a given velocity x* and t* are those from which it leads to the pose in which the body is
+ * held. */
+static void lead(CpsiBody *body) {
+    CpsiBodyPhase *rest = &body->inertia.rest;
+    const Vec3 u = body->inertia.given_velocity, w = body->inertia.given_rate,
+               centre = centre_of(&body->given, &body->pose),
+               around = vec3_cross(w, vec3_sub(centre, body->pose.place)),
+               t = rotation_vector(rotation_after(body->pose.turn, rotation_inverse(rest->turn)));
+    const double span = body->inertia.span;
+    rest->place = vec3_axpy(-span, u, body->pose.place);
+    rest->centre = vec3_axpy(-span, vec3_add(u, around), centre);
+    rest->rate = vec3_axpy(-span, rate_to_turn(t, w), t);
+}
+
 /* a + back (a - b) */
 static Vec3 star(double back, Vec3 a, Vec3 b) {
     return back > 0 ? vec3_axpy(back, vec3_sub(a, b), a) : a;
@@ -113,6 +137,7 @@ void cpsi_body_motion_predict(CpsEvolution *evolution) {
                             .angular = star(by, a->angular, b->angular),
                             .water = star(by, a->water, b->water),
                             .water_angular = star(by, a->water_angular, b->water_angular)};
+        if (inertia->velocity_given) lead(&evolution->bodies.body[i]);
     }
 }
 

@@ -21,6 +21,7 @@
 #include "evolve/hash.h"
 #include "evolve/state_check.h"
 #include "evolve/sways.h"
+#include "evolve/velocities.h"
 
 /* The header of a state. */
 typedef struct Head {
@@ -32,7 +33,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '6'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '7'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -196,6 +197,7 @@ static void pass_inertia(Tape *tape, CpsiLine *line) {
         for (size_t j = 0; j < n; j++) pass_flag(tape, &inertia->is_euler[j]);
     }
     pass_flag(tape, &inertia->is_moving);
+    for (int end = 0; end < 2; end++) pass_flag(tape, &inertia->velocity_given[end]);
     PASS(tape, inertia->kinetic);
     PASS(tape, inertia->position_bound);
     PASS(tape, inertia->ledger);
@@ -280,6 +282,7 @@ static void pass_point_inertia(Tape *tape, CpsiPointInertia *inertia) {
     pass_flag(tape, &inertia->restarts);
     pass_flag(tape, &inertia->bore);
     pass_flag(tape, &inertia->landed);
+    pass_flag(tape, &inertia->velocity_given);
     PASS(tape, inertia->span);
     PASS(tape, inertia->reference);
     PASS(tape, inertia->rest_velocity);
@@ -300,21 +303,10 @@ static void pass_point(Tape *tape, CpsiPoint *point) {
     PASS(tape, point->move);
     PASS(tape, report->state);
     PASS(tape, report->water);
-    PASS(tape, report->position);
-    PASS(tape, report->lines);
-    PASS(tape, report->load);
-    PASS(tape, report->support);
-    pass(tape, &report->buoyancy, /* numbers */
-         offsetof(CpsPointReport, obstacle) - offsetof(CpsPointReport, buoyancy));
+    pass(tape, report->position, /* numbers */
+         offsetof(CpsPointReport, obstacle) - offsetof(CpsPointReport, position));
     PASS(tape, point->dragged);
     PASS(tape, point->on.reaction);
-    PASS(tape, report->reaction);
-    PASS(tape, report->normal);
-    PASS(tape, report->friction);
-    PASS(tape, report->slip);
-    PASS(tape, report->inertia);
-    PASS(tape, report->residual);
-    PASS(tape, report->dissipated);
     PASS(tape, report->obstacle);
     PASS(tape, report->trial_count);
     pass_flag(tape, &report->has_place);
@@ -328,6 +320,7 @@ _Static_assert(sizeof(CpsiBodyPhase) == 28 * sizeof(double) && sizeof(CpsiPose) 
 static void pass_body_inertia(Tape *tape, CpsiBodyInertia *inertia) {
     pass_flag(tape, &inertia->is_moving);
     pass_flag(tape, &inertia->restarts);
+    pass_flag(tape, &inertia->velocity_given);
     PASS(tape, inertia->span);
     PASS(tape, inertia->now);
     PASS(tape, inertia->before);
@@ -577,6 +570,7 @@ static void hash_stage(uint64_t *hash, const CpsiEvolutionStage *stage) {
         hash_bytes(hash, &stage->turn[i].obstacle, sizeof stage->turn[i].obstacle);
         hash_numbers(hash, 1, &stage->turn[i].angle);
     }
+    cpsi_velocities_hash(hash, stage);
 }
 
 /* Of a surface the size alone: what its function gives is not known. */

@@ -459,6 +459,8 @@ CpsLineMotion cps_evolution_line_motion(const CpsEvolution *evolution, int line)
                            .before = inertia->start,
                            .rest_velocity = inertia->rest_velocity,
                            .span = inertia->span,
+                           .velocity_given = {inertia->velocity_given[CPS_END_A],
+                                              inertia->velocity_given[CPS_END_B]},
                            .damping = inertia->damping.coefficient,
                            .elongation = inertia->damping.elongation,
                            .rest = inertia->damping.rest};
@@ -472,7 +474,8 @@ CpsPointMotion cps_evolution_point_motion_view(const CpsEvolution *evolution, in
                           .span = inertia->span,
                           .kinetic = inertia->kinetic,
                           .ledger = inertia->ledger,
-                          .landed = inertia->landed};
+                          .landed = inertia->landed,
+                          .velocity_given = inertia->velocity_given};
     memcpy(out.velocity, inertia->velocity, sizeof out.velocity);
     memcpy(out.rest_velocity, inertia->rest_velocity, sizeof out.rest_velocity);
     if (inertia->is_moving) memcpy(out.reference, inertia->reference, sizeof out.reference);
@@ -498,7 +501,8 @@ CpsBodyMotion cps_evolution_body_motion(const CpsEvolution *evolution, int body)
                          .span = inertia->span,
                          .kinetic = inertia->kinetic,
                          .dissipated = inertia->dissipated,
-                         .ledger = inertia->ledger};
+                         .ledger = inertia->ledger,
+                         .velocity_given = inertia->velocity_given};
     vec3_store(out.velocity, inertia->now.velocity);
     vec3_store(out.turn_rate, inertia->now.rate);
     vec3_store(out.centre_velocity, inertia->now.centre_velocity);

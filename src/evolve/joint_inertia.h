@@ -18,8 +18,10 @@ typedef struct CpsiPointInertia {
     double before_velocity[3]; /* [m/s] v_{n-1}, likewise */
     bool bore;                 /* it touched an obstacle when the step began */
     bool landed;
-    double error;   /* [m] of the step by its estimate (pace.h) */
-    double kinetic; /* [J] */
+    bool velocity_given;
+    double given_velocity[3]; /* [m/s] after the step under way, with the flag */
+    double error;             /* [m] of the step by its estimate (pace.h) */
+    double kinetic;           /* [J] */
     CpsMotionLedger ledger;
 } CpsiPointInertia;
 
@@ -38,8 +40,10 @@ typedef struct CpsiBodyInertia {
     CpsiBodyPhase now, before; /* of the steps n and n - 1 */
     /* x*, t*, v* and momenta of the scheme; the turn is Q_n, the rate's place is t* */
     CpsiBodyPhase rest;
-    double error;               /* [m] of the step by its estimate (pace.h) */
-    double kinetic, dissipated; /* [J] */
+    bool velocity_given;
+    Vec3 given_velocity, given_rate; /* after the step under way, with the flag */
+    double error;                    /* [m] of the step by its estimate (pace.h) */
+    double kinetic, dissipated;      /* [J] */
     CpsMotionLedger ledger;
 } CpsiBodyInertia;
 

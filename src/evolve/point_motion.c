@@ -84,6 +84,9 @@ void cpsi_point_motion_predict(CpsEvolution *evolution) {
             inertia->reference[a] = euler ? x : x + formula->back * (x - inertia->before[a]);
             inertia->rest_velocity[a] =
                 euler ? v : v + formula->back * (v - inertia->before_velocity[a]);
+            if (inertia->velocity_given) /* from there it leads to where the point is held */
+                inertia->reference[a] =
+                    point->position[a] - inertia->span * inertia->given_velocity[a];
         }
     }
 }

@@ -14,6 +14,7 @@ void cpsi_line_stop(CpsiLine *line) {
     inertia->settles = inertia->is_moving;
     inertia->settled = 0;
     inertia->is_moving = false;
+    inertia->velocity_given[CPS_END_A] = inertia->velocity_given[CPS_END_B] = false;
     cpsi_line_field_clear(line);
     if (cpsi_line_has_damping(line)) cpsi_line_undamp(line);
     inertia->ledger =

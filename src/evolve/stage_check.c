@@ -16,6 +16,7 @@
 #include "evolve/shifts.h"
 #include "evolve/sways.h"
 #include "evolve/time_check.h"
+#include "evolve/velocities.h"
 #include "evolve/water.h"
 #include "evolve/winches.h"
 
@@ -163,5 +164,6 @@ CpsStatus cpsi_stage_check(const CpsScene *scene, const CpsStage *stage, const c
     if (status == CPS_OK) status = cpsi_pay_outs_check(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_constraints_check_stage(scene, stage, what, err);
     if (status == CPS_OK) status = cpsi_body_changes_check(scene, stage, what, err);
+    if (status == CPS_OK) status = cpsi_velocities_check(scene, stage, what, err);
     return status == CPS_OK ? cpsi_sways_check(scene, stage, what, err) : status;
 }

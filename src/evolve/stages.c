@@ -17,6 +17,7 @@
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
 #include "evolve/sways.h"
+#include "evolve/velocities.h"
 #include "evolve/water.h"
 #include "evolve/winches.h"
 
@@ -358,6 +359,7 @@ void cpsi_stage_plan(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
     cpsi_pay_outs_plan(evolution, stage);
     plan_bodies(evolution, stage, portion);
     plan_points(evolution, stage, portion);
+    cpsi_velocities_plan(evolution, stage);
     for (int k = 0; k < evolution->obstacle_count; k++) evolution->angle[k] = 0;
     for (int k = 0; k < stage->turn_count; k++)
         evolution->angle[stage->turn[k].obstacle] =
@@ -396,6 +398,7 @@ static void plan_rest(CpsEvolution *evolution) {
     cpsi_pay_outs_plan(evolution, &none);
     plan_shifts(evolution, &none, &whole);
     plan_points(evolution, &none, &whole);
+    cpsi_velocities_plan(evolution, &none);
 }
 
 void cpsi_stage_plan_statics(CpsEvolution *evolution) {

@@ -17,6 +17,8 @@ typedef struct CpsiMove {
     const CpsiObstacle *obstacle;
     double weight_from[3], weight_to[3]; /* [N/m] per natural length */
     double stored_from[2], stored_to[2]; /* [m] on the drums of winches */
+    bool has_velocity[2];
+    double velocity[2][3]; /* [m/s] of ends in time after the step, with the flag */
 } CpsiMove;
 
 /* Scratch memory for the state at the start of a part, and for the result of a part taken whole. */

@@ -59,6 +59,16 @@ static void predict(CpsiLine *line, int j, const CpsiTimeStep *step, bool euler)
     line->field.size += cpsi_line_set_inertia(line, j, vec3_at(line->position, j));
 }
 
+/* An end with a given velocity: x* is the place from which that leads in the span to where the end
+ * is held. */
+static void lead(CpsiLine *line, const CpsiMove *move, int end) {
+    const int j = end == CPS_END_A ? 0 : line->n - 1;
+    const Vec3 place = vec3_axpy(-line->inertia.span[j], vec3_load(move->velocity[end]),
+                                 vec3_load(move->to[end].value));
+    vec3_store(&line->position[3 * j], place);
+    (void)cpsi_line_set_inertia(line, j, place);
+}
+
 /* Does an obstacle turn or move in the step? */
 static bool ground_moves(const CpsiLine *line, const CpsiMove *move) {
     for (int k = 0; k < line->obstacle_count; k++)
@@ -77,6 +87,8 @@ static double attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
     cpsi_line_field_clear(line);
     line->inertia.formula = step->formula;
     for (int j = 0; j < line->n; j++) predict(line, j, step, all || line->inertia.restarts[j]);
+    for (int end = 0; end < 2; end++)
+        if (move->has_velocity[end]) lead(line, move, end);
     if (cpsi_line_has_damping(line)) cpsi_line_damp(line);
     const double share =
         all || !ground_moves(line, move) ? 1 : step->formula.span / step->formula.length;
@@ -294,6 +306,7 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     const size_t places = 3 * (size_t)line->n * sizeof *inertia->start;
     if (cpsi_line_has_damping(line) && !inertia->is_moving) cpsi_line_begin_damping(line);
     inertia->is_moving = true;
+    memcpy(inertia->velocity_given, move->has_velocity, sizeof inertia->velocity_given);
     memcpy(inertia->start, line->position, places);
     memcpy(inertia->start_velocity, inertia->velocity, places);
     cpsi_substeps_save(line, scratch);

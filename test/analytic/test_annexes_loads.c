@@ -70,7 +70,7 @@ static void potential_of_the_end(void **state) {
         Case c;
         begin(&c, 40, 50, 0.3);
         c.line.end[0] = (CpsEnd){CPS_END_KIND_FREE, {0, 0, 0}};
-        c.change = (CpsChange){0, CPS_END_B, {CPS_END_KIND_FREE, {0.5, 0, 0}}};
+        c.change = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_FREE, {0.5, 0, 0}}};
         c.spring = (CpsSpring){.from = 1, .to = 1, .stiffness = {k, k, k}, .place = {1, 0, 0}};
         if (!with) c.line.loads = NULL;
         CpsEvolution *evolution = solved(&c, with ? CPS_OUTCOME_SOLVED : CPS_OUTCOME_UNBOUNDED);
@@ -91,7 +91,7 @@ static void slack_places(double side, bool with, double out[3 * 21]) {
     memcpy(c.point, bent, sizeof bent);
     c.line.start.kind = CPS_START_POLYLINE;
     c.line.start.point_count = 3;
-    c.change = (CpsChange){0, CPS_END_B, {CPS_END_KIND_HELD, {0.6, 0, 0}}};
+    c.change = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {0.6, 0, 0}}};
     c.spring = (CpsSpring){.to = 1, .stiffness = {0.02, 0.03, 0}, .place = {0.3, 0.1, 0}};
     if (!with) c.line.loads = NULL;
     CpsEvolution *evolution = solved(&c, CPS_OUTCOME_SOLVED);
@@ -125,7 +125,7 @@ static void all_at_the_centre(void **state) {
     c.line.weight = 0;
     c.scene.obstacle_count = 0;
     c.line.end[0] = (CpsEnd){CPS_END_KIND_FREE, {0, 0, 0}};
-    c.change = (CpsChange){0, CPS_END_B, {CPS_END_KIND_FREE, {0, 0, 0}}};
+    c.change = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_FREE, {0, 0, 0}}};
     c.spring = (CpsSpring){.to = 1,
                            .stiffness = {3, 2, 4},
                            .place = {0.2, 0.5, -0.7},

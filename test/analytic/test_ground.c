@@ -474,9 +474,9 @@ static void another_move_is_taken(void **state) {
     rig_end(&rig, CPS_END_A, CPS_END_KIND_AT_START, 0, 0, 0);
     rig_end(&rig, CPS_END_B, CPS_END_KIND_FREE, 0, 0, 0);
     if (cps_evolution_create(&rig.scene, &evolution, &err)) fail_msg("%s", err.message);
-    const CpsChange off[] = {{0, CPS_END_A, {CPS_END_KIND_HELD, {19.5, 0, 6}}},
-                             {0, CPS_END_B, {CPS_END_KIND_FREE, {900, 0, 0}}}},
-                    back = {0, CPS_END_A, {CPS_END_KIND_HELD, {8, 0, 0}}};
+    const CpsChange off[] = {{.line = 0, .end = CPS_END_A, .to = {CPS_END_KIND_HELD, {19.5, 0, 6}}},
+                             {.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_FREE, {900, 0, 0}}}},
+                    back = {.line = 0, .end = CPS_END_A, .to = {CPS_END_KIND_HELD, {8, 0, 0}}};
     CpsStage move = cps_stage_default();
     move.change_count = 2;
     move.change = off;

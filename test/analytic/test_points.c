@@ -135,7 +135,8 @@ static void a_clump_on_a_rough_bed(void **unused) {
     for (int k = 0; k < 4; k++) {
         stage[k] = cps_stage_default();
         stage[k].name = "pull";
-        change[k] = (CpsPointChange){1, CPS_POINT_KIND_FREE, {pull[k], 0, 0}};
+        change[k] =
+            (CpsPointChange){.point = 1, .kind = CPS_POINT_KIND_FREE, .value = {pull[k], 0, 0}};
         stage[k].point_change_count = 1;
         stage[k].point_change = &change[k];
     }
@@ -172,7 +173,9 @@ static void a_held_point_is_held_ends(void **unused) {
     two_strings(&points);
     two_strings(&ends);
     CpsStage moves[2] = {cps_stage_default(), cps_stage_default()};
-    const CpsPointChange point_change = {2, CPS_POINT_KIND_HELD, {0.2, 0.5, -2}};
+    const CpsPointChange point_change = {.point = 2,
+                                         .kind = CPS_POINT_KIND_HELD,
+                                         .value = {0.2, 0.5, -2}};
     CpsChange change[2];
     points.point[2].kind = CPS_POINT_KIND_HELD;
     points.point[2].weight = 0;
@@ -222,7 +225,7 @@ static void moves_of_points(void **unused) {
     CpsError err;
     (void)step_to(evolution, 2);
     const CpsPointReport held = cps_evolution_point_report(evolution, 2);
-    CpsPointChange change = {2, CPS_POINT_KIND_FREE, {0}};
+    CpsPointChange change = {.point = 2, .kind = CPS_POINT_KIND_FREE, .value = {0}};
     CpsStage move = cps_stage_default();
     memcpy(change.value, held.support, sizeof change.value);
     move.point_change_count = 1;
@@ -314,7 +317,7 @@ static void a_clump_that_is_released(void **unused) {
     CpsEvolution *evolution = evolve(&s.scene);
     const CpsPointReport held = step_to(evolution, 2);
     cps_evolution_destroy(evolution);
-    CpsPointChange change = {2, CPS_POINT_KIND_FREE, {0}};
+    CpsPointChange change = {.point = 2, .kind = CPS_POINT_KIND_FREE, .value = {0}};
     CpsStage stage = cps_stage_default();
     memcpy(change.value, held.support, sizeof change.value);
     change.value[2] += WEIGHT;
@@ -359,7 +362,7 @@ static void expect_refused(const CpsScene *scene, const char *where, const char 
 static void what_is_refused(void **unused) {
     (void)unused;
     Strings s;
-    CpsPointChange change = {2, CPS_POINT_KIND_FREE, {0}};
+    CpsPointChange change = {.point = 2, .kind = CPS_POINT_KIND_FREE, .value = {0}};
     CpsChange end_change = {.line = 0, .end = CPS_END_B, .to = {.kind = CPS_END_KIND_HELD}};
     CpsStage stage = cps_stage_default();
     stage.name = "stage";
@@ -420,7 +423,7 @@ static void what_is_refused(void **unused) {
     s.bed = cps_obstacle_default();
     s.bed.name = "bed";
     s.bed.point[2] = -5;
-    change = (CpsPointChange){0, CPS_POINT_KIND_HELD, {-3, 0, -6}};
+    change = (CpsPointChange){.point = 0, .kind = CPS_POINT_KIND_HELD, .value = {-3, 0, -6}};
     expect_refused(&s.scene, "history[1].left.point", "1 m below obstacle 'bed'");
 }
 

@@ -159,8 +159,10 @@ static void a_floor_that_rises_lifts_and_one_that_sinks_is_left(void **state) {
     (void)state;
     const CpsObstacle floor = bed(0.2);
     CpsEvolution *evolution = rope(10, 1e5, 0.9, true, 1, &floor);
-    const CpsChange up[2] = {{0, CPS_END_A, {CPS_END_KIND_HELD, {0, 0, 1}}},
-                             {0, CPS_END_B, {CPS_END_KIND_HELD, {0.9 * LENGTH, 0, 1}}}};
+    const CpsChange up[2] = {{.line = 0, .end = CPS_END_A, .to = {CPS_END_KIND_HELD, {0, 0, 1}}},
+                             {.line = 0,
+                              .end = CPS_END_B,
+                              .to = {CPS_END_KIND_HELD, {0.9 * LENGTH, 0, 1}}}};
     CpsStage move = cps_stage_default();
     move.change_count = 2;
     move.change = up;
@@ -203,8 +205,9 @@ static Random draw(uint64_t *s) {
 /* A move of both ends, and of both obstacles. */
 static CpsOutcome go(CpsEvolution *evolution, const double a[3], const double b[3],
                      const double by[3]) {
-    const CpsChange end[2] = {{0, CPS_END_A, {CPS_END_KIND_HELD, {a[0], a[1], a[2]}}},
-                              {0, CPS_END_B, {CPS_END_KIND_HELD, {b[0], b[1], b[2]}}}};
+    const CpsChange end[2] = {
+        {.line = 0, .end = CPS_END_A, .to = {CPS_END_KIND_HELD, {a[0], a[1], a[2]}}},
+        {.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {b[0], b[1], b[2]}}}};
     const CpsShift shifts[2] = {{.obstacle = 0, .by = {by[0], by[1], by[2]}},
                                 {.obstacle = 1, .by = {by[0], by[1], by[2]}}};
     CpsStage move = cps_stage_default();

@@ -145,7 +145,7 @@ static bool find(Mooring *m, int elements, CpsStiffness out[2]) {
     CpsEvolution *evolution = evolution_of(&m->scene);
     bool found = cps_evolution_step(evolution, NULL) == CPS_OK;
     for (int k = 0; k < 2; k++) {
-        CpsChange change = {0, CPS_END_B, {CPS_END_KIND_HELD, {0}}};
+        CpsChange change = {.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {0}}};
         CpsStage move = cps_stage_default();
         memcpy(change.to.value, m->to[k], sizeof m->to[k]);
         move.change_count = 1;

@@ -95,7 +95,7 @@ static void a_chain_is_dragged(void **state) {
     memcpy(c.point, point, sizeof point);
     c.line.start = (CpsStart){.kind = CPS_START_STRAIGHT, .point_count = 2, .point = c.point};
     c.stage.change_count = 1;
-    c.change[0] = (CpsChange){0, CPS_END_B, {CPS_END_KIND_FREE, {pull, 0, 0}}};
+    c.change[0] = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_FREE, {pull, 0, 0}}};
     c.scene.stage = &c.stage;
     c.scene.stage_count = 1;
     CpsEvolution *evolution = run(&c);
@@ -235,7 +235,7 @@ static double drawn(double stiffness) {
     hold(&c, 1, 48, 0, 25);
     c.stage.step_count = 3;
     c.stage.change_count = 1;
-    c.change[0] = (CpsChange){0, CPS_END_B, {CPS_END_KIND_HELD, {50, 3, 25}}};
+    c.change[0] = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {50, 3, 25}}};
     c.scene.stage = &c.stage;
     c.scene.stage_count = 1;
     CpsEvolution *evolution = run(&c);
@@ -262,7 +262,8 @@ static double round_a_drum(double stiffness, int n) {
     c.line.length = 8;
     c.stage.change_count = 1;
     c.stage.step_count = 4;
-    c.change[0] = (CpsChange){0, CPS_END_B, {CPS_END_KIND_FREE, {0, 0, -1000}}};
+    c.change[0] =
+        (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_FREE, {0, 0, -1000}}};
     c.scene.stage = &c.stage;
     c.scene.stage_count = 1;
     CpsEvolution *evolution = run(&c);

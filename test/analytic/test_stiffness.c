@@ -87,7 +87,7 @@ static void node_on_the_ground(void **state) {
         bed.friction = mu;
         CpsLine line = straight_rope(point, 20, 2, 100, stiff);
         line.end[CPS_END_B].kind = CPS_END_KIND_AT_START;
-        const CpsChange up = {0, CPS_END_B, {CPS_END_KIND_HELD, {20.5, 0, 1}}};
+        const CpsChange up = {.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {20.5, 0, 1}}};
         CpsStage stage = cps_stage_default();
         stage.name = "up";
         stage.change_count = 1;
@@ -237,7 +237,9 @@ static void small_cycle_about_statics(void **state) {
 }
 
 static CpsStiffness after_move(CpsEvolution *evolution, const double to[3]) {
-    const CpsChange change = {0, CPS_END_B, {CPS_END_KIND_HELD, {to[0], to[1], to[2]}}};
+    const CpsChange change = {.line = 0,
+                              .end = CPS_END_B,
+                              .to = {CPS_END_KIND_HELD, {to[0], to[1], to[2]}}};
     CpsStage move = cps_stage_default();
     move.change_count = 1;
     move.change = &change;

@@ -243,9 +243,10 @@ static void a_drum_that_turns_and_moves_has_the_capstan_law(void **state) {
             /* the held end goes with the drum */
             const CpsShift move = {0, {by[0], by[1], by[2]}, {0, way ? angle : 0, 0}, {0, 0, 0}};
             const CpsTurn turn = {0, angle};
-            const CpsChange end = {0,
-                                   CPS_END_B,
-                                   {CPS_END_KIND_HELD, {tip[0] + by[0], by[1], tip[2] + by[2]}}};
+            const CpsChange end = {.line = 0,
+                                   .end = CPS_END_B,
+                                   .to = {CPS_END_KIND_HELD,
+                                          {tip[0] + by[0], by[1], tip[2] + by[2]}}};
             CpsStage stage = cps_stage_default();
             CpsError err;
             stage.shift_count = stage.change_count = 1;
@@ -309,8 +310,8 @@ static CpsStatus go(CpsEvolution *evolution, int count, const Rigid *moved, doub
         }
     }
     const CpsChange change[2] = {
-        {0, CPS_END_A, {CPS_END_KIND_HELD, {at[0][0], at[0][1], at[0][2]}}},
-        {0, CPS_END_B, {CPS_END_KIND_HELD, {at[1][0], at[1][1], at[1][2]}}}};
+        {.line = 0, .end = CPS_END_A, .to = {CPS_END_KIND_HELD, {at[0][0], at[0][1], at[0][2]}}},
+        {.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {at[1][0], at[1][1], at[1][2]}}}};
     CpsShift shifts[2] = {{.obstacle = 0}, {.obstacle = 1}};
     for (int k = 0; k < 2; k++) {
         memcpy(shifts[k].by, now->by, sizeof now->by);

@@ -122,7 +122,8 @@ static void lifted_and_pushed(void **unused) {
     CpsStage stage[STEPS];
     CpsPointChange change[STEPS];
     for (int k = 0; k < STEPS; k++) {
-        change[k] = (CpsPointChange){BUOY, CPS_POINT_KIND_FREE, {0, 0, FORCE[k]}};
+        change[k] =
+            (CpsPointChange){.point = BUOY, .kind = CPS_POINT_KIND_FREE, .value = {0, 0, FORCE[k]}};
         stage[k] = cps_stage_default();
         stage[k].name = "force";
         stage[k].point_change_count = 1;
@@ -206,7 +207,9 @@ static void held_and_let_go(void **unused) {
         b.point[ANCHOR].position[2] = HEIGHT[k] - LENGTH - 0.1;
         const double tension = EA * 0.1 / LENGTH,
                      whole = WEIGHT - (HEIGHT[k] > 0 ? 0 : DISPLACED) + tension;
-        CpsPointChange change = {BUOY, CPS_POINT_KIND_FREE, {0, 0, whole}};
+        CpsPointChange change = {.point = BUOY,
+                                 .kind = CPS_POINT_KIND_FREE,
+                                 .value = {0, 0, whole}};
         CpsStage stage = cps_stage_default();
         stage.name = "let go";
         stage.point_change_count = 1;

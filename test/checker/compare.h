@@ -60,6 +60,9 @@ void compare_line(Compare *compare, const CpsLine *line, const Record *r);
 /* The errors of steps, against those asked for. 0, or -1 after one sentence on the log. */
 int compare_pace(Compare *compare);
 
+/* The velocities that stages give at the end of their step. 0, or -1 after one sentence. */
+int compare_velocities(Compare *compare);
+
 /* Springs, given loads and drag, after a step. */
 void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, size_t step);
 

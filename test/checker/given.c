@@ -249,12 +249,14 @@ static double coefficient(const Compare *compare, const Record *r, size_t j) {
 
 /* A start from nodes: the first step begins there, and frozen friction has the bounds that are
  * given, A = mu R, but where they are small beside the largest and count for none. A step in
- * several parts has the reference of the last of them. */
+ * several parts has the reference of the last of them, and an end with a given velocity one that
+ * follows from that (given_velocities.c). */
 static void compare_nodes(Compare *compare, const CpsLine *line, const Record *r) {
     const CpsStart *start = &line->start;
     if (start->kind != CPS_START_NODES || r->substeps != 1) return;
     for (size_t j = 0; j < r->nodes; j++) {
         double place[3];
+        if (r->velocity_given[j ? 1 : 0] && (j == 0 || j == r->elements)) continue;
         for (int k = 0; k < 3; k++)
             place[k] = start->point[3 * j + (size_t)k] - compare->source.origin[k];
         same(compare, "first reference", line->name, r->reference[j], place, 3, COPIED);
@@ -739,6 +741,7 @@ int given_file(const char *path, const CpsScene *scene, FILE *log) {
                  scene->line[i].name);
     }
     if (!bad && compare.findings == 0) bad = compare_pace(&compare);
+    if (!bad && compare.findings == 0) bad = compare_velocities(&compare);
     if (!bad && compare.findings == 0) bad = compare_points(&compare);
     if (!bad && compare.findings == 0)
         bad = given_bodies(&compare.source, scene, step_of, find_at_body, &compare, log);

@@ -74,6 +74,11 @@ int inertia_read(const Source *source, const char *line, size_t step, Record *re
         if (nc_get_var1_double(source->nc, variable(source, line, NUMBER[k]), start,
                                &record->time_entry[k]))
             return complain(log, "missing energies of the motion", line);
+    double ends;
+    if (nc_get_var1_double(source->nc, variable(source, line, "velocity_given"), start, &ends) ||
+        !(ends == 0 || ends == 1 || ends == 2 || ends == 3))
+        return complain(log, "missing or senseless velocity_given", line);
+    for (int e = 0; e < 2; e++) record->velocity_given[e] = ((int)ends >> e) & 1;
     return 0;
 }
 
@@ -181,6 +186,13 @@ static double off_scheme(const Source *source, const Record *r, const Record *be
     return size_of(off);
 }
 
+/* Is node j an end whose velocity the caller gave? Then x* is not that of the scheme but the place
+ * from which the velocity leads to the place imposed, and the velocity is compared with the scene
+ * (given_velocities.c); that it is (x - x*)/k is checked of all nodes alike. */
+static bool has_given_velocity(const Record *r, size_t j) {
+    return (j == 0 && r->velocity_given[0]) || (j == r->elements && r->velocity_given[1]);
+}
+
 /* Is node j an end at a point? That has its own check (joint_motion.h), and its normal. */
 static bool is_at_point(const Record *r, size_t j) {
     return (j == 0 && r->end_point[0] >= 0) || (j == r->elements && r->end_point[1] >= 0);
@@ -196,9 +208,12 @@ static void check_scheme(const Source *source, const Record *r, const Record *be
         span = fmax(span, fabs(r->span[j] - (double)formula.span) / h);
         /* where the first step of the file began is not in it */
         const bool unknown = !euler && !older && in_time(before);
-        if (!is_at_point(r, j) && !unknown)
+        if (!is_at_point(r, j) && !has_given_velocity(r, j) && !unknown)
             off = fmax(off, off_scheme(source, r, before, older, j, formula.back));
     }
+    for (int e = 0; e < 2; e++)
+        if (r->velocity_given[e] && r->end_kind[e] != END_HELD && r->end_point[e] < 0)
+            find(user, "given velocity of an end that is not held", e, 0);
     if (!(span <= FORMULA_TIMES)) find(user, "span of the scheme, off", span, 0);
     if (!(off <= PLACES * reach)) find(user, "reference off that of the scheme", off, 0);
 }

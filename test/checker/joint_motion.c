@@ -62,6 +62,20 @@ static int read_all(const Source *source, const char *name, long step, size_t co
     return 0;
 }
 
+/* A flag of each of `count` things in a step, 0 or 1. */
+static int read_flags(const Source *source, const char *name, size_t step, size_t count, int *out,
+                      size_t stride) {
+    int id;
+    for (size_t k = 0; k < count; k++) {
+        const size_t at[] = {step, k};
+        int *to = (int *)(void *)((char *)out + k * stride);
+        if (nc_inq_varid(source->nc, name, &id) || nc_get_var1_int(source->nc, id, at, to) ||
+            (*to != 0 && *to != 1))
+            return -1;
+    }
+    return 0;
+}
+
 int point_motions_read(const Source *source, size_t step, PointMotion *all, FILE *log) {
     const size_t n = source->points, each = sizeof *all;
     const long s = (long)step;
@@ -77,7 +91,8 @@ int point_motions_read(const Source *source, size_t step, PointMotion *all, FILE
         read_all(source, "ledger_kinetic_of_point", s, n, 1, &all->growth, each) ||
         read_all(source, "ledger_impact_of_point", s, n, 1, &all->impact, each) ||
         read_all(source, "ledger_scheme_of_point", s, n, 1, &all->scheme, each) ||
-        read_all(source, "ledger_settling_of_point", s, n, 1, &all->settling, each))
+        read_all(source, "ledger_settling_of_point", s, n, 1, &all->settling, each) ||
+        read_flags(source, "velocity_given_of_point", step, n, &all->velocity_given, each))
         return complain(log, "points");
     return 0;
 }
@@ -129,7 +144,8 @@ int body_motions_read(const Source *source, size_t n, size_t step, BodyMotion *a
         read_all(source, "ledger_scheme_of_body", s, n, 1, &all->scheme, each) ||
         read_all(source, "ledger_settling_of_body", s, n, 1, &all->settling, each) ||
         read_all(source, "ledger_drag_of_body", s, n, 1, &all->drag, each) ||
-        read_all(source, "ledger_waves_of_body", s, n, 1, &all->waves, each))
+        read_all(source, "ledger_waves_of_body", s, n, 1, &all->waves, each) ||
+        read_flags(source, "velocity_given_of_body", step, n, &all->velocity_given, each))
         return complain(log, "bodies");
     return 0;
 }
@@ -175,7 +191,8 @@ static void check_point_scheme(const PointSteps *s, MotionFind *find, void *user
     }
     if (bore && !euler) across(place, s->before->normal);
     if (bore && !euler) across(velocity, s->before->normal);
-    if (!(size_of(place) <= PLACES * s->reach))
+    if (m->velocity_given && s->is_free) find(user, "given velocity of a point that is free", 1, 0);
+    if (!m->velocity_given && !(size_of(place) <= PLACES * s->reach))
         find(user, "reference off that of the scheme", size_of(place), 0);
     if (!(size_of(velocity) * m->span <= PLACES * s->reach))
         find(user, "v* off that of the scheme, times k", size_of(velocity) * m->span, 0);
@@ -330,6 +347,21 @@ static void centre_of(const BodyData *data, const BodyState *at, Real out[3]) {
     body_place(at->position, at->rotation, data->centre_of_gravity, out);
 }
 
+/* A given velocity is that of a rigid body; the scene has its numbers (given_velocities.c). */
+static void check_given(const BodySteps *s, MotionFind *find, void *user) {
+    const BodyMotion *m = s->motion;
+    Real centre[3], rate[3], around[3], off[3];
+    if (s->now->kind != 0) find(user, "given velocity of a body that is free", 1, 0);
+    centre_of(s->data, s->now, centre);
+    widen(m->rate, rate);
+    for (int i = 0; i < 3; i++) centre[i] -= s->now->position[i];
+    cross(rate, centre, around);
+    for (int i = 0; i < 3; i++) off[i] = m->centre_velocity[i] - m->velocity[i] - around[i];
+    compare("velocity of the centre of gravity off that of the body, times k",
+            size_of(off) * m->span, 0, 4 * PLACES * (s->reach + size(s->data->centre_of_gravity)),
+            find, user);
+}
+
 /* Velocities against places and rotations. */
 static void check_velocities(const BodySteps *s, Real back, MotionFind *find, void *user) {
     const bool euler = !(back > 0);
@@ -445,7 +477,10 @@ void body_motion_check(const BodySteps *s, MotionFind *find, void *user) {
     const double kinetic = kinetic_of(m, &now);
     compare("kinetic energy", m->kinetic, kinetic, ENERGIES * kinetic + 1e-300, find, user);
     if (!s->before || (formula.back > 0 && !s->older)) return;
-    check_velocities(s, formula.back, find, user);
+    if (m->velocity_given)
+        check_given(s, find, user);
+    else
+        check_velocities(s, formula.back, find, user);
     check_inertia(s, formula.back, find, user);
     compare("growth of the kinetic energy", m->growth, kinetic - s->motion_before->kinetic,
             ENERGIES * (kinetic + s->motion_before->kinetic) + 1e-300, find, user);

@@ -10,6 +10,7 @@
 typedef struct PointMotion {
     Vector inertia, velocity, reference, rest_velocity;
     double mass, span, kinetic, growth, impact, scheme, settling;
+    int velocity_given; /* by the caller of the step; x* is then the place from which it leads */
 } PointMotion;
 
 /* A body likewise; matrices row by row. */
@@ -18,6 +19,7 @@ typedef struct BodyMotion {
     double inertia[SIX], damped[SIX];
     Vector velocity, rate, centre_velocity;
     double span, kinetic, lost, growth, scheme, settling, drag, waves; /* the last two of members */
+    int velocity_given;                                                /* as of a point */
 } BodyMotion;
 
 /* Read the points, or the bodies, of a step. Return 0, or -1 after a sentence on log. */

@@ -114,6 +114,7 @@ typedef struct Record {
     Vector weight_before;
     /* of a file with steps in time, else NULL; [kg], [s] k, [m/s]: inertia.h */
     double *mass, *span, time, step_length, time_entry[TIME_ENTRIES];
+    bool velocity_given[2]; /* of the ends, by the caller of the step */
     Vector *velocity, *rest_velocity;
     Vector *motion;                          /* of a line that slides without end, else 0 */
     Vector *normal, *friction, *slip;        /* (contacts, nodes) */

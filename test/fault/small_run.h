@@ -15,8 +15,9 @@ static inline CpsLine small_rope(int elements, const double point[6]) {
  * cleaned up as a program would do it. */
 static inline CpsStatus small_run(const char *directory, int elements, CpsError *err) {
     const double point[6] = {0, 0, 0, 6, 0, 0};
-    const CpsChange change[2] = {{0, CPS_END_B, {CPS_END_KIND_HELD, {5.9, 0.2, 0}}},
-                                 {0, CPS_END_B, {CPS_END_KIND_HELD, {6, 0, 0}}}};
+    const CpsChange change[2] = {
+        {.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {5.9, 0.2, 0}}},
+        {.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {6, 0, 0}}}};
     const CpsStage stage[2] = {{.cookie = cps_stage_default().cookie,
                                 .name = "there",
                                 .step_count = 2,

@@ -75,7 +75,9 @@ static char folder[] = "journal-calls-XXXXXX";
 
 static CpsEvolution *make_evolution(void) {
     const double point[6] = {0, 0, 0, 6, 0, 0};
-    const CpsChange change = {0, CPS_END_B, {CPS_END_KIND_HELD, {5.9, 0.2, 0}}};
+    const CpsChange change = {.line = 0,
+                              .end = CPS_END_B,
+                              .to = {CPS_END_KIND_HELD, {5.9, 0.2, 0}}};
     const CpsStage stage = {.cookie = cps_stage_default().cookie,
                             .name = "there",
                             .step_count = STEPS,

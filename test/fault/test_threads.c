@@ -65,7 +65,9 @@ static Scene *make_scene(CpsSet *set) {
         memcpy(s.point[k], (const double[]){0, y, 0, 6, y, 0}, sizeof s.point[k]);
         s.line[k] = straight_rope(s.point[k], 6, ELEMENTS, 10 + k, 1e4);
         s.line[k].name = name[k];
-        s.change[k] = (CpsChange){k, CPS_END_B, {CPS_END_KIND_HELD, {5.9, y + 0.1 * k, 0}}};
+        s.change[k] = (CpsChange){.line = k,
+                                  .end = CPS_END_B,
+                                  .to = {CPS_END_KIND_HELD, {5.9, y + 0.1 * k, 0}}};
     }
     for (int k = 0; k < 2; k++) s.obstacle[k] = cps_obstacle_default();
     s.obstacle[0].name = "bed";

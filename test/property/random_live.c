@@ -11,7 +11,9 @@
  * first allocate nothing.
  *
  * In time either the rope or the mooring has inertia, and three of four calls have a duration: what
- * is taken back, saved and gone again is also velocities and the past that the next step needs. */
+ * is taken back, saved and gone again is also velocities and the past that the next step needs.
+ * Half of what is led to a place there has a velocity given, which may be any: another one than the
+ * places have. */
 #define _GNU_SOURCE
 #include <math.h>
 #include <stdio.h>
@@ -56,12 +58,12 @@ void *__wrap_realloc(void *place, size_t size) {
 
 typedef struct Tally {
     int seeds, kept, taken_back, refused, failed, loaded, open, several;
-    int records, certified, by_kind[6], allocated, wrong;
+    int records, certified, by_kind[6], allocated, wrong, given;
 } Tally;
 
 static const char *const KIND[6] = {"ends", "points", "bodies", "nodes", "shifts", "turns"};
 
-static uint64_t state;
+static uint64_t state, speeds; /* of the velocities that are given */
 static double uniform(double low, double high) { return splitmix(&state, low, high); }
 static bool chance(double share) { return uniform(0, 1) < share; }
 
@@ -125,6 +127,7 @@ static void make(Live *live, uint64_t seed) {
                                             {0, 0, -0.3}, {0, 0, 0.3}, {4, 3, 8}};
     memset(live, 0, sizeof *live);
     state = 0x9b05688c2b3e6c1fu * (seed + 1);
+    speeds = 0x1f83d9abfb41bd6bu * (seed + 1);
     live->scene = cps_scene_default();
     make_obstacles(live);
     live->body = cps_body_default();
@@ -318,6 +321,33 @@ static bool is_there(const Live *live, int kind) {
     return live->moving == STATICS || is_joined == (live->moving == MOORING_IN_TIME);
 }
 
+/* Velocities of what is held after a step in time. */
+static bool give(double *v, int count) {
+    if (splitmix(&speeds, 0, 1) < 0.5) return false;
+    for (int a = 0; a < count; a++) v[a] = splitmix(&speeds, -1, 1);
+    return true;
+}
+
+static void give_velocities(Move *move) {
+    if (!(move->stage.duration > 0)) return;
+    for (int i = 0; i < move->stage.change_count; i++)
+        if (move->end[i].to.kind == CPS_END_KIND_HELD)
+            move->end[i].has_velocity = give(move->end[i].velocity, 3);
+    for (int i = 0; i < move->stage.point_change_count; i++)
+        if (move->point[i].kind == CPS_POINT_KIND_HELD)
+            move->point[i].has_velocity = give(move->point[i].velocity, 3);
+    if (move->stage.body_change_count > 0 && move->body.kind == CPS_BODY_KIND_HELD)
+        move->body.has_velocity = give(move->body.velocity, CPS_BODY_DIRECTIONS);
+}
+
+/* How many changes of a move have a velocity. */
+static int count_velocities(const Move *move) {
+    int count = move->stage.body_change_count > 0 && move->body.has_velocity;
+    for (int i = 0; i < move->stage.change_count; i++) count += move->end[i].has_velocity;
+    for (int i = 0; i < move->stage.point_change_count; i++) count += move->point[i].has_velocity;
+    return count;
+}
+
 static Move draw(const CpsEvolution *now, const Live *live, bool far) {
     Move move = {.stage = cps_stage_default()};
     move.stage.name = "call";
@@ -344,6 +374,7 @@ static Move draw(const CpsEvolution *now, const Live *live, bool far) {
         move.stage.gravity[0] = uniform(-1, 1);
         move.stage.gravity[2] = -uniform(8, 11);
     }
+    give_velocities(&move);
     return move;
 }
 
@@ -414,6 +445,7 @@ static bool call(CpsEvolution *live_one, const Live *live, bool *is_first, Move 
             kinds += move->has[i];
         }
         tally->several += kinds > 1;
+        tally->given += count_velocities(move);
     }
     free(before);
     if (!untouched) {
@@ -555,10 +587,10 @@ int main(int argc, char **argv) {
            tally.seeds, tally.kept, tally.several, tally.open, tally.taken_back, tally.refused,
            tally.failed, tally.loaded);
     for (int i = 0; i < 6; i++) printf("%s %d%s", KIND[i], tally.by_kind[i], i < 5 ? ", " : "\n");
-    printf("%d records, %d confirmed; %d moves allocated, %d faults\n", tally.records,
-           tally.certified, tally.allocated, tally.wrong);
+    printf("%d velocities given; %d records, %d confirmed; %d moves allocated, %d faults\n",
+           tally.given, tally.records, tally.certified, tally.allocated, tally.wrong);
     bool all = tally.kept > 5 * seeds && tally.taken_back > 0 && tally.refused > 0 &&
-               tally.failed > 0 && tally.loaded > 0;
+               tally.failed > 0 && tally.loaded > 0 && (tally.given > seeds) == in_time;
     for (int i = 0; i < 6; i++) all = all && tally.by_kind[i] > 0;
     return tally.wrong > 0 || tally.allocated > 0 || !all || tally.open > 0.01 * tally.kept + 1;
 }

@@ -216,6 +216,82 @@ def test_points_and_bodies_in_time():
     assert top.turn_rate[2] == pytest.approx(0.5, rel=1e-6) and top.angular_momentum[2] == pytest.approx(1.5, rel=1e-6)
 
 
+def velocities(of, k):
+    """What is led by the k-th step from rest at a constant acceleration: place and velocity."""
+    step, push, spin = 0.1, np.array([0.7, -0.4, 0.5]), 0.9
+    time = k * step
+    place = {"position": of + push * time ** 2 / 2, "velocity": push * time}
+    angle = spin * time ** 2 / 2
+    turned = {"rotation": {"quaternion": [np.cos(angle / 2), 0, 0, np.sin(angle / 2)]}, "turn_rate": [0, 0, spin * time]}
+    return place, {**place, **turned}, push, spin
+
+
+def test_velocities_that_are_given():
+    """The force that leads is that of the line, of one element, and mass times the acceleration, exact from the first step on."""
+    ends = np.array([[2.1, 0, 0], [2.1, 5, 0], [2.1, 9, 0]])
+    line = {"length": 2, "elements": 1, "stiffness": 500}
+    start = [{"straight": {"from": [0, end[1], 0], "to": end.tolist()}} for end in ends]
+    scene = {"bodies": {"hull": {"held": [2.1, 9, 0], "mass": 40, "moments_of_inertia": [8, 9, 12]}},
+             "points": {"ring": {"held": [2.1, 5, 0], "mass": 40}, "eye": {"body": "hull", "at": [0, 0, 0]}},
+             "lines": {"one": {**line, "mass": 40, "start": start[0], "ends": {"A": {"held": [0, 0, 0]}, "B": {"held": ends[0].tolist()}}},
+                       "two": {**line, "mass": 0, "quasi_static": True, "start": start[1],
+                               "ends": {"A": {"held": [0, 5, 0]}, "B": {"point": "ring"}}},
+                       "three": {**line, "mass": 0, "quasi_static": True, "start": start[2],
+                                 "ends": {"A": {"held": [0, 9, 0]}, "B": {"point": "eye"}}}},
+             "gravity": [0, 0, 0]}
+    evolution = capstan.Evolution(scene, in_time=True)
+    for k in range(1, 6):
+        (end, _, push, _), (ring, *_), (_, hull, _, spin) = (velocities(of, k) for of in ends)
+        evolution.move({"duration": 0.1, "one.B": end, "ring.point": ring, "hull.body": hull})
+        from_a = end["position"]
+        pull = 500 * (np.linalg.norm(from_a) / 2 - 1) * from_a / np.linalg.norm(from_a)
+        # of 60 N; places are rounded, and count by 40 kg/k^2
+        assert np.allclose(evolution["one"].B.force, pull + 40 * push, atol=1e-9)
+        assert np.allclose(evolution.points["ring"].support, pull + 40 * push, atol=1e-9)
+        assert np.allclose(evolution.bodies["hull"].support, [*(pull + 40 * push), 0, 0, 12 * spin], atol=1e-9)
+        moved = evolution["one"].in_time
+        assert list(moved.velocity_given) == [False, True] and np.allclose(moved.velocity[-1], end["velocity"], atol=1e-12)
+        assert evolution.points_in_time["ring"].velocity_given and evolution.points_in_time["eye"].velocity_given
+        top = evolution.bodies_in_time["hull"]
+        assert top.velocity_given and np.allclose(top.velocity, hull["velocity"], atol=1e-12)
+        assert np.allclose(top.turn_rate, hull["turn_rate"], atol=1e-12)
+    # without: the flags go, and x* is that of the scheme
+    evolution.move({"duration": 0.1, "one.B": {"move": [0, 0, 0]}})
+    assert list(evolution["one"].in_time.velocity_given) == [False, False]
+    assert not evolution.points_in_time["ring"].velocity_given and not evolution.bodies_in_time["hull"].velocity_given
+    # values can be written between moves; of a body the rate of rotation is behind the velocity
+    target = evolution.target({"duration": 0.1, "hull.body": {"move": [0, 0, 0], "velocity": [0, 0, 0]}, "ring.point": {"move": [0, 0, 0], "velocity": [1, 0, 0]}})
+    target["hull.body.velocity"][:] = 0.1, 0, 0, 0, 0.2, 0
+    target["ring.point.velocity"][:] = 0, 0.3, 0
+    evolution.move(target)
+    assert np.allclose(evolution.bodies_in_time["hull"].velocity, [0.1, 0, 0], atol=1e-12)
+    assert np.allclose(evolution.bodies_in_time["hull"].turn_rate, [0, 0.2, 0], atol=1e-12)
+    assert np.allclose(evolution.points_in_time["ring"].velocity, [0, 0.3, 0], atol=1e-12)
+
+
+def test_velocities_that_mean_nothing():
+    evolution = capstan.Evolution(yaml.safe_load(SCENE.replace("1e4", "10000.0").replace("inertia: 1, ", "")), in_time=True)
+    evolution.step()
+    before, nan = evolution.save(), float("nan")
+    hold, speed, timed = {"move": [0, 0, 0]}, {"velocity": [1, 0, 0]}, {"duration": 0.1}
+    for move, words in (({"rope.B": {**hold, **speed}}, "takes no time"), ({"knot.point": {**hold, **speed}}, "takes no time"),
+                        ({"spar.body": {**hold, "turn_rate": [0, 0, 1]}}, "takes no time"),
+                        ({**timed, "rope.B": {"force": [0, 0, 1], **speed}}, "not held"), ({**timed, "rope.B": {"release": True, **speed}}, "not held"),
+                        ({**timed, "knot.point": {"force": [0, 0, 1], **speed}}, "not held"),
+                        ({**timed, "spar.body": {"force": [0, 0, 1], **speed}}, "not held"),
+                        ({**timed, "rope.B": speed}, "exactly one of position"), ({**timed, "knot.point": speed}, "exactly one of position"),
+                        ({**timed, "spar.body": speed}, "position or move"), ({**timed, "rope.node": {"at": 1, "hold": True, **speed}}, "exactly one of"),
+                        ({**timed, "rope.B": {**hold, "turn_rate": [0, 0, 1]}}, "exactly one of"),
+                        ({**timed, "floor.obstacle": speed}, "move"),
+                        ({**timed, "rope.B": {**hold, "velocity": [nan, 0, 0]}}, "rope.B.velocity"),
+                        ({**timed, "knot.point": {**hold, "velocity": [1, 0]}}, "knot.point.velocity"),
+                        ({**timed, "spar.body": {**hold, "velocity": [1, 0, 0, 0, 0, 0]}}, "'spar.body' velocity"),
+                        ({**timed, "spar.body": {**hold, "turn_rate": [0, 0, nan]}}, "'spar.body' turn_rate")):
+        with pytest.raises(capstan.ArgumentError, match=words):
+            evolution.move(move)
+        assert evolution.save() == before, move
+
+
 def test_the_reaction_of_a_rail(root):
     evolution = capstan.Evolution(root / "examples/bollard-and-rail.yaml")
     evolution.step()

@@ -35,6 +35,7 @@ def cases():
         yield "end position", lambda e, v=value: e.move({"rope.B": {"position": v}})
         yield "end force", lambda e, v=value: e.move({"rope.A": {"force": v}})
         yield "node position", lambda e, v=value: e.move({"rope.node": {"at": 1, "position": v}})
+        yield "velocity", lambda e, v=value: e.target({"rope.B": {"position": [6, 0, 0], "velocity": v}})
         yield "gravity", lambda e, v=value: e.move({"gravity": v})
         yield "shift", lambda e, v=value: e.move({"floor.obstacle": {"move": v}})
     for value in NUMBERS:

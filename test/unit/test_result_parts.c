@@ -126,7 +126,9 @@ static void long_lines(void **state) {
     (void)state;
     enum { ELEMENTS = 2500, MOST = 2000 };
     const double point[] = {0, 0, 0, 25, 0, 0};
-    const CpsChange change = {0, CPS_END_B, {CPS_END_KIND_HELD, {25, 0, 0.01}}};
+    const CpsChange change = {.line = 0,
+                              .end = CPS_END_B,
+                              .to = {CPS_END_KIND_HELD, {25, 0, 0.01}}};
     CpsStage stage = cps_stage_default();
     stage.name = "lift";
     stage.step_count = 1;

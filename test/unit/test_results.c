@@ -55,10 +55,10 @@ static void make_scene(Fixture *f) {
     f->line[1].end[CPS_END_A] = (CpsEnd){CPS_END_KIND_HELD, {0, 4, 0}};
     f->line[1].end[CPS_END_B] = (CpsEnd){CPS_END_KIND_HELD, {9, 4, 5}};
 
-    f->change[0] = (CpsChange){0, CPS_END_B, {CPS_END_KIND_FREE, {4, 6, 5}}};
-    f->change[1] = (CpsChange){1, CPS_END_B, {CPS_END_KIND_HELD, {9.5, 4, 5}}};
-    f->change[2] = (CpsChange){1, CPS_END_B, {CPS_END_KIND_HELD, {8.5, 4, 5}}};
-    f->change[3] = (CpsChange){1, CPS_END_B, {CPS_END_KIND_HELD, {9, 4, 5}}};
+    f->change[0] = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_FREE, {4, 6, 5}}};
+    f->change[1] = (CpsChange){.line = 1, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {9.5, 4, 5}}};
+    f->change[2] = (CpsChange){.line = 1, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {8.5, 4, 5}}};
+    f->change[3] = (CpsChange){.line = 1, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {9, 4, 5}}};
     f->stage[0] = (CpsStage){.cookie = cps_stage_default().cookie,
                              .name = HOSTILE,
                              .step_count = 1,

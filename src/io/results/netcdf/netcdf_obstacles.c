@@ -519,7 +519,8 @@ void cpsi_netcdf_define_motion(CpsiNetcdfFile *file, const CpsiNetcdfTime *time,
         {"position_bound", "guaranteed rms error of the positions, by mass", "m"},
         {"landed", "contacts of nodes that began to bear", "1"},
         {"changed", "contacts that went from rest to sliding or back", "1"},
-        {"snatched", "elements that went from slack to taut", "1"}};
+        {"snatched", "elements that went from slack to taut", "1"},
+        {"velocity_given", "ends with a given velocity: 1 A, 2 B, 3 both, 0 none", "1"}};
     const char *line = given->name;
     const int nodes[] = {dimension[0], dimension[1], dimension[2]},
               elements[] = {dimension[0], dimension[3]};
@@ -565,13 +566,22 @@ void cpsi_netcdf_append_motion(CpsiNetcdfFile *file, const CpsiNetcdfMotion *ids
     const CpsLineMotion motion = cps_evolution_line_motion(evolution, line);
     const size_t nodes = (size_t)cps_evolution_line_view(evolution, line).element_count + 1;
     const size_t start[] = {step, 0, 0}, count[] = {1, nodes, XYZ};
-    const double number[CPSI_MOTION_NUMBERS] = {motion.kinetic,         motion.ledger.kinetic,
-                                                motion.ledger.impact,   motion.ledger.scheme,
-                                                motion.ledger.settling, motion.ledger.damping,
-                                                motion.ledger.drag,     motion.ledger.added,
-                                                motion.ledger.waves,    motion.ledger.turnover,
-                                                motion.position_bound,  (double)motion.landed,
-                                                (double)motion.changed, (double)motion.snatched};
+    const double number[CPSI_MOTION_NUMBERS] = {motion.kinetic,
+                                                motion.ledger.kinetic,
+                                                motion.ledger.impact,
+                                                motion.ledger.scheme,
+                                                motion.ledger.settling,
+                                                motion.ledger.damping,
+                                                motion.ledger.drag,
+                                                motion.ledger.added,
+                                                motion.ledger.waves,
+                                                motion.ledger.turnover,
+                                                motion.position_bound,
+                                                (double)motion.landed,
+                                                (double)motion.changed,
+                                                (double)motion.snatched,
+                                                motion.velocity_given[CPS_END_A] +
+                                                    2.0 * motion.velocity_given[CPS_END_B]};
     cpsi_netcdf_doubles(file, ids->velocity, start, count, motion.velocity);
     cpsi_netcdf_doubles(file, ids->rest_velocity, start, count, motion.rest_velocity);
     cpsi_netcdf_doubles(file, ids->span, start, count, motion.span);

@@ -66,7 +66,7 @@ typedef struct CpsiNetcdfPoints {
     int vector[CPSI_POINT_VECTORS], number[CPSI_POINT_NUMBERS], whole[CPSI_POINT_INTS];
     CpsiNetcdfSets sets;
     bool in_time; /* unused without: */
-    int mass, inertia, motion[CPSI_POINT_MOTIONS], motion_number[CPSI_POINT_MOTION_NUMBERS];
+    int mass, inertia, motion[CPSI_POINT_MOTIONS], motion_number[CPSI_POINT_MOTION_NUMBERS], given;
 } CpsiNetcdfPoints;
 
 /* Define the variables; write what does not change; and what the last step has found, as step
@@ -88,7 +88,7 @@ typedef struct CpsiNetcdfBodies {
     int kind, fixed, of_point, place_of_point;
     int constant[CPSI_BODY_CONSTANTS], field[CPSI_BODY_FIELDS], whole[CPSI_BODY_INTS];
     bool in_time; /* unused without: */
-    int mass[CPSI_BODY_MASSES], force[CPSI_BODY_FORCES], motion[CPSI_BODY_MOTIONS];
+    int mass[CPSI_BODY_MASSES], force[CPSI_BODY_FORCES], motion[CPSI_BODY_MOTIONS], given;
 } CpsiNetcdfBodies;
 
 /* The same of the bodies, and of which points are on them. */
@@ -138,7 +138,7 @@ void cpsi_netcdf_append_grasps(CpsiNetcdfFile *file, const CpsiNetcdfGrasps *ids
 
 /* The motion in time of a scene; nothing of one without steps in time. Of quasi-static steps among
  * them velocities and spans are 0. */
-enum { CPSI_MOTION_NUMBERS = 14 };
+enum { CPSI_MOTION_NUMBERS = 15 };
 
 typedef struct CpsiNetcdfTime {
     bool is_there; /* otherwise all other variables are unused */

@@ -106,6 +106,14 @@ static const struct {
 static const char *point_name(const CpsScene *scene, int k) { return scene->point[k].name; }
 static const char *body_name(const CpsScene *scene, int k) { return scene->body[k].name; }
 
+/* Was the velocity of a point or body given? The scheme then has its x* from it. */
+static int define_given(CpsiNetcdfFile *file, const char *name, const int dimension[2]) {
+    const int id = cpsi_netcdf_variable(file, "", name, NC_INT, 2, dimension,
+                                        "was its velocity given in the step?", "1");
+    cpsi_netcdf_flags(file, id, NC_INT, 2, NULL, "no yes");
+    return id;
+}
+
 /* All names, separated by blanks. */
 static void define_names(CpsiNetcdfFile *file, const CpsScene *scene, const char *attribute,
                          int count, const char *(*name)(const CpsScene *scene, int k)) {
@@ -178,6 +186,7 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
         points->motion_number[i] =
             cpsi_netcdf_variable(file, "", MOTION_NUMBER[i].name, NC_DOUBLE, 2, shape,
                                  MOTION_NUMBER[i].long_name, MOTION_NUMBER[i].units);
+    points->given = define_given(file, "velocity_given_of_point", shape);
 }
 
 void cpsi_netcdf_write_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points,
@@ -233,6 +242,7 @@ static void append_motion(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, 
         const double value = cpsi_member(motion, MOTION_NUMBER[i].member);
         cpsi_netcdf_doubles(file, points->motion_number[i], start, count, &value);
     }
+    cpsi_netcdf_int(file, points->given, start, motion->velocity_given);
 }
 
 void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
@@ -427,6 +437,7 @@ void cpsi_netcdf_define_bodies(CpsiNetcdfFile *file, CpsiNetcdfBodies *out,
         out->force[i] = define_field(file, &FORCE[i], field, xyz, quaternion);
     for (int i = 0; i < CPSI_BODY_MOTIONS; ++i)
         out->motion[i] = define_field(file, &BODY_MOTION[i], field, xyz, quaternion);
+    out->given = define_given(file, "velocity_given_of_body", field.dimension);
 }
 
 /* A quantity of `of` at an index; `from` is subtracted from a place, NULL: nothing is. */
@@ -485,6 +496,7 @@ static void append_body_motion(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bod
         write_field(file, bodies->force[i], &FORCE[i], at, 2, report, NULL);
     for (int i = 0; i < CPSI_BODY_MOTIONS; ++i)
         write_field(file, bodies->motion[i], &BODY_MOTION[i], at, 2, &motion, NULL);
+    cpsi_netcdf_int(file, bodies->given, at, motion.velocity_given);
 }
 
 void cpsi_netcdf_append_bodies(CpsiNetcdfFile *file, const CpsiNetcdfBodies *bodies, size_t step,
