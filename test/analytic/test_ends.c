@@ -28,10 +28,10 @@ typedef struct Drag {
 
 /* lengths from 1e-2 to 1e3 m, meshes of 1 to 40 elements of ratios up to 10, up to three zones */
 static Drag make(Rig *rig, int number) {
-    Drag d = {.elements = number < 10 ? 1 + number % 3 : (int)draw(2, 40),
-              .held = draw(0, 1) < 0.5 ? CPS_END_A : CPS_END_B,
-              .weight = pow(10, draw(-2, 4)),
-              .mu = draw(0.05, 1.5)};
+    Drag d = {.elements = number < 10 ? 1 + number % 3 : (int)draw(2, 40)};
+    d.held = draw(0, 1) < 0.5 ? CPS_END_A : CPS_END_B;
+    d.weight = pow(10, draw(-2, 4));
+    d.mu = draw(0.05, 1.5);
     const double scale = pow(10, draw(-2, 3));
     rig_begin(rig, d.elements, d.weight, 1);
     for (int e = 0; e < d.elements; e++) rig->element_length[e] = scale / d.elements * draw(0.1, 1);

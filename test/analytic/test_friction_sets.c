@@ -451,8 +451,8 @@ static CpsSet *random_set(int kind) {
     CpsError err = {0};
     CpsSet *one = NULL, *two = NULL, *out = NULL;
     double points[14];
-    const double r = uniform(0.1, 0.8),
-                 centre[2] = {uniform(-0.5, 0.5) * r, uniform(-0.5, 0.5) * r};
+    const double r = uniform(0.1, 0.8), x = uniform(-0.5, 0.5) * r, y = uniform(-0.5, 0.5) * r,
+                 centre[2] = {x, y};
     if (kind == 0) {
         const int count = 3 + (int)uniform(0, 5);
         for (int i = 0; i < count; i++) {
@@ -469,12 +469,16 @@ static CpsSet *random_set(int kind) {
         do_(cps_set_ellipsoid(2, centre, shape, &out, &err), &err);
         return out;
     }
-    const double normal[] = {uniform(-1, 1), 1}, low[] = {-uniform(0, 0.3), -uniform(0, 0.3)},
-                 high[] = {uniform(0.05, 0.3), uniform(0.05, 0.3)},
-                 spike[] = {uniform(-1, 1), uniform(-1, 1)};
+    const double normal[] = {uniform(-1, 1), 1};
+    double low[2], high[2], spike[2];
+    for (int a = 0; a < 2; a++) low[a] = -uniform(0, 0.3);
+    for (int a = 0; a < 2; a++) high[a] = uniform(0.05, 0.3);
+    for (int a = 0; a < 2; a++) spike[a] = uniform(-1, 1);
     do_(cps_set_ball(2, centre, r, &one, &err), &err);
-    if (kind == 2)
-        do_(cps_set_strip(2, normal, -uniform(0.05, 0.4), uniform(0.05, 0.4), &two, &err), &err);
+    if (kind == 2) {
+        const double to = uniform(0.05, 0.4), from = -uniform(0.05, 0.4);
+        do_(cps_set_strip(2, normal, from, to, &two, &err), &err);
+    }
     if (kind == 3) do_(cps_set_point(2, spike, &two, &err), &err);
     if (kind == 4) do_(cps_set_box(2, low, high, &two, &err), &err);
     const CpsSet *parts[] = {one, two};
@@ -508,8 +512,8 @@ static void random_rig(Rig *r, CpsSet *set) {
     r->scene.friction_policy =
         uniform(0, 1) < 0.3 ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
     const double all = r->line.length * WEIGHT, x = uniform(-0.3, 1) * all;
-    change(r, 2, CPS_END_B, CPS_END_KIND_FREE, surface ? uniform(-0.2, 0.2) * all : x,
-           uniform(-0.3, 0.3) * all, surface ? -fabs(x) - 0.3 * all : 0);
+    const double y = uniform(-0.3, 0.3) * all, across = surface ? uniform(-0.2, 0.2) * all : x;
+    change(r, 2, CPS_END_B, CPS_END_KIND_FREE, across, y, surface ? -fabs(x) - 0.3 * all : 0);
 }
 
 /* Forces against the set itself: inside by its gauge, and phi(u) + <u, F> by its support. The axes

@@ -79,9 +79,9 @@ static void build(Rig *rig, uint64_t seed) {
     }
     const int round = chance(0, 1) < 0.5 ? 1 : 2;
     for (int i = 0; i < round; i++) {
+        const double mu = chance(0, 0.8);
         CpsObstacle *o =
-            rig_obstacle(rig, chance(0, 1) < 0.5 ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE,
-                         chance(0, 0.8));
+            rig_obstacle(rig, chance(0, 1) < 0.5 ? CPS_OBSTACLE_CYLINDER : CPS_OBSTACLE_SPHERE, mu);
         o->radius =
             seed % 3 ? chance(0.06, 0.4) : chance(0.01, 0.05); /* thin beside elements of 1/24 */
         o->point[0] = chance(-0.5, 0.5);
@@ -102,8 +102,8 @@ static void build(Rig *rig, uint64_t seed) {
     for (int s = 0; s < 3; s++) {
         rig_stage(rig, 1 + (int)chance(0, 3));
         if (chance(0, 1) < 0.3) {
-            rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, chance(-2, 2), chance(-2, 2),
-                       chance(-1, 2));
+            const double z = chance(-1, 2), y = chance(-2, 2), x = chance(-2, 2);
+            rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, x, y, z);
         } else {
             place(rig, 0.6, b);
             rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, b[0], b[1], b[2]);

@@ -338,6 +338,10 @@ static void the_checker_knows_every_set(void **state) {
         else
             snprintf(start, sizeof start,
                      "{arc: {from: [-1, 0, 0], centre: [0, 0, 0], axis: [0, 1, 0]}}");
+        const double z = surface ? -uniform(5, 20) : 0, y = uniform(-7, 7), x = uniform(0, 20),
+                     factor = uniform(0.2, 3), from_arc = uniform(0, 1);
+        const int elements = 5 + (int)uniform(0, 20);
+        const double across = uniform(-1, 1), along = uniform(-1, 1);
         CpsSceneFile *file =
             read_scene("capstan: 1\nfriction_policy: %s\n"
                        "obstacles: {bed: {%s, friction: {set: %s, grain: [%g, %g, 0.3]}}}\n"
@@ -346,10 +350,8 @@ static void the_checker_knows_every_set(void **state) {
                        "  friction_zones: [{from: %g, to: 1.1, factor: %g}, {from: 1.1, to: 2.2, "
                        "factor: 0}], start: %s}}\n"
                        "history: [{steps: 2, line.B: {force: [%g, %g, %g]}}]\n",
-                       run % 4 == 3 ? "frozen" : "consistent", SURFACE[surface], set,
-                       uniform(-1, 1), uniform(-1, 1), 5 + (int)uniform(0, 20), uniform(0, 1),
-                       uniform(0.2, 3), start, uniform(0, 20), uniform(-7, 7),
-                       surface ? -uniform(5, 20) : 0);
+                       run % 4 == 3 ? "frozen" : "consistent", SURFACE[surface], set, along, across,
+                       elements, from_arc, factor, start, x, y, z);
         const bool all = run_all(cps_scene_file_scene(file), NULL, NULL);
         if (!all)
             print_message("run %d (seed %llu): not all steps solved\n", run,

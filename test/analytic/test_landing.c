@@ -19,8 +19,9 @@ static const double PI = 3.14159265358979323846;
 static double drop(uint64_t *random, int steps, CpsTimeScheme scheme, double *grown) {
     TimeRig rig;
     const double height = pow(10, splitmix(random, -2, 0.5)), side = splitmix(random, 0, 1);
-    time_begin(&rig, 20, 1, pow(10, splitmix(random, -1, 2)),
-               splitmix(random, 0, 1) < 0.5 ? INFINITY : pow(10, splitmix(random, 2, 6)));
+    const double stiffness =
+        splitmix(random, 0, 1) < 0.5 ? INFINITY : pow(10, splitmix(random, 2, 6));
+    time_begin(&rig, 20, 1, pow(10, splitmix(random, -1, 2)), stiffness);
     rig.scene.time_scheme = scheme;
     rig.gravity = 9.81;
     time_plane(&rig, 0, splitmix(random, 0, 1));

@@ -33,7 +33,10 @@ static Mooring make(bool bed, bool friction) {
     m.mu = friction ? draw(0.2, 1) : 0;
     m.shift = friction ? draw(-0.005, 0.005) * m.length : 0;
     m.grading[0] = m.grading[1] = 1;
-    if (draw(0, 1) < 0.5) m.grading[draw(0, 1) < 0.5] = draw(1, 3);
+    if (draw(0, 1) < 0.5) {
+        const bool end = draw(0, 1) < 0.5;
+        m.grading[end] = draw(1, 3);
+    }
     return m;
 }
 

@@ -279,9 +279,12 @@ static void random_fields_are_certified(void **state) {
         const double x = far * size;
         hold(&c, CPS_END_A, x - 0.4 * size, 0, 0);
         hold(&c, CPS_END_B, x + 0.4 * size, 0, 0.1 * size);
-        for (int k = 0; k < STAGES; k++)
-            stage(&c, x + splitmix(&dice, 0.2, 0.5) * size, splitmix(&dice, -0.2, 0.2) * size,
-                  splitmix(&dice, 0, 0.2) * size);
+        for (int k = 0; k < STAGES; k++) {
+            const double up = splitmix(&dice, 0, 0.2) * size,
+                         across = splitmix(&dice, -0.2, 0.2) * size,
+                         along = splitmix(&dice, 0.2, 0.5) * size;
+            stage(&c, x + along, across, up);
+        }
         if (splitmix(&dice, 0, 1) < 0.3) c.loads.potential.to = 0.6 * size;
         const CpsCurrentRow row[2] = {{-size, {0.1, 0.3, 0}}, {size, {0.2, -0.1, 0}}};
         const CpsCurrent current = {.density = load, .row_count = 2, .row = row};
@@ -516,8 +519,9 @@ static void pieces_at_a_point_are_the_line(void **state) {
         const double size = pow(10, splitmix(&dice, -1, 2)), load = pow(10, splitmix(&dice, -1, 2)),
                      far = splitmix(&dice, 0, 1) < 0.2 ? 1e3 : 0;
         const int elements = 8 + (int)splitmix(&dice, 0, 30);
-        begin(&c, elements, size, splitmix(&dice, 0, 1) < 0.2 ? 0 : load,
-              load * size * pow(10, splitmix(&dice, 1.5, 4)));
+        const double EA = load * size * pow(10, splitmix(&dice, 1.5, 4)),
+                     weight = splitmix(&dice, 0, 1) < 0.2 ? 0 : load;
+        begin(&c, elements, size, weight, EA);
         for (int i = 0; i < TERMS; i++) {
             c.field.length[i] = size * pow(10, splitmix(&dice, -0.5, 0.5));
             c.field.size[i] = load * c.field.length[i] * pow(10, splitmix(&dice, -1, 0.3));
@@ -530,9 +534,12 @@ static void pieces_at_a_point_are_the_line(void **state) {
         const double x = far * size;
         hold(&c, CPS_END_A, x - 0.4 * size, 0, 0);
         hold(&c, CPS_END_B, x + 0.4 * size, 0, 0.1 * size);
-        for (int k = 0; k < 2; k++)
-            stage(&c, x + splitmix(&dice, 0.2, 0.5) * size, splitmix(&dice, -0.2, 0.2) * size,
-                  splitmix(&dice, 0, 0.2) * size);
+        for (int k = 0; k < 2; k++) {
+            const double up = splitmix(&dice, 0, 0.2) * size,
+                         across = splitmix(&dice, -0.2, 0.2) * size,
+                         along = splitmix(&dice, 0.2, 0.5) * size;
+            stage(&c, x + along, across, up);
+        }
         if (splitmix(&dice, 0, 1) < 0.4) c.loads.potential.to = splitmix(&dice, 0.1, 1) * size;
         if (splitmix(&dice, 0, 1) < 0.3) c.loads.potential.from = 0.09 * size;
         const int before = steps, node = 1 + (int)splitmix(&dice, 0, elements - 2);

@@ -46,13 +46,14 @@ static void add_span(const Piece *p, double h, double v, double *x, double *z) {
 }
 
 static Mooring random_mooring(uint64_t *seed) {
-    Mooring m = {.pieces = 1 + (int)splitmix(seed, 0, PIECES), .h = pow(10, splitmix(seed, 3, 5))};
+    Mooring m = {.pieces = 1 + (int)splitmix(seed, 0, PIECES)};
+    m.h = pow(10, splitmix(seed, 3, 5));
     double v = m.v = m.h * splitmix(seed, -0.5, 2);
     for (int k = 0; k < m.pieces; k++) {
-        const double length = splitmix(seed, 20, 60);
-        m.piece[k] = (Piece){.length = length,
-                             .weight = m.h / length * splitmix(seed, 0.1, 3),
-                             .stiffness = m.h * pow(10, splitmix(seed, 1.5, 4))};
+        const double length = splitmix(seed, 20, 60),
+                     weight = m.h / length * splitmix(seed, 0.1, 3),
+                     stiffness = m.h * pow(10, splitmix(seed, 1.5, 4));
+        m.piece[k] = (Piece){.length = length, .weight = weight, .stiffness = stiffness};
         if (k + 1 < m.pieces) m.piece[k].below = m.h * splitmix(seed, -0.2, 0.4);
         add_span(&m.piece[k], m.h, v, &m.x, &m.z);
         v -= m.piece[k].weight * length + m.piece[k].below;

@@ -43,7 +43,8 @@ static Case random_case(uint64_t *seed) {
     const bool ball = c.kind == CPS_OBSTACLE_SPHERE;
     c.scale = pow(10, draw(seed, -3, 6));
     c.radius = c.scale * pow(10, draw(seed, -1, 1));
-    c.turn = ball ? draw(seed, 0.5, 2.8) : draw(seed, 0.5, 16) * (draw(seed, 0, 1) < 0.5 ? -1 : 1);
+    c.turn = ball ? draw(seed, 0.5, 2.8) : draw(seed, 0.5, 16);
+    if (!ball && draw(seed, 0, 1) < 0.5) c.turn *= -1;
     c.pitch = ball || draw(seed, 0, 1) < 0.3 ? 0 : c.radius * draw(seed, -0.5, 0.5);
     c.lift = draw(seed, 0, 1) < 0.3 ? 0 : pow(10, draw(seed, -4, -1));
     c.elements = (int)fmin(60, ceil(fabs(c.turn) / pow(10, draw(seed, -1.3, 0))));

@@ -520,8 +520,8 @@ static void wind(Rig *rig, uint64_t *seed) {
     for (int k = 0; k < 2; k++) {
         rig_stage(rig, 1 + (int)uniform(seed, 0, 3));
         const double size = both ? 0.1 * lengths : forces;
-        double to[3] = {uniform(seed, -0.3, 0.3) * size, uniform(seed, -0.3, 0.3) * size,
-                        uniform(seed, 0, 0.3) * size};
+        double to[3];
+        for (int a = 0; a < 3; a++) to[a] = uniform(seed, a < 2 ? -0.3 : 0, 0.3) * size;
         if (both)
             for (int a = 0; a < 2; a++)
                 to[a] = at[1 - first][a] +

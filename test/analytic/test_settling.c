@@ -55,13 +55,17 @@ static void throw_line(TimeRig *rig, const Kind *kind) {
     const double length = pow(10, uniform(-0.5, 2.5)), mass = pow(10, uniform(-1, 2)),
                  weight = mass * 9.81;
     /* the audit of a plane does not know the origin of the views */
-    const double away = kind->plane ? 0 : 1e3,
-                 far[3] = {uniform(-away, away), uniform(-away, away), uniform(-away, away)};
+    const double away = kind->plane ? 0 : 1e3;
+    double far[3];
+    for (int a = 0; a < 3; a++) far[a] = uniform(-away, away);
     time_begin(rig, length, elements, mass,
                kind->stiff ? INFINITY : weight * length * pow(10, uniform(1, 4)));
     if (kind->damped) rig->line.damping = rig->line.stiffness * uniform(0.01, 0.3);
-    if (kind->plane) time_plane(rig, far[2] - uniform(0.02, 0.3) * length, uniform(0, 1));
-    const double flow[3] = {uniform(-1, 1), uniform(-1, 1), 0};
+    if (kind->plane) {
+        const double friction = uniform(0, 1);
+        time_plane(rig, far[2] - uniform(0.02, 0.3) * length, friction);
+    }
+    const double east = uniform(-1, 1), north = uniform(-1, 1), flow[3] = {east, north, 0};
     if (kind->water)
         time_water(rig, 1025, flow,
                    (CpsDrag){.diameter = 0.02 * length, .normal = 1.2, .tangential = 0.1});
@@ -83,9 +87,10 @@ static void throw_line(TimeRig *rig, const Kind *kind) {
 static void change_rest(TimeRig *rig, const Kind *kind, double up[3]) {
     CpsStage *rest = time_stage(rig, 0, 1);
     const double l = 0.05 * rig->line.length, *b = &rig->point[3 * rig->line.element_count];
-    if (kind->moved)
-        time_change(rig, CPS_END_KIND_HELD, b[0] + uniform(-l, l), b[1] + uniform(-l, l),
-                    b[2] + uniform(0, l));
+    if (kind->moved) {
+        const double z = b[2] + uniform(0, l), y = b[1] + uniform(-l, l), x = b[0] + uniform(-l, l);
+        time_change(rig, CPS_END_KIND_HELD, x, y, z);
+    }
     rest->gravity_changes = kind->tilted;
     for (int a = 0; a < 3; a++) {
         if (kind->tilted) up[a] = a == 2 ? uniform(0.5, 1.5) : uniform(-0.5, 0.5);

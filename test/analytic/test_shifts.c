@@ -192,12 +192,13 @@ typedef struct Random {
 } Random;
 
 static Random draw(uint64_t *s) {
-    Random r = {.weight = splitmix(s, 2, 20), .slack = splitmix(s, 0.85, 0.98), .count = 2};
+    Random r = {.weight = splitmix(s, 2, 20), .count = 2};
+    r.slack = splitmix(s, 0.85, 0.98);
     r.stiffness = splitmix(s, 0, 1) < 0.3 ? INFINITY : 5000;
     r.obstacle[0] = bed(splitmix(s, 0.1, 0.8));
-    r.obstacle[1] =
-        bollard(splitmix(s, 2, 4), splitmix(s, 0.5, 0.8) * (splitmix(s, 0, 1) < 0.5 ? 1 : -1),
-                splitmix(s, 0.15, 0.35), splitmix(s, 0, 0.5));
+    const double friction = splitmix(s, 0, 0.5), radius = splitmix(s, 0.15, 0.35),
+                 away = splitmix(s, 0.5, 0.8), side = splitmix(s, 0, 1) < 0.5 ? 1 : -1;
+    r.obstacle[1] = bollard(splitmix(s, 2, 4), away * side, radius, friction);
     return r;
 }
 

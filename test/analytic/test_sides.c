@@ -96,7 +96,8 @@ static void across(uint64_t *seed, int i, Tally *tally) {
     assert_non_null(rig);
     const int elements = 8 + (int)splitmix(seed, 0, 24);
     const double radius = 4.0 / elements * pow(10, splitmix(seed, -1, 0.6));
-    rig_begin(rig, elements, splitmix(seed, 0, 1) < 0.5 ? 0 : 0.2, pow(10, splitmix(seed, 2, 4)));
+    const double stiffness = pow(10, splitmix(seed, 2, 4));
+    rig_begin(rig, elements, splitmix(seed, 0, 1) < 0.5 ? 0 : 0.2, stiffness);
     rig->scene.friction_policy =
         i % 3 == 0 ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
     rig->scene.solver.max_halvings = 6;
@@ -129,7 +130,8 @@ static void around(uint64_t *seed, int i, Tally *tally) {
     const int elements = 10 + (int)splitmix(seed, 0, 30);
     const double length = 3,
                  radius = fmin(0.25, length / elements * pow(10, splitmix(seed, -1, 1)));
-    rig_begin(rig, elements, splitmix(seed, 0, 1) < 0.5 ? 0 : 0.2, pow(10, splitmix(seed, 2, 4)));
+    const double stiffness = pow(10, splitmix(seed, 2, 4));
+    rig_begin(rig, elements, splitmix(seed, 0, 1) < 0.5 ? 0 : 0.2, stiffness);
     rig->scene.friction_policy =
         i % 3 == 0 ? CPS_FRICTION_POLICY_FROZEN : CPS_FRICTION_POLICY_CONSISTENT;
     rig->scene.solver.max_halvings = 6;

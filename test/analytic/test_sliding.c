@@ -98,7 +98,8 @@ static void beyond_the_limit(void **state) {
     double worst = 0;
     for (int i = 0; i < CASES; i++) {
         uint64_t seed = 1000 + (uint64_t)i;
-        Case c = {.mu = splitmix(&seed, 0.03, 0.8), .theta = splitmix(&seed, 0.4, 1.8 * PI)};
+        Case c = {.mu = splitmix(&seed, 0.03, 0.8)};
+        c.theta = splitmix(&seed, 0.4, 1.8 * PI);
         c.nodes = 8 + (int)(40 * splitmix(&seed, 0, 1));
         c.radius = pow(10, splitmix(&seed, -2, 2));
         c.force = pow(10, splitmix(&seed, -2, 4));

@@ -234,7 +234,8 @@ static void a_drum_that_turns_and_moves_has_the_capstan_law(void **state) {
         const int n = 12 + k;
         const double mu = splitmix(&s, 0.05, 0.6), angle = splitmix(&s, 0.2, 3) * (k % 2 ? 1 : -1),
                      d = PI / n, node = (1 + mu * tan(d / 2)) / (1 - mu * tan(d / 2));
-        const double by[3] = {splitmix(&s, -1, 1), splitmix(&s, -1, 1), splitmix(&s, -1, 1)};
+        double by[3];
+        for (int a = 0; a < 3; a++) by[a] = splitmix(&s, -1, 1);
         double tension[2];
         for (int way = 0; way < 2; way++) {
             double tip[3];
@@ -335,8 +336,9 @@ static void what_moves_rigidly_only_changes_its_place(void **state) {
         uint64_t s = seed;
         const double slack = splitmix(&s, 0.85, 0.98),
                      stiffness = splitmix(&s, 0, 1) < 0.3 ? INFINITY : 5000;
-        CpsObstacle both[2] = {obstacle(CPS_OBSTACLE_PLANE, splitmix(&s, 0.1, 0.8)),
-                               obstacle(CPS_OBSTACLE_CYLINDER, splitmix(&s, 0, 0.5))};
+        CpsObstacle both[2];
+        both[0] = obstacle(CPS_OBSTACLE_PLANE, splitmix(&s, 0.1, 0.8));
+        both[1] = obstacle(CPS_OBSTACLE_CYLINDER, splitmix(&s, 0, 0.5));
         both[0].name = "bed";
         if (seed % 3 == 0) { /* its grain turns with it */
             both[0].has_friction_lateral = true;
@@ -348,7 +350,8 @@ static void what_moves_rigidly_only_changes_its_place(void **state) {
         both[1].axis[2] = 1;
         both[1].radius = splitmix(&s, 0.15, 0.35);
         both[1].point[0] = splitmix(&s, 2, 4);
-        both[1].point[1] = splitmix(&s, 0.5, 0.8) * (splitmix(&s, 0, 1) < 0.5 ? 1 : -1);
+        both[1].point[1] = splitmix(&s, 0.5, 0.8);
+        if (splitmix(&s, 0, 1) >= 0.5) both[1].point[1] *= -1;
         double x[3 * (N + 1)] = {0};
         for (int j = 0; j <= N; j++) {
             x[3 * j] = slack * LENGTH * j / N;

@@ -76,13 +76,12 @@ static Mooring random_mooring(uint64_t *state) {
                  height = splitmix(state, 0.05, 0.25) * length;
     /* between slack on the bed and just lifted off at the anchor */
     const double least = length - height, most = sqrt(length * length - height * height);
-    return (Mooring){length,
-                     weight,
-                     1 / (weight * length * pow(10, splitmix(state, 1.5, 5))),
-                     least + splitmix(state, 0.1, 0.6) * (most - least),
-                     height,
-                     splitmix(state, 0, 6.28),
-                     {splitmix(state, -1, 1) * length, splitmix(state, -1, 1) * length, 0}};
+    Mooring m = {.length = length, .weight = weight, .height = height};
+    m.compliance = 1 / (weight * length * pow(10, splitmix(state, 1.5, 5)));
+    m.span = least + splitmix(state, 0.1, 0.6) * (most - least);
+    m.angle = splitmix(state, 0, 6.28);
+    for (int a = 0; a < 2; a++) m.at[a] = splitmix(state, -1, 1) * length;
+    return m;
 }
 
 /* Both the place and the length are of second order in the elements. The place lies on the chord of

@@ -120,8 +120,9 @@ static void at_random(void **state) {
     (void)state;
     double worst = 0;
     for (int i = 0; i < 150; i++) {
-        Wrap wrap = plain(i % 2 ? CPS_OBSTACLE_SPHERE : CPS_OBSTACLE_CYLINDER, uniform(0.05, 0.6),
-                          uniform(0.4, 1.8) * PI, (int)uniform(10, 50));
+        const int n = (int)uniform(10, 50);
+        const double theta = uniform(0.4, 1.8) * PI, mu = uniform(0.05, 0.6);
+        Wrap wrap = plain(i % 2 ? CPS_OBSTACLE_SPHERE : CPS_OBSTACLE_CYLINDER, mu, theta, n);
         wrap.radius = pow(10, uniform(-2, 2));
         wrap.pull = pow(10, uniform(-2, 4));
         double *x = wrap.frame[0], *y = wrap.frame[1], *z = wrap.frame[2], size = 0, along = 0;

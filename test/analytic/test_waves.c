@@ -66,11 +66,11 @@ static void the_phase_keeps_its_digits_far_away(void **state) {
                              : i % 3 == 1 ? 200
                                           : pow(10, splitmix(&dice, -4, 2)),
                      far = pow(10, splitmix(&dice, 0, 6)), time = splitmix(&dice, 0, 10),
-                     x[3] = {splitmix(&dice, -far, far), splitmix(&dice, -far, far), 0};
-        CpsWave wave = {.amplitude = 1,
-                        .period = pow(10, splitmix(&dice, -0.3, 1.3)),
-                        .direction = splitmix(&dice, -4, 10),
-                        .phase = splitmix(&dice, -40, 40)};
+                     east = splitmix(&dice, -far, far), north = splitmix(&dice, -far, far),
+                     x[3] = {east, north, 0};
+        CpsWave wave = {.amplitude = 1, .period = pow(10, splitmix(&dice, -0.3, 1.3))};
+        wave.direction = splitmix(&dice, -4, 10);
+        wave.phase = splitmix(&dice, -40, 40);
         CpsWaves waves = {.depth = depth, .wave_count = 1, .wave = &wave};
         CpsCurrentRow row = {.z = 0};
         CpsCurrent current = {.density = 1025, .row_count = 1, .row = &row, .waves = &waves};

@@ -90,11 +90,11 @@ static void too_short_a_line_with_a_body_is_told(void **state) {
         const double size = pow(10, splitmix(&random, -2, 3)),
                      x = size * splitmix(&random, -20, 20), one = size * splitmix(&random, 0.2, 1),
                      two = size * splitmix(&random, 0.2, 1),
-                     lacking = size * pow(10, splitmix(&random, -5, 0)),
-                     eye[3] = {size * splitmix(&random, -0.3, 0.3),
-                               size * splitmix(&random, -0.3, 0.3),
-                               size * splitmix(&random, 0.05, 0.3)},
-                     across = 2 * sqrt(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]);
+                     lacking = size * pow(10, splitmix(&random, -5, 0));
+        double eye[3], turn[4];
+        for (int a = 0; a < 3; a++) eye[a] = size * splitmix(&random, a < 2 ? -0.3 : 0.05, 0.3);
+        const double across = 2 * sqrt(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]);
+        for (int k = 3; k >= 0; k--) turn[k] = splitmix(&random, k < 3 ? -1 : 0.1, 1);
         snprintf(
             text, sizeof text,
             "capstan: 1\nbodies: {buoy: {free: [%.17g, %.17g, 0], rotation: {quaternion: [%.17g, "
@@ -106,8 +106,7 @@ static void too_short_a_line_with_a_body_is_told(void **state) {
             "ends: {A: {point: west}, B: {point: left}}}\n"
             "  b: {length: %.17g, elements: 2, weight: 1, stiffness: .inf, start: static, "
             "ends: {A: {point: east}, B: {point: right}}}\n",
-            x + one, size * splitmix(&random, -1, 1), splitmix(&random, -1, 1),
-            splitmix(&random, -1, 1), splitmix(&random, -1, 1), splitmix(&random, 0.1, 1),
+            x + one, size * splitmix(&random, -1, 1), turn[0], turn[1], turn[2], turn[3],
             i % 3 == 2 ? "rx" : "", x, x + one + two + across + lacking, eye[0], eye[1], eye[2],
             -eye[0], -eye[1], -eye[2], one, two);
         write_scene(text);

@@ -75,8 +75,8 @@ static bool goes_round(const Barrier *b, uint64_t *state) {
         double node[2][3] = {{0, 0, 0}, {b->span, 0, 0}}, square = 0;
         const double most = i % 2 ? 1 : 0.1;
         for (int e = 0; e < 2; e++) {
-            const double v[3] = {splitmix(state, -most, most), splitmix(state, -most, most), 1},
-                         size = sqrt(v[0] * v[0] + v[1] * v[1] + 1);
+            const double x = splitmix(state, -most, most), y = splitmix(state, -most, most),
+                         v[3] = {x, y, 1}, size = sqrt(v[0] * v[0] + v[1] * v[1] + 1);
             for (int k = 0; k < 3; k++) node[e][k] += (e ? b->after : b->before) * v[k] / size;
         }
         for (int k = 0; k < 3; k++) square += pow(node[1][k] - node[0][k], 2);
@@ -90,9 +90,9 @@ static bool goes_round(const Barrier *b, uint64_t *state) {
 /* A random barrier whose bound is `kept` times 1 + margin. */
 static Barrier random_barrier(uint64_t *state, double margin) {
     for (;;) {
-        Barrier b = {.span = pow(10, splitmix(state, -2, 2)),
-                     .is_sphere = splitmix(state, 0, 1) < 0.5,
-                     .elastic = splitmix(state, 0, 1) < 0.05};
+        Barrier b = {.span = pow(10, splitmix(state, -2, 2))};
+        b.is_sphere = splitmix(state, 0, 1) < 0.5;
+        b.elastic = splitmix(state, 0, 1) < 0.05;
         b.radius = b.span * splitmix(state, 0.05, 0.22);
         b.x = b.span * splitmix(state, 0.35, 0.65);
         b.lean = splitmix(state, -0.3, 0.3);

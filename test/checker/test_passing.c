@@ -63,9 +63,8 @@ static bool is_passed(const Passing *w) {
 
 /* A random way, clearly passing or clearly not, with clear ends. */
 static Passing random_passing(uint64_t *state, bool passes, bool follows) {
-    Passing w = {.follows = follows,
-                 .length = pow(10, splitmix(state, -2, 2)),
-                 .angle = splitmix(state, 0.2, 0.6)};
+    Passing w = {.follows = follows, .length = pow(10, splitmix(state, -2, 2))};
+    w.angle = splitmix(state, 0.2, 0.6);
     w.is_sphere = splitmix(state, 0, 1) < 0.5;
     w.elements = (int)pow(10, splitmix(state, 0, 1.5));
     w.side = splitmix(state, 0, 1) < 0.5 ? 1 : -1;

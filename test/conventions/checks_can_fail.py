@@ -42,6 +42,16 @@ CLEAN = {
                          '    do f(a, b);\n    while (x && a++ < 3);\n'
                          '    switch (x) {\n    case 1: f(a, b); break;\n    default: (*f)(c[0], 1);\n    }\n'
                          '}\n',
+    "test/dice.h": 'static inline double uniform(double low, double high) { return splitmix(&state, low, high); }\n',
+    "test/draws.c": 'static int below(int n) { return (int)uniform(0, n); }\n'
+                    'void draws(double *x) {\n'
+                    '    const double a = uniform(0, 1), b = below(2) ? uniform(1, 2) : uniform(2, below(3));\n'
+                    '    for (int i = below(3); i < 9; i++) x[i] = a * uniform(b, 1);\n'
+                    '    if (below(2) && below(3)) x[below(4)] = 0;\n'
+                    '    if (uniform(0, 1) < 0.5 || below(3)) x[0] = 1;\n'
+                    '    switch (below(3)) {\n    case 1: x[1] = below(2); break;\n    default: {\n        x[2] = below(3);\n'
+                    '        x[3] = below(4);\n    }\n    }\n'
+                    '}\n',
     "cli/main.c": '#include "capstan/scene.h"\n\ntypedef struct Pair {\n    int a;\n} Pair;\n',
 }
 
@@ -78,6 +88,16 @@ FAULTS = [
      "check-idioms", "kept.c:2: a condition that the loop does not change"),
     ("src/base/member.h", "int f(CpsOne *a, int *x) {\n    while (next(x) && a->y.z == CPS_ONE) g(a->x);\n    return 0;\n}\n",
      "check-idioms", "member.h:2: a condition that the loop"),
+    ("test/call.c", "void f(void) {\n    g(uniform(0, 1), 2,\n      uniform(0, 1));\n}\n", "check-draws", "call.c:3: a second"),
+    ("test/sum.c", "double f(int n) { return n + uniform(0, 1) * (uniform(0, 1) < 0.5 ? 1 : -1); }\n", "check-draws", "sum.c:1"),
+    ("test/list.c", "void f(void) {\n    const P p = {.x = uniform(0, 1), .y = {uniform(0, 1)}};\n}\n", "check-draws",
+     "list.c:2"),
+    ("test/item.c", "static int die(void) { return (int)uniform(0, 6); }\nvoid f(int *a) { if (a) a[die()] = die(); }\n",
+     "check-draws", "item.c:2"),
+    ("test/macro.c", "#define TOSS() (uniform(0, 6) < 3)\nint f(void) { return g(uniform(0, 1), TOSS()); }\n",
+     "check-draws", "macro.c:2"),
+    ("bench/own.c", "static double next(void) { return (double)(step() >> 11) * 0x1p-53; }\nint f(void) { return g(next() + next()); }\n",
+     "check-draws", "own.c:2"),
     ("src/base/ugly.c", "int  f( int a ) { return a*2; }\n", "format --check", "src/base/ugly.c: not as clang-format"),
     ("src/base/wide.c", "int f(int a) { return a; } /* " + "word " * 20 + "*/\n", "format --check", "src/base/wide.c"),
     ("docs/page.md", "See [there](nowhere.md).\n", "check-links", "no docs/nowhere.md"),
@@ -132,7 +152,7 @@ def expect(what, code, words, wanted):
 
 def main():
     wrong = 0
-    passes = [(None, None, script, None) for script in ("check-layers", "check-loops", "check-files", "check-idioms", "format --check",
+    passes = [(None, None, script, None) for script in ("check-layers", "check-loops", "check-files", "check-idioms", "check-draws", "format --check",
                                                        "check-links")]
     for path, text, script, wanted in passes + FAULTS:
         with tempfile.TemporaryDirectory() as root:

@@ -164,7 +164,8 @@ static Case random_case(uint64_t seed) {
     if (round) {
         c.set = random_round_zero(c.n, 1 + below(2));
     } else {
-        const Sample sample = random_expression(c.n, below(3), below(2));
+        const bool bounded = below(2);
+        const Sample sample = random_expression(c.n, below(3), bounded);
         c.set = sample.set;
         for (int i = 0; i < c.n; i++) c.inside[i] = sample.inside[i];
     }

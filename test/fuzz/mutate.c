@@ -147,12 +147,13 @@ static void mutate(uint8_t *const *file, const size_t *size, int files) {
         }
         break;
     default: {
-        uint8_t some[6] = {(uint8_t)next(),
-                           (uint8_t)below(4),
-                           byte,
-                           (uint8_t)(below(2) * next()),
-                           (uint8_t)(below(2) * next()),
-                           (uint8_t)(below(2) * next())};
+        uint8_t some[6] = {(uint8_t)next()};
+        some[1] = (uint8_t)below(4);
+        some[2] = byte;
+        for (int k = 3; k < 6; k++) {
+            const size_t kept = below(2);
+            some[k] = (uint8_t)(kept * next());
+        }
         put(length - length % 6, some, 6);
         break;
     }

@@ -151,7 +151,9 @@ static void friction_cone(void) {
  * leaves the reaction open, w < 0 is blocked. With U = x and forces >= 0 of the stop, phi is 0 for
  * x >= 0, else infinite. */
 static void one_sided(void) {
-    const double b = pow(10, digit(9)), w[2] = {digit(2), digit(2)};
+    const double b = pow(10, digit(9));
+    double w[2];
+    for (int i = 0; i < 2; i++) w[i] = digit(2);
     CpsSet *stop = NULL, *friction = NULL;
     CpsSystem *system = NULL;
     CpsMotion *motion = NULL;

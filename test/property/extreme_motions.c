@@ -12,8 +12,9 @@
 /* Parameters (x, y, z): a segment of forces from -e to 2 e on U = (x, y, z), x driven, z held at 0
  * or free. Its forces do work on what is free unless those components of e are 0. */
 void try_flat(void) {
-    const double e[3] = {1 + below(3), below(2) ? digit(2) : 0, below(2) ? digit(2) : 0},
-                 size = pow(10, digit(3));
+    double e[3] = {1 + below(3)};
+    for (int a = 1; a < 3; a++) e[a] = below(2) ? digit(2) : 0;
+    const double size = pow(10, digit(3));
     const bool held = below(2) == 0;
     double ends[6];
     for (int i = 0; i < 3; i++) {
@@ -59,7 +60,8 @@ void try_limit(void) {
     static const int TEN[] = {0, 1, 3, 5, 7, 9, 11};
     const bool round = below(2) == 0;
     const int side = digit(1), power = TEN[below(7)];
-    const double r = pow(10, digit(2)) * (1 + below(5)), a = r * (1 + below(3)), w = digit(2);
+    const double tens = pow(10, digit(2)), r = tens * (1 + below(5)), a = r * (1 + below(3)),
+                 w = digit(2);
     const double factor = 1 + side * pow(10, -power) * (side < 0 ? 0.9 : 1);
     double u[2];
     CpsSet *set = NULL;
@@ -113,10 +115,13 @@ typedef struct Wheel {
 
 static Wheel draw_wheel(void) {
     static const double BETA[] = {1, 1, 0.6, 0.8, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e3, 1e6};
-    const double ground = (1 + below(5)) * pow(10, digit(9)), speed = pow(10, digit(6));
+    const int first = 1 + below(5);
+    const double ground = first * pow(10, digit(9)), speed = pow(10, digit(6));
     Wheel wheel = {ground, 0.5 * ground * BETA[below(11)], {0, 0}};
-    for (int i = 0; i < 2; i++)
-        wheel.w[i] = digit(3) * speed * (below(2) ? 1 : pow(10, -below(13)));
+    for (int i = 0; i < 2; i++) {
+        wheel.w[i] = digit(3) * speed;
+        if (!below(2)) wheel.w[i] *= pow(10, -below(13));
+    }
     return wheel;
 }
 

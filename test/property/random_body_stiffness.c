@@ -176,10 +176,12 @@ static void make_matter(Mooring *m, int i, double weight) {
     if (chance(0.3)) {
         line->section_count = SECTIONS;
         line->section = m->section[i];
-        for (int k = 0; k < SECTIONS; k++)
-            m->section[i][k] = (CpsSection){.length = k ? line->length - clump : clump,
-                                            .weight = line->weight * uniform(0.4, 1.5),
-                                            .stiffness = line->stiffness * uniform(0.4, 1.5)};
+        for (int k = 0; k < SECTIONS; k++) {
+            CpsSection *section = &m->section[i][k];
+            *section = (CpsSection){.length = k ? line->length - clump : clump};
+            section->weight = line->weight * uniform(0.4, 1.5);
+            section->stiffness = line->stiffness * uniform(0.4, 1.5);
+        }
     } else if (isfinite(line->stiffness) && chance(0.25)) {
         for (int k = 1; k < 3; k++)
             m->row[i][k] = (CpsStiffnessRow){k * 1e-3, k * k * 1e-3 * line->stiffness};
@@ -188,7 +190,8 @@ static void make_matter(Mooring *m, int i, double weight) {
         line->stiffness = 0;
     }
     if (chance(0.2)) {
-        m->zone[i] = (CpsFrictionZone){0, line->length * uniform(0.2, 0.5), uniform(0, 2)};
+        m->zone[i] = (CpsFrictionZone){.to = line->length * uniform(0.2, 0.5)};
+        m->zone[i].factor = uniform(0, 2);
         line->zone_count = 1;
         line->zone = &m->zone[i];
     }
@@ -210,7 +213,8 @@ static void make_line(Mooring *m, int i, int body, int other, double weight) {
     const bool lies = other < 0 && chance(0.85), loops = other == body;
     make_point(m, 2 * i, body, turn, m->arm, m->arm * uniform(-1, 1));
     if (other >= 0) {
-        make_point(m, 2 * i + 1, other, turn + uniform(2, 4), m->arm, m->arm * uniform(-1, 1));
+        const double up = m->arm * uniform(-1, 1);
+        make_point(m, 2 * i + 1, other, turn + uniform(2, 4), m->arm, up);
     } else {
         make_point(m, 2 * i + 1, -1, turn, uniform(0.8, 1.4) * m->size, 0);
         CpsPoint *anchor = &m->point[2 * i + 1];

@@ -107,19 +107,25 @@ static int anchor(Mooring *m, double angle, double radius) {
 }
 
 static void make_leg(Mooring *m) {
-    const int buoy = add_buoy(m, uniform(0.1, 1) * m->size, 0, uniform(-0.8, 0.3) * m->depth);
-    add_line(m, anchor(m, uniform(2, 4), uniform(0.1, 1) * m->size), buoy, uniform(0.7, 1.6),
-             whole(1, 30));
+    const double z = uniform(-0.8, 0.3) * m->depth;
+    const int buoy = add_buoy(m, uniform(0.1, 1) * m->size, 0, z);
+    const int elements = whole(1, 30);
+    const double longer = uniform(0.7, 1.6), radius = uniform(0.1, 1) * m->size;
+    add_line(m, anchor(m, uniform(2, 4), radius), buoy, longer, elements);
     for (int a = 0; a < 2; a++) m->point[buoy].force[a] = uniform(-0.5, 0.5) * m->weight * m->size;
 }
 
 static void make_spread(Mooring *m) {
     const int legs = whole(2, 5);
-    const int buoy = add_buoy(m, uniform(-0.3, 0.3) * m->size, uniform(-0.3, 0.3) * m->size,
-                              uniform(-0.9, 0.1) * m->depth);
-    for (int k = 0; k < legs; k++)
-        add_line(m, anchor(m, 6.28 * k / legs + uniform(-0.3, 0.3), uniform(0.5, 1.2) * m->size),
-                 buoy, uniform(0.9, 2.2), whole(1, 25));
+    const double z = uniform(-0.9, 0.1) * m->depth, y = uniform(-0.3, 0.3) * m->size,
+                 x = uniform(-0.3, 0.3) * m->size;
+    const int buoy = add_buoy(m, x, y, z);
+    for (int k = 0; k < legs; k++) {
+        const int elements = whole(1, 25);
+        const double longer = uniform(0.9, 2.2), radius = uniform(0.5, 1.2) * m->size,
+                     angle = 6.28 * k / legs + uniform(-0.3, 0.3);
+        add_line(m, anchor(m, angle, radius), buoy, longer, elements);
+    }
 }
 
 /* Buoys one after the other between two anchors. */
@@ -128,10 +134,11 @@ static void make_string(Mooring *m) {
     int from = anchor(m, 3.1416, m->size);
     for (int k = 1; k <= pieces; k++) {
         const double x = m->size * (2.0 * k / pieces - 1);
+        const double z = k < pieces ? uniform(-0.7, 0.1) * m->depth : 0;
         const int to =
-            k < pieces ? add_buoy(m, x, uniform(-0.1, 0.1) * m->size, uniform(-0.7, 0.1) * m->depth)
-                       : anchor(m, 0, m->size);
-        add_line(m, from, to, uniform(0.95, 1.5), whole(1, 20));
+            k < pieces ? add_buoy(m, x, uniform(-0.1, 0.1) * m->size, z) : anchor(m, 0, m->size);
+        const int elements = whole(1, 20);
+        add_line(m, from, to, uniform(0.95, 1.5), elements);
         from = to;
     }
 }
@@ -153,7 +160,8 @@ static void make_beach(Mooring *m) {
         const double angle = uniform(2, 4.3), radius = uniform(0.5, 1.2) * m->size;
         const int foot =
             add_anchor(m, radius * cos(angle), radius * sin(angle), slope * radius * cos(angle));
-        add_line(m, foot, buoy, uniform(0.95, 1.6), whole(1, 20));
+        const int elements = whole(1, 20);
+        add_line(m, foot, buoy, uniform(0.95, 1.6), elements);
     }
     m->point[buoy].force[0] = uniform(0, 1) * m->weight * m->size;
 }

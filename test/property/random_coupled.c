@@ -183,12 +183,14 @@ static void make(Coupled *c, uint64_t seed) {
     c->bed.friction = chance(0.2) ? 0 : uniform(0.1, 1);
     c->scene.obstacle = &c->bed;
     c->scene.obstacle_count = chance(0.8);
-    c->loads.drag = (CpsDrag){.diameter = uniform(0.01, 0.1),
-                              .normal = uniform(0.5, 2),
-                              .tangential = uniform(0, 0.1),
-                              .added_normal = uniform(0, 1),
-                              .added_tangential = uniform(0, 0.2)};
-    c->row = (CpsCurrentRow){.velocity = {uniform(-0.5, 0.5), uniform(-0.5, 0.5), 0}};
+    CpsDrag *drag = &c->loads.drag;
+    drag->diameter = uniform(0.01, 0.1);
+    drag->normal = uniform(0.5, 2);
+    drag->tangential = uniform(0, 0.1);
+    drag->added_normal = uniform(0, 1);
+    drag->added_tangential = uniform(0, 0.2);
+    c->row = (CpsCurrentRow){.z = 0};
+    for (int a = 0; a < 2; a++) c->row.velocity[a] = uniform(-0.5, 0.5);
     c->current = (CpsCurrent){.density = DENSITY, .row_count = 1, .row = &c->row};
     if (c->has_drag) c->scene.current = &c->current;
     make_points(c);

@@ -150,10 +150,12 @@ Sample random_primitive(int n, bool bounded) {
     case 7:
         DO(cps_set_half_space(n, b, dot(n, b, inside) + uniform(0.1, 1), &sample.set, &err));
         break;
-    case 8:
-        DO(cps_set_strip(n, b, dot(n, b, inside) - uniform(0.1, 1),
-                         dot(n, b, inside) + uniform(0.1, 1), &sample.set, &err));
+    case 8: {
+        const double most = dot(n, b, inside) + uniform(0.1, 1),
+                     least = dot(n, b, inside) - uniform(0.1, 1);
+        DO(cps_set_strip(n, b, least, most, &sample.set, &err));
         break;
+    }
     default: /* the sum of its rays lies inside a cone */
         memset(inside, 0, (size_t)n * sizeof *inside);
         if (kind == 9)
@@ -270,7 +272,7 @@ Sample random_expression(int n, int depth, bool bounded) {
         return out;
     default: {
         out = random_expression(n, depth - 1, bounded);
-        const double factor = uniform(0.3, 2) * (below(2) ? 1 : -1);
+        const double size = uniform(0.3, 2), factor = below(2) ? size : -size;
         part = out.set;
         DO(cps_set_scale(factor, part, &out.set, &err));
         cps_set_release(part);

@@ -135,7 +135,9 @@ static void carry(const Case *c, const Integer *v, Integer *u) {
 }
 
 static void make_case(Case *c) {
-    *c = (Case){.n = 1 + below(MOST_N), .drive = 1 + below(2), .space = 2 + below(2)};
+    *c = (Case){.n = 1 + below(MOST_N)};
+    c->drive = 1 + below(2);
+    c->space = 2 + below(2);
     c->rows = c->drive + below(2);
     for (int i = 0; i < c->rows; i++)
         for (int j = 0; j < c->n; j++) c->row[i][j] = below(3) ? digit(2) : 0;

@@ -199,14 +199,17 @@ static void make(Graph *g, uint64_t seed) {
     const int held = whole(3, HELD), knots = whole(1, FREE);
     make_held(g, held);
     for (int k = 0; k < knots; k++) {
-        const int knot = add_point(g, CPS_POINT_KIND_FREE, uniform(-0.3, 0.3) * g->size,
-                                   uniform(-0.3, 0.3) * g->size, uniform(0.01, 0.4) * g->size);
+        const double z = uniform(0.01, 0.4) * g->size, y = uniform(-0.3, 0.3) * g->size,
+                     x = uniform(-0.3, 0.3) * g->size;
+        const int knot = add_point(g, CPS_POINT_KIND_FREE, x, y, z);
         if (chance(0.6)) g->point[knot].weight = uniform(0, 1.5) * g->weight * g->size;
         for (int j = 0; j < k; j++)
             if (j == k - 1 || chance(0.3)) add_line(g, held + j, knot, uniform(0.95, 1.2));
     }
-    for (int i = 0; i < held; i++) add_line(g, i, held + whole(0, knots - 1), uniform(0.95, 1.15));
-    add_line(g, g->target, held + whole(0, knots - 1), uniform(0.95, 1.15));
+    for (int i = 0; i <= held; i++) {
+        const double longer = uniform(0.95, 1.15);
+        add_line(g, i < held ? i : g->target, held + whole(0, knots - 1), longer);
+    }
     g->scene.line = g->line;
     g->scene.point = g->point;
     g->scene.solver.max_halvings = 0; /* the step is one substep, or it is not compared */

@@ -101,11 +101,15 @@ static int anchor(Graph *g, double angle, double height) {
 
 static void make_star(Graph *g) {
     const int lines = whole(2, 6);
-    const int knot = add_point(g, CPS_POINT_KIND_FREE, uniform(-0.3, 0.3) * g->size,
-                               uniform(-0.3, 0.3) * g->size, uniform(0.1, 1) * g->size);
-    for (int k = 0; k < lines; k++)
-        add_line(g, anchor(g, 6.28 * k / lines + uniform(-0.3, 0.3), uniform(-0.3, 1) * g->size),
-                 knot, uniform(0.95, 1.6), whole(3, 30));
+    const double z = uniform(0.1, 1) * g->size, y = uniform(-0.3, 0.3) * g->size,
+                 x = uniform(-0.3, 0.3) * g->size;
+    const int knot = add_point(g, CPS_POINT_KIND_FREE, x, y, z);
+    for (int k = 0; k < lines; k++) {
+        const int elements = whole(3, 30);
+        const double longer = uniform(0.95, 1.6), height = uniform(-0.3, 1) * g->size,
+                     angle = 6.28 * k / lines + uniform(-0.3, 0.3);
+        add_line(g, anchor(g, angle, height), knot, longer, elements);
+    }
     if (chance(0.5)) g->point[knot].weight = uniform(-2, 1) * g->weight * g->size;
 }
 
@@ -114,15 +118,17 @@ static void make_tree(Graph *g) {
     const int first = anchor(g, 0, g->size);
     for (int k = 0; k < knots; k++) {
         const int from = k == 0 ? first : whole(0, 1) ? first + k : whole(first, first + k);
-        const double *x = g->point[from].position;
-        const int to =
-            add_point(g, CPS_POINT_KIND_FREE, x[0] + uniform(-0.6, 0.6) * g->size,
-                      x[1] + uniform(-0.6, 0.6) * g->size, x[2] + uniform(-0.8, 0.3) * g->size);
-        add_line(g, from, to, uniform(1, 1.3), whole(2, 20));
+        const double *at = g->point[from].position, z = at[2] + uniform(-0.8, 0.3) * g->size,
+                     y = at[1] + uniform(-0.6, 0.6) * g->size,
+                     x = at[0] + uniform(-0.6, 0.6) * g->size;
+        const int to = add_point(g, CPS_POINT_KIND_FREE, x, y, z), elements = whole(2, 20);
+        add_line(g, from, to, uniform(1, 1.3), elements);
         if (chance(0.3)) g->point[to].weight = uniform(-0.5, 1) * g->weight * g->size;
-        if (chance(0.3))
-            add_line(g, anchor(g, uniform(-3, 3), uniform(0, 1) * g->size), to, uniform(1, 1.5),
-                     whole(2, 20));
+        if (chance(0.3)) {
+            const int pieces = whole(2, 20);
+            const double longer = uniform(1, 1.5), height = uniform(0, 1) * g->size;
+            add_line(g, anchor(g, uniform(-3, 3), height), to, longer, pieces);
+        }
     }
 }
 
@@ -133,12 +139,23 @@ static void make_ring(Graph *g) {
         add_point(g, CPS_POINT_KIND_FREE, 0.5 * g->size * cos(angle), 0.5 * g->size * sin(angle),
                   uniform(0.3, 0.8) * g->size);
     }
-    for (int k = 0; k < knots; k++)
-        add_line(g, first + k, first + (k + 1) % knots, uniform(0.9, 1.4), whole(1, 10));
+    for (int k = 0; k < knots; k++) {
+        const int elements = whole(1, 10);
+        add_line(g, first + k, first + (k + 1) % knots, uniform(0.9, 1.4), elements);
+    }
     const int held = whole(2, 4);
-    for (int k = 0; k < held; k++)
-        add_line(g, anchor(g, 6.28 * k / held, uniform(0.5, 1.5) * g->size),
-                 first + k * knots / held, uniform(0.95, 1.4), whole(2, 20));
+    for (int k = 0; k < held; k++) {
+        const int elements = whole(2, 20);
+        const double longer = uniform(0.95, 1.4), height = uniform(0.5, 1.5) * g->size;
+        add_line(g, anchor(g, 6.28 * k / held, height), first + k * knots / held, longer, elements);
+    }
+}
+
+/* A line of a net, of 1 to `pieces` elements: `slack` x 0.98 .. most times as long as the distance.
+ */
+static void add_cord(Graph *g, int from, int to, double slack, double most, int pieces) {
+    const int elements = whole(1, pieces);
+    add_line(g, from, to, slack * uniform(0.98, most), elements);
 }
 
 static void make_net(Graph *g) {
@@ -152,8 +169,8 @@ static void make_net(Graph *g) {
     for (int i = 0; i < a; i++)
         for (int j = 0; j < b; j++) {
             const int at = first + i * b + j;
-            if (i + 1 < a) add_line(g, at, at + b, uniform(0.98, 1.2), whole(1, 3));
-            if (j + 1 < b) add_line(g, at, at + 1, uniform(0.98, 1.2), whole(1, 3));
+            if (i + 1 < a) add_cord(g, at, at + b, 1, 1.2, 3);
+            if (j + 1 < b) add_cord(g, at, at + 1, 1, 1.2, 3);
         }
 }
 
@@ -166,7 +183,8 @@ static void make_clumps(Graph *g) {
         const int to = add_point(g, k < pieces ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_HELD, x,
                                  uniform(-0.1, 0.1) * g->size, k < pieces ? 0 : 0.4 * g->size);
         if (k < pieces) g->point[to].weight = uniform(0, 2) * g->weight * g->size;
-        add_line(g, from, to, uniform(1, 1.15), whole(3, 25));
+        const int elements = whole(3, 25);
+        add_line(g, from, to, uniform(1, 1.15), elements);
         from = to;
     }
 }
@@ -204,16 +222,18 @@ static void make_wide(Graph *g) {
     for (int i = 0; i <= a; i++)
         for (int j = 0; j <= b; j++) {
             const int at = first + i * (b + 1) + j;
-            if (i < a) add_line(g, at, at + b + 1, slack * uniform(0.98, 1.1), whole(1, pieces));
-            if (j < b) add_line(g, at, at + 1, slack * uniform(0.98, 1.1), whole(1, pieces));
+            if (i < a) add_cord(g, at, at + b + 1, slack, 1.1, pieces);
+            if (j < b) add_cord(g, at, at + 1, slack, 1.1, pieces);
         }
     if (g->scene.obstacle_count > 0 || chance(0.3)) return;
     const double apart = 0.3 * mesh * hypot(a, b);
-    add_ball(g, "ball", 0.5 * mesh * a, 0.5 * mesh * b, uniform(0, 0.25) * g->size,
-             fmax(1.05 * mesh, uniform(0.2, 0.5) * apart));
-    for (int k = 0; k < PEGS; k++)
+    const double most = fmax(1.05 * mesh, uniform(0.2, 0.5) * apart);
+    add_ball(g, "ball", 0.5 * mesh * a, 0.5 * mesh * b, uniform(0, 0.25) * g->size, most);
+    for (int k = 0; k < PEGS; k++) {
+        const double radius = fmax(1.05 * mesh, uniform(0.05, 0.35) * apart);
         add_ball(g, PEG[k], (k % 2 ? 0.2 : 0.8) * mesh * a, (k / 2 ? 0.2 : 0.8) * mesh * b,
-                 uniform(0, 0.2) * g->size, fmax(1.05 * mesh, uniform(0.05, 0.35) * apart));
+                 uniform(0, 0.2) * g->size, radius);
+    }
 }
 
 static void make_any(Graph *g) {

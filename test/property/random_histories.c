@@ -76,8 +76,8 @@ static void stage(Rig *rig, double from[3], double length, double force, int pip
         for (int a = 0; a < 3; a++) from[a] += uniform(0.2, 0.6) * (to[a] - from[a]);
         rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, from[0], from[1], from[2]);
     } else if (what < 0.8 || pipe < 0) {
-        rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, force * uniform(0, 1),
-                   force * uniform(-0.5, 0.5), force * uniform(0, 0.5));
+        const double z = force * uniform(0, 0.5), y = force * uniform(-0.5, 0.5);
+        rig_change(rig, CPS_END_B, CPS_END_KIND_FREE, force * uniform(0, 1), y, z);
     } else {
         rig_turn(rig, pipe, uniform(-0.3, 0.3));
     }
@@ -90,8 +90,8 @@ static void wound(Rig *rig) {
     const double angle = uniform(0.5, 9), d = angle / n, pitch = uniform(0, 0.05),
                  chord = hypot(2 * sin(d / 2), pitch);
     const double pull = decades(-1, 4);
-    rig_begin(rig, n + 2 * lead, chance(0.5) ? 0 : pull * decades(-3, 0),
-              chance(0.3) ? INFINITY : pull * decades(2, 6));
+    const double stiffness = chance(0.3) ? INFINITY : pull * decades(2, 6);
+    rig_begin(rig, n + 2 * lead, chance(0.5) ? 0 : pull * decades(-3, 0), stiffness);
     CpsObstacle *drum = rig_obstacle(rig, CPS_OBSTACLE_CYLINDER, 0);
     add_friction(drum);
     double x[3] = {0};
@@ -114,13 +114,14 @@ static void wound(Rig *rig) {
         const double out = fmax(1, 1.001 / hypot(x[0], x[2]));
         x[0] *= out;
         x[2] *= out;
-        if (what < 0.2)
+        if (what < 0.2) {
             rig_change(rig, CPS_END_B, CPS_END_KIND_HELD, x[0], x[1], x[2]);
-        else if (what < 0.5)
-            rig_change(rig, CPS_END_A, CPS_END_KIND_FREE, -pull * uniform(0.3, 3),
-                       pull * uniform(-0.1, 0.1), pull * uniform(-0.2, 0.2));
-        else
+        } else if (what < 0.5) {
+            const double up = pull * uniform(-0.2, 0.2), across = pull * uniform(-0.1, 0.1);
+            rig_change(rig, CPS_END_A, CPS_END_KIND_FREE, -pull * uniform(0.3, 3), across, up);
+        } else {
             rig_turn(rig, 0, uniform(-0.5, 0.5));
+        }
     }
 }
 
@@ -132,8 +133,8 @@ static void make(Rig *rig, uint64_t seed) {
     }
     const double length = decades(0.7, 2.7), weight = decades(-1, 3), heavy = length * weight;
     const bool inextensible = chance(0.2);
-    rig_begin(rig, 20 + (int)uniform(0, 80), weight,
-              inextensible ? INFINITY : heavy * decades(1, 6));
+    const double stiffness = inextensible ? INFINITY : heavy * decades(1, 6);
+    rig_begin(rig, 20 + (int)uniform(0, 80), weight, stiffness);
     rig_length(rig, length);
     rig->line.start.kind = CPS_START_STATIC;
     double at[3];

@@ -105,7 +105,8 @@ static CpsLaw *random_law(int n, int depth);
 
 static CpsLaw *random_product(int n, int depth) {
     const int first = 1 + below(n - 1);
-    CpsLaw *part[2] = {random_law(first, depth - 1), random_law(n - first, depth - 1)}, *law = NULL;
+    CpsLaw *part[2] = {random_law(first, depth - 1)}, *law = NULL;
+    part[1] = random_law(n - first, depth - 1);
     DO(cps_law_product(2, (const CpsLaw *const *)part, &law, &err));
     double velocity[MAX_SPACE];
     CpsSetAnswer whole, one, two;

@@ -94,7 +94,8 @@ static void make_obstacles(Live *live) {
     o->axis[1] = 0;
     o->axis[chance(0.6) ? 2 : 0] = 1;
     o->point[0] = uniform(1, 5);
-    o->point[1] = (o->radius + uniform(0.05, 0.4)) * (chance(0.5) ? 1 : -1);
+    o->point[1] = o->radius + uniform(0.05, 0.4);
+    if (!chance(0.5)) o->point[1] *= -1;
     o->point[2] = o->axis[2] == 1 ? 0 : uniform(0.2, 0.8);
 }
 

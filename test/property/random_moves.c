@@ -111,8 +111,8 @@ static CpsStatus move_along(CpsEvolution *evolution, Course *course, int part) {
 /* One end of one line goes somewhere else, by so many lengths, or is pulled by another force. */
 static CpsStatus wander(CpsEvolution *evolution, const RandomScene *random, double lengths,
                         uint64_t *state) {
-    CpsChange change = {.line = (int)splitmix(state, 0, random->scene.line_count),
-                        .end = splitmix(state, 0, 1) < 0.5};
+    CpsChange change = {.line = (int)splitmix(state, 0, random->scene.line_count)};
+    change.end = splitmix(state, 0, 1) < 0.5;
     const CpsLine *line = &random->line[change.line];
     CpsEndKind kind = cps_evolution_line_view(evolution, change.line).end[change.end].kind;
     if (lengths > 1 || splitmix(state, 0, 1) < 0.3) kind = CPS_END_KIND_HELD;

@@ -35,11 +35,10 @@ int main(int argc, char **argv) {
         uint64_t state = seed + (uint64_t)k;
         const double drawn = splitmix(&state, log(RANDOM_PROGRAM_LEAST), log(401));
         const int unknowns = size > 0 ? size : (int)exp(drawn);
-        const RandomProgramKind kind = {.unknowns = unknowns,
-                                        .banded = splitmix(&state, 0, 1) < 0.5 || size > 0,
-                                        .loose = splitmix(&state, 0, 3) < 1 ? 1 + unknowns / 50 : 0,
-                                        .repeated =
-                                            splitmix(&state, 0, 3) < 1 ? 1 + unknowns / 20 : 0};
+        RandomProgramKind kind = {.unknowns = unknowns};
+        kind.banded = splitmix(&state, 0, 1) < 0.5 || size > 0;
+        kind.loose = splitmix(&state, 0, 3) < 1 ? 1 + unknowns / 50 : 0;
+        kind.repeated = splitmix(&state, 0, 3) < 1 ? 1 + unknowns / 20 : 0;
         RandomProgram made = random_program_new(&kind, seed + (uint64_t)k);
         CpsiSparseProgram *program = NULL;
         CpsError err;

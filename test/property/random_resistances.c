@@ -128,7 +128,8 @@ static void random_map(int n, double *map, double *inverse) {
     double work[MOST_SPACE][2 * MOST_SPACE];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            map[i * n + j] = uniform(-1, 1) * 0.7 / n + (i == j ? uniform(0.8, 1.5) : 0);
+            map[i * n + j] = uniform(-1, 1) * 0.7 / n;
+            if (i == j) map[i * n + j] += uniform(0.8, 1.5);
             work[i][j] = map[i * n + j];
             work[i][n + j] = i == j;
         }
@@ -305,10 +306,10 @@ static CpsResistance *random_term(int n, Term *t) {
     CpsResistance *out = NULL;
     CpsLaw *law = NULL;
     CpsSet *set = NULL;
-    *t = (Term){.kind = (TermKind)below(TERMS),
-                .degree = uniform(1.1, 6),
-                .factor = exp(uniform(-3, 3)),
-                .width = uniform(0.5, 5)};
+    *t = (Term){.kind = (TermKind)below(TERMS)};
+    t->degree = uniform(1.1, 6);
+    t->factor = exp(uniform(-3, 3));
+    t->width = uniform(0.5, 5);
     if (t->kind == VISCOUS) {
         random_definite(n, t->factor, t->matrix);
         need(cps_resistance_viscous(n, t->matrix, &out, &err), &err, "viscous");
@@ -345,10 +346,8 @@ static CpsResistance *random_term(int n, Term *t) {
 static void make_case(Case *c) {
     CpsResistance *part[MOST_TERMS] = {NULL};
     CpsError err;
-    *c = (Case){.n = 1 + below(MOST_SPACE),
-                .count = 1 + below(1 + below(MOST_TERMS)),
-                .bounded = true,
-                .one = true};
+    *c = (Case){.n = 1 + below(MOST_SPACE), .bounded = true, .one = true};
+    c->count = 1 + below(1 + below(MOST_TERMS));
     for (int i = 0; i < c->count; i++) {
         Term *t = &c->term[i];
         part[i] = random_term(c->n, t);

@@ -166,8 +166,8 @@ static void start_any(Maker *maker) {
         maker->foot[2] = random_uniform(random, 0, 0.3) * maker->length;
     double kind = random_uniform(random, 0, 1);
     if (kind < 0.35) {
-        start_straight(maker, random_uniform(random, 0, 6.283),
-                       random_chance(random, 0.6) ? 0 : random_uniform(random, 0, 1.4));
+        double climb = random_chance(random, 0.6) ? 0 : random_uniform(random, 0, 1.4);
+        start_straight(maker, random_uniform(random, 0, 6.283), climb);
     } else if (kind < 0.7) {
         start_polyline(maker, random_chance(random, 0.5) ? 0 : random_uniform(random, 0.1, 0.8));
     } else {
@@ -262,8 +262,9 @@ static void make_slope(Maker *maker) {
 /* an end pushed back: only a part of the line moves, the rest rests without tension */
 static void make_slack(Maker *maker) {
     Random *random = &maker->random;
-    maker_begin(maker, random_chance(random, 0.6) ? 0 : random_uniform(random, 0, 0.2),
-                random_uniform(random, 0.25, 1), true);
+    const double friction = random_uniform(random, 0.25, 1);
+    maker_begin(maker, random_chance(random, 0.6) ? 0 : random_uniform(random, 0, 0.2), friction,
+                true);
     maker_begin_line(maker, 0);
     double angle = random_uniform(random, 0, 6.283), back = random_uniform(random, 0.02, 0.7),
            value[3];
@@ -295,7 +296,8 @@ static void make_fully_slack(Maker *maker) {
     maker_begin(maker, 0, kind == 0 || kind == 1 ? 0 : random_uniform(random, 0, 1), true);
     maker_begin_line(maker, 0);
     if (kind == 2) {
-        start_straight(maker, random_uniform(random, 0, 6.283), random_uniform(random, 0.1, 1.2));
+        double climb = random_uniform(random, 0.1, 1.2);
+        start_straight(maker, random_uniform(random, 0, 6.283), climb);
     } else if (kind == 1) {
         start_polyline(maker, 0);
     } else {
@@ -319,8 +321,9 @@ static void make_fully_slack(Maker *maker) {
 static void make_long_history(Maker *maker) {
     Random *random = &maker->random;
     int stages = random_below(random, 2) ? 20 : 4;
-    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.4),
-                random_uniform(random, 0, 1), true);
+    const double friction = random_uniform(random, 0, 1);
+    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.4), friction,
+                true);
     maker_begin_line(maker, 0);
     start_any(maker);
     for (int s = 0; s < stages; s++) {
@@ -337,16 +340,18 @@ static void make_long_history(Maker *maker) {
 /* both ends held and moved, from a bent shape or laid by statics; sometimes let go */
 static void make_imposed(Maker *maker) {
     Random *random = &maker->random;
-    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.5),
-                random_uniform(random, 0, 1), true);
+    const double friction = random_uniform(random, 0, 1);
+    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.5), friction,
+                true);
     maker_begin_line(maker, 0);
     CpsLine *line = maker_line(maker);
     line->end[CPS_END_B] = line->end[CPS_END_A]; // held where the start puts it
     if (random_chance(random, 0.5)) {
         start_polyline(maker, random_chance(random, 0.5) ? 0 : 0.5);
     } else {
-        double local[3] = {maker->foot[0] + random_uniform(random, 0.2, 0.8) * maker->length,
-                           maker->foot[1], random_uniform(random, 0, 0.5) * maker->length};
+        double along = random_uniform(random, 0.2, 0.8) * maker->length,
+               up = random_uniform(random, 0, 0.5) * maker->length,
+               local[3] = {maker->foot[0] + along, maker->foot[1], up};
         line->start.kind = CPS_START_STATIC;
         line->end[CPS_END_A].kind = line->end[CPS_END_B].kind = CPS_END_KIND_HELD;
         maker_place(&maker->frame, maker->foot, line->end[CPS_END_A].value);
@@ -367,8 +372,9 @@ static void make_imposed(Maker *maker) {
 /* inextensible, end B brought to length * (1 + excess) from A, from a straight or a bent start */
 static void make_stretched(Maker *maker, double excess, bool obstacle) {
     Random *random = &maker->random;
-    maker_begin(maker, random_chance(random, 0.6) ? 0 : random_uniform(random, 0, 0.5),
-                random_uniform(random, 0, 1), obstacle);
+    const double friction = random_uniform(random, 0, 1);
+    maker_begin(maker, random_chance(random, 0.6) ? 0 : random_uniform(random, 0, 0.5), friction,
+                obstacle);
     maker_begin_line(maker, 0);
     CpsLine *line = maker_line(maker);
     line->end[CPS_END_B] = line->end[CPS_END_A];
@@ -409,8 +415,9 @@ static void make_graded(Maker *maker) {
 static void make_several(Maker *maker) {
     Random *random = &maker->random;
     int lines = 2 + random_below(random, SCENE_LINES - 1);
-    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.5),
-                random_uniform(random, 0, 1), true);
+    const double friction = random_uniform(random, 0, 1);
+    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.5), friction,
+                true);
     int stages = 1 + random_below(random, 3);
     for (int i = 0; i < lines; i++) {
         maker_begin_line(maker, 0);
@@ -546,9 +553,11 @@ void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
     case SCENE_FULLY_SLACK: make_fully_slack(&maker); break;
     case SCENE_LONG_HISTORY: make_long_history(&maker); break;
     case SCENE_IMPOSED: make_imposed(&maker); break;
-    case SCENE_NEAR_FULL:
-        make_stretched(&maker, -random_decades(random, -9, -3), random_chance(random, 0.6));
+    case SCENE_NEAR_FULL: {
+        const bool obstacle = random_chance(random, 0.6);
+        make_stretched(&maker, -random_decades(random, -9, -3), obstacle);
         break;
+    }
     case SCENE_GRADED: make_graded(&maker); break;
     case SCENE_FEW:
         maker_common(&maker, 1 + random_below(random, 3));
@@ -556,10 +565,12 @@ void random_scene_make(int class_index, uint64_t seed, RandomScene *out) {
         break;
     case SCENE_SEVERAL: make_several(&maker); break;
     case SCENE_HANGING: make_hanging(&maker); break;
-    case SCENE_INFEASIBLE:
-        make_stretched(&maker, random_decades(random, -9, 0), random_chance(random, 0.6));
+    case SCENE_INFEASIBLE: {
+        const bool obstacle = random_chance(random, 0.6);
+        make_stretched(&maker, random_decades(random, -9, 0), obstacle);
         out->expected = CPS_OUTCOME_INFEASIBLE;
         break;
+    }
     case SCENE_UNBOUNDED: make_unbounded(&maker); break;
     case SCENE_TAUT:
         make_stretched(&maker, 0, random_chance(random, 0.6));

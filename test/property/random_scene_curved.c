@@ -184,17 +184,19 @@ static void make_pipe(Maker *maker) {
     CpsLine *line = maker_line(maker);
     line->start.kind = CPS_START_STATIC;
     line->end[CPS_END_B] = line->end[CPS_END_A];
-    double a[3] = {-r * random_uniform(random, 1.3, 4), 0, r * random_uniform(random, 0.1, 0.6)};
-    double b[3] = {r * random_uniform(random, 1.3, 4), 0, r * random_uniform(random, 0.1, 0.6)};
+    double a[3] = {-r * random_uniform(random, 1.3, 4)};
+    a[2] = r * random_uniform(random, 0.1, 0.6);
+    double b[3] = {r * random_uniform(random, 1.3, 4)};
+    b[2] = r * random_uniform(random, 0.1, 0.6);
     line->end[CPS_END_A].kind = line->end[CPS_END_B].kind = CPS_END_KIND_HELD;
     maker_place(&maker->frame, a, line->end[CPS_END_A].value);
     maker_place(&maker->frame, b, line->end[CPS_END_B].value);
     double longest = path_over(r, a[0], a[2], b[0], b[2]);
     const int stages = 1 + random_below(random, 3);
     for (int s = 0; s < stages; s++) {
-        double to[3] = {r * random_uniform(random, 1.3, 4), r * random_uniform(random, -0.5, 0.5),
-                        r * random_uniform(random, -2, 0.6)};
-        double value[3];
+        double to[3] = {r * random_uniform(random, 1.3, 4)}, value[3];
+        to[1] = r * random_uniform(random, -0.5, 0.5);
+        to[2] = r * random_uniform(random, -2, 0.6);
         longest = fmax(longest, hypot(to[1], path_over(r, a[0], a[2], to[0], to[2])));
         maker_place(&maker->frame, to, value);
         maker_stage(maker, 2 + random_below(random, 6));
@@ -223,8 +225,9 @@ static void make_two(Maker *maker) {
     CpsLine *line = maker_line(maker);
     line->start.kind = CPS_START_STATIC;
     line->end[CPS_END_B] = line->end[CPS_END_A];
-    const double a[3] = {-r * random_uniform(random, 2, 6), 0, 0},
-                 b[3] = {r * random_uniform(random, 2, 6), 0, r * random_uniform(random, 0, 1.5)};
+    const double a[3] = {-r * random_uniform(random, 2, 6), 0, 0};
+    double b[3] = {r * random_uniform(random, 2, 6)};
+    b[2] = r * random_uniform(random, 0, 1.5);
     line->end[CPS_END_A].kind = line->end[CPS_END_B].kind = CPS_END_KIND_HELD;
     maker_place(&maker->frame, a, line->end[CPS_END_A].value);
     maker_place(&maker->frame, b, line->end[CPS_END_B].value);
@@ -232,9 +235,8 @@ static void make_two(Maker *maker) {
     const int stages = 1 + random_below(random, 3);
     for (int s = 0; s < stages; s++) {
         const double away = ball ? 0 : r * random_uniform(random, -0.3, 0.3);
-        const double to[3] = {b[0] + r * random_uniform(random, -0.1, 0.3), away,
-                              r * random_uniform(random, 0, 1.5)};
-        double value[3];
+        double to[3] = {b[0] + r * random_uniform(random, -0.1, 0.3), away}, value[3];
+        to[2] = r * random_uniform(random, 0, 1.5);
         longest = fmax(longest, hypot(path_over(r, a[0], buried, to[0], to[2] + buried), to[1]));
         maker_place(&maker->frame, to, value);
         maker_stage(maker, 2 + random_below(random, 6));
@@ -256,8 +258,9 @@ static void make_wild(Maker *maker, bool box, bool grain) {
 /* Along an arc, pulled at B within a third of a right angle of its tangent, in a few steps. */
 static void make_directions(Maker *maker, bool box) {
     Random *random = &maker->random;
-    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.2),
-                random_uniform(random, 0.1, 0.8), true);
+    const double friction = random_uniform(random, 0.1, 0.8);
+    maker_begin(maker, random_chance(random, 0.7) ? 0 : random_uniform(random, 0, 0.2), friction,
+                true);
     maker_begin_line(maker, 10 + random_below(random, SCENE_ELEMENTS - 9));
     maker_any_stiffness(maker);
     CpsLine *line = maker_line(maker);

@@ -39,8 +39,8 @@ static void add_point_weights(Maker *maker, CpsLine *line, CpsPointWeight *point
         node += random_below(random, line->element_count - node);
         point[k] = (CpsPointWeight){0};
         for (int e = 0; e < node; e++) point[k].arc_length += element_length(line, e);
-        point[k].weight = line->weight * line->length * random_decades(random, -3, -0.5) *
-                          (random_chance(random, 0.4) ? -1 : 1);
+        point[k].weight = line->weight * line->length * random_decades(random, -3, -0.5);
+        if (random_chance(random, 0.4)) point[k].weight *= -1;
     }
     line->point_weight = point;
     line->point_weight_count = count;

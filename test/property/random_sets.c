@@ -94,7 +94,8 @@ static bool direction(const Sample *sample, double *w, double *x, CpsSetAnswer *
     fill(n, 1, w);
     if (below(2)) {
         memset(w, 0, (size_t)n * sizeof *w);
-        w[below(n)] = below(2) ? 1 : -1;
+        const int sign = below(2) ? 1 : -1;
+        w[below(n)] = sign;
     }
     DO(cps_set_support(sample->set, w, x, h, &err));
     if (h->outcome != CPS_SET_OUTCOME_UNBOUNDED) return true;
@@ -133,7 +134,8 @@ static CpsSet *through_form(const CpsSet *set) {
 /* ---- support ---- */
 
 static Result case_form(int n) {
-    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(2));
+    const bool bounded = below(2);
+    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), bounded);
     CpsSet *form = through_form(sample.set);
     CpsSetAnswer a, b;
     double w[MAX_SPACE], x[MAX_SPACE];
@@ -150,7 +152,8 @@ static Result case_form(int n) {
 }
 
 static Result case_sum(int n) {
-    const Sample one = random_expression(n, below(MAX_DEPTH), below(2)),
+    const bool bounded = below(2);
+    const Sample one = random_expression(n, below(MAX_DEPTH), bounded),
                  two = random_expression(n, below(MAX_DEPTH), true);
     CpsSet *set, *form;
     CpsSetAnswer a, b, c;
@@ -220,7 +223,8 @@ static Result attains(const CpsSet *set, const CpsSet *face, const double *w, do
 }
 
 static Result case_face(int n) {
-    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(4) > 0);
+    const bool bounded = below(4) > 0;
+    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), bounded);
     CpsSet *face = NULL;
     CpsSetAnswer h, answer;
     double w[MAX_SPACE], x[MAX_SPACE];
@@ -237,7 +241,8 @@ static Result case_face(int n) {
 }
 
 static Result case_facet(int n) {
-    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(4) > 0);
+    const bool bounded = below(4) > 0;
+    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), bounded);
     CpsSet *face = NULL, *second = NULL;
     CpsSetAnswer h, one, two;
     double w[MAX_SPACE], u[MAX_SPACE], x[MAX_SPACE];
@@ -391,7 +396,8 @@ static Result case_moreau(int n) {
 }
 
 static Result case_project(int n) {
-    const Sample sample = random_expression(n, below(MAX_DEPTH + 1), below(2));
+    const bool bounded = below(2);
+    const Sample sample = random_expression(n, below(MAX_DEPTH + 1), bounded);
     double p[MAX_SPACE], nearest[MAX_SPACE], w[MAX_SPACE];
     CpsSetAnswer answer, h;
     fill(n, 4, p);
@@ -412,7 +418,8 @@ static Result case_project(int n) {
 }
 
 static Result case_cone(int n) {
-    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), below(4) > 0);
+    const bool bounded = below(4) > 0;
+    const Sample sample = random_expression(n, 1 + below(MAX_DEPTH), bounded);
     CpsSet *cone = NULL;
     CpsSetAnswer h, answer;
     CpsSetFacts facts;
@@ -496,7 +503,8 @@ static Result case_preimage(int n) {
     if (rows)
         second = rows_times_map(n, m, map, shift, &part.set);
     else {
-        part = random_expression(m, below(MAX_DEPTH), below(2));
+        const bool bounded = below(2);
+        part = random_expression(m, below(MAX_DEPTH), bounded);
         second = eliminated(n, m, map, shift, part.set);
     }
     /* w = L'u is bounded where u is */

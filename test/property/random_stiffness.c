@@ -136,15 +136,17 @@ static void make_line(Mooring *m) {
     line->stiffness = uniform(0, 1) < 0.15 ? INFINITY : tension * pow(10, uniform(0.5, 5));
     if (uniform(0, 1) < 0.3) {
         const double first = line->length / ELEMENTS * floor(uniform(10, ELEMENTS - 10));
-        for (int k = 0; k < 2; k++)
-            m->section[k] = (CpsSection){.length = k ? line->length - first : first,
-                                         .weight = line->weight * uniform(0.3, 2),
-                                         .stiffness = line->stiffness * uniform(0.3, 2)};
+        for (int k = 0; k < 2; k++) {
+            m->section[k] = (CpsSection){.length = k ? line->length - first : first};
+            m->section[k].weight = line->weight * uniform(0.3, 2);
+            m->section[k].stiffness = line->stiffness * uniform(0.3, 2);
+        }
         line->section_count = 2;
         line->section = m->section;
     }
     if (uniform(0, 1) < 0.2) { /* without friction, and with more of it */
-        m->zone[0] = (CpsFrictionZone){.from = uniform(5, 20), .to = uniform(20, 35), .factor = 0};
+        m->zone[0] = (CpsFrictionZone){.from = uniform(5, 20)};
+        m->zone[0].to = uniform(20, 35);
         m->zone[1] = (CpsFrictionZone){.from = 40, .to = 70, .factor = uniform(0.5, 2)};
         line->zone_count = 2;
         line->zone = m->zone;

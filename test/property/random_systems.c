@@ -267,7 +267,10 @@ typedef struct System {
 
 static void random_row(int n, double *row) {
     memset(row, 0, MOST_N * sizeof *row);
-    for (int k = 1 + below(3); k > 0; k--) row[below(n)] = uniform(-1, 1);
+    for (int k = 1 + below(3); k > 0; k--) {
+        const int column = below(n);
+        row[column] = uniform(-1, 1);
+    }
 }
 
 static int entries_of(int rows, int n, double (*row)[MOST_N], CpsEntry *entry) {

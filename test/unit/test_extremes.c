@@ -12,15 +12,15 @@ static double coarse(uint64_t *state) { return floor(splitmix(state, -5, 5)); }
 static CpsLineReport random_report(uint64_t *state) {
     CpsLineReport report = {.outcome = splitmix(state, 0, 1) < 0.2   ? CPS_OUTCOME_STALLED
                                        : splitmix(state, 0, 1) < 0.2 ? CPS_OUTCOME_TAUT
-                                                                     : CPS_OUTCOME_SOLVED,
-                            .grounded = coarse(state),
-                            .slipping = coarse(state),
-                            .slack = coarse(state),
-                            .sweep = coarse(state),
-                            .utilisation = coarse(state),
-                            .has_slipping = splitmix(state, 0, 1) < 0.7,
-                            .has_touchdown = splitmix(state, 0, 1) < 0.6,
-                            .has_utilisation = splitmix(state, 0, 1) < 0.5};
+                                                                     : CPS_OUTCOME_SOLVED};
+    report.grounded = coarse(state);
+    report.slipping = coarse(state);
+    report.slack = coarse(state);
+    report.sweep = coarse(state);
+    report.has_slipping = splitmix(state, 0, 1) < 0.7;
+    report.has_touchdown = splitmix(state, 0, 1) < 0.6;
+    report.has_utilisation = splitmix(state, 0, 1) < 0.5;
+    report.utilisation = coarse(state);
     for (int e = 0; e < 2; e++) {
         report.end[e].tension = coarse(state);
         report.end[e].uplift = coarse(state);

@@ -296,13 +296,14 @@ static void random_case(uint64_t *seed, Worst *worst) {
     const int n = 2 + (int)splitmix(seed, 0, NODES - 1);
     const double length = pow(10, splitmix(seed, -2, 3)), force = pow(10, splitmix(seed, -2, 4)),
                  ea = force * pow(10, splitmix(seed, 0, 4));
-    const bool held[2] = {splitmix(seed, 0, 1) < 0.5, splitmix(seed, 0, 1) < 0.3};
+    bool held[2];
+    for (int end = 0; end < 2; end++) held[end] = splitmix(seed, 0, 1) < (end ? 0.3 : 0.5);
     const bool anchored = splitmix(seed, 0, 1) < 0.7 || !(held[0] && held[1]);
     /* a stiff field is that of a mass in a short time step: the line goes nearly where it wants */
     const double stiff = pow(10, splitmix(seed, -2, 8)), size = force / length * stiff,
                  reach = length * fmin(0.3, 1e4 / stiff);
-    const double far[3] = {length * splitmix(seed, -100, 100), length * splitmix(seed, -100, 100),
-                           0};
+    double far[3] = {0, 0, 0};
+    for (int a = 0; a < 2; a++) far[a] = length * splitmix(seed, -100, 100);
     Fixture f;
     Dense d = {.line = &f.line, .ea = ea};
     begin(&f, n, length, ea, false, held);

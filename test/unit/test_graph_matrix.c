@@ -31,8 +31,10 @@ static void make(Graph *graph, uint64_t *state) {
     *graph = (Graph){.n = kind == 0 ? whole(state, 1, MOST - 1) : side * side};
     if (kind == 0) {
         for (int i = 1; i < graph->n; i++) add(graph, whole(state, 0, i - 1), i);
-        for (int i = 0; i < graph->n / 4; i++)
-            add(graph, whole(state, 0, graph->n - 1), whole(state, 0, graph->n - 1));
+        for (int i = 0; i < graph->n / 4; i++) {
+            const int to = whole(state, 0, graph->n - 1);
+            add(graph, whole(state, 0, graph->n - 1), to);
+        }
     } else {
         for (int i = 0; i < graph->n; i++) {
             if (i % side > 0) add(graph, i, i - 1);

@@ -269,8 +269,14 @@ static CpsiObstacle surface_of(CpsSurfaceFunction *function, CpsiObstacle *exact
     return out;
 }
 
+static Vec3 random_vector(uint64_t *state, double size) {
+    double v[3];
+    for (int a = 2; a >= 0; a--) v[a] = splitmix(state, -size, size);
+    return vec3_load(v);
+}
+
 static Vec3 random_place(uint64_t *state, const CpsiObstacle *exact, double from, double to) {
-    const Vec3 at = vec3(splitmix(state, -3, 3), splitmix(state, -3, 3), splitmix(state, -3, 3));
+    const Vec3 at = random_vector(state, 3);
     const double gap = splitmix(state, from, to);
     return vec3_axpy(gap - cpsi_obstacle_gap(exact, at), cpsi_obstacle_normal(exact, at), at);
 }
@@ -315,9 +321,8 @@ static void slips_and_moves(void **state) {
         CpsiObstacle exact;
         const CpsiObstacle o = surface_of(k % 2 ? ball : cylinder, &exact);
         const Vec3 p = random_place(&random, &exact, 0, 0);
-        const Vec3 t = vec3(splitmix(&random, -1, 1), splitmix(&random, -1, 1),
-                            splitmix(&random, -1, 1)),
-                   n = cpsi_obstacle_normal(&exact, p), flat = vec3_reject(t, n);
+        const Vec3 t = random_vector(&random, 1), n = cpsi_obstacle_normal(&exact, p),
+                   flat = vec3_reject(t, n);
         for (int halved = 0; halved < 2; halved++) {
             const double length = 0.4 / (1 + halved);
             const Vec3 u = vec3_scale(length / vec3_norm(flat), flat),

@@ -66,8 +66,8 @@ static CpsMesh *made(const CpsMeshTriangles *of) {
 }
 
 static Vec3 anywhere(uint64_t *random, double reach) {
-    return vec3(splitmix(random, -reach, reach), splitmix(random, -reach, reach),
-                splitmix(random, -reach, reach));
+    const double z = splitmix(random, -reach, reach), y = splitmix(random, -reach, reach);
+    return vec3(splitmix(random, -reach, reach), y, z);
 }
 
 static Vec3 corner_of(const CpsMeshTriangles *of, int t, int i) {
@@ -212,7 +212,10 @@ static void is_an_obstacle(void **state) {
         vec3_store(def.point, anywhere(&random, 3));
         CpsiObstacle o = cpsi_obstacle(&def);
         const CpsiObstacle before = o;
-        const CpsiShift shift = {anywhere(&random, 1), anywhere(&random, 2), anywhere(&random, 1)};
+        CpsiShift shift;
+        shift.by = anywhere(&random, 1);
+        shift.turn = anywhere(&random, 2);
+        shift.about = anywhere(&random, 1);
         cpsi_obstacle_shift(&o, &shift);
         for (int k = 0; k < 200; k++) {
             const Vec3 x = vec3_add(vec3_load(def.point), anywhere(&random, 1.5)),

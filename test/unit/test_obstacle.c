@@ -11,8 +11,8 @@
 enum { POINTS = 200 };
 
 static Vec3 random_vector(uint64_t *state, double size) {
-    return vec3(splitmix(state, -size, size), splitmix(state, -size, size),
-                splitmix(state, -size, size));
+    const double z = splitmix(state, -size, size), y = splitmix(state, -size, size);
+    return vec3(splitmix(state, -size, size), y, z);
 }
 
 static CpsiObstacle make(CpsObstacleKind kind) {

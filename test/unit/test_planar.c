@@ -191,13 +191,13 @@ enum { MOST_PATCHES = 4, CORNERS = 5 };
 
 /* Any patch of a size around `scale`; corners for a polygon. */
 static CpsPatch random_patch(double scale, int kinds, double corner[2 * CORNERS]) {
-    CpsPatch patch = {.cookie = cps_patch_default().cookie,
-                      .kind = (CpsPatchKind)(random_share() * kinds),
-                      .position = {scale * random_sign(), scale * random_sign()},
-                      .angle = 7 * random_sign(),
-                      .friction = random_share(),
-                      .load = pow(10, 2 * random_sign()),
-                      .size = scale * (0.1 + random_share())};
+    CpsPatch patch = cps_patch_default();
+    patch.kind = (CpsPatchKind)(random_share() * kinds);
+    for (int a = 0; a < 2; a++) patch.position[a] = scale * random_sign();
+    patch.angle = 7 * random_sign();
+    patch.friction = random_share();
+    patch.load = pow(10, 2 * random_sign());
+    patch.size = scale * (0.1 + random_share());
     if (patch.kind == CPS_PATCH_WHEEL)
         patch.brake = patch.friction * patch.load * patch.size * fmax(1.5 * random_sign(), 0);
     if (patch.kind == CPS_PATCH_ROD) patch.tilt[0] = random_sign() / patch.size;

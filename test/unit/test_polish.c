@@ -33,11 +33,11 @@ typedef struct Iterate {
 } Iterate;
 
 static Rope draw(uint64_t *state) {
-    Rope rope = {.nodes = (int)splitmix(state, 4, MOST_NODES),
-                 .compliance = pow(10, splitmix(state, -5, -1)),
-                 .friction = splitmix(state, 0, 2),
-                 .coupled = splitmix(state, 0, 1) < 0.7,
-                 .field = splitmix(state, 0, 1) < 0.2};
+    Rope rope = {.nodes = (int)splitmix(state, 4, MOST_NODES)};
+    rope.compliance = pow(10, splitmix(state, -5, -1));
+    rope.friction = splitmix(state, 0, 2);
+    rope.coupled = splitmix(state, 0, 1) < 0.7;
+    rope.field = splitmix(state, 0, 1) < 0.2;
     const double turn = splitmix(state, 0, 6.283185307179586), size = splitmix(state, 0, 1);
     rope.pull[0] = size * cos(turn);
     rope.pull[1] = size * sin(turn);

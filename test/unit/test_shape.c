@@ -188,26 +188,28 @@ static void parts_are_the_simple_shapes(void **unused) {
     for (int i = 0; i < POINTS; i++) {
         const double h = splitmix(&state, -0.74, 0.74), g = splitmix(&state, -0.74, 0.74);
         Vec3 way[2];
-        for (int k = 0; k < 2; k++)
-            way[k] =
-                vec3_axpy(splitmix(&state, 1, 2), e[0], vec3_scale(splitmix(&state, -2, 2), e[1]));
+        for (int k = 0; k < 2; k++) {
+            const Vec3 across = vec3_scale(splitmix(&state, -2, 2), e[1]);
+            way[k] = vec3_axpy(splitmix(&state, 1, 2), e[0], across);
+        }
         same_place(&capsule, &cylinder, vec3_add(capsule.frame.point, vec3_axpy(h, e[2], way[0])),
                    vec3_add(capsule.frame.point, vec3_axpy(g, e[2], way[1])));
         vec3_store(def.point, vec3_axpy(0.5 * LENGTH, e[2], capsule.frame.point));
         const CpsiObstacle ball = cpsi_obstacle(&def);
-        same_place(&capsule, &ball,
-                   vec3_add(ball.frame.point, vec3_axpy(splitmix(&state, 0.1, 2), e[2], way[0])),
-                   vec3_add(ball.frame.point, vec3_axpy(splitmix(&state, 0.1, 2), e[2], way[1])));
+        for (int k = 1; k >= 0; k--) way[k] = vec3_axpy(splitmix(&state, 0.1, 2), e[2], way[k]);
+        same_place(&capsule, &ball, vec3_add(ball.frame.point, way[0]),
+                   vec3_add(ball.frame.point, way[1]));
         CpsObstacle flat = cps_obstacle_default();
         vec3_store(flat.point, vec3_axpy(0.5 * SIZE[2], f[2], box.frame.point));
         vec3_store(flat.normal, f[2]);
         const CpsiObstacle plane = cpsi_obstacle(&flat);
         Vec3 on[2];
-        for (int k = 0; k < 2; k++)
-            on[k] = vec3_add(plane.frame.point,
-                             vec3_axpy(splitmix(&state, -0.39, 0.39), f[0],
-                                       vec3_axpy(splitmix(&state, -0.6, 0.6), f[1],
-                                                 vec3_scale(splitmix(&state, -0.1, 1), f[2]))));
+        for (int k = 0; k < 2; k++) {
+            Vec3 out = vec3_scale(splitmix(&state, -0.1, 1), f[2]);
+            out = vec3_axpy(splitmix(&state, -0.6, 0.6), f[1], out);
+            out = vec3_axpy(splitmix(&state, -0.39, 0.39), f[0], out);
+            on[k] = vec3_add(plane.frame.point, out);
+        }
         same_place(&box, &plane, on[0], on[1]);
     }
 }
@@ -378,8 +380,10 @@ static void shifts(void **unused) {
         for (int i = 0; i < 50; i++) {
             const CpsiObstacle o = make(KIND[k / 2], k % 2);
             CpsiObstacle there = o;
-            const CpsiShift shift = {random_vector(&state, 1e3), random_vector(&state, 2),
-                                     random_vector(&state, 5)};
+            CpsiShift shift;
+            shift.by = random_vector(&state, 1e3);
+            shift.turn = random_vector(&state, 2);
+            shift.about = random_vector(&state, 5);
             const Vec3 x = random_vector(&state, 3), y = vec3_add(x, random_vector(&state, 0.3));
             cpsi_obstacle_shift(&there, &shift);
             const Vec3 a = cpsi_shift_carry(&shift, x), b = cpsi_shift_carry(&shift, y);
