@@ -2,8 +2,9 @@
 /* capstan/point.h: points where lines meet. A line whose end has the kind CPS_END_KIND_POINT ends
  * at a point of the scene (scene.h), and all lines that end there pull on it. A point is held, or
  * free: then each load step finds the place at which the forces on it balance, together with the
- * lines, each of which is certified there (docs/theory.md 6d). It rests on one obstacle at a time:
- * where two must hold it, as in a groove, no place is found.
+ * lines, each of which is certified there (docs/theory.md 6d). It rests on one obstacle at a time,
+ * the nearest, or that in which it lies deepest: where two must hold it, as in a groove, no place
+ * is found.
  *
  *     CpsPoint point[2] = {cps_point_default(), cps_point_default()};
  *     point[0].name = "anchor";
@@ -51,6 +52,9 @@ typedef struct CpsPoint {
      * the lines that end there; [m/s] its velocity as the history begins, of a free point, default
      * 0 0 0 */
     double inertia, velocity[3];
+    /* [m2] >= 0, default 0: of a free point, with which it bears on obstacles that give
+     * (CpsObstacle.stiffness), beside the halves of the last elements of its lines */
+    double bearing_area;
     /* Of a held point that is an anchor: the force along the plane on which it lies that it can
      * bear, level where it lies on none, and the one across it, upwards. What is exceeded is said
      * in the report; with `drags` the anchor bears no more than its capacity along the plane, and

@@ -11,6 +11,7 @@
 #include "cable/end_set.h"
 #include "cable/line_solve.h"
 #include "cable/rounds.h"
+#include "cable/soft.h"
 #include "chain/frame.h"
 
 enum { ITERATIONS = 100 };
@@ -42,7 +43,8 @@ static void place_bases(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *
 void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *line, int count,
                         int joints, int bodies, const CpsiLinsysOps *ops,
                         const CpsiNetworkTools *tools) {
-    const bool own_axes = count > 0 && line[0].has_local_axes;
+    const bool own_axes = count > 0 && line[0].has_local_axes,
+               soft = count > 0 && cpsi_line_has_soft(&line[0]);
     int most = 1;
     for (int k = 0; k < count; k++) most = line[k].n > most ? line[k].n : most;
     *network = (CpsiNetwork){.lines = count, .joints = joints};
@@ -58,6 +60,10 @@ void cpsi_network_place(CpsiNetwork *network, CpsiArena *arena, const CpsiLine *
                                       cpsi_line_most_springs(&line[k]), NULL, ops);
         else
             cpsi_chain_program_layout(chain, arena, 1, own_axes ? 1 : 0, false, 0, NULL, ops);
+        if (soft)
+            cpsi_chain_program_layout_compliance(chain, arena, k < count ? line[k].n : 1,
+                                                 own_axes ? (k < count ? line[k].contacts : 1) : 0,
+                                                 k < count && line[k].element_contacts > 0);
     }
 }
 
@@ -119,7 +125,11 @@ static void fill_joint(const CpsiJoint *joint, bool own_axes, const double axes[
     unilateral->node[0] = unilateral->contact[0] = 0;
     unilateral->second[0] = false;
     unilateral->weight[0] = share;
-    unilateral->gap[0] = fmax(0, joint->gap) / scale->length;
+    unilateral->gap[0] = (joint->gives ? joint->gap : fmax(0, joint->gap)) / scale->length;
+    if (unilateral->compliance) {
+        const double gives = joint->spring * scale->length;
+        unilateral->compliance[0] = joint->gives && gives > 0 ? share * scale->force / gives : 0;
+    }
     if (chain->frame) {
         memset(unilateral->normal[0], 0, sizeof unilateral->normal[0]);
         unilateral->normal[0][2] = 1;

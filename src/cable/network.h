@@ -19,6 +19,8 @@ typedef struct CpsiJoint {
     const CpsiObstacle *obstacle;
     const struct CpsiEndSet *on; /* the set that holds it, NULL: none */
     double gap, friction, bound; /* [m], [-], [N] of frozen friction */
+    bool gives;                  /* the obstacle, with the stiffness `spring` [N/m] */
+    double spring;
     /* [N] of the water that it displaces, [m] by how much it is below the surface; 0: no surface */
     double displaced, depth;
     /* an anchor that drags in the plane across `normal`, with friction of no more than `capacity`

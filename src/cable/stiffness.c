@@ -92,10 +92,17 @@ static bool rubs(const Tangent *t, int c, const CpsiFrictionLaw *law) {
     return t->pinned || c == t->landed ? law->friction > 0 : t->line->friction_bound[c] > 0;
 }
 
-/* Is contact c held in all directions of the surface? */
+/* What is opposed to a touching contact along its normal, in the units of the matrix. */
+static double normal_stiffness(const Tangent *t, int c) {
+    const double gives = cpsi_soft_spring(t->line, c).stiffness;
+    return gives > 0 ? gives * t->line->length / t->force : RIGID;
+}
+
+/* Is contact c held in all directions? */
 static bool rests(const Tangent *t, int c) {
     const CpsiFrictionLaw law = cpsi_line_friction_law(t->line, c);
-    return touches(t, c) && sticks(t, c) && rubs(t, c, &law) && holds_all_ways(&law);
+    return touches(t, c) && sticks(t, c) && rubs(t, c, &law) && holds_all_ways(&law) &&
+           normal_stiffness(t, c) == RIGID;
 }
 
 /* The contact that node j has, -1: none; *both: it has two. */
@@ -183,7 +190,7 @@ static void load_slip(Tangent *t, int j, int c, const Surface *at) {
     diagonal[0] += across * b[0] * b[0] * q[1] * q[1];
     diagonal[1] -= across * b[0] * b[1] * q[0] * q[1];
     diagonal[2] += across * b[1] * b[1] * q[0] * q[0];
-    const double follows = t->consistent ? at->law.friction * RIGID : 0;
+    const double follows = t->consistent ? at->law.friction * normal_stiffness(t, c) : 0;
     for (int a = 0; a < 2; a++) t->matrix->skew[2 * j + a] = b[a] * q[a] * follows;
 }
 
@@ -205,7 +212,7 @@ static void load_contact(Tangent *t, int j, int c) {
     const Surface at = surface_of(t, c);
     double *diagonal = &t->matrix->diagonal[6 * j];
     if (line->has_local_axes) memcpy(&t->program->frame[9 * j], at.axes, sizeof at.axes);
-    if (line->reaction[c] > 0 || c == t->landed) diagonal[5] = RIGID;
+    if (line->reaction[c] > 0 || c == t->landed) diagonal[5] = normal_stiffness(t, c);
     if (rubs(t, c, &at.law) && !sticks(t, c)) load_slip(t, j, c, &at);
     if (rubs(t, c, &at.law) && sticks(t, c))
         for (int a = 0; a < 2; a++) diagonal[2 * a] = at.law.ratio[a] > 0 ? RIGID : 0;

@@ -16,6 +16,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "cable/soft.h"
 #include "evolve/anchors.h"
 #include "evolve/balance_report.h"
 #include "evolve/bodies.h"
@@ -29,6 +30,7 @@
 #include "evolve/newton_step.h"
 #include "evolve/point_motion.h"
 #include "evolve/points.h"
+#include "evolve/soft_point.h"
 #include "evolve/time_step.h"
 #include "evolve/trial.h"
 
@@ -296,6 +298,7 @@ static void search_softly(CpsiBalance *balance) {
 
 void cpsi_balance_start(CpsEvolution *evolution) {
     CpsiFree *at = evolution->points.balance->at;
+    cpsi_soft_point_areas(evolution);
     for (int k = 0; k < evolution->points.count; k++) {
         const CpsiPoint *point = &evolution->points.point[k];
         at[k] = (CpsiFree){.point = k, .place = vec3_load(point->position)};
@@ -313,7 +316,9 @@ void cpsi_balance_start(CpsEvolution *evolution) {
         }
     for (int k = 0; k < evolution->points.count; k++) {
         CpsiPoint *point = &evolution->points.point[k];
-        if (at[k].gap <= CPS_TOUCH * point->length)
+        if (at[k].gives && point->kind == CPS_POINT_KIND_FREE)
+            point->report.reaction = at[k].spring * fmax(0, -at[k].gap);
+        else if (at[k].gap <= CPS_TOUCH * point->length)
             point->report.reaction = fmax(0, -vec3_dot(at[k].rest, at[k].normal));
     }
 }
@@ -339,11 +344,14 @@ static bool search_again(CpsiBalance *balance, bool refined) {
 /* Find the place of a point, or a body, at which no line ends any more. */
 static void find_lone(CpsiBalance *balance) {
     CpsOutcome outcome = CPS_OUTCOME_SOLVED;
-    if (balance->body_count == 0 &&
-        !cpsi_set_of_point(&balance->evolution->points, balance->at[0].point))
-        outcome = cpsi_lone_point(balance);
-    else if (!search(balance, MOST_TRIALS))
-        outcome = CPS_OUTCOME_STALLED;
+    const bool is_body = balance->body_count > 0,
+               in_set =
+                   !is_body && cpsi_set_of_point(&balance->evolution->points, balance->at[0].point),
+               sinks = !is_body && cpsi_line_has_soft(&balance->evolution->line[0]);
+    if (!(is_body || in_set || sinks) || !search(balance, MOST_TRIALS)) {
+        if (sinks) cpsi_begin_again(balance);
+        outcome = is_body || in_set ? CPS_OUTCOME_STALLED : cpsi_lone_point(balance);
+    }
     if (outcome == CPS_OUTCOME_UNBOUNDED) {
         cpsi_begin_again(balance);
         cpsi_report_no_place(balance);
@@ -401,7 +409,7 @@ static void guess_motion(CpsiBalance *balance) {
                               vec3_load(inertia->reference));
         for (int o = 0; o < evolution->obstacle_count; o++) {
             const double gap = cpsi_obstacle_gap(&evolution->obstacle[o], at->place);
-            if (gap < 0)
+            if (gap < 0 && !(evolution->obstacle[o].stiffness > 0))
                 at->place =
                     vec3_axpy(-gap, cpsi_obstacle_normal(&evolution->obstacle[o], at->place),
                               at->place);
@@ -541,6 +549,7 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     CpsiBalance *balance = evolution->points.balance;
     CpsiPoints *points = &evolution->points;
     bool any = false;
+    cpsi_soft_point_areas(evolution);
     evolution->lone = CPS_OUTCOME_SOLVED;
     for (int i = 0; i < points->count; i++) {
         points->point[i].reaction_before = points->point[i].report.reaction;

@@ -640,9 +640,9 @@ static void hash_points(uint64_t *hash, const CpsEvolution *evolution) {
         hash_bytes(hash, &kind, sizeof kind);
         hash_numbers(hash, 3, point->position);
         hash_numbers(hash, 3, point->force);
-        hash_numbers(hash, 1, &point->mass);
-        hash_numbers(hash, 1, &point->displaced_mass);
+        hash_numbers(hash, 2, (const double[2]){point->mass, point->displaced_mass});
         hash_numbers(hash, 1, &points->given[i].inertia);
+        hash_numbers(hash, points->given[i].bearing_area > 0, &points->given[i].bearing_area);
         hash_numbers(hash, 3, points->given[i].velocity);
         hash_anchor(hash, &points->given[i]);
         hash_set(hash, &point->on);

@@ -328,6 +328,24 @@ static CpsStatus prepare_move(CpsEvolution *evolution, CpsError *err) {
                : cpsi_fail(err, CPS_ERR_MEMORY, "out of memory for the state before a move");
 }
 
+/* In time free points do not bear on what gives. */
+static CpsStatus check_soft(const CpsEvolution *evolution, const CpsStage *move, const char *what,
+                            CpsError *err) {
+    int free = CPSI_NO_POINT, soft = CPS_NO_OBSTACLE;
+    for (int i = 0; i < evolution->points.count; i++)
+        if (evolution->points.point[i].kind == CPS_POINT_KIND_FREE) free = i;
+    for (int i = 0; i < move->point_change_count; i++)
+        if (move->point_change[i].kind == CPS_POINT_KIND_FREE) free = move->point_change[i].point;
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        if (evolution->obstacle[k].stiffness > 0) soft = k;
+    if (free == CPSI_NO_POINT || soft == CPS_NO_OBSTACLE) return CPS_OK;
+    return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                     "%s: it has a duration, but obstacle '%s' gives (stiffness), on which no free "
+                     "point as '%s' bears in time: hold the point, or leave the duration out",
+                     what, evolution->given_obstacle[soft].name,
+                     evolution->points.point[free].name);
+}
+
 /* May a move have a duration? */
 static CpsStatus check_time(const CpsEvolution *evolution, const CpsStage *move, const char *what,
                             CpsError *err) {
@@ -347,18 +365,11 @@ static CpsStatus check_time(const CpsEvolution *evolution, const CpsStage *move,
                              "%s: it has a duration, but beside free points or bodies line '%s' "
                              "cannot stretch",
                              what, evolution->line[i].name);
-    return move->turn_count > 0 || move->shift_count > 0
-               ? cpsi_fail(err, CPS_ERR_ARGUMENT,
-                           "%s: it has a duration, but beside free points or bodies obstacles stay",
-                           what)
-               : CPS_OK;
-}
-
-static bool has_soft(const CpsEvolution *evolution) {
-    bool any = false;
-    for (int k = 0; k < evolution->obstacle_count; k++)
-        any = any || evolution->obstacle[k].stiffness > 0;
-    return any;
+    if (move->turn_count > 0 || move->shift_count > 0)
+        return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                         "%s: it has a duration, but beside free points or bodies obstacles stay",
+                         what);
+    return check_soft(evolution, move, what, err);
 }
 
 CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsError *err) {
@@ -393,12 +404,10 @@ CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsE
                              "%s: body '%s' cannot be free: an obstacle's friction has directions",
                              what, evolution->bodies.body[move->body_change[i].body].name);
     for (int i = 0; i < move->point_change_count; i++)
-        if (move->point_change[i].kind == CPS_POINT_KIND_FREE &&
-            (!evolution->points.balance || has_soft(evolution)))
-            return cpsi_fail(err, CPS_ERR_ARGUMENT, "%s: point '%s' cannot be free: an obstacle%s",
-                             what, evolution->points.point[move->point_change[i].point].name,
-                             evolution->points.balance ? " gives (stiffness)"
-                                                       : "'s friction has directions");
+        if (move->point_change[i].kind == CPS_POINT_KIND_FREE && !evolution->points.balance)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "%s: point '%s' cannot be free: an obstacle's friction has directions",
+                             what, evolution->points.point[move->point_change[i].point].name);
     if (cpsi_move_failed(evolution)) return_to_kept(evolution);
     cpsi_stage_fill(&evolution->live, move, evolution->origin);
     evolution->live.name = move->name ? move->name : "move";

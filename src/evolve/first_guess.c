@@ -84,6 +84,8 @@ int cpsi_place_joints(CpsiBalance *balance, bool first) {
                                                         : &evolution->obstacle[at->obstacle],
                                         .on = at->in_set.on,
                                         .gap = at->gap,
+                                        .gives = at->gives,
+                                        .spring = at->spring,
                                         .slip = first ? vec3(0, 0, 0) : at->slip,
                                         .friction = at->friction,
                                         .bound = at->friction * point->reaction_before,
@@ -291,6 +293,11 @@ static void settle_points(CpsiBalance *balance) {
         CpsiFree *at = &balance->at[k];
         if (balance->guess.state[k] == CPSI_JOINT_OFF || at->obstacle == CPS_NO_OBSTACLE) continue;
         const CpsiObstacle *on = &balance->evolution->obstacle[at->obstacle];
+        if (at->gives) { /* as deep as the guess has it */
+            cpsi_trial_find_obstacle(balance->evolution, at);
+            if (at->gives && balance->guess.state[k] == CPSI_JOINT_STICKS) at->place = at->start;
+            continue;
+        }
         at->place = balance->guess.state[k] == CPSI_JOINT_STICKS
                         ? at->start
                         : vec3_axpy(-cpsi_obstacle_gap(on, at->place),

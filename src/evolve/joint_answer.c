@@ -74,7 +74,7 @@ static Vec3 place_of(const CpsiBalance *balance, int k) {
     const double *z = chain->disc.z[0];
     if (chain->disc.count > 0 && hypot(z[1], z[2]) < (1 - CLEARLY) * z[0] && is_short(balance, &at))
         return at.start;
-    return vec3_axpy(-at.gap, at.normal, at.place);
+    return at.gives ? at.place : vec3_axpy(-at.gap, at.normal, at.place);
 }
 
 /* Is line `item` inextensible and pulled straight between the places of the trial, to the share by

@@ -41,8 +41,10 @@ CpsOutcome cpsi_lone_point(CpsiBalance *balance) {
     CpsiFree *at = &balance->at[0];
     cpsi_try_places(balance);
     if (cpsi_is_answer(balance)) return CPS_OUTCOME_SOLVED;
-    const double touch = cpsi_trial_touch(balance, at), left = vec3_norm(at->left);
-    const Vec3 from = at->place, d = vec3_scale(1 / left, at->left);
+    /* what gives pushes less and less on the way: nothing but it may hold the point */
+    const Vec3 drives = at->gives ? at->rest : at->left;
+    const double touch = cpsi_trial_touch(balance, at), left = vec3_norm(drives);
+    const Vec3 from = at->place, d = vec3_scale(1 / left, drives);
     const double farthest = FARTHEST * balance->evolution->points.point[at->point].length,
                  surface = to_surface(balance, at, d, touch),
                  obstacle = to_obstacle(balance, from, d, touch, farthest);

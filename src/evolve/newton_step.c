@@ -123,10 +123,10 @@ static void find_stiffness(CpsiBalance *balance) {
     }
 }
 
-/* Is the point to be on the obstacle after the step? */
+/* Is the point to be on the obstacle after the step, or in one that gives? */
 static bool is_to_touch(const CpsiFree *at) {
-    return at->obstacle != CPS_NO_OBSTACLE &&
-           -vec3_dot(at->rest, at->normal) > at->stiffness * fmax(at->gap, 0);
+    const double gap = at->gives ? at->gap : fmax(at->gap, 0);
+    return at->obstacle != CPS_NO_OBSTACLE && -vec3_dot(at->rest, at->normal) > at->stiffness * gap;
 }
 
 /* The equation P K d + Q d = v of a point in its step, K its rows of the matrix. */
@@ -154,17 +154,24 @@ static void add_tangential(Equation *out, const CpsiFree *at, bool follows) {
     if (!(at->bound > 0) || !(size > 0)) return;
     const Vec3 e = vec3_scale(1 / size, test);
     const double turns = at->bound / (vec3_norm(at->slip) + at->bound / at->stiffness);
-    if (follows) vec3_add_outer(out->p, at->friction, e, n);
+    if (follows && at->gives) /* R by the depth */
+        vec3_add_outer(out->q, -at->friction * at->spring, e, n);
+    else if (follows)
+        vec3_add_outer(out->p, at->friction, e, n);
     vec3_add_identity(out->q, turns);
     vec3_add_outer(out->q, -turns, n, n);
     vec3_add_outer(out->q, -turns, e, e);
     out->v = vec3_axpy(-at->bound, e, out->v);
 }
 
-/* Across it: the gap closes, or nothing acts. */
+/* Across it: the gap closes, or nothing acts, or the spring of what gives. */
 static void add_normal(Equation *out, const CpsiFree *at) {
     const Vec3 n = at->normal;
-    if (is_to_touch(at)) {
+    if (at->gives && is_to_touch(at)) {
+        vec3_add_outer(out->p, 1, n, n);
+        vec3_add_outer(out->q, at->spring, n, n);
+        out->v = vec3_axpy(vec3_dot(at->rest, n) - at->spring * at->gap, n, out->v);
+    } else if (is_to_touch(at)) {
         vec3_add_outer(out->q, at->stiffness, n, n);
         out->v = vec3_axpy(-at->stiffness * at->gap, n, out->v);
     } else {
@@ -528,8 +535,26 @@ static Vec3 along_the_waterline(const CpsiObstacle *on, double surface, Vec3 x) 
     return x;
 }
 
-/* The place of a point after a share of the step: out of every obstacle, and on that on which it is
- * to lie; exactly where it was where it is to stick. */
+/* A place without slip in what gives, as deep as x. */
+static Vec3 without_slip(const CpsiObstacle *on, Vec3 start, Vec3 x) {
+    const double higher = cpsi_obstacle_gap(on, x) - cpsi_obstacle_gap(on, start);
+    return vec3_axpy(higher, cpsi_obstacle_normal(on, start), start);
+}
+
+/* The place of a point that is to touch what gives, after a share of the step. */
+static Vec3 place_within(const CpsiBalance *balance, const CpsiFree *from, bool floats, Vec3 x,
+                         double share) {
+    const CpsEvolution *evolution = balance->evolution;
+    if (cpsi_is_to_stick(from) && share == 1)
+        x = without_slip(&evolution->obstacle[from->obstacle], from->start, x);
+    if (from->water.displaced > 0)
+        x.z = floats && share == 1 ? evolution->points.surface
+                                   : cpsi_water_stop(&from->water, evolution->points.surface, x.z);
+    return x;
+}
+
+/* The place of a point after a share of the step: out of every rigid obstacle, and on that on which
+ * it is to lie; exactly where it was where it is to stick. */
 Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const double step[3],
                       double share) {
     const CpsEvolution *evolution = balance->evolution;
@@ -542,8 +567,10 @@ Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const do
     CpsiFree next = *from;
     next.rest = cpsi_rest_with(from, buoyancy_of_step(from, balance->follows, &floats));
     const bool touches = is_to_touch(&next);
-    if (touches && cpsi_is_to_stick(from) && share == 1) return from->start;
-    if (touches) {
+    const bool sinks = touches && from->gives;
+    if (sinks) x = place_within(balance, from, floats, x, share);
+    if (touches && !sinks && cpsi_is_to_stick(from) && share == 1) return from->start;
+    if (touches && !sinks) {
         const CpsiObstacle *on = &evolution->obstacle[from->obstacle];
         const double gap = cpsi_obstacle_gap(on, x);
         /* what lies on a round one stays on it, and loses neither reaction nor friction on the way
@@ -554,9 +581,10 @@ Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const do
     }
     if (from->water.displaced > 0 && !touches)
         x.z = cpsi_water_stop(&from->water, evolution->points.surface, x.z);
-    if (floats && touches && share == 1)
+    if (floats && touches && !sinks && share == 1)
         x = along_the_waterline(&evolution->obstacle[from->obstacle], evolution->points.surface, x);
     for (int k = 0; k < evolution->obstacle_count; k++) {
+        if (evolution->obstacle[k].stiffness > 0) continue;
         const double gap = cpsi_obstacle_gap(&evolution->obstacle[k], x);
         if (gap < 0) x = vec3_axpy(-gap, cpsi_obstacle_normal(&evolution->obstacle[k], x), x);
     }

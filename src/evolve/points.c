@@ -13,6 +13,7 @@
 #include "evolve/origin.h"
 #include "evolve/places.h"
 #include "evolve/ranges.h"
+#include "evolve/soft_check.h"
 #include "geometry/obstacle.h"
 
 enum { POINT_COOKIE = 0x5017e005, MAX_POINTS = 100000 };
@@ -153,6 +154,7 @@ static CpsStatus check_point(const CpsScene *scene, const PointNames *names, int
     else if (point->kind == CPS_POINT_KIND_FREE || point->drags)
         status = cpsi_isotropy_check(scene, "point", point->name, err);
     if (status == CPS_OK) status = cpsi_anchor_check(scene, point, length, err);
+    if (status == CPS_OK) status = cpsi_soft_point_check(scene, index, err);
     if (status == CPS_OK)
         status = cpsi_gravity_check(scene, "point", point->name, point->weight != 0, err);
     return cpsi_fail_inside(err, status, "points.%s", point->name);

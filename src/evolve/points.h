@@ -35,6 +35,7 @@ typedef struct CpsiPoint {
     double dragged;         /* [m] as an anchor, since the start */
     double displaced_mass;  /* [kg] of water; 0 where it cannot leave the water */
     double length;          /* [m] of the longest line that ends here */
+    double area;            /* [m2] with which it bears on what gives, in the step (soft_point.h) */
     CpsiEndSet on;          /* the set that it is held to as a free one */
     CpsPointReport report;  /* its position relative to the origin */
     CpsiPressed pressed;

@@ -5,20 +5,6 @@
 #include "base/status.h"
 #include "evolve/ranges.h"
 
-/* Can a point be free in the history, or drag? Then it bears on the ground, by an area of its own
- * that is not known; what is held, or on a body, does not. */
-static bool may_bear(const CpsScene *scene) {
-    bool any = false;
-    for (int i = 0; i < scene->point_count; i++)
-        any = any || scene->point[i].kind == CPS_POINT_KIND_FREE || scene->point[i].drags;
-    const int stages =
-        scene->stage ? scene->stage_count : 0; /* also asked before they are checked */
-    for (int k = 0; k < stages; k++)
-        for (int i = 0; i < scene->stage[k].point_change_count; i++)
-            any = any || scene->stage[k].point_change[i].kind == CPS_POINT_KIND_FREE;
-    return any;
-}
-
 CpsStatus cpsi_soft_obstacle_check(const CpsScene *scene, const CpsObstacle *o, CpsError *err) {
     const char *why = NULL;
     if (!cpsi_is_not_negative(o->stiffness))
@@ -39,13 +25,61 @@ CpsStatus cpsi_soft_obstacle_check(const CpsScene *scene, const CpsObstacle *o, 
         why = "friction_policy is frozen: make it consistent";
     else if (scene->contact_policy != CPS_CONTACT_POLICY_REACHED)
         why = "contact_policy is reference: make it reached";
-    else if (may_bear(scene))
-        why = "there are free points, or anchors that drag, of which no bearing area is known: "
-              "hold them";
     if (!why) return CPS_OK;
     return CPSI_FAIL_AT("stiffness", err, CPS_ERR_ARGUMENT,
                         "obstacle '%s': stiffness: it gives, but %s, or leave the stiffness out",
                         o->name, why);
+}
+
+/* Is a point ever free in the history? Also asked before its stages are checked. */
+static bool is_ever_free(const CpsScene *scene, int index) {
+    bool free = scene->point[index].kind == CPS_POINT_KIND_FREE;
+    const int stages = scene->stage ? scene->stage_count : 0;
+    for (int k = 0; k < stages; k++) {
+        const CpsStage *stage = &scene->stage[k];
+        const int changes = stage->point_change ? stage->point_change_count : 0;
+        for (int i = 0; i < changes; i++)
+            free = free || (stage->point_change[i].point == index &&
+                            stage->point_change[i].kind == CPS_POINT_KIND_FREE);
+    }
+    return free;
+}
+
+CpsStatus cpsi_soft_time_check(const CpsScene *scene, CpsError *err) {
+    const CpsObstacle *soft = cpsi_soft_obstacle(scene);
+    const CpsPoint *free = NULL;
+    for (int i = 0; i < scene->point_count && !free; i++)
+        if (is_ever_free(scene, i)) free = &scene->point[i];
+    if (!soft || !free) return CPS_OK;
+    return cpsi_fail_inside(
+        err,
+        CPSI_FAIL_AT("stiffness", err, CPS_ERR_ARGUMENT,
+                     "obstacle '%s': stiffness: it gives, but the history is in time, in which "
+                     "no free point as '%s' bears on what gives: hold the point, or leave the "
+                     "stiffness or the durations out",
+                     soft->name, free->name),
+        "obstacles.%s", soft->name);
+}
+
+CpsStatus cpsi_soft_point_check(const CpsScene *scene, int index, CpsError *err) {
+    const CpsPoint *point = &scene->point[index];
+    const char *why = NULL;
+    if (!cpsi_is_not_negative(point->bearing_area))
+        return CPSI_FAIL_AT("bearing_area", err, CPS_ERR_ARGUMENT,
+                            "point '%s': bearing_area is %g m2, expected a finite number >= 0",
+                            point->name, point->bearing_area);
+    if (!(point->bearing_area > 0)) return CPS_OK;
+    if (point->kind == CPS_POINT_KIND_ON_BODY)
+        why = "it is on a body, which does not bear on obstacles: let it be free";
+    else if (!is_ever_free(scene, index))
+        why = "it is held throughout, and what holds it bears all: let it be free";
+    else if (point->constraint.kind != CPS_CONSTRAINT_KIND_NONE)
+        why = "it is held to a set, and no obstacle bears it: leave the set out";
+    else if (!cpsi_soft_obstacle(scene))
+        why = "no obstacle gives: give one a stiffness";
+    if (!why) return CPS_OK;
+    return CPSI_FAIL_AT("bearing_area", err, CPS_ERR_ARGUMENT,
+                        "point '%s': bearing_area: %s, or leave the area out", point->name, why);
 }
 
 const CpsObstacle *cpsi_soft_obstacle(const CpsScene *scene) {

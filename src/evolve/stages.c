@@ -16,6 +16,7 @@
 #include "evolve/path_check.h"
 #include "evolve/ranges.h"
 #include "evolve/shifts.h"
+#include "evolve/soft_point.h"
 #include "evolve/sways.h"
 #include "evolve/velocities.h"
 #include "evolve/water.h"
@@ -233,6 +234,7 @@ static void plan_bodies(CpsEvolution *evolution, const CpsiEvolutionStage *stage
 static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
                         const CpsiPortion *portion) {
     CpsiPoints *points = &evolution->points;
+    cpsi_soft_point_areas(evolution);
     for (int i = 0; i < points->count; i++) {
         CpsiPoint *point = &points->point[i];
         memcpy(point->before, point->position, sizeof point->before);
@@ -245,11 +247,13 @@ static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage
         if (portion->part == 0) {
             const bool was_free = point->kind == CPS_POINT_KIND_FREE;
             const double lift = cpsi_buoyancy_at(points, point, evolution->gravity_from);
+            double pushed[3];
+            vec3_store(pushed, cpsi_soft_point_push(evolution, change->point));
             for (int a = 0; a < 3; a++) {
                 const double load = was_free ? point->force[a]
                                              : point->report.support[a] -
                                                    point->mass * evolution->gravity_from[a] -
-                                                   (a == 2 ? lift : 0);
+                                                   (a == 2 ? lift : 0) - pushed[a];
                 point->from[a] = held ? point->position[a] : load;
             }
             point->kind = change->kind;

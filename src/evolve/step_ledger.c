@@ -6,6 +6,7 @@
 
 #include "evolve/bodies.h"
 #include "evolve/points.h"
+#include "evolve/soft_point.h"
 
 /* The pose of a body before the step in time. */
 static CpsiPose pose_before(const CpsiBody *body) {
@@ -80,7 +81,7 @@ static double work_on_body(const CpsEvolution *evolution, const CpsiBody *body) 
     return work + vec3_dot(vec3_add(moment, vec3_load(&support[3])), turn);
 }
 
-/* Friction of the points, and the work of the obstacles under them. */
+/* Friction of the points, the work of the obstacles under them, and what these have stored. */
 static double add_points(const CpsEvolution *evolution, CpsStepReport *step) {
     double pushed = 0;
     for (int i = 0; i < evolution->points.count; i++) {
@@ -90,6 +91,9 @@ static double add_points(const CpsEvolution *evolution, CpsStepReport *step) {
         pushed += work_on_point(evolution, report);
     }
     step->ledger.obstacles += pushed;
+    const double stored = cpsi_soft_point_growth(evolution);
+    step->ledger.elastic += stored;
+    step->ledger.ends += stored; /* the forces at points do the work */
     return pushed;
 }
 

@@ -9,6 +9,7 @@
 #include "base/larger.h"
 #include "cable/end_set.h"
 #include "cable/field.h"
+#include "cable/soft.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/body_motion.h"
@@ -16,6 +17,7 @@
 #include "evolve/joint_system.h"
 #include "evolve/point_motion.h"
 #include "evolve/points.h"
+#include "evolve/soft_point.h"
 
 /* What is left counts as balanced up to so many tolerances of the largest force. */
 static const double BALANCED = 100;
@@ -157,11 +159,20 @@ int cpsi_trial_nearest(const CpsEvolution *evolution, Vec3 place, double *gap, V
     return nearest;
 }
 
+/* Slip in what gives, and where the point would be in it without: slip is that along the surface
+ * through the place, as at nodes. */
+static void find_slip_within(const CpsiObstacle *on, Vec3 before, CpsiFree *at) {
+    const CpsiObstacle level = cpsi_obstacle_within(on, cpsi_soft_way_depth(on, at->place));
+    at->slip = cpsi_obstacle_slip(&level, before, at->place);
+    at->start = vec3_axpy(fmin(at->gap, 0), cpsi_obstacle_normal(on, at->start), at->start);
+}
+
 /* The nearest obstacle, and where the point was on it when the step began. */
 void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     const CpsiPoint *point = &evolution->points.point[at->point];
     at->obstacle = CPS_NO_OBSTACLE;
     at->gap = INFINITY;
+    at->gives = false;
     at->drags = cpsi_point_drags(&evolution->points, at->point);
     if (at->drags) {
         at->start = vec3_load(point->position);
@@ -184,6 +195,9 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
                             &evolution->shift[at->obstacle], evolution->angle[at->obstacle]);
     at->slip = cpsi_obstacle_slip(on, before, at->place);
     at->start = vec3_axpy(-cpsi_obstacle_gap(on, before), cpsi_obstacle_normal(on, before), before);
+    at->gives = on->stiffness > 0;
+    at->spring = cpsi_soft_point_stiffness(evolution, at->point, at->obstacle);
+    if (at->gives) find_slip_within(on, before, at);
 }
 
 /* [m] A point that is no farther from an obstacle, or has slid no farther, touches it, or is at
@@ -247,7 +261,10 @@ static void find_touch(const CpsiBalance *balance, CpsiFree *at) {
     at->force = vec3(0, 0, 0);
     at->left = at->rest;
     if (at->obstacle == CPS_NO_OBSTACLE) return;
-    if (at->gap <= touch) at->reaction = fmax(0, -vec3_dot(at->rest, at->normal));
+    if (at->gives)
+        at->reaction = at->spring * fmax(0, -at->gap);
+    else if (at->gap <= touch)
+        at->reaction = fmax(0, -vec3_dot(at->rest, at->normal));
     at->bound = at->friction * (balance->follows ? at->reaction : point->reaction_before);
     find_friction(at, touch);
     at->left = vec3_add(vec3_axpy(at->reaction, at->normal, at->rest), at->force);

@@ -23,12 +23,15 @@ typedef struct CpsiFree {
     /* at the nearest obstacle, where there is one */
     int obstacle;
     double gap, friction, bound, reaction;
+    bool gives;               /* that obstacle does (soft_point.h): R = `spring` max(0, -gap) */
+    double spring;            /* [N/m] */
     Vec3 normal, slip, force; /* force: F */
     bool drags;               /* an anchor: in a plane across `normal`, within its bound */
     CpsiWater water;          /* whose buoyancy is in `rest` */
     CpsiInSet in_set;         /* where a set holds it; then no obstacle bears it */
     bool reached;             /* by the forest along which the points are balanced */
-    Vec3 start;               /* where the point was, on the surface and turned with it */
+    Vec3 start; /* where the point was, on the surface and turned with it; in what gives, as deep
+                   as the place */
 } CpsiFree;
 
 /* `rest` with another buoyancy. */

@@ -20,6 +20,7 @@
 #include "loads.h"
 #include "oscillation.h"
 #include "record.h"
+#include "soft.h"
 #include "water.h"
 
 /* ---- what holds for the whole run ---- */
@@ -484,10 +485,16 @@ static void compare_given_points(Compare *compare, ImposedPoint *imposed) {
     const Source *source = &compare->source;
     const CpsScene *scene = compare->scene;
     double surface;
+    bool gives = false;
+    for (int k = 0; k < scene->obstacle_count; k++)
+        gives = gives || scene->obstacle[k].stiffness > 0;
     Anchor *anchor = calloc(source->points, sizeof *anchor);
-    if (!anchor || anchors_open(source, anchor, compare->log)) {
-        find(compare, "holding_capacity_of_point");
+    double *area = calloc(source->points, sizeof *area);
+    if (!anchor || !area || anchors_open(source, anchor, compare->log) ||
+        soft_areas_read(source, area, compare->log)) {
+        find(compare, "holding_capacity_of_point, or bearing_area_of_point");
         free(anchor);
+        free(area);
         return;
     }
     if (water_surface(source, &surface) != scene->has_water_surface ||
@@ -510,6 +517,8 @@ static void compare_given_points(Compare *compare, ImposedPoint *imposed) {
                     point->has_holding_capacity ? point->holding_capacity : 0);
         same_number(compare, "uplift_limit_of_point", point->name, anchor[k].limit,
                     point->has_uplift_limit ? point->uplift_limit : 0);
+        same_number(compare, "bearing_area_of_point", point->name, area[k],
+                    gives ? point->bearing_area : 0);
         if (anchor[k].drags != point->drags) find(compare, "drags_of_point of %s", point->name);
         imposed[k] = (ImposedPoint){.kind = point->kind, .is_known = true};
         for (int a = 0; a < 3; a++)
@@ -517,6 +526,7 @@ static void compare_given_points(Compare *compare, ImposedPoint *imposed) {
                 is_held ? point->position[a] - source->origin[a] : point->force[a];
     }
     free(anchor);
+    free(area);
 }
 
 /* The masses of points, of a file with steps in time. */

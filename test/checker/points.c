@@ -23,6 +23,7 @@
 #include "groups.h"
 #include "joint_motion.h"
 #include "sets.h"
+#include "soft.h"
 #include "water.h"
 
 /* Sums of a few numbers of the file, per largest force; a balance, in tolerances of the step: what
@@ -49,6 +50,7 @@ typedef struct Points {
     double surface;  /* [m] z of the water's surface */
     bool has_surface;
     double *length;  /* (points) [m] of the longest line that ends there */
+    double *area;    /* (points) [m2] with which it bears itself on what gives */
     double largest;  /* [N] of the step */
     double acting;   /* [N] of it what no tension without a bound may have made */
     double rounding; /* [N] of the tensions by that of places */
@@ -245,15 +247,53 @@ static void check_water(const Points *p, const Junction *at) {
         find(p, "it is said to be above the water %.6g m below the surface", -height);
 }
 
-/* No point is below an obstacle, and what touches one is on it. */
+/* In what gives a held point bears on what holds it, and one in a set has no place. Another free
+ * point has the reaction of a spring of the one in which it lies deepest. */
+static void check_soft(const Points *p, const Junction *at) {
+    const Source *source = p->source;
+    const double place = PLACES * (p->length[p->point] + size(at->position)),
+                 copied =
+                     COPIED * (size(at->position) + size(source->origin) + p->length[p->point]);
+    const bool in_set = point_sets_has(p->sets, p->point);
+    Real x[3];
+    widen(at->position, x);
+    for (size_t k = 0; k < source->surfaces; k++) {
+        const Surface *surface = &source->surface[k];
+        const double depth = -(double)surface_distance(surface, x);
+        const bool touched = at->obstacle == (int)k;
+        if (!(surface->gives > 0)) {
+            if (at->obstacle >= 0 && source->surface[at->obstacle].gives > 0 && at->has_place)
+                at_most(p, "depth in another obstacle than the one that gives", depth, place);
+            continue;
+        }
+        if (touched && (is_held(at) || in_set))
+            find(p, "what gives is said to bear a point that is held");
+        if (is_held(at) || (in_set && !at->has_place)) continue;
+        const double stiff =
+            (double)soft_point_stiffness(source, p->line, p->point, p->area[p->point], surface);
+        if (!touched && at->obstacle < 0)
+            at_most(p, "depth in what gives but does not press", stiff > 0 || in_set ? depth : 0,
+                    place);
+        else if (!touched)
+            at_most(p, "depth in another obstacle, beside that in which it lies",
+                    depth + (double)surface_distance(&source->surface[at->obstacle], x), place);
+        else
+            at_most(p, "reaction against that of the depth",
+                    fabs(at->reaction - stiff * fmax(0, depth)),
+                    SUMS * p->largest + stiff * copied);
+    }
+}
+
+/* No point is below a rigid obstacle, and what touches one is on it. */
 static void check_contact(const Points *p, const Junction *at) {
     const Source *source = p->source;
     const double place = PLACES * (p->length[p->point] + size(at->position));
     Real x[3], n[3];
     widen(at->position, x);
     for (size_t k = 0; k < source->surfaces; k++)
-        at_most(p, "depth below an obstacle", -(double)surface_distance(&source->surface[k], x),
-                place);
+        if (!(source->surface[k].gives > 0))
+            at_most(p, "depth below an obstacle", -(double)surface_distance(&source->surface[k], x),
+                    place);
     if (at->obstacle < 0) {
         /* frozen friction acts off the obstacle as well */
         double mu = 0;
@@ -271,8 +311,9 @@ static void check_contact(const Points *p, const Junction *at) {
     }
     const Surface *surface = &source->surface[at->obstacle];
     surface_normal(surface, x, n);
-    at_most(p, "distance from the obstacle that it touches",
-            fabs((double)surface_distance(surface, x)), place);
+    if (!(surface->gives > 0))
+        at_most(p, "distance from the obstacle that it touches",
+                fabs((double)surface_distance(surface, x)), place);
     at_most(p, "error of the normal", apart(at->normal, n), NORMALS);
     at_most(p, "reaction that pulls", -at->reaction, 0);
     if (at->state == POINT_FREE) find(p, "it is said to be off all obstacles, but touches one");
@@ -326,7 +367,8 @@ static void check_friction(const Points *p, const Junction *at) {
     widen(motion->span > 0 ? motion->reference : p->before[p->point].position, from);
     widen(at->position, to);
     surface_carry(surface, from, 1, p->line[0].turn[at->obstacle], carried);
-    surface_slip(surface, carried, to, slip);
+    const Surface level = soft_level(surface, to);
+    surface_slip(&level, carried, to, slip);
     at_most(p, "error of the slip", apart(at->slip, slip), 2 * way);
 }
 
@@ -415,6 +457,7 @@ static void check_step(Points *p) {
         check_lines(p, at);
         check_water(p, at);
         check_contact(p, at);
+        check_soft(p, at);
         check_set(p, at);
         check_friction(p, at);
         check_anchor(p, at);
@@ -510,12 +553,14 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     p.water = calloc(source->points, sizeof *p.water);
     p.anchor = calloc(source->points, sizeof *p.anchor);
     p.dragged = calloc(source->points, sizeof *p.dragged);
+    p.area = calloc(source->points, sizeof *p.area);
     p.has_surface = water_surface(source, &p.surface);
     int bad = !p.line || !p.water || !p.now || !p.before || !p.older || !p.motion ||
                       !p.motion_before || !p.motion_older || !p.length
                   ? -1
                   : open_lines(&p, log);
     if (!bad) bad = !p.anchor || !p.dragged ? -1 : anchors_open(source, p.anchor, log);
+    if (!bad) bad = !p.area ? -1 : soft_areas_read(source, p.area, log);
     p.gives = calloc(source->points, sizeof *p.gives);
     if (!bad) bad = p.gives ? open_bodies(source, &p.bodies) : -1;
     int unread;
@@ -538,6 +583,7 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     free(p.water);
     free(p.anchor);
     free(p.dragged);
+    free(p.area);
     point_sets_free(p.sets);
     return bad;
 }

@@ -46,6 +46,32 @@ int soft_create(const Source *source, const char *line, Record *record, FILE *lo
     return 0;
 }
 
+int soft_areas_read(const Source *source, double *area, FILE *log) {
+    static const char NAME[] = "bearing_area_of_point";
+    size_t count = 0;
+    bool any = false, good = true;
+    for (size_t k = 0; k < source->points; k++) area[k] = 0;
+    for (size_t k = 0; k < source->surfaces; k++) any = any || source->surface[k].gives > 0;
+    if (!any) return 0;
+    good = nc_inq_attlen(source->nc, NC_GLOBAL, NAME, &count) == NC_NOERR &&
+           count == source->points &&
+           nc_get_att_double(source->nc, NC_GLOBAL, NAME, area) == NC_NOERR;
+    for (size_t k = 0; k < source->points && good; k++) good = isfinite(area[k]) && area[k] >= 0;
+    return good ? 0 : complain(log, NAME);
+}
+
+Real soft_point_stiffness(const Source *source, const Record *line, size_t point, double area,
+                          const Surface *surface) {
+    Real all = area;
+    for (size_t i = 0; i < source->lines; i++)
+        for (int e = 0; e < 2; e++) {
+            const Record *r = &line[i];
+            if (r->end_point[e] == (int)point)
+                all += (Real)r->bearing_width * r->element_length[e == 0 ? 0 : r->elements - 1] / 2;
+        }
+    return surface->gives * all;
+}
+
 /* [N/m] */
 static Real stiffness(const Record *r, const Surface *surface, size_t j) {
     const Real before = j > 0 ? r->element_length[j - 1] : 0,

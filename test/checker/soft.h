@@ -10,6 +10,12 @@
 /* What the file has of obstacle k, and of a line. 0, or -1 after one sentence on log. */
 int soft_read(const Source *source, size_t k, Surface *surface, FILE *log);
 int soft_create(const Source *source, const char *line, Record *record, FILE *log);
+/* [m2] The bearing areas of the points (points) themselves; 0 where nothing gives. */
+int soft_areas_read(const Source *source, double *area, FILE *log);
+/* [N/m] What a surface that gives opposes to a point of this area at which these lines of a step
+ * end: of each the half of its last element bears there, with its width. */
+Real soft_point_stiffness(const Source *source, const Record *line, size_t point, double area,
+                          const Surface *surface);
 
 /* What is below node j, `distance` above it along the normal n, where the reference was `gap`, with
  * the force R: its energy, the conjugate of that at R, and their sum plus R x distance, each >= 0.

@@ -117,6 +117,8 @@ CHANGES = [
     ("a weight of a point on a body", EYE, "  eye: {body: spar, at: [1, 0, -5], weight: 3}\n", "20:3: point 'eye': it is on a body, but has a force, a weight or an inertia: give them to the body"),
     ("an inertia of a point on a body", EYE, "  eye: {body: spar, at: [1, 0, -5], inertia: 3}\n", "20:3: point 'eye': it is on a body, but has a force, a weight or an inertia: give them to the body"),
     ("a point on a body without a line", EYE, EYE + "  spare: {body: spar}\n", "21:3: point 'spare': no line ends there: let an end of a line be at it, or leave it out"),
+    ("a bearing area of a point on a body", EYE, "  eye: {body: spar, at: [1, 0, -5], bearing_area: 3}\n",
+     "20:37: point 'eye': bearing_area: it is on a body, which does not bear on obstacles: let it be free, or leave the area out"),
     ("a point of a body below the bed", EYE, "  eye: {body: spar, at: [1, 0, -60]}\n", "20:3: point 'eye': it is 9.8"),
     ("friction with directions", "friction: 0.5", "friction: {axial: 0.5, lateral: 0.6}", "6:3: body 'spar': it may come to rest on obstacle 'bed', whose friction has directions"),
     # history

@@ -31,8 +31,8 @@ points:
   knot: {free: [0, 0, -20], mass: 30, inertia: 40, velocity: [0, 1, 0]}
   eye: {body: buoy, at: [0, 0, -2]}
 lines:
-  leg: {length: 30, elements: 4, mass: 1, stiffness: 1e6, start: {straight: {from: [0, 0, -50], to: [0, 0, -20]}}, ends: {A: {point: anchor}, B: {point: knot}}}
-  top: {length: 18, elements: 4, weight: 1, quasi_static: true, stiffness: 1e6, start: {straight: {from: [0, 0, -20], to: [0, 0, -2]}}, ends: {A: {point: knot}, B: {point: eye}}}
+  leg: {length: 30, elements: 4, mass: 1, stiffness: 1e6, start: {straight: {from: [0, 0, -50], to: [0, 0, -20]}}, ends: {A: {point: anchor}, B: {point: knot}}, bearing_width: 0.1}
+  top: {length: 18, elements: 4, weight: 1, quasi_static: true, stiffness: 1e6, start: {straight: {from: [0, 0, -20], to: [0, 0, -2]}}, ends: {A: {point: knot}, B: {point: eye}}, bearing_width: 0.1}
 history:
   - {name: drift, duration: 2, time_step: 0.1}
 """
@@ -88,6 +88,8 @@ CHANGES = [
     ("a turning obstacle", "time_step: 0.1", "time_step: 0.1, drum.turn: 10", "24:19: stage 1: it has a duration, and beside free points or bodies obstacles neither turn nor move in time"),
     ("a static start of what moves", "start: {straight: {from: [0, 0, -50], to: [0, 0, -20]}}", "start: static", "18:52: point 'knot': velocity: lines that start static are at rest after the first step"),
     ("an anchor that drags", "anchor: {held: [0, 0, -50]}", "anchor: {held: [0, 0, -50], holding_capacity: 10, drags: true}", "17:53: point 'anchor': drags: a step of the history has a duration, in which anchors do not drag"),
+    ("a bed that gives", "friction: 0.5}, drum", "friction: 0.5, stiffness: 1e4}, drum",
+     "3:63: obstacle 'bed': stiffness: it gives, but the history is in time, in which no free point as 'knot' bears on what gives: hold the point"),
     ("a point at the water surface", "points:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30,", "water_density: 1000\nwater_surface: 0\npoints:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30, volume: 0.02,", "20:39: point 'knot': volume: a step of the history has a duration, in which points do not float at a water surface"),
 ]
 

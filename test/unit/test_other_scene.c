@@ -188,11 +188,12 @@ static const char SHAPES_SCENE[] =
     "  quay: {box: {centre: [0, 0, -9], size: [2, 3, 4], radius: 0.5,"
     " rotation: {quaternion: [1, 0, 0, 0]}}, stiffness: 900, damping: 5}\n"
     "  bowl: {sphere: {radius: 90, inside: true}}\n"
+    "points: {foot: {free: [3, 0, 0], bearing_area: 0.5}}\n"
     "lines:\n"
     "  one: {length: 3, elements: 4, mass: 2, stiffness: 1000, bearing_width: 0.1,"
-    " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: held}}\n"
+    " start: {straight: {from: [0, 0, 0], to: [3, 0, 0]}}, ends: {A: held, B: {point: foot}}}\n"
     "history:\n"
-    "  - {name: pull, steps: 2, one.B: {move: [0, 0, 0.1]}}\n";
+    "  - {name: pull, steps: 2, foot.point: {force: [0, 0, 0.1]}}\n";
 
 static const struct SideFile {
     const char *name, *text;
@@ -467,6 +468,7 @@ static const struct Change SHAPE_CHANGE[] = {
     {"stiffness", "stiffness: 900", "stiffness: 901"},
     {"damping", "damping: 5", "damping: 6"},
     {"bearing_width", "bearing_width: 0.1", "bearing_width: 0.2"},
+    {"bearing_area", "bearing_area: 0.5", "bearing_area: 0.6"},
     {"length", "length: 3, radius", "length: 4, radius"},
     {"inside", "{radius: 90, inside: true}", "{centre: [0, 0, -100], radius: 90}"},
     {"main_radius", "main_radius: 3", "main_radius: 4"},

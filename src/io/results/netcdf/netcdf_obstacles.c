@@ -401,6 +401,15 @@ void cpsi_netcdf_write_obstacles(CpsiNetcdfFile *file, const CpsiNetcdfObstacles
     if (obstacles->ground) write_ground(file, obstacles->ground, scene);
 }
 
+static void define_bearing_areas(CpsiNetcdfFile *file, const CpsScene *scene) {
+    const size_t count = (size_t)scene->point_count;
+    double *area = calloc(count + 1, sizeof *area);
+    if (!area) cpsi_netcdf_keep(file, NC_ENOMEM);
+    for (size_t k = 0; area && k < count; ++k) area[k] = scene->point[k].bearing_area;
+    if (area && count > 0) cpsi_netcdf_numbers(file, "bearing_area_of_point", count, area);
+    free(area);
+}
+
 void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene) {
     const size_t count = (size_t)scene->obstacle_count;
     double *stiffness = calloc(count + 1, sizeof *stiffness), most = 0;
@@ -423,6 +432,7 @@ void cpsi_netcdf_define_soft(CpsiNetcdfFile *file, const CpsScene *scene) {
         snprintf(name, sizeof name, "%.200s_bearing_width", scene->line[i].name);
         cpsi_netcdf_numbers(file, name, 1, &scene->line[i].bearing_width);
     }
+    if (most > 0) define_bearing_areas(file, scene);
 }
 
 enum { OF_WAVE = 4 };

@@ -442,6 +442,8 @@ static const CpsiKey SCENE_POINT_KEYS[] = {
      .with = "held", .help = "of an anchor: the force up from the ground that it can bear"},
     {"drags", OPTIONAL, FLAG(ScenePoint, point.drags), .with = "holding_capacity",
      .help = "the anchor gives way along the ground to a force above its capacity"},
+    {"bearing_area", OPTIONAL, NUMBER(ScenePoint, point.bearing_area), POSITIVE, .unit = "m2",
+     .help = "with which it bears on obstacles that give, beside its lines"},
     {"inertia", OPTIONAL, NUMBER(ScenePoint, inertia), NOT_NEGATIVE, .unit = "kg",
      .help = "mass that moves in time, with water that goes along; default: mass, of a weight 0"},
     {"velocity", OPTIONAL, POINT(ScenePoint, point.velocity, 3), ANY, .unit = "m/s", .with = "free",
@@ -503,7 +505,6 @@ static const CpsiKey END_KEYS[] = {
 };
 
 static void begin_end(void *values) { ((CpsiEndValues *)values)->stored = NAN; }
-
 static const CpsiMapping END = {"end", KEYS(END_KEYS), INTO(End), WHICH(End, word),
                                 .begin = begin_end};
 

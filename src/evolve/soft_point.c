@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Free points on obstacles that give (soft_point.h). */
+#include "evolve/soft_point.h"
+
+#include "geometry/obstacle.h"
+
+void cpsi_soft_point_areas(CpsEvolution *evolution) {
+    CpsiPoints *points = &evolution->points;
+    for (int i = 0; i < points->count; i++) points->point[i].area = points->given[i].bearing_area;
+    for (int k = 0; k < 2 * evolution->line_count; k++) {
+        const CpsiLine *line = &evolution->line[k / 2];
+        if (points->tie[k] != CPSI_NO_POINT)
+            points->point[points->tie[k]].area +=
+                line->bearing_width * cpsi_line_share(line, cpsi_line_end_node(line, k % 2));
+    }
+}
+
+double cpsi_soft_point_stiffness(const CpsEvolution *evolution, int index, int on) {
+    return on == CPS_NO_OBSTACLE
+               ? 0
+               : evolution->obstacle[on].stiffness * evolution->points.point[index].area;
+}
+
+/* The obstacle in which a place lies deepest, and how deep [m]; CPS_NO_OBSTACLE: it lies in none,
+ * then 0. `before`: before the obstacles took the motion of the step. */
+static int deepest(const CpsEvolution *evolution, Vec3 place, bool before, double *depth) {
+    int found = CPS_NO_OBSTACLE;
+    *depth = 0;
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        const Vec3 x = before ? cpsi_shift_carry(&evolution->shift[k], place) : place;
+        const double gap = cpsi_obstacle_gap(&evolution->obstacle[k], x);
+        if (!(-gap > *depth)) continue;
+        *depth = -gap;
+        found = k;
+    }
+    return found;
+}
+
+Vec3 cpsi_soft_point_push(const CpsEvolution *evolution, int index) {
+    double depth;
+    const Vec3 place = vec3_load(evolution->points.point[index].position);
+    const int on = deepest(evolution, place, false, &depth);
+    if (on == CPS_NO_OBSTACLE) return vec3(0, 0, 0);
+    return vec3_scale(cpsi_soft_point_stiffness(evolution, index, on) * depth,
+                      cpsi_obstacle_normal(&evolution->obstacle[on], place));
+}
+
+/* [J] Stored under a point at a place. */
+static double stored_at(const CpsEvolution *evolution, int index, Vec3 place, bool before) {
+    double depth;
+    const int on = deepest(evolution, place, before, &depth);
+    return 0.5 * cpsi_soft_point_stiffness(evolution, index, on) * depth * depth;
+}
+
+double cpsi_soft_point_growth(const CpsEvolution *evolution) {
+    const CpsiPoints *points = &evolution->points;
+    double sum = 0;
+    for (int i = 0; i < points->count; i++) {
+        const CpsiPoint *point = &points->point[i];
+        if (point->kind != CPS_POINT_KIND_FREE || point->on.is_there) continue;
+        sum += stored_at(evolution, i, vec3_load(point->position), false) -
+               stored_at(evolution, i, vec3_load(point->before), true);
+    }
+    return sum;
+}

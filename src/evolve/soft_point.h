@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Free points on obstacles that give (CpsPoint.bearing_area; cable/soft.h has the nodes of lines).
+ * The obstacle opposes to a point that lies deeper than its surface by d the reaction R = k d, k =
+ * stiffness x area. The area is that of the point, and of the half of the last element of every
+ * line that ends there its length times the bearing width of the line: so a line that is cut at a
+ * node bears there as before. */
+#ifndef CAPSTAN_SRC_EVOLVE_SOFT_POINT_H
+#define CAPSTAN_SRC_EVOLVE_SOFT_POINT_H
+
+#include "evolve/state.h"
+
+/* Find the areas of all points, of the lines that end there in the step. */
+void cpsi_soft_point_areas(CpsEvolution *evolution);
+/* [N/m] k of point `index` on obstacle `on`; 0 of one that does not give. */
+double cpsi_soft_point_stiffness(const CpsEvolution *evolution, int index, int on);
+/* [N] What the obstacle in which it lies deepest, if that gives, does to it where it is. */
+Vec3 cpsi_soft_point_push(const CpsEvolution *evolution, int index);
+/* [J] What obstacles that give have stored more under the free points than before the step. */
+double cpsi_soft_point_growth(const CpsEvolution *evolution);
+
+#endif
