@@ -84,8 +84,7 @@ double cpsi_soft_damped(const CpsiLine *line, int c, double length) {
 
 double cpsi_soft_way_depth(const CpsiObstacle *obstacle, Vec3 x) {
     const double depth = fmax(0, -cpsi_obstacle_gap(obstacle, x));
-    return cpsi_obstacle_kind_has_radius(obstacle->kind) && depth < 0.5 * obstacle->radius ? depth
-                                                                                           : 0;
+    return cpsi_obstacle_kind_has_radius(obstacle->kind) ? fmin(depth, 0.5 * obstacle->radius) : 0;
 }
 
 double cpsi_soft_missed(const CpsiLine *line, int j) {

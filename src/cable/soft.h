@@ -29,7 +29,8 @@ bool cpsi_soft_is_crossed(const CpsiLine *line, int j, double length);
 double cpsi_soft_growth(const CpsiLine *line, double length);
 double cpsi_soft_damped(const CpsiLine *line, int c, double length);
 
-/* [m] How much deeper than the surface slip at x is measured. */
+/* [m] How much deeper than the surface slip at x is measured, in what is round: as deep as x, up to
+ * half of the radius, so that it is continuous and does not count angles about the axis as ways. */
 double cpsi_soft_way_depth(const CpsiObstacle *obstacle, Vec3 x);
 
 /* [m] The least height, over an obstacle that gives and is no contact of its, of node j at the

@@ -112,7 +112,7 @@ Surface soft_level(const Surface *surface, const Real *x) {
         [SURFACE_TORUS] = true,    [SURFACE_CONE] = true,   [SURFACE_BOX] = true};
     if (!(surface->gives > 0) || !IS_ROUND[surface->kind]) return *surface;
     const Real depth = -surface_distance(surface, x);
-    return depth > 0 && depth < surface->radius / 2 ? surface_within(surface, depth) : *surface;
+    return depth > 0 ? surface_within(surface, fminl(depth, (Real)surface->radius / 2)) : *surface;
 }
 
 bool soft_bears(const Record *r, size_t j, size_t k) {

@@ -27,8 +27,8 @@ typedef struct Soft {
 Soft soft_spring(const Record *r, const Surface *surface, size_t j, const Real *n, Real gap,
                  Real distance, Real R);
 
-/* The surface along which a node at x slips: in what is round and gives its parallel there, as long
- * as the depth is less than half of the radius. */
+/* The surface along which a node at x slips: in what is round and gives its parallel there, not
+ * deeper than half of the radius. */
 Surface soft_level(const Surface *surface, const Real *x);
 
 /* Is obstacle k that of a contact of node j? */
