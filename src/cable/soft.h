@@ -37,6 +37,10 @@ double cpsi_soft_way_depth(const CpsiObstacle *obstacle, Vec3 x);
  * position; INFINITY: there is none. */
 double cpsi_soft_missed(const CpsiLine *line, int j);
 
+/* [N] What is stored in what gives below node j, if it is not held, per length of line there;
+ * `before`: before it was shifted to where it is now. */
+double cpsi_soft_per_length(const CpsiLine *line, int j, bool before);
+
 /* [J] Stored in what gives, at the position; `before`: before it was shifted to where it is now. */
 double cpsi_soft_energy(const CpsiLine *line, bool before);
 

@@ -106,10 +106,12 @@ CpsStatus cpsi_soft_line_check(const CpsScene *scene, const CpsLine *line, CpsEr
                             "line '%s': start: obstacle '%s' gives (stiffness), so the reactions "
                             "follow from the nodes: leave reactions and friction bounds out",
                             line->name, soft->name);
-    if (line->winch[CPS_END_A].is_there || line->winch[CPS_END_B].is_there)
-        return CPSI_FAIL_AT("ends", err, CPS_ERR_ARGUMENT,
-                            "line '%s': stored: obstacle '%s' gives (stiffness), and lines on it "
-                            "have no winch: leave one of them out",
-                            line->name, soft->name);
+    for (int end = 0; end < 2; end++)
+        if (line->winch[end].is_there && line->end[end].kind == CPS_END_KIND_POINT)
+            return CPSI_FAIL_AT(
+                "ends", err, CPS_ERR_ARGUMENT,
+                "line '%s': stored: obstacle '%s' gives (stiffness), and winches "
+                "beside it are not at points: hold the end, or leave one of them out",
+                line->name, soft->name);
     return CPS_OK;
 }
