@@ -289,7 +289,7 @@ static void what_bears_on_nothing_is_refused(void **unused) {
     refuse(&c, "it is held to a set");
     make(&c, 3, 0.3);
     c.line[0].winch[CPS_END_A] = (CpsWinch){true, 0.1};
-    refuse(&c, "winches beside it are not at points");
+    refuse(&c, "a winch beside it holds its end at no point");
 }
 
 /* Steps in time: refused where a point is free, or is made free before. */
