@@ -652,6 +652,58 @@ static void what_is_refused(void **unused) {
     expect_refused(&m.scene, "history[1].b1.point", "change the body instead");
 }
 
+/* A mast of weight W, its centre of gravity and the ends of its stays at the height 1 over the hinge
+ * about which it turns, between two stays of two equal pieces each, which meet at free points: each
+ * stay has the stiffness k = EA/(2 l), so that the hinge has 2 k - W. */
+static void a_mast_between_stays(Mooring *m, CpsPoint point[6], double tilt) {
+    static const double X[] = {-10, 10, -5, 5}, PIECE = 4.9, EA = 3430;
+    begin(m, 4);
+    for (int i = 0; i < 6; i++) {
+        point[i] = cps_point_default();
+        if (i < 4) point[i].position[0] = X[i];
+        point[i].position[2] = 1;
+        if (i > 1) point[i].kind = i < 4 ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_ON_BODY;
+        point[i].name = m->point[i].name;
+    }
+    for (int i = 0; i < 4; i++) {
+        m->line[i].length = PIECE;
+        m->line[i].element_count = 1;
+        m->line[i].stiffness = EA;
+        m->line[i].end_point[0] = i;
+        m->line[i].end_point[1] = i < 2 ? 2 + i : 4 + i % 2;
+    }
+    m->body.weight = 981;
+    m->body.centre_of_gravity[2] = 1;
+    m->body.rotation[0] = cos(0.5 * tilt);
+    m->body.rotation[2] = sin(0.5 * tilt);
+    for (int i = 0; i < 6; i++) m->body.fixed[i] = i != 4;
+    m->scene.point = point;
+    m->scene.point_count = 6;
+}
+
+/* Upright it is in balance and not stable, though it would be if the points of the stays were held;
+ * from beside that it goes to where it hangs. */
+static void free_points_follow_a_mast(void **unused) {
+    (void)unused;
+    Mooring m;
+    CpsPoint point[6];
+    a_mast_between_stays(&m, point, 0);
+    CpsEvolution *evolution = evolve(&m.scene);
+    CpsBodyReport found = step(evolution);
+    CHECK_NEAR(found.rotation[2], 0, 1e-12);
+    CHECK_NEAR(found.stiffness[28], 3430 / 4.9 - 981, 1e-6);
+    assert_false(found.is_stable);
+    cps_evolution_destroy(evolution);
+    for (int side = -1; side <= 1; side += 2) {
+        a_mast_between_stays(&m, point, 3 * side / RADIAN);
+        evolution = evolve(&m.scene);
+        found = step(evolution);
+        CHECK_NEAR(fabs(found.rotation[2]), 1, 1e-9);
+        assert_true(found.is_stable);
+        cps_evolution_destroy(evolution);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pendulum),
@@ -664,6 +716,7 @@ int main(void) {
         cmocka_unit_test(oc3_at_rest),
         cmocka_unit_test(oc3_thrust_on_and_off),
         cmocka_unit_test(moves_of_bodies),
+        cmocka_unit_test(free_points_follow_a_mast),
         cmocka_unit_test(angles_of_a_pose),
         cmocka_unit_test(what_is_refused),
     };

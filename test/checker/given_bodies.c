@@ -349,7 +349,7 @@ static void compare_stiffness(Compare *c, size_t k, const double g[3], size_t st
     double per[3], most = 0, worst = 0;
     Real own[SIX * SIX];
     for (int i = 0; i < 3; i++) per[i] = pull > 0 ? g[i] / pull : 0;
-    const StiffnessStep of = {c->source, &c->bodies, c->line, per, false};
+    const StiffnessStep of = {c->source, &c->bodies, c->line, per, step, false};
     if (at->kind != BODY_FREE || !at->has_place || !body_stiffness(&of, k, at, arm, own)) return;
     if (!has_duration(c, step)) add_members(c, k, at, arm, own);
     for (int i = 0; i < SIX * SIX; i++) {
