@@ -7,9 +7,10 @@
  *
  *     K_uu - K_uy (P K_yy + Q)^-1 P K_yu.
  *
- * The rows of all bodies are set to those of the identity: with a unit motion as the right-hand side
- * there the solution has y. Where a point is held by nothing, as between slack lines, the least
- * stiffness of the search is added to K_yy: what the lines lose along such a motion is 0 as well. */
+ * The rows of all bodies are set to those of the identity: with a unit motion as the right-hand
+ * side there the solution has y. Where a point is held by nothing, as between slack lines, the
+ * least stiffness of the search is added to K_yy: what the lines lose along such a motion is 0 as
+ * well. */
 #include "evolve/body_following.h"
 
 #include <math.h>

@@ -29,8 +29,8 @@ CpsiMovedStiffness cpsi_moved_stiffness(const CpsEvolution *evolution, const Cps
                                         CpsStiffnessKind kind);
 
 /* The equation P K y + Q y = 0 of a point that follows by y, K y what the lines there lose, against
- * the step that its report is of; `size` [N/m]: of K. False where it is not known, or the point does
- * not follow: then it stays, Q = size. */
+ * the step that its report is of; `size` [N/m]: of K. False where it is not known, or the point
+ * does not follow: then it stays, Q = size. */
 typedef struct CpsiFollowerRows {
     double p[3][3], q[3][3];
 } CpsiFollowerRows;

@@ -233,6 +233,7 @@ bool body_points_finish(const StiffnessStep *step, BodyPoints *points, Real stif
     for (size_t i = 0; i < SIX; i++)
         for (size_t j = 0; j < SIX; j++)
             for (size_t k = 0; k < n; k++)
-                stiffness[SIX * i + j] -= points->feedback[n * i + k] * points->lost[width * k + n + j];
+                stiffness[SIX * i + j] -=
+                    points->feedback[n * i + k] * points->lost[width * k + n + j];
     return true;
 }

@@ -18,7 +18,8 @@
  *
  * That is a system of blocks of four rows for each line, for dT of an element and v of the node
  * behind it, solved once for each of the six moves of both ends. Free points at which the lines end
- * follow (body_points.c). The pulls turn about the reference point, and what weight, buoyancy and water lose is taken from differences of themselves. */
+ * follow (body_points.c). The pulls turn about the reference point, and what weight, buoyancy and
+ * water lose is taken from differences of themselves. */
 #include "body_stiffness.h"
 
 #include <math.h>
@@ -360,7 +361,8 @@ static void take_end(const Record *r, const Chain *chain, int end, Real ends[SIX
         Triple d;
         for (int a = 0; a < 3; a++) d[a] = chain->x[next][1 + a][i] - chain->x[own][1 + a][i];
         for (int a = 0; a < 3; a++)
-            ends[3 * end + a][i] -= at->across * (d[a] - dot(at->e, d) * at->e[a]) + grown * at->e[a];
+            ends[3 * end + a][i] -=
+                at->across * (d[a] - dot(at->e, d) * at->e[a]) + grown * at->e[a];
     }
 }
 
