@@ -98,7 +98,8 @@ static bool add_all(CpsiBalance *balance, bool adds) {
     for (int k = 0; k < balance->body_count && all; k++) {
         double added[36], *stiffness = bodies->body[balance->rigid[k].body].report.stiffness;
         all = find_added(balance, k, added);
-        for (int i = 0; i < 36 && all; i++) stiffness[i] += added[i];
+        if (!all) break;
+        for (int i = 0; i < 36; i++) stiffness[i] += added[i];
     }
     return all;
 }

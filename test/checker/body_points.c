@@ -215,8 +215,9 @@ static bool eliminate(Real *rows, size_t n) {
             rows[width * best + j] = swap;
         }
         for (size_t i = 0; i < n; i++) {
-            const Real by = i == p ? 0 : rows[width * i + p] / rows[width * p + p];
-            for (size_t j = p; j < width && i != p; j++)
+            if (i == p) continue;
+            const Real by = rows[width * i + p] / rows[width * p + p];
+            for (size_t j = p; j < width; j++)
                 rows[width * i + j] -= by * rows[width * p + j];
         }
     }

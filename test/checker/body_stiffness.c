@@ -392,18 +392,18 @@ static bool add_line(const StiffnessStep *step, const Record *r, size_t k, const
     }
     if (!moves[0] && !moves[1]) return true;
     Chain chain;
-    bool found = chain_create(&chain, r) && is_plain(step, r) && set_line(step, r, moves, &chain);
-    for (int a = 0; a < 3 && found; a++) {
-        chain.x[0][1 + a][a] = 1;
-        chain.x[r->elements][1 + a][3 + a] = 1;
-    }
-    found = found && solve_line(r, &chain);
     Real ends[SIX][SIX] = {{0}};
-    for (int e = 0; e < 2 && found; e++) {
-        take_end(r, &chain, e, ends);
-        if (end[e].is_on) add_turn(r, e, arm[e], stiffness);
+    bool found = chain_create(&chain, r) && is_plain(step, r) && set_line(step, r, moves, &chain);
+    if (found) {
+        for (int a = 0; a < 3; a++) chain.x[0][1 + a][a] = chain.x[r->elements][1 + a][3 + a] = 1;
+        found = solve_line(r, &chain);
     }
-    if (found) body_points_add(points, ends, end, stiffness);
+    if (found) {
+        for (int e = 0; e < 2; e++) take_end(r, &chain, e, ends);
+        if (end[0].is_on) add_turn(r, 0, arm[0], stiffness);
+        if (end[1].is_on) add_turn(r, 1, arm[1], stiffness);
+        body_points_add(points, ends, end, stiffness);
+    }
     chain_free(&chain);
     return found;
 }
