@@ -63,9 +63,10 @@ static void add_column(const CpsiBalance *balance, int k, int column, double add
                 balance->number[far] < 0)
                 continue;
             const CpsiJointMap map = cpsi_joint_map(balance, on);
-            const double *block = &balance->tangent[36 * (size_t)item + (size_t)(18 * end) +
-                                                    (size_t)(3 * !end)],
-                         *y = &balance->step[3 * balance->number[far]];
+            const double
+                *block =
+                    &balance->tangent[36 * (size_t)item + (size_t)(18 * end) + (size_t)(3 * !end)],
+                *y = &balance->step[3 * balance->number[far]];
             for (int row = 0; row < 6; row++)
                 for (int a = 0; a < 3; a++)
                     for (int b = 0; b < 3; b++)

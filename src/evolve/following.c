@@ -192,8 +192,7 @@ static Rows rows_on_surface(const Following *f, int point, double size) {
     const double slip = vec3_norm(s), bound = follows ? mu * report->reaction : vec3_norm(friction),
                  spring = gives ? cpsi_soft_point_stiffness(evolution, point, report->obstacle) : 0;
     const bool rests = mu > 0 && (stick || !(slip > CPS_TOUCH * of->length));
-    Rows out = rests ? held(size)
-                     : in_plane(size, n, s, mu > 0 ? bound : 0, turn_of(on, slip));
+    Rows out = rests ? held(size) : in_plane(size, n, s, mu > 0 ? bound : 0, turn_of(on, slip));
     if (gives) {
         vec3_add_outer(out.p, 1, n, n);
         vec3_add_outer(out.q, spring - size, n, n);
@@ -256,8 +255,9 @@ static CpsStiffnessOutcome rows_of(const Following *f, int point, double size, R
 
 bool cpsi_follower_rows(const CpsEvolution *evolution, bool is_static, int point, double size,
                         CpsiFollowerRows *out) {
-    const Following f = {
-        .evolution = evolution, .kind = CPS_STIFFNESS_STEP, .is_static = is_static};
+    const Following f = {.evolution = evolution,
+                         .kind = CPS_STIFFNESS_STEP,
+                         .is_static = is_static};
     const bool is_free = evolution->points.point[point].kind == CPS_POINT_KIND_FREE;
     const bool known = (is_free || has_dragged(evolution, point)) &&
                        rows_of(&f, point, size, out) == CPS_STIFFNESS_OUTCOME_FOUND;
@@ -413,8 +413,8 @@ CpsiMovedStiffness cpsi_moved_stiffness(const CpsEvolution *evolution, const Cps
                          .balance = evolution->points.balance,
                          .moved = moved,
                          .kind = kind,
-                         .is_static = evolution->has_static &&
-                                      evolution->done + evolution->move_count == 1,
+                         .is_static =
+                             evolution->has_static && evolution->done + evolution->move_count == 1,
                          .width = moved->body >= 0 ? 6 : 3};
     bool same = true;
     find_followers(&f);

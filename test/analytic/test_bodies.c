@@ -653,8 +653,8 @@ static void what_is_refused(void **unused) {
 }
 
 /* A mast of weight W, its centre of gravity and the ends of its stays at the height 1 over the
- * hinge about which it turns, between two stays of two equal pieces each, which meet at free points: each
- * stay has the stiffness k = EA/(2 l), so that the hinge has 2 k - W. */
+ * hinge about which it turns, between two stays of two equal pieces each, which meet at free
+ * points: each stay has the stiffness k = EA/(2 l), so that the hinge has 2 k - W. */
 static void a_mast_between_stays(Mooring *m, CpsPoint point[6], double tilt) {
     static const double X[] = {-10, 10, -5, 5}, PIECE = 4.9, EA = 3430;
     begin(m, 4);

@@ -217,8 +217,7 @@ static bool eliminate(Real *rows, size_t n) {
         for (size_t i = 0; i < n; i++) {
             if (i == p) continue;
             const Real by = rows[width * i + p] / rows[width * p + p];
-            for (size_t j = p; j < width; j++)
-                rows[width * i + j] -= by * rows[width * p + j];
+            for (size_t j = p; j < width; j++) rows[width * i + j] -= by * rows[width * p + j];
         }
     }
     for (size_t i = 0; i < n; i++)

@@ -11,7 +11,8 @@ static const char SCENE[] =
     "capstan: 1\ngravity: [0, 0, -10]\n"
     "obstacles: {bed: {plane: {point: [0, 0, -20]}, friction: 0.5}}\n"
     "bodies:\n"
-    "  mast: {free: [0, 0, 0], fixed: [x, y, z, rx, rz], weight: 981, centre_of_gravity: [0, 0, 1]}\n"
+    "  mast: {free: [0, 0, 0], fixed: [x, y, z, rx, rz], weight: 981, centre_of_gravity: [0, 0, "
+    "1]}\n"
     "  buoy: {free: [40, 0, 0], weight: 500, buoyancy: 1500, centre_of_buoyancy: [0, 0, 0.5],"
     " hydrostatics: {z: 500, rx: 300, ry: 300, rz: 300}, force: [100, 5, 0]}\n"
     "points:\n"
@@ -22,19 +23,26 @@ static const char SCENE[] =
     "  stern: {body: buoy, at: [-1, 0, -1]}\n"
     "  fore: {free: [50, 0, -20], weight: 900}\n"
     "lines:\n"
-    "  a: {length: 4.9, elements: 1, stiffness: 3430, weight: 0, start: static, ends: {A: {held: [-10, 0, 1]}, B:"
+    "  a: {length: 4.9, elements: 1, stiffness: 3430, weight: 0, start: static, ends: {A: {held: "
+    "[-10, 0, 1]}, B:"
     " {point: west}}}\n"
-    "  b: {length: 4.9, elements: 1, stiffness: 3430, weight: 0, start: static, ends: {A: {point: west}, B: {point:"
+    "  b: {length: 4.9, elements: 1, stiffness: 3430, weight: 0, start: static, ends: {A: {point: "
+    "west}, B: {point:"
     " top}}}\n"
-    "  c: {length: 4.9, elements: 1, stiffness: 3430, weight: 0, start: static, ends: {A: {point: top}, B: {point:"
+    "  c: {length: 4.9, elements: 1, stiffness: 3430, weight: 0, start: static, ends: {A: {point: "
+    "top}, B: {point:"
     " east}}}\n"
-    "  d: {length: 4.9, elements: 1, stiffness: 3430, weight: 0, start: static, ends: {A: {point: east}, B: {held:"
+    "  d: {length: 4.9, elements: 1, stiffness: 3430, weight: 0, start: static, ends: {A: {point: "
+    "east}, B: {held:"
     " [10, 0, 1]}}}\n"
-    "  e: {length: 21, elements: 4, weight: 1, stiffness: 2e4, start: static, ends: {A: {point: bow}, B: {point:"
+    "  e: {length: 21, elements: 4, weight: 1, stiffness: 2e4, start: static, ends: {A: {point: "
+    "bow}, B: {point:"
     " fore}}}\n"
-    "  f: {length: 33, elements: 4, weight: 1, stiffness: 2e4, start: static, ends: {A: {point: stern}, B: {held:"
+    "  f: {length: 33, elements: 4, weight: 1, stiffness: 2e4, start: static, ends: {A: {point: "
+    "stern}, B: {held:"
     " [15, 0, -20]}}}\n"
-    "  g: {length: 9, elements: 3, weight: 1, stiffness: 2e4, start: static, ends: {A: {point: fore}, B: {held: [60,"
+    "  g: {length: 9, elements: 3, weight: 1, stiffness: 2e4, start: static, ends: {A: {point: "
+    "fore}, B: {held: [60,"
     " 0, -19]}}}\n"
     "history:\n"
     "  - {name: push, steps: 2, buoy.body: {force: [-300, 20, 0]}}\n";
@@ -56,7 +64,8 @@ static const FalseNumber FALSE[] = {
 };
 
 int main(void) {
-    static const Falsified FALSIFIED = {
-        .scene = SCENE, .records = LINES * STEPS, .number = FALSIFIED_ROWS(FALSE)};
+    static const Falsified FALSIFIED = {.scene = SCENE,
+                                        .records = LINES * STEPS,
+                                        .number = FALSIFIED_ROWS(FALSE)};
     return falsified_main(&FALSIFIED);
 }
