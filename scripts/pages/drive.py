@@ -71,7 +71,7 @@ def wheels(program):
     """Strengths of the brake over the ground, sizes, and the least component of W beside the other, of extreme_motions.c."""
     beta = [float(b) for b in program.constant("extreme_motions.c", r"BETA\[\] = \{([^}]*)\}").split(",")]
     size = program.constant("extreme_motions.c", r"\* ?pow\(10, digit\((\d)\)\), speed")
-    least = int(program.constant("extreme_motions.c", r"-below\((\d+)\)\)\)")) - 1
+    least = int(program.constant("extreme_motions.c", r"-below\((\d+)\)\);")) - 1
     return [short(min(beta)), short(max(beta)), f"1e-{size}", f"1e{size}", f"1e-{least}"]
 
 

@@ -80,7 +80,7 @@ static void plan_point(CpsEvolution *evolution, int index) {
     const CpsPoint *given = &evolution->points.given[index];
     if (given->kind != CPS_POINT_KIND_ON_BODY) return;
     const CpsiBody *body = &evolution->bodies.body[given->body];
-    const Vec3 arm = rotation_apply(body->pose.turn, vec3_load(given->position));
+    const Vec3 arm = cpsi_pose_arm(&body->pose, given->position);
     inertia->velocity_given = body->inertia.velocity_given;
     vec3_store(inertia->given_velocity,
                vec3_add(body->inertia.given_velocity, vec3_cross(body->inertia.given_rate, arm)));

@@ -314,6 +314,9 @@ CHANGES = [
     ("bracket not closed", "to: [10, 0, 0]}}", "to: [10, 0, 0", INPUT, "11:1: not valid YAML"),
     ("escape in a text", "capstan: 1", "capstan: 1\ntitle: \"\\e[31mred\"", INPUT, "2:8: found a text with a line break, a tab or a control character"),
     ("text of two lines", "capstan: 1", "capstan: 1\ntitle: |\n  a\n  b", INPUT, "3:1: found a text with a line break"),
+    ("two apostrophes", "capstan: 1", "capstan: 1\ntitle: 'it''''s'", INPUT, "2:8: found two apostrophes in a row in single quotes: write"),
+    ("two apostrophes behind other letters", "capstan: 1", "capstan: 1\ntitle: '\u00e9\u20ac it''''s'", INPUT, "2:8: found two apostrophes"),
+    ("apostrophes alone", "capstan: 1", "capstan: 1\ntitle: " + "'" * 46, INPUT, "2:8: found two apostrophes"),
     ("text too long", "capstan: 1", "capstan: 1\ntitle: " + "x" * 70000, LIMIT, "2:8: a text of 70000 bytes, the limit is 65536"),
 ]
 

@@ -43,7 +43,8 @@ enum { COLD, WARM, METHODS };
 
 typedef struct Tally {
     int steps, warm, other, cut, alike, known, farther, wrong, late;
-    double most, nearest; /* per length: a step as taken from the path, and with a path tolerance */
+    double taken,
+        followed; /* per length: farthest from the path, as taken, with a path tolerance */
 } Tally;
 
 /* The history with a stage for each step, between which there may be moves. */
@@ -190,8 +191,8 @@ static void judge_taken(const CpsScene *scene, Run *run, const CpsStage *stage, 
         const bool good = take_parts(&fine, run, stage, method, 1, CERTIFIED, run->taken[method]);
         near[method] = apart(run, run->taken[method], run->path[COLD]);
         wrong = wrong || !good || near[method] > NEAR;
-        tally->most = fmax(tally->most, off[method]);
-        tally->nearest = fmax(tally->nearest, near[method]);
+        tally->taken = fmax(tally->taken, off[method]);
+        tally->followed = fmax(tally->followed, near[method]);
     }
     tally->wrong += wrong;
     printf("as taken cold %.1e, warm %.1e from the path, with a path tolerance %.1e, %.1e%s\n",
@@ -331,6 +332,6 @@ int main(int argc, char **argv) {
            "the warm step farther from it in %d; as taken the steps whose path is known end up to "
            "%.1e beside it, with a path tolerance %.1e; %d scenes too long; %d WRONG\n",
            tally.steps, tally.warm, tally.cut, tally.alike, tally.other, tally.known, tally.farther,
-           tally.most, tally.nearest, tally.late, tally.wrong);
+           tally.taken, tally.followed, tally.late, tally.wrong);
     return tally.wrong > 0 || tally.steps == 0;
 }

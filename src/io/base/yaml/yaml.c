@@ -28,6 +28,8 @@ typedef struct OpenCollection { /* a collection that is not closed yet */
 
 typedef struct Parse {
     const char *file, *what;
+    const char *bytes; /* (size) of the file */
+    size_t size;
     CpsiPool *pool;
     CpsError *err;
     OpenCollection *open; /* (max_depth) */
@@ -189,10 +191,26 @@ static CpsStatus out_of_memory(const Parse *p) {
                         p->what);
 }
 
+/* Are there two apostrophes in a row in a text in single quotes, where each is written twice?
+ * libfyaml 0.7.12 takes them for three, and loses what is behind them. */
+static bool has_two_apostrophes(const Parse *p, struct fy_token *token) {
+    const struct fy_mark *start = fy_token_start_mark(token), *end = fy_token_end_mark(token);
+    if (fy_token_scalar_style(token) != FYSS_SINGLE_QUOTED || !start || !end) return false;
+    for (size_t i = start->input_pos; i + 4 <= end->input_pos && i + 4 <= p->size; i++)
+        if (memcmp(p->bytes + i, "''''", 4) == 0) return true;
+    return false;
+}
+
 /* A copy of the text of a scalar; NULL after an error. When memory does not suffice libfyaml
  * returns an empty text. */
 static const char *scalar_text(Parse *p, struct fy_event *event, int line, int column,
                                CpsStatus *status) {
+    if (has_two_apostrophes(p, event->scalar.value)) {
+        *status = cpsi_fail_at(p->err, CPS_ERR_INPUT, p->file, line, column,
+                               "found two apostrophes in a row in single quotes: write the text in "
+                               "double quotes");
+        return NULL;
+    }
     size_t n = 0;
     const char *text = fy_token_get_text(event->scalar.value, &n);
     const struct fy_mark *start = fy_token_start_mark(event->scalar.value);
@@ -385,6 +403,8 @@ CpsStatus cpsi_yaml_parse(const char *file, const char *what, const char *bytes,
                           int max_depth, CpsiPool *pool, CpsiYaml **root, CpsError *err) {
     Parse p = {.file = file,
                .what = what,
+               .bytes = bytes,
+               .size = size,
                .pool = pool,
                .err = err,
                .max_depth = max_depth,
