@@ -14,12 +14,17 @@
  *     P = 1 - n n' + mu e n',      Q = b/|s| (1 - n n' - e e') - R C + mu e (C F)',
  *
  * C the curvature of the surface, with which the reaction turns, and across which friction bears on
- * it. So K = K_uu - K_uy (P K_yy + Q)^-1 P K_yu. Bodies other than the one that moves stay. */
+ * it; in what gives by the spring k
+ *
+ *     P = 1,                  Q = b/|s| (1 - n n' - e e') - R C + k (n - mu e) n' + n (C F)'.
+ *
+ * So K = K_uu - K_uy (P K_yy + Q)^-1 P K_yu. Bodies other than the one that moves stay. */
 #include "evolve/following.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "cable/soft.h"
 #include "cable/stiffness.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
@@ -192,7 +197,8 @@ static Rows rows_on_surface(const Following *f, int point, double size) {
     const double slip = vec3_norm(s), bound = follows ? mu * report->reaction : vec3_norm(friction),
                  spring = gives ? cpsi_soft_point_stiffness(evolution, point, report->obstacle) : 0;
     const bool rests = mu > 0 && (stick || !(slip > CPS_TOUCH * of->length));
-    Rows out = rests ? held(size) : in_plane(size, n, s, mu > 0 ? bound : 0, turn_of(on, slip));
+    const CpsiObstacle level = cpsi_obstacle_within(on, gives ? cpsi_soft_way_depth(on, x) : 0);
+    Rows out = rests ? held(size) : in_plane(size, n, s, mu > 0 ? bound : 0, turn_of(&level, slip));
     if (gives) {
         vec3_add_outer(out.p, 1, n, n);
         vec3_add_outer(out.q, spring - size, n, n);
@@ -208,9 +214,12 @@ static Rows rows_on_surface(const Following *f, int point, double size) {
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++) {
             const Vec3 to = vec3_load(&axes[3 * a]), from = vec3_load(&axes[3 * b]);
+            const double turned = curvature[a + b] * vec3_dot(friction, to);
             vec3_add_outer(out.q, -report->reaction * curvature[a + b], to, from);
-            if (follows && !gives)
-                vec3_add_outer(out.q, mu * curvature[a + b] * vec3_dot(friction, to), e, from);
+            if (gives)
+                vec3_add_outer(out.q, turned, n, from);
+            else if (follows)
+                vec3_add_outer(out.q, mu * turned, e, from);
         }
     return out;
 }
