@@ -138,9 +138,9 @@ typedef struct CpsBodyReport {
      * in every rotation the moment about the axis `proof` through it, of unit length, is at least
      * this [N m]. They are unbounded then, with a `proof` of 0 */
     double proof[3], proof_moment;
-    bool is_stable;  /* its symmetric part is positive definite in the directions not fixed; of a
-                        held body true */
-    bool has_place;  /* the residual is no larger than the tolerance of points */
+    bool is_stable; /* its symmetric part is positive definite in the directions not fixed, and that
+                       of all such bodies which lines connect, together; of a held body true */
+    bool has_place; /* the residual is no larger than the tolerance of points */
     int trial_count; /* as of points */
 } CpsBodyReport;
 

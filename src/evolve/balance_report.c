@@ -10,6 +10,7 @@
 #include "evolve/bodies.h"
 #include "evolve/body_following.h"
 #include "evolve/body_motion.h"
+#include "evolve/body_stability.h"
 #include "evolve/newton_step.h"
 #include "evolve/point_motion.h"
 #include "evolve/points.h"
@@ -256,11 +257,7 @@ void cpsi_report_found(CpsiBalance *balance) {
     }
     for (int k = 0; k < balance->body_count; k++) report_body(balance, k);
     cpsi_add_followers(balance);
-    for (int k = 0; k < balance->body_count; k++) {
-        CpsiBody *body = &balance->evolution->bodies.body[balance->rigid[k].body];
-        body->report.is_stable =
-            cpsi_is_stable(body->report.stiffness, body->given.fixed, body->arm);
-    }
+    cpsi_judge_stability(balance);
     report_lines(balance);
 }
 

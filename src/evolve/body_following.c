@@ -8,7 +8,8 @@
  *     K_uu - K_uy (P K_yy + Q)^-1 P K_yu.
  *
  * The rows of all bodies are set to those of the identity: with a unit motion as the right-hand
- * side there the solution has y. Where a point is held by nothing, as between slack lines, the
+ * side there the solution has y. What other bodies lose by the motion of the one, A' K y of the
+ * lines at them, is their coupling. Where a point is held by nothing, as between slack lines, the
  * least stiffness of the search is added to K_yy: what the lines lose along such a motion is 0 as
  * well. */
 #include "evolve/body_following.h"
@@ -20,6 +21,7 @@
 #include "evolve/newton_step.h"
 #include "evolve/point_motion.h"
 #include "evolve/points.h"
+#include "linalg/dense.h"
 
 /* A point that follows by more than so many times what moves, rotations by the arm of the body, is
  * held by rounding alone. */
@@ -53,24 +55,42 @@ static bool set_rows(CpsiBalance *balance, bool adds) {
     return cpsi_graph_matrix_factor(balance->matrix);
 }
 
-/* Add A' K y, y the moves of the free points at the other ends of the lines at body k. */
-static void add_column(const CpsiBalance *balance, int k, int column, double added[36]) {
+/* The move of a point at the other end of a line at body `on`, by the unit motion `column` of body
+ * k that is imposed: of a free point that follows, and of one on body k. */
+static bool far_move(const CpsiBalance *balance, int point, int on, int k, int column,
+                     double move[3]) {
+    if (point == CPSI_NO_POINT) return false;
+    if (balance->number[point] >= 0)
+        memcpy(move, &balance->step[3 * balance->number[point]], 3 * sizeof *move);
+    if (balance->number[point] >= 0) return true;
+    if (balance->rigid_of[point] != k || on == k) return false;
+    const CpsiJointMap map = cpsi_joint_map(balance, point);
+    for (int a = 0; a < 3; a++) move[a] = map.by[a][column];
+    return true;
+}
+
+/* Add A' K y, y the moves of the other ends of the lines at each body. */
+static void add_column(CpsiBalance *balance, int k, int column, double added[36]) {
     const int *tie = balance->evolution->points.tie;
+    const size_t width = 6 * (size_t)balance->body_count;
     for (int item = 0; item < balance->line_count; item++)
         for (int end = 0; end < 2; end++) {
-            const int i = balance->line[item], on = tie[2 * i + end], far = tie[2 * i + !end];
-            if (on == CPSI_NO_POINT || far == CPSI_NO_POINT || balance->rigid_of[on] != k ||
-                balance->number[far] < 0)
+            const int i = balance->line[item], point = tie[2 * i + end],
+                      on = point == CPSI_NO_POINT ? -1 : balance->rigid_of[point];
+            double y[3];
+            if (on < 0 || (on != k && balance->body_count > CPSI_TOGETHER) ||
+                !far_move(balance, tie[2 * i + !end], on, k, column, y))
                 continue;
-            const CpsiJointMap map = cpsi_joint_map(balance, on);
-            const double
-                *block =
-                    &balance->tangent[36 * (size_t)item + (size_t)(18 * end) + (size_t)(3 * !end)],
-                *y = &balance->step[3 * balance->number[far]];
-            for (int row = 0; row < 6; row++)
-                for (int a = 0; a < 3; a++)
-                    for (int b = 0; b < 3; b++)
-                        added[6 * row + column] += map.by[a][row] * block[6 * a + b] * y[b];
+            const CpsiJointMap map = cpsi_joint_map(balance, point);
+            const double *block =
+                &balance->tangent[36 * (size_t)item + (size_t)(18 * end) + (size_t)(3 * !end)];
+            for (size_t row = 0; row < 6; row++) {
+                double *to = on == k ? &added[6 * row + (size_t)column]
+                                     : &balance->coupling[width * (6 * (size_t)on + row) +
+                                                          6 * (size_t)k + (size_t)column];
+                for (size_t a = 0; a < 3; a++)
+                    *to += map.by[a][row] * cpsi_dot(3, &block[6 * a], y);
+            }
         }
 }
 
@@ -90,8 +110,14 @@ static bool find_added(CpsiBalance *balance, int k, double added[36]) {
     return true;
 }
 
+static void clear_coupling(CpsiBalance *balance) {
+    const size_t width = balance->body_count > CPSI_TOGETHER ? 0 : 6 * (size_t)balance->body_count;
+    memset(balance->coupling, 0, width * width * sizeof *balance->coupling);
+}
+
 /* For each body; where that is not known of one, it and those after it keep their own blocks. */
 static bool add_all(CpsiBalance *balance, bool adds) {
+    clear_coupling(balance);
     CpsiBodies *bodies = &balance->evolution->bodies;
     for (int k = 0; k < balance->body_count; k++)
         cpsi_body_block(balance, k, bodies->body[balance->rigid[k].body].report.stiffness);
@@ -106,7 +132,8 @@ static bool add_all(CpsiBalance *balance, bool adds) {
 }
 
 void cpsi_add_followers(CpsiBalance *balance) {
-    if (balance->count == 0 || balance->body_count == 0 || add_all(balance, false)) return;
+    if (balance->body_count == 0 || (balance->count == 0 && balance->body_count == 1)) return;
+    if (add_all(balance, false)) return;
     cpsi_fill_matrix(balance);
-    (void)add_all(balance, true);
+    if (!add_all(balance, true)) clear_coupling(balance);
 }

@@ -6,8 +6,9 @@
 #include "evolve/trial.h"
 
 /* Add to the reported stiffness of each body what it loses as the free points follow the body, all
- * other bodies in their poses. The matrix is that of cpsi_fill_matrix, of which nothing is kept;
- * points and bodies are reported on. Where no point follows nothing changes. */
+ * other bodies in their poses, and set balance->coupling to what each loses by the motions of the
+ * others. The matrix is that of cpsi_fill_matrix, of which nothing is kept; points and bodies are
+ * reported on. */
 void cpsi_add_followers(CpsiBalance *balance);
 
 #endif

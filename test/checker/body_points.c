@@ -113,6 +113,8 @@ void body_points_close(BodyPoints *points) {
 
 /* How component a of the place of an end follows from the body. */
 static Real moved_by(const MovedEnd *end, int a, int i) { return end->is_on ? end->map[a][i] : 0; }
+/* ... and from the force there that on the body which is asked for. */
+static Real counted(const MovedEnd *end, int a, int i) { return end->counts ? end->map[a][i] : 0; }
 
 void body_points_add(BodyPoints *points, Real ends[SIX][SIX], const MovedEnd end[2],
                      Real stiffness[SIX * SIX]) {
@@ -124,7 +126,7 @@ void body_points_add(BodyPoints *points, Real ends[SIX][SIX], const MovedEnd end
             const Real k = ends[row][column];
             for (int i = 0; i < SIX; i++)
                 for (int j = 0; j < SIX; j++)
-                    stiffness[SIX * i + j] += moved_by(to, a, i) * k * moved_by(from, b, j);
+                    stiffness[SIX * i + j] += counted(to, a, i) * k * moved_by(from, b, j);
             if (to->follower != STAYS) {
                 Real *lost = &points->lost[width * (size_t)(3 * to->follower + a)];
                 if (from->follower != STAYS) lost[3 * from->follower + b] += k;
@@ -133,7 +135,7 @@ void body_points_add(BodyPoints *points, Real ends[SIX][SIX], const MovedEnd end
             if (from->follower != STAYS)
                 for (int i = 0; i < SIX; i++)
                     points->feedback[n * (size_t)i + (size_t)(3 * from->follower + b)] +=
-                        moved_by(to, a, i) * k;
+                        counted(to, a, i) * k;
         }
 }
 

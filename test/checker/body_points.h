@@ -14,14 +14,15 @@ typedef struct BodyPoints {
     Junction *now;  /* (points of the file) */
     Real *length;   /* (points of the file) [m] of the longest line there */
     Real *lost;     /* (3 count, 3 count + SIX) forces by moves of points, then of the body */
-    Real *feedback; /* (SIX, 3 count) force and moment on the body by moves of points */
+    Real *feedback; /* (SIX, 3 count) force and moment on a body by moves of points */
 } BodyPoints;
 
-/* An end of a line: the moves of the body move it by `map`, or it is at a point that follows. */
+/* An end of a line: on the body that moves, on the one whose force is asked for, which may be the
+ * same, or at a point that follows. */
 typedef struct MovedEnd {
-    bool is_on;
-    int follower; /* or STAYS */
-    Real map[3][SIX];
+    bool is_on, counts;
+    int follower;     /* or STAYS */
+    Real map[3][SIX]; /* by the moves of the body that it is on */
 } MovedEnd;
 
 /* Those of body k. False: no memory, or what holds one is not known here. Close it in any case. */

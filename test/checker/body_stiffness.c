@@ -379,29 +379,34 @@ static void add_turn(const Record *r, int end, const Triple arm, Real stiffness[
     }
 }
 
-static bool add_line(const StiffnessStep *step, const Record *r, size_t k, const BodyState *at,
-                     BodyPoints *points, Real stiffness[SIX * SIX]) {
+/* What a line changes of the force on the first body as the second one moves, which may be the
+ * same. */
+static bool add_line(const StiffnessStep *step, const Record *r, const size_t body[2],
+                     const BodyState *all, BodyPoints *points, Real stiffness[SIX * SIX]) {
+    const size_t to = body[0], from = body[1];
     MovedEnd end[2] = {{.follower = STAYS}, {.follower = STAYS}};
-    bool moves[2];
+    bool moves = false, matters[2];
     Triple arm[2];
     for (int e = 0; e < 2; e++) {
-        end[e].is_on = arm_of(step, r, e, k, at, arm[e]);
-        if (end[e].is_on) set_map(arm[e], end[e].map);
+        end[e].is_on = arm_of(step, r, e, from, &all[from], arm[e]);
+        end[e].counts = to == from ? end[e].is_on : arm_of(step, r, e, to, &all[to], arm[e]);
+        if (end[e].is_on || end[e].counts) set_map(arm[e], end[e].map);
         if (r->end_point[e] >= 0) end[e].follower = points->number[r->end_point[e]];
-        moves[e] = end[e].is_on || end[e].follower != STAYS;
+        moves = moves || end[e].is_on || end[e].follower != STAYS;
+        matters[e] = end[e].is_on || end[e].counts || end[e].follower != STAYS;
     }
-    if (!moves[0] && !moves[1]) return true;
+    if (!moves) return true;
     Chain chain;
     Real ends[SIX][SIX] = {{0}};
-    bool found = chain_create(&chain, r) && is_plain(step, r) && set_line(step, r, moves, &chain);
+    bool found = chain_create(&chain, r) && is_plain(step, r) && set_line(step, r, matters, &chain);
     if (found) {
         for (int a = 0; a < 3; a++) chain.x[0][1 + a][a] = chain.x[r->elements][1 + a][3 + a] = 1;
         found = solve_line(r, &chain);
     }
     if (found) {
         for (int e = 0; e < 2; e++) take_end(r, &chain, e, ends);
-        if (end[0].is_on) add_turn(r, 0, arm[0], stiffness);
-        if (end[1].is_on) add_turn(r, 1, arm[1], stiffness);
+        for (int e = 0; e < 2; e++)
+            if (end[e].is_on && end[e].counts) add_turn(r, e, arm[e], stiffness);
         body_points_add(points, ends, end, stiffness);
     }
     chain_free(&chain);
@@ -432,15 +437,22 @@ static void add_load(const StiffnessStep *step, size_t k, const BodyState *at, d
     }
 }
 
-bool body_stiffness(const StiffnessStep *step, size_t k, const BodyState *at, double arm,
-                    Real stiffness[SIX * SIX]) {
+bool body_coupling(const StiffnessStep *step, size_t to, size_t from, const BodyState *all,
+                   Real stiffness[SIX * SIX]) {
+    const size_t body[2] = {to, from};
     BodyPoints points;
     memset(stiffness, 0, SIX * SIX * sizeof *stiffness);
-    bool found = body_points_open(step, k, &points);
+    bool found = body_points_open(step, from, &points);
     for (size_t i = 0; i < step->source->lines && found; i++)
-        found = add_line(step, &step->line[i], k, at, &points, stiffness);
+        found = add_line(step, &step->line[i], body, all, &points, stiffness);
     found = found && body_points_finish(step, &points, stiffness);
     body_points_close(&points);
-    if (found) add_load(step, k, at, arm, stiffness);
     return found;
+}
+
+bool body_stiffness(const StiffnessStep *step, size_t k, const BodyState *all, double arm,
+                    Real stiffness[SIX * SIX]) {
+    if (!body_coupling(step, k, k, all, stiffness)) return false;
+    add_load(step, k, &all[k], arm, stiffness);
+    return true;
 }

@@ -19,8 +19,12 @@ typedef struct StiffnessStep {
  * the pose that it has, the free points to which its lines lead following it, all other bodies
  * staying. False where that is not known here: a line is slack in part, touches what
  * is no plane, slides with two coefficients, is between two states, or moves in time; or no memory.
- * `arm` [m]: a length of the body. */
-bool body_stiffness(const StiffnessStep *step, size_t k, const BodyState *at, double arm,
+ * `all`: (bodies) their poses; `arm` [m]: a length of the body. */
+bool body_stiffness(const StiffnessStep *step, size_t k, const BodyState *all, double arm,
                     Real stiffness[SIX * SIX]);
+
+/* What that on body `to` loses by the motion of body `from` in the lines, likewise. */
+bool body_coupling(const StiffnessStep *step, size_t to, size_t from, const BodyState *all,
+                   Real stiffness[SIX * SIX]);
 
 #endif
