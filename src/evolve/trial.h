@@ -14,8 +14,9 @@
  * slack lines have none, the rounding of forces moves a point by a thousandth of that length. */
 #define CPSI_REGULAR 1e-8
 
-/* Of groups with no more bodies it is asked whether they are stable together. */
-enum { CPSI_TOGETHER = 64 };
+/* Of groups with no more bodies, the most that a file may have, it is asked whether they are stable
+ * together. */
+enum { CPSI_TOGETHER = 100 };
 
 /* A free point in a trial. */
 typedef struct CpsiFree {

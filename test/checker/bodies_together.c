@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_BODIES = 12 };
+enum { MOST_BODIES = 40 };
 
 /* Pivots this small, per the largest entry, may have either sign: the error of the numbers. */
 static const Real DEFINITE = 1e-9L;
