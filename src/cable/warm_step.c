@@ -9,6 +9,7 @@
 #include "cable/end_set.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
+#include "cable/inertia_field.h"
 #include "cable/soft.h"
 #include "chain/active_set.h"
 #include "chain/frame.h"
@@ -135,8 +136,11 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
         return CPSI_GUESS_LATER;
     }
     if (line->inertia.is_moving) {
-        for (int i = 0; i < 3 * line->n; i++)
-            program->base.residual[i] = line->field.place[i] - line->position[i];
+        for (int j = 0; j < line->n; j++) {
+            const Vec3 x = vec3_at(line->position, j);
+            vec3_store(&program->base.residual[3 * j],
+                       vec3_sub(cpsi_line_expected_place(line, j, x), x));
+        }
         for (int i = 1; i < line->n; i++) program->dt[i] = line->tension[i - 1];
         return CPSI_GUESS_EXTRAPOLATED;
     }
@@ -262,13 +266,13 @@ static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const C
 }
 
 CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
-                                   const CpsiStepScale *scale, CpsiGuess guess,
-                                   int max_iterations) {
+                                   const CpsiStepScale *scale, CpsiGuess guess, int max_iterations,
+                                   double share) {
     const bool extrapolated = guess == CPSI_GUESS_EXTRAPOLATED;
     const bool predicted = guess == CPSI_GUESS_PREDICTED;
     place(line, program, extrapolated ? program->base.residual : NULL);
     guess_pairs(line, program, scale, guess, extrapolated || predicted ? program->dt : NULL);
-    return cpsi_chain_active_set(program, max_iterations, false);
+    return cpsi_chain_active_set(program, max_iterations, false, share);
 }
 
 void cpsi_warm_step_note(CpsiLine *line, bool certified) {

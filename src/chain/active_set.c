@@ -214,20 +214,24 @@ static void finish(const CpsiNewton *newton) {
     for (int d = 0; d < program->disc.count; d++) finish_friction(newton, d);
 }
 
-/* At most so many steps from the guess, with the matrix prepared for them. */
-static CpsiIpmReport iterate(CpsiNewton *newton, int most) {
+/* At most so many steps from the guess, with the matrix prepared for them, to rounding or to what
+ * may be left of the errors of the guess. */
+static CpsiIpmReport iterate(CpsiNewton *newton, int most, double left) {
     const int patience = newton->polishes ? POLISHING_PATIENCE : PATIENCE;
     CpsiChainProgram *program = newton->program;
     CpsiIpmReport report = {.outcome = CPSI_IPM_STALLED};
-    double least = INFINITY;
+    double least = INFINITY, first = 0;
     int waited = 0;
     for (int step = 0; step <= most; step++) {
         report.residual = prepare(newton, step == 0);
         newton->residual = report.residual;
         if (newton->lost || !isfinite(report.residual)) break;
         if (newton->polishes && step == 0 && report.residual > FAR) break;
-        if (step > 0 && !newton->changed && report.residual <= fmin(newton->rounding, MOST_NOISE)) {
+        const double rounding = fmin(newton->rounding, MOST_NOISE);
+        if (step == 0) first = report.residual;
+        if (step > 0 && !newton->changed && report.residual <= fmax(rounding, left * first)) {
             report.outcome = CPSI_IPM_SOLVED;
+            report.is_rough = report.residual > rounding;
             break;
         }
         if (report.residual < PROGRESS * least) {
@@ -252,7 +256,8 @@ static CpsiIpmReport iterate(CpsiNewton *newton, int most) {
     return report;
 }
 
-CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations, bool polishes) {
+CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations, bool polishes,
+                                    double left) {
     const size_t n = (size_t)program->n;
     CpsiMatrix *matrix = &program->matrix;
     const CpsiMatrixSecond *second = matrix->second;
@@ -276,7 +281,7 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
     matrix->frame = newton.frame ? newton.frame : program->frame;
     matrix->second = NULL;
     const int most = polishes ? MOST_POLISHING : MOST_STEPS;
-    CpsiIpmReport report = iterate(&newton, max_iterations < most ? max_iterations : most);
+    CpsiIpmReport report = iterate(&newton, max_iterations < most ? max_iterations : most, left);
     matrix->held = program->held;
     matrix->second = second;
     matrix->share = share;
