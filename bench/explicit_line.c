@@ -150,9 +150,9 @@ int main(int argc, char **argv) {
     line.bed = atof(argv[6]);
     line.far = atof(argv[7]);
     FILE *file = fopen(argv[8], "r");
-    for (int j = 0; file && j < N; j++)
-        if (fscanf(file, "%lf %lf %lf", &line.x[j][0], &line.x[j][1], &line.x[j][2]) != 3) return 1;
     if (!file) return 1;
+    for (int j = 0; j < N; j++)
+        if (fscanf(file, "%lf %lf %lf", &line.x[j][0], &line.x[j][1], &line.x[j][2]) != 3) return 1;
     fclose(file);
     memcpy(from, line.x[N - 1], sizeof from);
     const long steps = lround(LASTS / line.step), every = lround(0.002 / line.step);

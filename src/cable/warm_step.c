@@ -103,12 +103,22 @@ bool cpsi_warm_step_treats(const CpsiLine *line, int c) {
     return !given || cpsi_friction_set_shape(given);
 }
 
-/* How far the method treats the contacts that the line has now, not those with what gives; second
+/* ... in time, of nodes with one plane that gives, without friction? */
+static bool treats_soft(const CpsiLine *line) {
+    if (!line->inertia.is_moving || line->obstacle_count != 1 ||
+        line->obstacle[0].kind != CPS_OBSTACLE_PLANE || line->contacts > 1)
+        return false;
+    for (int j = 0; j < line->n; j++)
+        if (line->friction_law[j].friction > 0) return false;
+    return true;
+}
+
+/* How far the method treats the contacts that the line has now; second
  * ones from the solution of a round on, since a line may rest in a corner, or slide along it, under
  * the same forces. */
 static CpsiGuess treated_contacts(const CpsiLine *line) {
     CpsiGuess best = CPSI_GUESS_EXTRAPOLATED;
-    if (cpsi_line_has_soft(line)) return CPSI_GUESS_NONE;
+    if (cpsi_line_has_soft(line)) return treats_soft(line) ? best : CPSI_GUESS_NONE;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!cpsi_line_obstacle(line, c) || line->state[c] == CPS_NODE_STATE_FREE) continue;
         if (!cpsi_warm_step_treats(line, c)) return CPSI_GUESS_NONE;
