@@ -83,7 +83,10 @@ typedef struct CpsBody {
      * moves with it; and [N s/m, N s, N m s] symmetric part >= 0: damping, force and moment -D u, u
      * the velocity of the reference point and the rate of rotation in the axes of the body */
     double added_mass[36], damping[36];
-    double quadratic_damping[CPS_BODY_DIRECTIONS]; /* D_i >= 0, -D_i |u_i| u_i; [N s2/m2, N m s2] */
+    /* (6, 6) [N s2/m2, N s2, N s2/m, N m s2] E: force and moment -E (|u_i| u_i). It is refused
+     * unless a bound shows that it takes energy, or none, in every motion: any diagonal >= 0 does
+     */
+    double quadratic_damping[36];
     double velocity[CPS_BODY_DIRECTIONS]; /* [m/s, rad/s] as the history begins, of a free body, in
                                              the axes of the scene */
     /* In steps in time, of at most CPS_MAX_WAVES rows, those of one direction with periods that

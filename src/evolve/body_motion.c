@@ -182,12 +182,12 @@ static CpsiWrench inertia_of(const CpsiBody *body, const CpsiBodyPhase *at) {
 
 static CpsiWrench damping_of(const CpsiBody *body, const CpsiBodyPhase *at) {
     const CpsBody *given = &body->given;
-    double u[6], f[6];
+    double u[6], f[6] = {0};
     to_body(at, u);
-    for (int i = 0; i < 6; i++) {
-        f[i] = -given->quadratic_damping[i] * fabs(u[i]) * u[i];
-        for (int k = 0; k < 6; k++) f[i] -= given->damping[6 * i + k] * u[k];
-    }
+    for (int i = 0; i < 6; i++)
+        for (int k = 0; k < 6; k++)
+            f[i] -= (given->damping[6 * i + k] + given->quadratic_damping[6 * i + k] * fabs(u[k])) *
+                    u[k];
     return (CpsiWrench){rotation_apply(at->turn, vec3_load(f)),
                         rotation_apply(at->turn, vec3_load(&f[3]))};
 }

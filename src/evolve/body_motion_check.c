@@ -12,7 +12,7 @@
  * direction may be below it by no more. */
 static const double ROUNDING = 1e-9;
 
-enum { SIX = CPS_BODY_DIRECTIONS };
+enum { SIX = CPS_BODY_DIRECTIONS, BOUND_ROUNDS = 10000 };
 
 static bool are_usable(const double *v, int count) {
     bool all = true;
@@ -42,6 +42,37 @@ static bool is_above(const double m[36], double least) {
             scaled[SIX * i + k] = i == k ? 1 - least : unit > 0 ? entry / unit : 0;
         }
     return cpsi_cholesky(SIX, scaled, factor);
+}
+
+/* Is the power u'E(|u| u) of quadratic damping never negative? With u_i = d_i a_i, and a b^2 <=
+ * (a^3 + 2 b^3)/3, it is not if for some d > 0 every E_jj d_j^2 is at least the sum over i != j of
+ * (2 |E_ij| d_i d_j + |E_ji| d_i^2)/3. The least such d above a first one is found from below;
+ * where it grows for ever there is none. */
+static bool takes_energy(const double e[36]) {
+    double d[SIX], growth = INFINITY;
+    for (int i = 0; i < SIX; i++) {
+        if (e[7 * i] < 0) return false;
+        d[i] = e[7 * i] > 0 ? 1 / cbrt(e[7 * i]) : 0;
+        for (int k = 0; k < SIX; k++)
+            if (!(e[7 * i] > 0 && e[7 * k] > 0) && e[SIX * i + k] != 0) return false;
+    }
+    for (int round = 0; round < BOUND_ROUNDS && growth > 1 + ROUNDING; round++) {
+        growth = 1;
+        for (int j = 0; j < SIX; j++) {
+            double by = 0, square = 0;
+            for (int i = 0; i < SIX; i++) {
+                if (i == j) continue;
+                by += 2 * fabs(e[SIX * i + j]) * d[i] / 3;
+                square += fabs(e[SIX * j + i]) * d[i] * d[i] / 3;
+            }
+            if (!(by + square > 0)) continue;
+            const double least = (by + sqrt(by * by + 4 * e[7 * j] * square)) / (2 * e[7 * j]);
+            if (!isfinite(least)) return false;
+            growth = fmax(growth, least / d[j]);
+            d[j] = fmax(d[j], least);
+        }
+    }
+    return growth <= 1 + ROUNDING;
 }
 
 /* The inertia matrix about the centre of gravity is that of masses: no moment of inertia about a
@@ -95,13 +126,7 @@ static bool has_mass(const CpsBody *body) {
 CpsStatus cpsi_body_motion_check(const CpsBody *body, bool in_time, CpsError *err) {
     const double *v = body->velocity;
     bool moves = false;
-    for (int i = 0; i < SIX; i++) {
-        moves = moves || v[i] != 0;
-        if (!cpsi_is_not_negative(body->quadratic_damping[i]))
-            return CPSI_FAIL_AT("quadratic_damping", err, CPS_ERR_ARGUMENT,
-                                "body '%s': quadratic_damping has %g, expected finite numbers >= 0",
-                                body->name, body->quadratic_damping[i]);
-    }
+    for (int i = 0; i < SIX; i++) moves = moves || v[i] != 0;
     if (!cpsi_is_not_negative(body->mass))
         return CPSI_FAIL_AT("mass", err, CPS_ERR_ARGUMENT,
                             "body '%s': mass is %g kg, expected a finite number >= 0", body->name,
@@ -123,6 +148,12 @@ CpsStatus cpsi_body_motion_check(const CpsBody *body, bool in_time, CpsError *er
         return CPSI_FAIL_AT("damping", err, CPS_ERR_ARGUMENT,
                             "body '%s': damping is not a matrix of finite numbers that takes "
                             "energy, or none, in every motion",
+                            body->name);
+    if (!are_usable(body->quadratic_damping, 36) || !takes_energy(body->quadratic_damping))
+        return CPSI_FAIL_AT("quadratic_damping", err, CPS_ERR_ARGUMENT,
+                            "body '%s': quadratic_damping is not a matrix of finite numbers of "
+                            "which a bound shows that it takes energy, or none, in every motion: "
+                            "what couples directions is too large for its diagonal",
                             body->name);
     if (!are_usable(v, SIX))
         return CPSI_FAIL_AT("velocity", err, CPS_ERR_ARGUMENT,

@@ -669,7 +669,7 @@ static void hash_body(uint64_t *hash, const CpsiBody *body) {
     hash_numbers(hash, 6, given->inertia);
     hash_numbers(hash, 36, given->added_mass);
     hash_numbers(hash, 36, given->damping);
-    hash_numbers(hash, 6, given->quadratic_damping);
+    hash_numbers(hash, 36, given->quadratic_damping);
     hash_numbers(hash, 6, given->velocity);
     hash_numbers(hash, 12 * (size_t)body->wave_count, body->excitation);
     for (int i = 0; i < body->member_count; i++) /* numbers only */

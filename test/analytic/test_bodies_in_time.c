@@ -7,6 +7,7 @@
 
 #include "capstan/evolve.h"
 #include "check.h"
+#include "splitmix.h"
 
 static const double PI = 3.14159265358979323846;
 /* Forces balance to 1e-11 of the largest one, 98 N, in each step: over 12 s the angular momentum of
@@ -531,6 +532,115 @@ static void test_quadratic(void **state) {
     CHECK_LESS(error[2], 1e-3);
 }
 
+/* Slowed by quadratic damping that couples heave and yaw. With u = s(t) (a, b), where a E_zz a +
+ * E_zr b^2 = l m a and E_rz a^2 + E_rr b^2 = l j b, all of u falls by s' = -l s^2: the way is log(1
+ * + l s t) (a, b)/l. */
+static double slow_both(int steps, double *way) {
+    Rig rig;
+    const double mass = 50, own = 20, start = 1.5, end = 1, turn = 2;
+    guide(&rig, 2);
+    rig.body.fixed[5] = false;
+    rig.body.mass = mass;
+    for (int i = 0; i < 3; i++) rig.body.inertia[i] = own;
+    double *e = rig.body.quadratic_damping; /* l = 1, a = 1, b = 2 */
+    e[7 * 2] = 60;
+    e[6 * 2 + 5] = -2.5;
+    e[6 * 5 + 2] = -8;
+    e[7 * 5] = 12;
+    rig.body.velocity[2] = start;
+    rig.body.velocity[5] = turn * start;
+    CpsEvolution *evolution = open(&rig, end, steps);
+    for (int i = 0; i < steps; i++) step(evolution);
+    const CpsBodyReport report = cps_evolution_body_report(evolution, 0);
+    cps_evolution_destroy(evolution);
+    *way = log(1 + start * end);
+    return fmax(fabs(report.position[2] + 3 - *way),
+                fabs(2 * asin(report.rotation[3]) - turn * *way));
+}
+
+static void test_coupled(void **state) {
+    (void)state;
+    double error[3], way = 0;
+    for (int i = 0; i < 3; i++) error[i] = slow_both(200 << i, &way);
+    printf("heave and yaw coupled by quadratic damping: %.2e %.2e %.2e off after %.3f m and %.3f "
+           "rad with 200, 400, 800 steps: order %.2f, %.2f\n",
+           error[0], error[1], error[2], way, 2 * way, log2(error[0] / error[1]),
+           log2(error[1] / error[2]));
+    CHECK_LESS(fabs(log2(error[1] / error[2]) - 2), 0.15);
+    CHECK_LESS(error[2], 1e-4);
+}
+
+/* Is a matrix of quadratic damping accepted? */
+static bool is_accepted(const double e[36]) {
+    Rig rig;
+    CpsError err = {0};
+    guide(&rig, 0);
+    rig.body.mass = 1;
+    for (int i = 0; i < 3; i++) rig.body.inertia[i] = 1;
+    memcpy(rig.body.quadratic_damping, e, sizeof rig.body.quadratic_damping);
+    return cps_scene_check(&rig.scene, &err) == CPS_OK;
+}
+
+/* One coupling c beside the diagonal (p, q) takes energy in every motion up to c = (3 p)^(1/3) (3
+ * q/2)^(2/3), where p a^3 + q b^3 - c a b^2 has the least value 0. */
+static void test_bound_of_a_coupling(void **state) {
+    (void)state;
+    uint64_t dice = 7;
+    for (int trial = 0; trial < 200; trial++) {
+        double e[36] = {0};
+        const int i = trial % 6, j = (i + 1 + trial / 6 % 5) % 6;
+        const double p = pow(10, splitmix(&dice, -6, 6));
+        const double q = pow(10, splitmix(&dice, -6, 6)), sign = trial % 4 < 2 ? 1 : -1;
+        const double most = cbrt(3 * p) * pow(1.5 * q, 2.0 / 3);
+        e[7 * i] = p;
+        e[7 * j] = q;
+        e[6 * i + j] = sign * 0.99 * most;
+        CHECK_INT(is_accepted(e), true);
+        e[6 * i + j] = sign * 1.01 * most;
+        CHECK_INT(is_accepted(e), false);
+        e[7 * i] = 0;
+        CHECK_INT(is_accepted(e), false);
+        e[6 * i + j] = 0;
+        CHECK_INT(is_accepted(e), true);
+        e[7 * i] = -p;
+        CHECK_INT(is_accepted(e), false);
+    }
+}
+
+/* No motion of many gains energy from a matrix that is accepted. */
+static void test_accepted_couplings(void **state) {
+    (void)state;
+    enum { MATRICES = 400, MOTIONS = 2000 };
+    uint64_t dice = 8;
+    int accepted = 0;
+    for (int trial = 0; trial < MATRICES; trial++) {
+        double e[36], unit[6];
+        const double coupling = splitmix(&dice, 0, 1.2);
+        for (int i = 0; i < 6; i++) unit[i] = pow(10, splitmix(&dice, -2, 2));
+        for (int i = 0; i < 36; i++) {
+            const double size = unit[i / 6] * unit[i % 6] * unit[i % 6];
+            e[i] =
+                size * (i % 7 == 0 ? splitmix(&dice, 0.2, 2) : coupling * splitmix(&dice, -1, 1));
+        }
+        if (!is_accepted(e)) continue;
+        accepted++;
+        for (int k = 0; k < MOTIONS; k++) {
+            double u[6], power = 0, size = 0;
+            for (int i = 0; i < 6; i++) u[i] = splitmix(&dice, -1, 1) / unit[i];
+            for (int i = 0; i < 36; i++) {
+                const double one = e[i] * u[i / 6] * u[i % 6] * fabs(u[i % 6]);
+                power += one;
+                size += fabs(one);
+            }
+            CHECK_LESS(-power, 1e-12 * size);
+        }
+    }
+    printf("quadratic damping: %d of %d matrices accepted, and no motion gains energy\n", accepted,
+           MATRICES);
+    CHECK_LESS(50, accepted);
+    CHECK_LESS(accepted, MATRICES - 50);
+}
+
 /* Steps of another length are taken by the scheme of equal steps from their first one on. */
 static void test_step_lengths(void **state) {
     (void)state;
@@ -612,6 +722,9 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_pendulum, begin_ledgers, close_ledgers),
         cmocka_unit_test_setup_teardown(test_decay, begin_ledgers, close_ledgers),
         cmocka_unit_test_setup_teardown(test_quadratic, begin_ledgers, close_ledgers),
+        cmocka_unit_test_setup_teardown(test_coupled, begin_ledgers, close_ledgers),
+        cmocka_unit_test(test_bound_of_a_coupling),
+        cmocka_unit_test(test_accepted_couplings),
         cmocka_unit_test_setup_teardown(test_step_lengths, begin_ledgers, close_ledgers),
         cmocka_unit_test(test_absent_owners),
     };

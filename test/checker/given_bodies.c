@@ -420,7 +420,8 @@ static void compare_masses(Compare *c, size_t k) {
     same_constant(c, "moments_of_inertia_of_body", of, m->moments, given->inertia, 3);
     same_constant(c, "products_of_inertia_of_body", of, m->products, &given->inertia[3], 3);
     same_constant(c, "damping_matrix_of_body", of, m->damping, given->damping, SIX * SIX);
-    same_constant(c, "quadratic_damping_of_body", of, m->quadratic, given->quadratic_damping, SIX);
+    same_constant(c, "quadratic_damping_of_body", of, m->quadratic, given->quadratic_damping,
+                  SIX * SIX);
 }
 
 static void compare_step(Compare *c, const GivenStep *given, size_t step, Imposed *imposed,

@@ -126,10 +126,9 @@ int body_motions_read(const Source *source, size_t n, size_t step, BodyMotion *a
     if (read_all(source, "mass_of_body", -1, n, 1, &all->mass, each) ||
         read_all(source, "moments_of_inertia_of_body", -1, n, 3, all->moments, each) ||
         read_all(source, "products_of_inertia_of_body", -1, n, 3, all->products, each) ||
-        read_all(source, "quadratic_damping_of_body", -1, n, 3, all->quadratic, each) ||
-        read_all(source, "quadratic_moment_of_body", -1, n, 3, &all->quadratic[3], each) ||
         read_matrix(source, "added_mass", n, all->added, each) ||
         read_matrix(source, "damping_matrix", n, all->damping, each) ||
+        read_matrix(source, "quadratic_damping", n, all->quadratic, each) ||
         read_all(source, "inertia_of_body", s, n, 3, all->inertia, each) ||
         read_all(source, "inertia_moment_of_body", s, n, 3, &all->inertia[3], each) ||
         read_all(source, "damping_of_body", s, n, 3, all->damped, each) ||
@@ -444,11 +443,12 @@ static void check_damping(const BodySteps *s, MotionFind *find, void *user) {
     widen(m->rate, wide);
     turn(r, wide, true, &u[3]);
     for (int i = 0; i < SIX; i++) {
-        f[i] = -m->quadratic[i] * fabsl(u[i]) * u[i];
-        sizes[i / 3] += (double)fabsl(f[i]);
+        f[i] = 0;
         for (int k = 0; k < SIX; k++) {
-            f[i] -= m->damping[SIX * i + k] * u[k];
-            sizes[i / 3] += (double)fabsl(m->damping[SIX * i + k] * u[k]);
+            const Real linear = m->damping[SIX * i + k] * u[k],
+                       square = m->quadratic[SIX * i + k] * (u[k] < 0 ? -u[k] * u[k] : u[k] * u[k]);
+            f[i] -= linear + square;
+            sizes[i / 3] += (double)(fabsl(linear) + fabsl(square));
         }
     }
     turn(r, f, false, out);

@@ -15,7 +15,8 @@ typedef struct PointMotion {
 
 /* A body likewise; matrices row by row. */
 typedef struct BodyMotion {
-    double mass, moments[3], products[3], added[SIX * SIX], damping[SIX * SIX], quadratic[SIX];
+    double mass, moments[3], products[3], added[SIX * SIX], damping[SIX * SIX],
+        quadratic[SIX * SIX];
     double inertia[SIX], damped[SIX];
     Vector velocity, rate, centre_velocity;
     double span, kinetic, lost, growth, scheme, settling, drag, waves; /* the last two of members */

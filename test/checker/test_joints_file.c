@@ -18,7 +18,9 @@ static const char SCENE[] =
     " [0, 0, 0, 900, 0, 0], [5, 0, 0, 0, 910, 0], [0, 0, 0, 0, 0, 40]],"
     " added_mass: [[200, 0, 0, 0, -40, 0], [0, 220, 0, 30, 0, 0], [0, 0, 300, 0, 0, 0],"
     " [0, 30, 0, 50, 0, 0], [-40, 0, 0, 0, 60, 0], [0, 0, 0, 0, 0, 20]],"
-    " damping: {x: 20, z: 90, rx: 30, rz: 15}, quadratic_damping: {x: 40, z: 25, ry: 12},"
+    " damping: {x: 20, z: 90, rx: 30, rz: 15}, quadratic_damping: [[40, 0, 0, 0, -2, 0],"
+    " [0, 0, 0, 0, 0, 0], [0, 0, 25, 0, 0, 0], [0, 0, 0, 0, 0, 0], [3, 0, 0, 0, 12, 0],"
+    " [0, 0, 0, 0, 0, 0]],"
     " velocity: [0.4, -0.2, 0.3], turn_rate: [0.5, 0.2, -0.3], force: [50, 10, 0], arm: [0, 0, "
     "1]}\n"
     "points:\n"
@@ -58,8 +60,9 @@ static const FalseNumber FALSE[] = {
     {"added_mass_rr_of_body", 8, 21, "float: moment of inertia, off"},
     {"damping_matrix_xx_of_body", 0, 21, "float: force of damping, off"},
     {"damping_matrix_rr_of_body", 8, 16, "float: moment of damping, off"},
-    {"quadratic_damping_of_body", 0, 41, "float: force of damping, off"},
-    {"quadratic_moment_of_body", 1, 13, "float: moment of damping, off"},
+    {"quadratic_damping_xx_of_body", 0, 41, "float: force of damping, off"},
+    {"quadratic_damping_xr_of_body", 1, -1, "float: force of damping, off"},
+    {"quadratic_damping_rr_of_body", 4, 13, "float: moment of damping, off"},
     {"inertia_of_body", BODY(4, 0), 1e3, "float: force of inertia, off"},
     {"inertia_moment_of_body", BODY(4, 1), 1e3, "float: moment of inertia, off"},
     {"damping_of_body", BODY(4, 2), 1e3, "float: force of damping, off"},
@@ -91,8 +94,10 @@ static const FalseNumber FALSE[] = {
     {"added_mass_xx_of_body", 4, 220.01, NULL},
     {"damping_matrix_xx_of_body", 0, 20.01, NULL},
     {"damping_matrix_xr_of_body", 1, 0.01, NULL},
-    {"quadratic_damping_of_body", 0, 40.01, NULL},
-    {"quadratic_moment_of_body", 1, 12.01, NULL},
+    {"quadratic_damping_xx_of_body", 0, 40.01, NULL},
+    {"quadratic_damping_xr_of_body", 1, -2.01, NULL},
+    {"quadratic_damping_rx_of_body", 3, 3.01, NULL},
+    {"quadratic_damping_rr_of_body", 4, 12.01, NULL},
     {"mass_of_point", KNOT, 60.01, NULL},
     {"b_node_mass", 2, 6, NULL},
     {"time", 4, 0.13, "time_step is not by how much time has passed"},
@@ -105,8 +110,10 @@ static const OtherScene OTHER[] = {
     {"products_of_inertia: [4, -3, 5]", "products_of_inertia: [4, -3.001, 5]"},
     {"[0, 0, 300, 0, 0, 0]", "[0, 0, 300.001, 0, 0, 0]"},
     {"damping: {x: 20, z: 90, rx: 30", "damping: {x: 20, z: 90, rx: 30.001"},
-    {"quadratic_damping: {x: 40", "quadratic_damping: {x: 40.001"},
-    {"quadratic_damping: {x: 40, z: 25, ry: 12}", "quadratic_damping: {x: 40, z: 25, ry: 12.001}"},
+    {"[[40, 0, 0, 0, -2, 0]", "[[40.001, 0, 0, 0, -2, 0]"},
+    {"[[40, 0, 0, 0, -2, 0]", "[[40, 0, 0, 0, -2.001, 0]"},
+    {"[3, 0, 0, 0, 12, 0]", "[3.001, 0, 0, 0, 12, 0]"},
+    {"[3, 0, 0, 0, 12, 0]", "[3, 0, 0, 0, 12.001, 0]"},
 };
 
 int main(void) {

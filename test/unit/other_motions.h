@@ -64,6 +64,7 @@ static const struct Change ADRIFT_CHANGE[] = {
     {"added_mass", "added_mass: {x: 5}", "added_mass: {x: 5, rz: 1}"},
     {"damping", ", damping: {y: 6}", ", damping: {y: 7}"},
     {"quadratic_damping", "quadratic_damping: {z: 7}", "quadratic_damping: {z: 8}"},
+    {"quadratic_damping of rz", "quadratic_damping: {z: 7}", "quadratic_damping: {z: 7, rz: 1}"},
     {"velocity", "velocity: [0.1, 0, 0]", "velocity: [0.2, 0, 0]"},
     {"turn_rate", "turn_rate: [0, 0, 0.2]", "turn_rate: [0, 0, 0.3]"},
     {"excitation", "[{period: 4, direction: 20, amplitude: [1, 2, 3, 4, 5, 6]}, ",

@@ -80,7 +80,7 @@ void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poi
 
 enum { CPSI_BODY_CONSTANTS = 10, CPSI_BODY_FIELDS = 16, CPSI_BODY_INTS = 4 };
 /* in time: constants, fields of the report, fields of the motion */
-enum { CPSI_BODY_MASSES = 13, CPSI_BODY_FORCES = 4, CPSI_BODY_MOTIONS = 11 };
+enum { CPSI_BODY_MASSES = 15, CPSI_BODY_FORCES = 4, CPSI_BODY_MOTIONS = 11 };
 
 typedef struct CpsiNetcdfBodies {
     int count;

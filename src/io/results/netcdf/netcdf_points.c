@@ -271,15 +271,18 @@ typedef struct BodyField {
 /* Where entry i of an array of doubles lies. */
 #define ENTRY(type, member, i) (offsetof(type, member) + (i) * sizeof(double))
 
-/* The four blocks of a 6x6 matrix: of forces and moments by displacements (x) and rotations (r). */
-#define BLOCKS_OF(name, what, type, member)                                                       \
-    {name "_xx_of_body", what ", force by displacement", "N m-1", ENTRY(type, member, 0),         \
-     BLOCK_OF},                                                                                   \
-        {name "_xr_of_body", what ", force by rotation", "N", ENTRY(type, member, 3), BLOCK_OF},  \
-        {name "_rx_of_body", what ", moment by displacement", "N", ENTRY(type, member, 18),       \
-         BLOCK_OF},                                                                               \
-    {                                                                                             \
-        name "_rr_of_body", what ", moment by rotation", "N m", ENTRY(type, member, 21), BLOCK_OF \
+/* The four blocks of a 6x6 matrix: of forces and moments by displacements (x) and rotations (r), or
+ * by what of them the matrix multiplies. */
+#define BLOCKS_OF(name, what, type, member, unit_xx, unit_xr, unit_rx, unit_rr)                 \
+    {name "_xx_of_body", what ", force by displacement", unit_xx, ENTRY(type, member, 0),       \
+     BLOCK_OF},                                                                                 \
+        {name "_xr_of_body", what ", force by rotation", unit_xr, ENTRY(type, member, 3),       \
+         BLOCK_OF},                                                                             \
+        {name "_rx_of_body", what ", moment by displacement", unit_rx, ENTRY(type, member, 18), \
+         BLOCK_OF},                                                                             \
+    {                                                                                           \
+        name "_rr_of_body", what ", moment by rotation", unit_rr, ENTRY(type, member, 21),      \
+            BLOCK_OF                                                                            \
     }
 
 static const BodyField CONSTANT[CPSI_BODY_CONSTANTS] = {
@@ -296,7 +299,7 @@ static const BodyField CONSTANT[CPSI_BODY_CONSTANTS] = {
     {"start_rotation_of_body", "rotation in which it begins, quaternion w x y z", "1",
      offsetof(CpsBody, rotation), ROTATION_OF},
     BLOCKS_OF("hydrostatics", "stiffness of the water from the pose in which it begins", CpsBody,
-              hydrostatics),
+              hydrostatics, "N m-1", "N", "N", "N m"),
 };
 
 /* A force, and its moment about the reference point. */
@@ -315,7 +318,8 @@ static const BodyField FIELD[CPSI_BODY_FIELDS] = {
     WRENCH("load", "weight, water and given load", load),
     WRENCH("support", "what holds it", support),
     WRENCH("residual", "all together", residual),
-    BLOCKS_OF("stiffness", "stiffness in the pose, 0 of a held body", CpsBodyReport, stiffness),
+    BLOCKS_OF("stiffness", "stiffness in the pose, 0 of a held body", CpsBodyReport, stiffness,
+              "N m-1", "N", "N", "N m"),
     {"proof_of_body", "axis about which it is turned in every pose, 0 0 0: there is no such proof",
      "1", offsetof(CpsBodyReport, proof), VECTOR_OF},
     {"proof_moment_of_body", "least moment about that axis, else 0", "N m",
@@ -330,12 +334,12 @@ static const BodyField MASS[CPSI_BODY_MASSES] = {
      ENTRY(CpsBody, inertia, 0), VECTOR_OF},
     {"products_of_inertia_of_body", "entries xy, xz, yz of that matrix", "kg m2",
      ENTRY(CpsBody, inertia, 3), VECTOR_OF},
-    BLOCKS_OF("added_mass", "mass of the water that moves with it", CpsBody, added_mass),
-    BLOCKS_OF("damping_matrix", "linear damping", CpsBody, damping),
-    {"quadratic_damping_of_body", "quadratic damping of displacements", "N s2 m-2",
-     ENTRY(CpsBody, quadratic_damping, 0), VECTOR_OF},
-    {"quadratic_moment_of_body", "quadratic damping of rotations", "N m s2",
-     ENTRY(CpsBody, quadratic_damping, 3), VECTOR_OF},
+    BLOCKS_OF("added_mass", "mass of the water that moves with it", CpsBody, added_mass, "kg",
+              "kg m", "kg m", "kg m2"),
+    BLOCKS_OF("damping_matrix", "linear damping", CpsBody, damping, "N s m-1", "N s", "N s",
+              "N m s"),
+    BLOCKS_OF("quadratic_damping", "quadratic damping", CpsBody, quadratic_damping, "N s2 m-2",
+              "N s2", "N s2 m-1", "N m s2"),
 };
 
 static const BodyField FORCE[CPSI_BODY_FORCES] = {

@@ -211,8 +211,7 @@ static const CpsiKey DIAGONAL_KEYS[] = {
 };
 static const CpsiMapping DIAGONAL = {"hydrostatics", KEYS(DIAGONAL_KEYS), INTO(Diagonal)};
 
-/* a matrix of a body without coupling, for motion: entries in `force` per `motion`, and of moments
- */
+/* the diagonal of a matrix of a body for motion, without coupling */
 #define DIAGONAL_OF(name, KEYS_NAME, unit_x, unit_r, what)                                      \
     static const CpsiKey KEYS_NAME[] = {                                                        \
         {"x", OPTIONAL, NUMBER(Diagonal, k[0]), NOT_NEGATIVE, .unit = unit_x, .fallback = "0",  \
@@ -232,8 +231,7 @@ static const CpsiMapping DIAGONAL = {"hydrostatics", KEYS(DIAGONAL_KEYS), INTO(D
 
 DIAGONAL_OF(added_mass, ADDED_KEYS, "kg", "kg m2", "for an acceleration ");
 DIAGONAL_OF(damping, DAMPING_KEYS, "N s/m", "N m s", "against a velocity ");
-DIAGONAL_OF(quadratic_damping, QUADRATIC_KEYS, "N s2/m2", "N m s2",
-            "against the square of a velocity ");
+DIAGONAL_OF(quadratic_damping, QUADRATIC_KEYS, "N s2/m2", "N m s2", "against a velocity squared ");
 
 /* directions of a body, in the order of CpsBody */
 #define DIRECTIONS "x y z rx ry rz"
@@ -317,8 +315,10 @@ static const CpsiKey SCENE_BODY_KEYS[] = {
      .fallback = "{}",
      .help = "[N s/m, N s, N m s] force and moment per velocity of the reference point and rate of "
              "rotation in its own axes, against them: 6 rows, or the diagonal by direction"},
-    {"quadratic_damping", OPTIONAL, MAPPING(SceneBody, quadratic), .inside = &quadratic_damping,
-     .fallback = "{}", .help = "the same per square of each velocity, by direction"},
+    {"quadratic_damping", OPTIONAL, ROWS(SceneBody, quadratic, 6), 6, 6, false,
+     .other = &(const CpsiKey){.type = MAPPING(SceneBody, quadratic_diagonal),
+                               .inside = &quadratic_damping},
+     .fallback = "{}", .help = "[N s2/m2, N s2, N s2/m, N m s2] the same per square of velocities"},
     {"excitation", OPTIONAL, LIST(SceneBody, excitation, 1), .inside = &EXCITATION,
      .help = "force and moment of the scene's waves on it, by rows for periods and directions; "
              "linear in the frequency between them"},

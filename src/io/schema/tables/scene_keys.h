@@ -83,12 +83,12 @@ typedef struct CpsiSceneBodyValues {
     CpsBody body;
     double mass, volume; /* NaN: not given */
     CpsiRotationValues rotation;
-    CpsiNumberRows hydrostatics;        /* (6, 6) */
-    CpsiDiagonalValues diagonal;        /* .. or these */
-    CpsiNumberRows added_mass, damping; /* (6, 6) .. or these */
-    CpsiList excitation;                /* CpsiExcitationValues */
-    CpsiList members;                   /* CpsiMemberValues */
-    CpsiDiagonalValues added_diagonal, damping_diagonal, quadratic;
+    CpsiNumberRows hydrostatics;                   /* (6, 6) */
+    CpsiDiagonalValues diagonal;                   /* .. or these */
+    CpsiNumberRows added_mass, damping, quadratic; /* (6, 6) .. or these */
+    CpsiList excitation;                           /* CpsiExcitationValues */
+    CpsiList members;                              /* CpsiMemberValues */
+    CpsiDiagonalValues added_diagonal, damping_diagonal, quadratic_diagonal;
     double moments[3], products[3];   /* [kg m2] */
     double velocity[3], turn_rate[3]; /* [m/s], [rad/s] */
     double arm[3];                    /* [m] of the force */

@@ -87,8 +87,7 @@ static void build_motion(const CpsiMaterials *m, const CpsiSceneBodyValues *valu
     copy_vector(&body->velocity[3], values->turn_rate);
     build_matrix(&values->added_mass, &values->added_diagonal, body->added_mass);
     build_matrix(&values->damping, &values->damping_diagonal, body->damping);
-    if (values->quadratic.node)
-        memcpy(body->quadratic_damping, values->quadratic.k, sizeof body->quadratic_damping);
+    build_matrix(&values->quadratic, &values->quadratic_diagonal, body->quadratic_damping);
 }
 
 static CpsStatus build_excitation(const CpsiMaterials *m, const CpsiList *rows, CpsBody *body) {
