@@ -98,9 +98,9 @@ def moordyn_cycle(period, step, damping):
         moordyn.Init(system, x, v)
         ready, dt, time, across = seconds(), 0.05, 0.0, []
         for i in range(round(period/dt)):
-            middle = time + dt  # the motion at the end of the coupling step
-            x[1] = SWAY*math.sin(2*math.pi*middle/period)
-            v[1] = SWAY*2*math.pi/period*math.cos(2*math.pi*middle/period)
+            # the place at the beginning of the call, and the velocity in it
+            x[1] = SWAY*math.sin(2*math.pi*time/period)
+            v[1] = (SWAY*math.sin(2*math.pi*(time + dt)/period) - x[1])/dt
             force = moordyn.Step(system, x, v, time, dt)
             across.append(force[1])
             time += dt

@@ -8,6 +8,14 @@ Vec3 cpsi_line_free_place(const CpsiLine *line, int j, Vec3 reference) {
     return vec3_axpy(line->inertia.span[j], vec3_at(line->inertia.rest_velocity, j), reference);
 }
 
+Vec3 cpsi_line_expected_place(const CpsiLine *line, int j, Vec3 reference) {
+    const CpsiInertia *inertia = &line->inertia;
+    const Vec3 now = vec3_at(inertia->start_velocity, j);
+    const double on = inertia->is_euler[j] ? 0 : inertia->formula.ratio;
+    const Vec3 then = vec3_axpy(on, vec3_sub(now, vec3_at(inertia->before_velocity, j)), now);
+    return vec3_axpy(inertia->span[j], then, reference);
+}
+
 double cpsi_line_set_inertia(CpsiLine *line, int j, Vec3 reference) {
     const CpsiInertia *inertia = &line->inertia;
     const double span = inertia->span[j], mass = inertia->mass[j];

@@ -8,6 +8,10 @@
 /* [m] x* + k v* of node j, where its inertia alone would take it from the reference x*. */
 Vec3 cpsi_line_free_place(const CpsiLine *line, int j, Vec3 reference);
 
+/* [m] Where node j is expected after the step from its reference: its velocity goes on as it
+ * changed in the step before, unless it takes an Euler step. */
+Vec3 cpsi_line_expected_place(const CpsiLine *line, int j, Vec3 reference);
+
 /* Let the field of node j be that of its inertia, from the reference given. Returns [N] the size of
  * the force that it causes: a node that goes on has none, so by how its velocity changes. */
 double cpsi_line_set_inertia(CpsiLine *line, int j, Vec3 reference);

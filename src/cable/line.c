@@ -65,8 +65,7 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         if (line->has_inertia) {
             CPSI_PLACE(arena, line->field.added, 3 * n);
             CPSI_PLACE(arena, line->field.wave, 3 * n);
-            CPSI_PLACE(arena, line->field.water, 3 * n);
-            CPSI_PLACE(arena, line->field.water_rate, 3 * n);
+            CPSI_PLACE(arena, line->field.seen, n);
         }
         cpsi_anderson_layout(&line->field.rounds, arena, line->n);
     }

@@ -68,7 +68,7 @@ void cpsi_line_set_reference(CpsiLine *line, const CpsiStepOptions *options) {
     cpsi_contact_set_reference(line, options->contact_policy, options->friction_policy,
                                options->frictionless);
     if (cpsi_line_swims(line))
-        cpsi_line_settle_swim(line, line->reference);
+        cpsi_line_settle_swim(line);
     else if (line->has_node_loads)
         cpsi_line_follow_flow(line, line->position);
     cpsi_potential_model(line, line->position);
@@ -352,7 +352,8 @@ static CpsiIpmReport solve_by_newton(CpsiLine *line, CpsiChainProgram *program,
     CpsiStepScale by_newton = *scale;
     by_newton.by_newton = true;
     cpsi_step_program_fill(line, program, &by_newton);
-    CpsiIpmReport newton = cpsi_warm_step_solve(line, program, scale, guess, max_iterations);
+    CpsiIpmReport newton =
+        cpsi_warm_step_solve(line, program, scale, guess, max_iterations, round->share);
     line->report.iteration_count += newton.iterations;
     if (newton.outcome != CPSI_IPM_SOLVED) return newton;
     cpsi_step_program_unpack(line, program, scale);
@@ -452,6 +453,20 @@ static bool is_polished(const CpsiLine *line, const CpsiStepOptions *options,
 static double nearly(int nodes) {
     const double n = nodes;
     return fmax(CPSI_TARGET, fmin(NEARLY, NEARLY_OF_NODES / (n * n)));
+}
+
+CpsiIpmReport cpsi_line_solve_warm(CpsiLine *line, CpsiChainProgram *program,
+                                   const CpsiStepOptions *options, const CpsiRound *round) {
+    const double force = cpsi_line_unit_force(line, round->bounds);
+    if (!(force > 0) || cpsi_line_is_taut(line))
+        return (CpsiIpmReport){.outcome = CPSI_IPM_STALLED};
+    line->is_rough = line->newton.polished = false;
+    cpsi_line_clear_set_reactions(line);
+    const CpsiStepScale scale = {.length = line->length,
+                                 .force = force,
+                                 .longer = 1,
+                                 .bounds = round->bounds};
+    return solve_warm(line, program, &scale, round, most_iterations(line, options));
 }
 
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,

@@ -63,6 +63,7 @@ typedef struct CpsiRound {
     bool centering;          /* the loop ends with steps to the centre */
     double drag;             /* [-] (step_program.h) */
     bool may_be_rough;       /* the loop may stop at a hundredth of the tolerance */
+    double share;            /* [-] of its errors that Newton's method may leave (active_set.h) */
     CpsiGuess guess;         /* from which Newton's method starts before the interior point */
     CpsiLeastMotion *least;  /* scratch memory of the rule of least motion, NULL: not applied */
 } CpsiRound;
@@ -71,6 +72,10 @@ typedef struct CpsiRound {
  * configuration that is compatible with its forces. */
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                               const CpsiStepOptions *options, const CpsiRound *round);
+/* ... by Newton's method from the guess of the round, which is one, and by nothing else:
+ * it is not solved where that does not solve it. */
+CpsiIpmReport cpsi_line_solve_warm(CpsiLine *line, CpsiChainProgram *program,
+                                   const CpsiStepOptions *options, const CpsiRound *round);
 /* Place the nodes of inextensible spans on the straight lines between their ends, where these are
  * as far apart as the span is long, but for this share. */
 void cpsi_line_straighten(CpsiLine *line, double share);

@@ -320,42 +320,6 @@ static void follow_loads(CpsiLine *line, CpsiChainProgram *program,
     if (cps_outcome_is_certified(line->report.outcome)) cpsi_line_certify(line, options, &done);
 }
 
-/* In time the forces of the flow are linear in each program, and follow the line and its velocity
- * from one to the next. In the end they are given loads. */
-static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
-    enum { MOST = 60 };
-    static const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
-    const size_t contacts = (size_t)cpsi_line_all_contacts(line);
-    for (int round = 0; round < MOST; round++) {
-        const CpsCertificate *found = &line->report.certificate;
-        if (!cps_outcome_is_certified(line->report.outcome)) break;
-        double largest;
-        const double left = cpsi_line_swim_change(line, &largest);
-        if (left <= CPSI_FOLLOWED * fmax(found->largest_force, largest)) break;
-        cpsi_line_classify(line, program);
-        cpsi_line_approach_swim(line, left);
-        cpsi_line_set_loads(line);
-        const CpsiGuess guess = cpsi_warm_step_go_on(line, program, options);
-        if (guess == CPSI_GUESS_NONE) memset(line->reaction, 0, contacts * sizeof *line->reaction);
-        if (line->has_local_axes) cpsi_contact_reset(line);
-        solve_with_fallbacks(line, program, options, guess);
-    }
-    const CpsOutcome outcome = line->report.outcome;
-    line->field.left = cpsi_line_swim_change(line, NULL);
-    cpsi_line_settle_swim(line, line->position);
-    cpsi_line_set_loads(line);
-    cpsi_line_certify(line, options, &done);
-    if (!cps_outcome_is_certified(outcome)) line->report.outcome = outcome;
-}
-
-/* Loads that are not those of the place are no answer. */
-static void judge_loads(CpsiLine *line, const CpsiStepOptions *options) {
-    const CpsCertificate *found = &line->report.certificate;
-    if (cps_outcome_is_certified(line->report.outcome) &&
-        !(found->load_residual <= options->solver.tolerance * found->largest_force))
-        line->report.outcome = CPS_OUTCOME_STALLED;
-}
-
 /* Take the line's part of a solution of the step together with other lines. */
 static void take_joined(CpsiLine *line, const CpsiStepOptions *options) {
     const CpsiJoined *joined = line->joined;
@@ -385,6 +349,140 @@ static void take_joined(CpsiLine *line, const CpsiStepOptions *options) {
     cpsi_line_certify(line, options, &joined->ipm);
 }
 
+/* The first answer of a step. */
+static void solve_first(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                        CpsiGuess guess) {
+    if (line->joined)
+        take_joined(line, options);
+    else if (options->across)
+        solve_across(line, program, options);
+    else
+        solve_with_fallbacks(line, program, options, guess);
+}
+
+/* In time the forces of the flow are linear in each program, and follow the line and its velocity
+ * from one to the next, so many times at most. */
+enum { MOST_SWIMS = 60 };
+/* A program after which another one is due is solved to this share of its errors. */
+static const double ROUGHLY = 0.02;
+
+/* Has the flow, which is seen at the position, been that of the last program? */
+static bool has_followed(const CpsiLine *line, double force, double *left) {
+    double largest;
+    *left = cpsi_line_swim_change(line, &largest);
+    return *left <= CPSI_FOLLOWED * fmax(force, largest);
+}
+
+/* Go on to the next program. */
+static CpsiGuess approach(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                          double left) {
+    cpsi_line_classify(line, program);
+    cpsi_line_approach_swim(line, left);
+    cpsi_line_set_loads(line);
+    return cpsi_warm_step_go_on(line, program, options);
+}
+
+/* In the end the forces of the flow are given loads, with which the step is certified. */
+static void end_swim(CpsiLine *line, const CpsiStepOptions *options, double left) {
+    static const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
+    cpsi_line_end_swim(line, left);
+    cpsi_line_set_loads(line);
+    cpsi_line_certify(line, options, &done);
+}
+
+/* Go on from the solution of the first program. */
+static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
+    const size_t contacts = (size_t)cpsi_line_all_contacts(line);
+    double left;
+    for (int round = 0;; round++) {
+        const bool certified = cps_outcome_is_certified(line->report.outcome);
+        if (has_followed(line, line->report.certificate.largest_force, &left) || !certified ||
+            round == MOST_SWIMS)
+            break;
+        const CpsiGuess guess = approach(line, program, options, left);
+        if (guess == CPSI_GUESS_NONE) memset(line->reaction, 0, contacts * sizeof *line->reaction);
+        if (line->has_local_axes) cpsi_contact_reset(line);
+        solve_with_fallbacks(line, program, options, guess);
+    }
+    const CpsOutcome outcome = line->report.outcome;
+    end_swim(line, options, left);
+    if (!cps_outcome_is_certified(outcome)) line->report.outcome = outcome;
+}
+
+/* Solve one program in the planes of the reference by Newton's method, without its certificate. */
+static CpsiIpmReport solve_uncertified(CpsiLine *line, CpsiChainProgram *program,
+                                       const CpsiStepOptions *options, CpsiGuess guess,
+                                       double share) {
+    const bool coupled = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
+                         !options->frictionless && line->obstacle_count > 0;
+    const CpsiRound round = {.bounds = coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED,
+                             .share = share,
+                             .guess = guess,
+                             .least = options->least};
+    if (guess < CPSI_GUESS_REFERENCE) return (CpsiIpmReport){.outcome = CPSI_IPM_STALLED};
+    const CpsiIpmReport newton = cpsi_line_solve_warm(line, program, options, &round);
+    if (newton.outcome != CPSI_IPM_SOLVED) return newton;
+    cpsi_contact_plane_slip(line);
+    if (coupled) cpsi_line_release_open_contacts(line, program);
+    return newton;
+}
+
+/* Solve all programs so and certify the last one alone. False where one is not solved so, or the
+ * answer is less accurate than that of the loop has to be; it is posed again then. */
+static bool swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                 CpsiGuess guess) {
+    double left, force;
+    line->newton.guessed = true;
+    line->strayed = false;
+    line->report.warm_count = 1;
+    line->newton.failed = 0;
+    for (int round = 0; round <= MOST_SWIMS; round++) {
+        const CpsiIpmReport newton = solve_uncertified(line, program, options, guess, ROUGHLY);
+        if (newton.outcome != CPSI_IPM_SOLVED) break;
+        force = 0;
+        for (int e = 0; e + 1 < line->n; e++) force = fmax(force, line->tension[e]);
+        if (!has_followed(line, force, &left) || newton.is_rough) {
+            guess = approach(line, program, options, left);
+            continue;
+        }
+        end_swim(line, options, left);
+        const CpsCertificate *found = &line->report.certificate;
+        const bool good = cps_outcome_is_certified(line->report.outcome) &&
+                          found->gap <= CPSI_TARGET * found->scale;
+        if (!good) break;
+        cpsi_warm_step_note(line, true);
+        return true;
+    }
+    line->newton.guessed = false;
+    line->report.warm_count = 0;
+    cpsi_line_begin_swim(line);
+    cpsi_line_set_loads(line);
+    return false;
+}
+
+/* A step in which the flow acts on the line as it moves. */
+static void step_in_flow(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                         CpsiGuess guess) {
+    const bool plain = !line->joined && !options->across && !line->has_local_axes;
+    cpsi_line_begin_swim(line);
+    cpsi_line_set_loads(line);
+    if (plain && guess >= CPSI_GUESS_REFERENCE) {
+        if (swim(line, program, options, guess)) return;
+        memset(line->reaction, 0, (size_t)cpsi_line_all_contacts(line) * sizeof *line->reaction);
+        guess = CPSI_GUESS_NONE;
+    }
+    solve_first(line, program, options, guess);
+    follow_swim(line, program, options);
+}
+
+/* Loads that are not those of the place are no answer. */
+static void judge_loads(CpsiLine *line, const CpsiStepOptions *options) {
+    const CpsCertificate *found = &line->report.certificate;
+    if (cps_outcome_is_certified(line->report.outcome) &&
+        !(found->load_residual <= options->solver.tolerance * found->largest_force))
+        line->report.outcome = CPS_OUTCOME_STALLED;
+}
+
 /* the step ------------------------------------------------------------------------------------- */
 
 /* Are all numbers of the certificate finite? */
@@ -406,7 +504,7 @@ static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     memset(line->reaction, 0, contacts * sizeof *line->reaction);
     memset(line->tension, 0, n * sizeof *line->tension);
     cpsi_line_clear_set_reactions(line);
-    if (cpsi_line_swims(line)) cpsi_line_settle_swim(line, line->position);
+    if (cpsi_line_swims(line)) cpsi_line_settle_swim(line);
     cpsi_potential_model(line, line->position);
     cpsi_potential_settle(line);
     if (cpsi_line_swims(line) || line->has_potential) cpsi_line_set_loads(line);
@@ -570,21 +668,12 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     line->report.certificate = (CpsCertificate){0};
     line->report.outcome = CPS_OUTCOME_SOLVED;
     if (!line->joined && cpsi_line_has_no_equilibrium(line, options)) return;
-    const bool swims = cpsi_line_swims(line);
-    if (swims) {
-        cpsi_line_begin_swim(line);
-        cpsi_line_set_loads(line);
+    if (cpsi_line_swims(line)) {
+        step_in_flow(line, program, options, guess);
+    } else {
+        solve_first(line, program, options, guess);
+        if (cpsi_line_loads_follow(line) && !line->joined) follow_loads(line, program, options);
     }
-    if (line->joined)
-        take_joined(line, options);
-    else if (options->across)
-        solve_across(line, program, options);
-    else
-        solve_with_fallbacks(line, program, options, guess);
-    if (swims)
-        follow_swim(line, program, options);
-    else if (cpsi_line_loads_follow(line) && !line->joined)
-        follow_loads(line, program, options);
     judge_loads(line, options);
     if (!is_finite(line) || !cpsi_line_is_near(line) || cpsi_contact_bears_beyond(line))
         reset_to_reference(line, options);

@@ -27,64 +27,30 @@
 #include "cable/flow.h"
 #include "cable/held.h"
 #include "cable/inertia_field.h"
-#include "linalg/dense.h"
 
 /* Programs whose change is not below this share of the change before are accelerated. */
 static const double SLOW = 0.5;
 
-/* What the water does to a node. */
-typedef struct Water {
-    Vec3 drag;       /* [N] */
-    double slope[6]; /* [N s/m] C */
-    double mass[6];  /* [kg] A */
-    Vec3 wave;       /* [N] of the water's own acceleration */
-} Water;
-
-/* See the water in the middle of each element at the places x. */
-static void see_water(const CpsiLine *line, const double *x) {
-    for (int e = 0; e + 1 < line->n; e++) {
-        const Vec3 middle = vec3_scale(0.5, vec3_add(vec3_at(x, e), vec3_at(x, e + 1)));
-        const CpsiWaterMotion water = cpsi_flow_motion(line->field.flow, middle);
-        vec3_store(&line->field.water[3 * e], water.velocity);
-        vec3_store(&line->field.water_rate[3 * e], water.acceleration);
-    }
+/* a t t', a symmetric matrix as K of the field. */
+static void set_square(double m[6], double a, Vec3 t) {
+    const Vec3 s = vec3_scale(a, t);
+    m[0] = s.x * t.x;
+    m[1] = s.x * t.y;
+    m[2] = s.y * t.y;
+    m[3] = s.x * t.z;
+    m[4] = s.y * t.z;
+    m[5] = s.z * t.z;
 }
 
-/* Add a (I - t t') + b t t' to the symmetric matrix m. */
-static void add_directed(double m[6], double a, double b, Vec3 t) {
-    const double c = b - a;
-    m[0] += a + c * t.x * t.x;
-    m[1] += c * t.x * t.y;
-    m[2] += a + c * t.y * t.y;
-    m[3] += c * t.x * t.z;
-    m[4] += c * t.y * t.z;
-    m[5] += a + c * t.z * t.z;
+/* Add a (I - q) + b q to the symmetric matrix m, q = t t'. */
+static void add_directed(double m[6], double a, double b, const double q[6]) {
+    for (int i = 0; i < 6; i++) m[i] += (b - a) * q[i];
+    m[0] += a;
+    m[2] += a;
+    m[5] += a;
 }
 
-/* Add the water of element e, which has been seen, on one of its nodes, with the velocity v. */
-static void add_element(const CpsiLine *line, const double *x, int e, Vec3 v, Water *out) {
-    if (e < 0 || e + 1 >= line->n) return;
-    const CpsiFlow *flow = line->field.flow;
-    const CpsDrag *by = &flow->drag;
-    const Vec3 d = vec3_sub(vec3_at(x, e + 1), vec3_at(x, e));
-    const double size = vec3_norm(d), half = 0.5 * line->natural_length[e];
-    const Vec3 t = vec3_scale(size > 0 ? 1 / size : 0, d);
-    const Vec3 w = vec3_sub(vec3_at(line->field.water, e), v), across = vec3_reject(w, t);
-    const double fast = vec3_norm(across), along = fabs(vec3_dot(w, t));
-    const double pressed = half * 0.5 * flow->density * by->diameter,
-                 moved = half * flow->density * 0.25 * CPSI_PI * by->diameter * by->diameter;
-    out->drag = vec3_axpy(half, cpsi_flow_drag(flow, w, d), out->drag);
-    add_directed(out->slope, pressed * by->normal * fast,
-                 2 * pressed * CPSI_PI * by->tangential * along, t);
-    if (fast > 0)
-        add_directed(out->slope, 0, pressed * by->normal * fast, vec3_scale(1 / fast, across));
-    add_directed(out->mass, moved * by->added_normal, moved * by->added_tangential, t);
-    if (!flow->waves && !flow->given) return;
-    double carried[6] = {0};
-    add_directed(carried, moved * (1 + by->added_normal), moved * (1 + by->added_tangential), t);
-    out->wave =
-        vec3_add(out->wave, cpsi_node_field_product(carried, vec3_at(line->field.water_rate, e)));
-}
+static void add_vector(double to[3], Vec3 v) { vec3_store(to, vec3_add(vec3_load(to), v)); }
 
 /* The velocity of node j at the place x. */
 static Vec3 velocity_of(const CpsiLine *line, const double *x, int j) {
@@ -92,56 +58,113 @@ static Vec3 velocity_of(const CpsiLine *line, const double *x, int j) {
                       vec3_sub(vec3_at(x, j), vec3_at(line->reference, j)));
 }
 
-/* What the water that has been seen at the places x does to node j there. */
-static Water water_at(const CpsiLine *line, const double *x, int j) {
-    Water out = {.drag = {0, 0, 0}};
-    const Vec3 v = velocity_of(line, x, j);
-    add_element(line, x, j - 1, v, &out);
-    add_element(line, x, j, v, &out);
-    return out;
+/* Add the drag of half an element along t, q = t t', whose pressure is `pressed`, on a node which
+ * the water passes with w. */
+static void add_drag(const CpsDrag *by, double pressed, Vec3 t, const double q[6], Vec3 w,
+                     CpsiWaterForces *out) {
+    const double way = vec3_dot(w, t), along = fabs(way);
+    const Vec3 across = vec3_axpy(-way, t, w);
+    const double fast = vec3_norm(across), normal = pressed * by->normal * fast,
+                 tangential = pressed * CPSI_PI * by->tangential * along;
+    add_vector(out->drag, vec3_axpy(tangential * way, t, vec3_scale(normal, across)));
+    add_directed(out->slope, normal, 2 * tangential, q);
+    if (!(fast > 0)) return;
+    double more[6];
+    set_square(more, normal / (fast * fast), across);
+    for (int i = 0; i < 6; i++) out->slope[i] += more[i];
 }
 
-/* The force of the water that is moved along, at the place x. */
-static Vec3 added_force(const CpsiLine *line, const Water *water, const double *x, int j) {
+/* Add the water at element e of the line at the places x to what acts on its two nodes. */
+static inline void see_element(const CpsiLine *line, const double *x, int e,
+                               CpsiWaterForces out[2]) {
+    const CpsiFlow *flow = line->field.flow;
+    const CpsDrag *by = &flow->drag;
+    const Vec3 from = vec3_at(x, e), to = vec3_at(x, e + 1), d = vec3_sub(to, from);
+    const double size = vec3_norm(d), half = 0.5 * line->natural_length[e];
+    const Vec3 t = vec3_scale(size > 0 ? 1 / size : 0, d);
+    const double pressed = half * 0.5 * flow->density * by->diameter,
+                 moved = half * flow->density * 0.25 * CPSI_PI * by->diameter * by->diameter;
+    const CpsiWaterMotion water = cpsi_flow_motion(flow, vec3_scale(0.5, vec3_add(from, to)));
+    double q[6], mass[6] = {0}, carried[6] = {0};
+    set_square(q, 1, t);
+    add_directed(mass, moved * by->added_normal, moved * by->added_tangential, q);
+    for (int i = 0; i < 2; i++) {
+        add_drag(by, pressed, t, q, vec3_sub(water.velocity, velocity_of(line, x, e + i)), &out[i]);
+        for (int k = 0; k < 6; k++) out[i].mass[k] += mass[k];
+    }
+    if (!flow->waves && !flow->given) return;
+    add_directed(carried, moved * (1 + by->added_normal), moved * (1 + by->added_tangential), q);
+    const Vec3 wave = cpsi_node_field_product(carried, water.acceleration);
+    for (int i = 0; i < 2; i++) add_vector(out[i].wave, wave);
+}
+
+/* See what the water does to the line at the places x. */
+static void see_water(const CpsiLine *line, const double *x) {
+    CpsiWaterForces on[2] = {0};
+    for (int e = 0; e + 1 < line->n; e++) {
+        see_element(line, x, e, on);
+        line->field.seen[e] = on[0];
+        on[0] = on[1];
+        on[1] = (CpsiWaterForces){0};
+    }
+    line->field.seen[line->n - 1] = on[0];
+}
+
+/* The force of the water that is moved along, at the place x, where it was seen. */
+static Vec3 added_force(const CpsiLine *line, const double *x, int j) {
     const Vec3 faster = vec3_sub(velocity_of(line, x, j), vec3_at(line->inertia.rest_velocity, j));
-    return vec3_scale(-1 / line->inertia.span[j], cpsi_node_field_product(water->mass, faster));
+    return vec3_scale(-1 / line->inertia.span[j],
+                      cpsi_node_field_product(line->field.seen[j].mass, faster));
 }
 
-/* Write the field of inertia and water about y at node j; returns the size of its forces. */
+/* Solve K x = b, K (6) symmetric, by K = L D L'. False where K is not positive definite. */
+static bool solve_symmetric(const double k[6], double b[3]) {
+    if (!(k[0] > 0)) return false;
+    const double yx = k[1] / k[0], zx = k[3] / k[0], y = k[2] - yx * k[1];
+    if (!(y > 0)) return false;
+    const double zy = (k[4] - zx * k[1]) / y, z = k[5] - zx * k[3] - zy * zy * y;
+    if (!(z > 0)) return false;
+    b[1] -= yx * b[0];
+    b[2] -= zx * b[0] + zy * b[1];
+    b[2] /= z;
+    b[1] = b[1] / y - zy * b[2];
+    b[0] = b[0] / k[0] - yx * b[1] - zx * b[2];
+    return true;
+}
+
+/* Write the field of inertia and water, which was seen there, about y at node j; returns the size
+ * of its forces. */
 static double write_node(CpsiLine *line, const double *y, int j) {
     const double span = line->inertia.span[j];
     double own = cpsi_line_set_inertia(line, j, vec3_at(line->reference, j));
-    const Water water = water_at(line, y, j);
-    double *k = &line->field.stiffness[6 * j], *place = &line->field.place[3 * j];
-    const Vec3 off = vec3_sub(vec3_at(y, j), vec3_load(place)),
-               about = vec3_axpy(1 / span, cpsi_node_field_product(water.slope, off),
-                                 vec3_add(water.drag, water.wave));
-    for (int i = 0; i < 6; i++) k[i] += water.slope[i] / span + water.mass[i] / (span * span);
-    double m[9] = {k[0], k[1], k[3], k[1], k[2], k[4], k[3], k[4], k[5]};
-    double by[3] = {about.x, about.y, about.z};
-    int pivot[3];
-    if (cpsi_lu_factor(3, m, pivot)) {
-        cpsi_lu_solve(3, m, pivot, by);
+    const CpsiWaterForces *water = &line->field.seen[j];
+    const Vec3 drag = vec3_load(water->drag), wave = vec3_load(water->wave);
+    double *k = &line->field.stiffness[6 * j], *place = &line->field.place[3 * j], by[3];
+    const Vec3 off = vec3_sub(vec3_at(y, j), vec3_load(place));
+    vec3_store(by, vec3_axpy(1 / span, cpsi_node_field_product(water->slope, off),
+                             vec3_add(drag, wave)));
+    for (int i = 0; i < 6; i++) k[i] += water->slope[i] / span + water->mass[i] / (span * span);
+    if (solve_symmetric(k, by))
         for (int a = 0; a < 3; a++) place[a] += by[a];
-    }
-    return own + vec3_norm(water.drag) + vec3_norm(water.wave);
+    return own + vec3_norm(drag) + vec3_norm(wave);
 }
 
+/* Write the field about the places y, where the water was seen. */
 static void write(CpsiLine *line, const double *y) {
     const size_t numbers = 3 * (size_t)line->n * sizeof(double);
     memset(line->field.drag, 0, numbers);
     memset(line->field.added, 0, numbers);
     memset(line->field.wave, 0, numbers);
     line->field.size = 0;
-    see_water(line, y);
     for (int j = 0; j < line->n; j++) line->field.size += write_node(line, y, j);
 }
 
 void cpsi_line_begin_swim(CpsiLine *line) {
     double *place = line->field.rounds.from;
     for (int j = 0; j < line->n; j++)
-        vec3_store(&place[3 * j], cpsi_line_free_place(line, j, vec3_at(line->reference, j)));
+        vec3_store(&place[3 * j], cpsi_line_expected_place(line, j, vec3_at(line->reference, j)));
     cpsi_line_put_held(line, place);
+    see_water(line, place);
     write(line, place);
     line->field.rounds.begun = false;
     line->field.rounds.count = 0;
@@ -153,9 +176,9 @@ double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
     see_water(line, line->position);
     for (int j = 0; j < line->n; j++) {
         const Vec3 x = vec3_at(line->position, j), reference = vec3_at(line->reference, j);
-        const Water water = water_at(line, line->position, j);
-        const Vec3 now = vec3_add(vec3_add(water.drag, water.wave),
-                                  added_force(line, &water, line->position, j));
+        const CpsiWaterForces *water = &line->field.seen[j];
+        const Vec3 now = vec3_add(vec3_add(vec3_load(water->drag), vec3_load(water->wave)),
+                                  added_force(line, line->position, j));
         const double span = line->inertia.span[j];
         const Vec3 off = vec3_sub(x, cpsi_line_free_place(line, j, reference)),
                    all = cpsi_line_field_force(line, j, x),
@@ -163,28 +186,36 @@ double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
         changed += vec3_norm(vec3_sub(now, used));
         most = fmax(most, vec3_norm(now));
     }
-    if (largest) *largest = most;
+    *largest = most;
     return changed;
 }
 
 void cpsi_line_approach_swim(CpsiLine *line, double left) {
     CpsiAnderson *rounds = &line->field.rounds;
     /* all nodes but the last one count: an element is as long as it is */
-    if (rounds->begun || left > SLOW * line->field.left)
+    if (rounds->begun || left > SLOW * line->field.left) {
         cpsi_anderson_accelerate(rounds, line->n, line->element_length, line->position);
-    else
+        see_water(line, line->position);
+    } else {
         cpsi_anderson_start(rounds, line->n, line->position);
+    }
     line->field.left = left;
     write(line, line->position);
 }
 
-void cpsi_line_settle_swim(CpsiLine *line, const double *x) {
-    see_water(line, x);
+void cpsi_line_end_swim(CpsiLine *line, double left) {
+    const double *x = line->position;
+    line->field.left = left;
     for (int j = 0; j < line->n; j++) {
-        const Water water = water_at(line, x, j);
-        vec3_store(&line->field.drag[3 * j], water.drag);
-        vec3_store(&line->field.added[3 * j], added_force(line, &water, x, j));
-        vec3_store(&line->field.wave[3 * j], water.wave);
+        const CpsiWaterForces *water = &line->field.seen[j];
+        memcpy(&line->field.drag[3 * j], water->drag, sizeof water->drag);
+        vec3_store(&line->field.added[3 * j], added_force(line, x, j));
+        memcpy(&line->field.wave[3 * j], water->wave, sizeof water->wave);
         (void)cpsi_line_set_inertia(line, j, vec3_at(line->reference, j));
     }
+}
+
+void cpsi_line_settle_swim(CpsiLine *line) {
+    see_water(line, line->position);
+    cpsi_line_end_swim(line, line->field.left);
 }

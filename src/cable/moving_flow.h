@@ -13,14 +13,16 @@ static inline bool cpsi_line_swims(const CpsiLine *line) {
 }
 
 /* Write the forces of the flow for the first program of the step, linear in the new places, about
- * where inertia alone would take the line; and for the next one, about where the last one has taken
- * it, or to where these converge; `left` is what the last one lacked (cpsi_line_swim_change). */
+ * where the line is expected; and for the next one, about where the last one has taken it and the
+ * flow was seen, or to where these converge; `left` is what the last one lacked. */
 void cpsi_line_begin_swim(CpsiLine *line);
 void cpsi_line_approach_swim(CpsiLine *line, double left);
-/* [N] The sum over the nodes of the flow's forces at the position less those of the program; and
- * the largest of them, NULL: not asked for. */
+/* [N] See the flow at the position: the sum over the nodes of its forces there less those of the
+ * program, and the largest of them. */
 double cpsi_line_swim_change(const CpsiLine *line, double *largest);
-/* Let the flow's forces at the place x be given loads from now on, and the field inertia alone. */
-void cpsi_line_settle_swim(CpsiLine *line, const double *x);
+/* Let the flow's forces at the position, where it was seen, be given loads from now on, and the
+ * field inertia alone; and the same where it is yet to be seen. */
+void cpsi_line_end_swim(CpsiLine *line, double left);
+void cpsi_line_settle_swim(CpsiLine *line);
 
 #endif

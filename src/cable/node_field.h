@@ -38,6 +38,14 @@ typedef struct CpsiPotential {
     double origin[3]; /* [m] of line->position, in the axes of the scene */
 } CpsiPotential;
 
+/* What the water does to a node of a line that moves. */
+typedef struct CpsiWaterForces {
+    double drag[3];  /* [N] */
+    double slope[6]; /* [N s/m] C, what the drag loses with the velocity, as K below */
+    double mass[6];  /* [kg] A, of the water that is moved along */
+    double wave[3];  /* [N] of the water's own acceleration */
+} CpsiWaterForces;
+
 typedef struct CpsiNodeField {
     double *load; /* (n, 3) [N] a load of each node; NULL: none */
     /* (n, 6) [N/m] K as xx, xy, yy, xz, yz, zz; NULL: there is none, and the rest is not read */
@@ -67,8 +75,7 @@ typedef struct CpsiNodeField {
     /* of a step in time (moving_flow.h): */
     double *added; /* (n, 3) [N] of the water that is moved along; NULL without inertia or loads */
     double *wave;  /* (n, 3) [N] of the water's own acceleration; likewise */
-    /* (n, 3) [m/s, m/s2] of the water in the middle of each element, where it was last seen */
-    double *water, *water_rate;
+    CpsiWaterForces *seen; /* (n) of the water where the line was last seen; likewise */
     double left; /* [N] sum over the nodes of what the last program lacked of the flow's forces */
 } CpsiNodeField;
 

@@ -9,6 +9,7 @@
 #include "cable/end_set.h"
 #include "cable/friction_law.h"
 #include "cable/held.h"
+#include "cable/inertia_field.h"
 #include "cable/soft.h"
 #include "chain/active_set.h"
 #include "chain/frame.h"
@@ -102,12 +103,22 @@ bool cpsi_warm_step_treats(const CpsiLine *line, int c) {
     return !given || cpsi_friction_set_shape(given);
 }
 
-/* How far the method treats the contacts that the line has now, not those with what gives; second
+/* ... in time, of nodes with one plane that gives, without friction? */
+static bool treats_soft(const CpsiLine *line) {
+    if (!line->inertia.is_moving || line->obstacle_count != 1 ||
+        line->obstacle[0].kind != CPS_OBSTACLE_PLANE || line->contacts > 1)
+        return false;
+    for (int j = 0; j < line->n; j++)
+        if (line->friction_law[j].friction > 0) return false;
+    return true;
+}
+
+/* How far the method treats the contacts that the line has now; second
  * ones from the solution of a round on, since a line may rest in a corner, or slide along it, under
  * the same forces. */
 static CpsiGuess treated_contacts(const CpsiLine *line) {
     CpsiGuess best = CPSI_GUESS_EXTRAPOLATED;
-    if (cpsi_line_has_soft(line)) return CPSI_GUESS_NONE;
+    if (cpsi_line_has_soft(line)) return treats_soft(line) ? best : CPSI_GUESS_NONE;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
         if (!cpsi_line_obstacle(line, c) || line->state[c] == CPS_NODE_STATE_FREE) continue;
         if (!cpsi_warm_step_treats(line, c)) return CPSI_GUESS_NONE;
@@ -135,8 +146,11 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
         return CPSI_GUESS_LATER;
     }
     if (line->inertia.is_moving) {
-        for (int i = 0; i < 3 * line->n; i++)
-            program->base.residual[i] = line->field.place[i] - line->position[i];
+        for (int j = 0; j < line->n; j++) {
+            const Vec3 x = vec3_at(line->position, j);
+            vec3_store(&program->base.residual[3 * j],
+                       vec3_sub(cpsi_line_expected_place(line, j, x), x));
+        }
         for (int i = 1; i < line->n; i++) program->dt[i] = line->tension[i - 1];
         return CPSI_GUESS_EXTRAPOLATED;
     }
@@ -262,13 +276,13 @@ static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const C
 }
 
 CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
-                                   const CpsiStepScale *scale, CpsiGuess guess,
-                                   int max_iterations) {
+                                   const CpsiStepScale *scale, CpsiGuess guess, int max_iterations,
+                                   double share) {
     const bool extrapolated = guess == CPSI_GUESS_EXTRAPOLATED;
     const bool predicted = guess == CPSI_GUESS_PREDICTED;
     place(line, program, extrapolated ? program->base.residual : NULL);
     guess_pairs(line, program, scale, guess, extrapolated || predicted ? program->dt : NULL);
-    return cpsi_chain_active_set(program, max_iterations, false);
+    return cpsi_chain_active_set(program, max_iterations, false, share);
 }
 
 void cpsi_warm_step_note(CpsiLine *line, bool certified) {

@@ -8,6 +8,7 @@
  *     taut element        |e| = 1 + phi(T)           slack        T = 0
  *     open contact        g = 0                      closed       gap + u_z = 0, R = -g_z
  *     friction sticks     s = 0, F = -g_xy           slips        F = A tau/|tau|, tau = F - rho s
+ *     contact that gives  R = max(0, -(gap + u_z)/c), without friction
  *
  * with phi(T) = c T, or of a law with springs (base/element_law.h), A = mu R where bounds are
  * coupled, s the slip and F = -g_xy (Alart and Curnier 1991; Hueber, Stadler and Wohlmuth 2008).
@@ -46,6 +47,20 @@ static inline void to_node(const CpsiChainProgram *program, int j, double v[3]) 
     cpsi_frame_to(v, &program->frame[9 * j], common);
 }
 
+/* The reactions of what gives, and their part of the forces on the nodes; returns the largest. */
+static double press(CpsiChainProgram *program) {
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    double most = 0;
+    for (int k = 0; k < unilateral->count; k++) {
+        if (!cpsi_newton_gives(program, k)) continue;
+        unilateral->z[k] = fmax(0, -cpsi_newton_gap(program, k) / unilateral->compliance[k]);
+        const double force = unilateral->weight[k] * unilateral->z[k];
+        program->base.residual[3 * unilateral->node[k] + 2] += force;
+        most = fmax(most, force);
+    }
+    return most;
+}
+
 /* The force of each element, the error of its law, |e| - 1 - phi(T), and the force g on each node.
  */
 static void measure(CpsiNewton *newton) {
@@ -79,6 +94,7 @@ static void measure(CpsiNewton *newton) {
             most = cpsi_max_nan(most, fabs(pull[a]));
         }
     }
+    if (program->unilateral.compliance) most = cpsi_max_nan(most, press(program));
     if (newton->has_points) cpsi_newton_measure_points(newton);
     newton->force = most > 1 ? most : 1;
 }
@@ -207,6 +223,10 @@ static void finish(const CpsiNewton *newton) {
     for (int k = 0; k < unilateral->count; k++) {
         const int j = unilateral->node[k];
         if (cpsi_newton_is_corner(newton, j)) continue;
+        if (cpsi_newton_gives(program, k)) {
+            unilateral->s[k] = fmax(0, cpsi_newton_gap(program, k));
+            continue;
+        }
         const bool closed = !cpsi_newton_is_other(program, k) && (newton->status[j] & CPSI_CLOSED);
         unilateral->s[k] = closed ? 0 : cpsi_newton_gap(program, k);
         if (!closed) unilateral->z[k] = 0;
@@ -214,20 +234,24 @@ static void finish(const CpsiNewton *newton) {
     for (int d = 0; d < program->disc.count; d++) finish_friction(newton, d);
 }
 
-/* At most so many steps from the guess, with the matrix prepared for them. */
-static CpsiIpmReport iterate(CpsiNewton *newton, int most) {
+/* At most so many steps from the guess, with the matrix prepared for them, to rounding or to what
+ * may be left of the errors of the guess. */
+static CpsiIpmReport iterate(CpsiNewton *newton, int most, double left) {
     const int patience = newton->polishes ? POLISHING_PATIENCE : PATIENCE;
     CpsiChainProgram *program = newton->program;
     CpsiIpmReport report = {.outcome = CPSI_IPM_STALLED};
-    double least = INFINITY;
+    double least = INFINITY, first = 0;
     int waited = 0;
     for (int step = 0; step <= most; step++) {
         report.residual = prepare(newton, step == 0);
         newton->residual = report.residual;
         if (newton->lost || !isfinite(report.residual)) break;
         if (newton->polishes && step == 0 && report.residual > FAR) break;
-        if (step > 0 && !newton->changed && report.residual <= fmin(newton->rounding, MOST_NOISE)) {
+        const double rounding = fmin(newton->rounding, MOST_NOISE);
+        if (step == 0) first = report.residual;
+        if (step > 0 && !newton->changed && report.residual <= fmax(rounding, left * first)) {
             report.outcome = CPSI_IPM_SOLVED;
+            report.is_rough = report.residual > rounding;
             break;
         }
         if (report.residual < PROGRESS * least) {
@@ -252,7 +276,8 @@ static CpsiIpmReport iterate(CpsiNewton *newton, int most) {
     return report;
 }
 
-CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations, bool polishes) {
+CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations, bool polishes,
+                                    double left) {
     const size_t n = (size_t)program->n;
     CpsiMatrix *matrix = &program->matrix;
     const CpsiMatrixSecond *second = matrix->second;
@@ -276,7 +301,7 @@ CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iteration
     matrix->frame = newton.frame ? newton.frame : program->frame;
     matrix->second = NULL;
     const int most = polishes ? MOST_POLISHING : MOST_STEPS;
-    CpsiIpmReport report = iterate(&newton, max_iterations < most ? max_iterations : most);
+    CpsiIpmReport report = iterate(&newton, max_iterations < most ? max_iterations : most, left);
     matrix->held = program->held;
     matrix->second = second;
     matrix->share = share;

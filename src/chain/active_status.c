@@ -235,7 +235,7 @@ void cpsi_newton_begin(CpsiNewton *newton) {
         newton->taut[i] = program->segment.z[i][0] > 0 &&
                           !(newton->polishes && cpsi_segment_is_slack(&program->segment, i));
     for (int k = 0; k < unilateral->count && !newton->lost; k++) {
-        if (!(unilateral->z[k] > 0)) continue;
+        if (!(unilateral->z[k] > 0) || cpsi_newton_gives(program, k)) continue;
         if (cpsi_newton_is_other(program, k))
             newton->lost = !cpsi_corner_begin(newton, k - 1, k);
         else if (cpsi_newton_is_point(newton, unilateral->node[k]))
@@ -258,7 +258,7 @@ static void decide_contacts(CpsiNewton *newton) {
     const CpsiUnilateral *unilateral = &program->unilateral;
     for (int k = 0; k < unilateral->count; k++) {
         const int j = unilateral->node[k];
-        if (cpsi_newton_is_corner(newton, j)) continue;
+        if (cpsi_newton_is_corner(newton, j) || cpsi_newton_gives(program, k)) continue;
         const double gap = cpsi_newton_gap(program, k);
         if (cpsi_newton_is_other(program, k)) {
             newton->lost = newton->lost || gap < -newton->rounding;

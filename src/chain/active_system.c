@@ -196,7 +196,7 @@ static void note_way(CpsiNewton *newton, double way) {
     newton->strain_error = cpsi_max_nan(newton->strain_error, fabs(way));
 }
 
-/* What friction and landing nodes add to the rows of their nodes. */
+/* What friction, landing nodes and what gives add to the rows of their nodes. */
 static void load_contacts(CpsiNewton *newton) {
     CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
@@ -219,6 +219,9 @@ static void load_contacts(CpsiNewton *newton) {
     }
     for (int k = 0; k < unilateral->count; k++) {
         const int j = unilateral->node[k];
+        if (cpsi_newton_gives(program, k) && unilateral->z[k] > 0)
+            program->matrix.diagonal[6 * j + 5] +=
+                unilateral->weight[k] / unilateral->compliance[k];
         if (cpsi_newton_is_other(program, k) || !(newton->status[j] & CPSI_LANDS)) continue;
         const double to = -unilateral->gap[k] - program->base.u[3 * j + 2];
         f[3 * j + 2] = PULLING * to;

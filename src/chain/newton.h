@@ -172,6 +172,12 @@ static inline bool cpsi_newton_has_friction(const CpsiNewton *newton, int d) {
     return !program->bounds_coupled || (newton->status[j] & CPSI_CLOSED);
 }
 
+/* Does what contact k is with give, without friction? Its reaction is z = max(0, -gap/c) then, in
+ * whatever set. */
+static inline bool cpsi_newton_gives(const CpsiChainProgram *program, int k) {
+    return program->unilateral.compliance && program->unilateral.compliance[k] > 0;
+}
+
 /* The gap of unilateral contact k. */
 static inline double cpsi_newton_gap(const CpsiChainProgram *program, int k) {
     const CpsiUnilateral *unilateral = &program->unilateral;

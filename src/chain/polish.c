@@ -134,7 +134,7 @@ CpsiIpmReport cpsi_chain_polish(CpsiChainProgram *program, const CpsiKept *kept,
         if (!presses(program, k)) unilateral->z[k] = 0;
     disc->count += conics;
     program->conic.count = 0;
-    const CpsiIpmReport report = cpsi_chain_active_set(program, max_iterations, true);
+    const CpsiIpmReport report = cpsi_chain_active_set(program, max_iterations, true, 0);
     if (report.outcome == CPSI_IPM_SOLVED) return report;
     disc->count = discs;
     program->conic.count = conics;

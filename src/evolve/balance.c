@@ -277,8 +277,8 @@ static bool search(CpsiBalance *balance, int trials) {
 }
 
 /* Search with soft lines, and then with stiffer ones up to their own stiffness: a body that starts
- * far from its place on stiff lines would go there through a narrow valley. For elastic lines, in
- * the step that places them by statics. */
+ * far from its place on stiff lines would go there through a narrow valley. For elastic lines,
+ * where nothing else has found an answer. */
 static void search_softly(CpsiBalance *balance) {
     CpsEvolution *evolution = balance->evolution;
     double own[SOFT_LINES];
@@ -537,7 +537,7 @@ static void find_places(CpsiBalance *balance, int group) {
     if (!found && !is_over(balance) && again) found = search_again(balance, true);
     if (!found && !is_over(balance) && again)
         found = search_with(balance, MOST_TRIALS, PATIENCE_AT_LAST);
-    if (!found && is_static && balance->body_count > 0) {
+    if (!found && !frozen && !is_interrupted(evolution) && balance->body_count > 0) {
         cpsi_begin_again(balance);
         search_softly(balance);
         found = cpsi_is_answer(balance);

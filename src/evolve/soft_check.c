@@ -65,7 +65,8 @@ CpsStatus cpsi_soft_time_check(const CpsScene *scene, CpsError *err) {
 /* The area of a point does not follow what a winch there pays out. */
 static CpsStatus check_winch(const CpsScene *scene, int index, CpsError *err) {
     const CpsObstacle *soft = cpsi_soft_obstacle(scene);
-    for (int k = 0; soft && k < 2 * scene->line_count; k++) {
+    if (!soft) return CPS_OK;
+    for (int k = 0; k < 2 * scene->line_count; k++) {
         const CpsLine *line = &scene->line[k / 2];
         if (line->winch[k % 2].is_there && cpsi_point_of(line, k % 2) == index)
             return cpsi_fail(err, CPS_ERR_ARGUMENT,

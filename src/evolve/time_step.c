@@ -289,6 +289,15 @@ static void advance(CpsiLine *line, const CpsiTimeStep *step, const unsigned cha
     inertia->position_bound = stiffness > 0 && gap > 0 ? sqrt(2 * gap / stiffness) : 0;
 }
 
+/* Are the ends after the step too far apart for an inextensible line that goes round an obstacle?
+ * From where the step began. */
+static bool falls_short(CpsiLine *line, const CpsiStepOptions *options, const CpsiMove *move,
+                        CpsiSubsteps *scratch) {
+    cpsi_substeps_restore(line, scratch);
+    cpsi_substeps_impose(line, move, scratch, 0, 1);
+    return cpsi_line_step_falls_short(line, options);
+}
+
 /* There is no such motion: the line stays where it was. */
 static void stay(CpsiLine *line) {
     CpsiInertia *inertia = &line->inertia;
@@ -317,6 +326,13 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
         cpsi_substeps_restore(line, scratch);
         share = attempt(line, program, options, move, scratch, step);
         iterations += line->report.iteration_count;
+    }
+    const bool failed = !cps_outcome_is_certified(line->report.outcome) &&
+                        !cps_outcome_is_final(line->report.outcome);
+    if (failed && line->compliance == 0 &&
+        !falls_short(line, options, move, scratch)) { /* what the attempt came to */
+        cpsi_substeps_restore(line, scratch);
+        share = attempt(line, program, options, move, scratch, step);
     }
     /* the way of what went farther round an obstacle is not known, nor on which side of it a line
      * is that it goes past: the steps are too long */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Memory runs out while a program moves a line with drag and damping, a clump and a body with a
- * member in waves, and takes moves back, saves states and gives them to another evolution. Each
- * allocation is refused once: the call says so and leaves the state as it was, byte by byte, and
- * when it is made again all goes on to the same bits; everything is given back. */
+ * member in waves, with and without its velocity, and takes moves back, saves states and gives them
+ * to another evolution. Each allocation is refused once: the call says so and leaves the state as
+ * it was, byte by byte, and when it is made again all goes on to the same bits; everything is given
+ * back. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -122,6 +123,17 @@ static CpsStatus move(Run *run) {
     stage.duration = 0.05;
     return cps_evolution_move(run->evolution, &stage, &err);
 }
+static CpsStatus lead(Run *run) { /* with the velocity of the anchor */
+    CpsStage stage = cps_stage_default();
+    run->change = (CpsPointChange){.point = 0,
+                                   .value = {0.01, 0, 0.002},
+                                   .has_velocity = true,
+                                   .velocity = {0.4, 0, 0.1}};
+    stage.duration = 0.05;
+    stage.point_change = &run->change;
+    stage.point_change_count = 1;
+    return cps_evolution_move(run->evolution, &stage, &err);
+}
 static CpsStatus follow(Run *run) {
     return cps_evolution_follow(run->evolution, 0.1, 2, sway, run, &err);
 }
@@ -145,8 +157,9 @@ static CpsStatus settle(Run *run) {
 }
 
 typedef CpsStatus Call(Run *run);
-static Call *const CALL[] = {create, move,         take_back, move,   follow, take_back,
-                             move,   create_other, hand_over, follow, settle, move};
+static Call *const CALL[] = {create,    move,   take_back, move, lead,         take_back,
+                             lead,      follow, take_back, move, create_other, lead,
+                             hand_over, follow, settle,    move};
 enum { CALLS = sizeof CALL / sizeof *CALL };
 
 /* All calls, each again where memory was refused; returns how many were refused. */
