@@ -226,7 +226,7 @@ def compare_laws(bench):
 def compare_hold(bench):
     found = {}
     history = (f"  - {{name: out, duration: {OUT}, time_step: 0.5, mooring.B: {{move: [0, {ACROSS}, 0]}}}}\n"
-               f"  - {{name: hold, duration: {HOUR - OUT}, time_step: 2}}\n")
+               f"  - {{name: hold, duration: {OUT}, time_step: 2}}\n  - {{name: rest, duration: {HOUR - 2 * OUT}, time_step: 10}}\n")
     runs = {"capstan": lambda: capstan(os.path.join(bench, "motion_bench"), 1.0, history)}
     for damping in ("200", "1e6"):
         for step in ("0.001", "0.004"):
