@@ -134,15 +134,16 @@ typedef struct CpsBodyReport {
     double residual[CPS_BODY_DIRECTIONS]; /* sum of all these: what nothing balances */
     /* (6, 6) derivative of `residual` by the pose, without support, with the sign of a stiffness,
      * in the axes of the scene: of the step (stiffness.h), where its nodes have such a derivative.
+     * Free points to which its lines lead follow it, other bodies stay.
      * Not symmetric in a pose with a moment. 0 of a held body */
     double stiffness[36];
     /* The proof that no pose balances (theory 5a), else 0: its lines end at one of its points, and
      * in every rotation the moment about the axis `proof` through it, of unit length, is at least
      * this [N m]. They are unbounded then, with a `proof` of 0 */
     double proof[3], proof_moment;
-    bool is_stable;  /* its symmetric part is positive definite in the directions not fixed; of a
-                        held  body true */
-    bool has_place;  /* the residual is no larger than the tolerance of points */
+    bool is_stable; /* its symmetric part is positive definite in the directions not fixed, and that
+                       of all such bodies which lines connect, together; of a held body true */
+    bool has_place; /* the residual is no larger than the tolerance of points */
     int trial_count; /* as of points */
 } CpsBodyReport;
 

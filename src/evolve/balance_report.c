@@ -8,7 +8,9 @@
 #include "cable/certificate.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
+#include "evolve/body_following.h"
 #include "evolve/body_motion.h"
+#include "evolve/body_stability.h"
 #include "evolve/newton_step.h"
 #include "evolve/point_motion.h"
 #include "evolve/points.h"
@@ -116,7 +118,6 @@ static void report_body(CpsiBalance *balance, int k) {
     for (int i = 0; i < 6; i++)
         if (body->given.fixed[i]) report->support[i] = -rest[i];
     cpsi_body_block(balance, k, report->stiffness);
-    report->is_stable = cpsi_is_stable(report->stiffness, body->given.fixed, body->arm);
     report->has_place =
         cpsi_is_balanced(balance, fmax(vec3_norm(rigid->left.force),
                                        vec3_norm(rigid->left.moment) / body->arm)) &&
@@ -255,6 +256,8 @@ void cpsi_report_found(CpsiBalance *balance) {
             report_point(balance, &balance->at[k]);
     }
     for (int k = 0; k < balance->body_count; k++) report_body(balance, k);
+    cpsi_add_followers(balance);
+    cpsi_judge_stability(balance);
     report_lines(balance);
 }
 

@@ -14,17 +14,23 @@
  *     P = 1 - n n' + mu e n',      Q = b/|s| (1 - n n' - e e') - R C + mu e (C F)',
  *
  * C the curvature of the surface, with which the reaction turns, and across which friction bears on
- * it. So K = K_uu - K_uy (P K_yy + Q)^-1 P K_yu. Bodies other than the one that moves stay. */
+ * it; in what gives by the spring k
+ *
+ *     P = 1,                  Q = b/|s| (1 - n n' - e e') - R C + k (n - mu e) n' + n (C F)'.
+ *
+ * So K = K_uu - K_uy (P K_yy + Q)^-1 P K_yu. Bodies other than the one that moves stay. */
 #include "evolve/following.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "cable/soft.h"
 #include "cable/stiffness.h"
 #include "evolve/anchors.h"
 #include "evolve/bodies.h"
 #include "evolve/point_motion.h"
 #include "evolve/points.h"
+#include "evolve/soft_point.h"
 #include "evolve/trial.h"
 
 /* A point that follows by more than so many times what moves, lengths of bodies by their arm, is
@@ -37,7 +43,8 @@ typedef struct Following {
     CpsiBalance *balance; /* lends its arrays; NULL: no point ever follows */
     const CpsiMoved *moved;
     CpsStiffnessKind kind;
-    int width; /* unknowns of what moves */
+    bool is_static; /* the step has placed the lines by statics */
+    int width;      /* unknowns of what moves */
 } Following;
 
 /* what follows --------------------------------------------------------------------------------- */
@@ -144,9 +151,7 @@ static bool counts(const Following *f, int line, int end) {
 
 /* the equations of points ---------------------------------------------------------------------- */
 
-typedef struct Rows {
-    double p[3][3], q[3][3];
-} Rows;
+typedef CpsiFollowerRows Rows;
 
 static Rows held(double size) {
     Rows out = {{{0}}, {{0}}};
@@ -177,36 +182,46 @@ static double turn_of(const CpsiObstacle *on, double slip) {
     return on->kind == CPS_OBSTACLE_SPHERE ? 1 / (on->radius * tan(slip / on->radius)) : 1 / slip;
 }
 
-/* On an obstacle. */
-static CpsStiffnessOutcome rows_on_surface(const Following *f, const CpsPointReport *report,
-                                           double size, double touch, Rows *out) {
+/* On an obstacle, or in one that gives by the spring k, R = k depth. */
+static Rows rows_on_surface(const Following *f, int point, double size) {
     const CpsEvolution *evolution = f->evolution;
+    const CpsiPoint *of = &evolution->points.point[point];
+    const CpsPointReport *report = &of->report;
     const CpsiObstacle *on = &evolution->obstacle[report->obstacle];
-    const bool is_static = evolution->has_static && evolution->done + evolution->move_count == 1,
-               follows = evolution->options.friction_policy != CPS_FRICTION_POLICY_FROZEN,
-               stick = f->kind == CPS_STIFFNESS_STICK;
+    const bool stick = f->kind == CPS_STIFFNESS_STICK, gives = on->stiffness > 0,
+               follows = evolution->options.friction_policy != CPS_FRICTION_POLICY_FROZEN;
     const Vec3 x = vec3_load(report->position), n = vec3_load(report->normal),
                s = vec3_load(report->slip), friction = vec3_load(report->friction);
     const double mu =
-        stick || !is_static ? on->friction[0] * cpsi_obstacle_friction_factor(on, x) : 0;
-    const double slip = vec3_norm(s), bound = follows ? mu * report->reaction : vec3_norm(friction);
-    if (mu > 0 && (stick || !(slip > touch))) {
-        *out = held(size);
-        return CPS_STIFFNESS_OUTCOME_FOUND;
+        stick || !f->is_static ? on->friction[0] * cpsi_obstacle_friction_factor(on, x) : 0;
+    const double slip = vec3_norm(s), bound = follows ? mu * report->reaction : vec3_norm(friction),
+                 spring = gives ? cpsi_soft_point_stiffness(evolution, point, report->obstacle) : 0;
+    const bool rests = mu > 0 && (stick || !(slip > CPS_TOUCH * of->length));
+    const CpsiObstacle level = cpsi_obstacle_within(on, gives ? cpsi_soft_way_depth(on, x) : 0);
+    Rows out = rests ? held(size) : in_plane(size, n, s, mu > 0 ? bound : 0, turn_of(&level, slip));
+    if (gives) {
+        vec3_add_outer(out.p, 1, n, n);
+        vec3_add_outer(out.q, spring - size, n, n);
     }
-    *out = in_plane(size, n, s, mu > 0 ? bound : 0, turn_of(on, slip));
+    if (rests) return out;
     const Vec3 e = mu > 0 ? vec3_scale(1 / slip, s) : vec3(0, 0, 0);
-    if (follows) vec3_add_outer(out->p, mu, e, n);
+    if (follows && gives)
+        vec3_add_outer(out.q, -mu * spring, e, n);
+    else if (follows)
+        vec3_add_outer(out.p, mu, e, n);
     double axes[9], curvature[3];
     cpsi_obstacle_axes(on, x, vec3(1, 0, 0), axes, curvature);
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++) {
             const Vec3 to = vec3_load(&axes[3 * a]), from = vec3_load(&axes[3 * b]);
-            vec3_add_outer(out->q, -report->reaction * curvature[a + b], to, from);
-            if (follows)
-                vec3_add_outer(out->q, mu * curvature[a + b] * vec3_dot(friction, to), e, from);
+            const double turned = curvature[a + b] * vec3_dot(friction, to);
+            vec3_add_outer(out.q, -report->reaction * curvature[a + b], to, from);
+            if (gives)
+                vec3_add_outer(out.q, turned, n, from);
+            else if (follows)
+                vec3_add_outer(out.q, mu * turned, e, from);
         }
-    return CPS_STIFFNESS_OUTCOME_FOUND;
+    return out;
 }
 
 /* Held to a set: the place to which it brings x + r/rho, r all but its reaction (point_set.c). */
@@ -226,7 +241,6 @@ static CpsStiffnessOutcome rows_of(const Following *f, int point, double size, R
     const CpsEvolution *evolution = f->evolution;
     const CpsiPoint *of = &evolution->points.point[point];
     const CpsPointReport *report = &of->report;
-    const double touch = CPS_TOUCH * of->length;
     CpsiEndSet *set = cpsi_set_of_point(&evolution->points, point);
     if (!report->has_place) return CPS_STIFFNESS_OUTCOME_NO_STEP;
     *out = off_everything();
@@ -241,11 +255,23 @@ static CpsStiffnessOutcome rows_of(const Following *f, int point, double size, R
         out->p[2][2] = 0;
         out->q[2][2] = size;
     } else if (report->obstacle != CPS_NO_OBSTACLE) {
-        return rows_on_surface(f, report, size, touch, out);
+        *out = rows_on_surface(f, point, size);
     } else if (vec3_norm(vec3_load(report->friction)) > 0) {
         return CPS_STIFFNESS_OUTCOME_NOT_GIVEN; /* frozen friction off the obstacle */
     }
     return CPS_STIFFNESS_OUTCOME_FOUND;
+}
+
+bool cpsi_follower_rows(const CpsEvolution *evolution, bool is_static, int point, double size,
+                        CpsiFollowerRows *out) {
+    const Following f = {.evolution = evolution,
+                         .kind = CPS_STIFFNESS_STEP,
+                         .is_static = is_static};
+    const bool is_free = evolution->points.point[point].kind == CPS_POINT_KIND_FREE;
+    const bool known = (is_free || has_dragged(evolution, point)) &&
+                       rows_of(&f, point, size, out) == CPS_STIFFNESS_OUTCOME_FOUND;
+    if (!known) *out = held(size);
+    return known;
 }
 
 /* elimination ---------------------------------------------------------------------------------- */
@@ -396,6 +422,8 @@ CpsiMovedStiffness cpsi_moved_stiffness(const CpsEvolution *evolution, const Cps
                          .balance = evolution->points.balance,
                          .moved = moved,
                          .kind = kind,
+                         .is_static =
+                             evolution->has_static && evolution->done + evolution->move_count == 1,
                          .width = moved->body >= 0 ? 6 : 3};
     bool same = true;
     find_followers(&f);

@@ -28,4 +28,13 @@ typedef struct CpsiMovedStiffness {
 CpsiMovedStiffness cpsi_moved_stiffness(const CpsEvolution *evolution, const CpsiMoved *moved,
                                         CpsStiffnessKind kind);
 
+/* The equation P K y + Q y = 0 of a point that follows by y, K y what the lines there lose, against
+ * the step that its report is of; `size` [N/m]: of K. False where it is not known, or the point
+ * does not follow: then it stays, Q = size. */
+typedef struct CpsiFollowerRows {
+    double p[3][3], q[3][3];
+} CpsiFollowerRows;
+bool cpsi_follower_rows(const CpsEvolution *evolution, bool is_static, int point, double size,
+                        CpsiFollowerRows *out);
+
 #endif

@@ -354,8 +354,7 @@ bool cpsi_is_definite(const double stiffness[36], const bool fixed[6], double ar
 }
 
 bool cpsi_is_stable(const double stiffness[36], const bool fixed[6], double arm) {
-    static const double NEUTRAL = 3e-10; /* what places found to 1e-10 leave of a stiffness of 0 */
-    return is_definite_by(stiffness, fixed, arm, NEUTRAL);
+    return is_definite_by(stiffness, fixed, arm, CPSI_NEUTRAL);
 }
 
 /* The block of body k in the matrix. */

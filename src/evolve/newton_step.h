@@ -8,6 +8,8 @@
 /* A body whose pose is not stable is held back by a share of its own stiffness, from this one on.
  */
 #define CPSI_LEAST_HELD 1e-3
+/* What places found to 1e-10 leave of a stiffness of 0, per largest entry. */
+#define CPSI_NEUTRAL 3e-10
 
 /* How a point follows from the unknowns of the group. */
 CpsiJointMap cpsi_joint_map(const CpsiBalance *balance, int point);

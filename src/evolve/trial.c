@@ -38,7 +38,8 @@ static void place_rounds(const CpsEvolution *evolution, CpsiArena *arena, CpsiPo
 
 CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
     const size_t points = (size_t)evolution->points.count, lines = (size_t)evolution->line_count,
-                 bodies = (size_t)evolution->bodies.count, unknowns = 3 * points + 6 * bodies;
+                 bodies = (size_t)evolution->bodies.count, unknowns = 3 * points + 6 * bodies,
+                 together = 6 * (bodies < CPSI_TOGETHER ? bodies : CPSI_TOGETHER);
     CpsiGraphMatrix *matrix =
         cpsi_joint_system(&evolution->points, &evolution->bodies, evolution->line_count);
     if (!matrix) return NULL;
@@ -67,6 +68,8 @@ CpsiBalance *cpsi_balance_create(const CpsEvolution *evolution) {
         CPSI_PLACE(&arena, to->joined, points);
         CPSI_PLACE(&arena, to->kept, 6 * bodies);
         CPSI_PLACE(&arena, to->turned, 3 * bodies);
+        CPSI_PLACE(&arena, to->coupling, together * together);
+        CPSI_PLACE(&arena, to->together, together * together);
         CPSI_PLACE(&arena, to->node, points + 2 * bodies);
         CPSI_PLACE(&arena, to->right, unknowns);
         CPSI_PLACE(&arena, to->step, unknowns);

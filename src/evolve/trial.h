@@ -14,6 +14,10 @@
  * slack lines have none, the rounding of forces moves a point by a thousandth of that length. */
 #define CPSI_REGULAR 1e-8
 
+/* Of groups with no more bodies, the most that a file may have, it is asked whether they are stable
+ * together. */
+enum { CPSI_TOGETHER = 100 };
+
 /* A free point in a trial. */
 typedef struct CpsiFree {
     int point;
@@ -75,6 +79,9 @@ struct CpsiBalance {
     CpsiGraphMatrix *matrix; /* of the unknowns */
     double *kept;            /* (body_count, 6) of its diagonal */
     double *turned;          /* (body_count, 3) [rad] by the last round */
+    double *coupling;        /* (6 body_count, 6 body_count) forces on bodies by motions of others,
+                                and scratch memory, of no more than CPSI_TOGETHER */
+    double *together;        /* likewise */
     int *node;               /* (count + 2 body_count) their blocks in the matrix of the scene */
     double *right, *step;    /* (unknowns) */
     int (*ends)[2];          /* (line_count, 2) the joints at their ends, or CPSI_NO_JOINT */

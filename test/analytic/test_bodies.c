@@ -652,6 +652,106 @@ static void what_is_refused(void **unused) {
     expect_refused(&m.scene, "history[1].b1.point", "change the body instead");
 }
 
+/* A mast of weight W, its centre of gravity and the ends of its stays at the height 1 over the
+ * hinge about which it turns, between two stays of two equal pieces each, which meet at free
+ * points: each stay has the stiffness k = EA/(2 l), so that the hinge has 2 k - W. */
+static void a_mast_between_stays(Mooring *m, CpsPoint point[6], double tilt) {
+    static const double X[] = {-10, 10, -5, 5}, PIECE = 4.9, EA = 3430;
+    begin(m, 4);
+    for (int i = 0; i < 6; i++) {
+        point[i] = cps_point_default();
+        if (i < 4) point[i].position[0] = X[i];
+        point[i].position[2] = 1;
+        if (i > 1) point[i].kind = i < 4 ? CPS_POINT_KIND_FREE : CPS_POINT_KIND_ON_BODY;
+        point[i].name = m->point[i].name;
+    }
+    for (int i = 0; i < 4; i++) {
+        m->line[i].length = PIECE;
+        m->line[i].element_count = 1;
+        m->line[i].stiffness = EA;
+        m->line[i].end_point[0] = i;
+        m->line[i].end_point[1] = i < 2 ? 2 + i : 4 + i % 2;
+    }
+    m->body.weight = 981;
+    m->body.centre_of_gravity[2] = 1;
+    m->body.rotation[0] = cos(0.5 * tilt);
+    m->body.rotation[2] = sin(0.5 * tilt);
+    for (int i = 0; i < 6; i++) m->body.fixed[i] = i != 4;
+    m->scene.point = point;
+    m->scene.point_count = 6;
+}
+
+/* Upright it is in balance and not stable, though it would be if the points of the stays were held;
+ * from beside that it goes to where it hangs. */
+static void free_points_follow_a_mast(void **unused) {
+    (void)unused;
+    Mooring m;
+    CpsPoint point[6];
+    a_mast_between_stays(&m, point, 0);
+    CpsEvolution *evolution = evolve(&m.scene);
+    CpsBodyReport found = step(evolution);
+    CHECK_NEAR(found.rotation[2], 0, 1e-12);
+    CHECK_NEAR(found.stiffness[28], 3430 / 4.9 - 981, 1e-6);
+    assert_false(found.is_stable);
+    cps_evolution_destroy(evolution);
+    for (int side = -1; side <= 1; side += 2) {
+        a_mast_between_stays(&m, point, 3 * side / RADIAN);
+        evolution = evolve(&m.scene);
+        found = step(evolution);
+        CHECK_NEAR(fabs(found.rotation[2]), 1, 1e-9);
+        assert_true(found.is_stable);
+        cps_evolution_destroy(evolution);
+    }
+}
+
+/* Two masts of weight W on hinges, of height 1, a line between their tops and a stay from each to
+ * the other side, all of stiffness k. While the other stays a mast is stable if 2 k > W, and so are
+ * both if they lean towards each other; if they lean the same way only the stays resist, by k. */
+static void masts_lean_on_each_other(void **unused) {
+    static const double W = 100, X[] = {-10, 12, 0, 2}, LENGTH[] = {9.9, 9.9, 1.9};
+    static const int FROM[] = {0, 1, 2}, TO[] = {2, 3, 3};
+    (void)unused;
+    for (int i = 0; i < 4; i++) {
+        const double k = W * (i < 2 ? 0.6 + 0.35 * i : 1.05 + 0.4 * (i - 2));
+        Mooring m;
+        CpsBody body[2];
+        begin(&m, 3);
+        for (int j = 0; j < 2; j++) {
+            body[j] = m.body;
+            body[j].name = j ? "second" : "first";
+            body[j].position[0] = 2 * j;
+            body[j].weight = W;
+            body[j].centre_of_gravity[2] = 1;
+            for (int d = 0; d < 6; d++) body[j].fixed[d] = d != 4;
+        }
+        for (int j = 0; j < 4; j++) {
+            m.point[j].kind = j < 2 ? CPS_POINT_KIND_HELD : CPS_POINT_KIND_ON_BODY;
+            m.point[j].position[0] = j < 2 ? X[j] : 0;
+            m.point[j].position[2] = 1;
+            m.point[j].body = j - 2;
+        }
+        for (int j = 0; j < 3; j++) { /* each is stretched by 0.1 */
+            m.line[j].length = LENGTH[j];
+            m.line[j].element_count = 1;
+            m.line[j].stiffness = k * LENGTH[j];
+            m.line[j].end_point[0] = FROM[j];
+            m.line[j].end_point[1] = TO[j];
+        }
+        m.scene.point_count = 4;
+        m.scene.body = body;
+        m.scene.body_count = 2;
+        CpsEvolution *evolution = evolve(&m.scene);
+        (void)step(evolution);
+        for (int j = 0; j < 2; j++) {
+            const CpsBodyReport found = cps_evolution_body_report(evolution, j);
+            CHECK_NEAR(found.rotation[2], 0, 1e-12);
+            CHECK_NEAR(found.stiffness[28], 2 * k - W, 1e-6);
+            CHECK_INT(found.is_stable, k > W);
+        }
+        cps_evolution_destroy(evolution);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pendulum),
@@ -664,6 +764,8 @@ int main(void) {
         cmocka_unit_test(oc3_at_rest),
         cmocka_unit_test(oc3_thrust_on_and_off),
         cmocka_unit_test(moves_of_bodies),
+        cmocka_unit_test(free_points_follow_a_mast),
+        cmocka_unit_test(masts_lean_on_each_other),
         cmocka_unit_test(angles_of_a_pose),
         cmocka_unit_test(what_is_refused),
     };

@@ -12,6 +12,7 @@
  * -dE/dt of the pose that turns on by t about each axis, by differences of the energy itself. */
 #include "bodies.h"
 
+#include "bodies_together.h"
 #include "groups.h"
 #include "joint_motion.h"
 #include "points.h"
@@ -28,8 +29,6 @@ enum { MOST_BODIES = 1000, MOST_NAME = 256 };
  * places per length; unit quaternions. */
 static const double SUMS = 1e-12, BALANCED = 100, COPIED = 1e-12, UNIT = 1e-12,
                     TURNED = 1e-9; /* [rad] rounding of quaternions that are read */
-/* Pivots of a stiffness this small, per its largest entry, may have either sign: its own error. */
-static const double DEFINITE = 1e-9;
 
 /* ---- reading ---- */
 
@@ -342,6 +341,7 @@ typedef struct Check {
     BodyState *now, *before, *older;                   /* (count) */
     BodyMotion *motion, *motion_before, *motion_older; /* (count) */
     double *arm;     /* (count) [m] of its farthest point; else its longest line */
+    int *sign;       /* (count) of its stiffness, with those of others (bodies_together.h) */
     double largest;  /* [N] of the step */
     double rounding; /* [N] of the tensions by that of places */
     size_t step, body;
@@ -454,23 +454,29 @@ static void check_balance(const Check *c, const BodyState *at, bool certified) {
 /* Whether the symmetric part in the directions that are not fixed, lengths in arms, has only
  * positive pivots; 0: some are too small to say. */
 static int sign_of(const BodyData *data, const double *stiffness, double arm) {
-    double m[SIX][SIX], most = 0;
+    Real m[SIX * SIX], most = 0;
     for (int i = 0; i < SIX; i++)
         for (int k = 0; k < SIX; k++) {
             const double unit = (i < 3 ? 1 : arm) * (k < 3 ? 1 : arm);
             const bool out = data->fixed[i] || data->fixed[k];
-            m[i][k] = out ? 0 : 0.5 * (stiffness[SIX * i + k] + stiffness[SIX * k + i]) / unit;
-            most = fmax(most, fabs(m[i][k]));
+            m[SIX * i + k] =
+                out ? 0 : 0.5 * (stiffness[SIX * i + k] + stiffness[SIX * k + i]) / unit;
+            most = fmaxl(most, fabsl(m[SIX * i + k]));
         }
-    int sign = 1;
-    for (int p = 0; p < SIX; p++) {
-        if (data->fixed[p]) continue;
-        if (m[p][p] < -DEFINITE * most) return -1;
-        if (m[p][p] <= DEFINITE * most) return 0;
-        for (int i = p + 1; i < SIX; i++)
-            for (int k = p + 1; k < SIX; k++) m[i][k] -= m[i][p] * m[p][k] / m[p][p];
-    }
-    return sign;
+    for (int i = 0; i < SIX; i++)
+        if (data->fixed[i]) m[(SIX + 1) * i] = most > 0 ? most : 1;
+    return pivots_of(m, SIX);
+}
+
+/* Of each free body, together with those that lines connect to it. */
+static void find_signs(Check *c) {
+    const double none[3] = {0, 0, 0};
+    const StiffnessStep step = {c->source, c->bodies, c->line, none, c->step, false};
+    for (size_t k = 0; k < c->bodies->count; k++)
+        c->sign[k] = c->now[k].kind == BODY_FREE
+                         ? sign_of(&c->bodies->data[k], c->now[k].stiffness, c->arm[k])
+                         : 1;
+    bodies_together(&step, c->now, c->point, c->arm, c->sign);
 }
 
 static void check_stable(const Check *c, const BodyState *at) {
@@ -484,10 +490,14 @@ static void check_stable(const Check *c, const BodyState *at) {
             }
         return;
     }
-    const int sign = sign_of(&c->bodies->data[c->body], at->stiffness, c->arm[c->body]);
+    const int sign = c->sign[c->body];
     if (sign != 0 && at->is_stable != (sign > 0))
         find(c, "it is said to be %s, but its stiffness is %s",
-             at->is_stable ? "stable" : "not stable", sign > 0 ? "positive" : "not");
+             at->is_stable ? "stable" : "not stable",
+             sign > 0 ? "positive"
+             : sign_of(&c->bodies->data[c->body], at->stiffness, c->arm[c->body]) > 0
+                 ? "not with that of others"
+                 : "not");
 }
 
 /* The vector of the one turn by which `to` follows `from`, unit quaternions. */
@@ -611,6 +621,7 @@ static int check_steps(Check *c, bool (*certified)(int outcome), FILE *log) {
             bad = record_read(source, source->line_name[i], c->step, &c->line[i], log);
         if (bad) return -1;
         find_largest(c);
+        find_signs(c);
         for (c->body = 0; c->body < c->bodies->count; c->body++) {
             const BodyState *at = &c->now[c->body];
             check_places(c, at);
@@ -667,8 +678,9 @@ int bodies_check(const Source *source, bool (*certified)(int outcome), BodyFindi
         c.motion_before = calloc(bodies.count, sizeof *c.motion_before);
         c.motion_older = calloc(bodies.count, sizeof *c.motion_older);
         c.arm = calloc(bodies.count, sizeof *c.arm);
+        c.sign = calloc(bodies.count, sizeof *c.sign);
         bad = !c.line || !c.point || !c.now || !c.before || !c.older || !c.motion ||
-                      !c.motion_before || !c.motion_older || !c.arm
+                      !c.motion_before || !c.motion_older || !c.arm || !c.sign
                   ? -1
                   : open_lines(&c, log);
         if (!bad) bad = check_steps(&c, certified, log);
@@ -683,6 +695,7 @@ int bodies_check(const Source *source, bool (*certified)(int outcome), BodyFindi
     free(c.motion_before);
     free(c.motion_older);
     free(c.arm);
+    free(c.sign);
     bodies_close(&bodies);
     return bad;
 }

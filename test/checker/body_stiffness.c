@@ -17,14 +17,16 @@
  * the plane alone, it moves along the other one, f, by which f.g vanishes.
  *
  * That is a system of blocks of four rows for each line, for dT of an element and v of the node
- * behind it, solved once for each of the six motions. The pulls turn about the reference point, and
- * what weight, buoyancy and water lose is taken from differences of themselves. */
+ * behind it, solved once for each of the six moves of both ends. Free points at which the lines end
+ * follow (body_points.c). The pulls turn about the reference point, and what weight, buoyancy and
+ * water lose is taken from differences of themselves. */
 #include "body_stiffness.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "body_points.h"
 #include "elongation.h"
 #include "points.h"
 #include "sets.h"
@@ -339,60 +341,74 @@ static bool arm_of(const StiffnessStep *step, const Record *r, int end, size_t k
 }
 
 /* The moves of an end at the arm by the motions of the body. */
-static void move_end(Real x[ROWS][COLUMNS], const Triple arm) {
+static void set_map(const Triple arm, Real map[3][SIX]) {
     for (int i = 0; i < SIX; i++) {
         const Triple turn = {i == 3, i == 4, i == 5};
         Triple move;
         cross(turn, arm, move);
         if (i < 3) move[i] = 1;
-        for (int a = 0; a < 3; a++) x[1 + a][i] = move[a];
+        for (int a = 0; a < 3; a++) map[a][i] = move[a];
     }
 }
 
-/* Take force and moment from column i. */
-static void take(Real stiffness[SIX * SIX], int i, const Triple force, const Triple arm) {
-    Triple moment;
-    cross(arm, force, moment);
-    for (int a = 0; a < 3; a++) {
-        stiffness[SIX * a + i] -= force[a];
-        stiffness[SIX * (3 + a) + i] -= moment[a];
-    }
-}
-
-/* What the pull at an end loses: the element there, and the turn of the arm of the pull. */
-static void add_end(const Record *r, const Chain *chain, int end, const Triple arm,
-                    Real stiffness[SIX * SIX]) {
+/* What the pull at an end loses by the moves of both: of the element there. */
+static void take_end(const Record *r, const Chain *chain, int end, Real ends[SIX][SIX]) {
     const size_t own = end == 0 ? 0 : r->elements, next = end == 0 ? 1 : r->elements - 1,
                  element = end == 0 ? 0 : next;
     const Element *at = &chain->element[element];
-    Triple pull;
-    for (int a = 0; a < 3; a++) pull[a] = -(Real)r->end_force[end][a];
     for (int i = 0; i < SIX; i++) {
-        const Triple turn = {i == 3, i == 4, i == 5};
         const Real grown = (end == 0 ? 1 : -1) * chain->x[element + 1][0][i];
-        Triple d, change, swept, moment;
+        Triple d;
         for (int a = 0; a < 3; a++) d[a] = chain->x[next][1 + a][i] - chain->x[own][1 + a][i];
         for (int a = 0; a < 3; a++)
-            change[a] = at->across * (d[a] - dot(at->e, d) * at->e[a]) + grown * at->e[a];
-        take(stiffness, i, change, arm);
+            ends[3 * end + a][i] -=
+                at->across * (d[a] - dot(at->e, d) * at->e[a]) + grown * at->e[a];
+    }
+}
+
+/* What the pull at an end loses as its arm turns. */
+static void add_turn(const Record *r, int end, const Triple arm, Real stiffness[SIX * SIX]) {
+    Triple pull;
+    for (int a = 0; a < 3; a++) pull[a] = -(Real)r->end_force[end][a];
+    for (int i = 3; i < SIX; i++) {
+        const Triple turn = {i == 3, i == 4, i == 5};
+        Triple swept, moment;
         cross(turn, arm, swept);
         cross(swept, pull, moment);
         for (int a = 0; a < 3; a++) stiffness[SIX * (3 + a) + i] -= moment[a];
     }
 }
 
-static bool add_line(const StiffnessStep *step, const Record *r, size_t k, const BodyState *at,
-                     Real stiffness[SIX * SIX]) {
+/* What a line changes of the force on the first body as the second one moves, which may be the
+ * same. */
+static bool add_line(const StiffnessStep *step, const Record *r, const size_t body[2],
+                     const BodyState *all, BodyPoints *points, Real stiffness[SIX * SIX]) {
+    const size_t to = body[0], from = body[1];
+    MovedEnd end[2] = {{.follower = STAYS}, {.follower = STAYS}};
+    bool moves = false, matters[2];
     Triple arm[2];
-    const bool is_on[2] = {arm_of(step, r, 0, k, at, arm[0]), arm_of(step, r, 1, k, at, arm[1])};
-    if (!is_on[0] && !is_on[1]) return true;
+    for (int e = 0; e < 2; e++) {
+        end[e].is_on = arm_of(step, r, e, from, &all[from], arm[e]);
+        end[e].counts = to == from ? end[e].is_on : arm_of(step, r, e, to, &all[to], arm[e]);
+        if (end[e].is_on || end[e].counts) set_map(arm[e], end[e].map);
+        if (r->end_point[e] >= 0) end[e].follower = points->number[r->end_point[e]];
+        moves = moves || end[e].is_on || end[e].follower != STAYS;
+        matters[e] = end[e].is_on || end[e].counts || end[e].follower != STAYS;
+    }
+    if (!moves) return true;
     Chain chain;
-    bool found = chain_create(&chain, r) && is_plain(step, r) && set_line(step, r, is_on, &chain);
-    if (found && is_on[0]) move_end(chain.x[0], arm[0]);
-    if (found && is_on[1]) move_end(chain.x[r->elements], arm[1]);
-    found = found && solve_line(r, &chain);
-    if (found && is_on[0]) add_end(r, &chain, 0, arm[0], stiffness);
-    if (found && is_on[1]) add_end(r, &chain, 1, arm[1], stiffness);
+    Real ends[SIX][SIX] = {{0}};
+    bool found = chain_create(&chain, r) && is_plain(step, r) && set_line(step, r, matters, &chain);
+    if (found) {
+        for (int a = 0; a < 3; a++) chain.x[0][1 + a][a] = chain.x[r->elements][1 + a][3 + a] = 1;
+        found = solve_line(r, &chain);
+    }
+    if (found) {
+        for (int e = 0; e < 2; e++) take_end(r, &chain, e, ends);
+        for (int e = 0; e < 2; e++)
+            if (end[e].is_on && end[e].counts) add_turn(r, e, arm[e], stiffness);
+        body_points_add(points, ends, end, stiffness);
+    }
     chain_free(&chain);
     return found;
 }
@@ -421,11 +437,22 @@ static void add_load(const StiffnessStep *step, size_t k, const BodyState *at, d
     }
 }
 
-bool body_stiffness(const StiffnessStep *step, size_t k, const BodyState *at, double arm,
-                    Real stiffness[SIX * SIX]) {
+bool body_coupling(const StiffnessStep *step, size_t to, size_t from, const BodyState *all,
+                   Real stiffness[SIX * SIX]) {
+    const size_t body[2] = {to, from};
+    BodyPoints points;
     memset(stiffness, 0, SIX * SIX * sizeof *stiffness);
-    for (size_t i = 0; i < step->source->lines; i++)
-        if (!add_line(step, &step->line[i], k, at, stiffness)) return false;
-    add_load(step, k, at, arm, stiffness);
+    bool found = body_points_open(step, from, &points);
+    for (size_t i = 0; i < step->source->lines && found; i++)
+        found = add_line(step, &step->line[i], body, all, &points, stiffness);
+    found = found && body_points_finish(step, &points, stiffness);
+    body_points_close(&points);
+    return found;
+}
+
+bool body_stiffness(const StiffnessStep *step, size_t k, const BodyState *all, double arm,
+                    Real stiffness[SIX * SIX]) {
+    if (!body_coupling(step, k, k, all, stiffness)) return false;
+    add_load(step, k, &all[k], arm, stiffness);
     return true;
 }

@@ -285,7 +285,8 @@ static void check_solved(Findings *findings, const Source *source, const Record 
     double force = FORCE_TOLERANCE * m->largest_force + NOTHING,
            place = PLACE_TOLERANCE * m->length;
     at_most(findings, "sum of local gaps", m->gap,
-            tolerance * m->scale + strain_energy_of_rounding(r, m) + NOTHING);
+            tolerance * m->scale + strain_energy_of_rounding(r, m) +
+                contact_work_of_rounding(r, m) + NOTHING);
     at_most(findings, "primal - dual against the local gaps", fabs(m->identity),
             m->identity_noise + NOTHING);
     // an element that pushes with P costs 2 P l of the gap, one too long by x only l x^2/(2c): the

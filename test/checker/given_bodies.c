@@ -344,13 +344,14 @@ static void add_members(const Compare *c, size_t k, const BodyState *at, double 
 
 /* The stiffness of a free body against that of its lines, weight and water, where that is known. */
 static void compare_stiffness(Compare *c, size_t k, const double g[3], size_t step,
-                              const BodyState *at) {
+                              const BodyState *all) {
+    const BodyState *at = &all[k];
     const double pull = size(c->scene->gravity), arm = arm_of(c, k);
     double per[3], most = 0, worst = 0;
     Real own[SIX * SIX];
     for (int i = 0; i < 3; i++) per[i] = pull > 0 ? g[i] / pull : 0;
-    const StiffnessStep of = {c->source, &c->bodies, c->line, per, false};
-    if (at->kind != BODY_FREE || !at->has_place || !body_stiffness(&of, k, at, arm, own)) return;
+    const StiffnessStep of = {c->source, &c->bodies, c->line, per, step, false};
+    if (at->kind != BODY_FREE || !at->has_place || !body_stiffness(&of, k, all, arm, own)) return;
     if (!has_duration(c, step)) add_members(c, k, at, arm, own);
     for (int i = 0; i < SIX * SIX; i++) {
         const double unit = (i / SIX < 3 ? 1 : arm) * (i % SIX < 3 ? 1 : arm);
@@ -434,7 +435,7 @@ static void compare_step(Compare *c, const GivenStep *given, size_t step, Impose
     }
     for (size_t k = 0; k < c->bodies.count; k++) {
         compare_state(c, k, &imposed[k], given->gravity, step, &now[k]);
-        compare_stiffness(c, k, given->gravity, step, &now[k]);
+        compare_stiffness(c, k, given->gravity, step, now);
         compare_turning(c, k, imposed[k].load, given->gravity, step, &now[k]);
         compare_ledger(c, k, given->gravity, step, &before[k], &now[k]);
         compare_members(c, k, step, &before[k], &now[k]);

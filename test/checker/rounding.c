@@ -18,6 +18,14 @@ double strain_energy_of_rounding(const Record *r, const Measures *m) {
     return strain > 0 ? m->length * strain * strain / (2 * r->least_compliance) : 0;
 }
 
+/* Such a gap is a sum of coordinates, of the reference and now, and of contact_gap, each of which
+ * is rounded where it is written. */
+double contact_work_of_rounding(const Record *r, const Measures *m) {
+    double reactions = 0;
+    for (size_t c = 0; c < r->contacts * r->nodes; c++) reactions += fabs(r->reaction[c]);
+    return 3 * 1.2e-16 * m->reach * reactions;
+}
+
 double tension_of_rounding(const Record *r, const Measures *m) {
     double strain = strain_of_rounding(r, m);
     return strain > 0 && m->largest_force > 0 ? strain / r->least_compliance : 0;

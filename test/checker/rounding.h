@@ -8,6 +8,8 @@
 
 /* [J] of energy of strain, and [N] of tension. */
 double strain_energy_of_rounding(const Record *r, const Measures *m);
+/* [J] of the work of reactions on the gaps of their contacts. */
+double contact_work_of_rounding(const Record *r, const Measures *m);
 double tension_of_rounding(const Record *r, const Measures *m);
 
 #endif

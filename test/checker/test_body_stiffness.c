@@ -119,7 +119,8 @@ static Seen compare_run(const Run *run) {
             look(&line[i], &seen);
         }
         for (int sticks = 0; sticks < 2; sticks++)
-            compare(&(StiffnessStep){&source, &bodies, line, per, sticks}, evolution, &at, &seen);
+            compare(&(StiffnessStep){&source, &bodies, line, per, step, sticks}, evolution, &at,
+                    &seen);
     }
     printf("compared %d of the step, %d of a small cycle; nodes that slid %d, that rested %d\n",
            seen.compared[0], seen.compared[1], seen.slid, seen.rested);

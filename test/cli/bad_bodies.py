@@ -82,6 +82,9 @@ CHANGES = [
     ("a moment on a held body", BARGE, "  barge: {held: [20, 0, 0], moment: [1, 0, 0]}\n", "17:29: 'moment': it goes with 'free', which is not given"),
     ("an arm without a force", "    force: [1, 2, 3]\n", "", "15:5: 'arm': it goes with 'force', which is not given"),
     ("a force of one number", "    force: [1, 2, 3]\n", "    force: [1]\n", "15:5: 'force': found a list of 1, expected three numbers in N, as in [x, y, z]"),
+    ("free without mass and hydrostatics", BARGE, "  barge: {free: [20, 0, 0]}\n",
+     "17:3: body 'barge': it is free and has neither mass nor hydrostatics: give its 'mass' or 'weight' (0 of one without), 'volume', 'buoyancy' or 'hydrostatics'"),
+    ("free with a force alone", BARGE, "  barge: {free: [20, 0, 0], fixed: [x], force: [1, 0, 0]}\n", "17:3: body 'barge': it is free and has neither mass nor"),
     # rotations
     ("a rotation that is a list", TURN, "[0, 5, 90]", "8:5: 'rotation': found a list of 3, expected a mapping with quaternion, roll_pitch_yaw"),
     ("a rotation of nothing", TURN, "{}", "8:5: 'rotation': nothing given, expected exactly one of 'quaternion', 'roll_pitch_yaw'"),
@@ -107,7 +110,7 @@ CHANGES = [
     ("the name of a line", BARGE, BARGE + "  leg: {held: [0, 0, 0]}\n", "18:3: body 'leg': a line has the same name"),
     ("the name of a point", BARGE, BARGE + "  eye: {held: [0, 0, 0]}\n", "18:3: body 'eye': a point has the same name"),
     ("the name of an obstacle", BARGE, BARGE + "  bed: {held: [0, 0, 0]}\n", "18:3: body 'bed': an obstacle has the same name"),
-    ("no point on it", BARGE, BARGE + "  tug: {free: [0, 0, 0]}\n", "18:3: body 'tug': no point is on it: let a point with a line be on it, or leave it out"),
+    ("no point on it", BARGE, BARGE + "  tug: {free: [0, 0, 0], weight: 0}\n", "18:3: body 'tug': no point is on it: let a point with a line be on it, or leave it out"),
     ("a point on an unknown body", EYE, "  eye: {body: spur, at: [1, 0, -5]}\n", "20:9: 'body': there is no body 'spur'; did you mean 'spar'?"),
     ("a point on an unknown body, nothing near", EYE, "  eye: {body: platform, at: [1, 0, -5]}\n", "20:9: 'body': found 'platform', expected the name of one of the 2 bodies of the scene"),
     ("a point on a point", EYE, "  eye: {body: anchor, at: [1, 0, -5]}\n", "20:9: 'body': found 'anchor', expected the name of one of the 2 bodies of the scene"),

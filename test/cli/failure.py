@@ -151,7 +151,27 @@ def missing_and_let_go(folder):
         check(f"checker, {name}", done.returncode == 0, done.stdout + done.stderr)
 
 
+def falls_in_a_heap(folder):
+    """A leg below a clump parts and falls with it straight onto the bed, where all its nodes are at one place: it has neither tension nor
+    moments, and rounding of the gaps of its contacts is all that is left of its energies."""
+    scene, out = os.path.join(folder, "heap.yaml"), os.path.join(folder, "heap")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write("""capstan: 1
+obstacles: {bed: {plane: {point: [0, 0, -20]}, friction: 0.4}}
+points: {ring: {free: [0, 0, -2], weight: 98.1}, clump: {free: [0, 0, -4], weight: 29.43}}
+lines:
+  upper: {length: 2, mass: 1, stiffness: 1e5, elements: 4, start: static, ends: {A: {held: [0, 0, 0]}, B: {point: ring}}}
+  lower: {length: 2, mass: 1, stiffness: 1e5, elements: 4, break_at: 60, start: static, ends: {A: {point: ring}, B: {point: clump}}}
+history: [{name: pull, clump.point: {force: [0, 0, -40]}, steps: 4}]
+""")
+    run("run", scene, "-o", out, "-q")
+    check("heap", rows_of(os.path.join(out, "points.csv"))[-1]["z"] == "-20", rows_of(os.path.join(out, "points.csv"))[-1]["z"])
+    done = subprocess.run([CHECKER, os.path.join(out, "result.nc"), scene], capture_output=True, text=True)
+    check("checker, heap", done.returncode == 0, done.stdout + done.stderr)
+
+
 with tempfile.TemporaryDirectory() as directory:
+    falls_in_a_heap(directory)
     the_files_agree(directory)
     killed_and_resumed(directory)
     missing_and_let_go(directory)

@@ -527,7 +527,7 @@ static void compare_file(const Mooring *m, const Found found[2], uint64_t seed, 
             record_read(&source, source.line_name[i], step, &line[i], stderr))
             exit(1);
     for (int kind = 0; kind < 2; kind++) {
-        const StiffnessStep of = {&source, &bodies, line, (const double[3]){0, 0, -1}, kind};
+        const StiffnessStep of = {&source, &bodies, line, (const double[3]){0, 0, -1}, step, kind};
         Real own[ENTRIES];
         double k[ENTRIES], size = 0;
         if (!body_stiffness(&of, 0, &at[0], m->arm, own)) continue;

@@ -55,8 +55,25 @@ static CpsStatus check_centre(const CpsiDocument *d, const CpsiYaml *node, const
                               one, other);
 }
 
+/* What is free is held by lines and has a weight, or water under it: without a word of either it
+ * was forgotten. */
+static bool has_own_forces(const CpsiYaml *node) {
+    static const char *const KEYS[] = {"mass", "weight", "volume", "buoyancy", "hydrostatics"};
+    bool any = false;
+    for (size_t i = 0; i < sizeof KEYS / sizeof *KEYS; i++)
+        any = any || cpsi_yaml_child(node, KEYS[i]);
+    return any;
+}
+
 static CpsStatus check_body(const CpsiMaterials *m, const CpsiSceneBodyValues *values) {
     const CpsiYaml *node = values->node, *volume = cpsi_yaml_child(node, "volume");
+    if (values->body.kind == CPS_BODY_KIND_FREE && !has_own_forces(node))
+        return cpsi_document_fail(
+            m->d, CPS_ERR_INPUT, node,
+            "body '%s': it is free and has neither mass nor hydrostatics: give "
+            "its 'mass' or 'weight' (0 of one without), 'volume', 'buoyancy' "
+            "or 'hydrostatics'",
+            node->key);
     CpsStatus status = check_centre(m->d, node, "centre_of_gravity", "mass", "weight");
     if (status == CPS_OK)
         status = check_centre(m->d, node, "centre_of_buoyancy", "volume", "buoyancy");
