@@ -126,12 +126,13 @@ bool cpsi_line_is_caught(const CpsiLine *line, const CpsiStepOptions *options, C
     *out = (CpsiCatch){.ball = CPS_NO_OBSTACLE};
     for (int k = 0; k < line->obstacle_count; k++) {
         if (line->obstacle[k].kind != CPS_OBSTACLE_SPHERE ||
-            !cpsi_obstacle_is_round(&line->obstacle[k]))
+            !cpsi_obstacle_is_round(&line->obstacle[k]) || line->obstacle[k].stiffness > 0)
             continue;
         for (int m = 0; m < line->obstacle_count; m++) {
             Arch arch;
             double missing;
-            if (line->obstacle[m].kind != CPS_OBSTACLE_PLANE) continue;
+            if (line->obstacle[m].kind != CPS_OBSTACLE_PLANE || line->obstacle[m].stiffness > 0)
+                continue;
             if (!make_arch(line, &line->obstacle[k], &line->obstacle[m], longest, &arch)) continue;
             if (catches(line, &arch, &missing) && missing > out->missing)
                 *out = (CpsiCatch){k, m, missing, arch.gate};

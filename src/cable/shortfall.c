@@ -21,6 +21,11 @@ static const double ROUNDING = 1e-14;
 /* Parts into which a share is narrowed down, each two thirds of the one before. */
 enum { PARTS = 60 };
 
+/* Does the obstacle keep a line out, and is it round? What gives does not. */
+static bool is_hard_and_round(const CpsiObstacle *o) {
+    return cpsi_obstacle_is_round(o) && !(o->stiffness > 0);
+}
+
 static Vec3 held_at(const CpsiLine *line, int end) { return vec3_load(line->end[end].value); }
 
 /* Add the angle about the axis of obstacle o from one point to the next; false where the straight
@@ -81,7 +86,7 @@ static void find_long_element(const CpsiLine *line, Vec3 a, Vec3 b, CpsiShortfal
     const double slack = line->length - vec3_norm(vec3_sub(b, a));
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *o = &line->obstacle[k];
-        if (!cpsi_obstacle_is_round(o)) continue;
+        if (!is_hard_and_round(o)) continue;
         const double rounding = ROUNDING * (vec3_norm(vec3_sub(a, o->frame.point)) +
                                             vec3_norm(vec3_sub(b, o->frame.point)) + o->radius);
         for (int e = 0; e + 1 < line->n; e++) {
@@ -114,8 +119,7 @@ bool cpsi_line_falls_short(const CpsiLine *line, const CpsiStepOptions *options,
                                             : 0};
         CpsiShortestPath path;
         double turn;
-        if (!cpsi_obstacle_is_round(o) || !turn_about(line, o, options->frictionless, &turn))
-            continue;
+        if (!is_hard_and_round(o) || !turn_about(line, o, options->frictionless, &turn)) continue;
         if (!cpsi_shortest_path(o, a, b, turn, polygon, &path)) continue;
         const double missing = path.length - line->length;
         if (path.length - path.rounding > allowed && missing > out->missing)

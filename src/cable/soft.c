@@ -84,8 +84,7 @@ double cpsi_soft_damped(const CpsiLine *line, int c, double length) {
 
 double cpsi_soft_way_depth(const CpsiObstacle *obstacle, Vec3 x) {
     const double depth = fmax(0, -cpsi_obstacle_gap(obstacle, x));
-    return cpsi_obstacle_kind_has_radius(obstacle->kind) && depth < 0.5 * obstacle->radius ? depth
-                                                                                           : 0;
+    return cpsi_obstacle_kind_has_radius(obstacle->kind) ? fmin(depth, 0.5 * obstacle->radius) : 0;
 }
 
 double cpsi_soft_missed(const CpsiLine *line, int j) {
@@ -105,17 +104,21 @@ double cpsi_soft_missed(const CpsiLine *line, int j) {
     return least;
 }
 
+double cpsi_soft_per_length(const CpsiLine *line, int j, bool before) {
+    const Vec3 at = vec3_at(line->position, j);
+    double sum = 0;
+    for (int k = 0; k < line->obstacle_count && !cpsi_line_is_held(line, j); k++) {
+        const CpsiObstacle *o = &line->obstacle[k];
+        if (!(o->stiffness > 0)) continue;
+        const double depth = depth_at(o, before ? cpsi_shift_carry(&line->shift[k], at) : at);
+        sum += 0.5 * o->stiffness * line->bearing_width * depth * depth;
+    }
+    return sum;
+}
+
 double cpsi_soft_energy(const CpsiLine *line, bool before) {
     double sum = 0;
-    for (int k = 0; k < line->obstacle_count; k++) {
-        const CpsiObstacle *o = &line->obstacle[k];
-        for (int j = 0; j < line->n && o->stiffness > 0; j++) {
-            const Vec3 at = vec3_at(line->position, j),
-                       x = before ? cpsi_shift_carry(&line->shift[k], at) : at;
-            const double depth = -cpsi_obstacle_gap(o, x);
-            if (depth > 0 && !cpsi_line_is_held(line, j))
-                sum += 0.5 * stiffness_at(line, o, j) * depth * depth;
-        }
-    }
+    for (int j = 0; j < line->n; j++)
+        sum += cpsi_line_share(line, j) * cpsi_soft_per_length(line, j, before);
     return sum;
 }

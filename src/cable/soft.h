@@ -29,12 +29,17 @@ bool cpsi_soft_is_crossed(const CpsiLine *line, int j, double length);
 double cpsi_soft_growth(const CpsiLine *line, double length);
 double cpsi_soft_damped(const CpsiLine *line, int c, double length);
 
-/* [m] How much deeper than the surface slip at x is measured. */
+/* [m] How much deeper than the surface slip at x is measured, in what is round: as deep as x, up to
+ * half of the radius, so that it is continuous and does not count angles about the axis as ways. */
 double cpsi_soft_way_depth(const CpsiObstacle *obstacle, Vec3 x);
 
 /* [m] The least height, over an obstacle that gives and is no contact of its, of node j at the
  * position; INFINITY: there is none. */
 double cpsi_soft_missed(const CpsiLine *line, int j);
+
+/* [N] What is stored in what gives below node j, if it is not held, per length of line there;
+ * `before`: before it was shifted to where it is now. */
+double cpsi_soft_per_length(const CpsiLine *line, int j, bool before);
 
 /* [J] Stored in what gives, at the position; `before`: before it was shifted to where it is now. */
 double cpsi_soft_energy(const CpsiLine *line, bool before);

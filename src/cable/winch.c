@@ -9,6 +9,8 @@
 
 #include <string.h>
 
+#include "cable/soft.h"
+
 /* A node within this share of its element from the drum is on it: no element is shorter. What the
  * shape of the line changes by is of third order in this length. */
 static const double NEAR_DRUM = 1e-3;
@@ -99,12 +101,14 @@ void cpsi_winch_unload(CpsiLine *line) {
     }
 }
 
-double cpsi_winch_pull(const CpsiLine *line, int end, const double weight[3]) {
+double cpsi_winch_pull(const CpsiLine *line, int end, bool before) {
+    const double *weight = before ? line->weight_before : line->weight;
     const int j = cpsi_line_end_node(line, end), e = end == CPS_END_A ? j : j - 1;
-    const Vec3 x = vec3_at(line->position, j),
-               next = vec3_at(line->position, end == CPS_END_A ? j + 1 : j - 1);
+    const int beside = end == CPS_END_A ? j + 1 : j - 1;
+    const Vec3 x = vec3_at(line->position, j), next = vec3_at(line->position, beside);
     const CpsiElementLaw law = cpsi_line_law(line, e);
     const double tension = line->tension[e];
     return tension + cpsi_law_conjugate(&law, tension) -
-           0.5 * line->weight_factor[e] * vec3_dot(vec3_load(weight), vec3_sub(x, next));
+           0.5 * line->weight_factor[e] * vec3_dot(vec3_load(weight), vec3_sub(x, next)) -
+           0.5 * cpsi_soft_per_length(line, beside, before);
 }

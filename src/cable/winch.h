@@ -35,8 +35,9 @@ void cpsi_winch_wind(CpsiLine *line);
 void cpsi_winch_unload(CpsiLine *line);
 
 /* [N] What the winch at an end gains in energy per length that it pays out: T + W*(T), less half of
- * what raises an end element, of the weight per length [N/m]. That is the pull on the drum of a
- * line that does not stretch. */
-double cpsi_winch_pull(const CpsiLine *line, int end, const double weight[3]);
+ * what raises an end element, and of what its other node has stored in what gives per length. That
+ * is the pull on the drum of a line that does not stretch. `before`: with the weight and the
+ * obstacles before the step. */
+double cpsi_winch_pull(const CpsiLine *line, int end, bool before);
 
 #endif

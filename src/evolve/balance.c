@@ -483,6 +483,13 @@ static bool search_from_prediction(CpsiBalance *balance) {
     return search_on(balance, FEW_TRIALS, patience_for(balance));
 }
 
+/* Is a point of the trial between obstacles that give? Searches go back and forth there. */
+static bool is_between(const CpsiBalance *balance) {
+    for (int k = 0; k < balance->count; k++)
+        if (cpsi_soft_point_is_between(balance->evolution, balance->at[k].place)) return true;
+    return false;
+}
+
 /* Find the places of a group. In a history a body hardly moves in a step, and a few trials from
  * where it is take less time than the rounds of a first guess. */
 static void find_places(CpsiBalance *balance, int group) {
@@ -526,9 +533,9 @@ static void find_places(CpsiBalance *balance, int group) {
         return;
     }
     if (!found && early && !is_over(balance)) found = search_again(balance, false);
-    if (!found && !is_over(balance) && balance->body_count == 0)
-        found = search_again(balance, true);
-    if (!found && !is_over(balance) && balance->body_count == 0)
+    const bool again = balance->body_count == 0 && !is_between(balance);
+    if (!found && !is_over(balance) && again) found = search_again(balance, true);
+    if (!found && !is_over(balance) && again)
         found = search_with(balance, MOST_TRIALS, PATIENCE_AT_LAST);
     if (!found && !frozen && !is_interrupted(evolution) && balance->body_count > 0) {
         cpsi_begin_again(balance);

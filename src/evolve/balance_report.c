@@ -166,22 +166,6 @@ static void report_held_body(CpsEvolution *evolution, int index) {
             -report->lines[i] - report->load[i] - report->inertia[i] - report->damping[i];
 }
 
-/* The nearest rigid obstacle. */
-static int nearest_rigid(const CpsEvolution *evolution, Vec3 place, double *gap, Vec3 *normal) {
-    int nearest = CPS_NO_OBSTACLE;
-    *gap = INFINITY;
-    for (int k = 0; k < evolution->obstacle_count; k++) {
-        const CpsiObstacle *on = &evolution->obstacle[k];
-        const double to = on->stiffness > 0 ? INFINITY : cpsi_obstacle_gap(on, place);
-        if (!(to < *gap)) continue;
-        *gap = to;
-        nearest = k;
-    }
-    if (nearest != CPS_NO_OBSTACLE)
-        *normal = cpsi_obstacle_normal(&evolution->obstacle[nearest], place);
-    return nearest;
-}
-
 /* What holds a held point; of it, what the obstacle on which it lies bears is its reaction. In what
  * gives the support bears all. */
 static void report_support(const CpsEvolution *evolution, int index, Vec3 place, Vec3 support,
@@ -189,7 +173,7 @@ static void report_support(const CpsEvolution *evolution, int index, Vec3 place,
     const CpsiPoint *point = &evolution->points.point[index];
     double gap;
     Vec3 normal = vec3(0, 0, 0);
-    const int obstacle = nearest_rigid(evolution, place, &gap, &normal);
+    const int obstacle = cpsi_trial_nearest(evolution, place, true, &gap, &normal);
     if (point->kind == CPS_POINT_KIND_HELD && gap <= CPS_TOUCH * point->length &&
         vec3_dot(support, normal) > 0) {
         report->obstacle = obstacle;

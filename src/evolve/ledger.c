@@ -81,7 +81,7 @@ CpsiLedgerStart cpsi_ledger_start(const CpsiLine *line, const CpsEnd end[2], boo
     for (int i = 0; i < 2; i++) {
         const bool is_free = end[i].kind == CPS_END_KIND_FREE && !start.settles;
         const int j = i == CPS_END_A ? 0 : line->n - 1;
-        if (line->drums.on[i]) start.pull[i] = cpsi_winch_pull(line, i, line->weight_before);
+        if (line->drums.on[i]) start.pull[i] = cpsi_winch_pull(line, i, true);
         start.stored[i] = line->drums.stored[i];
         start.hangs[i] = line->drums.weight[i];
         start.known[i] = known || is_free;
@@ -171,7 +171,7 @@ static double wind_work(const CpsiLine *line, const CpsiLedgerStart *start, CpsL
         const double in = line->drums.stored[end] - start->stored[end],
                      weighs = line->drums.weight[end] - start->hangs[end];
         if (!line->drums.on[end] || (in == 0 && weighs == 0)) continue;
-        const double pull = cpsi_winch_pull(line, end, line->weight);
+        const double pull = cpsi_winch_pull(line, end, false);
         const Vec3 drum = vec3_scale(0.5, vec3_add(vec3_load(start->end[end].position),
                                                    vec3_load(line->report.end[end].position)));
         work += in * (start->known[end] ? 0.5 * (start->pull[end] + pull) : pull);

@@ -29,7 +29,8 @@ static double to_obstacle(const CpsiBalance *balance, Vec3 from, Vec3 d, double 
     for (int i = 0; i < MARCHES && t < farthest; i++) {
         double gap;
         Vec3 normal = vec3(0, 0, 0);
-        const int on = cpsi_trial_nearest(balance->evolution, vec3_axpy(t, d, from), &gap, &normal);
+        const int on =
+            cpsi_trial_nearest(balance->evolution, vec3_axpy(t, d, from), false, &gap, &normal);
         if (on == CPS_NO_OBSTACLE) break;
         if (gap <= touch && !(vec3_dot(normal, d) > 0)) return t;
         t += fmax(gap, touch);

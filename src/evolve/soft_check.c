@@ -4,6 +4,7 @@
 
 #include "base/status.h"
 #include "evolve/ranges.h"
+#include "evolve/ties.h"
 
 CpsStatus cpsi_soft_obstacle_check(const CpsScene *scene, const CpsObstacle *o, CpsError *err) {
     const char *why = NULL;
@@ -61,9 +62,26 @@ CpsStatus cpsi_soft_time_check(const CpsScene *scene, CpsError *err) {
         "obstacles.%s", soft->name);
 }
 
+/* The area of a point does not follow what a winch there pays out. */
+static CpsStatus check_winch(const CpsScene *scene, int index, CpsError *err) {
+    const CpsObstacle *soft = cpsi_soft_obstacle(scene);
+    if (!soft) return CPS_OK;
+    for (int k = 0; k < 2 * scene->line_count; k++) {
+        const CpsLine *line = &scene->line[k / 2];
+        if (line->winch[k % 2].is_there && cpsi_point_of(line, k % 2) == index)
+            return cpsi_fail(err, CPS_ERR_ARGUMENT,
+                             "point '%s': line '%s' has a winch there, and obstacle '%s' gives "
+                             "(stiffness): a winch beside it holds its end at no point",
+                             scene->point[index].name, line->name, soft->name);
+    }
+    return CPS_OK;
+}
+
 CpsStatus cpsi_soft_point_check(const CpsScene *scene, int index, CpsError *err) {
     const CpsPoint *point = &scene->point[index];
     const char *why = NULL;
+    const CpsStatus status = check_winch(scene, index, err);
+    if (status != CPS_OK) return status;
     if (!cpsi_is_not_negative(point->bearing_area))
         return CPSI_FAIL_AT("bearing_area", err, CPS_ERR_ARGUMENT,
                             "point '%s': bearing_area is %g m2, expected a finite number >= 0",
@@ -105,11 +123,6 @@ CpsStatus cpsi_soft_line_check(const CpsScene *scene, const CpsLine *line, CpsEr
         return CPSI_FAIL_AT("start", err, CPS_ERR_ARGUMENT,
                             "line '%s': start: obstacle '%s' gives (stiffness), so the reactions "
                             "follow from the nodes: leave reactions and friction bounds out",
-                            line->name, soft->name);
-    if (line->winch[CPS_END_A].is_there || line->winch[CPS_END_B].is_there)
-        return CPSI_FAIL_AT("ends", err, CPS_ERR_ARGUMENT,
-                            "line '%s': stored: obstacle '%s' gives (stiffness), and lines on it "
-                            "have no winch: leave one of them out",
                             line->name, soft->name);
     return CPS_OK;
 }

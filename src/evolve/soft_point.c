@@ -4,8 +4,23 @@
 
 #include "geometry/obstacle.h"
 
+/* How many obstacles that give there are, or that a place lies in. */
+static int count_soft(const CpsEvolution *evolution, const Vec3 *place) {
+    int count = 0;
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        const CpsiObstacle *on = &evolution->obstacle[k];
+        if (on->stiffness > 0 && (!place || cpsi_obstacle_gap(on, *place) < 0)) count++;
+    }
+    return count;
+}
+
+bool cpsi_soft_point_is_between(const CpsEvolution *evolution, Vec3 place) {
+    return count_soft(evolution, &place) > 1;
+}
+
 void cpsi_soft_point_areas(CpsEvolution *evolution) {
     CpsiPoints *points = &evolution->points;
+    if (count_soft(evolution, NULL) == 0) return;
     for (int i = 0; i < points->count; i++) points->point[i].area = points->given[i].bearing_area;
     for (int k = 0; k < 2 * evolution->line_count; k++) {
         const CpsiLine *line = &evolution->line[k / 2];

@@ -13,6 +13,9 @@
 void cpsi_soft_point_areas(CpsEvolution *evolution);
 /* [N/m] k of point `index` on obstacle `on`; 0 of one that does not give. */
 double cpsi_soft_point_stiffness(const CpsEvolution *evolution, int index, int on);
+/* Does a place lie in two obstacles that give? A point bears on the one alone in which it lies
+ * deepest: at the groove between both its force jumps from one to the other. */
+bool cpsi_soft_point_is_between(const CpsEvolution *evolution, Vec3 place);
 /* [N] What the obstacle in which it lies deepest, if that gives, does to it where it is. */
 Vec3 cpsi_soft_point_push(const CpsEvolution *evolution, int index);
 /* [J] What obstacles that give have stored more under the free points than before the step. */

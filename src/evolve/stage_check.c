@@ -97,16 +97,13 @@ static CpsStatus check_turns(const CpsScene *scene, const CpsStage *stage, const
         const CpsObstacle *obstacle = &scene->obstacle[turn->obstacle];
         char place[80];
         snprintf(place, sizeof place, "%s.turn", obstacle->name);
-        if (obstacle->kind == CPS_OBSTACLE_PLANE)
+        if (obstacle->kind == CPS_OBSTACLE_PLANE || obstacle->kind == CPS_OBSTACLE_MESH)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                                "%s: obstacle '%s' is a plane: only a round obstacle turns "
+                                "%s: obstacle '%s' is a %s: only a round obstacle turns "
                                 "about its own axis; %s.obstacle has turns about any",
-                                what, obstacle->name, obstacle->name);
-        if (obstacle->kind == CPS_OBSTACLE_MESH)
-            return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                                "%s: obstacle '%s' is a mesh: only a cylinder or a sphere turns "
-                                "about its own axis; %s.obstacle has turns about any",
-                                what, obstacle->name, obstacle->name);
+                                what, obstacle->name,
+                                obstacle->kind == CPS_OBSTACLE_PLANE ? "plane" : "mesh",
+                                obstacle->name);
         if (obstacle->kind == CPS_OBSTACLE_BOX)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
                                 "%s: obstacle '%s' is a box, which has no axis of rotation; "

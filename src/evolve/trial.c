@@ -148,11 +148,14 @@ static void impose(CpsiBalance *balance) {
     }
 }
 
-int cpsi_trial_nearest(const CpsEvolution *evolution, Vec3 place, double *gap, Vec3 *normal) {
+int cpsi_trial_nearest(const CpsEvolution *evolution, Vec3 place, bool rigid, double *gap,
+                       Vec3 *normal) {
     int nearest = CPS_NO_OBSTACLE;
     *gap = INFINITY;
     for (int k = 0; k < evolution->obstacle_count; k++) {
-        const double to = cpsi_obstacle_gap(&evolution->obstacle[k], place);
+        const CpsiObstacle *on = &evolution->obstacle[k];
+        if (rigid && on->stiffness > 0) continue;
+        const double to = cpsi_obstacle_gap(on, place);
         if (!(to < *gap)) continue;
         *gap = to;
         nearest = k;
@@ -186,7 +189,7 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     }
     at->in_set.on = cpsi_set_of_point(&evolution->points, at->point);
     if (at->in_set.on) return;
-    at->obstacle = cpsi_trial_nearest(evolution, at->place, &at->gap, &at->normal);
+    at->obstacle = cpsi_trial_nearest(evolution, at->place, false, &at->gap, &at->normal);
     if (at->obstacle == CPS_NO_OBSTACLE) return;
     const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
     at->friction = evolution->has_static && evolution->done == 0

@@ -109,9 +109,10 @@ void cpsi_balance_free(CpsiBalance *balance);
 
 /* The place of a point in the trial; false where it is neither free nor on a free body. */
 bool cpsi_trial_place(const CpsiBalance *balance, int point, Vec3 *place);
-/* The obstacle nearest to a place, how far it is [m], and its normal; CPS_NO_OBSTACLE without one,
- * then the gap is infinite. */
-int cpsi_trial_nearest(const CpsEvolution *evolution, Vec3 place, double *gap, Vec3 *normal);
+/* The obstacle nearest to a place, of all or of the rigid ones, how far it is [m], and its normal;
+ * CPS_NO_OBSTACLE without one, then the gap is infinite. */
+int cpsi_trial_nearest(const CpsEvolution *evolution, Vec3 place, bool rigid, double *gap,
+                       Vec3 *normal);
 /* The nearest obstacle, and where the point was on it when the step began. Of an anchor that drags:
  * the plane in which it does, and where it is held. */
 void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at);

@@ -255,6 +255,6 @@ CpsWinchReport cps_evolution_winch_report(const CpsEvolution *evolution, int lin
                            .stored = of->drums.stored[end],
                            .paid = of->length,
                            .length = of->drums.length};
-    if (evolution->report.step_count > 0) out.pull = cpsi_winch_pull(of, end, of->weight);
+    if (evolution->report.step_count > 0) out.pull = cpsi_winch_pull(of, end, false);
     return out;
 }

@@ -287,6 +287,9 @@ static void what_bears_on_nothing_is_refused(void **unused) {
     c.point[2].constraint =
         (CpsConstraint){.kind = CPS_CONSTRAINT_KIND_BALL, .point = {0, 0, 0.3}, .radius = 1};
     refuse(&c, "it is held to a set");
+    make(&c, 3, 0.3);
+    c.line[0].winch[CPS_END_A] = (CpsWinch){true, 0.1};
+    refuse(&c, "a winch beside it holds its end at no point");
 }
 
 /* Steps in time: refused where a point is free, or is made free before. */

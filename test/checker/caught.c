@@ -192,6 +192,8 @@ const char *caught_contradiction(const Source *source, const Record *r, double *
         return "one of its obstacles is unknown";
     if (source->surface[r->proof_obstacle].kind != SURFACE_SPHERE) return "its obstacle is no ball";
     if (source->surface[r->proof_plane].kind != SURFACE_PLANE) return "its plane is none";
+    if (source->surface[r->proof_obstacle].gives > 0 || source->surface[r->proof_plane].gives > 0)
+        return "one of its obstacles gives, and keeps no line out";
     if (r->end_kind[0] != END_HELD || r->end_kind[1] != END_HELD) return "an end is free";
     if (source->touching_only || !r->has_elements) return "elements are not kept out of obstacles";
     const double one = hypot(hypot(r->proof[0], r->proof[1]), r->proof[2]);

@@ -703,10 +703,10 @@ static void check_winches(const Record *r, const Record *before, const Source *s
     if (r->outcome > OUTCOME_TAUT || m.missing) return;
     for (int e = 0; e < 2; e++)
         if (!isnan(r->stored[e]))
-            same(findings, "winch_pull", r->winch_pull[e], (double)winches_pull(r, e),
+            same(findings, "winch_pull", r->winch_pull[e], (double)winches_pull(source, r, e),
                  FORCE_TOLERANCE * m.largest_force + NOTHING);
     if (!before || r->substeps > 1 || before->outcome > OUTCOME_TAUT) return;
-    const WinchLedger own = winches_ledger(r, before);
+    const WinchLedger own = winches_ledger(source, r, before);
     double floor = ENERGY_FLOOR * m.scale + strain_energy_of_rounding(r, &m) +
                    1e-13 * (m.largest_force * m.reach + (double)own.size);
     same(findings, "ledger_winches", r->winch_work, (double)own.winches, r->winds ? floor : 0);

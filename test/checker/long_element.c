@@ -49,6 +49,7 @@ const char *long_element_contradiction(const Source *source, const Record *r, do
         return "its obstacle is unknown";
     const Surface *s = &source->surface[r->proof_obstacle];
     if (!surface_is_round(s)) return "its obstacle is a plane";
+    if (s->gives > 0) return "its obstacle gives, and keeps no line out";
     if (r->end_kind[0] != END_HELD || r->end_kind[1] != END_HELD) return "an end is free";
     if (source->touching_only || !r->has_elements) return "elements are not kept out of obstacles";
     if (r->substeps != 1) return "it is of a substep";

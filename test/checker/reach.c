@@ -120,6 +120,7 @@ const char *reach_contradiction(const Source *source, const Record *r, bool stat
         return "its obstacle is unknown";
     const Surface *s = &source->surface[r->proof_obstacle];
     if (!surface_is_round(s)) return "its obstacle is a plane";
+    if (s->gives > 0) return "its obstacle gives, and keeps no line out";
     if (r->end_kind[0] != END_HELD || r->end_kind[1] != END_HELD) return "an end is free";
     if (source->touching_only && !statics)
         return "contact is that of the reference and keeps the line out of nothing";

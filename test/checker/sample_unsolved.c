@@ -130,5 +130,14 @@ static size_t describe_reel(Field *field) {
 int sample_write_reel(const char *path) {
     Field field[MAX_FIELDS];
     const size_t count = describe_reel(field);
-    return write_alone(path, "reel", &DRUM, ONES, 0, field, count);
+    const double rigid = 0, width = 0.1;
+    int nc, status = write_alone(path, "reel", &DRUM, ONES, 0, field, count);
+    if (!status) status = nc_open(path, NC_WRITE, &nc);
+    if (status) return status;
+    (void)nc_redef(nc);
+    status = nc_put_att_double(nc, NC_GLOBAL, "obstacle_stiffness", NC_DOUBLE, 1, &rigid);
+    if (!status)
+        status = nc_put_att_double(nc, NC_GLOBAL, "reel_bearing_width", NC_DOUBLE, 1, &width);
+    int closed = nc_close(nc);
+    return status ? status : closed;
 }

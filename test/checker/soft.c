@@ -112,7 +112,7 @@ Surface soft_level(const Surface *surface, const Real *x) {
         [SURFACE_TORUS] = true,    [SURFACE_CONE] = true,   [SURFACE_BOX] = true};
     if (!(surface->gives > 0) || !IS_ROUND[surface->kind]) return *surface;
     const Real depth = -surface_distance(surface, x);
-    return depth > 0 && depth < surface->radius / 2 ? surface_within(surface, depth) : *surface;
+    return depth > 0 ? surface_within(surface, fminl(depth, (Real)surface->radius / 2)) : *surface;
 }
 
 bool soft_bears(const Record *r, size_t j, size_t k) {
@@ -142,6 +142,32 @@ Real soft_growth(const Source *source, const Record *r, size_t j, const double *
         const Real now = depth_of(on, x), was = depth_of(on, before);
         sum += stiffness(r, on, j) * (now - was) * (now + was) / 2;
     }
+    return sum;
+}
+
+Real soft_energy_per_length(const Source *source, const Record *r, size_t j) {
+    Real sum = 0, x[3];
+    for (int a = 0; a < 3; a++) x[a] = r->position[j][a];
+    for (size_t k = 0; k < source->surfaces && !node_is_held(r, j); k++)
+        if (source->surface[k].gives > 0) {
+            const Real d = depth_of(&source->surface[k], x);
+            sum += source->surface[k].gives * r->bearing_width * d * d / 2;
+        }
+    return sum;
+}
+
+Real soft_energy(const Source *source, const Record *r, Real shifted) {
+    Real sum = 0;
+    for (size_t j = 0; j < r->nodes; j++)
+        for (size_t k = 0; k < source->surfaces && !node_is_held(r, j); k++) {
+            const Surface *on = &source->surface[k];
+            Real x[3], at[3];
+            if (!(on->gives > 0)) continue;
+            for (int a = 0; a < 3; a++) x[a] = r->position[j][a];
+            surface_shift(on, x, shifted, at);
+            const Real d = depth_of(on, at);
+            sum += stiffness(r, on, j) * d * d / 2;
+        }
     return sum;
 }
 

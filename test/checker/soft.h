@@ -27,8 +27,13 @@ typedef struct Soft {
 Soft soft_spring(const Record *r, const Surface *surface, size_t j, const Real *n, Real gap,
                  Real distance, Real R);
 
-/* The surface along which a node at x slips: in what is round and gives its parallel there, as long
- * as the depth is less than half of the radius. */
+/* [J] What is stored in what gives below nodes that are not held; of the step before, on obstacles
+ * that have been shifted by a share of the step since. And [N] per length of line at node j. */
+Real soft_energy(const Source *source, const Record *r, Real shifted);
+Real soft_energy_per_length(const Source *source, const Record *r, size_t j);
+
+/* The surface along which a node at x slips: in what is round and gives its parallel there, not
+ * deeper than half of the radius. */
 Surface soft_level(const Surface *surface, const Real *x);
 
 /* Is obstacle k that of a contact of node j? */

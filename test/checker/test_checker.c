@@ -331,6 +331,7 @@ static const Tamper REEL_TAMPER[] = {
     {"reel_reference", 8, 0.1, "the line lies across the axis"},
     {"obstacle_radius", 0, 0.5, "the line is long enough"},
     {"obstacle_kind", 0, 0, "its obstacle is a plane"},
+    {"obstacle_stiffness", 0, 1e9, "its obstacle gives"},
     {"obstacle_point", 2, 2, "the obstacle is not in the way"},
 };
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "elongation.h"
+#include "soft.h"
 
 /* A node nearer to the drum than this share of its element is on it, by the documentation. */
 static const double NEAR_DRUM = 1e-3;
@@ -268,7 +269,7 @@ static void weight_of(const Record *r, Real *w) {
         for (int k = 0; k < 3; k++) w[k] = length != 0 ? w[k] / length : 0;
 }
 
-Real winches_pull(const Record *r, int end) {
+Real winches_pull(const Source *source, const Record *r, int end) {
     const size_t j = end ? r->elements : 0, next = end ? j - 1 : 1, e = end ? j - 1 : 0;
     Real w[3], up = 0;
     weight_of(r, w);
@@ -278,7 +279,8 @@ Real winches_pull(const Record *r, int end) {
         up += w[k] * half / r->element_length[e] * ((Real)r->position[j][k] - r->position[next][k]);
     const Real T = r->tension[e], strain = r->compliance > 0 ? elongation_strain(r, e, T) : 0,
                energy = r->compliance > 0 ? elongation_energy(r, e, strain) : 0;
-    return T + T * strain - energy - up;
+    /* half of the element bears on its other node */
+    return T + T * strain - energy - up - soft_energy_per_length(source, r, next) / 2;
 }
 
 /* [J] Energy of elongation of a line where it is. */
@@ -313,8 +315,9 @@ static bool gains(const Record *r, const Record *before, Real gained[2]) {
     return winding == 1 || fabsl(sum - length) <= 1e-9 * (fabsl(sum) + fabsl(length));
 }
 
-WinchLedger winches_ledger(const Record *r, const Record *before) {
-    WinchLedger out = {.elastic = elastic_energy(r) - elastic_energy(before)};
+WinchLedger winches_ledger(const Source *source, const Record *r, const Record *before) {
+    WinchLedger out = {.elastic = elastic_energy(r) - elastic_energy(before) +
+                                  soft_energy(source, r, 0) - soft_energy(source, before, 1)};
     Real w[3], gained[2];
     weight_of(r, w);
     for (int k = 0; k < 3; k++) w[k] = (w[k] + r->weight_before[k]) / 2;
@@ -332,7 +335,7 @@ WinchLedger winches_ledger(const Record *r, const Record *before) {
     for (int e = 0; e < 2; e++) {
         if (isnan(r->stored[e]) || r->stored[e] == before->stored[e]) continue;
         const Real in = (Real)r->stored[e] - before->stored[e],
-                   mean = (winches_pull(r, e) + winches_pull(before, e)) / 2;
+                   mean = (winches_pull(source, r, e) + (Real)before->winch_pull[e]) / 2;
         const double *a = r->position[e ? r->elements : 0],
                      *b = before->position[e ? before->elements : 0];
         out.winches += in * mean;

@@ -26,8 +26,8 @@ typedef struct WinchLedger {
     Real elastic, gravity, winches, size; /* size: of the terms */
     bool known;                           /* the gravity is */
 } WinchLedger;
-WinchLedger winches_ledger(const Record *record, const Record *before);
+WinchLedger winches_ledger(const Source *source, const Record *record, const Record *before);
 /* [N] The pull on the drum of an end. */
-Real winches_pull(const Record *record, int end);
+Real winches_pull(const Source *source, const Record *record, int end);
 
 #endif

@@ -73,6 +73,10 @@ def attribute(name, value):
     return word(12) + word(1) + text(name) + word(6) + word(1) + struct.pack(">d", value)
 
 
+def says(name, words):
+    return word(12) + word(1) + text(name) + word(2) + word(len(words)) + padded(words.encode())
+
+
 # name, form, what is replaced, by what, exit code, expected after "FILE"
 CHANGES = [
     # ESRI ASCII grid
@@ -274,6 +278,12 @@ BINARY = [
     ("x that go back and forth", netcdf(variables=[("x", (1,), (10, 14, 12)), ("y", (0,), (20, 22)), ("z", (0, 1), (1,) * 6)]), ": the coordinates of a dimension neither increase"),
     ("x twice", netcdf(variables=[("x", (1,), (10, 12, 12)), ("y", (0,), (20, 22)), ("z", (0, 1), (1,) * 6)]), ": the coordinates of a dimension neither increase"),
     ("degrees", netcdf(units="degrees_east"), ": its coordinates are degrees, expected metres"),
+    ("kilometres", netcdf(units="km"), ": the units of its coordinates are not metres: convert it"),
+    ("feet", netcdf(extra=says("units", "ft")), "SCENE:2:28: 'file': its units are not metres: convert it"),
+    ("heights in degrees", netcdf(extra=says("units", "degrees")), "SCENE:2:28: 'file': its units are not metres: convert it"),
+    ("depths", netcdf(extra=says("positive", "down")), "SCENE:2:28: 'file': its variable is positive downwards: it has depths"),
+    ("x before y", netcdf(dims=(("x", 2), ("y", 3)), variables=[("x", (0,), (10, 12)), ("y", (1,), (20, 22, 24)), ("z", (0, 1), (1,) * 6)]),
+     ": its variable has the dimensions x, y, expected y, x"),
     ("nan", netcdf(variables=[("x", (1,), (10, 12, 14)), ("y", (0,), (20, 22)), ("z", (0, 1), (1, 2, float("nan"), 4, 5, 6))]), ": height number 3 is"),
     ("infinite coordinate", netcdf(variables=[("x", (1,), (10, 12, float("inf"))), ("y", (0,), (20, 22)), ("z", (0, 1), (1,) * 6)]), ": coordinate number 3 is inf"),
     ("a missing value", netcdf(extra=attribute("_FillValue", 5)), ": height number 5 is 5, which is missing"),

@@ -105,8 +105,6 @@ def points(dice, folder):
         obstacles["lump"] = f"{round_one}, friction: {friction()}{stiff}"
     shifted = dice.random() < 0.2
     stiffness = ".inf" if dice.random() < 0.15 else repr(weight * size * 10 ** dice.uniform(1.5, 5))
-    if stiffness == ".inf":
-        obstacles.pop("lump", None)  # docs/validation.md has what is found of inextensible lines over what is round
     count = dice.choice([1, 1, 2, 3])
     place = [[0.7 * k + dice.uniform(-0.1, 0.1), dice.uniform(-0.1, 0.1), dice.uniform(0.05, 0.3)] for k in range(count)]
     if dice.random() < 0.4:

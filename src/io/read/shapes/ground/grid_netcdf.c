@@ -5,7 +5,8 @@
  *
  * The variable has two dimensions, which both have variables of their names with the coordinates.
  * The last dimension is x. Values are floats, doubles, or integers; scale_factor and add_offset are
- * applied; _FillValue and missing_value are refused, as are units of degrees. */
+ * applied; _FillValue and missing_value are refused, as are units that are not metres, dimensions
+ * whose names say that y is the last one, and a `positive` that is not what the scene says. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -34,7 +35,7 @@ typedef struct Reader {
 
 /* What is known of a variable. */
 typedef struct Variable {
-    bool found, degrees;
+    bool found, degrees, other_units, up, down; /* up, down: by its attribute `positive` */
     uint32_t type, rank, dimension[2];
     uint64_t begin;
     double scale, offset, missing[2];
@@ -105,8 +106,31 @@ static uint32_t take_count(Reader *r, uint32_t tag) {
     return r->failed ? 0 : count;
 }
 
-static bool begins_with_degrees(const char *value, uint32_t count) {
-    return count >= 6 && memcmp(value, "degree", 6) == 0;
+/* Does text of the file begin with these lower-case letters, or is it them? */
+static bool begins_with(const char *value, uint32_t count, const char *wanted) {
+    const size_t length = strlen(wanted);
+    for (size_t i = 0; i < length; i++)
+        if (i >= count || (value[i] | 0x20) != wanted[i]) return false;
+    return true;
+}
+
+static bool is_word(const char *value, uint32_t count, const char *wanted) {
+    while (count > 0 && (value[count - 1] == ' ' || value[count - 1] == '\0')) count--;
+    return count == strlen(wanted) && begins_with(value, count, wanted);
+}
+
+static void take_text(Variable *variable, const char *name, uint32_t length, const char *value,
+                      uint32_t count) {
+    if (is_name(name, length, "units")) {
+        variable->degrees = begins_with(value, count, "degree");
+        variable->other_units =
+            !(is_word(value, count, "") || is_word(value, count, "m") ||
+              begins_with(value, count, "metre") || begins_with(value, count, "meter"));
+    }
+    if (is_name(name, length, "positive")) {
+        variable->up = is_word(value, count, "up");
+        variable->down = is_word(value, count, "down");
+    }
 }
 
 /* Attributes; those that matter go to `variable`, which may be NULL. */
@@ -122,8 +146,7 @@ static void take_attributes(Reader *r, Variable *variable) {
         const char *value = take_padded(r, size * items);
         if (r->failed || !variable) continue;
         if (type == CHAR) {
-            if (is_name(name, length, "units") && begins_with_degrees(value, items))
-                variable->degrees = true;
+            take_text(variable, name, length, value, items);
         } else if (items == 1) {
             const double x = number_at((const unsigned char *)value, type);
             if (is_name(name, length, "scale_factor")) variable->scale = x;
@@ -200,6 +223,7 @@ static CpsStatus read_axis(Reader *r, size_t variables, uint32_t d, int count, d
     if (r->failed || !v.found || v.rank != 1 || v.dimension[0] != d)
         return fail(r, "a dimension of the grid has no variable of its name with its coordinates");
     if (v.degrees) return fail(r, "its coordinates are degrees, expected metres: project it first");
+    if (v.other_units) return fail(r, "the units of its coordinates are not metres: convert it");
     const CpsStatus status = read_values(r, &v, (size_t)count, "coordinate", out);
     if (status != CPS_OK) return status;
     *reversed = out[0] > out[1];
@@ -225,6 +249,12 @@ static void reverse(CpsiGridFile *out, bool x, bool y) {
             out->z[from] = out->z[to];
             out->z[to] = kept;
         }
+}
+
+/* Do the names of the dimensions say that y is the last one? */
+static bool is_transposed(const Reader *r, const Variable *z) {
+    return is_word(r->name[z->dimension[0]], r->name_length[z->dimension[0]], "x") ||
+           is_word(r->name[z->dimension[1]], r->name_length[z->dimension[1]], "y");
 }
 
 CpsStatus cpsi_grid_read_netcdf(CpsiGridText *text, const char *variable, CpsiGridFile *out) {
@@ -255,8 +285,14 @@ CpsStatus cpsi_grid_read_netcdf(CpsiGridText *text, const char *variable, CpsiGr
                  variable, (unsigned)columns, (unsigned)rows, CPS_MAX_GROUND_COUNT);
         return fail(&r, message);
     }
+    if (is_transposed(&r, &z))
+        return fail(&r, "its variable has the dimensions x, y, expected y, x: transpose it, for "
+                        "instance by ncpdq -a y,x");
     CpsStatus status = cpsi_grid_allocate(text, (int)columns, (int)rows, 1, out);
     bool x_falls = false, y_falls = false;
+    out->units_are_others = z.degrees || z.other_units;
+    out->is_up = z.up;
+    out->is_down = z.down;
     if (status == CPS_OK)
         status = read_axis(&r, variables, z.dimension[1], (int)columns, out->x, &x_falls);
     if (status == CPS_OK)

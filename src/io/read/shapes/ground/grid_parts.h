@@ -12,8 +12,9 @@
 /* The points of a grid, x and y increasing; z as it is in the file. */
 typedef struct CpsiGridFile {
     int x_count, y_count;
-    double *x, *y; /* (x_count), (y_count) [m] */
-    double *z;     /* (y_count, x_count) */
+    double *x, *y;                         /* (x_count), (y_count) [m] */
+    double *z;                             /* (y_count, x_count) */
+    bool is_up, is_down, units_are_others; /* what a netCDF file says of z; not metres */
 } CpsiGridFile;
 
 /* A file that is read. */

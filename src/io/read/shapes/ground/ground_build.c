@@ -33,6 +33,21 @@ static bool are_same(int count, const double *a, const double *b) {
     return true;
 }
 
+/* Does what the file says of its heights agree with the scene? */
+static CpsStatus check_heights(const CpsiDocument *d, const CpsiObstacleValues *values,
+                               const CpsiGridFile *heights) {
+    const CpsiYaml *place = cpsi_yaml_child(cpsi_yaml_child(values->node, "ground"), "file");
+    if (heights->units_are_others)
+        return cpsi_document_fail(d, CPS_ERR_INPUT, place,
+                                  "'file': its units are not metres: convert it");
+    if (!(values->are_depths ? heights->is_up : heights->is_down)) return CPS_OK;
+    return cpsi_document_fail(d, CPS_ERR_INPUT, place,
+                              values->are_depths
+                                  ? "'file': its variable is positive upwards: it has no depths"
+                                  : "'file': its variable is positive downwards: it has depths, "
+                                    "which 'depths: true' is to say");
+}
+
 static CpsStatus build(const CpsiDocument *d, const CpsiObstacleValues *values, CpsiPool *pool,
                        CpsGround **out) {
     CpsiGridFile heights = {0}, factors = {0};
@@ -41,6 +56,7 @@ static CpsStatus build(const CpsiDocument *d, const CpsiObstacleValues *values, 
         return cpsi_document_fail(d, CPS_ERR_INPUT, cpsi_yaml_child(ground, "variable"),
                                   "'variable': it does not go with this form: leave it out");
     CpsStatus status = read_grid(d, values, "file", values->grid, pool, &heights);
+    if (status == CPS_OK) status = check_heights(d, values, &heights);
     if (status == CPS_OK && values->factors)
         status = read_grid(d, values, "friction_factor", values->factors, pool, &factors);
     if (status != CPS_OK) return status;
