@@ -43,10 +43,11 @@ static double pull_on(const CpsiBalance *balance, const CpsiFree *at) {
     return vec3_norm(at->reaction > 0 ? vec3_reject(pull, at->normal) : pull);
 }
 
-/* Has a point moved though no line pulls it? */
+/* Has a point moved though no line pulls it? Taut lines may balance each other, and then hold it.
+ */
 static bool is_idle(const CpsiBalance *balance, const CpsiFree *at) {
     return vec3_norm(moved_by(balance, at)) > cpsi_trial_touch(balance, at) &&
-           pull_on(balance, at) <= AS_WELL * balance->force;
+           fmax(at->tension, pull_on(balance, at)) <= AS_WELL * balance->force;
 }
 
 /* Does a point move without any line that pulls it, or slide by forces that may be at their bound

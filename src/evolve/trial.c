@@ -228,7 +228,9 @@ static void find_friction(CpsiFree *at, double touch) {
     if (!(at->stiffness > 0)) at->stiffness = at->bound / touch;
     const Vec3 test = cpsi_trial_friction_test(at);
     const double size = vec3_norm(test);
-    at->force = vec3_scale(size > at->bound ? -at->bound / size : -1, test);
+    /* the size of a vector of 1e-300 is 0 */
+    at->force =
+        at->bound > 0 ? vec3_scale(size > at->bound ? -at->bound / size : -1, test) : vec3(0, 0, 0);
 }
 
 /* What holds an anchor that drags, and what of that nothing balances: nothing across its plane. */
@@ -457,6 +459,12 @@ void cpsi_step_lines(CpsiBalance *balance) {
     cpsi_workers_run(balance->evolution->workers, step_one, balance, balance->line_count);
 }
 
+/* [N] The tension of the element at an end of a line. */
+static double end_tension(const CpsiLine *line, int end) {
+    const int node = cpsi_line_end_node(line, end);
+    return vec3_norm(vec3_at(line->segment_force, end == CPS_END_A ? node : node - 1));
+}
+
 void cpsi_read_forces(CpsiBalance *balance) {
     CpsEvolution *evolution = balance->evolution;
     balance->force = balance->acting = balance->rounding = 0;
@@ -465,6 +473,7 @@ void cpsi_read_forces(CpsiBalance *balance) {
         CpsiFree *at = &balance->at[k];
         double load[3];
         at->rest = vec3(0, 0, 0);
+        at->tension = 0;
         if (cpsi_point_drags(&evolution->points, at->point)) {
             balance->acting =
                 fmax(balance->acting, evolution->points.given[at->point].holding_capacity);
@@ -491,6 +500,7 @@ void cpsi_read_forces(CpsiBalance *balance) {
             if (balance->number[point] >= 0) {
                 CpsiFree *at = &balance->at[balance->number[point]];
                 at->rest = vec3_add(at->rest, pull);
+                at->tension += end_tension(&evolution->line[i], end);
             }
             if (balance->rigid_of[point] >= 0)
                 add_pull(balance, &balance->rigid[balance->rigid_of[point]], point, pull);

@@ -23,6 +23,7 @@ typedef struct CpsiFree {
     int point;
     Vec3 place, rest; /* rest: r */
     Vec3 left;        /* r + R n + F */
+    double tension;   /* [N] of all elements that end there, together */
     double stiffness; /* [N/m] rho, of the size of the lines' */
     /* at the nearest obstacle, where there is one */
     int obstacle;

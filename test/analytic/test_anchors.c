@@ -279,6 +279,46 @@ static void at_exactly_the_limit(void **unused) {
     assert_true(told > 12);
 }
 
+/* A clump on a smooth bed between two taut strings, which balance each other: it has one place,
+ * halfway, and the reports of the strings say so, in statics and after one of the ends has moved.
+ */
+static void taut_strings_hold(void **unused) {
+    (void)unused;
+    for (int k = 0; k < 16; k++) {
+        const double angle = 0.4 * k, scale = pow(10, k % 4 - 1), far[] = {2.2, 2.4};
+        const double along[3] = {cos(angle), sin(angle), 0};
+        Pull p;
+        make(&p, 0, 0, 0);
+        p.anchor.drags = p.anchor.has_holding_capacity = false;
+        p.anchor.kind = CPS_POINT_KIND_FREE;
+        p.anchor.weight = EA * scale;
+        for (int a = 0; a < 3; a++) p.anchor.position[a] = 0.3 * LENGTH * along[a];
+        p.line.stiffness *= scale;
+        p.bed.name = "bed";
+        p.scene.obstacle = &p.bed;
+        p.scene.obstacle_count = 1;
+        CpsLine line[2] = {p.line, p.line};
+        line[1].name = "other";
+        p.scene.line = line;
+        p.scene.line_count = 2;
+        for (int a = 0; a < 3; a++) {
+            line[0].end[CPS_END_B].value[a] = 0;
+            line[1].end[CPS_END_B].value[a] = far[0] * LENGTH * along[a];
+        }
+        then(&p, far[1] * LENGTH * along[0], far[1] * LENGTH * along[1], 0);
+        p.change[0].line = 1;
+        CpsEvolution *evolution = evolve(&p);
+        for (int i = 0; i < 2; i++) {
+            const CpsPointReport clump = step(evolution);
+            for (int a = 0; a < 3; a++)
+                CHECK_NEAR(clump.position[a], 0.5 * far[i] * LENGTH * along[a], 1e-9 * LENGTH);
+            for (int own = 0; own < 2; own++)
+                CHECK_INT(cps_evolution_line_report(evolution, own).places, CPS_PLACES_UNIQUE);
+        }
+        cps_evolution_destroy(evolution);
+    }
+}
+
 static void turn(double angle, const double from[3], double to[3]) {
     to[0] = cos(angle) * from[0] - sin(angle) * from[1];
     to[1] = sin(angle) * from[0] + cos(angle) * from[1];
@@ -356,6 +396,7 @@ int main(void) {
         cmocka_unit_test(on_a_slope),           cmocka_unit_test(without_drags),
         cmocka_unit_test(inextensible),         cmocka_unit_test(turned_about_z),
         cmocka_unit_test(at_exactly_the_limit), cmocka_unit_test(what_is_refused),
+        cmocka_unit_test(taut_strings_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,9 +37,9 @@ typedef Real Triple[3];
 enum { ROWS = 4, COLUMNS = SIX + ROWS };
 
 /* A state is known where a reaction is more than CLOSED of the node's weight or less than NOTHING
- * of it, a tension more than NOTHING of the largest and KNOWN times what rounding leaves of it, and
- * a slip more than MOVED of the line's length, at the bound, or less, clearly below it. What has
- * not moved at all, RESTS, counts as at rest also at its bound. */
+ * of it, a tension more than NOTHING of the largest force and KNOWN times what rounding leaves of
+ * it, and a slip more than MOVED of the line's length, at the bound, or less, clearly below it.
+ * What has not moved at all, RESTS, counts as at rest also at its bound. */
 static const Real KNOWN = 100, CLOSED = 1e-3L, NOTHING = 1e-7L, MOVED = 1e-9L, RESTS = 1e-13L;
 /* The slope of a law by differences of the strain; both sides agree but in a corner. */
 static const Real STRAIN = 1e-7L, SAME_SLOPE = 1e-6L;
@@ -117,8 +117,9 @@ static bool chain_create(Chain *chain, const Record *r) {
     return chain->element && chain->m && chain->q && chain->x;
 }
 
-static Real largest_tension(const Record *r) {
-    Real most = 0;
+/* What tensions compare with: a slack line that cannot be stretched has some by rounding. */
+static Real largest_force(const Record *r) {
+    Real most = acts_in_line(r);
     for (size_t i = 0; i < r->elements; i++) most = fmaxl(most, r->tension[i]);
     return most;
 }
@@ -247,7 +248,7 @@ static bool is_plain(const StiffnessStep *step, const Record *r) {
 
 static bool set_line(const StiffnessStep *step, const Record *r, const bool is_on[2],
                      Chain *chain) {
-    const Real most = largest_tension(r);
+    const Real most = largest_force(r);
     Real length = 0;
     for (size_t i = 0; i < r->elements; i++) {
         if (!set_element(r, i, most, &chain->element[i])) return false;

@@ -70,9 +70,15 @@ static bool value_is_wrong(const RestLine *line, size_t element, int sign, doubl
     return !(sign * (claimed - rest_tension_about(line, element, sign)) <= close);
 }
 
-/* [rad] To what the forces are along the elements: the root of twice the gap over the scale. */
-static double known_angle(const Record *r) {
-    return sqrt(2 * fmax(0, r->claim[CLAIM_GAP]) / r->claim[CLAIM_SCALE]);
+/* [rad] To what the forces tell by how much the line turns between its ends. The gap is the sum of
+ * T l (1 - cos a) over the elements, a the angle from an element to its force; so the first and the
+ * last of them, a_1 and a_n, have T_1 l_1 a_1^2 + T_n l_n a_n^2 <= 2 gap, and |a_1 - a_n| is at
+ * most this. Infinite where one of these has no tension. */
+static double known_turn(const Record *r) {
+    const size_t last = r->elements - 1;
+    const double first = length_of(r->segment_force[0]) * r->element_length[0],
+                 other = length_of(r->segment_force[last]) * r->element_length[last];
+    return sqrt(2 * fmax(0, r->claim[CLAIM_GAP]) * (1 / first + 1 / other));
 }
 
 /* [rad] By how much the line turns between its ends. */
@@ -95,11 +101,9 @@ static double turn_of(const Record *r) {
     return turn;
 }
 
-/* [N] To what the places tell the tension: it takes what turns the line to tell the directions of
- * forces. */
-static double told_by_places(const Record *r, double force) {
-    const double angle = known_angle(r), turn = turn_of(r);
-    return angle < turn ? force * angle / turn : 0; /* a straight line tells nothing so */
+double tension_told(const Record *r) {
+    const double known = known_turn(r), turn = turn_of(r);
+    return known < turn ? known / turn : 0; /* what acts across it turns it by that over T */
 }
 
 /* Are the two values of a line of these places wrong? */
@@ -149,9 +153,9 @@ static bool is_other(const Source *source, const Record *r, size_t element, doub
                          .frozen = !source->consistent,
                          .held = held,
                          .force = force};
-        const double close = FOUND * force + told_by_places(r, force);
+        const double close = (FOUND + tension_told(r)) * force;
         wrong = values_are_wrong(&line, element, claimed, close, found);
-        if (wrong && turn_of(r) <= known_angle(r)) {
+        if (wrong && turn_of(r) <= known_turn(r)) {
             double other[2];
             straighten(r, straight);
             line.position = (const double(*)[3])straight;

@@ -14,4 +14,8 @@
 bool range_is_wrong(const Source *source, const Record *record, int e, double force, char *text,
                     size_t size);
 
+/* The share of the tension of an inextensible line to which its places tell it; 0: it is straight.
+ */
+double tension_told(const Record *record);
+
 #endif
