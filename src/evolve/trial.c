@@ -228,7 +228,9 @@ static void find_friction(CpsiFree *at, double touch) {
     if (!(at->stiffness > 0)) at->stiffness = at->bound / touch;
     const Vec3 test = cpsi_trial_friction_test(at);
     const double size = vec3_norm(test);
-    at->force = vec3_scale(size > at->bound ? -at->bound / size : -1, test);
+    /* the size of a vector of 1e-300 is 0 */
+    at->force =
+        at->bound > 0 ? vec3_scale(size > at->bound ? -at->bound / size : -1, test) : vec3(0, 0, 0);
 }
 
 /* What holds an anchor that drags, and what of that nothing balances: nothing across its plane. */
