@@ -363,6 +363,7 @@ static void solve_first(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
 /* In time the forces of the flow are linear in each program, and follow the line and its velocity
  * from one to the next, so many times at most. */
 enum { MOST_SWIMS = 60 };
+static const CpsiIpmReport SWUM = {.outcome = CPSI_IPM_SOLVED};
 /* A program after which another one is due is solved to this share of its errors. */
 static const double ROUGHLY = 0.02;
 
@@ -382,12 +383,10 @@ static CpsiGuess approach(CpsiLine *line, CpsiChainProgram *program, const CpsiS
     return cpsi_warm_step_go_on(line, program, options);
 }
 
-/* In the end the forces of the flow are given loads, with which the step is certified. */
-static void end_swim(CpsiLine *line, const CpsiStepOptions *options, double left) {
-    static const CpsiIpmReport done = {.outcome = CPSI_IPM_SOLVED};
+/* In the end the forces of the flow are given loads. */
+static void end_swim(CpsiLine *line, double left) {
     cpsi_line_end_swim(line, left);
     cpsi_line_set_loads(line);
-    cpsi_line_certify(line, options, &done);
 }
 
 /* Go on from the solution of the first program. */
@@ -405,7 +404,8 @@ static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
         solve_with_fallbacks(line, program, options, guess);
     }
     const CpsOutcome outcome = line->report.outcome;
-    end_swim(line, options, left);
+    end_swim(line, left);
+    cpsi_line_certify(line, options, &SWUM);
     if (!cps_outcome_is_certified(outcome)) line->report.outcome = outcome;
 }
 
@@ -422,7 +422,6 @@ static CpsiIpmReport solve_uncertified(CpsiLine *line, CpsiChainProgram *program
     if (guess < CPSI_GUESS_REFERENCE) return (CpsiIpmReport){.outcome = CPSI_IPM_STALLED};
     const CpsiIpmReport newton = cpsi_line_solve_warm(line, program, options, &round);
     if (newton.outcome != CPSI_IPM_SOLVED) return newton;
-    cpsi_contact_plane_slip(line);
     if (coupled) cpsi_line_release_open_contacts(line, program);
     return newton;
 }
@@ -436,6 +435,7 @@ static bool swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOption
     line->strayed = false;
     line->report.warm_count = 1;
     line->newton.failed = 0;
+    if (line->has_local_axes) cpsi_contact_reset(line);
     for (int round = 0; round <= MOST_SWIMS; round++) {
         const CpsiIpmReport newton = solve_uncertified(line, program, options, guess, ROUGHLY);
         if (newton.outcome != CPSI_IPM_SOLVED) break;
@@ -445,7 +445,11 @@ static bool swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOption
             guess = approach(line, program, options, left);
             continue;
         }
-        end_swim(line, options, left);
+        end_swim(line, left);
+        if (line->has_local_axes)
+            cpsi_rounds_end(line, program, options, CPSI_BOUNDS_FIXED, &newton);
+        else
+            cpsi_line_certify(line, options, &SWUM);
         const CpsCertificate *found = &line->report.certificate;
         const bool good = cps_outcome_is_certified(line->report.outcome) &&
                           found->gap <= CPSI_TARGET * found->scale;
@@ -463,7 +467,9 @@ static bool swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOption
 /* A step in which the flow acts on the line as it moves. */
 static void step_in_flow(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                          CpsiGuess guess) {
-    const bool plain = !line->joined && !options->across && !line->has_local_axes;
+    /* on the planes of the reference to the end */
+    const bool plain =
+        !line->joined && !options->across && (!line->has_local_axes || cpsi_line_has_soft(line));
     cpsi_line_begin_swim(line);
     cpsi_line_set_loads(line);
     if (plain && guess >= CPSI_GUESS_REFERENCE) {
