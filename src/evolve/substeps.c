@@ -152,46 +152,8 @@ typedef struct Advance {
     CpsLedger ledger;
 } Advance;
 
-/* What is imposed at a share of the move. */
-static CpsEnd between(const CpsEnd *from, const CpsEnd *to, double share) {
-    CpsEnd at = *to;
-    if (share < 1)
-        for (int a = 0; a < 3; a++)
-            at.value[a] = from->value[a] + share * (at.value[a] - from->value[a]);
-    return at;
-}
-
-/* Does an end that is held touch obstacle k before the move and after it, while that is shifted? */
-static bool rides(const CpsiLine *line, const CpsiMove *move, int k, int end) {
-    const double near = CPSI_TOUCH * line->length;
-    const CpsiShift *shift = &move->shift[k], back = cpsi_shift_part(shift, 1, 0);
-    CpsiObstacle obstacle = move->obstacle[k];
-    if (cpsi_shift_is_none(shift) || move->from[end].kind != CPS_END_KIND_HELD ||
-        !(fabs(cpsi_obstacle_gap(&obstacle, vec3_load(move->to[end].value))) <= near))
-        return false;
-    cpsi_obstacle_shift(&obstacle, &back);
-    return fabs(cpsi_obstacle_gap(&obstacle, vec3_load(move->from[end].value))) <= near;
-}
-
-/* An end goes straight, on an obstacle that is shifted as seen from that: where a table turns the
- * straight way in space of what rests on it leads through it. */
-static CpsEnd end_at(const CpsiLine *line, const CpsiMove *move, int end, double share) {
-    CpsEnd to = move->to[end];
-    if (move->shift && share > 0 && share < 1)
-        for (int k = 0; k < line->obstacle_count; k++) {
-            if (!rides(line, move, k, end)) continue;
-            const CpsiShift back = cpsi_shift_part(&move->shift[k], 1, 0),
-                            part = cpsi_shift_part(&move->shift[k], 0, share);
-            vec3_store(to.value, cpsi_shift_carry(&back, vec3_load(to.value)));
-            to = between(&move->from[end], &to, share);
-            vec3_store(to.value, cpsi_shift_carry(&part, vec3_load(to.value)));
-            return to;
-        }
-    return between(&move->from[end], &to, share);
-}
-
 static CpsEnd grasp_at(const CpsiMove *move, int k, double share) {
-    return between(&move->grasp_from[k], &move->grasp_to[k], share);
+    return cpsi_move_between(&move->grasp_from[k], &move->grasp_to[k], share);
 }
 
 /* The weight at a share of the move. */
@@ -228,8 +190,8 @@ void cpsi_substeps_impose(CpsiLine *line, const CpsiMove *move, CpsiSubsteps *sc
     weight_at(move, from, line->weight_before);
     weight_at(move, to, line->weight);
     for (int end = 0; end < 2; end++) {
-        line->end_before[end] = end_at(line, move, end, from);
-        line->end[end] = end_at(line, move, end, to);
+        line->end_before[end] = cpsi_move_end(line, move, end, from);
+        line->end[end] = cpsi_move_end(line, move, end, to);
         line->drums.due[end] = stored_at(move, end, to);
     }
     for (int k = 0; k < move->grasp_count; k++) {

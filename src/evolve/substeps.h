@@ -3,23 +3,7 @@
 #ifndef CAPSTAN_SRC_EVOLVE_SUBSTEPS_H
 #define CAPSTAN_SRC_EVOLVE_SUBSTEPS_H
 
-#include "cable/line_step.h"
-
-/* The change of a load step: each end from one value to another of the same kind, obstacles by an
- * angle. */
-typedef struct CpsiMove {
-    CpsEnd from[2], to[2];
-    int grasp_count;
-    CpsEnd grasp_from[CPS_MAX_GRASPS], grasp_to[CPS_MAX_GRASPS];
-    const double *angle; /* (obstacles) [rad] */
-    /* where some are shifted: how, (obstacles), and where all are in the end; else NULL */
-    const CpsiShift *shift;
-    const CpsiObstacle *obstacle;
-    double weight_from[3], weight_to[3]; /* [N/m] per natural length */
-    double stored_from[2], stored_to[2]; /* [m] on the drums of winches */
-    bool has_velocity[2];
-    double velocity[2][3]; /* [m/s] of ends in time after the step, with the flag */
-} CpsiMove;
+#include "evolve/move.h"
 
 /* Scratch memory for the state at the start of a part, and for the result of a part taken whole. */
 typedef struct CpsiSubsteps {
