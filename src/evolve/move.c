@@ -14,8 +14,7 @@ CpsEnd cpsi_move_between(const CpsEnd *from, const CpsEnd *to, double share) {
     return at;
 }
 
-/* Obstacle k at a share of the move. */
-static CpsiObstacle obstacle_at(const CpsiMove *move, const CpsiLine *line, int k, double share) {
+CpsiObstacle cpsi_move_obstacle(const CpsiLine *line, const CpsiMove *move, int k, double share) {
     CpsiObstacle obstacle = move->shift ? move->obstacle[k] : line->obstacle[k];
     if (!move->shift || !(share < 1)) return obstacle;
     const CpsiShift back = cpsi_shift_part(&move->shift[k], 1, share);
@@ -25,7 +24,7 @@ static CpsiObstacle obstacle_at(const CpsiMove *move, const CpsiLine *line, int 
 
 static double gap_at(const CpsiMove *move, const CpsiLine *line, int k, double share,
                      const double place[3]) {
-    const CpsiObstacle obstacle = obstacle_at(move, line, k, share);
+    const CpsiObstacle obstacle = cpsi_move_obstacle(line, move, k, share);
     return cpsi_obstacle_gap(&obstacle, vec3_load(place));
 }
 
@@ -47,7 +46,7 @@ CpsEnd cpsi_move_end(const CpsiLine *line, const CpsiMove *move, int end, double
                         part = cpsi_shift_part(shift, 0, share);
         vec3_store(to.value, cpsi_shift_carry(&back, vec3_load(to.value)));
         to = cpsi_move_between(&move->from[end], &to, share);
-        const CpsiObstacle obstacle = obstacle_at(move, line, k, share);
+        const CpsiObstacle obstacle = cpsi_move_obstacle(line, move, k, share);
         const Vec3 x = cpsi_shift_carry(&part, vec3_load(to.value));
         const double gap = cpsi_obstacle_gap(&obstacle, x),
                      out = gap < -CPSI_TOUCH * line->length ? -gap : 0;

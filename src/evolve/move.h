@@ -24,6 +24,9 @@ typedef struct CpsiMove {
 /* What is imposed at a share of the way from one place, or force, to another. */
 CpsEnd cpsi_move_between(const CpsEnd *from, const CpsEnd *to, double share);
 
+/* Obstacle k of the line at a share of the move. */
+CpsiObstacle cpsi_move_obstacle(const CpsiLine *line, const CpsiMove *move, int k, double share);
+
 /* An end at a share of the move. It goes straight, on an obstacle that is shifted as seen from
  * that, and not into one that it touches before the move and after it: where a table turns, or the
  * obstacle is round, the straight way in space of what rests on it leads through it. */

@@ -171,11 +171,8 @@ static void shift_obstacles(const CpsiLine *line, const CpsiMove *move, CpsiSubs
         CpsiShift *shift = &scratch->shift[k];
         *shift = (CpsiShift){0};
         if (!move->shift) continue;
-        CpsiObstacle *obstacle = &scratch->obstacle[k];
-        *obstacle = move->obstacle[k];
         *shift = cpsi_shift_part(&move->shift[k], from, to);
-        const CpsiShift back = cpsi_shift_part(&move->shift[k], 1, to);
-        if (to < 1) cpsi_obstacle_shift(obstacle, &back);
+        scratch->obstacle[k] = cpsi_move_obstacle(line, move, k, to);
     }
 }
 
@@ -704,11 +701,10 @@ static void advance_portion(Advance *substeps, Portion portion, int halvings) {
 /* [m] How far a curved obstacle is shifted where the line may meet it. An obstacle that turns about
  * a point moves differently everywhere. */
 static double shift_size(const CpsiLine *line, const CpsiMove *move, int k) {
-    const CpsiShift *shift = &move->shift[k], back = cpsi_shift_part(shift, 1, 0);
+    const CpsiShift *shift = &move->shift[k];
     const double by = vec3_norm(shift->by);
     if (cpsi_vec3_is_zero(shift->turn)) return by;
-    CpsiObstacle start = move->obstacle[k];
-    cpsi_obstacle_shift(&start, &back);
+    const CpsiObstacle start = cpsi_move_obstacle(line, move, k, 0);
     double most = 0, drawn = 0;
     for (int end = 0; end < 2; end++)
         if (move->to[end].kind == CPS_END_KIND_HELD)

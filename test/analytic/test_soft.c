@@ -224,6 +224,16 @@ static void catenary_on_winklers_bed(void **state) {
 
 /* ---- towards rigid obstacles ---- */
 
+/* The tension at an end of the first line after the stage. */
+static double tension_at(Case *c, int end) {
+    c->scene.stage = &c->stage;
+    c->scene.stage_count = 1;
+    CpsEvolution *evolution = run(c);
+    const double tension = cps_evolution_line_report(evolution, 0).end[end].tension;
+    cps_evolution_destroy(evolution);
+    return tension;
+}
+
 /* Force at B of a chain that a fairlead draws up, with friction. */
 static double drawn(double stiffness) {
     Case c;
@@ -236,12 +246,7 @@ static double drawn(double stiffness) {
     c.stage.step_count = 3;
     c.stage.change_count = 1;
     c.change[0] = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {50, 3, 25}}};
-    c.scene.stage = &c.stage;
-    c.scene.stage_count = 1;
-    CpsEvolution *evolution = run(&c);
-    const double tension = cps_evolution_line_report(evolution, 0).end[1].tension;
-    cps_evolution_destroy(evolution);
-    return tension;
+    return tension_at(&c, CPS_END_B);
 }
 
 /* Tension that friction leaves at the held end of a rope without weight, half round a drum. */
@@ -306,12 +311,7 @@ static double drawn_over(double stiffness) {
     c.stage.change_count = 1;
     c.stage.step_count = 4;
     c.change[0] = (CpsChange){.line = 0, .end = CPS_END_B, .to = {CPS_END_KIND_HELD, {2.2, 0, -1}}};
-    c.scene.stage = &c.stage;
-    c.scene.stage_count = 1;
-    CpsEvolution *evolution = run(&c);
-    const double tension = cps_evolution_line_report(evolution, 0).end[0].tension;
-    cps_evolution_destroy(evolution);
-    return tension;
+    return tension_at(&c, CPS_END_A);
 }
 
 /* An inextensible line is the limit of elastic ones, which sink by what they lack. */
