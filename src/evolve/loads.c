@@ -188,13 +188,6 @@ CpsStatus cpsi_current_check(const CpsScene *scene, CpsError *err) {
         return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
                             "current: a function moves the water in time, but no stage of the "
                             "history has a duration: give one, or in_time");
-    const int bodies = current->function ? scene->body_count : 0;
-    for (int i = 0; i < bodies; i++)
-        if (scene->body[i].member_count > 0)
-            return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
-                                "current: a function moves the water about lines, and body '%s' "
-                                "has members: leave out either",
-                                scene->body[i].name);
     if (current->row_count < 1 || !current->row)
         return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
                             "current: found no rows, expected one or more");
