@@ -96,8 +96,10 @@ static void hang_hull(Hull *hull, double far) {
                                   .normal = 1.1,
                                   .tangential = 0.1,
                                   .added_normal = 0.9};
-    hull->member[1] = (CpsMember){
-        .from = {0.2, -0.5, -0.3}, .to = {0.2, 0.5, -0.9}, .diameter = 0.1, .normal = 0.7};
+    hull->member[1] = (CpsMember){.from = {0.2, -0.5, -0.3},
+                                  .to = {0.2, 0.5, -0.9},
+                                  .diameter = 0.1,
+                                  .normal = 0.7};
     hull->body = cps_body_default();
     hull->body.name = "hull";
     hull->body.kind = CPS_BODY_KIND_FREE;
