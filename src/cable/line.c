@@ -3,6 +3,7 @@
 #include "cable/line.h"
 
 #include "base/larger.h"
+#include "cable/moving_flow.h"
 #include "chain/frame.h"
 
 static void layout_inertia(CpsiInertia *inertia, CpsiArena *arena, size_t n) {
@@ -65,7 +66,8 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         if (line->has_inertia) {
             CPSI_PLACE(arena, line->field.added, 3 * n);
             CPSI_PLACE(arena, line->field.wave, 3 * n);
-            CPSI_PLACE(arena, line->field.seen, n);
+            CPSI_PLACE(arena, line->field.seen, (n + CPSI_LANES - 1) / CPSI_LANES);
+            line->field.see = cpsi_water_loop(cpsi_width_once(&arena->width));
         }
         cpsi_anderson_layout(&line->field.rounds, arena, line->n);
     }
