@@ -564,6 +564,8 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     }
     for (int i = 0; i < evolution->bodies.count; i++)
         any = any || evolution->bodies.body[i].kind == CPS_BODY_KIND_FREE;
+    if (any) cpsi_points_group(points, &evolution->bodies, evolution->line_count);
+    for (int i = 0; i < points->count && !any; i++) points->group[i] = CPSI_NO_POINT;
     if (evolution->interval > 0) {
         cpsi_point_motion_join(evolution);
         cpsi_point_motion_predict(evolution);
@@ -572,12 +574,10 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     if (any) {
         balance->evolution = evolution;
         balance->task = step;
-        cpsi_points_group(points, &evolution->bodies, evolution->line_count);
         step_others(balance);
         for (int i = 0; i < points->count && !is_interrupted(evolution); i++)
             if (points->group[i] == i) find_places(balance, i);
     } else {
-        for (int i = 0; i < points->count; i++) points->group[i] = CPSI_NO_POINT;
         cpsi_workers_run(evolution->workers, step, evolution, evolution->line_count);
     }
     cpsi_report_held(evolution);

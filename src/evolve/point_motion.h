@@ -12,7 +12,8 @@
 void cpsi_point_motion_start(CpsEvolution *evolution);
 
 /* Give each point and the ends of lines at it one next step: an Euler step where that of one of
- * them is. */
+ * them is; where an obstacle moves, of all lines and points of a group (points.h), which are found.
+ */
 void cpsi_point_motion_join(CpsEvolution *evolution);
 /* x*, v* and k of the step that begins. */
 void cpsi_point_motion_predict(CpsEvolution *evolution);
