@@ -68,9 +68,14 @@ static bool any_restarts(const CpsiLine *line) {
     return false;
 }
 
+/* Does a line belong to a group, or to any? */
+static bool is_of(const CpsEvolution *evolution, int line, int group) {
+    return group == CPSI_ALL_GROUPS || cpsi_group_of_line(&evolution->points, line) == group;
+}
+
 /* Where ground moves, its way in k is one for all nodes of a line (time_step.c), and so for all
  * lines and points of a group. */
-static void join_groups(CpsEvolution *evolution) {
+static void join_groups(CpsEvolution *evolution, int only) {
     CpsiPoint *point = evolution->points.point;
     const int *group = evolution->points.group;
     for (int i = 0; i < evolution->points.count; i++)
@@ -78,27 +83,30 @@ static void join_groups(CpsEvolution *evolution) {
             point[group[i]].inertia.restarts = true;
     for (int i = 0; i < evolution->line_count; i++) {
         const int of = cpsi_group_of_line(&evolution->points, i);
-        if (of != CPSI_NO_POINT && any_restarts(&evolution->line[i]))
+        if (of != CPSI_NO_POINT && is_of(evolution, i, only) && any_restarts(&evolution->line[i]))
             point[of].inertia.restarts = true;
     }
     LineEnd end;
     for (int k = 0; k < 2 * evolution->line_count; k++) {
         const int at = evolution->points.tie[k];
-        if (!take_end(evolution, k, &end) || group[at] == CPSI_NO_POINT) continue;
+        if (!is_of(evolution, k / 2, only) || !take_end(evolution, k, &end) ||
+            group[at] == CPSI_NO_POINT)
+            continue;
         end.point->inertia.restarts = end.inertia->restarts[end.node] =
             point[group[at]].inertia.restarts;
     }
 }
 
-void cpsi_point_motion_join(CpsEvolution *evolution) {
+void cpsi_point_motion_join(CpsEvolution *evolution, int group) {
     LineEnd end;
     for (int k = 0; k < 2 * evolution->line_count; k++)
-        if (take_end(evolution, k, &end) && end.inertia->restarts[end.node])
+        if (is_of(evolution, k / 2, group) && take_end(evolution, k, &end) &&
+            end.inertia->restarts[end.node])
             end.point->inertia.restarts = true;
     for (int k = 0; k < 2 * evolution->line_count; k++)
-        if (take_end(evolution, k, &end))
+        if (is_of(evolution, k / 2, group) && take_end(evolution, k, &end))
             end.inertia->restarts[end.node] = end.point->inertia.restarts;
-    if (cpsi_ground_moves(evolution)) join_groups(evolution);
+    if (cpsi_ground_moves(evolution)) join_groups(evolution, group);
 }
 
 void cpsi_point_motion_predict(CpsEvolution *evolution) {
