@@ -108,8 +108,8 @@ typedef struct CpsCurrent {
     int row_count;            /* >= 1 */
     const CpsCurrentRow *row; /* (row_count) with z that rises from row to row */
     const CpsWaves *waves;    /* beside it, in time (waves.h); NULL, the default: none */
-    /* beside both, on lines in steps in time, in a scene without members of bodies; default NULL:
-     * none */
+    /* beside both, on lines and members of bodies in steps in time; it does not lift the surface up
+     * to which members are wet; default NULL: none */
     CpsWaterFunction *function;
     void *user; /* its first argument */
 } CpsCurrent;

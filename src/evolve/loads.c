@@ -121,20 +121,15 @@ CpsStatus cpsi_potential_ends_check(const CpsScene *scene, CpsError *err) {
 /* What a line cannot have in a history of which a step has a duration. */
 static CpsStatus check_in_time(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     const CpsLineLoads *loads = line->loads;
-    if (loads->spring_count > 0)
+    if (loads->spring_count > 0 && !line->quasi_static)
         return CPSI_FAIL_AT("springs", err, CPS_ERR_ARGUMENT,
-                            "line '%s': springs are those of lines at rest: leave them out, or the "
-                            "motion in time",
+                            "line '%s': springs are those of lines at rest: make it quasi_static, "
+                            "or leave them or the motion in time out",
                             line->name);
-    if (loads->potential.function)
+    if (loads->potential.function && !line->quasi_static)
         return CPSI_FAIL_AT("potential", err, CPS_ERR_ARGUMENT,
-                            "line '%s': a potential is that of lines at rest: leave it out, or the "
-                            "motion in time",
-                            line->name);
-    if (line->quasi_static)
-        return CPSI_FAIL_AT("quasi_static", err, CPS_ERR_ARGUMENT,
-                            "line '%s': quasi_static: in time a line with loads or drag has its "
-                            "inertia: leave out either",
+                            "line '%s': a potential is that of lines at rest: make it "
+                            "quasi_static, or leave it or the motion in time out",
                             line->name);
     if (loads->drag.diameter > 0 && !scene->current)
         return CPSI_FAIL_AT("drag", err, CPS_ERR_ARGUMENT,
@@ -188,13 +183,6 @@ CpsStatus cpsi_current_check(const CpsScene *scene, CpsError *err) {
         return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
                             "current: a function moves the water in time, but no stage of the "
                             "history has a duration: give one, or in_time");
-    const int bodies = current->function ? scene->body_count : 0;
-    for (int i = 0; i < bodies; i++)
-        if (scene->body[i].member_count > 0)
-            return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
-                                "current: a function moves the water about lines, and body '%s' "
-                                "has members: leave out either",
-                                scene->body[i].name);
     if (current->row_count < 1 || !current->row)
         return CPSI_FAIL_AT("current", err, CPS_ERR_ARGUMENT,
                             "current: found no rows, expected one or more");

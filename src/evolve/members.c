@@ -184,6 +184,7 @@ void cpsi_members_fill(CpsEvolution *evolution, const CpsScene *local) {
             next->flow.row_count = local->current->row_count;
             next->flow.row = evolution->current_row;
             next->flow.waves = evolution->wave ? &evolution->waves : NULL;
+            next->flow.given = evolution->water.function ? &evolution->water : NULL;
         }
     }
 }
@@ -195,7 +196,8 @@ typedef struct Site {
     const CpsiCylinder *member;
     Vec3 place, from, axis; /* of the reference point; of the member's beginning from it */
     Vec3 velocity, rate;
-    const CpsiWaves *waves; /* NULL: none in the step */
+    bool in_time;           /* otherwise there are neither waves nor what a function gives */
+    const CpsiWaves *waves; /* that lift the surface; NULL: none in the step */
     double reach;           /* [m] by which waves lift the surface at most */
 } Site;
 
@@ -236,10 +238,11 @@ static void add_part(const Site *site, const double part[2], CpsiMemberLoad *out
     const CpsiFlow *flow = &member->flow;
     const double middle = 0.5 * (part[0] + part[1]), length = part[1] - part[0];
     const Vec3 x = place_at(site, middle), arm = vec3_axpy(middle, site->axis, site->from);
-    CpsiWaterMotion water = {.acceleration = {0, 0, 0}};
-    if (site->waves) water = cpsi_waves_at(site->waves, x, NULL);
+    const CpsiWaterMotion water =
+        site->in_time ? cpsi_flow_motion(flow, x)
+                      : (CpsiWaterMotion){.velocity = cpsi_flow_velocity(flow, x.z)};
     const Vec3 strip = vec3_add(site->velocity, vec3_cross(site->rate, arm)),
-               u = vec3_sub(vec3_add(water.velocity, cpsi_flow_velocity(flow, x.z)), strip);
+               u = vec3_sub(water.velocity, strip);
     add_force(&out->drag, vec3_scale(length, cpsi_flow_drag(flow, u, site->axis)), arm);
     const double mass = displaced(member) * (1 + flow->drag.added_normal) * length;
     add_force(&out->waves, vec3_scale(mass, vec3_reject(water.acceleration, site->axis)), arm);
@@ -262,6 +265,7 @@ CpsiMemberLoad cpsi_members_load(const CpsiBody *body, const CpsiPose *pose,
                            .axis = rotation_apply(pose->turn, member->axis),
                            .velocity = phase ? phase->velocity : none,
                            .rate = phase ? phase->rate : none,
+                           .in_time = phase != NULL,
                            .waves = waves,
                            .reach = reach};
         for (int i = 0; i < member->strips; i++) {

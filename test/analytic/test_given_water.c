@@ -79,6 +79,87 @@ static void waves_by_a_function_are_those_of_the_scene(void **state) {
     }
 }
 
+/* A hull with two members under water, on the end of the rope that hangs. */
+typedef struct Hull {
+    Sea sea;
+    CpsBody body;
+    CpsPoint eye;
+    CpsMember member[2];
+} Hull;
+
+static void hang_hull(Hull *hull, double far) {
+    Sea *sea = &hull->sea;
+    hang(sea, far);
+    hull->member[0] = (CpsMember){.from = {-1, 0, -0.6},
+                                  .to = {1, 0.3, -0.4},
+                                  .diameter = 0.2,
+                                  .normal = 1.1,
+                                  .tangential = 0.1,
+                                  .added_normal = 0.9};
+    hull->member[1] = (CpsMember){.from = {0.2, -0.5, -0.3},
+                                  .to = {0.2, 0.5, -0.9},
+                                  .diameter = 0.1,
+                                  .normal = 0.7};
+    hull->body = cps_body_default();
+    hull->body.name = "hull";
+    hull->body.kind = CPS_BODY_KIND_FREE;
+    hull->body.mass = 100;
+    hull->body.buoyancy = 900;
+    for (int i = 0; i < 3; i++) hull->body.inertia[i] = 20 + 5 * i;
+    hull->body.position[0] = far;
+    hull->body.position[2] = -3;
+    hull->body.member = hull->member;
+    hull->body.member_count = 2;
+    hull->eye = cps_point_default();
+    hull->eye.name = "eye";
+    hull->eye.kind = CPS_POINT_KIND_ON_BODY;
+    sea->rig.line.end[CPS_END_B].kind = CPS_END_KIND_POINT;
+    sea->rig.scene.body = &hull->body;
+    sea->rig.scene.point = &hull->eye;
+    sea->rig.scene.body_count = sea->rig.scene.point_count = 1;
+}
+
+static CpsEvolution *evolve(const CpsScene *scene) {
+    CpsEvolution *evolution;
+    CpsError err;
+    if (cps_evolution_create(scene, &evolution, &err)) fail_msg("%s", err.message);
+    while (cps_evolution_remaining_count(evolution) > 0)
+        if (cps_evolution_step(evolution, &err)) fail_msg("%s", err.message);
+    assert_true(cps_outcome_is_certified(cps_evolution_line_report(evolution, 0).outcome));
+    return evolution;
+}
+
+static void members_in_water_of_a_function_are_in_waves(void **state) {
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const double far = k ? 5e3 : 0;
+        static Hull given, function, calm;
+        hang_hull(&given, far);
+        given.sea.rig.current.waves = &given.sea.waves;
+        hang_hull(&function, far);
+        own(&function.sea, &given.sea);
+        hang_hull(&calm, far);
+        const Hull *hull[3] = {&given, &function, &calm};
+        CpsBodyReport report[3];
+        for (int i = 0; i < 3; i++) {
+            CpsEvolution *evolution = evolve(&hull[i]->sea.rig.scene);
+            report[i] = cps_evolution_body_report(evolution, 0);
+            cps_evolution_destroy(evolution);
+        }
+        double off = 0, moved = 0, turned = 0;
+        for (int i = 0; i < 3; i++) {
+            off = fmax(off, fabs(report[0].position[i] - report[1].position[i]));
+            moved = fmax(moved, fabs(report[2].position[i] - report[1].position[i]));
+        }
+        for (int i = 0; i < 4; i++)
+            turned = fmax(turned, fabs(report[0].rotation[i] - report[1].rotation[i]));
+        const char *name = k ? "members, 5 km away" : "members";
+        CHECK_LESS(0.02, moved); /* [m] by the waves */
+        CHECK_LESS(time_report(name, "largest difference [m]", 0, off), 1e-10);
+        CHECK_LESS(time_report(name, "largest difference [-]", 0, turned), 1e-10);
+    }
+}
+
 /* ---- loads ---- */
 
 typedef struct Load {
@@ -175,7 +256,9 @@ static void expect(const CpsScene *scene, const char *path, const char *variable
 
 static void results_are_checked(void **state) {
     (void)state;
-    static Sea given, sea;
+    static Sea given;
+    static Hull hull;
+    Sea *sea = &hull.sea;
     Load load = {.size = {0, 40, 0}, .rate = 3};
     char folder[] = "capstan-water-XXXXXX", path[64], command[80];
     CpsEvolution *evolution;
@@ -183,27 +266,29 @@ static void results_are_checked(void **state) {
     CpsError err;
     hang(&given, 700);
     given.rig.current.waves = &given.waves;
-    hang(&sea, 700);
-    own(&sea, &given);
-    sea.rig.loads.force_function = load_near;
-    sea.rig.loads.force_user = &load;
-    CpsStage *rest = time_stage(&sea.rig, 0, 1);
+    hang_hull(&hull, 700);
+    own(sea, &given);
+    sea->rig.loads.force_function = load_near;
+    sea->rig.loads.force_user = &load;
+    CpsStage *rest = time_stage(&sea->rig, 0, 1);
     rest->name = "rest";
     assert_non_null(mkdtemp(folder));
-    if (cps_evolution_create(&sea.rig.scene, &evolution, &err) ||
+    if (cps_evolution_create(&sea->rig.scene, &evolution, &err) ||
         cps_results_prepare(folder, CPS_RESULTS_KIND_RUN, 0, true, &err) ||
-        cps_results_open(folder, &sea.rig.scene, evolution, NULL, &results, &err))
+        cps_results_open(folder, &sea->rig.scene, evolution, NULL, &results, &err))
         fail_msg("%s", err.message);
     for (int k = 0; k < 101; k++)
         if (cps_evolution_step(evolution, &err) || cps_results_append(results, evolution, &err))
             fail_msg("%s", err.message);
     assert_int_equal(cps_results_finish(results, 0, &err), CPS_OK);
     snprintf(path, sizeof path, "%s/result.nc", folder);
-    const CpsScene *scene = &sea.rig.scene;
+    const CpsScene *scene = &sea->rig.scene;
     expect(scene, path, NULL, 0, 0);
     expect(scene, path, "line_water_velocity", 3 * (40 * 10 + 4), 0.77);
     expect(scene, path, "line_water_acceleration", 3 * (40 * 10 + 4) + 2, 0.5);
     expect(scene, path, "line_node_load", 3 * (40 * 11 + 4) + 1, 3);
+    expect(scene, path, "load_of_body", 3 * 40, 30);
+    expect(scene, path, "ledger_waves_of_body", 40, 2);
     load.size[1] = 41; /* another scene */
     assert_true(given_file(path, scene, NULL) != 0);
     load.size[1] = 40;
@@ -230,16 +315,6 @@ static void wrong_scenes_are_refused(void **state) {
     CHECK_INT(cps_evolution_create(&sea.rig.scene, &evolution, &err), CPS_ERR_ARGUMENT);
     assert_non_null(strstr(err.message, "a function moves the water in time"));
     sea.rig.stage[0].duration = 2;
-    CpsBody body = cps_body_default();
-    const CpsMember member = {.to = {0, 0, 1}, .diameter = 0.1, .normal = 1};
-    body.name = "hull";
-    body.member_count = 1;
-    body.member = &member;
-    sea.rig.scene.body = &body;
-    sea.rig.scene.body_count = 1;
-    CHECK_INT(cps_evolution_create(&sea.rig.scene, &evolution, &err), CPS_ERR_ARGUMENT);
-    assert_non_null(strstr(err.message, "body 'hull' has members"));
-    sea.rig.scene.body_count = 0;
     if (cps_evolution_create(&sea.rig.scene, &evolution, &err)) fail_msg("%s", err.message);
     water[0] = 7;
     cps_evolution_water(NULL, 0, water, &water[30]);
@@ -254,6 +329,7 @@ static void wrong_scenes_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(waves_by_a_function_are_those_of_the_scene),
+        cmocka_unit_test(members_in_water_of_a_function_are_in_waves),
         cmocka_unit_test(a_load_that_oscillates_moves_a_rope),
         cmocka_unit_test(a_constant_load_is_that_of_the_scene),
         cmocka_unit_test(results_are_checked),

@@ -61,9 +61,19 @@ static void water_at(const CpsScene *scene, const Real *x, Real time, Real *u, R
         if (inside) u[i] += share * ((Real)row[k + 1].velocity[i] - row[k].velocity[i]);
         a[i] = 0;
     }
+    if (time < 0) return;
+    if (current->function) {
+        const double place[3] = {(double)x[0], (double)x[1], (double)x[2]};
+        double velocity[3] = {0, 0, 0}, acceleration[3] = {0, 0, 0};
+        current->function(current->user, (double)time, place, velocity, acceleration);
+        for (int i = 0; i < 3; i++) {
+            u[i] += velocity[i];
+            a[i] += acceleration[i];
+        }
+    }
     const CpsWaves *waves = current->waves;
-    if (!waves || time < 0) return;
-    for (int i = 0; i < waves->wave_count; i++) {
+    const int count = waves ? waves->wave_count : 0;
+    for (int i = 0; i < count; i++) {
         const CpsWave *of = &waves->wave[i];
         const Real w = TAU / of->period;
         Wave wave = {.amplitude = of->amplitude,
