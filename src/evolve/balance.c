@@ -564,8 +564,10 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     }
     for (int i = 0; i < evolution->bodies.count; i++)
         any = any || evolution->bodies.body[i].kind == CPS_BODY_KIND_FREE;
-    if (any) cpsi_points_group(points, &evolution->bodies, evolution->line_count);
-    for (int i = 0; i < points->count && !any; i++) points->group[i] = CPSI_NO_POINT;
+    if (any)
+        cpsi_points_group(points, &evolution->bodies, evolution->line_count);
+    else
+        for (int i = 0; i < points->count; i++) points->group[i] = CPSI_NO_POINT;
     if (evolution->interval > 0) {
         cpsi_point_motion_join(evolution, CPSI_ALL_GROUPS);
         cpsi_point_motion_predict(evolution);

@@ -58,26 +58,27 @@ double cpsi_ground_rate(const CpsEvolution *evolution, const CpsiPoint *point) {
 }
 
 /* May obstacle k have gone past the point? */
-static bool passes(const CpsEvolution *evolution, const CpsiFree *at, int k) {
+static bool passes(const CpsEvolution *evolution, const CpsiPoint *point, int k) {
     const CpsiObstacle *on = &evolution->obstacle[k];
     const CpsiShift *shift = &evolution->shift[k];
     if (on->kind == CPS_OBSTACLE_PLANE || cpsi_shift_is_none(shift)) return false;
-    const double size = vec3_norm(cpsi_shift_to(shift, at->place)),
-                 way = vec3_norm(
-                     vec3_sub(at->place, vec3_load(evolution->points.point[at->point].before)));
+    const Vec3 x = vec3_load(point->report.position);
+    const double size = vec3_norm(cpsi_shift_to(shift, x)),
+                 way = vec3_norm(vec3_sub(x, vec3_load(point->before)));
     return size > CPSI_MOST_SHIFT * on->radius * (1 + ROUNDING) &&
-           cpsi_obstacle_gap(on, at->place) <= size + way;
+           cpsi_obstacle_gap(on, x) <= size + way;
 }
 
-bool cpsi_ground_outruns(const CpsEvolution *evolution, const CpsiFree *at) {
+bool cpsi_ground_outruns(const CpsEvolution *evolution, const CpsiPoint *point, Vec3 start) {
     const double most = CPSI_QUARTER * (1 + ROUNDING);
     if (!(evolution->interval > 0)) return false;
     for (int k = 0; k < evolution->obstacle_count; k++)
         if (fabs(evolution->angle[k]) + vec3_norm(evolution->shift[k].turn) > most ||
-            passes(evolution, at, k))
+            passes(evolution, point, k))
             return true;
-    if (at->obstacle == CPS_NO_OBSTACLE || !(at->bound > 0)) return false;
-    const CpsiObstacle *on = &evolution->obstacle[at->obstacle];
-    const Vec3 from = cpsi_obstacle_normal(on, at->start);
-    return !(fabs(cpsi_obstacle_angle(on, from, at->normal)) <= most);
+    if (point->report.obstacle == CPS_NO_OBSTACLE) return false;
+    const CpsiObstacle *on = &evolution->obstacle[point->report.obstacle];
+    const double angle =
+        cpsi_obstacle_angle(on, cpsi_obstacle_normal(on, start), vec3_load(point->report.normal));
+    return on->friction[0] > 0 && !(fabs(angle) <= most);
 }

@@ -5,7 +5,7 @@
 #ifndef CAPSTAN_SRC_EVOLVE_MOVING_GROUND_H
 #define CAPSTAN_SRC_EVOLVE_MOVING_GROUND_H
 
-#include "evolve/trial.h"
+#include "evolve/state.h"
 
 /* Does an obstacle turn or move in the step? */
 bool cpsi_ground_moves(const CpsEvolution *evolution);
@@ -19,8 +19,9 @@ Vec3 cpsi_ground_carry(const CpsEvolution *evolution, const CpsiPoint *point, in
 Vec3 cpsi_ground_way(const CpsEvolution *evolution, const CpsiPoint *point);
 double cpsi_ground_rate(const CpsEvolution *evolution, const CpsiPoint *point);
 
-/* Is a step in time too long for a free point? What turns it round an obstacle by more than a
- * quarter of a turn may have taken either way, and what is round may have gone past it. */
-bool cpsi_ground_outruns(const CpsEvolution *evolution, const CpsiFree *at);
+/* Is a step in time too long for a free point, which it has found and where what bears on it had
+ * taken it to `start`? What turns it round an obstacle by more than a quarter of a turn may have
+ * taken either way, and what is round may have gone past it. */
+bool cpsi_ground_outruns(const CpsEvolution *evolution, const CpsiPoint *point, Vec3 start);
 
 #endif

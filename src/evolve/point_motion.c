@@ -63,7 +63,8 @@ void cpsi_point_motion_start(CpsEvolution *evolution) {
 
 /* Does a node of a line that moves in time take an Euler step next? */
 static bool any_restarts(const CpsiLine *line) {
-    for (int j = 0; j < line->n && line->has_inertia; j++)
+    if (!line->has_inertia) return false;
+    for (int j = 0; j < line->n; j++)
         if (line->inertia.restarts[j]) return true;
     return false;
 }

@@ -12,6 +12,7 @@
  * w) about the reference point u, with -u x (A (u, w)) as a moment. */
 #include "joint_motion.h"
 
+#include <float.h>
 #include <math.h>
 #include <netcdf.h>
 #include <stdlib.h>
@@ -21,6 +22,8 @@
 
 /* Rounding of places, per largest coordinate; of rotations; of forces and energies, per sizes. */
 static const double PLACES = 1e-13, TURNS = 1e-13, FORCES = 1e-10, ENERGIES = 1e-9, SUMS = 1e-14;
+/* Roundings of coordinates in a difference of places that are turned. */
+static const double ROUNDINGS = 16;
 enum { SIMPSON = 64 };
 
 /* ---- reading ---- */
@@ -267,6 +270,10 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
         sizes += fabsl(force * way) + fabsl(push);
         rounding += SUMS * s->largest * fabsl(way);
     }
+    /* the ways of point and ground, which may be one, are differences of places */
+    if (size(s->ground) > 0)
+        rounding +=
+            ROUNDINGS * DBL_EPSILON * s->reach * (size(s->now->friction) + s->now->reaction);
     const double spent = s->now->dissipated + m->growth + m->impact + m->scheme;
     sizes += fabs(s->now->dissipated) + fabs(m->growth) + m->impact + fabs(m->scheme) +
              PLACES * s->reach * (size(s->now->lines) + size(s->now->load));
