@@ -8,7 +8,7 @@ Of each class N scenes: `drop`, a line thrown on ground; `clump`, a point on lin
 whose anchors move; `drum`, a line over a drum that turns and moves; `ground`, a line on ground that moves and turns; `belt`, clumps on lines on such ground, also thrown up; `wheel`, clumps or a body on lines
 over a drum that turns, also more than once, and moves; `rider`, a clump on such a drum; `snatch`, a slack line
 whose end swings until it is taut; `slide`, a line on ground whose end is pulled to and fro; `wave`, a line on a bed in waves. Of three in ten,
-bodies excepted, the last entry is quasi-static, and brings all to rest where that is possible. They differ in
+bodies and what ground carries excepted, the last entry is quasi-static, and brings all to rest where that is possible. They differ in
 size, in the place and direction of all (gravity need not be along z), in slope, friction, stiffness, scheme and length of the steps. Of each
 class at least 995 of 1000 records must be certified and none refuted, and the remainder of each ledger is below 1e-10 of its turnover, as the
 file has it; of all classes together at least five of each event must be there for each scene.
