@@ -114,13 +114,30 @@ static Vec3 star(double back, Vec3 a, Vec3 b) {
     return back > 0 ? vec3_axpy(back, vec3_sub(a, b), a) : a;
 }
 
+/* Did a body that is free now move in a fixed direction as it was held? It is stopped in that
+ * direction by two Euler steps: the next formula of second order speaks of what has stopped. */
+static bool is_stopped(const CpsiBody *body) {
+    const CpsiBodyPhase *phase[] = {&body->inertia.now, &body->inertia.before};
+    const bool held[] = {body->inertia.held_now, body->inertia.held_before};
+    if (body->kind != CPS_BODY_KIND_FREE) return false;
+    for (int i = 0; i < 2; i++) {
+        double v[6];
+        if (!held[i]) continue;
+        vec3_store(v, phase[i]->velocity);
+        vec3_store(&v[3], phase[i]->rate);
+        for (int a = 0; a < 6; a++)
+            if (body->given.fixed[a] && v[a] != 0) return true;
+    }
+    return false;
+}
+
 void cpsi_body_motion_predict(CpsEvolution *evolution) {
     const CpsiFormula *formula = &evolution->formula;
     for (int i = 0; i < evolution->bodies.count; i++) {
         CpsiBodyInertia *inertia = &evolution->bodies.body[i].inertia;
         const CpsiBodyPhase *a = &inertia->now, *b = &inertia->before;
         const bool euler = evolution->time_scheme == CPS_TIME_SCHEME_EULER || evolution->restarts ||
-                           inertia->restarts;
+                           inertia->restarts || is_stopped(&evolution->bodies.body[i]);
         const double by = euler ? 0 : formula->back;
         const Vec3 back = euler
                               ? vec3(0, 0, 0)
@@ -160,9 +177,15 @@ static CpsiBodyPhase phase_in(const CpsiBody *body, const CpsiPose *pose) {
 CpsiPose cpsi_body_motion_guess(const CpsiBody *body) {
     const CpsiBodyInertia *inertia = &body->inertia;
     const CpsiBodyPhase *now = &inertia->now, *rest = &inertia->rest;
-    return (CpsiPose){vec3_axpy(inertia->span, rest->velocity, rest->place),
-                      rotation_after(rotation_of(vec3_axpy(inertia->span, now->rate, rest->rate)),
-                                     now->turn)};
+    double to[3], turn[3], from[3];
+    vec3_store(to, vec3_axpy(inertia->span, rest->velocity, rest->place));
+    vec3_store(turn, vec3_axpy(inertia->span, now->rate, rest->rate));
+    vec3_store(from, now->place);
+    for (int a = 0; a < 3 && body->kind == CPS_BODY_KIND_FREE; a++) {
+        if (body->given.fixed[a]) to[a] = from[a];
+        if (body->given.fixed[3 + a]) turn[a] = 0;
+    }
+    return (CpsiPose){vec3_load(to), rotation_after(rotation_of(vec3_load(turn)), now->turn)};
 }
 
 /* Of the momenta of a phase and of the scheme, minus their rates. */
@@ -316,6 +339,8 @@ static void advance(const CpsEvolution *evolution, CpsiBody *body) {
     ledger->turnover = fabs(ledger->kinetic) + fabs(ledger->scheme) + fabs(work[1]) +
                        fabs(ledger->drag) + fabs(ledger->waves);
     inertia->kinetic = kinetic;
+    inertia->held_before = inertia->held_now;
+    inertia->held_now = body->kind == CPS_BODY_KIND_HELD;
     inertia->before = inertia->now;
     inertia->now = at;
     inertia->restarts = false;

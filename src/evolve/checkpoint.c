@@ -33,7 +33,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '7'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '8'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -318,6 +318,8 @@ _Static_assert(sizeof(CpsiBodyPhase) == 28 * sizeof(double) && sizeof(CpsiPose) 
                "a phase and a pose have numbers only");
 
 static void pass_body_inertia(Tape *tape, CpsiBodyInertia *inertia) {
+    pass_flag(tape, &inertia->held_now);
+    pass_flag(tape, &inertia->held_before);
     pass_flag(tape, &inertia->is_moving);
     pass_flag(tape, &inertia->restarts);
     pass_flag(tape, &inertia->velocity_given);
