@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/status.h"
+#include "evolve/radiation.h"
 #include "evolve/ranges.h"
 #include "linalg/dense.h"
 
@@ -43,6 +44,8 @@ static bool is_above(const double m[36], double least) {
         }
     return cpsi_cholesky(SIX, scaled, factor);
 }
+
+bool cpsi_takes_energy(const double m[36]) { return is_above(m, -ROUNDING); }
 
 /* Is the power u'E(|u| u) of quadratic damping never negative? With u_i = d_i a_i, and a b^2 <=
  * (a^3 + 2 b^3)/3, it is not if for some d > 0 every E_jj d_j^2 is at least the sum over i != j of
@@ -144,7 +147,7 @@ CpsStatus cpsi_body_motion_check(const CpsBody *body, bool in_time, CpsError *er
                             "body '%s': added_mass is not a symmetric matrix of finite numbers "
                             "that has no negative energy",
                             body->name);
-    if (!are_usable(body->damping, 36) || !is_above(body->damping, -ROUNDING))
+    if (!are_usable(body->damping, 36) || !cpsi_takes_energy(body->damping))
         return CPSI_FAIL_AT("damping", err, CPS_ERR_ARGUMENT,
                             "body '%s': damping is not a matrix of finite numbers that takes "
                             "energy, or none, in every motion",
@@ -155,6 +158,8 @@ CpsStatus cpsi_body_motion_check(const CpsBody *body, bool in_time, CpsError *er
                             "which a bound shows that it takes energy, or none, in every motion: "
                             "what couples directions is too large for its diagonal",
                             body->name);
+    const CpsStatus memory = cpsi_radiation_check(body, err);
+    if (memory != CPS_OK) return memory;
     if (!are_usable(v, SIX))
         return CPSI_FAIL_AT("velocity", err, CPS_ERR_ARGUMENT,
                             "body '%s': velocity is (%g, %g, %g) m/s and turn_rate (%g, %g, %g) "

@@ -191,6 +191,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
     }
     cpsi_bodies_layout(&evolution->bodies, arena, scene);
     cpsi_excitation_layout(evolution, arena, scene);
+    cpsi_body_motion_layout(evolution, arena, scene);
     cpsi_members_layout(evolution, arena, scene);
     CPSI_PLACE(arena, evolution->given_body, scene->body_count);
     for (int i = 0; i < scene->body_count; i++) {
@@ -369,6 +370,7 @@ static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, con
     cpsi_points_fill(&evolution->points, scene, local);
     cpsi_bodies_fill(&evolution->bodies, scene, local);
     cpsi_excitation_fill(evolution, local);
+    cpsi_body_motion_fill(evolution);
     cpsi_members_fill(evolution, local);
     for (int i = 0; i < scene->body_count; i++)
         evolution->given_body[i] = evolution->bodies.body[i].given;
