@@ -201,9 +201,10 @@ CpsiPose cpsi_body_motion_guess(const CpsiBody *body) {
     vec3_store(to, vec3_axpy(inertia->span, rest->velocity, rest->place));
     vec3_store(turn, vec3_axpy(inertia->span, now->rate, rest->rate));
     vec3_store(from, now->place);
-    for (int a = 0; a < 3 && body->kind == CPS_BODY_KIND_FREE; a++) {
-        if (body->given.fixed[a]) to[a] = from[a];
-        if (body->given.fixed[3 + a]) turn[a] = 0;
+    const bool is_free = body->kind == CPS_BODY_KIND_FREE;
+    for (int a = 0; a < 3; a++) {
+        if (is_free && body->given.fixed[a]) to[a] = from[a];
+        if (is_free && body->given.fixed[3 + a]) turn[a] = 0;
     }
     return (CpsiPose){vec3_load(to), rotation_after(rotation_of(vec3_load(turn)), now->turn)};
 }

@@ -5,7 +5,6 @@
 #include <math.h>
 
 #include "base/status.h"
-#include "evolve/radiation.h"
 #include "evolve/ranges.h"
 #include "linalg/dense.h"
 
@@ -158,8 +157,6 @@ CpsStatus cpsi_body_motion_check(const CpsBody *body, bool in_time, CpsError *er
                             "which a bound shows that it takes energy, or none, in every motion: "
                             "what couples directions is too large for its diagonal",
                             body->name);
-    const CpsStatus memory = cpsi_radiation_check(body, err);
-    if (memory != CPS_OK) return memory;
     if (!are_usable(v, SIX))
         return CPSI_FAIL_AT("velocity", err, CPS_ERR_ARGUMENT,
                             "body '%s': velocity is (%g, %g, %g) m/s and turn_rate (%g, %g, %g) "

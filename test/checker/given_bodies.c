@@ -521,7 +521,8 @@ static int compare_steps(Compare *c, GivenStep (*step_of)(const void *user, size
     }
     for (size_t i = 0; i < c->source->lines && c->line; i++) record_destroy(&c->line[i]);
     free(c->line);
-    for (size_t k = 0; k < n && c->past; k++) free(c->past[k].moment);
+    if (c->past)
+        for (size_t k = 0; k < n; k++) free(c->past[k].moment);
     free(c->past);
     free(c->motion);
     free(imposed);
