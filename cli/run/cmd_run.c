@@ -15,6 +15,7 @@
 #include "capstan/failure.h"
 #include "capstan/io.h"
 #include "capstan/results.h"
+#include "coarse_steps.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
@@ -498,7 +499,10 @@ static CpsStatus take_steps(Run *run, CpsError *err) {
         if (status) return status;
     }
     progress_end(&run->progress);
-    if (!run->progress.quiet) warnings_print(&run->warnings);
+    if (!run->progress.quiet) {
+        coarse_steps_warn(run->scene);
+        warnings_print(&run->warnings);
+    }
     return CPS_OK;
 }
 
