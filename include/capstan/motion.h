@@ -21,7 +21,7 @@
  * time, and those at which an element is snatched taut, are Euler steps. A node that lands does not
  * rebound, but for what the ground gives (CpsObstacle). It needs Coulomb's law, contact that is
  * reached, and a scene without lines that part, winches and anchors that drag. Beside free points
- * and bodies lines are elastic, obstacles stay, and points do not float. The path tolerance has no
+ * and bodies lines are elastic, and points do not float. The path tolerance has no
  * effect on lines with inertia. Motions and loads that a function of the program makes of time and
  * state are those of follow.h.
  *
