@@ -368,11 +368,22 @@ static void fill_given(CpsEvolution *evolution, const CpsScene *scene) {
         for (int end = 0; end < 2; end++) evolution->given_line[i].constraint[end].set = NULL;
 }
 
+/* Ends at points are where those are: of one on a body the place in the scene, less the origin, is
+ * rounded more than that in the local scene. */
+static void bring_ends_to_points(CpsEvolution *evolution) {
+    const CpsiPoints *points = &evolution->points;
+    for (int k = 0; k < 2 * evolution->line_count; k++)
+        if (points->tie[k] != CPSI_NO_POINT)
+            memcpy(evolution->line[k / 2].end[k % 2].value, points->point[points->tie[k]].position,
+                   sizeof points->point->position);
+}
+
 /* The points, and the memory to find those that are free: with friction that has directions none
  * may be. */
 static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, const CpsScene *local,
                              CpsError *err) {
     cpsi_points_fill(&evolution->points, scene, local);
+    bring_ends_to_points(evolution);
     cpsi_bodies_fill(&evolution->bodies, scene, local);
     cpsi_excitation_fill(evolution, local);
     cpsi_body_motion_fill(evolution);

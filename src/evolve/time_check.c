@@ -174,17 +174,6 @@ static CpsStatus check_beside_free(const CpsScene *scene, CpsError *err) {
                              line->name),
                 "lines.%s", line->name);
     }
-    for (int k = 0; k < scene->stage_count; k++) {
-        const CpsStage *stage = &scene->stage[k];
-        if (stage->duration > 0 && (stage->turn_count > 0 || stage->shift_count > 0))
-            return cpsi_fail_inside(
-                err,
-                CPSI_FAIL_AT("duration", err, CPS_ERR_ARGUMENT,
-                             "stage %d: it has a duration, and beside free points or bodies "
-                             "obstacles neither turn nor move in time",
-                             k + 1),
-                "history[%d]", k + 1);
-    }
     return CPS_OK;
 }
 
