@@ -375,9 +375,13 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         fputs(", ", stderr);
         print_unbalanced_body(stderr, scene->body[i].name, &body);
         if (!body.is_stable)
-            fputs("capstan: where nothing holds a body in a direction, as about the axis of a "
-                  "single line, give that direction as 'fixed'\n",
-                  stderr);
+            fputs(
+                cps_evolution_pace(evolution).length > 0
+                    ? "capstan: in time a body turns by less than half a turn in a step: take "
+                      "shorter steps\n"
+                    : "capstan: where nothing holds a body in a direction, as about the axis of a "
+                      "single line, give that direction as 'fixed'\n",
+                stderr);
     }
 }
 

@@ -38,6 +38,12 @@ lines:
   rope: {length: 2, elements: 10, mass: 1, stiffness: 1e4, start: static, ends: {A: {held: [0, 0, 0]}, B: {held: [1, 0, 0]}}}
 history: [{name: swing, duration: 40, time_step: 0.01, rope.B: {move: [0, 0, 0], sine: [0.3, 0, 0.2], period: 2}}]
 """
+TOP = """capstan: 1
+bodies: {top: {free: [0, 0, 0], mass: 5, buoyancy: 49.05, moments_of_inertia: [2, 3, 4], turn_rate: [0, 0, 10]}}
+points: {eye: {body: top}}
+lines: {rope: {length: 50, elements: 1, weight: 0, stiffness: 1, quasi_static: true, start: {straight: {from: [50, 0, 0], to: [0, 0, 0]}}, ends: {A: free, B: {point: eye}}}}
+history: [{duration: 2, time_step: STEP}]
+"""
 # A slack line high above a bed falls on it in one step.
 TAUT = """capstan: 1
 obstacles: {bed: {plane: {}, friction: 0.1}}
@@ -98,6 +104,17 @@ def energies(out, said):
     assert abs(float(told.group(3)) - whole["imbalance"]) <= 6e-3*abs(whole["imbalance"]), told.group(3)
     assert abs(float(told.group(4)) - abs(whole["imbalance"])/whole["turnover"]) <= 0.06*float(told.group(4)), told.group(4)
     return summary
+
+
+def spins(capstan, folder):
+    """A body that would turn by more than half a turn in a step has no certified one: what helps is a shorter step."""
+    scene = os.path.join(folder, "top.yaml")
+    for h, good in ((0.5, False), (0.1, True)):
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write(TOP.replace("STEP", str(h)))
+        done = subprocess.run([capstan, "run", scene, "-o", os.path.join(folder, "top"), "--force", "--no-paraview"], capture_output=True, text=True,
+                              timeout=100)
+        assert (done.returncode == 0) == good and ("take shorter steps" in done.stderr) != good and "'fixed'" not in done.stderr, done.stderr
 
 
 def advice(capstan, folder):
@@ -163,6 +180,7 @@ def main():
         forces(out, summary)
         remains(capstan, folder)
         advice(capstan, folder)
+        spins(capstan, folder)
 
 
 main()
