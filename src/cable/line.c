@@ -3,7 +3,6 @@
 #include "cable/line.h"
 
 #include "base/larger.h"
-#include "cable/moving_flow.h"
 #include "chain/frame.h"
 
 static void layout_inertia(CpsiInertia *inertia, CpsiArena *arena, size_t n) {

@@ -33,18 +33,6 @@
 /* Programs whose change is not below this share of the change before are accelerated. */
 static const double SLOW = 0.5;
 
-CpsiWaterLoop *cpsi_water_loop(CpsiWidth width) {
-#ifdef CPSI_HAS_WIDTHS
-    static CpsiWaterLoop *const loop[CPSI_WIDTHS] = {[CPSI_WIDTH_128] = cpsi_water_forces_128,
-                                                     [CPSI_WIDTH_256] = cpsi_water_forces_256,
-                                                     [CPSI_WIDTH_512] = cpsi_water_forces_512};
-    return loop[width];
-#else
-    (void)width;
-    return cpsi_water_forces_128;
-#endif
-}
-
 /* The velocity of node j at the place x. */
 static inline Vec3 velocity_of(const CpsiLine *line, const double *x, int j) {
     return vec3_scale(1 / line->inertia.span[j],
@@ -116,28 +104,28 @@ static void see_water(const CpsiLine *line, const double *x) {
 }
 
 /* What was seen at one node. */
-typedef struct Seen {
+typedef struct NodeInWater {
     Vec3 drag, wave;
     double mass[6];
-} Seen;
+} NodeInWater;
 
-static inline Seen seen_at(const CpsiLine *line, int j) {
+static inline NodeInWater seen_at(const CpsiLine *line, int j) {
     const CpsiWaterForces *of = &line->field.seen[j / CPSI_LANES];
     const int l = j % CPSI_LANES;
-    Seen out = {take(of->drag, l), take(of->wave, l), {0}};
+    NodeInWater out = {take(of->drag, l), take(of->wave, l), {0}};
     for (int i = 0; i < 6; i++) out.mass[i] = of->mass[i][l];
     return out;
 }
 
 /* The force of the water that is moved along on node j, which is faster than v* by `faster`. */
-static inline Vec3 added_force(const Seen *seen, double rate, Vec3 faster) {
+static inline Vec3 added_force(const NodeInWater *seen, double rate, Vec3 faster) {
     return vec3_scale(-rate, cpsi_node_field_product(seen->mass, faster));
 }
 
 /* Write the field of inertia and water, which was seen there, about y at node j. */
 static void write_node(CpsiLine *line, const double *y, int j) {
     const double rate = 1 / line->inertia.span[j];
-    const Seen seen = seen_at(line, j);
+    const NodeInWater seen = seen_at(line, j);
     const CpsiWaterForces *of = &line->field.seen[j / CPSI_LANES];
     double *k = &line->field.stiffness[6 * j], *place = &line->field.place[3 * j], slope[6], by[3];
     (void)cpsi_line_set_inertia(line, j, vec3_at(line->reference, j));
@@ -160,7 +148,7 @@ static void write(CpsiLine *line, const double *y) {
 /* The size of the forces of inertia and water on node j. */
 static double size_at(const CpsiLine *line, int j) {
     const CpsiInertia *inertia = &line->inertia;
-    const Seen seen = seen_at(line, j);
+    const NodeInWater seen = seen_at(line, j);
     const Vec3 change =
         vec3_sub(vec3_at(inertia->rest_velocity, j), vec3_at(inertia->start_velocity, j));
     return inertia->mass[j] / inertia->span[j] * vec3_norm(change) + vec3_norm(seen.drag) +
@@ -189,7 +177,7 @@ double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
     double changed = 0, most = 0;
     see_water(line, line->position);
     for (int j = 0; j < line->n; j++) {
-        const Seen seen = seen_at(line, j);
+        const NodeInWater seen = seen_at(line, j);
         const double rate = 1 / line->inertia.span[j];
         const Vec3 x = vec3_at(line->position, j),
                    v = vec3_scale(rate, vec3_sub(x, vec3_at(line->reference, j))),
@@ -221,7 +209,7 @@ void cpsi_line_end_swim(CpsiLine *line, double left) {
     const double *x = line->position;
     line->field.left = left;
     for (int j = 0; j < line->n; j++) {
-        const Seen seen = seen_at(line, j);
+        const NodeInWater seen = seen_at(line, j);
         const Vec3 faster =
             vec3_sub(velocity_of(line, x, j), vec3_at(line->inertia.rest_velocity, j));
         vec3_store(&line->field.drag[3 * j], seen.drag);

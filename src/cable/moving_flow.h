@@ -12,9 +12,6 @@ static inline bool cpsi_line_swims(const CpsiLine *line) {
     return line->field.flow && line->inertia.is_moving;
 }
 
-/* The loop over nodes in water for a width of registers. */
-CpsiWaterLoop *cpsi_water_loop(CpsiWidth width);
-
 /* Write the forces of the flow for the first program of the step, linear in the new places, about
  * where the line is expected; and for the next one, about where the last one has taken it and the
  * flow was seen, or to where these converge; `left` is what the last one lacked. */

@@ -40,5 +40,6 @@ typedef struct CpsiWaterForces {
 typedef void CpsiWaterLoop(const CpsiNodesInWater *nodes, const CpsiWaterShare *share,
                            CpsiWaterForces *out);
 extern CpsiWaterLoop cpsi_water_forces_128, cpsi_water_forces_256, cpsi_water_forces_512;
+CpsiWaterLoop *cpsi_water_loop(CpsiWidth width);
 
 #endif
