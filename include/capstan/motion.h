@@ -167,7 +167,8 @@ typedef struct CpsBodyMotion {
     double span;                /* [s] k */
     double kinetic;             /* [J] with that of the added mass */
     double dissipated;          /* [J] by damping */
-    CpsMotionLedger ledger;     /* no body lands; drag and waves are those on members */
+    CpsMotionLedger ledger;     /* no body lands; drag is that of members and of radiation, waves
+                                   are those on members */
     bool velocity_given;        /* by a change of it */
 } CpsBodyMotion;
 

@@ -104,6 +104,19 @@ static void layout_given(CpsEvolution *evolution, CpsiArena *arena, const CpsSce
     }
 }
 
+static void layout_bodies(CpsEvolution *evolution, CpsiArena *arena, const CpsScene *scene,
+                          bool real) {
+    cpsi_bodies_layout(&evolution->bodies, arena, scene);
+    cpsi_excitation_layout(evolution, arena, scene);
+    cpsi_body_motion_layout(evolution, arena, scene);
+    cpsi_members_layout(evolution, arena, scene);
+    CPSI_PLACE(arena, evolution->given_body, scene->body_count);
+    for (int i = 0; i < scene->body_count; i++) {
+        const char *name = copy_name(arena, scene->body[i].name);
+        if (real) evolution->bodies.body[i].name = name;
+    }
+}
+
 /* Everything an evolution holds, in one block (base/arena.h); called once to measure the size and
  * once to place the arrays. */
 static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiConicSet *largest) {
@@ -189,14 +202,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         const char *name = copy_name(arena, scene->point[i].name);
         if (real) evolution->points.point[i].name = name;
     }
-    cpsi_bodies_layout(&evolution->bodies, arena, scene);
-    cpsi_excitation_layout(evolution, arena, scene);
-    cpsi_members_layout(evolution, arena, scene);
-    CPSI_PLACE(arena, evolution->given_body, scene->body_count);
-    for (int i = 0; i < scene->body_count; i++) {
-        const char *name = copy_name(arena, scene->body[i].name);
-        if (real) evolution->bodies.body[i].name = name;
-    }
+    layout_bodies(evolution, arena, scene, real);
     cpsi_view_layout(&evolution->fill, arena, size.nodes);
     if (real) cpsi_view_fill(&evolution->fill, size.nodes);
     evolution->workspace_count = workspace_count(scene);
@@ -380,6 +386,7 @@ static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, con
     bring_ends_to_points(evolution);
     cpsi_bodies_fill(&evolution->bodies, scene, local);
     cpsi_excitation_fill(evolution, local);
+    cpsi_body_motion_fill(evolution);
     cpsi_members_fill(evolution, local);
     for (int i = 0; i < scene->body_count; i++)
         evolution->given_body[i] = evolution->bodies.body[i].given;

@@ -8,6 +8,7 @@
 
 #include "base/status.h"
 #include "evolve/body_motion_check.h"
+#include "evolve/radiation.h"
 #include "evolve/ranges.h"
 #include "evolve/soft_check.h"
 
@@ -185,6 +186,7 @@ static CpsStatus check_points(const CpsScene *scene, bool in_time, CpsError *err
     for (int i = 0; i < scene->body_count; i++) {
         const CpsBody *body = &scene->body[i];
         CpsStatus status = cpsi_body_motion_check(body, in_time, err);
+        if (status == CPS_OK) status = cpsi_radiation_check(body, err);
         if (status == CPS_OK && in_time && moves(body->velocity, CPS_BODY_DIRECTIONS))
             status = check_first_step(scene, "body", body->name, err);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "bodies.%s", body->name);
