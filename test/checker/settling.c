@@ -77,7 +77,8 @@ void settling_check(const Source *source, const Record *r, const Record *before,
                     void *user) {
     if (!r->mass || !before || in_time(r)) return;
     const bool rests = r->settles;
-    /* a static start keeps the velocity with which the history begins, and has done no work in time */
+    /* a static start keeps the velocity with which the history begins, and has done no work in time
+     */
     const double had = before->time_entry[TIME_KINETIC];
     compare("growth of the kinetic energy", r->time_entry[TIME_GROWTH], -had, 0, find, user);
     for (int k = TIME_IMPACT; k < TIME_ENTRIES; k++)
