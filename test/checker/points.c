@@ -371,7 +371,8 @@ static void check_work(const Points *p, const Junction *at) {
         off[a] = at->position[a] - p->before[p->point].position[a] - way[a];
         sizes = fmax(sizes, fmax(fabs(off[a]), fabs(way[a])));
     }
-    const double rounding = size(way) > 0 ? ROUNDINGS * DBL_EPSILON * reach : 0;
+    /* where matter was that has turned is known to some roundings, over the share of the step */
+    const double rounding = size(way) > 0 ? 4 * ROUNDINGS * DBL_EPSILON * reach : 0;
     at_most(p, "dissipated energy against the work of friction in time",
             fabs(lost + dot(at->friction, off)), p->largest * (2 * SUMS * sizes + rounding));
 }

@@ -242,8 +242,8 @@ class Scene:
         if count == 1 or dice.random() < 0.4:
             ties.append((anchor, places[0], "A: held, B: {point: c0}"))
         for i, (a, b, ends) in enumerate(ties):
-            quasi = dice.choice(["", "", "", ", quasi_static: true"])
-            out += (f"  l{i}: {{length: {self.size * math.dist(a, b)!r}, {self.make(True, (2, 20))}{quasi}, start: {{straight: {{from: {self.at(a)}, to: {self.at(b)}}}}}, "
+            quasi, strain = dice.choice(["", "", "", ", quasi_static: true"]), 10 ** dice.uniform(-4, -2.5)
+            out += (f"  l{i}: {{length: {self.size * math.dist(a, b) * (1 - strain)!r}, {self.make(True, (2, 20))}{quasi}, start: {{straight: {{from: {self.at(a)}, to: {self.at(b)}}}}}, "
                     f"ends: {{{ends}}}}}\n")
         out += "history:\n"
         for k in range(dice.randint(2, 4)):
