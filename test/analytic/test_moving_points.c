@@ -331,6 +331,38 @@ static void a_floor_throws_clumps_up(void **state) {
     CHECK_LESS(fabs(off[1]), 3e-5);
 }
 
+/* A table that turns at a constant rate w takes clumps round that have its velocity, r w^2 < mu g:
+ * they stay where they are on it, by either scheme and in steps of any length. */
+static void a_table_takes_clumps_round(void **state) {
+    (void)state;
+    const double rate = 1, time = 10;
+    for (int scheme = 0; scheme < 2; scheme++)
+        for (int count = 50; count <= 200; count *= 4) {
+            Rig rig;
+            clumps(&rig, (CpsTimeScheme)scheme, 0.9);
+            const double from[3] = {rig.point[0].position[0], rig.point[0].position[1], 0};
+            for (int i = 0; i < 2; i++)
+                place(rig.point[i].velocity, -rate * rig.point[i].position[1],
+                      rate * rig.point[i].position[0], 0);
+            CpsStage *stage = add_stage(&rig, time, count);
+            shift(&rig, stage, 0, 0, 0);
+            place(rig.shift[0].turn, 0, 0, rate * time);
+            CpsEvolution *evolution = open(&rig);
+            Sums sums = {0};
+            steps(evolution, count, &sums);
+            const double c = cos(rate * time), s = sin(rate * time),
+                         off = hypot(at(evolution, 0, 0) - (c * from[0] - s * from[1]),
+                                     at(evolution, 0, 1) - (s * from[0] + c * from[1]));
+            char name[48];
+            snprintf(name, sizeof name, "turntable, %s, %d steps", scheme ? "Euler" : "BDF2",
+                     count);
+            figure(name, "off its place [m]", 0, off);
+            CHECK_LESS(off, 1e-12);
+            CHECK_LESS(sums.imbalance, 1e-10 * sums.turnover);
+            cps_evolution_destroy(evolution);
+        }
+}
+
 /* A point that is held on a floor goes up with it: the floor does the work, the ledger closes. */
 static void a_held_point_rises_with_the_floor(void **state) {
     (void)state;
@@ -594,6 +626,7 @@ int main(void) {
         cmocka_unit_test(a_belt_takes_clumps_along),
         cmocka_unit_test(a_table_goes_to_and_fro),
         cmocka_unit_test(a_program_moves_the_table),
+        cmocka_unit_test(a_table_takes_clumps_round),
         cmocka_unit_test(a_floor_throws_clumps_up),
         cmocka_unit_test(a_held_point_rises_with_the_floor),
         cmocka_unit_test(clumps_on_a_line_over_a_drum),
