@@ -137,7 +137,7 @@ static CpsStatus build_radiation(const CpsiMaterials *m, const CpsiSceneBodyValu
     for (int i = 0; i < SIX; i++)
         for (int k = 0; k < SIX; k++) {
             const int c = 1 + SIX * i + k;
-            snprintf(name[c], LONGEST, "k%d%d", i + 1, k + 1);
+            snprintf(name[c], LONGEST, "k%c%c", '1' + i, '1' + k);
             column[c] = (CpsiCsvColumn){name[c],
                                         i < 3 && k < 3   ? "N/m"
                                         : i < 3 || k < 3 ? "N"
