@@ -52,15 +52,19 @@ static double work_on_point(const CpsEvolution *evolution, const CpsPointReport 
                                      vec3_load(point->friction)));
 }
 
-/* [J] of load and weight on a point, or of what holds it. */
+/* [J] of load, weight and buoyancy on a point, by the energy of the latter, or of what holds it. */
 static double work_outside(const CpsEvolution *evolution, int index) {
     const CpsiPoint *point = &evolution->points.point[index];
     const CpsPointReport *report = &point->report;
     Vec3 force = vec3(0, 0, 0);
-    if (point->kind == CPS_POINT_KIND_FREE) force = vec3_load(report->load);
+    double afloat = 0;
+    if (point->kind == CPS_POINT_KIND_FREE) {
+        force = vec3_load(report->load);
+        afloat = point->inertia.afloat;
+    }
     if (point->kind == CPS_POINT_KIND_HELD)
         force = vec3_axpy(report->reaction, vec3_load(report->normal), vec3_load(report->support));
-    return vec3_dot(force, way_of_point(evolution, index));
+    return vec3_dot(force, way_of_point(evolution, index)) - afloat;
 }
 
 /* [J] of load, weight and water on a body, and of what holds it. */
@@ -118,6 +122,7 @@ static void add_in_time(const CpsEvolution *evolution, double pushed, CpsStepRep
         const CpsiPoint *point = &evolution->points.point[i];
         outside += work_outside(evolution, i);
         spent += point->report.dissipated + spent_by(&point->inertia.ledger);
+        water += point->inertia.ledger.waves;
     }
     for (int i = 0; i < evolution->bodies.count; i++) {
         const CpsiBody *body = &evolution->bodies.body[i];

@@ -248,6 +248,9 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
         sizes += fabsl(force * way);
         rounding += SUMS * s->largest * fabsl(way);
     }
+    work += s->waves - s->afloat;
+    sizes += fabsl(s->waves) + fabsl(s->afloat);
+    rounding += SUMS * s->reach * s->buoyancy; /* of its height, in the energy of its buoyancy */
     const double spent = s->now->dissipated + m->growth + m->impact + m->scheme;
     sizes += fabs(s->now->dissipated) + fabs(m->growth) + m->impact + fabs(m->scheme) +
              PLACES * s->reach * (size(s->now->lines) + size(s->now->load));

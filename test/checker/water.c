@@ -27,6 +27,45 @@ static int read_numbers(const Source *source, const char *name, size_t step, dou
     return status == NC_NOERR ? 0 : -1;
 }
 
+int water_heights(const Source *source, double *height, FILE *log) {
+    size_t count = 0;
+    double z;
+    for (size_t k = 0; k < source->points; k++) height[k] = 0;
+    if (!water_surface(source, &z)) return 0;
+    bool bad = nc_inq_attlen(source->nc, NC_GLOBAL, "height_of_point", &count) ||
+               count != source->points ||
+               nc_get_att_double(source->nc, NC_GLOBAL, "height_of_point", height);
+    for (size_t k = 0; k < source->points && !bad; k++)
+        bad = !(height[k] >= 0 && isfinite(height[k]));
+    if (bad && log) fprintf(log, "missing or senseless height_of_point\n");
+    return bad ? -1 : 0;
+}
+
+/* What a file with a surface has besides. */
+static int read_surface(const Source *source, size_t step, Water *all, FILE *log) {
+    const size_t start[] = {step, 0, 0}, count[] = {1, source->points, 3};
+    double z, *number = calloc(source->points * 3, sizeof *number);
+    int variable, bad = number ? 0 : -1, time;
+    if (bad || !water_surface(source, &z)) {
+        free(number);
+        return bad;
+    }
+    if (nc_inq_varid(source->nc, "water_direction_of_point", &variable) ||
+        nc_get_vara_double(source->nc, variable, start, count, number)) {
+        if (log) fprintf(log, "missing water_direction_of_point\n");
+        bad = -1;
+    }
+    for (size_t k = 0; k < source->points && !bad; k++)
+        memcpy(all[k].direction, number + 3 * k, sizeof all[k].direction);
+    if (!bad) bad = read_numbers(source, "water_level_of_point", step, number, log);
+    for (size_t k = 0; k < source->points && !bad; k++) all[k].level = number[k];
+    if (!bad && nc_inq_varid(source->nc, "time", &time) == NC_NOERR)
+        bad = read_numbers(source, "ledger_waves_of_point", step, number + source->points, log);
+    for (size_t k = 0; k < source->points && !bad; k++) all[k].waves = number[source->points + k];
+    free(number);
+    return bad;
+}
+
 int water_read(const Source *source, size_t step, Water *all, FILE *log) {
     int variable;
     memset(all, 0, source->points * sizeof *all);
@@ -43,9 +82,10 @@ int water_read(const Source *source, size_t step, Water *all, FILE *log) {
             bad = -1;
             break;
         }
-        all[k] =
-            (Water){(int)number[k], number[source->points + k], number[2 * source->points + k]};
+        all[k] = (Water){.state = (int)number[k],
+                         .buoyancy = number[source->points + k],
+                         .displaced = number[2 * source->points + k]};
     }
     free(number);
-    return bad;
+    return bad ? bad : read_surface(source, step, all, log);
 }
