@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/larger.h"
 #include "cable/certificate.h"
 #include "cable/contact.h"
 #include "cable/end_set.h"
@@ -17,6 +18,7 @@
 #include "cable/obstacle_side.h"
 #include "cable/potential.h"
 #include "cable/soft.h"
+#include "chain/active_set.h"
 #include "chain/frame.h"
 #include "chain/polish.h"
 
@@ -44,16 +46,19 @@ static const double NEARLY = 1e-11;
 static const double NEARLY_OF_NODES = 0.1;
 
 void cpsi_line_set_loads(CpsiLine *line) {
-    for (int j = 0; j < line->n; j++)
-        for (int a = 0; a < 3; a++)
-            line->load[3 * j + a] = cpsi_line_weight_length(line, j) * line->weight[a];
-    if (line->has_node_loads)
-        for (int i = 0; i < 3 * line->n; i++) {
-            line->field.all[i] = line->field.load[i] + line->field.drag[i];
-            if (line->has_potential) line->field.all[i] += line->field.pull[i];
-            if (line->has_inertia) line->field.all[i] += line->field.added[i] + line->field.wave[i];
-            line->load[i] += line->field.all[i];
+    const CpsiNodeField *field = &line->field;
+    for (int j = 0; j < line->n; j++) {
+        const double length = cpsi_line_weight_length(line, j);
+        for (int i = 3 * j; i < 3 * j + 3; i++) {
+            line->load[i] = length * line->weight[i - 3 * j];
+            if (!line->has_node_loads) continue;
+            double all = field->load[i] + field->drag[i];
+            if (line->has_potential) all += field->pull[i];
+            if (line->has_inertia) all += field->added[i] + field->wave[i];
+            field->all[i] = all;
+            line->load[i] += all;
         }
+    }
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_KIND_FREE)
             for (int a = 0; a < 3; a++)
@@ -130,7 +135,8 @@ static double force_scale(const CpsiLine *line, double longer) {
     CpsiSpan span = {.to = 0};
     bool spans = false;
     longer *= rest_stretch(line);
-    for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
+    for (int j = 0; j < line->n; j++)
+        scale = cpsi_max_nan(scale, vec3_norm(vec3_load(&line->load[3 * j])));
     if (cpsi_line_has_field(line)) scale = fmax(scale, field_scale(line, scale));
     for (; cpsi_line_next_span(line, span.to, &span); spans = true)
         strain = fmax(strain, span.distance / longer / span.length - 1);
@@ -267,8 +273,8 @@ static double reference_tension(const CpsiLine *line) {
                                      vec3_load(&line->reference[3 * e]));
             const CpsiElementLaw law = cpsi_line_law(line, e);
             const double strain = vec3_norm(dx) / line->element_length[e] - 1;
-            most = fmax(most,
-                        law.count > 0 ? cpsi_law_tension(&law, strain) : strain / law.compliance);
+            most = cpsi_max_nan(most, law.count > 0 ? cpsi_law_tension(&law, strain)
+                                                    : strain / law.compliance);
         }
     return most;
 }
@@ -352,8 +358,8 @@ static CpsiIpmReport solve_by_newton(CpsiLine *line, CpsiChainProgram *program,
     CpsiStepScale by_newton = *scale;
     by_newton.by_newton = true;
     cpsi_step_program_fill(line, program, &by_newton);
-    CpsiIpmReport newton =
-        cpsi_warm_step_solve(line, program, scale, guess, max_iterations, round->share);
+    cpsi_warm_step_start(line, program, scale, guess);
+    CpsiIpmReport newton = cpsi_chain_active_set(program, max_iterations, false, 0);
     line->report.iteration_count += newton.iterations;
     if (newton.outcome != CPSI_IPM_SOLVED) return newton;
     cpsi_step_program_unpack(line, program, scale);
@@ -361,18 +367,22 @@ static CpsiIpmReport solve_by_newton(CpsiLine *line, CpsiChainProgram *program,
     return newton;
 }
 
+/* Note whether the method has solved a program. */
+static void record(CpsiLine *line, bool solved) {
+    CpsiNewtonRecord *of = &line->newton;
+    of->tried++;
+    of->solved += solved;
+    of->began |= solved && of->tried == 1;
+    of->failed = solved ? 0 : of->failed + 1;
+}
+
 /* ... from the guess of the round. */
 static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
                                 const CpsiStepScale *scale, const CpsiRound *round,
                                 int max_iterations) {
-    CpsiNewtonRecord *record = &line->newton;
     const CpsiIpmReport newton =
         solve_by_newton(line, program, scale, round, round->guess, max_iterations);
-    const bool solved = newton.outcome == CPSI_IPM_SOLVED;
-    record->tried++;
-    record->solved += solved;
-    record->began |= solved && record->tried == 1;
-    record->failed = solved ? 0 : record->failed + 1;
+    record(line, newton.outcome == CPSI_IPM_SOLVED);
     return newton;
 }
 
@@ -455,18 +465,33 @@ static double nearly(int nodes) {
     return fmax(CPSI_TARGET, fmin(NEARLY, NEARLY_OF_NODES / (n * n)));
 }
 
-CpsiIpmReport cpsi_line_solve_warm(CpsiLine *line, CpsiChainProgram *program,
-                                   const CpsiStepOptions *options, const CpsiRound *round) {
+bool cpsi_line_pose_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiRound *round,
+                         CpsiStepScale *scale) {
     const double force = cpsi_line_unit_force(line, round->bounds);
-    if (!(force > 0) || cpsi_line_is_taut(line))
-        return (CpsiIpmReport){.outcome = CPSI_IPM_STALLED};
+    if (!(force > 0) || cpsi_line_is_taut(line)) return false;
     line->is_rough = line->newton.polished = false;
     cpsi_line_clear_set_reactions(line);
-    const CpsiStepScale scale = {.length = line->length,
-                                 .force = force,
-                                 .longer = 1,
-                                 .bounds = round->bounds};
-    return solve_warm(line, program, &scale, round, most_iterations(line, options));
+    *scale = (CpsiStepScale){.length = line->length,
+                             .force = force,
+                             .longer = 1,
+                             .bounds = round->bounds,
+                             .by_newton = true};
+    cpsi_step_program_fill(line, program, scale);
+    cpsi_warm_step_start(line, program, scale, round->guess);
+    return true;
+}
+
+CpsiIpmReport cpsi_line_solve_posed(CpsiLine *line, CpsiChainProgram *program,
+                                    const CpsiStepOptions *options, const CpsiRound *round,
+                                    const CpsiStepScale *scale) {
+    const CpsiIpmReport newton =
+        cpsi_chain_active_set(program, most_iterations(line, options), false, round->share);
+    line->report.iteration_count += newton.iterations;
+    record(line, newton.outcome == CPSI_IPM_SOLVED);
+    if (newton.outcome != CPSI_IPM_SOLVED) return newton;
+    cpsi_step_program_unpack_positions(line, program, scale);
+    line->report.places = CPS_PLACES_UNIQUE;
+    return newton;
 }
 
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,

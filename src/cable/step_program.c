@@ -263,8 +263,6 @@ static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program,
     program->bounds_coupled = scale->bounds == CPSI_BOUNDS_COUPLED;
     for (int j = 0; j < line->n; j++) {
         program->held[j] = cpsi_line_is_held(line, j);
-        cpsi_frame_to(&program->base.load[3 * j], node_axes(line, program, j), &line->load[3 * j]);
-        for (int a = 0; a < 3; a++) program->base.load[3 * j + a] /= scale->force;
         for (int c = j; c < cpsi_line_contacts(line); c += line->n)
             fill_contact(line, program, c, scale);
     }
@@ -288,22 +286,51 @@ static void fill_points(const CpsiLine *line, CpsiChainProgram *program,
     if (any) cpsi_chain_program_use_points(program);
 }
 
-/* The field: K in the axes of the nodes, and its force at the base. */
+/* K of node j, which is given in common axes, in those of the node. */
+static void fill_stiffness(const double given[6], const double *axes, double by, double out[6]) {
+    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5}, FROM[6] = {0, 1, 4, 2, 5, 8};
+    double common[9], own[9];
+    for (int i = 0; i < 9; i++) common[i] = by * given[AT[i]];
+    cpsi_frame_turn(own, axes, common);
+    for (int i = 0; i < 6; i++) out[i] = own[FROM[i]];
+}
+
+/* The loads with the force of the field at the base, and its K, in the axes of the nodes. */
 static void fill_field(const CpsiLine *line, CpsiChainProgram *program,
                        const CpsiStepScale *scale) {
-    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5}, FROM[6] = {0, 1, 4, 2, 5, 8};
-    const double *base = base_of(line), by = scale->length / scale->force;
+    static const double WORLD[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const double *base = base_of(line), over = 1 / scale->force, by = scale->length * over;
+    /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): are the axes those of the world? */
+    const bool turned = program->frame || memcmp(line->common_axes, WORLD, sizeof WORLD) != 0;
     for (int j = 0; j < line->n; j++) {
-        double given[9], own[9], force[3], load[3];
-        const double *axes = node_axes(line, program, j);
-        for (int i = 0; i < 9; i++) given[i] = by * line->field.stiffness[6 * j + AT[i]];
-        cpsi_frame_turn(own, axes, given);
-        for (int i = 0; i < 6; i++) line->field.program[6 * j + i] = own[FROM[i]];
-        vec3_store(force, cpsi_line_field_force(line, j, vec3_at(base, j)));
-        cpsi_frame_to(load, axes, force);
-        for (int a = 0; a < 3; a++) program->base.load[3 * j + a] += load[a] / scale->force;
+        const double *k = &line->field.stiffness[6 * j], *axes = node_axes(line, program, j);
+        double *own = &line->field.program[6 * j], *load = &program->base.load[3 * j];
+        const Vec3 force =
+            vec3_add(vec3_at(line->load, j), cpsi_line_field_force(line, j, vec3_at(base, j)));
+        double f[3];
+        vec3_store(f, vec3_scale(over, force));
+        if (turned) {
+            cpsi_frame_to(load, axes, f);
+            fill_stiffness(k, axes, by, own);
+        } else {
+            memcpy(load, f, sizeof f);
+            for (int i = 0; i < 6; i++) own[i] = by * k[i];
+        }
     }
     program->field = line->field.program;
+}
+
+void cpsi_step_program_fill_loads(const CpsiLine *line, CpsiChainProgram *program,
+                                  const CpsiStepScale *scale) {
+    if (cpsi_line_has_field(line)) {
+        fill_field(line, program, scale);
+        return;
+    }
+    for (int j = 0; j < line->n; j++) {
+        double *load = &program->base.load[3 * j];
+        cpsi_frame_to(load, node_axes(line, program, j), &line->load[3 * j]);
+        for (int a = 0; a < 3; a++) load[a] /= scale->force;
+    }
 }
 
 /* A node's displacement in the axes of the chain. */
@@ -352,7 +379,7 @@ void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program,
         for (int j = 0; j < line->n; j++) fill_axes(line, program, j);
     initial_guess(line, program, scale);
     fill_nodes(line, program, scale);
-    if (cpsi_line_has_field(line)) fill_field(line, program, scale);
+    cpsi_step_program_fill_loads(line, program, scale);
     cpsi_line_fill_sets(line, program, base_of(line),
                         program->frame ? program->frame : line->common_axes, !program->frame);
     if (line->element_contacts > 0) fill_points(line, program, scale);
@@ -371,8 +398,8 @@ void cpsi_step_program_clear(const CpsiLine *line, CpsiChainProgram *program) {
 
 /* unpack --------------------------------------------------------------------------------------- */
 
-static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program,
-                             const CpsiStepScale *scale) {
+void cpsi_step_program_unpack_positions(CpsiLine *line, const CpsiChainProgram *program,
+                                        const CpsiStepScale *scale) {
     const double *base = base_of(line);
     for (int j = 0; j < line->n; j++) {
         double u[3], shift[3];
@@ -441,7 +468,7 @@ static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program,
 
 void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program,
                               const CpsiStepScale *scale) {
-    unpack_positions(line, program, scale);
+    cpsi_step_program_unpack_positions(line, program, scale);
     cpsi_line_unpack_sets(line, program, scale->force);
     unpack_reactions(line, program, scale);
     unpack_friction(line, program, scale);

@@ -22,6 +22,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/larger.h"
 #include "cable/contact.h"
 #include "cable/damping.h"
 #include "cable/field.h"
@@ -243,7 +244,7 @@ static double error_of(const CpsiLine *line) {
         Vec3 n[2];
         const int count = find_stops(line, j, contact, n);
         for (int i = 0; i < count; i++) off = vec3_reject(off, n[i]);
-        largest = fmax(largest, vec3_norm(off));
+        largest = cpsi_max_nan(largest, vec3_norm(off));
     }
     return largest;
 }
@@ -319,11 +320,13 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     memcpy(inertia->start, line->position, places);
     memcpy(inertia->start_velocity, inertia->velocity, places);
     cpsi_substeps_save(line, scratch);
+    const bool goes_on = line->last_change.known;
     double share = attempt(line, program, options, move, scratch, step);
     int iterations = line->report.iteration_count;
     if (cps_outcome_is_certified(line->report.outcome) && step->scheme != CPS_TIME_SCHEME_EULER &&
         !step->restarts && !step->once && find_rough(line, step->formula.length)) {
         cpsi_substeps_restore(line, scratch);
+        line->last_change.known = goes_on; /* what is expected of the step does not depend on it */
         share = attempt(line, program, options, move, scratch, step);
         iterations += line->report.iteration_count;
     }
