@@ -95,8 +95,9 @@ static void add_water(CpsiBalance *balance) {
         const CpsiGraphBlock own = cpsi_graph_matrix_block(balance->matrix, k, k);
         double n[3];
         const double stiffness = cpsi_water_stiffness(water);
+        if (!(stiffness > 0)) continue;
         vec3_store(n, water->n);
-        for (size_t a = 0; a < 3 && stiffness > 0; a++)
+        for (size_t a = 0; a < 3; a++)
             for (size_t b = 0; b < 3; b++) own.at[a * own.stride + b] += stiffness * n[a] * n[b];
     }
 }

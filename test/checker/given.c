@@ -485,9 +485,12 @@ static void compare_points_at(Compare *compare, size_t step, ImposedPoint *impos
 static void compare_heights(Compare *compare) {
     Sea sea;
     double *height = calloc(compare->source.points + 1, sizeof *height);
-    if (!height || water_heights(&compare->source, height, compare->log))
+    if (!height || water_heights(&compare->source, height, compare->log)) {
         find(compare, "height_of_point");
-    for (int k = 0; height && k < compare->scene->point_count; k++) {
+        free(height);
+        return;
+    }
+    for (int k = 0; k < compare->scene->point_count; k++) {
         const CpsPoint *point = &compare->scene->point[k];
         same_number(compare, "height_of_point", point->name, height[k],
                     compare->scene->has_water_surface ? point->height : 0);

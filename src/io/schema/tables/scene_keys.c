@@ -46,8 +46,7 @@ static const CpsiKey SPHERE_KEYS[] = {
 static const CpsiMapping SPHERE = {"sphere", KEYS(SPHERE_KEYS)};
 
 static const CpsiKey GROUND_KEYS[] = {
-    {"file", REQUIRED, TEXT(Obstacle, grid, 255), ANY,
-     .help = "a grid of heights, beside this file"},
+    {"file", REQUIRED, TEXT(Obstacle, grid, 255), ANY, .help = "grid of heights, beside this file"},
     {"form", REQUIRED, WORD(Obstacle, form), .words = "esri xyz netcdf moordyn_c moordyn_f",
      .help = "form of the file: ESRI ASCII grid; rows x y z of all points of a grid; classic "
              "netCDF; or a bathymetry file of MoorDyn in C or in Fortran"},
@@ -497,8 +496,7 @@ static const CpsiMapping START = {"start", KEYS(START_KEYS), INTO(Start)};
 static const CpsiKey END_KEYS[] = {
     {"held", ONE_OF, POINT(End, value, 3), ANY, .unit = "m", .formerly = "fixed",
      .help = "held at this position, which must be that of the start shape"},
-    {"force", ONE_OF, POINT(End, value, 3), ANY, .unit = "N",
-     .help = "free, pulled with this force"},
+    {"force", ONE_OF, POINT(End, value, 3), ANY, .unit = "N", .help = "free, pulled by this force"},
     {"point", ONE_OF, TEXT(End, point, 0),
      .help = "name of one of the scene's points, at which the line ends with others"},
     {"on", ONE_OF, MAPPING(End, on), .inside = &ON,
@@ -742,8 +740,7 @@ static const CpsiKey SOLVER_KEYS[] = {
 static const CpsiMapping SOLVER = {"solver", KEYS(SOLVER_KEYS)};
 
 static const CpsiKey SCENE_KEYS[] = {
-    {"capstan", REQUIRED, INTEGER(Scene, version), 1, 1, false,
-     .help = "version of this file format"},
+    {"capstan", REQUIRED, INTEGER(Scene, version), 1, 1, false, .help = "version of the format"},
     {"title", OPTIONAL, TEXT(Scene, scene.title, 0),
      .help = "what the scene shows; printed with the results"},
     {"gravity", OPTIONAL, POINT(Scene, scene.gravity, 3), ANY, .unit = "m/s2",
