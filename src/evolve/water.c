@@ -10,6 +10,9 @@
 
 /* A step that ends this near to the surface, per its way there, ends at it: rounding. */
 static const double NEAR = 1e-9;
+/* Water that falls nearly as freely as this leaves of gravity holds nothing up; no wave that does
+ * not break does, but a sum of many may. */
+static const double STEEPEST = 0.1;
 /* A first guess is no better than this, per length of the point's longest line. */
 static const double GUESSED = 1e-6;
 
@@ -53,16 +56,21 @@ CpsiSurface cpsi_surface_at_rest(const CpsiPoints *points) {
     return (CpsiSurface){vec3(0, 0, points->surface), vec3(0, 0, 1)};
 }
 
-/* That of the waves at the end of a step in time. */
+/* That of the waves at the end of a step in time; as the waves grow, both the height of the surface
+ * and the acceleration are a share of theirs. */
 static CpsiSurface surface_in_waves(const CpsEvolution *evolution, const CpsiPoint *point) {
     const CpsiPointInertia *inertia = &point->inertia;
     const Vec3 x =
         vec3_axpy(inertia->span, vec3_load(inertia->rest_velocity), vec3_load(inertia->reference));
+    const double g = vec3_norm(vec3_load(evolution->gravity)),
+                 share = cpsi_waves_share(&evolution->waves);
+    CpsiWaves grown = evolution->waves;
+    grown.ramp = 0;
     double lift = 0;
-    const CpsiWaterMotion water = cpsi_waves_at(&evolution->waves, x, &lift);
-    const double g = vec3_norm(vec3_load(evolution->gravity));
-    return (CpsiSurface){vec3(x.x, x.y, evolution->points.surface + lift),
-                         vec3_axpy(1 / g, water.acceleration, vec3(0, 0, 1))};
+    const CpsiWaterMotion water = cpsi_waves_at(&grown, x, &lift);
+    Vec3 n = vec3_axpy(share / g, water.acceleration, vec3(0, 0, 1));
+    n.z = fmax(n.z, STEEPEST);
+    return (CpsiSurface){vec3(x.x, x.y, evolution->points.surface + share * lift), n};
 }
 
 void cpsi_water_find_surfaces(CpsEvolution *evolution) {

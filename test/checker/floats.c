@@ -12,12 +12,17 @@
 Afloat floats_at_rest(double surface) { return (Afloat){{0, 0, surface}, {0, 0, 1}}; }
 
 Afloat floats_in_waves(const Sea *sea, Real g, Real time, const PointMotion *motion) {
+    static const Real LEAST = 0.1L; /* of gravity, in water that falls: of waves that break */
     Real x[3], velocity[3] = {0, 0, 0}, acceleration[3] = {0, 0, 0};
+    Sea full = *sea;
+    const Real share = sea_growth(sea, time);
+    full.ramp = 0;
     for (int a = 0; a < 3; a++)
         x[a] = motion->reference[a] + (Real)motion->span * motion->rest_velocity[a];
-    sea_motion(sea, time, x, velocity, acceleration);
+    sea_motion(&full, time, x, velocity, acceleration);
     Afloat out = {{x[0], x[1], sea->surface + sea_elevation(sea, time, x)}, {0, 0, 1}};
-    for (int a = 0; a < 3; a++) out.n[a] += acceleration[a] / g;
+    for (int a = 0; a < 3; a++) out.n[a] += share * acceleration[a] / g;
+    if (out.n[2] < LEAST) out.n[2] = LEAST;
     return out;
 }
 

@@ -53,7 +53,7 @@ static const FalseNumber FALSE[] = {
     {"waves", 1, 4.1, "point can: direction of the water's"},
     {"wave_ramp", 0, 1.2, "point can: direction of the water's"},
     {"water_surface", 0, 3.01, "point can: level of the water, off"},
-    {"time", 3, 0.35, NULL},
+    {"time", 3, 0.35, "point can: direction of the water's"},
 };
 
 /* Scenes with other water. */
