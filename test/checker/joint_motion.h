@@ -42,6 +42,9 @@ typedef struct PointSteps {
      * [N] the buoyancy */
     Real afloat, waves;
     double buoyancy;
+    /* of what it touches: the way in the step, and the velocity along the normal, also before */
+    double ground[3];         /* [m] */
+    double rate, rate_before; /* [m/s] */
     bool is_free;
 } PointSteps;
 void point_motion_check(const PointSteps *steps, MotionFind *find, void *user);
