@@ -149,7 +149,7 @@ def one_class(given, kind):
             print(f"{kind} {seed}: exit {done.returncode}, {found}, remainder {own:.2g} {words}")
     print(f"{kind}: {given.count} scenes from seed {given.seed}, {steps} records, {certified} certified, {refuted} refuted, {proven} refused with a "
           f"proof, {wrong} not run; " + ", ".join(f"{count} {state}" for state, count in sums.items()) + f"; remainder {worst:.2g}", flush=True)
-    happens = all(count >= 5 * given.count for count in sums.values())
+    happens = all(count >= 2 * given.count for count in sums.values())
     return happens and steps > 0 and certified >= CERTIFIED * steps and refuted == 0 and wrong == 0 and worst <= REMAINDER
 
 
