@@ -95,8 +95,8 @@ CHANGES = [
     ("an anchor that drags", "anchor: {held: [0, 0, -50]}", "anchor: {held: [0, 0, -50], holding_capacity: 10, drags: true}", "17:53: point 'anchor': drags: a step of the history has a duration, in which anchors do not drag"),
     ("a bed that gives", "friction: 0.5}, drum", "friction: 0.5, stiffness: 1e4}, drum",
      "3:63: obstacle 'bed': stiffness: it gives, but the history is in time, in which no free point as 'knot' bears on what gives: hold the point"),
-    ("a height of what displaces nothing", "points:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30,", "water_surface: 0\npoints:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30, volume: 0.02, height: 1,", "19:53: point 'knot': height: it is that of what floats, but the point displaces no water: give its volume, or leave the height out"),
-    ("waves that act on nothing", "points:\n", "water_density: 1000\nwater_surface: 0\nwaves: {depth: .inf, components: [{amplitude: 1, period: 9, direction: 0}]}\npoints:\n", "19:1: waves: they act on lines with drag that are not quasi_static, on points with a volume and on bodies with excitation or members, and there is none: give one, or leave the waves out"),
+    ("a height of what displaces nothing", "points:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30,", "water_density: 1000\nwater_surface: 0\npoints:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30, volume: 0, height: 1,", "20:50: point 'knot': height: it is that of what floats, but the point displaces no water: give its volume, or leave the height out"),
+    ("waves that act on nothing", "points:\n", "water_density: 1000\nwater_surface: 0\nwaves: {depth: .inf, components: [{amplitude: 1, period: 9, direction: 0}]}\npoints:\n", "18:1: waves: they act on lines with drag that are not quasi_static, on points with a volume and on bodies with excitation or members, and there is none: give one, or leave the waves out"),
 ]
 
 
