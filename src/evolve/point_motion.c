@@ -8,6 +8,7 @@
 #include "evolve/bodies.h"
 #include "evolve/pace.h"
 #include "evolve/points.h"
+#include "evolve/soft_point.h"
 
 /* The end of a line with inertia that is at a point. */
 typedef struct LineEnd {
@@ -108,6 +109,11 @@ static bool bears_now(const CpsiPoint *point) {
     return point->kind == CPS_POINT_KIND_FREE && point->report.reaction > 0;
 }
 
+/* Does it bear on what is rigid? What gives slows a point down by its force alone. */
+static bool stops(const CpsEvolution *evolution, const CpsiPoint *point) {
+    return bears_now(point) && !(evolution->obstacle[point->report.obstacle].stiffness > 0);
+}
+
 /* Take the part along the unit vector n out of v. */
 static void stop_along(double v[3], Vec3 n) {
     vec3_store(v, vec3_axpy(-vec3_dot(vec3_load(v), n), n, vec3_load(v)));
@@ -120,33 +126,37 @@ static double energy_of_landing(double mass, const double v[3], Vec3 n) {
 }
 
 /* The ledger of the step, by the values after it, before what bears is stopped. */
-static void close_ledger(CpsiPoint *point, const double velocity[3]) {
+static void close_ledger(const CpsEvolution *evolution, int index, const double velocity[3]) {
+    CpsiPoint *point = &evolution->points.point[index];
     CpsiPointInertia *inertia = &point->inertia;
     CpsPointReport *report = &point->report;
     const Vec3 way = vec3_sub(vec3_load(point->position), vec3_load(point->before)),
                n = vec3_load(report->normal);
     const double gained = kinetic_energy(inertia->mass, velocity) - inertia->kinetic;
     CpsMotionLedger *ledger = &inertia->ledger;
-    *ledger = (CpsMotionLedger){.kinetic = gained};
-    ledger->scheme = -vec3_dot(vec3_load(report->inertia), way) - gained;
+    const double stored = cpsi_soft_point_growth(evolution, index);
+    *ledger =
+        (CpsMotionLedger){.kinetic = gained, .damping = cpsi_soft_point_damped(evolution, index)};
+    ledger->scheme = -vec3_dot(vec3_load(report->inertia), way) - gained - stored - ledger->damping;
+    ledger->turnover = fabs(stored);
     report->dissipated = 0;
     if (bears_now(point)) {
         report->dissipated = -vec3_dot(vec3_load(report->friction), way);
         ledger->scheme -= report->reaction * vec3_dot(n, way);
-        ledger->impact =
-            inertia->landed ? energy_of_landing(inertia->mass, inertia->velocity, n) : 0;
+        if (inertia->landed && stops(evolution, point))
+            ledger->impact = energy_of_landing(inertia->mass, inertia->velocity, n);
         ledger->scheme -= ledger->impact;
     }
 }
 
 static void add_turnover(const CpsPointReport *report, CpsMotionLedger *ledger) {
-    ledger->turnover = fabs(report->dissipated) + fabs(ledger->kinetic) + fabs(ledger->impact) +
-                       fabs(ledger->scheme);
+    ledger->turnover += fabs(report->dissipated) + fabs(ledger->kinetic) + fabs(ledger->impact) +
+                        fabs(ledger->scheme) + fabs(ledger->damping);
 }
 
 /* The end of a line follows its point; where that bears, and has been stopped along the normal, the
  * line loses the energy. */
-static void follow(const LineEnd *end) {
+static void follow(const CpsEvolution *evolution, const LineEnd *end) {
     const CpsiPointInertia *inertia = &end->point->inertia;
     CpsiInertia *of = end->inertia;
     const double mass = of->mass[end->node];
@@ -154,7 +164,7 @@ static void follow(const LineEnd *end) {
     if (of->span[end->node] != inertia->span) return;
     const Vec3 n = vec3_load(end->point->report.normal);
     double *v = &of->velocity[3 * end->node], *v0 = &of->before_velocity[3 * end->node];
-    if (bears_now(end->point)) {
+    if (stops(evolution, end->point)) {
         const double impact = inertia->landed ? energy_of_landing(mass, v0, n) : 0,
                      lost = kinetic_energy(mass, v) - kinetic_energy(mass, inertia->velocity);
         of->kinetic -= lost;
@@ -185,19 +195,19 @@ void cpsi_point_motion_advance(CpsEvolution *evolution) {
         CpsiPoint *point = &evolution->points.point[i];
         CpsiPointInertia *inertia = &point->inertia;
         const CpsPointReport *report = &point->report;
-        const bool bears = bears_now(point);
+        const bool bears = bears_now(point), stopped = stops(evolution, point);
         const Vec3 n = vec3_load(report->normal);
         double velocity[3];
         for (int a = 0; a < 3; a++)
             velocity[a] = (point->position[a] - inertia->reference[a]) / inertia->span;
         inertia->landed = bears && !inertia->bore;
-        inertia->error = error_of(evolution, point, bears ? n : vec3(0, 0, 0), velocity);
-        close_ledger(point, velocity);
+        inertia->error = error_of(evolution, point, stopped ? n : vec3(0, 0, 0), velocity);
+        close_ledger(evolution, i, velocity);
         memcpy(inertia->before, point->before, sizeof inertia->before);
         memcpy(inertia->before_velocity, inertia->velocity, sizeof inertia->before_velocity);
         memcpy(inertia->velocity, velocity, sizeof velocity);
         inertia->kinetic = kinetic_energy(inertia->mass, velocity);
-        if (bears) {
+        if (stopped) {
             const Vec3 way = vec3_sub(vec3_load(point->position), vec3_load(point->before));
             vec3_store(inertia->before, vec3_axpy(vec3_dot(way, n), n, vec3_load(point->before)));
             stop_along(inertia->velocity, n);
@@ -210,11 +220,12 @@ void cpsi_point_motion_advance(CpsEvolution *evolution) {
         }
         add_turnover(report, &inertia->ledger);
         inertia->bore = bears;
-        inertia->restarts = inertia->landed;
+        inertia->restarts =
+            inertia->landed || cpsi_soft_point_is_crossed(evolution, i, vec3_load(point->position));
     }
     LineEnd end;
     for (int k = 0; k < 2 * evolution->line_count; k++)
-        if (take_end(evolution, k, &end)) follow(&end);
+        if (take_end(evolution, k, &end)) follow(evolution, &end);
 }
 
 void cpsi_point_motion_stop(CpsEvolution *evolution) {

@@ -202,8 +202,11 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     at->slip = cpsi_obstacle_slip(on, before, at->place);
     at->start = vec3_axpy(-cpsi_obstacle_gap(on, before), cpsi_obstacle_normal(on, before), before);
     at->gives = on->stiffness > 0;
-    at->spring = cpsi_soft_point_stiffness(evolution, at->point, at->obstacle);
-    if (at->gives) find_slip_within(on, before, at);
+    if (!at->gives) return;
+    const CpsiSoft soft = cpsi_soft_point_spring(evolution, at->point, at->obstacle, before);
+    at->spring = soft.stiffness;
+    at->over = at->gap + soft.rest;
+    find_slip_within(on, before, at);
 }
 
 /* [m] A point that is no farther from an obstacle, or has slid no farther, touches it, or is at
@@ -270,7 +273,7 @@ static void find_touch(const CpsiBalance *balance, CpsiFree *at) {
     at->left = at->rest;
     if (at->obstacle == CPS_NO_OBSTACLE) return;
     if (at->gives)
-        at->reaction = at->spring * fmax(0, -at->gap);
+        at->reaction = at->spring * fmax(0, -at->over);
     else if (at->gap <= touch)
         at->reaction = fmax(0, -vec3_dot(at->rest, at->normal));
     at->bound = at->friction * (balance->follows ? at->reaction : point->reaction_before);
