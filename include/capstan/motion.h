@@ -3,8 +3,9 @@
  *
  * A stage or a move (scene.h, evolve.h) with a `duration` is taken in time: each of its steps is of
  * length h = duration / step_count, and nodes of lines, points and bodies have mass. Lines that are
- * `quasi_static` have none: they follow what moves them (S90, figure 1). A stage without one is
- * quasi-static, and leaves the lines at rest.
+ * `quasi_static` have none: they follow what moves them (S90, figure 1), and loads, springs and the
+ * drag of the current act on them as at rest. A stage without a duration is quasi-static, and
+ * leaves the lines at rest.
  *
  *     line.inertia = 7.5;
  *     CpsStage swing = cps_stage_default();

@@ -10,10 +10,15 @@ Vec3 cpsi_line_free_place(const CpsiLine *line, int j, Vec3 reference) {
 
 Vec3 cpsi_line_expected_place(const CpsiLine *line, int j, Vec3 reference) {
     const CpsiInertia *inertia = &line->inertia;
-    const Vec3 now = vec3_at(inertia->start_velocity, j);
-    const double on = inertia->is_euler[j] ? 0 : inertia->formula.ratio;
-    const Vec3 then = vec3_axpy(on, vec3_sub(now, vec3_at(inertia->before_velocity, j)), now);
-    return vec3_axpy(inertia->span[j], then, reference);
+    const Vec3 now = vec3_at(inertia->start, j);
+    if (inertia->is_euler[j])
+        return vec3_axpy(inertia->span[j], vec3_at(inertia->start_velocity, j), reference);
+    /* x(t) = x_{n-1} + v_{n-1} t + (x_n - x_{n-1} - v_{n-1} h_n) (t/h_n)^2 at t = h_n + h */
+    const Vec3 before = vec3_at(inertia->before, j);
+    const double w = inertia->formula.ratio, last = inertia->formula.length / w;
+    const Vec3 on = vec3_scale(last, vec3_at(inertia->before_velocity, j)),
+               bent = vec3_sub(vec3_sub(now, before), on);
+    return vec3_axpy((1 + w) * (1 + w), bent, vec3_axpy(1 + w, on, before));
 }
 
 double cpsi_line_set_inertia(CpsiLine *line, int j, Vec3 reference) {

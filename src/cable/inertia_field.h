@@ -8,8 +8,9 @@
 /* [m] x* + k v* of node j, where its inertia alone would take it from the reference x*. */
 Vec3 cpsi_line_free_place(const CpsiLine *line, int j, Vec3 reference);
 
-/* [m] Where node j is expected after the step from its reference: its velocity goes on as it
- * changed in the step before, unless it takes an Euler step. */
+/* [m] Where node j is expected after the step: on the parabola through its last two places that
+ * leaves the first one with the velocity that it had there, which goes through four places of steps
+ * that are equally long; of an Euler step from its reference with the velocity that it has. */
 Vec3 cpsi_line_expected_place(const CpsiLine *line, int j, Vec3 reference);
 
 /* Let the field of node j be that of its inertia, from the reference given. Returns [N] the size of

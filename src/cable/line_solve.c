@@ -17,6 +17,7 @@
 #include "cable/obstacle_side.h"
 #include "cable/potential.h"
 #include "cable/soft.h"
+#include "chain/active_set.h"
 #include "chain/frame.h"
 #include "chain/polish.h"
 
@@ -352,8 +353,8 @@ static CpsiIpmReport solve_by_newton(CpsiLine *line, CpsiChainProgram *program,
     CpsiStepScale by_newton = *scale;
     by_newton.by_newton = true;
     cpsi_step_program_fill(line, program, &by_newton);
-    CpsiIpmReport newton =
-        cpsi_warm_step_solve(line, program, scale, guess, max_iterations, round->share);
+    cpsi_warm_step_start(line, program, scale, guess);
+    CpsiIpmReport newton = cpsi_chain_active_set(program, max_iterations, false, 0);
     line->report.iteration_count += newton.iterations;
     if (newton.outcome != CPSI_IPM_SOLVED) return newton;
     cpsi_step_program_unpack(line, program, scale);
@@ -361,18 +362,22 @@ static CpsiIpmReport solve_by_newton(CpsiLine *line, CpsiChainProgram *program,
     return newton;
 }
 
+/* Note whether the method has solved a program. */
+static void record(CpsiLine *line, bool solved) {
+    CpsiNewtonRecord *of = &line->newton;
+    of->tried++;
+    of->solved += solved;
+    of->began |= solved && of->tried == 1;
+    of->failed = solved ? 0 : of->failed + 1;
+}
+
 /* ... from the guess of the round. */
 static CpsiIpmReport solve_warm(CpsiLine *line, CpsiChainProgram *program,
                                 const CpsiStepScale *scale, const CpsiRound *round,
                                 int max_iterations) {
-    CpsiNewtonRecord *record = &line->newton;
     const CpsiIpmReport newton =
         solve_by_newton(line, program, scale, round, round->guess, max_iterations);
-    const bool solved = newton.outcome == CPSI_IPM_SOLVED;
-    record->tried++;
-    record->solved += solved;
-    record->began |= solved && record->tried == 1;
-    record->failed = solved ? 0 : record->failed + 1;
+    record(line, newton.outcome == CPSI_IPM_SOLVED);
     return newton;
 }
 
@@ -455,18 +460,33 @@ static double nearly(int nodes) {
     return fmax(CPSI_TARGET, fmin(NEARLY, NEARLY_OF_NODES / (n * n)));
 }
 
-CpsiIpmReport cpsi_line_solve_warm(CpsiLine *line, CpsiChainProgram *program,
-                                   const CpsiStepOptions *options, const CpsiRound *round) {
+bool cpsi_line_pose_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiRound *round,
+                         CpsiStepScale *scale) {
     const double force = cpsi_line_unit_force(line, round->bounds);
-    if (!(force > 0) || cpsi_line_is_taut(line))
-        return (CpsiIpmReport){.outcome = CPSI_IPM_STALLED};
+    if (!(force > 0) || cpsi_line_is_taut(line)) return false;
     line->is_rough = line->newton.polished = false;
     cpsi_line_clear_set_reactions(line);
-    const CpsiStepScale scale = {.length = line->length,
-                                 .force = force,
-                                 .longer = 1,
-                                 .bounds = round->bounds};
-    return solve_warm(line, program, &scale, round, most_iterations(line, options));
+    *scale = (CpsiStepScale){.length = line->length,
+                             .force = force,
+                             .longer = 1,
+                             .bounds = round->bounds,
+                             .by_newton = true};
+    cpsi_step_program_fill(line, program, scale);
+    cpsi_warm_step_start(line, program, scale, round->guess);
+    return true;
+}
+
+CpsiIpmReport cpsi_line_solve_posed(CpsiLine *line, CpsiChainProgram *program,
+                                    const CpsiStepOptions *options, const CpsiRound *round,
+                                    const CpsiStepScale *scale) {
+    const CpsiIpmReport newton =
+        cpsi_chain_active_set(program, most_iterations(line, options), false, round->share);
+    line->report.iteration_count += newton.iterations;
+    record(line, newton.outcome == CPSI_IPM_SOLVED);
+    if (newton.outcome != CPSI_IPM_SOLVED) return newton;
+    cpsi_step_program_unpack_positions(line, program, scale);
+    line->report.places = CPS_PLACES_UNIQUE;
+    return newton;
 }
 
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,

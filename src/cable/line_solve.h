@@ -72,10 +72,15 @@ typedef struct CpsiRound {
  * configuration that is compatible with its forces. */
 CpsiIpmReport cpsi_line_solve(CpsiLine *line, CpsiChainProgram *program,
                               const CpsiStepOptions *options, const CpsiRound *round);
-/* ... by Newton's method from the guess of the round, which is one, and by nothing else:
- * it is not solved where that does not solve it. */
-CpsiIpmReport cpsi_line_solve_warm(CpsiLine *line, CpsiChainProgram *program,
-                                   const CpsiStepOptions *options, const CpsiRound *round);
+/* The program of a round that is solved from its guess by Newton's method and by nothing else: pose
+ * it, false where that is not tried; and solve it as it is now, but for the share of the round. The
+ * line takes its places alone. Where other forces of the flow are written into it then
+ * (step_program.h), it is solved again from where it is. */
+bool cpsi_line_pose_warm(CpsiLine *line, CpsiChainProgram *program, const CpsiRound *round,
+                         CpsiStepScale *scale);
+CpsiIpmReport cpsi_line_solve_posed(CpsiLine *line, CpsiChainProgram *program,
+                                    const CpsiStepOptions *options, const CpsiRound *round,
+                                    const CpsiStepScale *scale);
 /* Place the nodes of inextensible spans on the straight lines between their ends, where these are
  * as far apart as the span is long, but for this share. */
 void cpsi_line_straighten(CpsiLine *line, double share);

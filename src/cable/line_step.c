@@ -27,6 +27,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/larger.h"
 #include "cable/bend.h"
 #include "cable/caught.h"
 #include "cable/certificate.h"
@@ -383,6 +384,13 @@ static CpsiGuess approach(CpsiLine *line, CpsiChainProgram *program, const CpsiS
     return cpsi_warm_step_go_on(line, program, options);
 }
 
+/* [N] The largest tension of the program's solution. */
+static double largest_tension(const CpsiChainProgram *program, const CpsiStepScale *scale) {
+    double most = 0;
+    for (int i = 1; i < program->n; i++) most = cpsi_max_nan(most, program->segment.z[i][0]);
+    return scale->force * most;
+}
+
 /* In the end the forces of the flow are given loads. */
 static void end_swim(CpsiLine *line, double left) {
     cpsi_line_end_swim(line, left);
@@ -409,51 +417,48 @@ static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
     if (!cps_outcome_is_certified(outcome)) line->report.outcome = outcome;
 }
 
-/* Solve one program in the planes of the reference by Newton's method, without its certificate. */
-static CpsiIpmReport solve_uncertified(CpsiLine *line, CpsiChainProgram *program,
-                                       const CpsiStepOptions *options, CpsiGuess guess,
-                                       double share) {
-    const bool coupled = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
-                         !options->frictionless && line->obstacle_count > 0;
-    const CpsiRound round = {.bounds = coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED,
-                             .share = share,
-                             .guess = guess,
-                             .least = options->least};
-    if (guess < CPSI_GUESS_REFERENCE) return (CpsiIpmReport){.outcome = CPSI_IPM_STALLED};
-    const CpsiIpmReport newton = cpsi_line_solve_warm(line, program, options, &round);
-    if (newton.outcome != CPSI_IPM_SOLVED) return newton;
-    if (coupled) cpsi_line_release_open_contacts(line, program);
-    return newton;
-}
-
-/* Solve all programs so and certify the last one alone. False where one is not solved so, or the
- * answer is less accurate than that of the loop has to be; it is posed again then. */
+/* Solve all programs by Newton's method in the planes of the reference, which are posed once, and
+ * certify the last one alone. False where one is not solved so, or the answer is less accurate than
+ * that of the loop has to be; it is posed again then. */
 static bool swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
                  CpsiGuess guess) {
-    double left, force;
+    const bool coupled = options->friction_policy == CPS_FRICTION_POLICY_CONSISTENT &&
+                         !options->frictionless && line->obstacle_count > 0;
+    const CpsiRound posed = {.bounds = coupled ? CPSI_BOUNDS_COUPLED : CPSI_BOUNDS_FIXED,
+                             .share = ROUGHLY,
+                             .guess = guess};
+    CpsiStepScale scale;
+    CpsiIpmReport newton = {.outcome = CPSI_IPM_STALLED};
+    double left = 0;
+    bool good = false;
     line->newton.guessed = true;
     line->strayed = false;
     line->report.warm_count = 1;
     line->newton.failed = 0;
     if (line->has_local_axes) cpsi_contact_reset(line);
-    for (int round = 0; round <= MOST_SWIMS; round++) {
-        const CpsiIpmReport newton = solve_uncertified(line, program, options, guess, ROUGHLY);
-        if (newton.outcome != CPSI_IPM_SOLVED) break;
-        force = 0;
-        for (int e = 0; e + 1 < line->n; e++) force = fmax(force, line->tension[e]);
-        if (!has_followed(line, force, &left) || newton.is_rough) {
-            guess = approach(line, program, options, left);
-            continue;
-        }
+    if (cpsi_line_pose_warm(line, program, &posed, &scale))
+        newton = cpsi_line_solve_posed(line, program, options, &posed, &scale);
+    for (int round = 0; newton.outcome == CPSI_IPM_SOLVED && round < MOST_SWIMS; round++) {
+        good = has_followed(line, largest_tension(program, &scale), &left) &&
+               newton.residual <= CPSI_CLEAN;
+        if (good) break;
+        cpsi_line_approach_swim(line, left);
+        cpsi_step_program_fill_loads(line, program, &scale);
+        newton = cpsi_line_solve_posed(line, program, options, &posed, &scale);
+    }
+    if (good) {
+        cpsi_step_program_unpack(line, program, &scale);
+        if (coupled) cpsi_line_release_open_contacts(line, program);
         end_swim(line, left);
         if (line->has_local_axes)
             cpsi_rounds_end(line, program, options, CPSI_BOUNDS_FIXED, &newton);
         else
             cpsi_line_certify(line, options, &SWUM);
         const CpsCertificate *found = &line->report.certificate;
-        const bool good = cps_outcome_is_certified(line->report.outcome) &&
-                          found->gap <= CPSI_TARGET * found->scale;
-        if (!good) break;
+        good = cps_outcome_is_certified(line->report.outcome) &&
+               found->gap <= CPSI_TARGET * found->scale;
+    }
+    if (good) {
         cpsi_warm_step_note(line, true);
         return true;
     }

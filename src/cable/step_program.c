@@ -263,8 +263,6 @@ static void fill_nodes(const CpsiLine *line, CpsiChainProgram *program,
     program->bounds_coupled = scale->bounds == CPSI_BOUNDS_COUPLED;
     for (int j = 0; j < line->n; j++) {
         program->held[j] = cpsi_line_is_held(line, j);
-        cpsi_frame_to(&program->base.load[3 * j], node_axes(line, program, j), &line->load[3 * j]);
-        for (int a = 0; a < 3; a++) program->base.load[3 * j + a] /= scale->force;
         for (int c = j; c < cpsi_line_contacts(line); c += line->n)
             fill_contact(line, program, c, scale);
     }
@@ -304,6 +302,16 @@ static void fill_field(const CpsiLine *line, CpsiChainProgram *program,
         for (int a = 0; a < 3; a++) program->base.load[3 * j + a] += load[a] / scale->force;
     }
     program->field = line->field.program;
+}
+
+void cpsi_step_program_fill_loads(const CpsiLine *line, CpsiChainProgram *program,
+                                  const CpsiStepScale *scale) {
+    for (int j = 0; j < line->n; j++) {
+        double *load = &program->base.load[3 * j];
+        cpsi_frame_to(load, node_axes(line, program, j), &line->load[3 * j]);
+        for (int a = 0; a < 3; a++) load[a] /= scale->force;
+    }
+    if (cpsi_line_has_field(line)) fill_field(line, program, scale);
 }
 
 /* A node's displacement in the axes of the chain. */
@@ -352,7 +360,7 @@ void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program,
         for (int j = 0; j < line->n; j++) fill_axes(line, program, j);
     initial_guess(line, program, scale);
     fill_nodes(line, program, scale);
-    if (cpsi_line_has_field(line)) fill_field(line, program, scale);
+    cpsi_step_program_fill_loads(line, program, scale);
     cpsi_line_fill_sets(line, program, base_of(line),
                         program->frame ? program->frame : line->common_axes, !program->frame);
     if (line->element_contacts > 0) fill_points(line, program, scale);
@@ -371,8 +379,8 @@ void cpsi_step_program_clear(const CpsiLine *line, CpsiChainProgram *program) {
 
 /* unpack --------------------------------------------------------------------------------------- */
 
-static void unpack_positions(CpsiLine *line, const CpsiChainProgram *program,
-                             const CpsiStepScale *scale) {
+void cpsi_step_program_unpack_positions(CpsiLine *line, const CpsiChainProgram *program,
+                                        const CpsiStepScale *scale) {
     const double *base = base_of(line);
     for (int j = 0; j < line->n; j++) {
         double u[3], shift[3];
@@ -441,7 +449,7 @@ static void unpack_friction(CpsiLine *line, const CpsiChainProgram *program,
 
 void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program,
                               const CpsiStepScale *scale) {
-    unpack_positions(line, program, scale);
+    cpsi_step_program_unpack_positions(line, program, scale);
     cpsi_line_unpack_sets(line, program, scale->force);
     unpack_reactions(line, program, scale);
     unpack_friction(line, program, scale);

@@ -31,11 +31,18 @@ typedef struct CpsiStepScale {
 void cpsi_step_program_fill(const CpsiLine *line, CpsiChainProgram *program,
                             const CpsiStepScale *scale);
 
+/* ... of which loads and field alone have changed. */
+void cpsi_step_program_fill_loads(const CpsiLine *line, CpsiChainProgram *program,
+                                  const CpsiStepScale *scale);
+
 /* Set the pairs of the program to those of a line without forces. */
 void cpsi_step_program_clear(const CpsiLine *line, CpsiChainProgram *program);
 
 /* Write positions and forces of the solution to the line, in world axes and SI units. */
 void cpsi_step_program_unpack(CpsiLine *line, const CpsiChainProgram *program,
                               const CpsiStepScale *scale);
+/* ... positions alone. */
+void cpsi_step_program_unpack_positions(CpsiLine *line, const CpsiChainProgram *program,
+                                        const CpsiStepScale *scale);
 
 #endif

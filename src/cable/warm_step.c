@@ -11,7 +11,6 @@
 #include "cable/held.h"
 #include "cable/inertia_field.h"
 #include "cable/soft.h"
-#include "chain/active_set.h"
 #include "chain/frame.h"
 #include "chain/polish.h"
 
@@ -21,6 +20,8 @@ static const double SAME_WAY = 0.5;
 static const double MOST_RATIO = 4;
 /* An extrapolated tension is at least this share of the last one. */
 static const double LEAST_TENSION = 0.5;
+/* The tension that places expected in a step in time give is within this share of the last one. */
+static const double LIKE = 0.1;
 /* Failures that are counted where the method has been of use before. */
 enum { USEFUL_PATIENCE = 3 };
 /* A force is at its bound up to what a loop that stopped at the tolerance leaves. */
@@ -127,6 +128,29 @@ static CpsiGuess treated_contacts(const CpsiLine *line) {
     return best;
 }
 
+/* [N] The tension of element e at a length in the step to come; that of the step before where it
+ * is hardly near that one, as after a snatch. */
+static double expected_tension(const CpsiLine *line, int e, double size) {
+    const double last = line->tension[e], strain = size / line->element_length[e] - 1;
+    const CpsiElementLaw law = cpsi_line_law(line, e);
+    if (!(law.compliance > 0)) return last;
+    const double now = law.count > 0 ? cpsi_law_tension(&law, strain) : strain / law.compliance;
+    return fabs(now - last) <= LIKE * last ? now : last;
+}
+
+/* The guess of a step in time: what is expected of it. */
+static void expect(const CpsiLine *line, CpsiChainProgram *program) {
+    Vec3 before = vec3(0, 0, 0);
+    for (int j = 0; j < line->n; j++) {
+        const Vec3 x = vec3_at(line->position, j), to = cpsi_line_is_held(line, j)
+                                                            ? cpsi_line_held_place(line, j)
+                                                            : cpsi_line_expected_place(line, j, x);
+        vec3_store(&program->base.residual[3 * j], vec3_sub(to, x));
+        if (j > 0) program->dt[j] = expected_tension(line, j - 1, vec3_norm(vec3_sub(to, before)));
+        before = to;
+    }
+}
+
 CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
                                const CpsiStepOptions *options) {
     const CpsiLoadChange now = change_of(line);
@@ -146,12 +170,7 @@ CpsiGuess cpsi_warm_step_guess(CpsiLine *line, CpsiChainProgram *program,
         return CPSI_GUESS_LATER;
     }
     if (line->inertia.is_moving) {
-        for (int j = 0; j < line->n; j++) {
-            const Vec3 x = vec3_at(line->position, j);
-            vec3_store(&program->base.residual[3 * j],
-                       vec3_sub(cpsi_line_expected_place(line, j, x), x));
-        }
-        for (int i = 1; i < line->n; i++) program->dt[i] = line->tension[i - 1];
+        expect(line, program);
         return CPSI_GUESS_EXTRAPOLATED;
     }
     if (!(ratio > 0) || cpsi_contact_holds_element(line)) return CPSI_GUESS_REFERENCE;
@@ -275,14 +294,12 @@ static void guess_pairs(const CpsiLine *line, CpsiChainProgram *program, const C
     }
 }
 
-CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
-                                   const CpsiStepScale *scale, CpsiGuess guess, int max_iterations,
-                                   double share) {
+void cpsi_warm_step_start(CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale,
+                          CpsiGuess guess) {
     const bool extrapolated = guess == CPSI_GUESS_EXTRAPOLATED;
     const bool predicted = guess == CPSI_GUESS_PREDICTED;
     place(line, program, extrapolated ? program->base.residual : NULL);
     guess_pairs(line, program, scale, guess, extrapolated || predicted ? program->dt : NULL);
-    return cpsi_chain_active_set(program, max_iterations, false, share);
 }
 
 void cpsi_warm_step_note(CpsiLine *line, bool certified) {

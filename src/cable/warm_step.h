@@ -46,11 +46,10 @@ void cpsi_warm_step_predict(CpsiLine *line, const CpsiChainProgram *program);
  * zero. */
 void cpsi_warm_step_note_round(CpsiLine *line, const CpsiChainProgram *program);
 
-/* Solve the program of a round, which has been written, from a guess, but for a share of the errors
- * (active_set.h). The places are unique. */
-CpsiIpmReport cpsi_warm_step_solve(CpsiLine *line, CpsiChainProgram *program,
-                                   const CpsiStepScale *scale, CpsiGuess guess, int max_iterations,
-                                   double share);
+/* Let Newton's method (chain/active_set.h) start from a guess in the program of a round, which has
+ * been written. */
+void cpsi_warm_step_start(CpsiLine *line, CpsiChainProgram *program, const CpsiStepScale *scale,
+                          CpsiGuess guess);
 
 /* After a step that was solved from a guess: where Newton's method was of no use several times in a
  * row, the next 2, 6 or 14 steps begin without it, or 2 and 6 where it has been of use in the

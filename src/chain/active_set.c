@@ -251,7 +251,6 @@ static CpsiIpmReport iterate(CpsiNewton *newton, int most, double left) {
         if (step == 0) first = report.residual;
         if (step > 0 && !newton->changed && report.residual <= fmax(rounding, left * first)) {
             report.outcome = CPSI_IPM_SOLVED;
-            report.is_rough = report.residual > rounding;
             break;
         }
         if (report.residual < PROGRESS * least) {

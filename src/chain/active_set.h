@@ -25,8 +25,8 @@
  * the program has something that it does not treat (friction conics, drag, contacts of elements
  * beside general sets or as third ones of nodes, second contacts alone or of general sets, elements
  * without tension that are free to move).
- * `left`: [-] the share that it may leave of the errors that it begins with, which it says
- * (is_rough); 0: it solves to rounding. Allocates nothing. */
+ * `left`: [-] the share that it may leave of the errors that it begins with; its
+ * report has what it left. 0: it solves to rounding. Allocates nothing. */
 CpsiIpmReport cpsi_chain_active_set(CpsiChainProgram *program, int max_iterations, bool polishes,
                                     double left);
 

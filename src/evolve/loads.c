@@ -121,20 +121,15 @@ CpsStatus cpsi_potential_ends_check(const CpsScene *scene, CpsError *err) {
 /* What a line cannot have in a history of which a step has a duration. */
 static CpsStatus check_in_time(const CpsScene *scene, const CpsLine *line, CpsError *err) {
     const CpsLineLoads *loads = line->loads;
-    if (loads->spring_count > 0)
+    if (loads->spring_count > 0 && !line->quasi_static)
         return CPSI_FAIL_AT("springs", err, CPS_ERR_ARGUMENT,
-                            "line '%s': springs are those of lines at rest: leave them out, or the "
-                            "motion in time",
+                            "line '%s': springs are those of lines at rest: make it quasi_static, "
+                            "or leave them or the motion in time out",
                             line->name);
-    if (loads->potential.function)
+    if (loads->potential.function && !line->quasi_static)
         return CPSI_FAIL_AT("potential", err, CPS_ERR_ARGUMENT,
-                            "line '%s': a potential is that of lines at rest: leave it out, or the "
-                            "motion in time",
-                            line->name);
-    if (line->quasi_static)
-        return CPSI_FAIL_AT("quasi_static", err, CPS_ERR_ARGUMENT,
-                            "line '%s': quasi_static: in time a line with loads or drag has its "
-                            "inertia: leave out either",
+                            "line '%s': a potential is that of lines at rest: make it "
+                            "quasi_static, or leave it or the motion in time out",
                             line->name);
     if (loads->drag.diameter > 0 && !scene->current)
         return CPSI_FAIL_AT("drag", err, CPS_ERR_ARGUMENT,

@@ -319,11 +319,13 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     memcpy(inertia->start, line->position, places);
     memcpy(inertia->start_velocity, inertia->velocity, places);
     cpsi_substeps_save(line, scratch);
+    const bool goes_on = line->last_change.known;
     double share = attempt(line, program, options, move, scratch, step);
     int iterations = line->report.iteration_count;
     if (cps_outcome_is_certified(line->report.outcome) && step->scheme != CPS_TIME_SCHEME_EULER &&
         !step->restarts && !step->once && find_rough(line, step->formula.length)) {
         cpsi_substeps_restore(line, scratch);
+        line->last_change.known = goes_on; /* what is expected of the step does not depend on it */
         share = attempt(line, program, options, move, scratch, step);
         iterations += line->report.iteration_count;
     }

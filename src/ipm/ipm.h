@@ -39,7 +39,6 @@ typedef struct CpsiIpmReport {
     double residual; /* largest |rho| */
     /* largest force at a node, relative to the largest dual where that exceeds 1 */
     double imbalance;
-    bool is_rough; /* a share of the errors that was allowed is left */
 } CpsiIpmReport;
 
 /* Minimise. The program holds its data, u at held nodes and a first guess elsewhere, and s1 = e of

@@ -6,11 +6,13 @@ five in waves, each checked independently.
 usage: random_swims.py CAPSTAN CHECKER [--count N] [--seed S] [--only CLASS] [--keep FOLDER]
 
 Of each class N scenes: `free`, ropes with one end or both free in open water; `bed`, lines whose end oscillates, on a rough bed that they
-touch and leave; `round`, the same with a pipe or ball beside; `joined`, lines between held ends and a free point or body. At least 995 of
+touch and leave; `round`, the same with a pipe or ball beside; `joined`, lines between held ends and a free point or body, some of them
+quasi-static and with springs. At least 995 of
 1000 steps of each class must be certified, and the checker must refute none.
 """
 import math
 import random
+import re
 import sys
 
 sys.dont_write_bytecode = True  # nothing is left in the source folder
@@ -31,8 +33,8 @@ def some(dice, size):
 class Swim:
     """The text of a scene of lines about `size` metres long, in water that flows up to about as fast as they sink."""
 
-    def __init__(self, dice, sea, kind):
-        self.dice, self.sea, self.kind = dice, sea, kind
+    def __init__(self, dice, sea, calm, kind):
+        self.dice, self.sea, self.calm, self.kind = dice, sea, calm, kind
         self.size = 10 ** dice.uniform(-0.5, 2.5)
         self.diameter = self.size * 10 ** dice.uniform(-4, -2)
         self.displaced = 1025 * math.pi / 4 * self.diameter ** 2
@@ -87,6 +89,17 @@ class Swim:
         return (f"elements: {max(self.fewest, dice.randint(2, 40))}, mass: {self.mass!r}, stiffness: {'.inf' if inextensible else repr(stiffness)}, "
                 f"drag: {{diameter: {self.diameter!r}, normal: {10 ** dice.uniform(-0.5, 0.5)!r}{along}{added}}}{loads}")
 
+    def make_calm(self, made):
+        """One of three lines is quasi-static, without damping, half of those with springs."""
+        if self.calm.random() > 1 / 3:
+            return made
+        made = re.sub(", damping: [^,]*", "", made) + ", quasi_static: true"
+        if self.calm.random() < 0.5:
+            return made
+        soft = (self.mass - self.displaced) * 9.81 / self.size * 10 ** self.calm.uniform(-2, 0.5)
+        place = self.at([0, 0, self.size * self.calm.uniform(-0.3, 0.3)])
+        return made + f", springs: [{{stiffness: {vector([soft, soft, self.calm.choice([0, soft])])}, place: {place}}}]"
+
     def at(self, x):
         return vector([a + b for a, b in zip(x, self.origin)])
 
@@ -137,7 +150,7 @@ class Swim:
             angle = 2 * math.pi * (i + dice.uniform(-0.2, 0.2)) / count
             far = self.size * dice.uniform(0.7, 1)
             anchor = [far * math.cos(angle), far * math.sin(angle), self.low if body else self.size * dice.uniform(0.1, 0.6)]
-            out += (f"  l{i}: {{length: {math.hypot(*anchor) * dice.uniform(1.05, 1.3)!r}, {self.make()}, start: static, "
+            out += (f"  l{i}: {{length: {math.hypot(*anchor) * dice.uniform(1.05, 1.3)!r}, {self.make() if i == 0 else self.make_calm(self.make())}, start: static, "
                     f"ends: {{A: {{held: {self.at(anchor)}}}, B: {{point: {f'p{i}' if body else 'p'}}}}}}}\n")
         return out
 
@@ -164,7 +177,7 @@ class Swim:
 def one_class(given, kind):
     steps = certified = refuted = proven = wrong = 0
     for seed in checked.seeds(given, kind):
-        text = Swim(random.Random(f"{kind} {seed}"), random.Random(f"waves {kind} {seed}"), kind).text()
+        text = Swim(random.Random(f"{kind} {seed}"), random.Random(f"waves {kind} {seed}"), random.Random(f"calm {kind} {seed}"), kind).text()
         scene, out, done = checked.solve(given, kind, seed, text)
         found, words = checked.check(given.checker, out, scene) if done.returncode in (0, 1) else ([0] * 5, done.stderr.strip())
         steps, certified, refuted = steps + found[0], certified + found[1], refuted + found[3] + found[4]
