@@ -27,6 +27,7 @@
 #include <math.h>
 
 #include "base/larger.h"
+#include "cable/contact.h"
 #include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/flow.h"
@@ -148,7 +149,8 @@ static void distribute_excess(CpsiLine *line, CpsFrictionPolicy friction, Vec3 r
  */
 static void balance_field(CpsiLine *line) {
     double most = 0;
-    for (int e = 0; e + 1 < line->n; e++) most = fmax(most, vec3_norm(segment_force(line, e)));
+    for (int e = 0; e + 1 < line->n; e++)
+        most = cpsi_max_nan(most, vec3_norm(segment_force(line, e)));
     for (int j = 0; j < line->n; j++) {
         vec3_store(&line->field.beside[3 * j], vec3(0, 0, 0));
         Vec3 rest = node_force(line, j);
@@ -261,6 +263,7 @@ static void add_soft(const CpsiLine *line, int c, CpsiSoft soft, CpsCertificate 
 
 /* Add the terms of friction and reaction of contact c; returns the force on the node. */
 static Vec3 add_contact(const CpsiLine *line, int c, CpsCertificate *out) {
+    if (cpsi_contact_is_idle(line, c)) return vec3(0, 0, 0);
     const Vec3 x = cpsi_line_place(line, line->position, c),
                reference = cpsi_line_place(line, line->reference, c);
     const Vec3 n = vec3_load(&line->normal[3 * c]), f = vec3_load(&line->friction_force[3 * c]);

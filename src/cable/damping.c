@@ -14,6 +14,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/larger.h"
+
 /* [N] EA of element e. */
 static double stiffness_of(const CpsiLine *line, int e) {
     return 1 / (line->compliance * line->inertia.damping.own_factor[e]);
@@ -25,8 +27,8 @@ static double span_of(const CpsiLine *line, int e, double *before) {
     const CpsiDamping *damping = &inertia->damping;
     const bool euler = inertia->is_euler[e] || inertia->is_euler[e + 1];
     const double d = damping->elongation[e];
-    *before = euler ? d : fmax(0, d + inertia->formula.back * (d - damping->before[e]));
-    return fmax(inertia->span[e], inertia->span[e + 1]);
+    *before = euler ? d : cpsi_max_nan(0, d + inertia->formula.back * (d - damping->before[e]));
+    return cpsi_max_nan(inertia->span[e], inertia->span[e + 1]);
 }
 
 static double strain_of(const CpsiLine *line, int e) {
@@ -65,8 +67,8 @@ CpsiDamped cpsi_line_damped(const CpsiLine *line, int e) {
     const CpsiDamping *damping = &line->inertia.damping;
     double before;
     const double viscous = damping->coefficient / span_of(line, e, &before),
-                 d = fmax(damping->rest[e], strain_of(line, e)), from = damping->elongation[e],
-                 longer = line->natural_length[e] * (d - from);
+                 d = cpsi_max_nan(damping->rest[e], strain_of(line, e)),
+                 from = damping->elongation[e], longer = line->natural_length[e] * (d - from);
     return (CpsiDamped){.stored = 0.5 * stiffness_of(line, e) * longer * (d + from),
                         .damped = viscous * (d - before) * longer,
                         .elongation = d};

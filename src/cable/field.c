@@ -13,18 +13,10 @@
 #include <string.h>
 
 #include "linalg/dense.h"
+#include "linalg/symmetric.h"
 
 /* Directions in which K is below this share of its largest are those that it does not resist. */
 static const double LEAST_STIFFNESS = 1e-12;
-
-Vec3 cpsi_line_field_pull(const CpsiLine *line, int j, Vec3 v) {
-    if (!cpsi_line_has_field(line)) return vec3(0, 0, 0);
-    return cpsi_node_field_product(&line->field.stiffness[6 * j], v);
-}
-
-Vec3 cpsi_line_field_force(const CpsiLine *line, int j, Vec3 x) {
-    return cpsi_node_field_force(&line->field, j, x);
-}
 
 Vec3 cpsi_line_load_at(const CpsiLine *line, int j) {
     const Vec3 weight = cpsi_line_weight_at(line, j);
@@ -32,12 +24,6 @@ Vec3 cpsi_line_load_at(const CpsiLine *line, int j) {
     Vec3 sum = cpsi_line_field_force(line, j, vec3_at(line->position, j));
     if (line->has_node_loads) sum = vec3_add(sum, vec3_at(line->field.all, j));
     return vec3_axpy(1 / cpsi_line_share(line, j), sum, weight);
-}
-
-double cpsi_line_field_energy(const CpsiLine *line, int j, Vec3 x) {
-    if (!cpsi_line_has_field(line)) return 0;
-    const Vec3 off = vec3_sub(x, vec3_at(line->field.place, j));
-    return 0.5 * vec3_dot(off, cpsi_line_field_pull(line, j, off));
 }
 
 static bool is_stiff(const double k[6]) { return k[0] > 0 || k[2] > 0 || k[5] > 0; }
@@ -139,18 +125,12 @@ double cpsi_line_field_size(const CpsiLine *line) {
     return sum;
 }
 
-Vec3 cpsi_line_field_balanced(const CpsiLine *line, int j) {
-    if (!cpsi_line_has_field(line)) return vec3(0, 0, 0);
-    const Vec3 here = cpsi_line_field_force(line, j, vec3_at(line->position, j));
-    return vec3_sub(here, cpsi_line_field_pull(line, j, vec3_at(line->field.beside, j)));
-}
-
 void cpsi_line_field_take(CpsiLine *line, int j, Vec3 left, double unit) {
-    const double *k = &line->field.stiffness[6 * j];
-    double m[9] = {k[0] + unit, k[1], k[3], k[1], k[2] + unit, k[4], k[3], k[4], k[5] + unit};
-    double by[3] = {left.x, left.y, left.z};
-    int pivot[3];
-    if (!cpsi_lu_factor(3, m, pivot)) return;
-    cpsi_lu_solve(3, m, pivot, by);
-    memcpy(&line->field.beside[3 * j], by, sizeof by);
+    double k[6], by[3];
+    vec3_store(by, left);
+    memcpy(k, &line->field.stiffness[6 * j], sizeof k);
+    k[0] += unit;
+    k[2] += unit;
+    k[5] += unit;
+    if (cpsi_symmetric_solve(k, by)) memcpy(&line->field.beside[3 * j], by, sizeof by);
 }

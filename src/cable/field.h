@@ -14,14 +14,23 @@ static inline bool cpsi_line_loads_follow(const CpsiLine *line) {
 }
 
 /* K v of node j, and the force -K (x - a) of the field on it at x; 0 without a field. */
-Vec3 cpsi_line_field_pull(const CpsiLine *line, int j, Vec3 v);
-Vec3 cpsi_line_field_force(const CpsiLine *line, int j, Vec3 x);
+static inline Vec3 cpsi_line_field_pull(const CpsiLine *line, int j, Vec3 v) {
+    if (!cpsi_line_has_field(line)) return vec3(0, 0, 0);
+    return cpsi_node_field_product(&line->field.stiffness[6 * j], v);
+}
+static inline Vec3 cpsi_line_field_force(const CpsiLine *line, int j, Vec3 x) {
+    return cpsi_node_field_force(&line->field, j, x);
+}
 
 /* [N/m] What acts on node j per length of the line: its weight, given loads, drag and field. */
 Vec3 cpsi_line_load_at(const CpsiLine *line, int j);
 
 /* [J] (x - a)'K (x - a)/2 */
-double cpsi_line_field_energy(const CpsiLine *line, int j, Vec3 x);
+static inline double cpsi_line_field_energy(const CpsiLine *line, int j, Vec3 x) {
+    if (!cpsi_line_has_field(line)) return 0;
+    const Vec3 off = vec3_sub(x, vec3_at(line->field.place, j));
+    return 0.5 * vec3_dot(off, cpsi_line_field_pull(line, j, off));
+}
 
 /* Set K and load of all nodes to what the scene gives, 0 without. */
 void cpsi_line_field_clear(CpsiLine *line);
@@ -42,7 +51,11 @@ double cpsi_line_field_size(const CpsiLine *line);
 
 /* [N] The force of the field that is in the balance of node j: at its position, and beside it by
  * `beside`. */
-Vec3 cpsi_line_field_balanced(const CpsiLine *line, int j);
+static inline Vec3 cpsi_line_field_balanced(const CpsiLine *line, int j) {
+    if (!cpsi_line_has_field(line)) return vec3(0, 0, 0);
+    const Vec3 here = cpsi_line_field_force(line, j, vec3_at(line->position, j));
+    return vec3_sub(here, cpsi_line_field_pull(line, j, vec3_at(line->field.beside, j)));
+}
 /* Choose `beside` so that the field takes over what is left of the balance of node j with the field
  * at its position, where its stiffness is large beside `unit` [N/m]. */
 void cpsi_line_field_take(CpsiLine *line, int j, Vec3 rest, double unit);

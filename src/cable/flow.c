@@ -25,12 +25,13 @@ static void add_given(const CpsiGivenWater *given, Vec3 x, CpsiWaterMotion *out)
     out->acceleration = vec3_add(out->acceleration, vec3_load(acceleration));
 }
 
-CpsiWaterMotion cpsi_flow_motion(const CpsiFlow *flow, Vec3 x) {
-    CpsiWaterMotion out = {.acceleration = {0, 0, 0}};
-    if (flow->waves) out = cpsi_waves_at(flow->waves, x, NULL);
-    out.velocity = vec3_add(out.velocity, cpsi_flow_velocity(flow, x.z));
-    if (flow->given) add_given(flow->given, x, &out);
-    return out;
+void cpsi_flow_add_motion(const CpsiFlow *flow, Vec3 x, CpsiWaterMotion *out) {
+    if (flow->waves) {
+        const CpsiWaterMotion waves = cpsi_waves_at(flow->waves, x, NULL);
+        out->velocity = vec3_add(waves.velocity, out->velocity);
+        out->acceleration = waves.acceleration;
+    }
+    if (flow->given) add_given(flow->given, x, out);
 }
 
 Vec3 cpsi_flow_drag(const CpsiFlow *flow, Vec3 velocity, Vec3 d) {

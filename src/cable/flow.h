@@ -10,9 +10,16 @@
  * it. */
 #define CPSI_FOLLOWED 1e-9
 
-/* [m/s] The velocity of the current at height z; and the motion of the water in time at x. */
+/* [m/s] The velocity of the current at height z; and the motion of the water in time at x, which is
+ * that and what waves or a function add. */
 Vec3 cpsi_flow_velocity(const CpsiFlow *flow, double z);
-CpsiWaterMotion cpsi_flow_motion(const CpsiFlow *flow, Vec3 x);
+void cpsi_flow_add_motion(const CpsiFlow *flow, Vec3 x, CpsiWaterMotion *out);
+static inline CpsiWaterMotion cpsi_flow_motion(const CpsiFlow *flow, Vec3 x) {
+    CpsiWaterMotion out = {.velocity = flow->row_count == 1 ? vec3_load(flow->row->velocity)
+                                                            : cpsi_flow_velocity(flow, x.z)};
+    if (flow->waves || flow->given) cpsi_flow_add_motion(flow, x, &out);
+    return out;
+}
 
 /* [N/m] The drag per length of a line in the direction of d, of any length. */
 Vec3 cpsi_flow_drag(const CpsiFlow *flow, Vec3 velocity, Vec3 d);

@@ -2,12 +2,6 @@
 /* The inertia of a line as its field (inertia_field.h). */
 #include "cable/inertia_field.h"
 
-#include <string.h>
-
-Vec3 cpsi_line_free_place(const CpsiLine *line, int j, Vec3 reference) {
-    return vec3_axpy(line->inertia.span[j], vec3_at(line->inertia.rest_velocity, j), reference);
-}
-
 Vec3 cpsi_line_expected_place(const CpsiLine *line, int j, Vec3 reference) {
     const CpsiInertia *inertia = &line->inertia;
     const Vec3 now = vec3_at(inertia->start, j);
@@ -19,16 +13,4 @@ Vec3 cpsi_line_expected_place(const CpsiLine *line, int j, Vec3 reference) {
     const Vec3 on = vec3_scale(last, vec3_at(inertia->before_velocity, j)),
                bent = vec3_sub(vec3_sub(now, before), on);
     return vec3_axpy((1 + w) * (1 + w), bent, vec3_axpy(1 + w, on, before));
-}
-
-double cpsi_line_set_inertia(CpsiLine *line, int j, Vec3 reference) {
-    const CpsiInertia *inertia = &line->inertia;
-    const double span = inertia->span[j], mass = inertia->mass[j];
-    double *k = &line->field.stiffness[6 * j];
-    memset(k, 0, 6 * sizeof *k);
-    k[0] = k[2] = k[5] = mass / (span * span);
-    vec3_store(&line->field.place[3 * j], cpsi_line_free_place(line, j, reference));
-    const Vec3 change =
-        vec3_sub(vec3_at(inertia->rest_velocity, j), vec3_at(inertia->start_velocity, j));
-    return mass * vec3_norm(change) / span;
 }

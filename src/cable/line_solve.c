@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/larger.h"
 #include "cable/certificate.h"
 #include "cable/contact.h"
 #include "cable/end_set.h"
@@ -45,16 +46,19 @@ static const double NEARLY = 1e-11;
 static const double NEARLY_OF_NODES = 0.1;
 
 void cpsi_line_set_loads(CpsiLine *line) {
-    for (int j = 0; j < line->n; j++)
-        for (int a = 0; a < 3; a++)
-            line->load[3 * j + a] = cpsi_line_weight_length(line, j) * line->weight[a];
-    if (line->has_node_loads)
-        for (int i = 0; i < 3 * line->n; i++) {
-            line->field.all[i] = line->field.load[i] + line->field.drag[i];
-            if (line->has_potential) line->field.all[i] += line->field.pull[i];
-            if (line->has_inertia) line->field.all[i] += line->field.added[i] + line->field.wave[i];
-            line->load[i] += line->field.all[i];
+    const CpsiNodeField *field = &line->field;
+    for (int j = 0; j < line->n; j++) {
+        const double length = cpsi_line_weight_length(line, j);
+        for (int i = 3 * j; i < 3 * j + 3; i++) {
+            line->load[i] = length * line->weight[i - 3 * j];
+            if (!line->has_node_loads) continue;
+            double all = field->load[i] + field->drag[i];
+            if (line->has_potential) all += field->pull[i];
+            if (line->has_inertia) all += field->added[i] + field->wave[i];
+            field->all[i] = all;
+            line->load[i] += all;
         }
+    }
     for (int end = 0; end < 2; end++)
         if (line->end[end].kind == CPS_END_KIND_FREE)
             for (int a = 0; a < 3; a++)
@@ -131,7 +135,8 @@ static double force_scale(const CpsiLine *line, double longer) {
     CpsiSpan span = {.to = 0};
     bool spans = false;
     longer *= rest_stretch(line);
-    for (int j = 0; j < line->n; j++) scale = fmax(scale, vec3_norm(vec3_load(&line->load[3 * j])));
+    for (int j = 0; j < line->n; j++)
+        scale = cpsi_max_nan(scale, vec3_norm(vec3_load(&line->load[3 * j])));
     if (cpsi_line_has_field(line)) scale = fmax(scale, field_scale(line, scale));
     for (; cpsi_line_next_span(line, span.to, &span); spans = true)
         strain = fmax(strain, span.distance / longer / span.length - 1);
@@ -268,8 +273,8 @@ static double reference_tension(const CpsiLine *line) {
                                      vec3_load(&line->reference[3 * e]));
             const CpsiElementLaw law = cpsi_line_law(line, e);
             const double strain = vec3_norm(dx) / line->element_length[e] - 1;
-            most = fmax(most,
-                        law.count > 0 ? cpsi_law_tension(&law, strain) : strain / law.compliance);
+            most = cpsi_max_nan(most, law.count > 0 ? cpsi_law_tension(&law, strain)
+                                                    : strain / law.compliance);
         }
     return most;
 }

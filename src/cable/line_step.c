@@ -661,12 +661,23 @@ static void report_piercing(CpsiLine *line) {
     line->report.has_pierced_obstacle = cpsi_line_pierces(line, &line->report.pierced_obstacle) > 0;
 }
 
+/* The reference. What the water does to a line that moves is seen where the step in it begins. */
+static void set_reference(CpsiLine *line, const CpsiStepOptions *options) {
+    if (!cpsi_line_swims(line)) {
+        cpsi_line_set_reference(line, options);
+        return;
+    }
+    cpsi_contact_set_reference(line, options->contact_policy, options->friction_policy,
+                               options->frictionless);
+    cpsi_potential_model(line, line->position);
+}
+
 void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     const CpsLineReport before = line->report;
     const CpsiGuess guess = cpsi_warm_step_guess(line, program, options);
     report_initial_ends(line);
     store_forces_before(line);
-    cpsi_line_set_reference(line, options);
+    set_reference(line, options);
     if (!line->joined && cpsi_line_stands_still(line, options, &before)) {
         cpsi_potential_settle(line);
         report_piercing(line);

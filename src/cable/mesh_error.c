@@ -22,6 +22,7 @@
 
 #include <math.h>
 
+#include "base/larger.h"
 #include "cable/field.h"
 #include "cable/soft.h"
 #include "linalg/dense.h"
@@ -33,10 +34,14 @@ typedef struct Span {
 
 static Vec3 force_of(const CpsiLine *line, int e) { return vec3_at(line->segment_force, e); }
 
-/* [N/m] q of element e: of a line with loads beside its weight the mean of its nodes. */
-static Vec3 load_of(const CpsiLine *line, int e) {
+/* [N/m] q of node j; and of element e: of a line with loads beside its weight the mean of that of
+ * its nodes. */
+static Vec3 load_at(const CpsiLine *line, int j) {
+    return line->has_field || line->has_node_loads ? cpsi_line_load_at(line, j) : vec3(0, 0, 0);
+}
+static Vec3 load_of(const CpsiLine *line, int e, Vec3 before, Vec3 after) {
     if (!line->has_field && !line->has_node_loads) return cpsi_line_weight(line, e);
-    return vec3_scale(0.5, vec3_add(cpsi_line_load_at(line, e), cpsi_line_load_at(line, e + 1)));
+    return vec3_scale(0.5, vec3_add(before, after));
 }
 
 /* The contact of node j with the largest reaction, or -1. */
@@ -62,9 +67,9 @@ static void add_compliance(double m[9], Vec3 d, double along, double across) {
     }
 }
 
-/* Add element e of a span; false: its weight exceeds its tension. */
-static bool add_element(const CpsiLine *line, int e, Span *span) {
-    const Vec3 p = force_of(line, e), q = load_of(line, e);
+/* Add element e of a span, whose load is q; false: its weight exceeds its tension. */
+static bool add_element(const CpsiLine *line, int e, Vec3 q, Span *span) {
+    const Vec3 p = force_of(line, e);
     const CpsiElementLaw law = cpsi_line_law(line, e);
     const double l = line->natural_length[e], tension = vec3_norm(p), /* l c: that of its rest */
         c = cpsi_law_compliance(&law, tension) * (line->element_length[e] / l);
@@ -120,8 +125,12 @@ static double span_error(const CpsiLine *line, int first, int last) {
     const bool ends_free = !is_support(line, first) || !is_support(line, last + 1);
     if (ends_free) return 0;
     Span span = {.defect = vec3(0, 0, 0)};
-    for (int e = first; e <= last; e++)
-        if (!add_element(line, e, &span)) return NAN;
+    Vec3 before = load_at(line, first);
+    for (int e = first; e <= last; e++) {
+        const Vec3 after = load_at(line, e + 1);
+        if (!add_element(line, e, load_of(line, e, before, after), &span)) return NAN;
+        before = after;
+    }
     add_support(line, first, first, -1, &span);
     add_support(line, last + 1, last, 1, &span);
     double *m = span.compliance, change[3], worst = 0;
@@ -135,7 +144,7 @@ static double span_error(const CpsiLine *line, int first, int last) {
     cpsi_lu_solve(3, m, pivot, change);
     for (int e = first; e <= last; e++) {
         const Vec3 p = force_of(line, e);
-        worst = fmax(worst, fabs(vec3_dot(vec3_load(change), p)) / vec3_norm(p));
+        worst = cpsi_max_nan(worst, fabs(vec3_dot(vec3_load(change), p)) / vec3_norm(p));
     }
     return worst;
 }
@@ -162,7 +171,8 @@ bool cpsi_mesh_error(const CpsiLine *line, double *error) {
             (line->state[c] != CPS_NODE_STATE_FREE && cpsi_soft_spring(line, c).stiffness > 0))
             return false;
     double worst = 0, bends = 0, largest = 0;
-    for (int e = 0; e + 1 < line->n; e++) largest = fmax(largest, vec3_norm(force_of(line, e)));
+    for (int e = 0; e + 1 < line->n; e++)
+        largest = cpsi_max_nan(largest, vec3_norm(force_of(line, e)));
     for (int j = 0; j < line->n; j++) bends += bend_error(line, j);
     for (int first = 0, e = 0; e + 1 < line->n; e++) {
         if (e + 2 < line->n && !is_support(line, e + 1)) continue;

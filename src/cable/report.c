@@ -301,11 +301,11 @@ static Vec3 place_near(const CpsiLine *line, int j, double arc_length) {
                     vec3_scale(within, vec3_at(line->position, e + 1)));
 }
 
-/* The length that hangs from an end, and where it touches down. */
-static void report_touchdown(CpsiLine *line, int end) {
+/* The length that hangs from an end, and where it touches down, if the line touches at all. */
+static void report_touchdown(CpsiLine *line, int end, bool touches) {
     CpsEndReport *out = &line->report.end[end];
     int node = -1;
-    out->suspended = suspended(line, end, &node);
+    out->suspended = touches ? suspended(line, end, &node) : line->length;
     line->report.has_touchdown = node >= 0;
     const double arc_length =
         end == CPS_END_A ? out->suspended : line->arc_length[line->n - 1] - out->suspended;
@@ -359,6 +359,7 @@ void cpsi_line_report_sweep(CpsiLine *line, const double gravity[3]) {
 void cpsi_line_report_lengths(CpsiLine *line) {
     line->report.has_slipping = true;
     line->report.grounded = line->report.slipping = 0;
+    bool any = false;
     for (int j = 0; j < line->n; j++) {
         const double part = touching_part(line, j);
         const CpsiEndGround *ground = ground_at(line, j);
@@ -368,9 +369,10 @@ void cpsi_line_report_lengths(CpsiLine *line) {
             slips = slips || has_slipped(line, c);
             if (line->state[c] == CPS_NODE_STATE_UNRESOLVED) line->report.has_slipping = false;
         }
+        any = any || part > 0;
         line->report.grounded += part * cpsi_line_share(line, j);
         if (slips) line->report.slipping += part * cpsi_line_share(line, j);
     }
     if (!line->report.has_slipping) line->report.slipping = 0;
-    for (int end = 0; end < 2; end++) report_touchdown(line, end);
+    for (int end = 0; end < 2; end++) report_touchdown(line, end, any);
 }

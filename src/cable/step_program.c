@@ -286,32 +286,51 @@ static void fill_points(const CpsiLine *line, CpsiChainProgram *program,
     if (any) cpsi_chain_program_use_points(program);
 }
 
-/* The field: K in the axes of the nodes, and its force at the base. */
+/* K of node j, which is given in common axes, in those of the node. */
+static void fill_stiffness(const double given[6], const double *axes, double by, double out[6]) {
+    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5}, FROM[6] = {0, 1, 4, 2, 5, 8};
+    double common[9], own[9];
+    for (int i = 0; i < 9; i++) common[i] = by * given[AT[i]];
+    cpsi_frame_turn(own, axes, common);
+    for (int i = 0; i < 6; i++) out[i] = own[FROM[i]];
+}
+
+/* The loads with the force of the field at the base, and its K, in the axes of the nodes. */
 static void fill_field(const CpsiLine *line, CpsiChainProgram *program,
                        const CpsiStepScale *scale) {
-    static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5}, FROM[6] = {0, 1, 4, 2, 5, 8};
-    const double *base = base_of(line), by = scale->length / scale->force;
+    static const double WORLD[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const double *base = base_of(line), over = 1 / scale->force, by = scale->length * over;
+    /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): are the axes those of the world? */
+    const bool turned = program->frame || memcmp(line->common_axes, WORLD, sizeof WORLD) != 0;
     for (int j = 0; j < line->n; j++) {
-        double given[9], own[9], force[3], load[3];
-        const double *axes = node_axes(line, program, j);
-        for (int i = 0; i < 9; i++) given[i] = by * line->field.stiffness[6 * j + AT[i]];
-        cpsi_frame_turn(own, axes, given);
-        for (int i = 0; i < 6; i++) line->field.program[6 * j + i] = own[FROM[i]];
-        vec3_store(force, cpsi_line_field_force(line, j, vec3_at(base, j)));
-        cpsi_frame_to(load, axes, force);
-        for (int a = 0; a < 3; a++) program->base.load[3 * j + a] += load[a] / scale->force;
+        const double *k = &line->field.stiffness[6 * j], *axes = node_axes(line, program, j);
+        double *own = &line->field.program[6 * j], *load = &program->base.load[3 * j];
+        const Vec3 force =
+            vec3_add(vec3_at(line->load, j), cpsi_line_field_force(line, j, vec3_at(base, j)));
+        double f[3];
+        vec3_store(f, vec3_scale(over, force));
+        if (turned) {
+            cpsi_frame_to(load, axes, f);
+            fill_stiffness(k, axes, by, own);
+        } else {
+            memcpy(load, f, sizeof f);
+            for (int i = 0; i < 6; i++) own[i] = by * k[i];
+        }
     }
     program->field = line->field.program;
 }
 
 void cpsi_step_program_fill_loads(const CpsiLine *line, CpsiChainProgram *program,
                                   const CpsiStepScale *scale) {
+    if (cpsi_line_has_field(line)) {
+        fill_field(line, program, scale);
+        return;
+    }
     for (int j = 0; j < line->n; j++) {
         double *load = &program->base.load[3 * j];
         cpsi_frame_to(load, node_axes(line, program, j), &line->load[3 * j]);
         for (int a = 0; a < 3; a++) load[a] /= scale->force;
     }
-    if (cpsi_line_has_field(line)) fill_field(line, program, scale);
 }
 
 /* A node's displacement in the axes of the chain. */

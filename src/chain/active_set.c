@@ -104,8 +104,8 @@ static void set_rounding(CpsiNewton *newton) {
     const double *factor = program->segment.compliance_factor;
     double shortest = 1, farthest = 0, least = 1;
     for (int i = 1; i < program->n; i++) {
-        shortest = fmin(shortest, program->segment.length[i]);
-        if (factor) least = fmin(least, factor[i - 1]);
+        if (program->segment.length[i] < shortest) shortest = program->segment.length[i];
+        if (factor && factor[i - 1] < least) least = factor[i - 1];
     }
     for (int a = 0; a < 3 * program->n; a++)
         farthest = cpsi_max_nan(farthest, fabs(program->base.u[a]));

@@ -276,8 +276,9 @@ void cpsi_newton_advance(CpsiNewton *newton) {
             if (newton->taut[j]) {
                 const double least =
                     cpsi_newton_may_hang(newton, j) ? -1 : LEAST_TENSION * st->z[j][0];
-                st->z[j][0] = fmax(least, st->z[j][0] + program->dt[j] +
-                                              program->matrix.stiffness[j] * along);
+                const double now =
+                    st->z[j][0] + program->dt[j] + program->matrix.stiffness[j] * along;
+                st->z[j][0] = now > least ? now : least;
             }
         }
         for (int a = 0; a < 3; a++) before[a] = v[a];

@@ -15,7 +15,8 @@ static const double LEAST = 1e-4;
 static const double CAUTION = 0.9, GROWTH = 2, FALL = 0.2, WORTHWHILE = 1.25;
 /* After a step that is not certified. */
 static const double UNCERTIFIED = 0.25;
-/* What is left of a stage by rounding is no step. */
+/* What is left of a stage by rounding is no step, and what it lacks of its length does not cut it
+ * off. */
 static const double ROUNDING = 1e-9;
 
 /* [s] */
@@ -133,6 +134,6 @@ bool cpsi_pace_rejects(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
     /* a step that was cut off at the end of the stage does not shorten those of the next one */
     const double planned = evolution->next > 0 ? evolution->next : longest_of(stage);
     evolution->next = fmax(least, factor * length);
-    if (good && length < planned) evolution->next = fmax(evolution->next, planned);
+    if (good && length < (1 - ROUNDING) * planned) evolution->next = fmax(evolution->next, planned);
     return false;
 }

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "cable/contact.h"
 #include "cable/damping.h"
 #include "cable/field.h"
 #include "cable/soft.h"
@@ -116,6 +117,7 @@ static Vec3 ground_way(const CpsiLine *line, int c, Vec3 x, double length) {
 static void add_contacts(Sums *sums, const unsigned char *state) {
     const CpsiLine *line = sums->line;
     for (int c = 0; c < cpsi_line_all_contacts(line); c++) {
+        if (line->state[c] == CPS_NODE_STATE_FREE && cpsi_contact_is_idle(line, c)) continue;
         const Vec3 friction = vec3_at(line->friction_force, c),
                    reaction = vec3_scale(line->reaction[c], vec3_at(line->normal, c));
         if (cpsi_line_element(line, c) >= 0 && line->obstacle_index[c] < 0) continue;

@@ -22,6 +22,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/larger.h"
 #include "cable/contact.h"
 #include "cable/damping.h"
 #include "cable/field.h"
@@ -243,7 +244,7 @@ static double error_of(const CpsiLine *line) {
         Vec3 n[2];
         const int count = find_stops(line, j, contact, n);
         for (int i = 0; i < count; i++) off = vec3_reject(off, n[i]);
-        largest = fmax(largest, vec3_norm(off));
+        largest = cpsi_max_nan(largest, vec3_norm(off));
     }
     return largest;
 }

@@ -264,7 +264,7 @@ class Scene:
 
     def wave(self):
         while True:
-            text = Swim(random.Random(self.dice.random()), random.Random(self.dice.random()), "bed").text()
+            text = Swim(random.Random(self.dice.random()), random.Random(self.dice.random()), None, "bed").text()
             if "waves:" in text:
                 return text
 
