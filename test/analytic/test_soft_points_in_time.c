@@ -321,8 +321,10 @@ static void it_is_dragged(void **unused) {
 /* ---- a line that is cut ---- */
 
 /* A rope, thrown on the bed at an angle, in one piece or in two that meet at a free point: nodes
- * are at the same places. */
+ * are at the same places. It begins slack by a fiftieth, so that no rounding decides whether an
+ * element is taut. */
 enum { NODES = 9, CUT = 3 };
+static const double LONGER = 1.02;
 
 static void throw_rope(int pieces, CpsTimeScheme scheme, double place[3 * NODES]) {
     CpsScene scene = cps_scene_default();
@@ -347,7 +349,7 @@ static void throw_rope(int pieces, CpsTimeScheme scheme, double place[3 * NODES]
     for (int i = 0; i < pieces; i++) {
         const int from = i ? CUT : 0, to = pieces == 2 && i == 0 ? CUT : NODES - 1;
         line[i].name = i ? "two" : "one";
-        line[i].length = (to - from) * hypot(0.5, 0.05);
+        line[i].length = LONGER * (to - from) * hypot(0.5, 0.05);
         line[i].element_count = to - from;
         line[i].weight = 3 * G;
         line[i].inertia = 3;
@@ -400,7 +402,7 @@ static void a_line_that_is_cut_bears_as_before(void **unused) {
         throw_rope(2, (CpsTimeScheme)scheme, cut);
         for (int i = 0; i < 3 * NODES; i++) off = fmax(off, fabs(whole[i] - cut[i]));
         time_report("cut in two", "nodes off those of the whole [m]", 0, off);
-        CHECK_LESS(off, 1e-6);
+        CHECK_LESS(off, 1e-8);
     }
 }
 
